@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace tubecut::api {
+
+/// A JSON document as a plain value. Objects keep the order of their members; numbers are doubles (integers beyond 2^53 are
+/// refused while parsing). Made only by `parse`; requests are read only through `Reader`.
+struct Json {
+  using Array = std::vector<Json>;
+  using Member = std::pair<std::string, Json>;
+  using Object = std::vector<Member>;
+  std::variant<std::nullptr_t, bool, double, std::string, Array, Object> value = nullptr;
+
+  Json() = default;
+  Json(bool v) : value(v) {}                       // NOLINT(google-explicit-constructor)
+  Json(double v) : value(v) {}                     // NOLINT(google-explicit-constructor)
+  Json(std::string v) : value(std::move(v)) {}     // NOLINT(google-explicit-constructor)
+  Json(const char* v) : value(std::string(v)) {}   // NOLINT(google-explicit-constructor)
+  Json(Array v) : value(std::move(v)) {}           // NOLINT(google-explicit-constructor)
+  Json(Object v) : value(std::move(v)) {}          // NOLINT(google-explicit-constructor)
+
+  template <class T>
+  [[nodiscard]] const T* as() const { return std::get_if<T>(&value); }
+  template <class T>
+  [[nodiscard]] T* as() { return std::get_if<T>(&value); }
+
+  /// The member of that name, or nullptr (also when this is not an object).
+  [[nodiscard]] const Json* find(std::string_view key) const;
+
+  friend bool operator==(const Json&, const Json&) = default;
+};
+
+/// Why bytes are not one strict JSON document.
+struct ParseError {
+  std::size_t offset = 0;  // bytes from the start
+  std::string reason;
+};
+
+struct ParseLimits {
+  std::size_t depth = 32;
+};
+
+/// Strict RFC 8259: UTF-8 without BOM, one document, no duplicate keys, no lone surrogates, depth bounded, every number
+/// finite and representable (no underflow to zero, no integer beyond 2^53).
+/// Cost linear in the bytes; never throws.
+[[nodiscard]] tl::expected<Json, ParseError> parse(std::string_view bytes, ParseLimits limits = {});
+
+/// The document with no white space; numbers shortest-round-trip.
+[[nodiscard]] std::string dump(const Json& json);
+
+/// The same document in CBOR (RFC 8949), order kept. `json_text` is text this service printed. Arrays under the name
+/// `counts` become RFC 8746 typed arrays (tag 77, int16 little endian; tag 78, int32, where a value does not fit).
+[[nodiscard]] std::string to_cbor(std::string_view json_text);
+
+}  // namespace tubecut::api

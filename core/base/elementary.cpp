@@ -1,0 +1,46 @@
+#include "core/base/elementary.hpp"
+
+#include <cmath>
+#include <sleef.h>
+
+// The two-lane SSE2 build returns the same bits as the portable one and is three times as fast (bench/core_bench.cpp).
+#if defined(__SSE2__)
+#define TUBECUT_UNARY(name) \
+  double name(double x) { return _mm_cvtsd_f64(Sleef_cinz_##name##d2_u10sse2(_mm_set1_pd(x))); }
+#define TUBECUT_BINARY(name) \
+  double name(double x, double y) { return _mm_cvtsd_f64(Sleef_cinz_##name##d2_u10sse2(_mm_set1_pd(x), _mm_set1_pd(y))); }
+#else
+#define TUBECUT_UNARY(name) \
+  double name(double x) { return Sleef_cinz_##name##d1_u10purec(x); }
+#define TUBECUT_BINARY(name) \
+  double name(double x, double y) { return Sleef_cinz_##name##d1_u10purec(x, y); }
+#endif
+
+namespace tubecut::elementary {
+
+SinCos sincos(double x) {
+#if defined(__SSE2__)
+  const auto both = Sleef_cinz_sincosd2_u10sse2(_mm_set1_pd(x));
+  return {_mm_cvtsd_f64(both.x), _mm_cvtsd_f64(both.y)};
+#else
+  const auto both = Sleef_cinz_sincosd1_u10purec(x);
+  return {both.x, both.y};
+#endif
+}
+
+TUBECUT_UNARY(sin)
+TUBECUT_UNARY(cos)
+TUBECUT_UNARY(tan)
+TUBECUT_UNARY(asin)
+TUBECUT_UNARY(acos)
+TUBECUT_UNARY(atan)
+TUBECUT_UNARY(exp)
+TUBECUT_UNARY(log)
+TUBECUT_UNARY(cbrt)
+TUBECUT_BINARY(atan2)
+TUBECUT_BINARY(pow)
+
+double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
+double hypot(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+
+}  // namespace tubecut::elementary

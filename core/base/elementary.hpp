@@ -1,0 +1,33 @@
+#pragma once
+
+/// The one door of core to the transcendental functions.
+///
+/// Results are bit-identical on every x86-64 and arm64 CPU: SLEEF's reproducible non-FMA variants (`cinz`), never the C
+/// library's, whose own CPU dispatch changes last bits. `std::sqrt`, `std::abs`, `std::floor` and the like are exact by
+/// IEEE 754 and are used directly.
+///
+/// Accuracy  1 ulp (SLEEF u10) for each; `hypot` 1 ulp for arguments within 1e-150..1e150.
+namespace tubecut::elementary {
+
+struct SinCos {
+  double sin = 0.0;
+  double cos = 1.0;
+};
+
+[[nodiscard]] SinCos sincos(double x);
+[[nodiscard]] double sin(double x);
+[[nodiscard]] double cos(double x);
+[[nodiscard]] double tan(double x);
+[[nodiscard]] double asin(double x);
+[[nodiscard]] double acos(double x);
+[[nodiscard]] double atan(double x);
+[[nodiscard]] double atan2(double y, double x);
+[[nodiscard]] double exp(double x);
+[[nodiscard]] double log(double x);
+[[nodiscard]] double pow(double x, double y);
+[[nodiscard]] double cbrt(double x);
+/// sqrt(x^2 + y^2); lengths here are far from overflow, so no scaling is done.
+[[nodiscard]] double hypot(double x, double y);
+[[nodiscard]] double hypot(double x, double y, double z);
+
+}  // namespace tubecut::elementary

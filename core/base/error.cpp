@@ -1,0 +1,25 @@
+#include "core/base/error.hpp"
+
+namespace tubecut {
+namespace {
+
+constexpr ErrorInfo kErrors[] = {
+#define X(code, kind, meaning, action) {#code, ErrorKind::kind, meaning, action},
+    TUBECUT_ERRORS(X)
+#undef X
+};
+
+constexpr WarningInfo kWarnings[] = {
+#define X(code, severity, meaning) {#code, Severity::severity, meaning},
+    TUBECUT_WARNINGS(X)
+#undef X
+};
+
+}  // namespace
+
+const ErrorInfo& info(ErrorCode code) { return kErrors[static_cast<std::size_t>(code)]; }
+const WarningInfo& info(WarningCode code) { return kWarnings[static_cast<std::size_t>(code)]; }
+std::span<const ErrorInfo> all_errors() { return kErrors; }
+std::span<const WarningInfo> all_warnings() { return kWarnings; }
+
+}  // namespace tubecut

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/error_codes.hpp"
+
+namespace tubecut {
+
+/// A closed interval [from, to], for example of phi in degrees.
+using Intervals = std::vector<std::pair<double, double>>;
+
+/// A value shown to the caller: what was got, or what the limit is.
+using Shown = std::variant<std::monostate, double, std::string, Intervals>;
+
+/// One thing that is wrong. `member` is a path in core's own names, such as "cutters/1/offset" (empty: the whole request);
+/// the api maps it to the wire's pointer. `got` and `limit` are in `unit` (wire units: mm, deg, s).
+struct Issue {
+  ErrorCode code = ErrorCode::internal_error;
+  std::string member = {};
+  Shown got = {};
+  Shown limit = {};
+  std::string unit = {};
+  std::string hint = {};
+};
+
+/// Everything that is wrong with a request; never empty.
+struct Error {
+  std::vector<Issue> issues;
+
+  Error(Issue issue) : issues{std::move(issue)} {}                            // NOLINT(google-explicit-constructor)
+  explicit Error(std::vector<Issue> all) : issues(std::move(all)) {}
+  [[nodiscard]] ErrorCode code() const { return issues.front().code; }
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+/// Shorthand for returning an error: `return fail({.code = ErrorCode::no_contact, .member = "cutters"});`
+[[nodiscard]] inline tl::unexpected<Error> fail(Issue issue) { return tl::unexpected<Error>(Error{std::move(issue)}); }
+
+/// Something the caller should know about an answer that stands. `member` as in `Issue`.
+struct Warning {
+  WarningCode code = WarningCode::cutter_missed;
+  std::string member = {};
+  std::string detail = {};
+};
+
+/// One line of an answer's proof: |value| must not exceed `limit`.
+struct Check {
+  std::string name;
+  double value = 0.0;
+  double limit = 0.0;
+  std::string unit;
+  [[nodiscard]] bool passed() const { return value <= limit; }  // false for NaN
+};
+
+struct ErrorInfo {
+  std::string_view code;
+  ErrorKind kind;
+  std::string_view meaning;
+  std::string_view action;
+};
+struct WarningInfo {
+  std::string_view code;
+  Severity severity;
+  std::string_view meaning;
+};
+
+[[nodiscard]] const ErrorInfo& info(ErrorCode code);
+[[nodiscard]] const WarningInfo& info(WarningCode code);
+[[nodiscard]] std::span<const ErrorInfo> all_errors();
+[[nodiscard]] std::span<const WarningInfo> all_warnings();
+
+}  // namespace tubecut
