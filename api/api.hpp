@@ -1,0 +1,75 @@
+#pragma once
+
+/// The api layer's whole face: the only header of api that server includes.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/error_codes.hpp"
+
+namespace tubecut::api {
+
+/// One request as text; nothing of HTTP but its words.
+struct Call {
+  std::string_view method;        // "POST", "GET", ...
+  std::string_view path;          // without query, not decoded: known paths need no decoding
+  std::string_view query;         // after '?', as sent
+  std::string_view accept;        // Accept header, may be empty
+  std::string_view content_type;  // Content-Type header, may be empty
+  std::string_view body;
+  std::string job_id;      // the client's, cleaned; empty: derived from the input hash
+  std::string request_id;  // unique, made by the server
+};
+
+/// What a call runs with besides its text.
+struct Context {
+  std::stop_token stop;
+  std::function<double()> clock;  // monotonic seconds, for stage times; may be empty
+};
+
+struct Stage {
+  std::string_view name;  // parse, decode, compute, verify, encode
+  double seconds = 0.0;
+};
+
+/// What a log line and the metrics may know of a call: never the geometry.
+struct JobFacts {
+  std::string id;
+  std::string endpoint;      // id in the endpoint table; empty when the path is not in it
+  std::string input_sha256;  // empty when the request was not understood
+  std::string verdict;       // ok | review | reject; empty for errors
+  std::string error_code;    // empty for answers
+  std::vector<std::string> warnings;  // codes
+  std::vector<std::pair<std::string, std::string>> reference;
+  std::vector<Stage> stages;
+};
+
+struct Outcome {
+  std::optional<ErrorKind> error;  // empty: an answer
+  std::string content_type;
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> headers;  // Allow and the like
+  JobFacts job;
+};
+
+/// Answers one call. Pure but for the clock: same call, same body. Never throws for bad input; a bug throws and is the
+/// server's to turn into a 500.
+[[nodiscard]] Outcome dispatch(const Call& call, const Context& context);
+
+/// A problem document for what the server itself refuses (429, 503, 413 ...).
+[[nodiscard]] Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id);
+
+/// Largest body, in bytes, that the path takes.
+[[nodiscard]] std::size_t max_body(std::string_view path);
+
+/// "0.1.0", and the integer raised with every change of a result bit.
+[[nodiscard]] std::string_view version();
+[[nodiscard]] int numerics();
+
+}  // namespace tubecut::api

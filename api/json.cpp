@@ -1,0 +1,270 @@
+#include "api/json.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace tubecut::api {
+namespace {
+
+/// Walks bytes and tells a shared place how far it has come, so that a SAX callback knows its offset.
+class CountingIterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  CountingIterator(const char* at, const char** progress) : at_(at), progress_(progress) {}
+  reference operator*() const { return *at_; }
+  CountingIterator& operator++() {
+    *progress_ = ++at_;
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    auto before = *this;
+    ++*this;
+    return before;
+  }
+  friend bool operator==(const CountingIterator& a, const CountingIterator& b) {
+    return a.at_ == b.at_;
+  }
+
+ private:
+  const char* at_;
+  const char** progress_;
+};
+
+/// Builds a Json from SAX events and refuses what a lenient parser lets through.
+class Builder final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  Builder(ParseLimits limits, const char* begin, const char* const* progress)
+      : limits_(limits), begin_(begin), progress_(progress) {}
+
+  bool null() override { return put(Json{}); }
+  bool boolean(bool v) override { return put(Json{v}); }
+  bool number_integer(number_integer_t v) override {
+    constexpr std::int64_t kExact = std::int64_t{1} << 53;
+    if (v < -kExact || v > kExact) return refuse("integer beyond 2^53");
+    return put(Json{static_cast<double>(v)});
+  }
+  bool number_unsigned(number_unsigned_t v) override {
+    if (v > (std::uint64_t{1} << 53)) return refuse("integer beyond 2^53");
+    return put(Json{static_cast<double>(v)});
+  }
+  bool number_float(number_float_t v, const string_t& text) override {
+    if (!std::isfinite(v)) return refuse("number too large");
+    const auto mantissa = text.substr(0, text.find_first_of("eE"));
+    if (v == 0.0 && mantissa.find_first_of("123456789") != string_t::npos)
+      return refuse("number too small");
+    if (text.find_first_of(".eE") == string_t::npos) return refuse("integer beyond 2^53");
+    return put(Json{v});
+  }
+  bool string(string_t& v) override { return put(Json{std::move(v)}); }
+  bool binary(binary_t& /*unused*/) override { return refuse("binary value"); }
+  bool start_object(std::size_t /*unused*/) override { return open(Json{Json::Object{}}); }
+  bool start_array(std::size_t /*unused*/) override { return open(Json{Json::Array{}}); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& v) override {
+    auto& object = *stack_.back().as<Json::Object>();
+    auto& names = keys_.back();
+    const auto place = std::lower_bound(names.begin(), names.end(), v);
+    if (place != names.end() && *place == v) return refuse("duplicate key");
+    names.insert(place, v);
+    object.emplace_back(std::move(v), Json{});
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string& /*token*/,
+                   const nlohmann::detail::exception& error) override {
+    // what() carries the client's raw bytes: only the class of the failure is passed on.
+    error_ = {position == 0 ? 0 : position - 1,
+              error.id == 406 ? "number too large" : "not valid JSON"};
+    return false;
+  }
+
+  Json take() { return std::move(root_); }
+  [[nodiscard]] const ParseError& error() const { return error_; }
+
+ private:
+  bool refuse(const char* reason) {
+    error_ = {static_cast<std::size_t>(*progress_ - begin_), reason};
+    return false;
+  }
+  bool put(Json v) {
+    if (stack_.empty()) {
+      root_ = std::move(v);
+    } else if (auto* array = stack_.back().as<Json::Array>()) {
+      array->push_back(std::move(v));
+    } else {
+      stack_.back().as<Json::Object>()->back().second = std::move(v);
+    }
+    return true;
+  }
+  bool open(Json container) {
+    if (stack_.size() >= limits_.depth) return refuse("nested too deeply");
+    stack_.push_back(std::move(container));
+    keys_.emplace_back();
+    return true;
+  }
+  bool close() {
+    Json done = std::move(stack_.back());
+    stack_.pop_back();
+    keys_.pop_back();
+    return put(std::move(done));
+  }
+
+  ParseLimits limits_;
+  const char* begin_;
+  const char* const* progress_;
+  std::vector<Json> stack_;
+  std::vector<std::vector<std::string>> keys_;  // of each open object, sorted
+  Json root_;
+  ParseError error_;
+};
+
+}  // namespace
+
+void append_text(std::string& out, std::string_view text) {
+  static constexpr char kHex[] = "0123456789abcdef";
+  out += '"';
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (u < 0x20 || u == 0x7f) {
+      out += "\\u00";
+      out += kHex[u >> 4];
+      out += kHex[u & 15];
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+}
+
+void append_number(std::string& out, double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  out.append(buffer, end);
+}
+
+namespace {
+
+template <class Range, class Each>
+void append_list(std::string& out, const Range& range, char open, char close, Each each) {
+  out += open;
+  bool first = true;
+  for (const auto& item : range) {
+    if (!first) out += ',';
+    first = false;
+    each(item);
+  }
+  out += close;
+}
+
+void append(std::string& out, const Json& json) {
+  if (const auto* b = json.as<bool>()) {
+    out += *b ? "true" : "false";
+  } else if (const auto* d = json.as<double>()) {
+    append_number(out, *d);
+  } else if (const auto* s = json.as<std::string>()) {
+    append_text(out, *s);
+  } else if (const auto* a = json.as<Json::Array>()) {
+    append_list(out, *a, '[', ']', [&](const Json& item) { append(out, item); });
+  } else if (const auto* o = json.as<Json::Object>()) {
+    append_list(out, *o, '{', '}', [&](const Json::Member& member) {
+      append_text(out, member.first);
+      out += ':';
+      append(out, member.second);
+    });
+  } else {
+    out += "null";
+  }
+}
+
+using Ordered = nlohmann::ordered_json;
+
+/// RFC 8746 typed array of a column of integers; the column itself when it is not one.
+Ordered typed(const Ordered& column) {
+  if (!column.is_array()) return column;
+  bool small = true;
+  for (const auto& v : column) {
+    if (!v.is_number_integer()) return column;
+    const auto n = v.get<std::int64_t>();
+    if (n < std::numeric_limits<std::int32_t>::min() ||
+        n > std::numeric_limits<std::int32_t>::max())
+      return column;
+    small = small && n >= std::numeric_limits<std::int16_t>::min() &&
+            n <= std::numeric_limits<std::int16_t>::max();
+  }
+  const int width = small ? 2 : 4;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(column.size() * static_cast<std::size_t>(width));
+  for (const auto& v : column) {
+    const auto bits = static_cast<std::uint32_t>(v.get<std::int64_t>());
+    for (int i = 0; i < width; ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
+  }
+  constexpr std::uint8_t kInt16LittleEndian = 77;
+  constexpr std::uint8_t kInt32LittleEndian = 78;
+  return Ordered::binary(std::move(bytes), small ? kInt16LittleEndian : kInt32LittleEndian);
+}
+
+void type_counts(Ordered& node) {
+  if (!node.is_structured()) return;
+  for (auto it = node.begin(); it != node.end(); ++it) {
+    if (node.is_object() && it.key() == "counts" && it->is_object()) {
+      for (auto& column : *it) column = typed(column);
+    } else {
+      type_counts(*it);
+    }
+  }
+}
+
+}  // namespace
+
+const Json* Json::find(std::string_view key) const {
+  const auto* object = as<Object>();
+  if (object == nullptr) return nullptr;
+  for (const auto& [name, member] : *object)
+    if (name == key) return &member;
+  return nullptr;
+}
+
+tl::expected<Json, ParseError> parse(std::string_view bytes, ParseLimits limits) {
+  if (bytes.substr(0, 3) == "\xEF\xBB\xBF")
+    return tl::make_unexpected(ParseError{0, "byte order mark"});
+  // The parser below takes a NUL for the end of its input.
+  if (const auto nul = bytes.find('\0'); nul != std::string_view::npos)
+    return tl::make_unexpected(ParseError{nul, "NUL byte"});
+  const char* const begin = bytes.data();
+  const char* progress = begin;
+  Builder builder(limits, begin, &progress);
+  const bool ok = nlohmann::json::sax_parse(CountingIterator(begin, &progress),
+                                            CountingIterator(begin + bytes.size(), &progress),
+                                            &builder);
+  if (!ok) return tl::make_unexpected(builder.error());
+  return builder.take();
+}
+
+std::string dump(const Json& json) {
+  std::string out;
+  append(out, json);
+  return out;
+}
+
+std::string to_cbor(std::string_view json_text) {
+  auto document = Ordered::parse(json_text);
+  type_counts(document);
+  std::string out;
+  Ordered::to_cbor(document, nlohmann::detail::output_adapter<char>(out));
+  return out;
+}
+
+}  // namespace tubecut::api
