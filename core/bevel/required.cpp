@@ -16,7 +16,7 @@ using joint::PreparedTube;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTouch = 2.5e-13;     // relative, as on the contour
-constexpr double kOnCutter = 1e-14;    // relative, of the squared distance: the root is on the tube
+constexpr double kOnCutter = 1e-14;    // relative, of lengths: the root is on the tube
 constexpr double kSameHeight = 1e-12;  // relative, of two heights of one place
 
 /// One tube in the half plane of one phi, where it is a convex region (u, v per mm of rho).
@@ -76,8 +76,8 @@ double tube_slope(const PreparedTube& t, const Wall& wall, const Generator& g, d
   const double x = wall.inner * s.cos_delta + t.offset;
   const double y = (z_root - t.height) * t.sin_inclination +
                    wall.inner * s.sin_delta * t.cos_inclination;
-  const double r2 = t.radius * t.radius;
-  if (s.from <= wall.inner && x * x + y * y <= r2 * (1.0 + kOnCutter) && y >= 0.0)
+  const double noise = kOnCutter * (t.radius + std::abs(z_root) + std::abs(t.height));
+  if (s.from <= wall.inner && x * x + y * y <= t.radius * (t.radius + noise) && y >= 0.0)
     return slope_at(s, x, std::sqrt(std::max(0.0, (t.radius - x) * (t.radius + x))));
   return slope_from_outside(s, wall, g, z_root, x, y);
 }

@@ -157,6 +157,14 @@ Hit continued_hit(const Prepared& cutter, const Generator& line) {
   return plane_hit(std::get<PreparedPlane>(cutter), line);
 }
 
+double silhouette_height(const Prepared& cutter, const Generator& line) {
+  const auto* tube = std::get_if<PreparedTube>(&cutter);
+  if (tube == nullptr) return level(std::get<PreparedPlane>(cutter), line);
+  auto p = local(*tube, line);
+  p.s = 0.0;
+  return sheet(*tube, p);
+}
+
 // With d the distance in phi from the corner, S = sqrt(r rho) |d| and X = +-(r - rho d^2 / 2); the
 // curve is mirrored at delta = 0 and pi, so u and the tangential part take the side's sign.
 Hit hit_at_corner(const Prepared& cutter, const Generator& line, Side side) {

@@ -87,6 +87,10 @@ using Prepared = std::variant<PreparedTube, PreparedPlane>;
 [[nodiscard]] double continued_sheet(const Prepared& cutter, const Generator& line);
 [[nodiscard]] Hit continued_hit(const Prepared& cutter, const Generator& line);
 
+/// z where the generator at `line` touches the tube's silhouette (S = 0 exactly): there the sheet
+/// itself keeps only half the digits. A plane has its own z.
+[[nodiscard]] double silhouette_height(const Prepared& cutter, const Generator& line);
+
 enum class Side { before, after };
 
 /// The one-sided limit of `hit` at the corner of a tangent tube (`is_tangent`), where phi grows

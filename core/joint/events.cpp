@@ -213,6 +213,10 @@ class Divider {
     const double noise = kContinuous * std::max(sheets_[from].size, sheets_[to].size);
     const bool jumps = std::abs(event.z_to - event.z_from) > noise;
     event.kind = from == to ? EventKind::kink : jumps ? EventKind::jump : EventKind::junction;
+    if (!jumps) return event;
+    // The higher of the two is the one at its silhouette.
+    const bool lost = event.z_from > event.z_to;
+    (lost ? event.z_from : event.z_to) = silhouette_height(cutters_[lost ? from : to], line);
     return event;
   }
 
