@@ -1,7 +1,6 @@
 #include "server/admin.hpp"
 
 #include "api/api.hpp"
-#include "core/base/error.hpp"
 #include "server/identity.hpp"
 #include "server/status.hpp"
 
@@ -16,8 +15,9 @@ Response plain(int status, std::string body) {
 }
 
 Response refuse(ErrorCode code, std::string_view detail) {
-  api::Outcome outcome = api::problem(code, detail, random_id());
-  return {.status = status_of(info(code).kind),
+  api::Outcome outcome =
+      api::problem(code, detail, random_id(), {.stop = {}, .clock = {}, .status = status_of});
+  return {.status = status_of(outcome.error.value_or(ErrorKind::internal)),
           .content_type = std::move(outcome.content_type),
           .headers = std::move(outcome.headers),
           .body = std::move(outcome.body)};

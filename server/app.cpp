@@ -98,44 +98,58 @@ std::optional<Refusal> App::screen(const Request& head) const {
   return job_name_fault(head.headers);
 }
 
+api::Context App::context() const {
+  return {.stop = x_.stop, .clock = steady_seconds, .status = status_of};
+}
+
+api::Outcome App::refuse(const Refusal& refusal, const Identity& id) const {
+  return api::problem(refusal.code, refusal.detail, id.request_id, context());
+}
+
+api::Outcome App::answer(const Request& request, const Identity& id) const {
+  if (const auto refusal = screen(request)) return refuse(*refusal, id);
+  if (const auto limit = max_body(request.target); request.body.size() > limit) {
+    return refuse({ErrorCode::body_too_large,
+                   fmt::format("The body is larger than {} bytes.", limit)}, id);
+  }
+  api::Outcome outcome = x_.dispatch(call_of(request, id), context());
+  // A job cut off by our own stop is not the job's fault: the same request succeeds elsewhere, or here a second later.
+  if (outcome.error == ErrorKind::timeout && x_.stop.stop_requested()) {
+    return refuse({ErrorCode::unavailable, "The service is stopping."}, id);
+  }
+  return outcome;
+}
+
+/// The one place where an exception ends.
+api::Outcome App::answer_guarded(const Request& request, const Identity& id,
+                                 std::string& failure) const {
+  try {
+    return answer(request, id);
+  } catch (const std::exception& bug) {
+    failure = bug.what();
+  } catch (...) {
+    failure = "an exception that is no std::exception";
+  }
+  return refuse({ErrorCode::internal_error,
+                 "The service failed; its log names the cause under this request id."}, id);
+}
+
 Response App::handle(const Request& request) const {
   const double start = steady_seconds();
   x_.started();
   const Identity id = identify(request.headers);
-  JobRecord record{.method = request.method, .request_id = id.request_id, .traceparent = id.traceparent};
+  JobRecord record{
+      .method = request.method, .request_id = id.request_id, .traceparent = id.traceparent};
+  api::Outcome outcome = answer_guarded(request, id, record.failure);
 
-  const auto answer = [&]() -> api::Outcome {
-    if (const auto refusal = screen(request)) {
-      return api::problem(refusal->code, refusal->detail, id.request_id);
-    }
-    if (const auto limit = max_body(request.target); request.body.size() > limit) {
-      return api::problem(ErrorCode::body_too_large,
-                          fmt::format("The body is larger than {} bytes.", limit), id.request_id);
-    }
-    return x_.dispatch(call_of(request, id), {.stop = x_.stop, .clock = steady_seconds});
-  };
-  const auto guarded = [&]() -> api::Outcome {
-    try {
-      return answer();
-    } catch (const std::exception& bug) {
-      record.failure = bug.what();
-    } catch (...) {
-      record.failure = "an exception that is no std::exception";
-    }
-    return api::problem(ErrorCode::internal_error,
-                        "The service failed; its log names the cause under this request id.",
-                        id.request_id);
-  };
-
-  api::Outcome outcome = guarded();
   Response response{.status = outcome.error ? status_of(*outcome.error) : 200,
                     .content_type = with_charset(std::move(outcome.content_type)),
                     .body = std::move(outcome.body)};
   response.headers = answer_headers(outcome, id, response.status);
   add_if(response.headers, "Tubecut-Replica", x_.replica);
-
   record.seconds = steady_seconds() - start;
   response.headers.emplace_back("Server-Timing", server_timing(outcome.job.stages, record.seconds));
+
   record.facts = std::move(outcome.job);
   if (record.facts.id.empty()) record.facts.id = id.job_id;
   record.status = response.status;

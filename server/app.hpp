@@ -6,16 +6,17 @@
 
 #include "api/api.hpp"
 #include "server/http.hpp"
+#include "server/identity.hpp"
 
 namespace tubecut::server {
 
 /// What became of one request, for the log and the metrics: never its geometry.
 struct JobRecord {
-  api::JobFacts facts;
-  std::string method;
-  std::string request_id;
-  std::string traceparent;
-  std::string failure;  // text of an unexpected exception; the caller never sees it
+  api::JobFacts facts = {};
+  std::string method = {};
+  std::string request_id = {};
+  std::string traceparent = {};
+  std::string failure = {};  // text of an unexpected exception; the caller never sees it
   int status = 0;
   double seconds = 0.0;
   std::size_t bytes_in = 0;
@@ -48,6 +49,12 @@ class App {
   [[nodiscard]] std::size_t max_body(std::string_view target) const;
 
  private:
+  [[nodiscard]] api::Outcome answer(const Request& request, const Identity& id) const;
+  [[nodiscard]] api::Outcome answer_guarded(const Request& request, const Identity& id,
+                                            std::string& failure) const;
+  [[nodiscard]] api::Outcome refuse(const Refusal& refusal, const Identity& id) const;
+  [[nodiscard]] api::Context context() const;
+
   AppOptions x_;
 };
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace tubecut::server {
 namespace {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <mutex>
 #include <sstream>
 
 #include "api/api.hpp"
@@ -46,6 +47,7 @@ double resident_bytes() {
 struct Metrics::Impl {
   std::function<std::uint64_t()> drops;
   std::function<bool()> is_ready;
+  std::mutex scrape;
   prometheus::Registry registry;
 
   Family<Counter>& requests = counter(registry, "tubecut_http_requests_total",
@@ -105,6 +107,7 @@ void Metrics::finished(const JobRecord& job) {
 }
 
 std::string Metrics::text() {
+  const std::lock_guard one_scrape(x_->scrape);
   const auto drops = static_cast<double>(x_->drops());
   x_->dropped.Increment(drops - x_->dropped.Value());
   x_->ready.Set(x_->is_ready() ? 1.0 : 0.0);

@@ -119,7 +119,9 @@ struct Transport::Impl final : httplib::Server {
  private:
   void set_handlers() {
     set_pre_routing_handler([this](const httplib::Request&, httplib::Response& out) {
-      return wants_body() ? HandlerResponse::Unhandled : (answer(out), HandlerResponse::Handled);
+      if (wants_body()) return HandlerResponse::Unhandled;
+      answer(out);
+      return HandlerResponse::Handled;
     });
     // Every path is "/" to the library (see `read_head`): its regular expressions crash on long ones.
     Post("/", [this](const httplib::Request&, httplib::Response& out,
@@ -132,11 +134,11 @@ struct Transport::Impl final : httplib::Server {
       answer(out);
       return out.status;
     });
-    set_error_handler([this](const httplib::Request&, httplib::Response& out) {
+    set_error_handler(HandlerWithResponse([this](const httplib::Request&, httplib::Response& out) {
       if (!out.body.empty()) return HandlerResponse::Unhandled;  // ours
       answer_unreadable(out);
       return HandlerResponse::Handled;
-    });
+    }));
     set_exception_handler([](const httplib::Request&, httplib::Response& out, std::exception_ptr) {
       out.status = 500;  // `handle` does not throw; this only keeps the library from showing the text of what did
       out.set_content("The service failed.\n", "text/plain; charset=utf-8");
