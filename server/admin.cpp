@@ -29,7 +29,8 @@ Response admin(const Request& request, const AdminSources& sources) {
   if (request.refusal) return refuse(request.refusal->code, request.refusal->detail);
   const auto path = path_of(request.target);
   const bool known = path == "/livez" || path == "/readyz" || path == "/metrics";
-  if (!known) return refuse(ErrorCode::not_found, "The admin port has /livez, /readyz and /metrics.");
+  if (!known)
+    return refuse(ErrorCode::not_found, "The admin port has /livez, /readyz and /metrics.");
   if (request.method != "GET" && request.method != "HEAD") {
     Response response = refuse(ErrorCode::method_not_allowed, "Use GET or HEAD.");
     response.headers.emplace_back("Allow", "GET, HEAD");

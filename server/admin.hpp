@@ -13,7 +13,8 @@ struct AdminSources {
   std::function<std::string()> metrics;
 };
 
-/// GET /livez: the process answers. GET /readyz: it takes work (503 while starting and stopping). GET /metrics.
+/// GET /livez: the process answers. GET /readyz: it takes work (503 while starting and stopping).
+/// GET /metrics.
 [[nodiscard]] Response admin(const Request& request, const AdminSources& sources);
 
 }  // namespace tubecut::server

@@ -12,7 +12,8 @@
 namespace tubecut::server {
 namespace {
 
-constexpr std::string_view kRetryAfterSeconds = "1";  // a job takes milliseconds, a restart about a second
+constexpr std::string_view kRetryAfterSeconds =
+    "1";  // a job takes milliseconds, a restart about a second
 
 bool visible(char c) { return c > 0x20 && c < 0x7f; }
 
@@ -40,8 +41,8 @@ std::string server_timing(const std::vector<api::Stage>& stages, double total_s)
   return out + fmt::format("total;dur={:.3f}", 1e3 * total_s);
 }
 
-/// A charset is named so that no transport compresses answers behind our back (a setting of the library keyed on the bare
-/// type made answers 240 times slower).
+/// A charset is named so that no transport compresses answers behind our back (a setting of the
+/// library keyed on the bare type made answers 240 times slower).
 std::string with_charset(std::string type) {
   return type == "application/json" ? "application/json; charset=utf-8" : std::move(type);
 }
@@ -93,7 +94,8 @@ std::optional<Refusal> App::screen(const Request& head) const {
   }
   const auto encoding = header(head.headers, "Content-Encoding");
   if (!encoding.empty() && !equal_ignoring_case(encoding, "identity")) {
-    return Refusal{ErrorCode::unsupported_encoding, "Content-Encoding is not accepted on requests."};
+    return Refusal{ErrorCode::unsupported_encoding,
+                   "Content-Encoding is not accepted on requests."};
   }
   return job_name_fault(head.headers);
 }
@@ -109,11 +111,12 @@ api::Outcome App::refuse(const Refusal& refusal, const Identity& id) const {
 api::Outcome App::answer(const Request& request, const Identity& id) const {
   if (const auto refusal = screen(request)) return refuse(*refusal, id);
   if (const auto limit = max_body(request.target); request.body.size() > limit) {
-    return refuse({ErrorCode::body_too_large,
-                   fmt::format("The body is larger than {} bytes.", limit)}, id);
+    return refuse(
+        {ErrorCode::body_too_large, fmt::format("The body is larger than {} bytes.", limit)}, id);
   }
   api::Outcome outcome = x_.dispatch(call_of(request, id), context());
-  // A job cut off by our own stop is not the job's fault: the same request succeeds elsewhere, or here a second later.
+  // A job cut off by our own stop is not the job's fault: the same request succeeds elsewhere, or
+  // here a second later.
   if (outcome.error == ErrorKind::timeout && x_.stop.stop_requested()) {
     return refuse({ErrorCode::unavailable, "The service is stopping."}, id);
   }
@@ -131,7 +134,8 @@ api::Outcome App::answer_guarded(const Request& request, const Identity& id,
     failure = "an exception that is no std::exception";
   }
   return refuse({ErrorCode::internal_error,
-                 "The service failed; its log names the cause under this request id."}, id);
+                 "The service failed; its log names the cause under this request id."},
+                id);
 }
 
 Response App::handle(const Request& request) const {

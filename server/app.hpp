@@ -24,7 +24,7 @@ struct JobRecord {
 };
 
 struct AppOptions {
-  std::string replica = {};               // value of Tubecut-Replica
+  std::string replica = {};  // value of Tubecut-Replica
   std::size_t max_target_bytes = 2048;
   std::size_t max_body_bytes = 8u << 20;  // lowers the endpoints' own limits, never raises them
   std::stop_token stop = {};              // cancels every job
@@ -33,16 +33,18 @@ struct AppOptions {
   std::function<void(const JobRecord&)> finished = [](const JobRecord&) {};
 };
 
-/// The service without sockets: one whole request in, one whole answer out. Safe to call from many threads.
+/// The service without sockets: one whole request in, one whole answer out. Safe to call from many
+/// threads.
 class App {
  public:
   explicit App(AppOptions options) : x_(std::move(options)) {}
 
-  /// Answers a request. Never throws for what a client sends, nor for a bug below: that is a 500 with a request id, its text
-  /// only in the record.
+  /// Answers a request. Never throws for what a client sends, nor for a bug below: that is a 500
+  /// with a request id, its text only in the record.
   [[nodiscard]] Response handle(const Request& request) const;
 
-  /// What can be told from the request line and the headers alone, so that a body need not be read to be refused.
+  /// What can be told from the request line and the headers alone, so that a body need not be read
+  /// to be refused.
   [[nodiscard]] std::optional<Refusal> screen(const Request& head) const;
 
   /// Largest body taken by the target's path, in bytes.

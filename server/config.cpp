@@ -81,7 +81,8 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   Config& c = command.config;
   bool print = false;
   CLI::App app{"tubecut: cuts and bevels of tube joints over HTTP", "tubecut-server"};
-  app.set_version_flag("--version", fmt::format("tubecut {} (numerics {})", api::version(), api::numerics()));
+  app.set_version_flag("--version",
+                       fmt::format("tubecut {} (numerics {})", api::version(), api::numerics()));
   add_network(app, c);
   add_limits(app, c);
   add_file(app);

@@ -9,7 +9,7 @@ namespace tubecut::server {
 /// Everything that can be set, with its default. Read and checked once, at start.
 struct Config {
   std::string host = "127.0.0.1";
-  int port = 8080;  // 0: any free one, named in the ready line
+  int port = 8080;         // 0: any free one, named in the ready line
   std::string admin_host;  // empty: as host
   int admin_port = 9090;
   std::string replica;  // empty: the host's name
@@ -42,7 +42,8 @@ struct Exit {
   std::string err;
 };
 
-/// Reads command line, TOML file and TUBECUT_* environment; where several set the same, the first of these three counts.
+/// Reads command line, TOML file and TUBECUT_* environment; where several set the same, the first
+/// of these three counts.
 [[nodiscard]] tl::expected<Command, Exit> read_command(int argc, const char* const* argv);
 
 }  // namespace tubecut::server

@@ -63,7 +63,8 @@ bool Connection::wait(std::chrono::milliseconds patience) {
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     if (who[0].revents != 0) return true;
-    // The port drains. A fresh connection was accepted as work: its request may still be on the wire.
+    // The port drains. A fresh connection was accepted as work: its request may still be on the
+    // wire.
     if (!first) return false;
     watched = 1;
     until = std::min(until, Clock::now() + kFirstByteWhileDraining);

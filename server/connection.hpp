@@ -33,8 +33,8 @@ class Drain {
   std::atomic<Clock::duration> deadline_ = Clock::duration::max();
 };
 
-/// One accepted socket: buffered reading under a byte budget and an absolute deadline, so that no client can hold a thread or
-/// memory for longer than configured, and one send per answer.
+/// One accepted socket: buffered reading under a byte budget and an absolute deadline, so that no
+/// client can hold a thread or memory for longer than configured, and one send per answer.
 class Connection {
  public:
   /// Owns the descriptor from now on.
@@ -43,7 +43,8 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Waits for the first byte of a request. False when none comes, or the port drains and nothing is on its way.
+  /// Waits for the first byte of a request. False when none comes, or the port drains and nothing
+  /// is on its way.
   [[nodiscard]] bool wait(std::chrono::milliseconds patience);
 
   /// From now on at most so many bytes, until so long from now.
@@ -58,7 +59,8 @@ class Connection {
   [[nodiscard]] bool flush();
   void allow_write(std::chrono::milliseconds time) { write_time_ = time; }
 
-  /// After an answer to a request that was not read to its end: lets the client read the answer before the socket goes.
+  /// After an answer to a request that was not read to its end: lets the client read the answer
+  /// before the socket goes.
   void linger();
 
   [[nodiscard]] std::string peer() const;

@@ -24,8 +24,8 @@ struct Request {
   std::string target = {};  // as sent: path and query, not decoded
   Headers headers = {};
   std::string body = {};
-  std::string peer = {};                     // address of the socket, never of a header
-  std::optional<Refusal> refusal = {};       // set by a transport that could not read the request
+  std::string peer = {};                // address of the socket, never of a header
+  std::optional<Refusal> refusal = {};  // set by a transport that could not read the request
 };
 
 /// The body stays in the answer to a HEAD: its length is sent, the transport leaves the bytes out.

@@ -37,7 +37,8 @@ bool sound_traceparent(std::string_view text) {
 /// The one sound value sent under `name`, or nothing.
 std::string sole_id(const Headers& headers, std::string_view name) {
   const auto values = header_values(headers, name);
-  return values.size() == 1 && sound_id(values.front()) ? std::string(values.front()) : std::string{};
+  return values.size() == 1 && sound_id(values.front()) ? std::string(values.front())
+                                                        : std::string{};
 }
 
 }  // namespace

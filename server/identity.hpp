@@ -19,12 +19,13 @@ struct Identity {
 /// Longest Job-Id, Idempotency-Key or X-Request-Id, in characters.
 inline constexpr std::size_t kLongestId = 128;
 
-/// Reads the names from the headers. An id is 1 to 128 printable ASCII characters without spaces at its ends. An unsound name is
-/// left out.
+/// Reads the names from the headers. An id is 1 to 128 printable ASCII characters without spaces at
+/// its ends. An unsound name is left out.
 [[nodiscard]] Identity identify(const Headers& headers);
 
-/// What is wrong with Job-Id or Idempotency-Key, if anything. These are refused rather than left out: a job under another name
-/// than its sender's could not be found again. (An unsound traceparent or X-Request-Id harms nobody.)
+/// What is wrong with Job-Id or Idempotency-Key, if anything. These are refused rather than left
+/// out: a job under another name than its sender's could not be found again. (An unsound
+/// traceparent or X-Request-Id harms nobody.)
 [[nodiscard]] std::optional<Refusal> job_name_fault(const Headers& headers);
 
 /// 128 random bits from the kernel as 32 hex digits.

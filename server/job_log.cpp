@@ -98,14 +98,14 @@ JobLog::JobLog(std::size_t queue, int descriptor) : x_(std::make_unique<Impl>())
     const auto alive = pool.lock();
     return alive ? alive->overrun_counter() : 0;
   });
-  x_->logger = std::make_shared<spdlog::async_logger>("jobs", x_->sink, x_->pool,
-                                                      spdlog::async_overflow_policy::overrun_oldest);
+  x_->logger = std::make_shared<spdlog::async_logger>(
+      "jobs", x_->sink, x_->pool, spdlog::async_overflow_policy::overrun_oldest);
   x_->logger->set_level(spdlog::level::trace);
 }
 
 JobLog::~JobLog() {
-  // Ending the pool joins its thread: with a reader that never reads, that would never end. Then the thread is left to the end
-  // of the process.
+  // Ending the pool joins its thread: with a reader that never reads, that would never end. Then
+  // the thread is left to the end of the process.
   if (!flush(std::chrono::milliseconds(500))) {
     static_cast<void>(new std::shared_ptr<spdlog::details::thread_pool>(x_->pool));
   }

@@ -10,8 +10,9 @@
 
 namespace tubecut::server {
 
-/// Lines on a file descriptor, written by a thread of its own. A reader that stops reading blocks nobody: the queue is bounded,
-/// the oldest lines are dropped, counted, and reported in a line of their own once writing goes on.
+/// Lines on a file descriptor, written by a thread of its own. A reader that stops reading blocks
+/// nobody: the queue is bounded, the oldest lines are dropped, counted, and reported in a line of
+/// their own once writing goes on.
 class JobLog {
  public:
   explicit JobLog(std::size_t queue, int descriptor = 1);

@@ -20,11 +20,15 @@ void JsonLine::key(std::string_view name) {
 
 namespace {
 
-/// Length of the UTF-8 sequence of two to four bytes that `text` begins with; 0 when it begins with none. Overlong forms and
-/// surrogates are left to the reader of the line: they harm no JSON parser's framing.
+/// Length of the UTF-8 sequence of two to four bytes that `text` begins with; 0 when it begins with
+/// none. Overlong forms and surrogates are left to the reader of the line: they harm no JSON
+/// parser's framing.
 std::size_t utf8_sequence(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead >= 0xf0 && lead < 0xf5 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc2 ? 2 : 0;
+  const std::size_t length = lead >= 0xf0 && lead < 0xf5 ? 4
+                             : lead >= 0xe0              ? 3
+                             : lead >= 0xc2              ? 2
+                                                         : 0;
   if (lead >= 0xf5 || length == 0 || text.size() < length) return 0;
   for (const char c : text.substr(1, length - 1)) {
     if ((static_cast<unsigned char>(c) & 0xc0) != 0x80) return 0;
@@ -34,8 +38,8 @@ std::size_t utf8_sequence(std::string_view text) {
 
 }  // namespace
 
-/// UTF-8 stays as it is; control characters and bytes that are no UTF-8 become \u00XX: whatever the bytes are, the line stays one
-/// line of valid JSON that no terminal interprets.
+/// UTF-8 stays as it is; control characters and bytes that are no UTF-8 become \u00XX: whatever the
+/// bytes are, the line stays one line of valid JSON that no terminal interprets.
 void JsonLine::quote(std::string_view value) {
   x_ += '"';
   while (!value.empty()) {

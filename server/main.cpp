@@ -13,9 +13,12 @@ int main(int argc, char** argv) try {
     return command.error().code;
   }
   switch (command->kind) {
-    case Command::Kind::health: return health(command->config);
-    case Command::Kind::run: return run(*command);
-    case Command::Kind::serve: return serve(command->config);
+    case Command::Kind::health:
+      return health(command->config);
+    case Command::Kind::run:
+      return run(*command);
+    case Command::Kind::serve:
+      return serve(command->config);
   }
 } catch (const std::exception& failure) {
   std::fprintf(stderr, "tubecut-server: %s\n", failure.what());

@@ -56,18 +56,19 @@ struct Metrics::Impl {
                                    .Name("tubecut_http_request_seconds")
                                    .Help("Time from the whole request to the whole answer.")
                                    .Register(registry);
-  Family<Counter>& errors = counter(registry, "tubecut_errors_total",
-                                    "Problems answered, by endpoint and error code.");
-  Family<Counter>& stages = counter(registry, "tubecut_stage_seconds_total",
-                                    "Seconds spent in each stage of a job.");
+  Family<Counter>& errors =
+      counter(registry, "tubecut_errors_total", "Problems answered, by endpoint and error code.");
+  Family<Counter>& stages =
+      counter(registry, "tubecut_stage_seconds_total", "Seconds spent in each stage of a job.");
   Family<Counter>& unproven = counter(registry, "tubecut_verification_failures_total",
                                       "Answers withheld because a check failed: each is a bug.");
-  Counter& bytes_in = counter(registry, "tubecut_request_body_bytes_total",
-                              "Bytes of request bodies.").Add({});
-  Counter& bytes_out = counter(registry, "tubecut_response_body_bytes_total",
-                               "Bytes of answers' bodies.").Add({});
+  Counter& bytes_in =
+      counter(registry, "tubecut_request_body_bytes_total", "Bytes of request bodies.").Add({});
+  Counter& bytes_out =
+      counter(registry, "tubecut_response_body_bytes_total", "Bytes of answers' bodies.").Add({});
   Counter& dropped = counter(registry, "tubecut_log_lines_dropped_total",
-                             "Log lines dropped because stdout was not read.").Add({});
+                             "Log lines dropped because stdout was not read.")
+                         .Add({});
   Gauge& in_flight = gauge(registry, "tubecut_in_flight", "Requests being answered now.").Add({});
   Gauge& ready = gauge(registry, "tubecut_ready", "1 while /readyz says yes.").Add({});
   Gauge& resident = gauge(registry, "process_resident_memory_bytes", "Resident memory.").Add({});

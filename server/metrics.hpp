@@ -9,8 +9,8 @@
 
 namespace tubecut::server {
 
-/// Counters and histograms in Prometheus' terms. Labels come from closed sets only (endpoint ids, error codes, statuses), so
-/// the number of series is bounded whatever clients send.
+/// Counters and histograms in Prometheus' terms. Labels come from closed sets only (endpoint ids,
+/// error codes, statuses), so the number of series is bounded whatever clients send.
 class Metrics {
  public:
   /// `log_drops` is read at each scrape, `ready` too.

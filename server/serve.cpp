@@ -21,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kAdminConnections = 8;
-constexpr auto kLastLines = 1s;  // for the log to be read before the process ends
+constexpr auto kLogPatience = 1s;  // for a line that should be read before going on
 
 std::chrono::milliseconds ms(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * seconds));
@@ -48,8 +48,8 @@ TransportOptions admin_port(const Config& c) {
           .write = 5s};
 }
 
-/// Jobs are logged; of the rest (catalogues, probing strangers) only what failed by our fault, so that they cannot push jobs'
-/// lines out of the queue. The metrics count everything.
+/// Jobs are logged; of the rest (catalogues, probing strangers) only what failed by our fault, so
+/// that they cannot push jobs' lines out of the queue. The metrics count everything.
 bool logged(const JobRecord& job) { return job.method == "POST" || job.status >= 500; }
 
 Service service_of(const App& app) {
@@ -64,7 +64,8 @@ Service service_of(AdminSources sources) {
           .max_body = [](std::string_view) { return std::size_t{0}; }};
 }
 
-/// A port being served by a thread of its own. When serving breaks down the whole service is asked to stop.
+/// A port being served by a thread of its own. When serving breaks down the whole service is asked
+/// to stop.
 std::future<bool> start(Transport& transport) {
   return std::async(std::launch::async, [&transport] {
     const bool sound = transport.serve();
@@ -101,18 +102,21 @@ int serve(const Config& c) {
                  .max_body_bytes = c.max_body_bytes,
                  .stop = stop.get_token(),
                  .started = [&metrics] { metrics.started(); },
-                 .finished = [&](const JobRecord& job) {
-                   metrics.finished(job);
-                   if (logged(job)) log.write(job_line(job, std::chrono::system_clock::now()));
-                 }});
+                 .finished =
+                     [&](const JobRecord& job) {
+                       metrics.finished(job);
+                       if (logged(job)) log.write(job_line(job, std::chrono::system_clock::now()));
+                     }});
 
   auto work = Transport::open(service_port(c), service_of(app));
   if (!work) return fail(work.error());
-  auto probes = Transport::open(admin_port(c), service_of(AdminSources{
-      .ready = [&ready] { return ready.load(); }, .metrics = [&metrics] { return metrics.text(); }}));
+  auto probes = Transport::open(
+      admin_port(c), service_of(AdminSources{.ready = [&ready] { return ready.load(); },
+                                             .metrics = [&metrics] { return metrics.text(); }}));
   if (!probes) return fail(probes.error());
 
   log.write(ready_line(work->port(), probes->port(), api::version()));
+  log.flush(kLogPatience);  // first, before any request can queue a line
   auto probes_served = start(*probes);
   auto work_served = start(*work);
   await_serving(*probes, probes_served);
@@ -129,7 +133,7 @@ int serve(const Config& c) {
   }
   probes->drain(500ms);
   const bool sound = work_served.get() && probes_served.get();
-  log.flush(kLastLines);
+  log.flush(kLogPatience);
   return sound ? 0 : fail("listening broke down");
 }
 

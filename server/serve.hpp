@@ -10,7 +10,8 @@ namespace tubecut::server {
 /// Asks the service of that configuration, on this machine, whether it is ready. 0: yes.
 [[nodiscard]] int health(const Config& config);
 
-/// Answers one request file on stdout with the bytes the service would send. 0: an answer, 1: a problem.
+/// Answers one request file on stdout with the bytes the service would send. 0: an answer, 1: a
+/// problem.
 [[nodiscard]] int run(const Command& command);
 
 }  // namespace tubecut::server

@@ -16,7 +16,8 @@ sigset_t stop_signals() {
   return set;
 }
 
-/// A handler rather than the default action: the first process of a container has no default action.
+/// A handler rather than the default action: the first process of a container has no default
+/// action.
 extern "C" void end_now(int signal) { _exit(128 + signal); }
 
 }  // namespace

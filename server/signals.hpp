@@ -2,12 +2,14 @@
 
 namespace tubecut::server {
 
-/// Ends of the service asked for from outside. Make it first in main: threads inherit what it blocks.
+/// Ends of the service asked for from outside. Make it first in main: threads inherit what it
+/// blocks.
 class Signals {
  public:
   Signals();
 
-  /// Waits for SIGTERM or SIGINT (or `raise_stop`). From then on a second one ends the process at once.
+  /// Waits for SIGTERM or SIGINT (or `raise_stop`). From then on a second one ends the process at
+  /// once.
   void wait() const;
 
   /// Wakes `wait` from inside.

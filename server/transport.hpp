@@ -23,19 +23,22 @@ struct Service {
 
 struct TransportOptions {
   std::string host = "127.0.0.1";
-  int port = 0;           // 0: any free one
-  int connections = 64;   // served at a time, each by a thread; further ones wait
+  int port = 0;          // 0: any free one
+  int connections = 64;  // served at a time, each by a thread; further ones wait
   std::size_t max_head_bytes = 16384;
-  std::chrono::milliseconds idle = std::chrono::seconds(15);   // a kept-alive connection without a request
+  std::chrono::milliseconds idle =
+      std::chrono::seconds(15);  // a kept-alive connection without a request
   std::chrono::milliseconds head = std::chrono::seconds(10);   // from first byte to end of head
   std::chrono::milliseconds body = std::chrono::seconds(30);   // from end of head to end of body
   std::chrono::milliseconds write = std::chrono::seconds(30);  // the whole answer
 };
 
-/// A listening HTTP/1.1 port. The only thing the rest of the server knows of sockets; one source file implements it.
+/// A listening HTTP/1.1 port. The only thing the rest of the server knows of sockets; one source
+/// file implements it.
 class Transport {
  public:
-  /// Binds and listens: from here on connections queue in the kernel. An error is text for the operator.
+  /// Binds and listens: from here on connections queue in the kernel. An error is text for the
+  /// operator.
   [[nodiscard]] static tl::expected<Transport, std::string> open(const TransportOptions& options,
                                                                  Service service);
   Transport(Transport&&) noexcept;
@@ -43,14 +46,15 @@ class Transport {
 
   [[nodiscard]] int port() const;
 
-  /// Serves until `drain`, and returns when every accepted request is answered. False when listening broke down.
+  /// Serves until `drain`, and returns when every accepted request is answered. False when
+  /// listening broke down.
   bool serve();
 
   /// True once `serve` accepts connections.
   [[nodiscard]] bool serving() const;
 
-  /// From any thread: takes no new connection, closes idle ones, lets requests already begun be answered; those not finished
-  /// within `patience` are cut off.
+  /// From any thread: takes no new connection, closes idle ones, lets requests already begun be
+  /// answered; those not finished within `patience` are cut off.
   void drain(std::chrono::milliseconds patience);
 
  private:

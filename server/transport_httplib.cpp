@@ -1,13 +1,16 @@
-// cpp-httplib behind transport.hpp; written against Debian 12's 0.11.4. The library parses heads, chunks and prints answers;
-// reading, deadlines, byte budgets and the end of a connection are in `Connection`, since its own have none.
+// cpp-httplib behind transport.hpp; written against Debian 12's 0.11.4. The library parses heads,
+// chunks and prints answers; reading, deadlines, byte budgets and the end of a connection are in
+// `Connection`, since its own have none.
 
 #include <fmt/format.h>
 #include <httplib.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <thread>
 
 #include "server/connection.hpp"
 #include "server/transport.hpp"
@@ -15,9 +18,12 @@
 namespace tubecut::server {
 namespace {
 
-constexpr int kBacklog = 1024;                // the library's own is 5: the sixth waits a second for its SYN
-constexpr std::size_t kRequestsKept = 100000;  // per connection; a bound only so that connections are renewed at times
-constexpr std::size_t kChunkOverhead = 65536;  // framing bytes a chunked body may add to twice its size
+constexpr int kBacklog = 1024;  // the library's own is 5: the sixth waits a second for its SYN
+constexpr auto kBacklogTime = std::chrono::seconds(1);
+constexpr std::size_t kRequestsKept =
+    100000;  // per connection; a bound only so that connections are renewed at times
+constexpr std::size_t kChunkOverhead =
+    65536;  // framing bytes a chunked body may add to twice its size
 
 /// The library's view of a connection.
 class Stream final : public httplib::Stream {
@@ -60,8 +66,10 @@ std::string_view framing_fault(const Headers& headers) {
   const auto codings = header_values(headers, "Transfer-Encoding");
   if (lengths.size() > 1) return "Content-Length is sent more than once.";
   if (codings.size() > 1) return "Transfer-Encoding is sent more than once.";
-  if (!lengths.empty() && !codings.empty()) return "Content-Length and Transfer-Encoding are both sent.";
-  if (!lengths.empty() && !all_digits(lengths.front())) return "Content-Length is not a whole number.";
+  if (!lengths.empty() && !codings.empty())
+    return "Content-Length and Transfer-Encoding are both sent.";
+  if (!lengths.empty() && !all_digits(lengths.front()))
+    return "Content-Length is not a whole number.";
   if (!codings.empty() && !equal_ignoring_case(codings.front(), "chunked")) {
     return "Transfer-Encoding is not chunked.";
   }
@@ -113,17 +121,28 @@ struct Transport::Impl final : httplib::Server {
 
   void drain(std::chrono::milliseconds patience) {
     drain_.begin(patience);
+    await_empty_backlog();
     stop();
   }
 
  private:
+  /// Connections that the kernel has taken for us are work too: closing the port would reset them.
+  void await_empty_backlog() {
+    const auto until = Clock::now() + kBacklogTime;
+    pollfd port{.fd = svr_sock_, .events = POLLIN, .revents = 0};
+    while (Clock::now() < until && ::poll(&port, 1, 0) > 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
   void set_handlers() {
     set_pre_routing_handler([this](const httplib::Request&, httplib::Response& out) {
       if (wants_body()) return HandlerResponse::Unhandled;
       answer(out);
       return HandlerResponse::Handled;
     });
-    // Every path is "/" to the library (see `read_head`): its regular expressions crash on long ones.
+    // Every path is "/" to the library (see `read_head`): its regular expressions crash on long
+    // ones.
     Post("/", [this](const httplib::Request&, httplib::Response& out,
                      const httplib::ContentReader& reader) {
       read_body(reader);
@@ -132,6 +151,8 @@ struct Transport::Impl final : httplib::Server {
     set_expect_100_continue_handler([this](const httplib::Request&, httplib::Response& out) {
       if (wants_body()) return 100;
       answer(out);
+      out.set_header("Content-Length",
+                     std::to_string(out.body.size()));  // forgotten on this path only
       return out.status;
     });
     set_error_handler(HandlerWithResponse([this](const httplib::Request&, httplib::Response& out) {
@@ -140,13 +161,15 @@ struct Transport::Impl final : httplib::Server {
       return HandlerResponse::Handled;
     }));
     set_exception_handler([](const httplib::Request&, httplib::Response& out, std::exception_ptr) {
-      out.status = 500;  // `handle` does not throw; this only keeps the library from showing the text of what did
+      out.status = 500;  // `handle` does not throw; this only keeps the library from showing the
+                         // text of what did
       out.set_content("The service failed.\n", "text/plain; charset=utf-8");
     });
   }
 
-  /// Runs once a head is parsed, before routing: the one place where the library's request may be changed. What it would act
-  /// on by itself (ranges, compression, multipart, regular expressions) is taken away from it.
+  /// Runs once a head is parsed, before routing: the one place where the library's request may be
+  /// changed. What it would act on by itself (ranges, compression, multipart, regular expressions)
+  /// is taken away from it.
   void read_head(Connection& connection, httplib::Request& raw) {
     Exchange& x = *t_exchange;
     x.raw = &raw;
@@ -203,7 +226,8 @@ struct Transport::Impl final : httplib::Server {
     if (whole) return;
     x.unread = true;
     if (!x.request.refusal) {
-      x.request.refusal = Refusal{ErrorCode::bad_request, "The body ended early, came too slowly or is badly chunked."};
+      x.request.refusal = Refusal{ErrorCode::bad_request,
+                                  "The body ended early, came too slowly or is badly chunked."};
     }
   }
 
@@ -252,9 +276,8 @@ struct Transport::Impl final : httplib::Server {
     t_exchange = &x;
     connection.allow(options_.max_head_bytes, options_.head);
     bool closed = false;
-    const bool done = process_request(stream, false, closed, [&](httplib::Request& raw) {
-      read_head(connection, raw);
-    });
+    const bool done = process_request(stream, false, closed,
+                                      [&](httplib::Request& raw) { read_head(connection, raw); });
     t_exchange = nullptr;
     const bool sent = connection.flush();
     if (sent && x.unread) connection.linger();
