@@ -24,12 +24,6 @@ std::string literal(double v) {
   return e == std::string::npos ? mantissa : mantissa + "E" + text.substr(e + 1);
 }
 
-std::string footer(const Caption& caption) {
-  std::string out = "tubecut " + std::string(version()) + ", input " + caption.input_sha256.substr(0, 16);
-  for (const auto& [name, text] : caption.reference) out += ", " + name + " " + text;
-  return out;
-}
-
 }  // namespace
 
 std::string feed_curve_csv(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve& curve,
@@ -84,7 +78,7 @@ std::string feed_curve_svg(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve
                       .series = {{.name = "tool", .x = c.samples.time, .y = c.samples.feed}},
                       .marks = {{c.work_start, "t1"}, {c.work_end, "t2"}, {c.end, "t3"}}});
   }
-  return print_charts(charts, footer(caption));
+  return print_charts(charts, job_line(caption));
 }
 
 std::string feed_curve_structured_text(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve& curve,
@@ -93,7 +87,7 @@ std::string feed_curve_structured_text(const cutoff::FeedCurveSpec&, const cutof
   std::string horner = literal(fit.seconds_rounded.back());
   for (auto i = fit.seconds_rounded.size() - 1; i-- > 0;)
     horner = literal(fit.seconds_rounded[i]) + " + t_s * (" + horner + ")";
-  return "(* Cylinder speed that keeps the tool feed constant. " + footer(caption) + ".\n"
+  return "(* Cylinder speed that keeps the tool feed constant. " + job_line(caption) + ".\n"
          "   Degree " + std::to_string(fit.degree) + ", largest relative error " +
          shown(fit.rounded_max_relative_error) + ".\n"
          "   t_s: seconds from the start of the work feed. Outside the window valid is FALSE and the speed 0. *)\n"
