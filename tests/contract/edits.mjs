@@ -15,7 +15,7 @@ function types(contract, schema) {
 }
 
 // The branch of a oneOf that holds the value; of objects the one whose constants and required members are there.
-function branchOf(contract, schema, value) {
+export function branchOf(contract, schema, value) {
   if (!schema.oneOf) return schema;
   const fits = (branch) => {
     if (branch.oneOf) return true;

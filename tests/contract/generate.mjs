@@ -1,5 +1,6 @@
 // Requests from the schemas, and requests of joints that can be made.
 import fc from 'fast-check';
+import {branchOf} from './edits.mjs';
 
 const MANY = 6;  // elements more than the fewest; long lists belong to the tests of limits
 
@@ -12,7 +13,7 @@ function number({minimum, maximum, exclusiveMinimum, exclusiveMaximum}) {
   return fc.oneof(
     {weight: 6, arbitrary: fc.integer({min: 0, max: 4096}).map((k) => min + (max - min) * k / 4096).filter(inside)},
     {weight: 2, arbitrary: fc.double(range)},
-    {weight: 1, arbitrary: fc.constantFrom(...[min, max, 0].filter((v) => v >= min && v <= max && inside(v)))});
+    {weight: 1, arbitrary: fc.constantFrom(...[min, max, 0, (min + max) / 2].filter((v) => v >= min && v <= max && inside(v)))});
 }
 
 // Small ones mostly: the cost of an answer grows with them.
@@ -110,8 +111,27 @@ const ways = fc.oneof(
 const torch = fc.record({min_deg: between(-89, -80), max_deg: between(80, 89)}, {requiredKeys: []});
 const accept = fc.record({max_root_gap_mm: between(0, 2), max_extra_bevel_deg: between(0, 20), max_b_deg: between(10, 80)}, {requiredKeys: []});
 
-// Requests that should be answered with 200, by endpoint.
-export const sound = {
+// The endpoint's examples with every number that is no count moved by up to a thousandth.
+function nearExamples(contract, endpoint) {
+  const move = (given, value, turns) => {
+    const schema = branchOf(contract, contract.resolve(given), value);
+    if (Array.isArray(value)) return value.map((item) => move(schema.items, item, turns));
+    if (value !== null && typeof value === 'object') {
+      return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, move(schema.properties[name], item, turns)]));
+    }
+    return schema.type === 'number' ? value * (1 + turns() / 1e6) : value;
+  };
+  return fc.tuple(fc.constantFrom(...endpoint.examples), fc.infiniteStream(fc.integer({min: -1000, max: 1000})))
+    .map(([{body}, stream]) => move(endpoint.request, body, () => stream.next().value))
+    .filter((body) => endpoint.validRequest(body));
+}
+
+// Requests that should be answered with 200. An endpoint without a generator of its own starts from its examples.
+export function sound(contract, endpoint) {
+  return own[endpoint.id] ?? nearExamples(contract, endpoint);
+}
+
+const own = {
   intersections: joined(joint, sampling, maybe('surfaces', fc.constantFrom('inner', 'outer', 'both')), common),
   'bevel-tables': joined(joint, ways, fc.record({groove, kerf_mm: between(0, 4)}), maybe('torch', torch), maybe('accept', accept), common),
 };

@@ -35,7 +35,8 @@ console.log(`suite ${suite}, seed ${seed}`);
 const service = await Service.start(values.server);
 const report = new Report();
 try {
-  const facts = await SUITES[suite]({service, contract: new Contract(values.contract), report, seed});
+  const contract = await new Contract(values.contract).learn(service);
+  const facts = await SUITES[suite]({service, contract, report, seed});
   for (const fact of facts) console.log(fact);
   report.expect(service.alive, 'service', 'it ended');
 } finally {

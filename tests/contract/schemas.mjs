@@ -14,6 +14,14 @@ export class Contract {
     this.ajv.addSchema(this.document, ID);
   }
 
+  // What this service has: its endpoints, and requests that run.
+  async learn(service) {
+    const {endpoints} = JSON.parse((await service.ask('/v1/version', {method: 'GET'})).text);
+    this.served = endpoints.map(({path}) => path);
+    this.examples = JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text).examples;
+    return this;
+  }
+
   // The schema a reference names, else the schema itself.
   resolve(schema) {
     while (schema.$ref) schema = this.at(schema.$ref);
@@ -34,14 +42,16 @@ export class Contract {
     return validate.errors.map((e) => `${e.instancePath || '/'} ${e.message} ${JSON.stringify(e.params)}`);
   }
 
+  // The endpoints the service has; tools/check_openapi compares them with the contract's.
   posts() {
-    return Object.entries(this.document.paths).filter(([, item]) => item.post).map(([path, item]) => {
+    return Object.entries(this.document.paths).filter(([path, item]) => item.post && this.served.includes(path)).map(([path, item]) => {
       const request = item.post.requestBody.content['application/json'].schema.$ref;
       const response = item.post.responses['200'].content['application/json'].schema.$ref;
       return {
         path,
         id: path.replace('/v1/', ''),
-        codes: item.post['x-problem-codes'],
+        codes: item.post['x-problem-codes'] ?? [],
+        examples: this.examples.filter(({endpoint}) => path === `/v1/${endpoint}`),
         request: this.at(request),
         response: this.at(response),
         validRequest: this.validator(request),

@@ -38,7 +38,7 @@ export async function mutants({service, contract, report, seed}) {
   const counts = {drop: 0, rename: 0, add: 0, bySchema: 0};
   for (const endpoint of contract.posts()) {
     const done = new Set();
-    for (const body of fc.sample(sound[endpoint.id], {seed, numRuns: BODIES})) {
+    for (const body of fc.sample(sound(contract, endpoint), {seed, numRuns: BODIES})) {
       const reply = await service.post(endpoint.path, body);
       if (reply.status !== 200) continue;
       const tree = parseRaw(reply.text);
