@@ -213,6 +213,14 @@ class Divider {
     const double noise = kContinuous * std::max(sheets_[from].size, sheets_[to].size);
     const bool jumps = std::abs(event.z_to - event.z_from) > noise;
     event.kind = from == to ? EventKind::kink : jumps ? EventKind::jump : EventKind::junction;
+    if (event.kind == EventKind::junction) {
+      // Next to a silhouette the steeper curve keeps only half the digits of the common height.
+      const auto slope = [&](std::size_t i) {
+        return std::abs(continued_hit(cutters_[i], line).z_dphi);
+      };
+      (slope(from) > slope(to) ? event.z_from : event.z_to) =
+          slope(from) > slope(to) ? event.z_to : event.z_from;
+    }
     if (!jumps) return event;
     // The higher of the two is the one at its silhouette.
     const bool lost = event.z_from > event.z_to;
