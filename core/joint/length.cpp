@@ -13,16 +13,18 @@ namespace {
 struct GaussPoint {
   double at, weight;
 };
-constexpr std::array<GaussPoint, 3> kGauss3 = {
-    {{0.0, 0.8888888888888888}, {-0.7745966692414834, 0.5555555555555556},
-     {0.7745966692414834, 0.5555555555555556}}};
+constexpr std::array<GaussPoint, 3> kGauss3 = {{{0.0, 0.8888888888888888},
+                                                {-0.7745966692414834, 0.5555555555555556},
+                                                {0.7745966692414834, 0.5555555555555556}}};
 constexpr std::array<GaussPoint, 5> kGauss5 = {{{0.0, 0.5688888888888889},
                                                 {-0.5384693101056831, 0.47862867049936647},
                                                 {0.5384693101056831, 0.47862867049936647},
                                                 {-0.906179845938664, 0.23692688505618908},
                                                 {0.906179845938664, 0.23692688505618908}}};
 constexpr double kAgreement = 1e-10;  // of two orders; the higher one is then good to far less
-constexpr double kNegligible = 1e-12;  // of the radius; next to a silhouette z' itself is noise
+// Of the radius. Finer would resolve the rounding of the silhouette's own phase, in which the
+// sheet is 1e-8 radius high instead of 0.
+constexpr double kNegligible = 1e-10;
 constexpr int kHalvings = 14;
 
 template <class Points, class F>

@@ -35,7 +35,8 @@ Angles angles_at(const joint::Contour& contour, std::size_t degree, Dihedral dih
                                                  : joint::hit(cutter, line)->normal);
 }
 
-void expect_angles(const api::Json& golden, const std::string& block, const joint::Contour& contour) {
+void expect_angles(const api::Json& golden, const std::string& block,
+                   const joint::Contour& contour) {
   const auto psi = numbers(golden, block + "/psi");
   const auto omega_n = numbers(golden, block + "/omega_n");
   const auto gamma = numbers(golden, block + "/gamma");

@@ -146,8 +146,8 @@ TEST(Required, NeverBelowAScanOfTheWallAndCloseToIt) {
       lift_above = std::max(lift_above, lifted - scanned);
     }
   }
-  std::cout << "below the scan by " << below << ", above by " << above << " rad; lift off " << lift_off
-            << ", below " << lift_below << ", above " << lift_above << " mm\n";
+  std::cout << "below the scan by " << below << ", above by " << above << " rad; lift off "
+            << lift_off << ", below " << lift_below << ", above " << lift_above << " mm\n";
   EXPECT_LT(below, 1e-9);
   EXPECT_LT(above, 0.02);  // the scan's own resolution
   EXPECT_LT(lift_off, 1e-8);

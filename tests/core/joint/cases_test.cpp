@@ -152,9 +152,9 @@ TEST(Cases, EveryWrongCutterIsNamed) {
 }
 
 TEST(Cases, TwoPlanesMeetInTwoJunctions) {
-  const auto contour =
-      trace(std::vector<Cutter>{PlaneCutter{{0, 0, 5}, {0.3, 0, 1}}, PlaneCutter{{0, 0, 5}, {-0.3, 0, 1}}},
-            35);
+  const auto contour = trace(std::vector<Cutter>{PlaneCutter{{0, 0, 5}, {0.3, 0, 1}},
+                                                 PlaneCutter{{0, 0, 5}, {-0.3, 0, 1}}},
+                             35);
   ASSERT_TRUE(contour);
   ASSERT_EQ(contour->events.size(), 2U);
   EXPECT_NEAR(contour->events[0].phi * kDegPerRad, 90, 1e-10);
@@ -251,7 +251,8 @@ TEST(Laws, DerivativesAgainstTheOracle) {
         if (!got || got->normal.z() < 0.2) continue;
         const ray::Real step = 1e-5L;
         const auto z = [&](int k) {
-          return ray::top(node.bodies[i], node.rho, static_cast<ray::Real>(phi) + k * step).value_or(0);
+          return ray::top(node.bodies[i], node.rho, static_cast<ray::Real>(phi) + k * step)
+              .value_or(0);
         };
         const auto slope = static_cast<double>((z(1) - z(-1)) / (2 * step));
         const auto bend = static_cast<double>((z(1) - 2 * z(0) + z(-1)) / (step * step));
@@ -294,7 +295,8 @@ TEST(Placement, AxisRoundTripAndReversal) {
     ASSERT_TRUE(placed);
     const auto axis = axis_of(placed->tube);
     const Eigen::Vector3d back = axis.point + placed->point_axial * axis.direction;
-    const double size = point.norm() + std::abs(placed->tube.height) + std::abs(placed->point_axial);
+    const double size =
+        point.norm() + std::abs(placed->tube.height) + std::abs(placed->point_axial);
     EXPECT_LT((back - point).norm(), 1e-13 * size);
     EXPECT_LT((axis.direction - direction.normalized()).norm(), 1e-15);
     const auto reversed = place({point, -direction}, 40, "");

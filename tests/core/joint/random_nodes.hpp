@@ -20,7 +20,8 @@ inline ray::Body body_of(const TubeCutter& t) {
 }
 
 inline ray::Body body_of(const PlaneCutter& p) {
-  ray::Body body{0, {p.point.x(), p.point.y(), p.point.z()}, {p.normal.x(), p.normal.y(), p.normal.z()}};
+  ray::Body body{
+      0, {p.point.x(), p.point.y(), p.point.z()}, {p.normal.x(), p.normal.y(), p.normal.z()}};
   if (body.direction[2] < 0)
     for (auto& d : body.direction) d = -d;
   return body;
@@ -67,8 +68,9 @@ inline RandomNode random_node(std::mt19937_64& random, bool closed, bool symmetr
     }
   }
   if (planes && any(0, 1) < 0.4)
-    node.cutters.back() = PlaneCutter{{0, 0, any(0.2, 1.5) * node.rho},
-                                      {any(-0.6, 0.6), any(-0.6, 0.6), any(0, 1) < 0.5 ? 1.0 : -1.0}};
+    node.cutters.back() =
+        PlaneCutter{{0, 0, any(0.2, 1.5) * node.rho},
+                    {any(-0.6, 0.6), any(-0.6, 0.6), any(0, 1) < 0.5 ? 1.0 : -1.0}};
   for (const auto& cutter : node.cutters) node.bodies.push_back(body_of(cutter));
   return node;
 }

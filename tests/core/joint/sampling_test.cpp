@@ -75,12 +75,13 @@ TEST(Sampling, BothTogetherAreTheUnionWithEventsOfBothWalls) {
   const auto golden = testing::golden(kGolden);
   const auto inner = trace(eccentric_cutters(golden), 54);
   const auto outer = trace(eccentric_cutters(golden), 60);
-  const auto samples = sample(
-      *inner, {.uniform_points = 360, .tolerance = Tolerance{0.05}}, phases(*outer));
+  const auto samples =
+      sample(*inner, {.uniform_points = 360, .tolerance = Tolerance{0.05}}, phases(*outer));
   ASSERT_TRUE(samples);
   const auto& nodes = samples->nodes;
   const auto count = [&](double phi, double reach) {
-    return std::ranges::count_if(nodes, [&](const Node& n) { return std::abs(n.phi - phi) <= reach; });
+    return std::ranges::count_if(nodes,
+                                 [&](const Node& n) { return std::abs(n.phi - phi) <= reach; });
   };
   for (const auto& event : inner->events)
     EXPECT_EQ(count(event.phi, 0), event.kind == EventKind::jump ? 2 : 1);
@@ -131,14 +132,15 @@ TEST(Sampling, CornerIsTheLimitOfItsNeighbours) {
 
 TEST(Sampling, Errors) {
   const auto contour = trace(table1(), 35);
-  const auto many =
-      sample(*contour, {.tolerance = Tolerance{1e-4}, .max_nodes = 1000});
+  const auto many = sample(*contour, {.tolerance = Tolerance{1e-4}, .max_nodes = 1000});
   ASSERT_FALSE(many);
   EXPECT_EQ(many.error().code(), ErrorCode::too_many_nodes);
   EXPECT_EQ(std::get<double>(many.error().issues.front().limit), 1000);
-  EXPECT_EQ(sample(*contour, {.uniform_points = 1'000'000}).error().code(), ErrorCode::too_many_nodes);
+  EXPECT_EQ(sample(*contour, {.uniform_points = 1'000'000}).error().code(),
+            ErrorCode::too_many_nodes);
   EXPECT_EQ(sample(*contour, {}).error().code(), ErrorCode::out_of_range);
-  EXPECT_EQ(sample(*contour, {.tolerance = Tolerance{0.0}}).error().code(), ErrorCode::out_of_range);
+  EXPECT_EQ(sample(*contour, {.tolerance = Tolerance{0.0}}).error().code(),
+            ErrorCode::out_of_range);
   std::stop_source stop;
   stop.request_stop();
   EXPECT_EQ(sample(*contour, {.tolerance = Tolerance{0.1}}, {}, stop.get_token()).error().code(),

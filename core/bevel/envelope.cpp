@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/angle.hpp"
+#include "core/bevel/envelope_parts.hpp"
+
+namespace tubecut::bevel {
+namespace detail {
+namespace {
+
+double clamped(double x, double bound) { return std::clamp(x, -bound, bound); }
+
+/// Both curves of node j started at slope m lie below its neighbours at once, so they bind nothing
+/// but the node itself.
+bool hands_over(const Turn& turn, std::size_t j, double m) {
+  const auto& b = turn.b;
+  const auto before = turn.previous(j);
+  return brake({b[j], m}, turn.ahead[j], turn.limits).value <= b[turn.next(j)] &&
+         brake({b[j], -m}, turn.ahead[before], turn.limits).value <= b[before];
+}
+
+void choose_start(Turn& turn, std::size_t j) {
+  const auto& b = turn.b;
+  const auto before = turn.previous(j);
+  const double rate = turn.limits.curvature;
+  const double slope_in = (b[j] - b[before]) / turn.ahead[before];
+  const double slope_out = (b[turn.next(j)] - b[j]) / turn.ahead[j];
+  const double low = slope_in - 0.5 * rate * turn.ahead[before];
+  const double high = slope_out + 0.5 * rate * turn.ahead[j];
+  turn.corner[j] = low > high;
+  double m = 0.5 * (low + high);
+  if (turn.corner[j]) m = std::abs(slope_in) <= std::abs(slope_out) ? low : high;
+  m = clamped(m, turn.limits.slope);
+  // A node the axis can follow keeps its slope even close under `highest`: clipping it there would
+  // lift its neighbours.
+  turn.leave[j] = hands_over(turn, j, m) ? m : clamped(m, turn.start_bound(j));
+}
+
+}  // namespace
+
+double Turn::start_bound(std::size_t j) const {
+  return std::min(steepest_start, std::sqrt(2.0 * limits.curvature * (highest - b[j])));
+}
+
+Turn make_turn(const AngleProfile& profile, const EnvelopeSpec& spec) {
+  const std::size_t n = profile.b.size();
+  Turn turn{
+      .s = profile.s,
+      .b = profile.b,
+      .period = profile.period,
+      .limits = spec.limits,
+      .highest = spec.highest,
+      .steepest_start = std::min(spec.limits.slope, 0.25 * spec.limits.curvature * profile.period),
+      .ahead = std::vector<double>(n),
+      .width = std::vector<double>(n),
+      .leave = std::vector<double>(n),
+      .corner = std::vector<char>(n)};
+  for (std::size_t j = 0; j < n; ++j) turn.ahead[j] = turn.distance(j, turn.next(j));
+  for (std::size_t j = 0; j < n; ++j) {
+    turn.width[j] = 0.5 * (turn.ahead[turn.previous(j)] + turn.ahead[j]);
+    choose_start(turn, j);
+  }
+  return turn;
+}
+
+Braking brake(Braking from, double h, const SwingLimits& limits) {
+  const double slope = from.slope - limits.curvature * h;
+  if (slope >= -limits.slope)
+    return {from.value + h * (from.slope - 0.5 * limits.curvature * h), slope};
+  const double fading = (from.slope + limits.slope) / limits.curvature;
+  return {from.value + 0.5 * fading * (from.slope - limits.slope) - limits.slope * (h - fading),
+          -limits.slope};
+}
+
+std::size_t step(const Turn& turn, std::size_t j, Sense sense) {
+  return sense == Sense::forward ? turn.next(j) : turn.previous(j);
+}
+
+double arriving(const Turn& turn, std::size_t j, Sense sense) {
+  return turn.ahead[sense == Sense::forward ? turn.previous(j) : j];
+}
+
+Braking start(const Turn& turn, std::size_t j, Sense sense) {
+  return {turn.b[j], sense == Sense::forward ? turn.leave[j] : -turn.leave[j]};
+}
+
+Sweep sweep(const Turn& turn, Sense sense) {
+  const std::size_t n = turn.size();
+  Sweep out{std::vector<double>(n), std::vector<char>(n)};
+  auto j = static_cast<std::size_t>(std::ranges::max_element(turn.b) - turn.b.begin());
+  Braking at = start(turn, j, sense);
+  // The first lap forgets that no curve came over the start; what the third leaves is the closed
+  // one.
+  for (std::size_t visit = 0; visit < 3 * n; ++visit) {
+    j = step(turn, j, sense);
+    at = brake(at, arriving(turn, j, sense), turn.limits);
+    out.restarted[j] = turn.b[j] >= at.value;
+    if (out.restarted[j]) at = start(turn, j, sense);
+    out.value[j] = at.value;
+  }
+  return out;
+}
+
+// Both are the upper hull of e - A s^2/2, written in differences: no s^2 to cancel, and no origin.
+bool touches(const Turn& turn, const std::vector<double>& e, std::size_t i, std::size_t j,
+             std::size_t k) {
+  const double left = turn.distance(i, j);
+  const double right = turn.distance(j, k);
+  return (e[j] - e[i]) / left + 0.5 * turn.limits.curvature * (left + right) >=
+         (e[k] - e[j]) / right;
+}
+
+double rolled(const Turn& turn, const std::vector<double>& e, std::size_t i, std::size_t j,
+              std::size_t k) {
+  const double chord = (e[k] - e[i]) / turn.distance(i, k);
+  return std::max(e[j], e[i] + turn.distance(i, j) *
+                                   (chord - 0.5 * turn.limits.curvature * turn.distance(j, k)));
+}
+
+namespace {
+
+/// The contacts from the highest e (always one: the constant through it lies above e) once round to
+/// it again.
+std::vector<std::size_t> contacts(const Turn& turn, const std::vector<double>& e) {
+  const std::size_t n = turn.size();
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(e) - e.begin());
+  std::vector<std::size_t> hull{top};
+  std::size_t k = top;
+  for (std::size_t visit = 0; visit < n; ++visit) {
+    k = turn.next(k);
+    while (hull.size() > 1 && !touches(turn, e, hull[hull.size() - 2], hull.back(), k))
+      hull.pop_back();
+    hull.push_back(k);
+  }
+  return hull;
+}
+
+}  // namespace
+
+Envelope make_envelope(const Turn& turn) {
+  const std::size_t n = turn.size();
+  Envelope out{.forward = sweep(turn, Sense::forward),
+               .backward = sweep(turn, Sense::backward),
+               .e = turn.b,
+               .f = {},
+               .contact = std::vector<char>(n),
+               .contact_after = std::vector<std::size_t>(n),
+               .contact_before = std::vector<std::size_t>(n)};
+  for (std::size_t j = 0; j < n; ++j)
+    out.e[j] = std::max({turn.b[j], out.forward.value[j], out.backward.value[j]});
+  out.f = out.e;
+  const auto hull = contacts(turn, out.e);
+  for (std::size_t c = 0; c + 1 < hull.size(); ++c) {
+    const auto i = hull[c];
+    const auto k = hull[c + 1];
+    out.contact[i] = 1;
+    out.contact_after[i] = k;
+    out.contact_before[k] = i;
+    for (auto j = turn.next(i); j != k; j = turn.next(j)) out.f[j] = rolled(turn, out.e, i, j, k);
+  }
+  for (std::size_t j = 0; j < n; ++j) out.area += (out.f[j] - turn.b[j]) * turn.width[j];
+  return out;
+}
+
+}  // namespace detail
+
+namespace {
+
+Result<void> check_limits(const AngleProfile& profile, const EnvelopeSpec& spec) {
+  const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+  if (!positive(spec.limits.slope))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "limits/slope",
+                 .got = spec.limits.slope * kDegPerRad,
+                 .limit = 0.0,
+                 .unit = "deg/mm"});
+  if (!positive(spec.limits.curvature))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "limits/curvature",
+                 .got = spec.limits.curvature * kDegPerRad,
+                 .limit = 0.0,
+                 .unit = "deg/mm^2"});
+  for (std::size_t j = 0; j < profile.b.size(); ++j) {
+    if (!(profile.b[j] <= spec.highest))
+      return fail({.code = ErrorCode::out_of_range,
+                   .member = "b/" + std::to_string(j),
+                   .got = profile.b[j] * kDegPerRad,
+                   .limit = spec.highest * kDegPerRad,
+                   .unit = "deg"});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<double>> envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
+                                     std::stop_token stop) {
+  if (auto sound = check_profile(profile); !sound) return tl::unexpected(sound.error());
+  if (auto sound = check_limits(profile, spec); !sound) return tl::unexpected(sound.error());
+  auto turn = detail::make_turn(profile, spec);
+  auto plain = detail::make_envelope(turn);
+  if (!spec.refine) return std::move(plain.f);
+  const double plain_area = plain.area;
+  auto trial = plain;
+  if (!detail::refine(turn, trial, stop)) return fail({.code = ErrorCode::cancelled});
+  // The answer is one whole evaluation of the slopes found, so that its guarantees rest on nothing
+  // local.
+  auto refined = detail::make_envelope(turn);
+  return std::move(refined.area <= plain_area ? refined.f : plain.f);
+}
+
+}  // namespace tubecut::bevel

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+/// Smoothing of the bevel angle B over one turn of the path, so that the swing axis can follow.
+/// Lengths in mm, angles in radians. Source: docs/theory/intersections-and-bevels.md, section 6.
+namespace tubecut::bevel {
+
+/// B at nodes of a closed path. The node after the last is the first, one period on.
+struct AngleProfile {
+  std::vector<double> s;  // mm along the path, strictly ascending, all within one period
+  std::vector<double> b;  // rad
+  double period = 0.0;    // mm, length of the closed path, > s.back() - s.front()
+};
+
+/// What the swing axis can follow at the speed of the cut.
+struct SwingLimits {
+  double slope = 0.0;      // K, rad/mm, > 0
+  double curvature = 0.0;  // A, rad/mm^2, > 0: bound of the second divided difference
+};
+
+/// Limits of a swing axis (rad/s, rad/s^2) whose path is cut at `speed` mm/s with the share `use`
+/// of the axis: slope = use v / speed, curvature = use a / speed^2, along the true length of the
+/// cut. Errors  zero_limit (axis not above zero), out_of_range (speed not above zero, use outside
+/// (0, 1]).
+[[nodiscard]] Result<SwingLimits> swing_limits(double velocity, double acceleration, double speed,
+                                               double use);
+
+/// A step of B from sample `index` to the next (cyclic).
+struct Mutation {
+  std::size_t index = 0;
+  double step = 0.0;  // rad, B after minus B before
+};
+
+/// All steps with |step| > limit, ascending in index.
+[[nodiscard]] std::vector<Mutation> mutations(std::span<const double> b, double limit);
+
+/// Slopes and second divided differences (slope right - slope left) / ((h left + h right) / 2),
+/// largest absolute values.
+struct Steepness {
+  double slope = 0.0;   // rad/mm
+  double second = 0.0;  // rad/mm^2
+};
+[[nodiscard]] Steepness steepness(const AngleProfile& profile);
+
+/// Area between `smoothed` and the profile, sum of (f_j - B_j)(h left + h right)/2, rad*mm.
+[[nodiscard]] double area_above(const AngleProfile& profile, std::span<const double> smoothed);
+
+struct EnvelopeSpec {
+  SwingLimits limits;
+  double highest = std::numeric_limits<double>::infinity();  // rad, no B of the profile lies above
+  bool refine = true;  // search the start slopes of concave corners for least area
+};
+
+/// The braking envelope with a rolling parabola: f >= B at every node, |slope| <= K, |second
+/// difference| <= A, f <= highest, area near the least possible. Always feasible.
+///
+/// Accuracy  f >= B exactly; slope within 1e-9 K + 4 eps max|B| / h_min, second within 1e-6 A + 8
+/// eps max|B| / h_min^2,
+///           f <= highest + 1e-12 (10 000 hostile profiles). Area on 100 random real nodes against
+///           the linear programme's optimum: see tests/core/bevel/envelope_optimum_test.cpp. Where
+///           the smoothing does not act, f has B's own bits.
+/// Errors    wrong_count, not_finite, out_of_range (order, period, limits, a B above `highest`),
+/// cancelled. Cost      linear; with `refine` 42 trials for each concave corner that is still bare,
+/// each linear in the stretch that the
+///           corner's curve reaches (in the worst case the whole turn).
+/// Source    section 6.2.
+[[nodiscard]] Result<std::vector<double>> envelope(const AngleProfile& profile,
+                                                   const EnvelopeSpec& spec,
+                                                   std::stop_token stop = {});
+
+struct HermiteSpec {
+  double limit = 0.0;  // rad, steps above it are treated, > 0
+  std::optional<int>
+      transition;  // T in samples, 2..n/4; empty: for each window the least T >= 1.5 |step| / limit
+  std::vector<std::size_t> junctions =
+      {};  // indices i of the steps i -> i+1 across a junction, ascending; only used
+           // without `transition`; empty: the profile's mutations
+};
+
+/// One treated step. The window runs over samples `from`, ..., `to` (cyclic, T steps); its inner
+/// samples were replaced.
+struct HermiteWindow {
+  std::size_t index = 0;  // of the step index -> index + 1
+  double step = 0.0;      // rad
+  enum class Kept { before, after } kept = Kept::before;
+  std::size_t from = 0;
+  std::size_t to = 0;
+  double slope_start = 0.0;  // rad/mm, the published one-sided end slopes
+  double slope_end = 0.0;
+};
+
+struct HermiteSmoothed {
+  std::vector<double> b;               // rad
+  std::vector<HermiteWindow> windows;  // in order of treatment
+};
+
+/// The published smoothing, corrected, for comparison: cubic windows beside each step above the
+/// limit, largest first, the larger sample kept. Promises neither f >= B nor any slope.
+///
+/// Errors  wrong_count, not_finite, out_of_range (order, period, limit, transition),
+/// sampling_not_uniform,
+///         smoothing_not_converged (200 windows), transition_too_long (no T of its own fits),
+///         cancelled.
+/// Cost    linear in the samples for each window, at most 200 windows.
+/// Source  section 6.1.
+[[nodiscard]] Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec,
+                                              std::stop_token stop = {});
+
+/// The preconditions on a profile shared by both methods: counts, finite, ascending within the
+/// period.
+[[nodiscard]] Result<void> check_profile(const AngleProfile& profile);
+
+}  // namespace tubecut::bevel

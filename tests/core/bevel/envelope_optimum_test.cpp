@@ -1,0 +1,116 @@
+#include <glpk.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/angle.hpp"
+#include "tests/core/bevel/real_nodes.hpp"
+
+/// The envelope's area against the linear programme it approximates, solved by GLPK.
+namespace tubecut::bevel {
+namespace {
+
+constexpr double kTorch = 80.0 * kRadPerDeg;
+
+/// Least area of any f >= B, f <= highest, |slope| <= K, |second difference| <= A at the same nodes; uniform spacing h.
+/// Unknown: f - B in degrees.
+class LinearProgramme {
+ public:
+  LinearProgramme(const AngleProfile& profile, const SwingLimits& limits, double highest)
+      : b_(profile.b), h_(profile.period / static_cast<double>(profile.b.size())), problem_(glp_create_prob()) {
+    const int n = static_cast<int>(b_.size());
+    glp_term_out(GLP_OFF);
+    glp_set_obj_dir(problem_, GLP_MIN);
+    glp_add_cols(problem_, n);
+    glp_add_rows(problem_, 2 * n);
+    for (int j = 0; j < n; ++j) {
+      glp_set_col_bnds(problem_, j + 1, GLP_DB, 0.0, std::max((highest - at(j)) * kDegPerRad, 1e-9));
+      glp_set_obj_coef(problem_, j + 1, h_);
+      row(2 * j + 1, limits.slope * h_, {{j, -1.0}, {j + 1, 1.0}});
+      row(2 * j + 2, limits.curvature * h_ * h_, {{j, 1.0}, {j + 1, -2.0}, {j + 2, 1.0}});
+    }
+  }
+  ~LinearProgramme() { glp_delete_prob(problem_); }
+  LinearProgramme(const LinearProgramme&) = delete;
+  LinearProgramme& operator=(const LinearProgramme&) = delete;
+
+  double least_area() {
+    glp_smcp options;
+    glp_init_smcp(&options);
+    options.msg_lev = GLP_MSG_OFF;
+    options.meth = GLP_DUALP;  // f = highest is feasible, area has no negative cost: the dual starts feasible
+    EXPECT_EQ(glp_simplex(problem_, &options), 0);
+    EXPECT_EQ(glp_get_status(problem_), GLP_OPT);
+    return glp_get_obj_val(problem_);
+  }
+
+ private:
+  struct Term {
+    int node;
+    double factor;
+  };
+  double at(int j) const { return b_[static_cast<std::size_t>(j) % b_.size()]; }
+
+  /// |sum factor f| <= bound, f = B + unknown.
+  void row(int index, double bound, const std::vector<Term>& terms) {
+    std::vector<int> columns{0};
+    std::vector<double> factors{0.0};
+    double known = 0.0;
+    for (const auto& term : terms) {
+      columns.push_back(term.node % static_cast<int>(b_.size()) + 1);
+      factors.push_back(term.factor);
+      known += term.factor * at(term.node);
+    }
+    glp_set_mat_row(problem_, index, static_cast<int>(terms.size()), columns.data(), factors.data());
+    glp_set_row_bnds(problem_, index, GLP_DB, (-bound - known) * kDegPerRad, (bound - known) * kDegPerRad);
+  }
+
+  std::vector<double> b_;
+  double h_;
+  glp_prob* problem_;
+};
+
+struct Ratios {
+  double median = 0.0;
+  double worst = 0.0;
+};
+
+Ratios compare(unsigned long seed, int nodes, std::size_t points, SwingLimits limits, double highest) {
+  std::mt19937_64 random(seed);
+  std::vector<double> ratios;
+  while (static_cast<int>(ratios.size()) < nodes) {
+    const auto profile = real_nodes::random_node(random, points, kTorch);
+    const double least = LinearProgramme(profile, limits, std::min(highest, 2.0)).least_area();
+    if (least < 1e-3) continue;  // nothing to smooth: no ratio
+    const auto out = envelope(profile, {.limits = limits, .highest = highest});
+    EXPECT_TRUE(out);
+    ratios.push_back(area_above(profile, *out) * kDegPerRad / least);
+    EXPECT_GE(ratios.back(), 1.0 - 1e-7);  // nothing lies below the optimum
+  }
+  std::ranges::sort(ratios);
+  std::printf("%zu points: min %.8f median %.6f p90 %.6f worst %.6f %.6f %.6f\n", points, ratios.front(), ratios[ratios.size() / 2], ratios[ratios.size()*9 / 10], ratios[ratios.size()-3], ratios[ratios.size()-2], ratios.back());
+  return {ratios[ratios.size() / 2], ratios.back()};
+}
+
+TEST(EnvelopeOptimum, HundredRealNodes) {
+  const auto got = compare(20240501, 100, 180, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, 1e9);
+  EXPECT_LE(got.median, 1.01);
+  EXPECT_LE(got.worst, 1.02);
+}
+
+TEST(EnvelopeOptimum, UnderTheTorchLimit) {
+  const auto got = compare(20240502, 100, 180, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, kTorch);
+  EXPECT_LE(got.median, 1.01);
+  EXPECT_LE(got.worst, 1.02);
+}
+
+TEST(EnvelopeOptimum, FasterAxis) {
+  const auto got = compare(20240503, 100, 180, {8.0 * kRadPerDeg, 4.0 * kRadPerDeg}, 1e9);
+  EXPECT_LE(got.median, 1.01);
+  EXPECT_LE(got.worst, 1.02);
+}
+
+}  // namespace
+}  // namespace tubecut::bevel
