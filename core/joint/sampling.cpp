@@ -221,7 +221,7 @@ Samples measured(const Contour& contour, std::vector<Node> nodes) {
 }  // namespace
 
 Result<Samples> sample(const Contour& contour, const Sampling& sampling,
-                       std::span<const double> also, std::stop_token stop) {
+                       std::span<const double> also, const std::stop_token& stop) {
   const auto& tolerance = sampling.tolerance;
   if (tolerance ? !(tolerance->value > 0.0) : sampling.uniform_points == 0)
     return fail({.code = ErrorCode::out_of_range, .member = "sampling"});

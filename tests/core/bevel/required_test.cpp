@@ -84,29 +84,35 @@ TEST(Required, Eccentric) {
   }
 }
 
-/// The largest slope from the root to any body, by rays at many radii of the wall.
-double steepest(const joint::RandomNode& node, const Wall& wall, double phi, double z_root,
-                int steps) {
-  double slope = -std::numeric_limits<double>::infinity();
-  for (int k = 1; k <= steps; ++k) {
-    const double rho = wall.inner + (wall.outer - wall.inner) * k / steps;
+struct WallPoint {
+  double across, z;  // from the inner wall; the top of one body there
+};
+
+/// The tops of all bodies on one phi at many radii of the wall.
+std::vector<WallPoint> scan_wall(const joint::RandomNode& node, const Wall& wall, double phi,
+                                 int steps) {
+  std::vector<WallPoint> out;
+  for (int k = 0; k <= steps; ++k) {
+    const double across = (wall.outer - wall.inner) * k / steps;
     for (const auto& body : node.bodies)
-      if (const auto z = ray::top(body, rho, phi))
-        slope = std::max(slope, (static_cast<double>(*z) - z_root) / (rho - wall.inner));
+      if (const auto z = ray::top(body, wall.inner + across, phi))
+        out.push_back({across, static_cast<double>(*z)});
   }
+  return out;
+}
+
+/// The largest slope from the root to any body.
+double steepest(const std::vector<WallPoint>& points, double z_root) {
+  double slope = -std::numeric_limits<double>::infinity();
+  for (const auto& p : points)
+    if (p.across > 0.0) slope = std::max(slope, (p.z - z_root) / p.across);
   return slope;
 }
 
 /// The height at the inner wall that keeps a line of this slope above every body.
-double highest_root(const joint::RandomNode& node, const Wall& wall, double phi, double slope,
-                    int steps) {
+double highest_root(const std::vector<WallPoint>& points, double slope) {
   double root = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= steps; ++k) {
-    const double rho = wall.inner + (wall.outer - wall.inner) * k / steps;
-    for (const auto& body : node.bodies)
-      if (const auto z = ray::top(body, rho, phi))
-        root = std::max(root, static_cast<double>(*z) - slope * (rho - wall.inner));
-  }
+  for (const auto& p : points) root = std::max(root, p.z - slope * p.across);
   return root;
 }
 
@@ -131,8 +137,9 @@ TEST(Required, NeverBelowAScanOfTheWallAndCloseToIt) {
       const double phi = kTwoPi * (k + 0.31) / kPhases;
       const auto line = joint::generator_at(wall.inner, phi);
       const double z = joint::contact_at(*contour, phi).z;
+      const auto points = scan_wall(node, wall, phi, kSteps);
       const double got = required_bevel(contour->cutters, wall, line, z);
-      const double want = std::atan(steepest(node, wall, phi, z, kSteps));
+      const double want = std::atan(steepest(points, z));
       below = std::max(below, want - got);
       above = std::max(above, got - want);
       if (got < 1.4) {
@@ -141,7 +148,7 @@ TEST(Required, NeverBelowAScanOfTheWallAndCloseToIt) {
       }
       const double slope = 0.3 * (k % 7 - 3);
       const double lifted = lift(contour->cutters, wall, line, slope);
-      const double scanned = highest_root(node, wall, phi, slope, kSteps);
+      const double scanned = highest_root(points, slope);
       lift_below = std::max(lift_below, scanned - lifted);
       lift_above = std::max(lift_above, lifted - scanned);
     }
