@@ -151,19 +151,19 @@ Result<Command> command(const WorkFeed& work, const FitSpec& spec, std::stop_tok
   return describe(work, spec.method, *series, assess(work, *series));
 }
 
-Result<std::vector<ComparisonRow>> comparison(const WorkFeed& work, const ComparisonSpec& spec, std::stop_token stop) {
+Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec, std::stop_token stop) {
   if (spec.first_degree < 1 || spec.last_degree > kHighestDegree || spec.first_degree > spec.last_degree)
     return fail({.code = ErrorCode::out_of_range, .member = "comparison", .limit = Intervals{{1.0, kHighestDegree}}});
   constexpr FitMethod kMethods[] = {FitMethod::three_point, FitMethod::equispaced, FitMethod::least_squares,
                                     FitMethod::minimax};
-  std::vector<ComparisonRow> rows;
+  std::vector<Command> rows;
   for (int degree = spec.first_degree; degree <= spec.last_degree; ++degree)
     for (const FitMethod method : kMethods) {
       if (method == FitMethod::three_point && degree != 2) continue;
       if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
       const auto series = fit(work, method, degree, std::nullopt, stop);
       if (!series) return tl::unexpected(series.error());
-      rows.push_back({method, degree, assess(work, *series)});
+      rows.push_back(describe(work, method, *series, assess(work, *series)));
     }
   return rows;
 }

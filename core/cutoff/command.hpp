@@ -55,13 +55,7 @@ struct Command {
   CommandErrors errors = {};
 };
 
-/// One row of the comparison table.
-struct ComparisonRow {
-  FitMethod method = FitMethod::minimax;
-  int degree = 0;
-  CommandErrors errors = {};
-};
-
+/// Which degrees the comparison table shows, within 1..8.
 struct ComparisonSpec {
   int first_degree = 2;
   int last_degree = 5;
@@ -76,7 +70,7 @@ struct ComparisonSpec {
 [[nodiscard]] Result<Command> command(const WorkFeed& work, const FitSpec& spec, std::stop_token stop = {});
 
 /// The four methods at each degree (three_point at 2 only), rows by degree, then method.
-[[nodiscard]] Result<std::vector<ComparisonRow>> comparison(const WorkFeed& work, const ComparisonSpec& spec,
+[[nodiscard]] Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec,
                                                             std::stop_token stop = {});
 
 }  // namespace tubecut::cutoff

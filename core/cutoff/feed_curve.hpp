@@ -50,7 +50,7 @@ struct FeedCurve {
   Work work = {};
   Table table = {};
   Command fit = {};
-  std::optional<std::vector<ComparisonRow>> comparison = {};
+  std::optional<std::vector<Command>> comparison = {};
   std::optional<Cycle> cycle = {};
   std::optional<ToolOutputs> tool = {};
   std::vector<Warning> warnings = {};

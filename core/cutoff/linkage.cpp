@@ -18,7 +18,7 @@ using elementary::sincos;
 
 constexpr double kDeadPointMargin = 1e-9;    // of 1 - rho cos e: nearer, the slot counts as tangent to the arm circle
 constexpr double kStrokeMargin = 1e-12;      // of the stroke's width, kept from both limits
-constexpr int kPeakScan = 512;               // steps of psi that separate the roots of g''
+constexpr int kPeakScan = 128;               // steps of psi that separate the roots of g''
 
 double reduced(double angle) {  // to (-pi, pi]
   return angle - kTwoPi * std::ceil((angle - kPi) / kTwoPi);
@@ -211,12 +211,17 @@ std::optional<double> Mechanism::find_peak() const {
     return offset_ * sin(turn) / (cos_psi_ * cos(psi - turn));
   };
   std::optional<double> peak;
-  for (int i = 0; i + 1 < kPeakScan; ++i) {
-    const double left = feed_at(i);
-    const double right = feed_at(i + 1);
-    if (!(inverse(left).second > 0.0) || inverse(right).second > 0.0) continue;
-    const double at = math::sign_change([this](double x) { return inverse(x).second; }, left, right);
-    if (!peak || inverse(at).first > inverse(*peak).first) peak = at;
+  double left = feed_at(0);
+  bool rising = inverse(left).second > 0.0;
+  for (int i = 1; i < kPeakScan; ++i) {
+    const double right = feed_at(i);
+    const bool rises_on = inverse(right).second > 0.0;
+    if (rising && !rises_on) {
+      const double at = math::sign_change([this](double x) { return inverse(x).second; }, left, right);
+      if (!peak || inverse(at).first > inverse(*peak).first) peak = at;
+    }
+    left = right;
+    rising = rises_on;
   }
   return peak;
 }
