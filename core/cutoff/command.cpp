@@ -25,11 +25,17 @@ Extent extent_of(const F& f, const std::vector<double>& grid) {
   return {-math::grid_maximum(minus, grid, negated).value, math::grid_maximum(f, grid, sampled).value};
 }
 
-CommandErrors assess(const WorkFeed& work, const ChebyshevSeries& series) {
+/// Errors  tan_pole: the command drives the cylinder beyond the linkage's range.
+Result<CommandErrors> assess(const WorkFeed& work, const ChebyshevSeries& series) {
   const auto& w = work.work();
   const auto& mechanism = work.mechanism();
   const auto integral = math::antiderivative(series);
-  const auto driven = [&](double t) { return mechanism.forward(w.start_stroke + math::value(integral, t)); };
+  const auto stroke = [&](double t) { return w.start_stroke + math::value(integral, t); };
+  const Extent driven_range = extent_of(stroke, work.speed().grid);
+  for (const double end : {driven_range.low, driven_range.high})
+    if (auto inside = mechanism.tool_feed(end); !inside)
+      return fail({.code = ErrorCode::tan_pole, .member = "fit", .got = end, .unit = "mm"});
+  const auto driven = [&](double t) { return mechanism.forward(stroke(t)); };
   CommandErrors out;
   out.speed = extent_of(
       [&](double t) {
@@ -119,7 +125,8 @@ Result<Command> automatic(const WorkFeed& work, const FitSpec& spec, std::stop_t
     const auto series = shifted_fit(work, spec, FitMethod::minimax, degree, stop);
     if (!series) return tl::unexpected(series.error());
     const auto errors = assess(work, *series);
-    if (errors.max_relative_error <= spec.tolerance) return describe(work, FitMethod::minimax, *series, errors);
+    if (errors && errors->max_relative_error <= spec.tolerance)
+      return describe(work, FitMethod::minimax, *series, *errors);
   }
   return fail({.code = ErrorCode::tolerance_not_met, .member = "fit/tolerance", .got = spec.tolerance});
 }
@@ -148,7 +155,9 @@ Result<Command> command(const WorkFeed& work, const FitSpec& spec, std::stop_tok
   if (spec.method == FitMethod::automatic) return automatic(work, spec, stop);
   const auto series = shifted_fit(work, spec, spec.method, spec.degree, stop);
   if (!series) return tl::unexpected(series.error());
-  return describe(work, spec.method, *series, assess(work, *series));
+  const auto errors = assess(work, *series);
+  if (!errors) return tl::unexpected(errors.error());
+  return describe(work, spec.method, *series, *errors);
 }
 
 Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec, std::stop_token stop) {
@@ -163,7 +172,7 @@ Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSp
       if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
       const auto series = fit(work, method, degree, std::nullopt, stop);
       if (!series) return tl::unexpected(series.error());
-      rows.push_back(describe(work, method, *series, assess(work, *series)));
+      if (const auto errors = assess(work, *series)) rows.push_back(describe(work, method, *series, *errors));
     }
   return rows;
 }

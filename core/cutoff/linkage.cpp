@@ -17,6 +17,7 @@ using elementary::sin;
 using elementary::sincos;
 
 constexpr double kDeadPointMargin = 1e-9;    // of 1 - rho cos e: nearer, the slot counts as tangent to the arm circle
+constexpr double kTangentMargin = 1e-6;      // of cos^2(theta - beta): nearer than 0.06 deg the inverse loses its digits
 constexpr double kStrokeMargin = 1e-12;      // of the stroke's width, kept from both limits
 constexpr int kPeakScan = 128;               // steps of psi that separate the roots of g''
 
@@ -103,7 +104,9 @@ Mechanism::Limit Mechanism::limit(double pole, double dead, bool upper) const {
   const bool dead_first = upper ? dead < pole : dead > pole;
   if (!dead_first) return {arm_turn(pole), {}, false};
   const double psi = geometry_.slot_elevation.rad();
-  return {arm_turn(dead), offset_ * sin(dead) / (cos_psi_ * cos(psi - dead)), true};
+  // sin(theta - beta) is exactly 1 or -1 there; through its cosine half the digits would be lost
+  const double turn = dead + (upper ? 0.5 * kPi : -0.5 * kPi) - atan2(sine_, cosine_);
+  return {turn, offset_ * sin(dead) / (cos_psi_ * cos(psi - dead)), true};
 }
 
 void Mechanism::set_limits() {
@@ -141,7 +144,10 @@ std::optional<Error> Mechanism::set_rate(const Linkage& l) {
 bool Mechanism::reaches(double feed) const {
   if (!std::isfinite(feed) || (low_.feed && feed <= *low_.feed) || (high_.feed && feed >= *high_.feed)) return false;
   const double margin = kStrokeMargin * (high_.turn - low_.turn);
-  const double turn = arm_turn(slot_turn(feed));
+  const double slot = slot_turn(feed);
+  const double sine = ratio_ * sin(slot_lag_ - slot);
+  if (!((1.0 - sine) * (1.0 + sine) > kTangentMargin)) return false;
+  const double turn = arm_turn(slot);
   return turn > low_.turn + margin && turn < high_.turn - margin;
 }
 

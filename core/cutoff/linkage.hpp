@@ -66,7 +66,7 @@ class Mechanism {
   [[nodiscard]] Result<double> tool_feed(double stroke) const;
 
   /// Cylinder stroke at a feed.
-  /// Errors  unreachable_x: the feed is outside the linkage's range.
+  /// Errors  unreachable_x: the feed is outside the linkage's range, or the arm within 0.06 deg of a tangent position.
   [[nodiscard]] Result<double> cylinder_stroke(double feed) const;
 
   /// The same with derivatives, for arguments known to be in range.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <random>
 
@@ -69,6 +70,7 @@ TEST(GoldenFits, All52) {
   const auto& fits = *at(json, "fits").as<api::Json::Array>();
   ASSERT_EQ(fits.size(), 52u);
   double worst_seconds = 0.0;
+  int unsound = 0;
   for (const auto& row : fits) {
     const auto method = methods().at(text(row, "method"));
     const int degree = static_cast<int>(number(row, "degree"));
@@ -88,9 +90,14 @@ TEST(GoldenFits, All52) {
       EXPECT_NEAR(got.seconds[i], seconds[i], 1e-8 * std::abs(seconds[i])) << i;
       worst_seconds = std::max(worst_seconds, std::abs(got.seconds[i] / seconds[i] - 1.0));
       const double unit = std::pow(10.0, std::floor(std::log10(std::abs(rounded[i]))) - got.digits + 1);
-      EXPECT_NEAR(got.seconds_rounded[i], rounded[i], 1.0000001 * unit) << i;
+      // Five of the file's rounded numbers (degree 5, ten digits) are not the rounding of its own 60-digit coefficients but
+      // of double precision ones, up to three units away: there only the tolerance of the coefficients can hold.
+      const bool sound = std::abs(rounded[i] - seconds[i]) <= 0.5001 * unit;
+      unsound += sound ? 0 : 1;
+      EXPECT_NEAR(got.seconds_rounded[i], rounded[i], sound ? 1.001 * unit : 1e-8 * std::abs(seconds[i])) << i;
     }
   }
+  EXPECT_EQ(unsound, 5);
   std::printf("worst seconds coefficient %.3g\n", worst_seconds);
 }
 
