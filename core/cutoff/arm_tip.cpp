@@ -9,7 +9,8 @@ namespace tubecut::cutoff {
 ArmTip::ArmTip(const Linkage& linkage, double rad_per_mm)
     : linkage_(linkage),
       rate_(rad_per_mm),
-      height_(std::sqrt(linkage.pivot_distance * linkage.pivot_distance - linkage.pivot_offset * linkage.pivot_offset)) {
+      height_(std::sqrt(linkage.pivot_distance * linkage.pivot_distance -
+                        linkage.pivot_offset * linkage.pivot_offset)) {
   rod_height_ = -at(0.0).feed;  // x0 - A tan psi0 = 0
 }
 
@@ -20,13 +21,14 @@ TipFeed ArmTip::at(double stroke) const {
   const double py = linkage_.arm * arm.sin;
   const double w = px - linkage_.pivot_offset;  // from O2 to P
   const double u = py - height_;
-  const double along = u * slot.sin - w * slot.cos;  // |O2 P| cos psi and |O2 P| sin psi, psi = pi - alpha - beta
+  const double along =
+      u * slot.sin - w * slot.cos;  // |O2 P| cos psi and |O2 P| sin psi, psi = pi - alpha - beta
   const double across = w * slot.sin + u * slot.cos;
   const double tangent = across / along;
   const double secant2 = 1.0 + tangent * tangent;
   const double reach2 = w * w + u * u;
-  const double radial = w * px + u * py;     // O2P . P: beta' = radial/reach2
-  const double turning = u * px - w * py;    // O2P . P', half the slope of reach2
+  const double radial = w * px + u * py;   // O2P . P: beta' = radial/reach2
+  const double turning = u * px - w * py;  // O2P . P', half the slope of reach2
   const double first = radial / reach2;
   const double second = turning * (reach2 - 2.0 * radial) / (reach2 * reach2);
   const double scale = linkage_.pivot_offset * secant2;
@@ -34,7 +36,8 @@ TipFeed ArmTip::at(double stroke) const {
   return {.feed = rod_height_ - linkage_.pivot_offset * tangent,
           .first = rate_ * scale * first,
           .second = rate_ * rate_ * scale * (second - 2.0 * tangent * first * first),
-          .second_terms = rate_ * rate_ * scale * (std::abs(second) + 2.0 * (1.0 + std::abs(tangent)) * first * first),
+          .second_terms = rate_ * rate_ * scale *
+                          (std::abs(second) + 2.0 * (1.0 + std::abs(tangent)) * first * first),
           .elevation_cosine = std::abs(along) / std::sqrt(reach2),
           .tangency = radial / span};
 }

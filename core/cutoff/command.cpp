@@ -12,8 +12,8 @@ namespace {
 
 using math::ChebyshevSeries;
 
-constexpr int kMostDigits = 17;           // every double comes back from 17 significant digits
-constexpr double kRoundingShare = 1.01;   // rounding may raise the speed error by 1 %
+constexpr int kMostDigits = 17;          // every double comes back from 17 significant digits
+constexpr double kRoundingShare = 1.01;  // rounding may raise the speed error by 1 %
 
 template <class F>
 Extent extent_of(const F& f, const std::vector<double>& grid) {
@@ -22,7 +22,8 @@ Extent extent_of(const F& f, const std::vector<double>& grid) {
   for (const double t : grid) sampled.push_back(f(t));
   for (const double value : sampled) negated.push_back(-value);
   const auto minus = [&f](double t) { return -f(t); };
-  return {-math::grid_maximum(minus, grid, negated).value, math::grid_maximum(f, grid, sampled).value};
+  return {-math::grid_maximum(minus, grid, negated).value,
+          math::grid_maximum(f, grid, sampled).value};
 }
 
 /// Errors  tan_pole: the command drives the cylinder beyond the linkage's range.
@@ -44,9 +45,10 @@ Result<CommandErrors> assess(const WorkFeed& work, const ChebyshevSeries& series
       },
       work.speed().grid);
   out.tool_speed =
-      extent_of([&](double t) { return math::value(series, t) * driven(t).rate / w.feed - 1.0; }, work.speed().grid);
-  out.tool_position =
-      extent_of([&](double t) { return driven(t).feed - (w.start_feed + w.feed * t); }, work.speed().grid);
+      extent_of([&](double t) { return math::value(series, t) * driven(t).rate / w.feed - 1.0; },
+                work.speed().grid);
+  out.tool_position = extent_of(
+      [&](double t) { return driven(t).feed - (w.start_feed + w.feed * t); }, work.speed().grid);
   out.max_relative_error = out.speed.largest();
   out.tool_ripple = out.tool_speed.largest();
   out.tool_position_error = out.tool_position.largest();
@@ -58,7 +60,8 @@ Result<CommandErrors> assess(const WorkFeed& work, const ChebyshevSeries& series
 
 double rounded(double value, int digits) {
   char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1).ptr;
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1).ptr;
   double out = 0.0;
   std::from_chars(text, end, out);
   return out;
@@ -72,7 +75,8 @@ double speed_error(const WorkFeed& work, const std::vector<double>& seconds) {
   };
   std::vector<double> sampled;
   for (std::size_t i = 0; i < curve.grid.size(); ++i)
-    sampled.push_back(std::abs(math::horner(seconds, curve.grid[i]) - curve.values[i]) / curve.values[i]);
+    sampled.push_back(std::abs(math::horner(seconds, curve.grid[i]) - curve.values[i]) /
+                      curve.values[i]);
   return math::grid_maximum(error, curve.grid, sampled).value;
 }
 
@@ -84,21 +88,27 @@ void round_coefficients(const WorkFeed& work, Command& out) {
     out.rounded_max_relative_error = speed_error(work, out.seconds_rounded);
     if (out.rounded_max_relative_error <= allowed) return;
   }
-  out.digits = kMostDigits;  // the error is at the rounding floor; these are the coefficients themselves
+  out.digits =
+      kMostDigits;  // the error is at the rounding floor; these are the coefficients themselves
 }
 
 Result<ChebyshevSeries> fit(const WorkFeed& work, FitMethod method, int degree,
-                            const std::optional<std::array<double, 3>>& nodes, std::stop_token stop) {
+                            const std::optional<std::array<double, 3>>& nodes,
+                            std::stop_token stop) {
   switch (method) {
-    case FitMethod::three_point: return three_point(work, nodes);
-    case FitMethod::equispaced: return equispaced(work, degree);
-    case FitMethod::least_squares: return least_squares(work, degree);
-    default: return minimax(work, degree, stop);
+    case FitMethod::three_point:
+      return three_point(work, nodes);
+    case FitMethod::equispaced:
+      return equispaced(work, degree);
+    case FitMethod::least_squares:
+      return least_squares(work, degree);
+    default:
+      return minimax(work, degree, stop);
   }
 }
 
-Result<ChebyshevSeries> shifted_fit(const WorkFeed& work, const FitSpec& spec, FitMethod method, int degree,
-                                    std::stop_token stop) {
+Result<ChebyshevSeries> shifted_fit(const WorkFeed& work, const FitSpec& spec, FitMethod method,
+                                    int degree, std::stop_token stop) {
   auto series = fit(work, method, degree, spec.nodes, stop);
   if (!series || !spec.preserve_stroke) return series;
   const auto& w = work.work();
@@ -107,7 +117,8 @@ Result<ChebyshevSeries> shifted_fit(const WorkFeed& work, const FitSpec& spec, F
   return series;
 }
 
-Command describe(const WorkFeed& work, FitMethod method, const ChebyshevSeries& series, const CommandErrors& errors) {
+Command describe(const WorkFeed& work, FitMethod method, const ChebyshevSeries& series,
+                 const CommandErrors& errors) {
   Command out;
   out.method = method;
   out.degree = static_cast<int>(series.coefficients.size()) - 1;
@@ -128,7 +139,8 @@ Result<Command> automatic(const WorkFeed& work, const FitSpec& spec, std::stop_t
     if (errors && errors->max_relative_error <= spec.tolerance)
       return describe(work, FitMethod::minimax, *series, *errors);
   }
-  return fail({.code = ErrorCode::tolerance_not_met, .member = "fit/tolerance", .got = spec.tolerance});
+  return fail(
+      {.code = ErrorCode::tolerance_not_met, .member = "fit/tolerance", .got = spec.tolerance});
 }
 
 std::optional<Error> check(const FitSpec& spec) {
@@ -136,8 +148,10 @@ std::optional<Error> check(const FitSpec& spec) {
     return Error{{.code = code, .member = member, .got = got, .limit = std::move(limit)}};
   };
   const double degree = spec.degree;
-  if (spec.method == FitMethod::equispaced) return Error{{.code = ErrorCode::bad_choice, .member = "fit/method"}};
-  if (spec.method == FitMethod::automatic && !(spec.tolerance > 0.0 && std::isfinite(spec.tolerance)))
+  if (spec.method == FitMethod::equispaced)
+    return Error{{.code = ErrorCode::bad_choice, .member = "fit/method"}};
+  if (spec.method == FitMethod::automatic &&
+      !(spec.tolerance > 0.0 && std::isfinite(spec.tolerance)))
     return wrong(ErrorCode::out_of_range, "fit/tolerance", spec.tolerance, "> 0");
   if (spec.method != FitMethod::automatic && (spec.degree < 1 || spec.degree > kHighestDegree))
     return wrong(ErrorCode::out_of_range, "fit/degree", degree, Intervals{{1.0, kHighestDegree}});
@@ -160,11 +174,15 @@ Result<Command> command(const WorkFeed& work, const FitSpec& spec, std::stop_tok
   return describe(work, spec.method, *series, *errors);
 }
 
-Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec, std::stop_token stop) {
-  if (spec.first_degree < 1 || spec.last_degree > kHighestDegree || spec.first_degree > spec.last_degree)
-    return fail({.code = ErrorCode::out_of_range, .member = "comparison", .limit = Intervals{{1.0, kHighestDegree}}});
-  constexpr FitMethod kMethods[] = {FitMethod::three_point, FitMethod::equispaced, FitMethod::least_squares,
-                                    FitMethod::minimax};
+Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec,
+                                        std::stop_token stop) {
+  if (spec.first_degree < 1 || spec.last_degree > kHighestDegree ||
+      spec.first_degree > spec.last_degree)
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "comparison",
+                 .limit = Intervals{{1.0, kHighestDegree}}});
+  constexpr FitMethod kMethods[] = {FitMethod::three_point, FitMethod::equispaced,
+                                    FitMethod::least_squares, FitMethod::minimax};
   std::vector<Command> rows;
   for (int degree = spec.first_degree; degree <= spec.last_degree; ++degree)
     for (const FitMethod method : kMethods) {
@@ -172,7 +190,8 @@ Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSp
       if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
       const auto series = fit(work, method, degree, std::nullopt, stop);
       if (!series) return tl::unexpected(series.error());
-      if (const auto errors = assess(work, *series)) rows.push_back(describe(work, method, *series, *errors));
+      if (const auto errors = assess(work, *series))
+        rows.push_back(describe(work, method, *series, *errors));
     }
   return rows;
 }

@@ -10,7 +10,7 @@ namespace tubecut::cutoff {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
-constexpr int kFeedSteps = 64;        // of the search for the slowest feed that meets a target
+constexpr int kFeedSteps = 64;  // of the search for the slowest feed that meets a target
 constexpr std::size_t kStopEvery = 4096;
 
 CylinderLimits limits_of(const CycleSpec& spec) {
@@ -60,7 +60,8 @@ struct Plan {
   }
 };
 
-tl::unexpected<Error> above(ErrorCode code, const char* member, double got, double limit, const char* unit) {
+tl::unexpected<Error> above(ErrorCode code, const char* member, double got, double limit,
+                            const char* unit) {
   return fail({.code = code, .member = member, .got = got, .limit = limit, .unit = unit});
 }
 
@@ -68,17 +69,23 @@ Result<Plan> plan(const Window& window, double v, const CycleSpec& spec) {
   const auto limits = limits_of(spec);
   const Work& unit = window.at_unit_feed;
   if (const double got = v * unit.max_cylinder_speed; got > limits.speed)
-    return above(ErrorCode::work_speed_above_limit, "cycle/max_cylinder_speed", got, limits.speed, "mm_s");
+    return above(ErrorCode::work_speed_above_limit, "cycle/max_cylinder_speed", got, limits.speed,
+                 "mm_s");
   if (const double got = v * v * unit.max_cylinder_acceleration; got > limits.acceleration)
-    return above(ErrorCode::work_accel_above_limit, "cycle/max_cylinder_acceleration", got, limits.acceleration, "mm_s2");
+    return above(ErrorCode::work_accel_above_limit, "cycle/max_cylinder_acceleration", got,
+                 limits.acceleration, "mm_s2");
   if (const double got = v * v * v * unit.max_cylinder_jerk; got > limits.jerk)
-    return above(ErrorCode::work_accel_above_limit, "cycle/max_cylinder_jerk", got, limits.jerk, "mm_s3");
+    return above(ErrorCode::work_accel_above_limit, "cycle/max_cylinder_jerk", got, limits.jerk,
+                 "mm_s3");
   Plan out;
   const double speed_in = v * window.start.first;
   const auto approach = rapid_move(unit.start_stroke, speed_in, limits);
   if (!approach)
-    return fail({.code = ErrorCode::approach_too_short, .member = "cut", .got = unit.start_stroke,
-                 .limit = ramp(0.0, speed_in, limits).distance, .unit = "mm",
+    return fail({.code = ErrorCode::approach_too_short,
+                 .member = "cut",
+                 .got = unit.start_stroke,
+                 .limit = ramp(0.0, speed_in, limits).distance,
+                 .unit = "mm",
                  .hint = "cylinder stroke of the approach, and of the ramp to the work speed"});
   out.approach = *approach;
   out.work_duration = (unit.end_feed - unit.start_feed) / v;
@@ -86,17 +93,24 @@ Result<Plan> plan(const Window& window, double v, const CycleSpec& spec) {
   out.stop_stroke = unit.end_stroke + out.stop.distance;
   const auto stop_feed = window.mechanism.tool_feed(out.stop_stroke);
   if (!stop_feed)
-    return fail({.code = ErrorCode::unreachable_x, .member = "cut", .got = out.stop_stroke,
-                 .limit = window.mechanism.geometry().stroke_high, .unit = "mm", .hint = "stroke of the stop ramp"});
+    return fail({.code = ErrorCode::unreachable_x,
+                 .member = "cut",
+                 .got = out.stop_stroke,
+                 .limit = window.mechanism.geometry().stroke_high,
+                 .unit = "mm",
+                 .hint = "stroke of the stop ramp"});
   out.stop_feed = *stop_feed;
   if (spec.max_feed && out.stop_feed > *spec.max_feed)
-    return above(ErrorCode::max_feed_exceeded, "cycle/max_feed", out.stop_feed, *spec.max_feed, "mm");
-  out.back = rapid_move(out.stop_stroke, 0.0, limits).value_or(RapidMove{});  // from rest to rest over > 0 it exists
+    return above(ErrorCode::max_feed_exceeded, "cycle/max_feed", out.stop_feed, *spec.max_feed,
+                 "mm");
+  out.back = rapid_move(out.stop_stroke, 0.0, limits)
+                 .value_or(RapidMove{});  // from rest to rest over > 0 it exists
   return out;
 }
 
-/// The slowest feed whose cycle takes at most `seconds`. Up to some feed every plan is possible, beyond it none; below it
-/// the cycle shortens with the feed but for the longer ramps, so a scan finds the first step that meets the target.
+/// The slowest feed whose cycle takes at most `seconds`. Up to some feed every plan is possible,
+/// beyond it none; below it the cycle shortens with the feed but for the longer ramps, so a scan
+/// finds the first step that meets the target.
 std::optional<double> feed_for(const Window& window, const CycleSpec& spec, double seconds) {
   const auto possible = [&](double v) { return plan(window, v, spec).has_value(); };
   const auto meets = [&](double v) {
@@ -111,7 +125,8 @@ std::optional<double> feed_for(const Window& window, const CycleSpec& spec, doub
   for (int i = 1; i <= kFeedSteps; ++i) {
     const double step = static_cast<double>(i) / kFeedSteps;
     const double v = i == kFeedSteps ? fastest : slowest + (fastest - slowest) * step * step * step;
-    if (meets(v)) return math::sign_change([&](double x) { return meets(x) ? 1.0 : -1.0; }, below, v);
+    if (meets(v))
+      return math::sign_change([&](double x) { return meets(x) ? 1.0 : -1.0; }, below, v);
     below = v;
   }
   return std::nullopt;
@@ -129,8 +144,8 @@ CycleTarget target_of(const Window& window, const CycleSpec& spec, const Cycle& 
 }
 
 /// Constant-jerk phases of everything but the work feed, in time order.
-std::vector<Phase> phases_of(const Plan& plan, const Cycle& c, double start_stroke, double end_stroke,
-                             const CycleSpec& spec) {
+std::vector<Phase> phases_of(const Plan& plan, const Cycle& c, double start_stroke,
+                             double end_stroke, const CycleSpec& spec) {
   const auto limits = limits_of(spec);
   std::vector<Phase> motion;
   const auto cruise = [&motion](Phase at, double duration) {
@@ -141,8 +156,10 @@ std::vector<Phase> phases_of(const Plan& plan, const Cycle& c, double start_stro
   Phase here = append_ramp(motion, {}, 0.0, plan.approach.peak, 1.0, limits);
   here = cruise(here, plan.approach.cruise);
   here = append_ramp(motion, here, plan.approach.peak, c.speed_in, 1.0, limits);
-  motion.push_back({c.work_start, plan.work_duration, start_stroke, c.speed_in, 0.0, 0.0});  // the work feed, by its map
-  here = append_ramp(motion, {c.work_end, 0.0, end_stroke, c.speed_out, 0.0, 0.0}, c.speed_out, 0.0, 1.0, limits);
+  motion.push_back({c.work_start, plan.work_duration, start_stroke, c.speed_in, 0.0,
+                    0.0});  // the work feed, by its map
+  here = append_ramp(motion, {c.work_end, 0.0, end_stroke, c.speed_out, 0.0, 0.0}, c.speed_out, 0.0,
+                     1.0, limits);
   here = cruise({c.stop, 0.0, plan.stop_stroke, 0.0, 0.0, 0.0}, spec.dwell);
   here = append_ramp(motion, here, 0.0, plan.back.peak, -1.0, limits);
   here = cruise(here, plan.back.cruise);
@@ -160,12 +177,15 @@ void push(CycleSamples& to, double time, const CylinderState& state, double feed
   to.feed_speed.push_back(feed_speed);
 }
 
-Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vector<Phase>& motion, double period,
-                            std::stop_token stop) {
+Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vector<Phase>& motion,
+                            double period, std::stop_token stop) {
   const double count = std::ceil(c.end / period) + 1.0;
   if (!(count <= static_cast<double>(kMostSamples)))
-    return fail({.code = ErrorCode::too_many_samples, .member = "cycle/period", .got = period,
-                 .limit = c.end / static_cast<double>(kMostSamples - 1), .unit = "s"});
+    return fail({.code = ErrorCode::too_many_samples,
+                 .member = "cycle/period",
+                 .got = period,
+                 .limit = c.end / static_cast<double>(kMostSamples - 1),
+                 .unit = "s"});
   CycleSamples out;
   std::size_t now = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -178,7 +198,8 @@ Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vec
     }
     const Phase here = after(motion[now], time - motion[now].start);
     const Forward tool = work.mechanism().forward(here.stroke);
-    push(out, time, {tool.feed, here.stroke, here.speed, here.acceleration, here.jerk}, tool.rate * here.speed);
+    push(out, time, {tool.feed, here.stroke, here.speed, here.acceleration, here.jerk},
+         tool.rate * here.speed);
   }
   return out;
 }
@@ -208,7 +229,8 @@ Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec, std::stop_token
   out.approach_peak = planned->approach.peak;
   out.return_peak = planned->back.peak;
   if (spec.target) out.target = target_of(window, spec, out, v);
-  const auto motion = phases_of(*planned, out, work.work().start_stroke, work.work().end_stroke, spec);
+  const auto motion =
+      phases_of(*planned, out, work.work().start_stroke, work.work().end_stroke, spec);
   auto samples = sample(work, out, motion, spec.period, stop);
   if (!samples) return tl::unexpected(samples.error());
   out.samples = *std::move(samples);

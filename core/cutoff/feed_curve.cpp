@@ -18,7 +18,9 @@ void push(Table& table, double time, const CylinderState& state) {
 
 Result<Table> tabulate(const WorkFeed& work, const TablePoints& spec) {
   if (spec.points < 2 || spec.points > kMostTablePoints)
-    return fail({.code = ErrorCode::out_of_range, .member = "table/points", .got = static_cast<double>(spec.points),
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "table/points",
+                 .got = static_cast<double>(spec.points),
                  .limit = Intervals{{2.0, kMostTablePoints}}});
   Table out;
   for (int i = 0; i < spec.points; ++i) {
@@ -34,10 +36,14 @@ Result<Table> tabulate(const WorkFeed& work, const TableStep& spec) {
   if (auto wrong = on.error()) return tl::unexpected(*wrong);
   const auto& w = work.work();
   const double range = w.end_feed - w.start_feed;
-  const double steps = std::ceil(range / spec.step * (1.0 - 1e-12));  // a step that divides the range ends on it
+  const double steps =
+      std::ceil(range / spec.step * (1.0 - 1e-12));  // a step that divides the range ends on it
   if (steps + 1.0 > kMostTableRows)
-    return fail({.code = ErrorCode::out_of_range, .member = "table/step", .got = spec.step,
-                 .limit = range / (kMostTableRows - 1.0), .unit = "mm"});
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "table/step",
+                 .got = spec.step,
+                 .limit = range / (kMostTableRows - 1.0),
+                 .unit = "mm"});
   Table out;
   for (int i = 0; i < static_cast<int>(steps); ++i) {
     const double time = spec.step * i / w.feed;
@@ -48,11 +54,14 @@ Result<Table> tabulate(const WorkFeed& work, const TableStep& spec) {
 }
 
 std::vector<Warning> warnings_of(const FeedCurveSpec& spec, const Work& work) {
-  std::vector<Warning> out{{WarningCode::polynomial_window, "fit", "valid from the start of the work feed to its end"}};
-  if (!work.time_at_peak) out.push_back({WarningCode::monotone_work_range, "cut", "the cylinder speed is monotone"});
+  std::vector<Warning> out{
+      {WarningCode::polynomial_window, "fit", "valid from the start of the work feed to its end"}};
+  if (!work.time_at_peak)
+    out.push_back({WarningCode::monotone_work_range, "cut", "the cylinder speed is monotone"});
   if (!spec.tube) return out;
   auto notes = tube_warnings(*spec.tube);
-  out.insert(out.end(), std::make_move_iterator(notes.begin()), std::make_move_iterator(notes.end()));
+  out.insert(out.end(), std::make_move_iterator(notes.begin()),
+             std::make_move_iterator(notes.end()));
   return out;
 }
 

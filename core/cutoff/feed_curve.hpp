@@ -59,12 +59,13 @@ struct FeedCurve {
 inline constexpr int kMostTablePoints = 20'000;
 inline constexpr double kMostTableRows = 100'000.0;
 
-/// Table, polynomial command, cycle and cutting figures of a constant tool feed through one linkage.
+/// Table, polynomial command, cycle and cutting figures of a constant tool feed through one
+/// linkage.
 ///
-/// Errors    those of Mechanism::make, WorkFeed::make, command, comparison, cycle and tool_outputs; out_of_range for the table.
-/// Accuracy  strokes and speeds 1e-12 relative, accelerations 1e-12 of their largest value.
-/// Cost      about 1 us a table row or servo sample, 2 ms a fit.
-/// Source    docs/theory/feed-curves.md.
+/// Errors    those of Mechanism::make, WorkFeed::make, command, comparison, cycle and tool_outputs;
+/// out_of_range for the table. Accuracy  strokes and speeds 1e-12 relative, accelerations 1e-12 of
+/// their largest value. Cost      about 1 us a table row or servo sample, 2 ms a fit. Source
+/// docs/theory/feed-curves.md.
 [[nodiscard]] Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop = {});
 
 }  // namespace tubecut::cutoff

@@ -19,13 +19,18 @@ math::ChebyshevSeries through(const WorkFeed& work, const std::vector<double>& n
 
 }  // namespace
 
-Result<math::ChebyshevSeries> three_point(const WorkFeed& work, const std::optional<std::array<double, 3>>& nodes) {
+Result<math::ChebyshevSeries> three_point(const WorkFeed& work,
+                                          const std::optional<std::array<double, 3>>& nodes) {
   const double duration = work.work().duration;
-  if (!nodes) return through(work, {0.0, work.work().time_at_peak.value_or(0.5 * duration), duration});
+  if (!nodes)
+    return through(work, {0.0, work.work().time_at_peak.value_or(0.5 * duration), duration});
   const auto [first, second, third] = *nodes;
   const bool ascending = first >= 0.0 && first < second && second < third && third <= duration;
   if (!ascending)
-    return fail({.code = ErrorCode::bad_nodes, .member = "fit/nodes", .limit = Intervals{{0.0, duration}}, .unit = "s"});
+    return fail({.code = ErrorCode::bad_nodes,
+                 .member = "fit/nodes",
+                 .limit = Intervals{{0.0, duration}},
+                 .unit = "s"});
   return through(work, {first, second, third});
 }
 
@@ -40,9 +45,11 @@ math::ChebyshevSeries least_squares(const WorkFeed& work, int degree) {
   const auto rule = math::gauss_legendre(kGaussPoints);
   std::vector<double> projected(static_cast<std::size_t>(degree) + 1);
   for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-    const double weighted = rule.weights[i] * work.cylinder_speed(0.5 * duration * (1.0 + rule.nodes[i]));
+    const double weighted =
+        rule.weights[i] * work.cylinder_speed(0.5 * duration * (1.0 + rule.nodes[i]));
     const auto p = math::legendre(degree, rule.nodes[i]);
-    for (std::size_t n = 0; n < p.size(); ++n) projected[n] += (static_cast<double>(n) + 0.5) * weighted * p[n];
+    for (std::size_t n = 0; n < p.size(); ++n)
+      projected[n] += (static_cast<double>(n) + 0.5) * weighted * p[n];
   }
   const auto projection = [&](double t) {
     const auto p = math::legendre(degree, 2.0 * t / duration - 1.0);

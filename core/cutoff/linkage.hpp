@@ -14,7 +14,8 @@ struct MeasuredPair {
 };
 
 /// The linkage between cylinder and tool of a rotary cut-off machine. Lengths in mm.
-/// Frame: arm pivot O1 at the origin, X towards the slot plate's pivot O2, angles anticlockwise, rod line X = 0.
+/// Frame: arm pivot O1 at the origin, X towards the slot plate's pivot O2, angles anticlockwise,
+/// rod line X = 0.
 struct Linkage {
   double arm = 0.0;             // R1, > 0
   double pivot_distance = 0.0;  // R2 = |O1 O2|, >= pivot_offset
@@ -27,14 +28,15 @@ struct Linkage {
 
 /// What the linkage alone decides. Empty limits are infinite.
 struct Geometry {
-  double rod_height = 0.0;      // x0, mm
-  Angle slot_elevation = {};    // psi0 of slot 2 at rest
-  double stroke_low = 0.0;      // open interval of the stroke, mm
+  double rod_height = 0.0;    // x0, mm
+  Angle slot_elevation = {};  // psi0 of slot 2 at rest
+  double stroke_low = 0.0;    // open interval of the stroke, mm
   double stroke_high = 0.0;
-  std::optional<double> feed_low = {};   // open interval of the feed, mm
+  std::optional<double> feed_low = {};  // open interval of the feed, mm
   std::optional<double> feed_high = {};
-  std::optional<double> feed_at_peak = {};  // where the cylinder runs fastest at constant feed; independent of k
-  double rad_per_mm = 0.0;      // k used
+  std::optional<double> feed_at_peak =
+      {};                   // where the cylinder runs fastest at constant feed; independent of k
+  double rad_per_mm = 0.0;  // k used
 };
 
 /// Tool feed and its derivative by the stroke.
@@ -51,22 +53,26 @@ struct Inverse {
   double third = 0.0;   // g''', 1/mm^2
 };
 
-/// The maps between cylinder stroke y and tool feed x of one linkage, both 0 at rest, in closed form.
+/// The maps between cylinder stroke y and tool feed x of one linkage, both 0 at rest, in closed
+/// form.
 ///
 /// Accuracy  feed(stroke(x)) = x within 1e-12 of |x| + A/cos^2 psi0, 1 % away from the limits.
 /// Source    docs/theory/feed-curves.md, section 2.
 class Mechanism {
  public:
-  /// Errors  out_of_range, not_finite, exclusive_fields, r2_lt_a, dead_point, reversed, slot_off_rod; unreachable_x for the
+  /// Errors  out_of_range, not_finite, exclusive_fields, r2_lt_a, dead_point, reversed,
+  /// slot_off_rod; unreachable_x for the
   ///         feed of a calibration.
   [[nodiscard]] static Result<Mechanism> make(const Linkage& linkage);
 
   /// Tool feed at a stroke.
-  /// Errors  tan_pole or dead_point: the stroke is outside (stroke_low, stroke_high) shrunk by 1e-12 of its width.
+  /// Errors  tan_pole or dead_point: the stroke is outside (stroke_low, stroke_high) shrunk by
+  /// 1e-12 of its width.
   [[nodiscard]] Result<double> tool_feed(double stroke) const;
 
   /// Cylinder stroke at a feed.
-  /// Errors  unreachable_x: the feed is outside the linkage's range, or the arm within 0.06 deg of a tangent position.
+  /// Errors  unreachable_x: the feed is outside the linkage's range, or the arm within 0.06 deg of
+  /// a tangent position.
   [[nodiscard]] Result<double> cylinder_stroke(double feed) const;
 
   /// The same with derivatives, for arguments known to be in range.
@@ -86,21 +92,23 @@ class Mechanism {
     bool dead_point = false;
   };
   Mechanism() = default;
-  [[nodiscard]] double slot_turn(double feed) const;       // beta - beta0
-  [[nodiscard]] double arm_turn(double slot_turn) const;   // theta - theta0
-  [[nodiscard]] Limit limit(double slot_turn_at_pole, double slot_turn_at_dead_point, bool upper) const;
+  [[nodiscard]] double slot_turn(double feed) const;      // beta - beta0
+  [[nodiscard]] double arm_turn(double slot_turn) const;  // theta - theta0
+  [[nodiscard]] Limit limit(double slot_turn_at_pole, double slot_turn_at_dead_point,
+                            bool upper) const;
   [[nodiscard]] std::optional<double> find_peak() const;
+  [[nodiscard]] std::optional<Error> set_rest(const Linkage& linkage);
   [[nodiscard]] std::optional<Error> set_rate(const Linkage& linkage);
   void set_limits();
 
-  double offset_ = 0.0;       // A
-  double ratio_ = 0.0;        // rho = R2/R1
+  double offset_ = 0.0;  // A
+  double ratio_ = 0.0;   // rho = R2/R1
   double one_minus_ratio_ = 0.0;
-  double lag_ = 0.0;          // e0 = gamma - theta0
-  double slot_lag_ = 0.0;     // delta0 = gamma - beta0
-  double sine_ = 0.0;         // sin(theta0 - beta0)
-  double cosine_ = 0.0;       // cos(theta0 - beta0), > 0
-  double cos_psi_ = 0.0;      // cos psi0, > 0
+  double lag_ = 0.0;       // e0 = gamma - theta0
+  double slot_lag_ = 0.0;  // delta0 = gamma - beta0
+  double sine_ = 0.0;      // sin(theta0 - beta0)
+  double cosine_ = 0.0;    // cos(theta0 - beta0), > 0
+  double cos_psi_ = 0.0;   // cos psi0, > 0
   double k_ = 0.0;
   Limit low_ = {};
   Limit high_ = {};

@@ -10,7 +10,8 @@
 
 namespace tubecut::cutoff {
 
-/// Collects what one number alone can have wrong, so that one answer names every field. NaN fails every test.
+/// Collects what one number alone can have wrong, so that one answer names every field. NaN fails
+/// every test.
 class Preconditions {
  public:
   explicit Preconditions(std::string prefix) : prefix_(std::move(prefix)) {}
@@ -21,10 +22,12 @@ class Preconditions {
   void not_negative(const std::string& member, double value, const std::string& unit) {
     require(value >= 0.0, member, value, ">= 0", unit);
   }
-  void require(bool holds, const std::string& member, double value, Shown limit, const std::string& unit) {
+  void require(bool holds, const std::string& member, double value, Shown limit,
+               const std::string& unit) {
     const bool finite = std::isfinite(value);
     if (holds && finite) return;
-    Issue issue{.code = finite ? ErrorCode::out_of_range : ErrorCode::not_finite, .member = prefix_ + member};
+    Issue issue{.code = finite ? ErrorCode::out_of_range : ErrorCode::not_finite,
+                .member = prefix_ + member};
     if (finite) issue.got = value;
     issue.limit = std::move(limit);
     issue.unit = unit;

@@ -37,7 +37,8 @@ Ramp ramp(double from, double to, const CylinderLimits& limits) {
   return {duration, 0.5 * (from + to) * duration};
 }
 
-std::optional<RapidMove> rapid_move(double distance, double end_speed, const CylinderLimits& limits) {
+std::optional<RapidMove> rapid_move(double distance, double end_speed,
+                                    const CylinderLimits& limits) {
   const auto ramps = [&](double peak) {
     const Ramp up = ramp(0.0, peak, limits);
     const Ramp down = ramp(peak, end_speed, limits);
@@ -46,15 +47,16 @@ std::optional<RapidMove> rapid_move(double distance, double end_speed, const Cyl
   if (!(distance > 0.0) || ramps(end_speed).distance > distance) return std::nullopt;
   double peak = limits.speed;
   if (ramps(peak).distance > distance)
-    peak = math::last_true([&](double v) { return ramps(v).distance <= distance; }, end_speed, limits.speed);
+    peak = math::last_true([&](double v) { return ramps(v).distance <= distance; }, end_speed,
+                           limits.speed);
   if (!(peak > 0.0)) return std::nullopt;
   const Ramp both = ramps(peak);
   const double cruise = (distance - both.distance) / peak;
   return RapidMove{peak, cruise, both.duration + cruise};
 }
 
-Phase append_ramp(std::vector<Phase>& motion, const Phase& from, double from_speed, double to_speed, double sign,
-                  const CylinderLimits& limits) {
+Phase append_ramp(std::vector<Phase>& motion, const Phase& from, double from_speed, double to_speed,
+                  double sign, const CylinderLimits& limits) {
   const auto times = ramp_times(std::abs(to_speed - from_speed), limits);
   const double jerk = (to_speed > from_speed ? sign : -sign) * limits.jerk;
   const double durations[] = {times.jerk, times.constant, times.jerk};
@@ -68,7 +70,12 @@ Phase append_ramp(std::vector<Phase>& motion, const Phase& from, double from_spe
     here = after(here, durations[i]);
   }
   const Ramp whole = ramp(from_speed, to_speed, limits);
-  return {from.start + whole.duration, 0.0, from.stroke + sign * whole.distance, sign * to_speed, 0.0, 0.0};
+  return {from.start + whole.duration,
+          0.0,
+          from.stroke + sign * whole.distance,
+          sign * to_speed,
+          0.0,
+          0.0};
 }
 
 }  // namespace tubecut::cutoff

@@ -39,17 +39,18 @@ struct RapidMove {
   double duration = 0.0;  // s
 };
 
-/// The rapid move over `distance` that starts at rest and leaves at `end_speed` (<= the speed limit); empty when the ramp
-/// to `end_speed` alone is longer.
+/// The rapid move over `distance` that starts at rest and leaves at `end_speed` (<= the speed
+/// limit); empty when the ramp to `end_speed` alone is longer.
 ///
-/// Accuracy  the peak of a short move is the last double that fits; the rest of the distance goes into the cruise.
-/// Cost      at most 128 bisections.
-/// Source    docs/theory/feed-curves.md, section 5.
-[[nodiscard]] std::optional<RapidMove> rapid_move(double distance, double end_speed, const CylinderLimits& limits);
+/// Accuracy  the peak of a short move is the last double that fits; the rest of the distance goes
+/// into the cruise. Cost      at most 128 bisections. Source    docs/theory/feed-curves.md,
+/// section 5.
+[[nodiscard]] std::optional<RapidMove> rapid_move(double distance, double end_speed,
+                                                  const CylinderLimits& limits);
 
-/// Appends the phases of a ramp (three at most) to a motion; `sign` is its direction, speeds are magnitudes.
-/// Returns the state at its end: acceleration exactly 0, speed exactly sign * to_speed.
-[[nodiscard]] Phase append_ramp(std::vector<Phase>& motion, const Phase& from, double from_speed, double to_speed,
-                                double sign, const CylinderLimits& limits);
+/// Appends the phases of a ramp (three at most) to a motion; `sign` is its direction, speeds are
+/// magnitudes. Returns the state at its end: acceleration exactly 0, speed exactly sign * to_speed.
+[[nodiscard]] Phase append_ramp(std::vector<Phase>& motion, const Phase& from, double from_speed,
+                                double to_speed, double sign, const CylinderLimits& limits);
 
 }  // namespace tubecut::cutoff

@@ -20,7 +20,9 @@ std::optional<Error> check_tool(const ToolSpec& tool) {
 }
 
 /// Height of the ridge that a corner of `radius` leaves between two passes `feed` apart, um.
-double ideal_roughness(double feed, double radius) { return kUmPerMm * feed * feed / (8.0 * radius); }
+double ideal_roughness(double feed, double radius) {
+  return kUmPerMm * feed * feed / (8.0 * radius);
+}
 
 WallCut wall_cut(const ToolSpec& tool, const TubeSpec& tube, double feed) {
   const double bore = tube.outer_diameter - 2.0 * tube.wall;
@@ -42,21 +44,26 @@ std::optional<Error> check_tube(const TubeSpec& tube) {
   on.positive("wall", tube.wall, "mm");
   if (auto wrong = on.error()) return wrong;
   if (tube.wall < 0.5 * tube.outer_diameter) return std::nullopt;
-  return Error{{.code = ErrorCode::wall_too_thick, .member = "tube/wall", .got = tube.wall,
-                .limit = 0.5 * tube.outer_diameter, .unit = "mm"}};
+  return Error{{.code = ErrorCode::wall_too_thick,
+                .member = "tube/wall",
+                .got = tube.wall,
+                .limit = 0.5 * tube.outer_diameter,
+                .unit = "mm"}};
 }
 
 std::vector<Warning> tube_warnings(const TubeSpec& tube) {
   std::vector<Warning> out;
   if (tube.outer_diameter < 89.0 || tube.outer_diameter > 195.0)
-    out.push_back({WarningCode::tube_outside_range, "tube/outer_diameter", "the source's machine cuts 89 to 195 mm"});
+    out.push_back({WarningCode::tube_outside_range, "tube/outer_diameter",
+                   "the source's machine cuts 89 to 195 mm"});
   if (tube.wall < 6.0 || tube.wall > 25.0)
-    out.push_back({WarningCode::tube_outside_range, "tube/wall", "the source's machine cuts walls of 6 to 25 mm"});
+    out.push_back({WarningCode::tube_outside_range, "tube/wall",
+                   "the source's machine cuts walls of 6 to 25 mm"});
   return out;
 }
 
-Result<ToolOutputs> tool_outputs(const ToolSpec& tool, const std::optional<TubeSpec>& tube, double feed,
-                                 double ripple) {
+Result<ToolOutputs> tool_outputs(const ToolSpec& tool, const std::optional<TubeSpec>& tube,
+                                 double feed, double ripple) {
   if (auto wrong = check_tool(tool)) return tl::unexpected(*wrong);
   ToolOutputs out;
   out.feed_per_revolution = kSecondsPerMinute * feed / tool.disc;

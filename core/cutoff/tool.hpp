@@ -33,26 +33,29 @@ struct WallCut {
 
 /// Kinematic figures only: no chatter, no force.
 struct ToolOutputs {
-  double feed_per_revolution = 0.0;     // mm
-  double feed_per_blade = 0.0;          // mm
-  double feed_per_blade_low = 0.0;      // mm, at the command's lowest tool speed
-  double feed_per_blade_high = 0.0;     // mm
-  double roughness = 0.0;               // ideal R_t, um
-  double roughness_one_blade = 0.0;     // um, if one blade stands proud
+  double feed_per_revolution = 0.0;  // mm
+  double feed_per_blade = 0.0;       // mm
+  double feed_per_blade_low = 0.0;   // mm, at the command's lowest tool speed
+  double feed_per_blade_high = 0.0;  // mm
+  double roughness = 0.0;            // ideal R_t, um
+  double roughness_one_blade = 0.0;  // um, if one blade stands proud
   std::optional<WallCut> wall_cut = {};
 };
 
-/// Cutting figures at the constant tool feed `feed` (mm/s); `ripple` is the command's largest relative error of it.
+/// Cutting figures at the constant tool feed `feed` (mm/s); `ripple` is the command's largest
+/// relative error of it.
 ///
 /// Errors  out_of_range, not_finite, wall_too_thick.
 /// Source  docs/theory/feed-curves.md, section 6.
-[[nodiscard]] Result<ToolOutputs> tool_outputs(const ToolSpec& tool, const std::optional<TubeSpec>& tube, double feed,
+[[nodiscard]] Result<ToolOutputs> tool_outputs(const ToolSpec& tool,
+                                               const std::optional<TubeSpec>& tube, double feed,
                                                double ripple);
 
 /// Errors  out_of_range, not_finite, wall_too_thick.
 [[nodiscard]] std::optional<Error> check_tube(const TubeSpec& tube);
 
-/// Notes for a tube outside the range of the source's machine (diameters 89..195 mm, walls 6..25 mm).
+/// Notes for a tube outside the range of the source's machine (diameters 89..195 mm, walls 6..25
+/// mm).
 [[nodiscard]] std::vector<Warning> tube_warnings(const TubeSpec& tube);
 
 }  // namespace tubecut::cutoff

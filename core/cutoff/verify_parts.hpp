@@ -8,8 +8,10 @@
 namespace tubecut::cutoff {
 
 /// The parts of `verify`; each appends its checks.
-void verify_command(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip, std::vector<Check>& checks);
-void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip, std::vector<Check>& checks);
+void verify_command(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
+                    std::vector<Check>& checks);
+void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
+                  std::vector<Check>& checks);
 
 /// Scale of a feed at a place of the linkage: |x| + A/cos^2 psi.
 [[nodiscard]] inline double feed_scale(const Linkage& linkage, const TipFeed& here) {

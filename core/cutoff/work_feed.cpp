@@ -15,7 +15,8 @@ constexpr std::size_t kGridPoints = 1601;
 std::optional<Error> check(const FeedWindow& window) {
   Preconditions on("cut/");
   on.require(true, "start_feed", window.start_feed, {}, "mm");
-  on.require(window.end_feed > window.start_feed, "end_feed", window.end_feed, "> start_feed_mm", "mm");
+  on.require(window.end_feed > window.start_feed, "end_feed", window.end_feed, "> start_feed_mm",
+             "mm");
   return on.error();
 }
 
@@ -27,7 +28,10 @@ std::optional<Error> check(const CutDistances& d) {
   on.not_negative("overcut", d.overcut, "mm");
   if (auto wrong = on.error()) return wrong;
   if (d.slowdown > d.clearance)
-    return Error{{.code = ErrorCode::s2_gt_s1, .member = "cut/slowdown", .got = d.slowdown, .limit = d.clearance,
+    return Error{{.code = ErrorCode::s2_gt_s1,
+                  .member = "cut/slowdown",
+                  .got = d.slowdown,
+                  .limit = d.clearance,
                   .unit = "mm"}};
   return std::nullopt;
 }
@@ -48,7 +52,8 @@ double largest_magnitude(const std::function<double(double)>& f, const std::vect
 }  // namespace
 
 Result<WorkFeed> WorkFeed::make(const Mechanism& mechanism, const Cut& cut) {
-  if (auto wrong = std::visit([](const auto& range) { return check(range); }, cut.range)) return tl::unexpected(*wrong);
+  if (auto wrong = std::visit([](const auto& range) { return check(range); }, cut.range))
+    return tl::unexpected(*wrong);
   Preconditions on("cut/");
   on.positive("feed", cut.feed, "mm_s");
   if (auto wrong = on.error()) return tl::unexpected(*wrong);
@@ -57,19 +62,24 @@ Result<WorkFeed> WorkFeed::make(const Mechanism& mechanism, const Cut& cut) {
   const auto& geometry = mechanism.geometry();
   const auto unreachable = [&](const char* member, double feed) {
     const auto limit = feed > 0.0 ? geometry.feed_high : geometry.feed_low;
-    return fail({.code = ErrorCode::unreachable_x, .member = member, .got = feed,
-                 .limit = limit ? Shown{*limit} : Shown{}, .unit = "mm"});
+    return fail({.code = ErrorCode::unreachable_x,
+                 .member = member,
+                 .got = feed,
+                 .limit = limit ? Shown{*limit} : Shown{},
+                 .unit = "mm"});
   };
   if (!mechanism.reaches(window.start_feed))
     return unreachable(by_ends ? "cut/start_feed" : "cut/clearance", window.start_feed);
-  if (!mechanism.reaches(window.end_feed)) return unreachable(by_ends ? "cut/end_feed" : "cut/wall", window.end_feed);
+  if (!mechanism.reaches(window.end_feed))
+    return unreachable(by_ends ? "cut/end_feed" : "cut/wall", window.end_feed);
   WorkFeed out(mechanism);
   out.work_.start_feed = window.start_feed;
   out.work_.end_feed = window.end_feed;
   out.work_.feed = cut.feed;
   out.work_.duration = (window.end_feed - window.start_feed) / cut.feed;
   if (!(out.work_.duration > 0.0) || !std::isfinite(out.work_.duration))
-    return fail({.code = ErrorCode::out_of_range, .member = "cut/feed", .got = cut.feed, .unit = "mm_s"});
+    return fail(
+        {.code = ErrorCode::out_of_range, .member = "cut/feed", .got = cut.feed, .unit = "mm_s"});
   out.find_extremes();
   return out;
 }
@@ -91,7 +101,8 @@ void WorkFeed::find_extremes() {
   };
   speed_ = math::sample(speed_at, math::chebyshev_grid(kGridPoints, 0.0, work_.duration));
   const auto& grid = speed_.grid;
-  const auto top = static_cast<std::size_t>(std::ranges::max_element(speed_.values) - speed_.values.begin());
+  const auto top =
+      static_cast<std::size_t>(std::ranges::max_element(speed_.values) - speed_.values.begin());
   work_.max_cylinder_speed = speed_.values[top];
   if (top > 0 && top + 1 < grid.size()) {
     const auto acceleration = [this](double t) { return at(t).acceleration; };
@@ -100,8 +111,10 @@ void WorkFeed::find_extremes() {
   }
   std::vector<double> negated;
   for (const double v : speed_.values) negated.push_back(-v);
-  work_.min_cylinder_speed = -math::grid_maximum([&](double t) { return -speed_at(t); }, grid, negated).value;
-  work_.max_cylinder_acceleration = largest_magnitude([this](double t) { return at(t).acceleration; }, grid);
+  work_.min_cylinder_speed =
+      -math::grid_maximum([&](double t) { return -speed_at(t); }, grid, negated).value;
+  work_.max_cylinder_acceleration =
+      largest_magnitude([this](double t) { return at(t).acceleration; }, grid);
   work_.max_cylinder_jerk = largest_magnitude([this](double t) { return at(t).jerk; }, grid);
 }
 

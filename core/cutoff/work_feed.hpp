@@ -13,7 +13,8 @@ struct FeedWindow {
   double end_feed = 0.0;  // > start_feed
 };
 
-/// The work feed by what the tool passes, mm: it starts `slowdown` before the tube and ends `overcut` beyond the wall.
+/// The work feed by what the tool passes, mm: it starts `slowdown` before the tube and ends
+/// `overcut` beyond the wall.
 struct CutDistances {
   double clearance = 0.0;  // s1, tool at rest to the tube, >= 0
   double slowdown = 0.0;   // s2, 0..clearance
@@ -28,17 +29,18 @@ struct Cut {
 
 /// What the exact work feed asks of the cylinder.
 struct Work {
-  double start_feed = 0.0;    // x_s, mm
-  double end_feed = 0.0;      // x_e, mm
-  double feed = 0.0;          // v, mm/s
-  double duration = 0.0;      // T, s
-  double start_stroke = 0.0;  // mm
-  double end_stroke = 0.0;    // mm
+  double start_feed = 0.0;                 // x_s, mm
+  double end_feed = 0.0;                   // x_e, mm
+  double feed = 0.0;                       // v, mm/s
+  double duration = 0.0;                   // T, s
+  double start_stroke = 0.0;               // mm
+  double end_stroke = 0.0;                 // mm
   double min_cylinder_speed = 0.0;         // mm/s
   double max_cylinder_speed = 0.0;         // mm/s
   double max_cylinder_acceleration = 0.0;  // largest magnitude, mm/s^2
   double max_cylinder_jerk = 0.0;          // largest magnitude, mm/s^3
-  std::optional<double> time_at_peak = {}; // s; empty when the cylinder speed has no maximum within the work feed
+  std::optional<double> time_at_peak =
+      {};  // s; empty when the cylinder speed has no maximum within the work feed
 };
 
 /// Cylinder motion at one instant of the work feed.
@@ -50,7 +52,8 @@ struct CylinderState {
   double jerk = 0.0;          // mm/s^3
 };
 
-/// The constant tool feed x = x_s + v t on [0, T] and the cylinder motion that makes it, in closed form.
+/// The constant tool feed x = x_s + v t on [0, T] and the cylinder motion that makes it, in closed
+/// form.
 ///
 /// Source  docs/theory/feed-curves.md, section 3.
 class WorkFeed {

@@ -88,7 +88,8 @@ ChebyshevSeries from_node_values(std::span<const double> values, double from, do
   return out;
 }
 
-ChebyshevSeries interpolant(std::span<const double> nodes, std::span<const double> values, double from, double to) {
+ChebyshevSeries interpolant(std::span<const double> nodes, std::span<const double> values,
+                            double from, double to) {
   std::vector<double> divided(values.begin(), values.end());  // Newton's divided differences
   for (std::size_t order = 1; order < nodes.size(); ++order)
     for (std::size_t i = nodes.size(); i-- > order;)

@@ -5,9 +5,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/base/angle.hpp"
-#include "core/base/elementary.hpp"
-
 namespace tubecut::math {
 namespace {
 
@@ -16,10 +13,6 @@ constexpr int kMostExchanges = 60;
 double relative_error(const SampledCurve& curve, const ChebyshevSeries& series, double t) {
   const double f = curve.at(t);
   return (value(series, t) - f) / f;
-}
-
-std::vector<double> chebyshev_extrema(int count, double from, double to) {
-  return chebyshev_grid(static_cast<std::size_t>(count), from, to);
 }
 
 struct Levelled {
@@ -75,7 +68,8 @@ std::vector<Extreme> alternating_extrema(const SampledCurve& curve, const Chebys
   for (const std::size_t i : best) {
     const double sign = errors[i] > 0.0 ? 1.0 : -1.0;
     const auto height = [&](double t) { return sign * relative_error(curve, series, t); };
-    const Extreme refined = golden_maximum(height, grid[i == 0 ? 0 : i - 1], grid[std::min(i + 1, grid.size() - 1)]);
+    const Extreme refined =
+        golden_maximum(height, grid[i == 0 ? 0 : i - 1], grid[std::min(i + 1, grid.size() - 1)]);
     const bool better = refined.value > std::abs(errors[i]);
     out.push_back(better ? refined : Extreme{grid[i], std::abs(errors[i])});
   }
@@ -91,7 +85,9 @@ void thin(std::vector<Extreme>& extrema, std::size_t count) {
       continue;
     }
     std::size_t weakest = 0;  // first of the neighbouring pair whose larger member is smallest
-    const auto pair_height = [&](std::size_t i) { return std::max(extrema[i].value, extrema[i + 1].value); };
+    const auto pair_height = [&](std::size_t i) {
+      return std::max(extrema[i].value, extrema[i + 1].value);
+    };
     for (std::size_t i = 1; i + 1 < extrema.size(); ++i)
       if (pair_height(i) < pair_height(weakest)) weakest = i;
     const auto first = extrema.begin() + static_cast<std::ptrdiff_t>(weakest);
@@ -113,17 +109,21 @@ SampledCurve sample(std::function<double(double)> curve, std::vector<double> gri
   return out;
 }
 
-Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree, std::stop_token stop) {
+Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree,
+                                         std::stop_token stop) {
   const auto count = static_cast<std::size_t>(degree) + 2;
-  auto reference = chebyshev_extrema(degree + 2, curve.grid.front(), curve.grid.back());
+  auto reference = chebyshev_grid(count, curve.grid.front(), curve.grid.back());
   for (int exchange = 1; exchange <= kMostExchanges; ++exchange) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     auto solved = level_on(curve, reference);
     auto extrema = alternating_extrema(curve, solved.series);
     const double worst = highest(extrema);
     const double excess = worst - solved.level;
-    if (excess <= kLevelled * solved.level || excess <= kLevelledFloor || extrema.size() < count)
-      return RelativeMinimax{std::move(solved.series), solved.level, worst, std::move(reference), exchange};
+    if (excess <= kLevelled * solved.level || excess <= kLevelledFloor)
+      return RelativeMinimax{std::move(solved.series), solved.level, worst, std::move(reference),
+                             exchange};
+    if (extrema.size() < count)
+      break;  // p/f - 1 alternates too rarely: not a curve of the documented domain
     thin(extrema, count);
     for (std::size_t i = 0; i < count; ++i) reference[i] = extrema[i].at;
   }

@@ -6,11 +6,12 @@
 
 namespace tubecut::math {
 
-/// `count` (>= 2) Chebyshev-spaced points from `from` to `to`, both ends exact, ascending: dense where polynomial errors
-/// oscillate fastest.
+/// `count` (>= 2) Chebyshev-spaced points from `from` to `to`, both ends exact, ascending: dense
+/// where polynomial errors oscillate fastest.
 [[nodiscard]] std::vector<double> chebyshev_grid(std::size_t count, double from, double to);
 
-/// The point where `f` changes sign between `low` and `high` (f(low) and f(high) of opposite sign, or one of them zero).
+/// The point where `f` changes sign between `low` and `high` (f(low) and f(high) of opposite sign,
+/// or one of them zero).
 ///
 /// Accuracy  the last bracket is two neighbouring doubles, or 2^-128 of the first one.
 /// Cost      at most 128 calls.
@@ -25,8 +26,8 @@ template <class F>
   return low + 0.5 * (high - low);
 }
 
-/// The largest `x` of [low, high] for which `holds` is true, given that it holds at `low` and, once false, stays false.
-/// Cost  at most 128 calls.
+/// The largest `x` of [low, high] for which `holds` is true, given that it holds at `low` and, once
+/// false, stays false. Cost  at most 128 calls.
 template <class Predicate>
 [[nodiscard]] double last_true(Predicate&& holds, double low, double high) {
   for (int i = 0; i < 128; ++i) {
@@ -42,10 +43,11 @@ struct Extreme {
   double value = 0.0;
 };
 
-/// The maximum of `f`, unimodal on [low, high], by golden section; never below the better of the two inner points.
+/// The maximum of `f`, unimodal on [low, high], by golden section; never below the better of the
+/// two inner points.
 ///
-/// Accuracy  the bracket shrinks to 1e-8 of its width, so the value is good to 1e-16 of the curve's drop over it.
-/// Cost      41 calls.
+/// Accuracy  the bracket shrinks to 1e-8 of its width, so the value is good to 1e-16 of the curve's
+/// drop over it. Cost      41 calls.
 template <class F>
 [[nodiscard]] Extreme golden_maximum(F&& f, double low, double high) {
   constexpr double kGolden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
@@ -71,10 +73,11 @@ template <class F>
   return at_left > at_right ? Extreme{left, at_left} : Extreme{right, at_right};
 }
 
-/// The largest value of `f` over an ascending grid, refined between the neighbours of the best grid point; `sampled` holds
-/// f at the grid. Ends count.
+/// The largest value of `f` over an ascending grid, refined between the neighbours of the best grid
+/// point; `sampled` holds f at the grid. Ends count.
 template <class F>
-[[nodiscard]] Extreme grid_maximum(F&& f, const std::vector<double>& grid, const std::vector<double>& sampled) {
+[[nodiscard]] Extreme grid_maximum(F&& f, const std::vector<double>& grid,
+                                   const std::vector<double>& sampled) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < grid.size(); ++i)
     if (sampled[i] > sampled[best]) best = i;

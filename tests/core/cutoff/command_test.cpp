@@ -42,9 +42,11 @@ const std::map<std::string, FitMethod>& methods() {
 
 // equispaced is offered in the comparison only
 Command command_of(const WorkFeed& work, FitMethod method, int degree) {
-  if (method != FitMethod::equispaced) return command(work, {.method = method, .degree = degree}).value();
+  if (method != FitMethod::equispaced)
+    return command(work, {.method = method, .degree = degree}).value();
   const auto rows = comparison(work, {degree, degree}).value();
-  return *std::find_if(rows.begin(), rows.end(), [](const auto& row) { return row.method == FitMethod::equispaced; });
+  return *std::find_if(rows.begin(), rows.end(),
+                       [](const auto& row) { return row.method == FitMethod::equispaced; });
 }
 
 double allowed(double want) { return std::max(1e-4 * std::abs(want), 1e-12); }
@@ -89,12 +91,16 @@ TEST(GoldenFits, All52) {
       EXPECT_NEAR(got.scaled[i], scaled[i], 1e-12 * largest) << i;
       EXPECT_NEAR(got.seconds[i], seconds[i], 1e-8 * std::abs(seconds[i])) << i;
       worst_seconds = std::max(worst_seconds, std::abs(got.seconds[i] / seconds[i] - 1.0));
-      const double unit = std::pow(10.0, std::floor(std::log10(std::abs(rounded[i]))) - got.digits + 1);
-      // Five of the file's rounded numbers (degree 5, ten digits) are not the rounding of its own 60-digit coefficients but
-      // of double precision ones, up to three units away: there only the tolerance of the coefficients can hold.
+      const double unit =
+          std::pow(10.0, std::floor(std::log10(std::abs(rounded[i]))) - got.digits + 1);
+      // Five of the file's rounded numbers (degree 5, ten digits) are not the rounding of its own
+      // 60-digit coefficients but of double precision ones, up to three units away: there only the
+      // tolerance of the coefficients can hold.
       const bool sound = std::abs(rounded[i] - seconds[i]) <= 0.5001 * unit;
       unsound += sound ? 0 : 1;
-      EXPECT_NEAR(got.seconds_rounded[i], rounded[i], sound ? 1.001 * unit : 1e-8 * std::abs(seconds[i])) << i;
+      EXPECT_NEAR(got.seconds_rounded[i], rounded[i],
+                  sound ? 1.001 * unit : 1e-8 * std::abs(seconds[i]))
+          << i;
     }
   }
   EXPECT_EQ(unsound, 5);
@@ -109,7 +115,8 @@ TEST(GoldenFits, MinimaxIsLevelled) {
     ++seen;
     const int degree = static_cast<int>(number(row, "degree"));
     const auto found = math::relative_minimax(work_of(row).speed(), degree).value();
-    EXPECT_LE(found.worst - found.level, std::max(1e-9 * found.level, 5e-14)) << text(row, "case") << degree;
+    EXPECT_LE(found.worst - found.level, std::max(1e-9 * found.level, 5e-14))
+        << text(row, "case") << degree;
   }
   EXPECT_EQ(seen, 16);
 }
@@ -166,26 +173,33 @@ const std::vector<Arc>& arcs() {
   return list;
 }
 
-WorkFeed work_of(const Arc& arc) { return work_of(arc.linkage, arc.start, arc.start + arc.feed * arc.duration, arc.feed); }
+WorkFeed work_of(const Arc& arc) {
+  return work_of(arc.linkage, arc.start, arc.start + arc.feed * arc.duration, arc.feed);
+}
 
 TEST(Automatic, SmallestDegreeOfTheSpec) {
   const double tolerances[] = {0.005, 0.001, 0.0001};
   for (const auto& arc : arcs())
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto got = command(work_of(arc), {.method = FitMethod::automatic, .tolerance = tolerances[i]}).value();
+      const auto got =
+          command(work_of(arc), {.method = FitMethod::automatic, .tolerance = tolerances[i]})
+              .value();
       EXPECT_EQ(got.degree, arc.degrees[i]) << arc.start << " " << tolerances[i];
       EXPECT_EQ(got.method, FitMethod::minimax);
       EXPECT_LE(got.errors.max_relative_error, tolerances[i]);
     }
-  const auto never = command(work_of(arcs()[0]), {.method = FitMethod::automatic, .tolerance = 1e-9});
+  const auto never =
+      command(work_of(arcs()[0]), {.method = FitMethod::automatic, .tolerance = 1e-9});
   EXPECT_EQ(never.error().code(), ErrorCode::tolerance_not_met);
 }
 
-// Over random windows of both machines minimax is never above another method, and every command's integral ends
-// where its drift says (Gauss on the seconds form, exact for polynomials).
+// Over random windows of both machines minimax is never above another method, and every command's
+// integral ends where its drift says (Gauss on the seconds form, exact for polynomials).
 TEST(Commands, MinimaxIsLowestAndDriftIsTheIntegral) {
   std::mt19937_64 random(6);
-  const auto any = [&random](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto any = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   const auto rule = math::gauss_legendre(8);
   for (int trial = 0; trial < 25; ++trial) {
     const auto linkage = trial % 2 == 0 ? testing::table_1() : testing::table_3();
@@ -197,16 +211,20 @@ TEST(Commands, MinimaxIsLowestAndDriftIsTheIntegral) {
       const auto lowest = std::find_if(rows.begin(), rows.end(), [&row](const auto& other) {
         return other.method == FitMethod::minimax && other.degree == row.degree;
       });
-      EXPECT_LE(lowest->errors.max_relative_error, row.errors.max_relative_error * (1.0 + 1e-9) + 5e-14);
+      EXPECT_LE(lowest->errors.max_relative_error,
+                row.errors.max_relative_error * (1.0 + 1e-9) + 5e-14);
     }
-    for (const auto method : {FitMethod::three_point, FitMethod::least_squares, FitMethod::minimax}) {
+    for (const auto method :
+         {FitMethod::three_point, FitMethod::least_squares, FitMethod::minimax}) {
       const auto got = command_of(work, method, 2);
       double integral = 0.0;
       for (std::size_t i = 0; i < rule.nodes.size(); ++i)
-        integral += 0.5 * got.duration * rule.weights[i] * math::horner(got.seconds, 0.5 * got.duration * (1.0 + rule.nodes[i]));
+        integral += 0.5 * got.duration * rule.weights[i] *
+                    math::horner(got.seconds, 0.5 * got.duration * (1.0 + rule.nodes[i]));
       const double end = work.work().start_stroke + integral;
       EXPECT_NEAR(end - work.work().end_stroke, got.errors.cylinder_end_drift, 1e-10);
-      EXPECT_NEAR(work.mechanism().tool_feed(end).value() - work.work().end_feed, got.errors.end_drift, 1e-10);
+      EXPECT_NEAR(work.mechanism().tool_feed(end).value() - work.work().end_feed,
+                  got.errors.end_drift, 1e-10);
       EXPECT_LE(std::abs(got.errors.end_drift), got.errors.tool_position_error);
     }
   }
@@ -215,7 +233,8 @@ TEST(Commands, MinimaxIsLowestAndDriftIsTheIntegral) {
 TEST(PreserveStroke, EndsExactlyAndKeepsTheSpecsFigure) {
   const auto work = work_of(arcs()[0]);
   const auto plain = command(work, {.method = FitMethod::three_point}).value();
-  const auto kept = command(work, {.method = FitMethod::three_point, .preserve_stroke = true}).value();
+  const auto kept =
+      command(work, {.method = FitMethod::three_point, .preserve_stroke = true}).value();
   EXPECT_NEAR(plain.errors.tool_position_error, 0.181, 0.0005);
   EXPECT_NEAR(kept.errors.tool_position_error, 0.029, 0.0005);
   EXPECT_NEAR(kept.errors.end_drift, 0.0, 1e-11);
@@ -228,7 +247,8 @@ TEST(Digits, OneFewerWouldBreakThePercent) {
       const auto got = command_of(work_of(arc), FitMethod::minimax, degree);
       EXPECT_LE(got.rounded_max_relative_error, 1.01 * got.errors.max_relative_error);
       for (std::size_t i = 0; i < got.seconds.size(); ++i)
-        EXPECT_NEAR(got.seconds_rounded[i], got.seconds[i], std::abs(got.seconds[i]) * 5.001 * std::pow(10.0, -got.digits));
+        EXPECT_NEAR(got.seconds_rounded[i], got.seconds[i],
+                    std::abs(got.seconds[i]) * 5.001 * std::pow(10.0, -got.digits));
     }
 }
 
@@ -237,11 +257,14 @@ TEST(Errors, OfTheFit) {
   const auto code = [&work](const FitSpec& spec) { return command(work, spec).error().code(); };
   EXPECT_EQ(code({.degree = 0}), ErrorCode::out_of_range);
   EXPECT_EQ(code({.degree = 9}), ErrorCode::out_of_range);
-  EXPECT_EQ(code({.method = FitMethod::three_point, .degree = 3}), ErrorCode::unsupported_combination);
+  EXPECT_EQ(code({.method = FitMethod::three_point, .degree = 3}),
+            ErrorCode::unsupported_combination);
   EXPECT_EQ(code({.method = FitMethod::equispaced}), ErrorCode::bad_choice);
   EXPECT_EQ(code({.method = FitMethod::automatic, .tolerance = 0.0}), ErrorCode::out_of_range);
-  EXPECT_EQ(code({.nodes = std::array<double, 3>{0.0, 1.0, 2.0}}), ErrorCode::unsupported_combination);
-  const std::array<double, 3> bad[] = {{-1.0, 10.0, 20.0}, {0.0, 0.0, 20.0}, {0.0, 10.0, 29.1}, {0.0, NAN, 29.0}, {20.0, 10.0, 0.0}};
+  EXPECT_EQ(code({.nodes = std::array<double, 3>{0.0, 1.0, 2.0}}),
+            ErrorCode::unsupported_combination);
+  const std::array<double, 3> bad[] = {
+      {-1.0, 10.0, 20.0}, {0.0, 0.0, 20.0}, {0.0, 10.0, 29.1}, {0.0, NAN, 29.0}, {20.0, 10.0, 0.0}};
   for (const auto& nodes : bad)
     EXPECT_EQ(code({.method = FitMethod::three_point, .nodes = nodes}), ErrorCode::bad_nodes);
 }

@@ -15,7 +15,9 @@ using tubecut::testing::golden;
 using tubecut::testing::number;
 using tubecut::testing::numbers;
 
-double or_zero(const api::Json& json, std::string_view name) { return json.find(name) ? number(json, name) : 0.0; }
+double or_zero(const api::Json& json, std::string_view name) {
+  return json.find(name) ? number(json, name) : 0.0;
+}
 
 struct Case {
   WorkFeed work;
@@ -24,12 +26,19 @@ struct Case {
 
 Case case_of(const api::Json& row) {
   const auto& r = at(row, "request");
-  const Cut cut{CutDistances{number(r, "s1"), number(r, "s2"), number(r, "s"), number(r, "s3")}, number(r, "v")};
-  const CycleSpec spec{.period = 0.002, .max_cylinder_speed = number(r, "cyl_v_max"),
-                       .max_cylinder_acceleration = number(r, "cyl_a_max"), .max_cylinder_jerk = number(r, "cyl_j_max"),
-                       .max_feed = number(r, "max_feed"), .dwell = or_zero(r, "dwell"),
-                       .handling = number(r, "handling"), .target = number(r, "target_rate")};
-  return {WorkFeed::make(Mechanism::make(testing::linkage_of(at(row, "machine"))).value(), cut).value(), spec};
+  const Cut cut{CutDistances{number(r, "s1"), number(r, "s2"), number(r, "s"), number(r, "s3")},
+                number(r, "v")};
+  const CycleSpec spec{.period = 0.002,
+                       .max_cylinder_speed = number(r, "cyl_v_max"),
+                       .max_cylinder_acceleration = number(r, "cyl_a_max"),
+                       .max_cylinder_jerk = number(r, "cyl_j_max"),
+                       .max_feed = number(r, "max_feed"),
+                       .dwell = or_zero(r, "dwell"),
+                       .handling = number(r, "handling"),
+                       .target = number(r, "target_rate")};
+  return {
+      WorkFeed::make(Mechanism::make(testing::linkage_of(at(row, "machine"))).value(), cut).value(),
+      spec};
 }
 
 TEST(GoldenCycles, EveryFigureAndSample) {
@@ -92,7 +101,9 @@ TEST(GoldenCycles, FeedForTarget) {
     const auto c = cycle(work, spec).value();
     EXPECT_NEAR(c.target->feed.value(), want[i], 0.5e-6);
     const auto& w = work.work();
-    const auto again = WorkFeed::make(work.mechanism(), {FeedWindow{w.start_feed, w.end_feed}, *c.target->feed}).value();
+    const auto again =
+        WorkFeed::make(work.mechanism(), {FeedWindow{w.start_feed, w.end_feed}, *c.target->feed})
+            .value();
     EXPECT_NEAR(cycle(again, spec)->pieces_per_hour, 120.0, 1e-9);
   }
 }
@@ -100,15 +111,18 @@ TEST(GoldenCycles, FeedForTarget) {
 TEST(Cycle, UnreachableTargetHasNoFeed) {
   auto spec = testing::cycle_limits();
   spec.target = 400.0;  // 9 s a piece, handling alone takes 10
-  const auto work = WorkFeed::make(Mechanism::make(testing::table_3()).value(), {CutDistances{12, 2, 10, 3}, 1.0}).value();
+  const auto work =
+      WorkFeed::make(Mechanism::make(testing::table_3()).value(), {CutDistances{12, 2, 10, 3}, 1.0})
+          .value();
   const auto c = cycle(work, spec).value();
   EXPECT_FALSE(c.target->met);
   EXPECT_FALSE(c.target->estimated_feed);
   EXPECT_FALSE(c.target->feed);
 }
 
-/// Speed continuous; speed, acceleration and jerk within the limits at every sample and between, but for the two reported
-/// acceleration steps. `fine` has been sampled several times a servo period, so "between" is seen too.
+/// Speed continuous; speed, acceleration and jerk within the limits at every sample and between,
+/// but for the two reported acceleration steps. `fine` has been sampled several times a servo
+/// period, so "between" is seen too.
 void expect_within_limits(const WorkFeed& work, const CycleSpec& spec, const Cycle& c) {
   const auto& s = c.samples;
   const double eps = 1e-9;
@@ -127,14 +141,22 @@ void expect_within_limits(const WorkFeed& work, const CycleSpec& spec, const Cyc
     const bool hand_over = (s.time[i - 1] <= c.work_start && s.time[i] >= c.work_start) ||
                            (s.time[i - 1] <= c.work_end && s.time[i] >= c.work_end);
     const double step = hand_over ? std::max(c.acceleration_step_in, c.acceleration_step_out) : 0.0;
-    ASSERT_LE(std::abs(s.acceleration[i] - s.acceleration[i - 1]),
-              spec.max_cylinder_jerk * h * (1.0 + eps) + step + eps * spec.max_cylinder_acceleration) << s.time[i];
-    const double most = std::max(std::abs(s.acceleration[i]), std::abs(s.acceleration[i - 1])) + spec.max_cylinder_jerk * h + step;
+    ASSERT_LE(
+        std::abs(s.acceleration[i] - s.acceleration[i - 1]),
+        spec.max_cylinder_jerk * h * (1.0 + eps) + step + eps * spec.max_cylinder_acceleration)
+        << s.time[i];
+    const double most = std::max(std::abs(s.acceleration[i]), std::abs(s.acceleration[i - 1])) +
+                        spec.max_cylinder_jerk * h + step;
     ASSERT_LE(std::abs(s.speed[i] - s.speed[i - 1]), most * h + 1e-11) << s.time[i];
     ASSERT_NEAR(s.stroke[i] - s.stroke[i - 1], 0.5 * h * (s.speed[i] + s.speed[i - 1]),
-                spec.max_cylinder_jerk * h * h * h / 12 + step * h * h / 8 + 1e-11) << s.time[i];
-    if (spec.max_feed) { ASSERT_LE(s.feed[i], *spec.max_feed); }
-    if (s.time[i] >= c.work_start && s.time[i] <= c.work_end) { ASSERT_EQ(s.feed_speed[i], work.work().feed); }
+                spec.max_cylinder_jerk * h * h * h / 12 + step * h * h / 8 + 1e-11)
+        << s.time[i];
+    if (spec.max_feed) {
+      ASSERT_LE(s.feed[i], *spec.max_feed);
+    }
+    if (s.time[i] >= c.work_start && s.time[i] <= c.work_end) {
+      ASSERT_EQ(s.feed_speed[i], work.work().feed);
+    }
   }
 }
 
@@ -152,26 +174,39 @@ TEST(Cycle, LimitsHoldAtAndBetweenSamples) {
 // Short moves, slow limits, ramps with and without constant acceleration.
 TEST(Cycle, LimitsHoldOnSeededCycles) {
   std::mt19937_64 random(7);
-  const auto any = [&random](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto any = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   int planned = 0;
   for (int i = 0; i < 400; ++i) {
     const auto linkage = i % 2 == 0 ? testing::table_1() : testing::table_3();
     const double clearance = any(0.5, 20.0);
-    const Cut cut{CutDistances{clearance, any(0.0, clearance), any(1.0, 15.0), any(0.0, 4.0)}, any(0.5, 5.0)};
-    CycleSpec spec{.period = any(0.001, 0.02), .max_cylinder_speed = any(10.0, 400.0),
-                   .max_cylinder_acceleration = any(10.0, 3000.0), .max_cylinder_jerk = any(200.0, 1e5),
-                   .dwell = i % 3 == 0 ? any(0.0, 1.0) : 0.0, .handling = 5.0, .target = any(60.0, 400.0)};
+    const Cut cut{CutDistances{clearance, any(0.0, clearance), any(1.0, 15.0), any(0.0, 4.0)},
+                  any(0.5, 5.0)};
+    CycleSpec spec{.period = any(0.001, 0.02),
+                   .max_cylinder_speed = any(10.0, 400.0),
+                   .max_cylinder_acceleration = any(10.0, 3000.0),
+                   .max_cylinder_jerk = any(200.0, 1e5),
+                   .dwell = i % 3 == 0 ? any(0.0, 1.0) : 0.0,
+                   .handling = 5.0,
+                   .target = any(60.0, 400.0)};
     const auto work = WorkFeed::make(Mechanism::make(linkage).value(), cut).value();
     const auto c = cycle(work, spec);
     if (!c) {
-      EXPECT_TRUE(c.error().code() == ErrorCode::work_speed_above_limit || c.error().code() == ErrorCode::approach_too_short);
+      EXPECT_TRUE(c.error().code() == ErrorCode::work_speed_above_limit ||
+                  c.error().code() == ErrorCode::approach_too_short);
       continue;
     }
     ++planned;
     ASSERT_NO_FATAL_FAILURE(expect_within_limits(work, spec, *c));
-    if (!c->target->feed) { EXPECT_FALSE(c->target->met); continue; }
+    if (!c->target->feed) {
+      EXPECT_FALSE(c->target->met);
+      continue;
+    }
     const auto& w = work.work();
-    const auto again = WorkFeed::make(work.mechanism(), {FeedWindow{w.start_feed, w.end_feed}, *c->target->feed}).value();
+    const auto again =
+        WorkFeed::make(work.mechanism(), {FeedWindow{w.start_feed, w.end_feed}, *c->target->feed})
+            .value();
     EXPECT_NEAR(cycle(again, spec)->pieces_per_hour, *spec.target, 1e-6 * *spec.target);
   }
   EXPECT_GT(planned, 200);
@@ -179,7 +214,9 @@ TEST(Cycle, LimitsHoldOnSeededCycles) {
 
 TEST(RapidMove, CoversItsDistanceExactly) {
   std::mt19937_64 random(8);
-  const auto any = [&random](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto any = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   for (int i = 0; i < 2000; ++i) {
     const CylinderLimits limits{any(5.0, 500.0), any(5.0, 5000.0), any(100.0, 1e6)};
     const double leave = any(0.0, 1.0) * limits.speed;
@@ -191,10 +228,13 @@ TEST(RapidMove, CoversItsDistanceExactly) {
     }
     EXPECT_LE(move->peak, limits.speed);
     EXPECT_GE(move->cruise, 0.0);
-    const double travelled = ramp(0.0, move->peak, limits).distance + move->cruise * move->peak + ramp(move->peak, leave, limits).distance;
+    const double travelled = ramp(0.0, move->peak, limits).distance + move->cruise * move->peak +
+                             ramp(move->peak, leave, limits).distance;
     EXPECT_NEAR(travelled, distance, 1e-13 * distance);
     // never needlessly slow: a move below the speed limit does not cruise
-    if (move->peak < limits.speed) { EXPECT_LE(move->cruise, 1e-6 * move->duration); }
+    if (move->peak < limits.speed) {
+      EXPECT_LE(move->cruise, 1e-6 * move->duration);
+    }
   }
 }
 

@@ -22,11 +22,15 @@ const api::Json& corpus() {
   return json;
 }
 
-const api::Json::Array& rows(const api::Json& json, std::string_view path) { return *at(json, path).as<api::Json::Array>(); }
+const api::Json::Array& rows(const api::Json& json, std::string_view path) {
+  return *at(json, path).as<api::Json::Array>();
+}
 
 Mechanism mechanism(const Linkage& linkage) { return Mechanism::make(linkage).value(); }
 
-void expect_relative(double got, double want, double bound) { EXPECT_NEAR(got, want, bound * std::abs(want)); }
+void expect_relative(double got, double want, double bound) {
+  EXPECT_NEAR(got, want, bound * std::abs(want));
+}
 
 class PublishedMachine : public ::testing::TestWithParam<const char*> {
  protected:
@@ -53,7 +57,8 @@ TEST_P(PublishedMachine, GridOfStrokesSpeedsAndAccelerations) {
 TEST_P(PublishedMachine, ForwardFeeds) {
   ASSERT_GE(rows(json_, "forward").size(), 10u);
   for (const auto& row : rows(json_, "forward"))
-    EXPECT_NEAR(machine_.tool_feed(number(row, "y")).value(), number(row, "x"), 1e-12 * std::abs(number(row, "x")));
+    EXPECT_NEAR(machine_.tool_feed(number(row, "y")).value(), number(row, "x"),
+                1e-12 * std::abs(number(row, "x")));
 }
 
 TEST_P(PublishedMachine, Geometry) {
@@ -100,7 +105,9 @@ TEST(ShortArm, GridAndLimits) {
 }
 
 Linkage seeded(std::mt19937_64& random) {
-  const auto any = [&random](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto any = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   const double distance = any(50.0, 2000.0);
   return {.arm = distance * any(0.4, 3.0),
           .pivot_distance = distance,
@@ -110,7 +117,8 @@ Linkage seeded(std::mt19937_64& random) {
           .rad_per_mm = any(1e-4, 1e-2)};
 }
 
-// 10^5 linkages: f(g(x)) = x within 1e-12 of |x| + A/cos^2 psi0, g rises, g' f' = 1; 1 % away from the limits.
+// 10^5 linkages: f(g(x)) = x within 1e-12 of |x| + A/cos^2 psi0, g rises, g' f' = 1; 1 % away from
+// the limits.
 TEST(SeededLinkages, InverseIsTheInverse) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> share(0.01, 0.99);
@@ -131,7 +139,8 @@ TEST(SeededLinkages, InverseIsTheInverse) {
     double shares[] = {share(random), share(random), share(random)};
     std::sort(std::begin(shares), std::end(shares));
     for (const double at : shares) {
-      // A share of the stroke, so that both limits stay 1 % away; the feed there is what the inverse gets.
+      // A share of the stroke, so that both limits stay 1 % away; the feed there is what the
+      // inverse gets.
       const double x = made->forward(g.stroke_low + at * (g.stroke_high - g.stroke_low)).feed;
       const Inverse there = made->inverse(x);
       const Forward back = made->forward(there.stroke);
@@ -139,7 +148,9 @@ TEST(SeededLinkages, InverseIsTheInverse) {
       worst = std::max(worst, error);
       ASSERT_LE(error, 1e-12) << tried << " x " << x;
       ASSERT_NEAR(there.first * back.rate, 1.0, 1e-9);
-      if (x > x_before) { ASSERT_GT(there.stroke, before); }
+      if (x > x_before) {
+        ASSERT_GT(there.stroke, before);
+      }
       ASSERT_GT(there.first, 0.0);
       before = there.stroke;
       x_before = x;
@@ -161,7 +172,8 @@ TEST(SeededLinkages, DerivativesAreSlopes) {
     if (!made) continue;
     ++i;
     const auto& g = made->geometry();
-    const double x = made->forward(g.stroke_low + share(random) * (g.stroke_high - g.stroke_low)).feed;
+    const double x =
+        made->forward(g.stroke_low + share(random) * (g.stroke_high - g.stroke_low)).feed;
     const double width = 1.0 / (made->inverse(x).first / (g.stroke_high - g.stroke_low));
     const double h = 1e-4 * std::min(width, made->pivot_offset());
     const Inverse low = made->inverse(x - h);
@@ -169,7 +181,8 @@ TEST(SeededLinkages, DerivativesAreSlopes) {
     const Inverse high = made->inverse(x + h);
     ASSERT_NEAR((high.stroke - low.stroke) / (2.0 * h), here.first, 1e-4 * here.first);
     ASSERT_NEAR((high.first - low.first) / (2.0 * h), here.second, 1e-4 * here.first / h * 1e-2);
-    ASSERT_NEAR((high.second - low.second) / (2.0 * h), here.third, 1e-4 * here.first / (h * h) * 1e-4);
+    ASSERT_NEAR((high.second - low.second) / (2.0 * h), here.third,
+                1e-4 * here.first / (h * h) * 1e-4);
   }
 }
 
@@ -195,8 +208,12 @@ TEST(Calibration, RefusesWhatIsNoMeasurement) {
 }
 
 TEST(Linkage, NamesEveryBadMember) {
-  const Linkage bad{.arm = -1.0, .pivot_distance = NAN, .pivot_offset = 0.0, .rest_angle = Angle::rad(4.0),
-                    .slot_angle = Angle::rad(3.2), .rad_per_mm = 0.0};
+  const Linkage bad{.arm = -1.0,
+                    .pivot_distance = NAN,
+                    .pivot_offset = 0.0,
+                    .rest_angle = Angle::rad(4.0),
+                    .slot_angle = Angle::rad(3.2),
+                    .rad_per_mm = 0.0};
   const auto made = Mechanism::make(bad);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().issues.size(), 6u);
@@ -206,9 +223,13 @@ TEST(Linkage, NamesEveryBadMember) {
 
 TEST(Linkage, StartsOnADeadPoint) {
   // rho = 2, theta0 chosen so that rho cos(gamma - theta0) = 1
-  Linkage linkage{.arm = 100.0, .pivot_distance = 200.0, .pivot_offset = 60.0, .slot_angle = Angle::rad(1.5),
+  Linkage linkage{.arm = 100.0,
+                  .pivot_distance = 200.0,
+                  .pivot_offset = 60.0,
+                  .slot_angle = Angle::rad(1.5),
                   .rad_per_mm = 0.001};
-  linkage.rest_angle = Angle::rad(std::atan2(std::sqrt(200.0 * 200.0 - 3600.0), 60.0) - std::acos(0.5));
+  linkage.rest_angle =
+      Angle::rad(std::atan2(std::sqrt(200.0 * 200.0 - 3600.0), 60.0) - std::acos(0.5));
   EXPECT_EQ(Mechanism::make(linkage).error().code(), ErrorCode::dead_point);
 }
 

@@ -18,19 +18,33 @@ inline Linkage linkage_of(const api::Json& params) {
 
 /// The source's Table 1, with the k that its equation (9) implies.
 inline Linkage table_1() {
-  return {.arm = 323.0, .pivot_distance = 268.0, .pivot_offset = 56.0, .rest_angle = Angle::rad(1.17),
-          .slot_angle = Angle::rad(1.82), .rad_per_mm = 0.00044038};
+  return {.arm = 323.0,
+          .pivot_distance = 268.0,
+          .pivot_offset = 56.0,
+          .rest_angle = Angle::rad(1.17),
+          .slot_angle = Angle::rad(1.82),
+          .rad_per_mm = 0.00044038};
 }
 
 /// The source's Table 3, with k = 0.000 486 for the printed 0.004 86.
 inline Linkage table_3() {
-  return {.arm = 430.0, .pivot_distance = 340.0, .pivot_offset = 90.0, .rest_angle = Angle::rad(1.3),
-          .slot_angle = Angle::rad(1.69), .rad_per_mm = 0.000486};
+  return {.arm = 430.0,
+          .pivot_distance = 340.0,
+          .pivot_offset = 90.0,
+          .rest_angle = Angle::rad(1.3),
+          .slot_angle = Angle::rad(1.69),
+          .rad_per_mm = 0.000486};
 }
 
 inline CycleSpec cycle_limits() {
-  return {.period = 0.002, .max_cylinder_speed = 150.0, .max_cylinder_acceleration = 800.0,
-          .max_cylinder_jerk = 20000.0, .max_feed = 39.0, .dwell = 0.0, .handling = 10.0, .target = 120.0};
+  return {.period = 0.002,
+          .max_cylinder_speed = 150.0,
+          .max_cylinder_acceleration = 800.0,
+          .max_cylinder_jerk = 20000.0,
+          .max_feed = 39.0,
+          .dwell = 0.0,
+          .handling = 10.0,
+          .target = 120.0};
 }
 
 /// The golden file's cycle case on Table 3 with everything asked for.

@@ -19,10 +19,13 @@ TEST(GoldenSurface, EveryFigure) {
   const auto& rows = *at(json, "surface").as<api::Json::Array>();
   ASSERT_EQ(rows.size(), 3u);
   for (const auto& row : rows) {
-    const ToolSpec tool{.disc = number(row, "n"), .blades = static_cast<int>(number(request, "blades")),
-                        .corner_radius = number(request, "corner_radius_mm"), .kerf = number(request, "kerf_mm")};
+    const ToolSpec tool{.disc = number(row, "n"),
+                        .blades = static_cast<int>(number(request, "blades")),
+                        .corner_radius = number(request, "corner_radius_mm"),
+                        .kerf = number(request, "kerf_mm")};
     const TubeSpec tube{number(request, "outer_diameter_mm"), number(request, "wall_mm")};
-    const auto got = tool_outputs(tool, tube, number(request, "v_mm_s"), number(request, "ripple")).value();
+    const auto got =
+        tool_outputs(tool, tube, number(request, "v_mm_s"), number(request, "ripple")).value();
     const auto near = [&row](double value, const char* name) {
       EXPECT_NEAR(value, number(row, name), 1e-13 * number(row, name)) << name;
     };
@@ -52,7 +55,8 @@ TEST(ToolOutputs, Errors) {
   ASSERT_FALSE(bad);
   ASSERT_EQ(bad.error().issues.size(), 4u);
   EXPECT_EQ(bad.error().issues[1].member, "tool/blades");
-  EXPECT_EQ(tool_outputs({300.0, 3, 0.4, 4.0}, TubeSpec{100.0, 50.0}, 1.0, 0.0).error().code(), ErrorCode::wall_too_thick);
+  EXPECT_EQ(tool_outputs({300.0, 3, 0.4, 4.0}, TubeSpec{100.0, 50.0}, 1.0, 0.0).error().code(),
+            ErrorCode::wall_too_thick);
 }
 
 }  // namespace

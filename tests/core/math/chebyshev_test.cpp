@@ -17,7 +17,8 @@ ChebyshevSeries random_series(std::mt19937_64& random, int degree) {
 
 // T_k(s) = cos(k acos s): the definition, not the recurrence.
 double by_definition(const ChebyshevSeries& series, double t) {
-  const double s = std::min(1.0, std::max(-1.0, 2.0 * (t - series.from) / (series.to - series.from) - 1.0));
+  const double s =
+      std::min(1.0, std::max(-1.0, 2.0 * (t - series.from) / (series.to - series.from) - 1.0));
   double sum = 0.0;
   for (std::size_t k = 0; k < series.coefficients.size(); ++k)
     sum += series.coefficients[k] * std::cos(static_cast<double>(k) * std::acos(s));
@@ -49,7 +50,8 @@ TEST(Chebyshev, AntiderivativeStartsAtZeroAndHasTheSlope) {
     const double h = 1e-5 * series.to;
     for (int i = 1; i < 20; ++i) {
       const double t = series.to * i / 20;
-      EXPECT_NEAR((value(integral, t + h) - value(integral, t - h)) / (2.0 * h), by_definition(series, t), 1e-6);
+      EXPECT_NEAR((value(integral, t + h) - value(integral, t - h)) / (2.0 * h),
+                  by_definition(series, t), 1e-6);
     }
   }
 }
@@ -58,7 +60,8 @@ TEST(Chebyshev, InterpolantPassesThroughItsNodes) {
   const std::vector<double> nodes{0.0, 1.0, 2.5, 4.0, 7.0};
   const std::vector<double> values{1.0, -2.0, 0.5, 3.0, 2.0};
   const auto series = interpolant(nodes, values, 0.0, 7.0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_NEAR(value(series, nodes[i]), values[i], 1e-12);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    EXPECT_NEAR(value(series, nodes[i]), values[i], 1e-12);
 }
 
 TEST(Search, GridIsAscendingWithExactEnds) {

@@ -12,7 +12,8 @@ TEST(GaussLegendre, IntegratesEveryPowerItShould) {
     const auto rule = gauss_legendre(count);
     for (int power = 0; power < 2 * count; ++power) {
       double sum = 0.0;
-      for (std::size_t i = 0; i < rule.nodes.size(); ++i) sum += rule.weights[i] * std::pow(rule.nodes[i], power);
+      for (std::size_t i = 0; i < rule.nodes.size(); ++i)
+        sum += rule.weights[i] * std::pow(rule.nodes[i], power);
       EXPECT_NEAR(sum, power % 2 == 0 ? 2.0 / (power + 1) : 0.0, 5e-15) << count << " " << power;
     }
   }

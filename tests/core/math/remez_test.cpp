@@ -7,9 +7,12 @@
 namespace tubecut::math {
 namespace {
 
-SampledCurve curve(double (*f)(double), double from, double to) { return sample(f, chebyshev_grid(1601, from, to)); }
+SampledCurve curve(double (*f)(double), double from, double to) {
+  return sample(f, chebyshev_grid(1601, from, to));
+}
 
-// Degree 1 on 1/t over [1, 3] has a closed form: with u = p(t) t - 1 a parabola, |u| levels as the Chebyshev T_2.
+// Degree 1 on 1/t over [1, 3] has a closed form: with u = p(t) t - 1 a parabola, |u| levels as the
+// Chebyshev T_2.
 TEST(Remez, ReciprocalByALineHasItsClosedForm) {
   const auto found = relative_minimax(curve([](double t) { return 1.0 / t; }, 1.0, 3.0), 1);
   ASSERT_TRUE(found);
@@ -30,7 +33,9 @@ TEST(Remez, ExponentialIsLevelledAtAlternatingPoints) {
     for (const double t : found->reference) {
       const double error = value(found->series, t) / f(t) - 1.0;
       EXPECT_NEAR(std::abs(error), found->level, 1e-13 + 1e-8 * found->level);
-      if (sign != 0.0 && found->level > 1e-12) { EXPECT_LT(sign * error, 0.0); }
+      if (sign != 0.0 && found->level > 1e-12) {
+        EXPECT_LT(sign * error, 0.0);
+      }
       sign = error;
     }
   }
@@ -45,7 +50,8 @@ TEST(Remez, APolynomialIsItsOwnAnswer) {
 TEST(Remez, StopsWhenAsked) {
   std::stop_source source;
   source.request_stop();
-  const auto found = relative_minimax(curve([](double t) { return 2.0 + t; }, 0.0, 1.0), 2, source.get_token());
+  const auto found =
+      relative_minimax(curve([](double t) { return 2.0 + t; }, 0.0, 1.0), 2, source.get_token());
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code(), ErrorCode::cancelled);
 }
