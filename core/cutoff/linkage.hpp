@@ -56,7 +56,8 @@ struct Inverse {
 /// The maps between cylinder stroke y and tool feed x of one linkage, both 0 at rest, in closed
 /// form.
 ///
-/// Accuracy  feed(stroke(x)) = x within 1e-12 of |x| + A/cos^2 psi0, 1 % away from the limits.
+/// Accuracy  feed(stroke(x)) = x within 1e-12 of |x| + A/cos^2 psi0, 1 % away from the limits
+///           (worst seen over 10^5 seeded linkages: 1.5e-13).
 /// Source    docs/theory/feed-curves.md, section 2.
 class Mechanism {
  public:
