@@ -18,7 +18,7 @@ struct TipFeed {
 /// lengths. The proof's own way from stroke to feed; shares nothing with `Mechanism` but the
 /// dimensions and k.
 ///
-/// Source  docs/theory/feed-curves.md, section 2, eq. (4).
+/// Source    docs/theory/feed-curves.md, section 2, eq. (4).
 class ArmTip {
  public:
   ArmTip(const Linkage& linkage, double rad_per_mm);

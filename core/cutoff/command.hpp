@@ -66,11 +66,11 @@ struct ComparisonSpec {
 /// The polynomial command of a work feed.
 ///
 /// Errors    out_of_range, unsupported_combination, bad_choice, bad_nodes, tolerance_not_met,
-/// not_converged, cancelled;
-///           tan_pole when the command would leave the linkage's range.
+///           not_converged, cancelled; tan_pole when the command would leave the linkage's range.
 /// Accuracy  errors are those of the returned polynomial within 1e-4 of themselves or 1e-12 (worst
-/// seen 4e-6). Cost      some 10 passes over 1601 points. Source    docs/theory/feed-curves.md,
-/// section 4.
+///           seen 5e-6).
+/// Cost      some 10 passes over 1601 points.
+/// Source    docs/theory/feed-curves.md, section 4.
 [[nodiscard]] Result<Command> command(const WorkFeed& work, const FitSpec& spec,
                                       std::stop_token stop = {});
 

@@ -67,11 +67,12 @@ struct Cycle {
 /// Rapid approach, work feed, stop, dwell, return, within the cylinder's limits.
 ///
 /// Errors    out_of_range, not_finite, work_speed_above_limit, work_accel_above_limit (also for the
-/// jerk), approach_too_short,
-///           max_feed_exceeded, unreachable_x, too_many_samples, cancelled.
-/// Accuracy  speed and stroke are continuous within 1e-12 of their largest values (worst seen
-/// 2e-14). Cost      one inverse or forward map a sample. Source    docs/theory/feed-curves.md,
-/// section 5.
+///           jerk), approach_too_short, max_feed_exceeded, unreachable_x, too_many_samples,
+///           cancelled.
+/// Accuracy  strokes and speeds of neighbouring phases meet within 1e-11 mm and mm/s; the last
+///           sample is exactly at rest.
+/// Cost      one inverse or forward map a sample.
+/// Source    docs/theory/feed-curves.md, section 5.
 [[nodiscard]] Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec,
                                   std::stop_token stop = {});
 

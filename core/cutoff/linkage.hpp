@@ -61,23 +61,22 @@ struct Inverse {
 /// Source    docs/theory/feed-curves.md, section 2.
 class Mechanism {
  public:
-  /// Errors  out_of_range, not_finite, exclusive_fields, r2_lt_a, dead_point, reversed,
-  /// slot_off_rod; unreachable_x for the
-  ///         feed of a calibration.
+  /// Errors    out_of_range, not_finite, exclusive_fields, r2_lt_a, dead_point, reversed,
+  ///           slot_off_rod; unreachable_x for the feed of a calibration.
   [[nodiscard]] static Result<Mechanism> make(const Linkage& linkage);
 
   /// Tool feed at a stroke.
-  /// Errors  tan_pole or dead_point: the stroke is outside (stroke_low, stroke_high) shrunk by
-  /// 1e-12 of its width.
+  /// Errors    tan_pole or dead_point: the stroke is outside (stroke_low, stroke_high) shrunk by
+  ///           1e-12 of its width.
   [[nodiscard]] Result<double> tool_feed(double stroke) const;
 
   /// Cylinder stroke at a feed.
-  /// Errors  unreachable_x: the feed is outside the linkage's range, or the arm within 0.06 deg of
-  /// a tangent position.
+  /// Errors    unreachable_x: the feed is outside the linkage's range, or the arm within 0.06 deg
+  ///           of a tangent position.
   [[nodiscard]] Result<double> cylinder_stroke(double feed) const;
 
   /// The same with derivatives, for arguments known to be in range.
-  /// Cost  `forward` three sines and an atan2; `inverse` two atan and a sine.
+  /// Cost      some ten calls of elementary functions each.
   [[nodiscard]] Forward forward(double stroke) const;
   [[nodiscard]] Inverse inverse(double feed) const;
 

@@ -43,8 +43,9 @@ struct RapidMove {
 /// limit); empty when the ramp to `end_speed` alone is longer.
 ///
 /// Accuracy  the peak of a short move is the last double that fits; the rest of the distance goes
-/// into the cruise. Cost      at most 128 bisections. Source    docs/theory/feed-curves.md,
-/// section 5.
+///           into the cruise.
+/// Cost      at most 128 bisections.
+/// Source    docs/theory/feed-curves.md, section 5.
 [[nodiscard]] std::optional<RapidMove> rapid_move(double distance, double end_speed,
                                                   const CylinderLimits& limits);
 

@@ -45,13 +45,13 @@ struct ToolOutputs {
 /// Cutting figures at the constant tool feed `feed` (mm/s); `ripple` is the command's largest
 /// relative error of it.
 ///
-/// Errors  out_of_range, not_finite, wall_too_thick.
-/// Source  docs/theory/feed-curves.md, section 6.
+/// Errors    out_of_range, not_finite, wall_too_thick.
+/// Source    docs/theory/feed-curves.md, section 6.
 [[nodiscard]] Result<ToolOutputs> tool_outputs(const ToolSpec& tool,
                                                const std::optional<TubeSpec>& tube, double feed,
                                                double ripple);
 
-/// Errors  out_of_range, not_finite, wall_too_thick.
+/// Errors    out_of_range, not_finite, wall_too_thick.
 [[nodiscard]] std::optional<Error> check_tube(const TubeSpec& tube);
 
 /// Notes for a tube outside the range of the source's machine (diameters 89..195 mm, walls 6..25

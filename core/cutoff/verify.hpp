@@ -37,8 +37,8 @@ inline constexpr double kWallCut =
 /// accelerations, Newton on eq. (4) and Horner in seconds for the polynomial, differences between
 /// samples for the cycle. Every check is a ratio, its limit in `limit`.
 ///
-/// Cost    about that of the answer.
-/// Source  docs/theory/feed-curves.md, sections 2 to 6.
+/// Cost      about that of the answer.
+/// Source    docs/theory/feed-curves.md, sections 2 to 6.
 [[nodiscard]] std::vector<Check> verify(const FeedCurveSpec& spec, const FeedCurve& curve);
 
 }  // namespace tubecut::cutoff

@@ -55,10 +55,10 @@ struct CylinderState {
 /// The constant tool feed x = x_s + v t on [0, T] and the cylinder motion that makes it, in closed
 /// form.
 ///
-/// Source  docs/theory/feed-curves.md, section 3.
+/// Source    docs/theory/feed-curves.md, section 3.
 class WorkFeed {
  public:
-  /// Errors  out_of_range, not_finite, s2_gt_s1, unreachable_x.
+  /// Errors    out_of_range, not_finite, s2_gt_s1, unreachable_x.
   [[nodiscard]] static Result<WorkFeed> make(const Mechanism& mechanism, const Cut& cut);
 
   [[nodiscard]] CylinderState at(double time) const;

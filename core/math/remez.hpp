@@ -34,11 +34,11 @@ inline constexpr double kLevelledFloor = 5e-14;
 /// The polynomial of `degree` (0..8) with the smallest largest relative error p/f - 1: Remez
 /// exchange of all extrema.
 ///
-/// Errors    cancelled; not_converged when 60 exchanges do not level a curve (none seen; at
-///           most 5 needed by the golden curves). Accuracy  worst <= level (1 + kLevelled) or worst
-///           - level <=
-/// kLevelledFloor. Cost      one pass over the grid an exchange, and 41 calls of the curve an
-/// extremum. Source    docs/theory/feed-curves.md, section 4.
+/// Errors    cancelled; not_converged when 60 exchanges do not level a curve (none seen; at most 5
+///           needed by the golden curves).
+/// Accuracy  worst <= level (1 + kLevelled) or worst - level <= kLevelledFloor.
+/// Cost      one pass over the grid an exchange, and 41 calls of the curve an extremum.
+/// Source    docs/theory/feed-curves.md, section 4.
 [[nodiscard]] Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree,
                                                        std::stop_token stop = {});
 

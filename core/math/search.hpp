@@ -27,7 +27,8 @@ template <class F>
 }
 
 /// The largest `x` of [low, high] for which `holds` is true, given that it holds at `low` and, once
-/// false, stays false. Cost  at most 128 calls.
+/// false, stays false.
+/// Cost      at most 128 calls.
 template <class Predicate>
 [[nodiscard]] double last_true(Predicate&& holds, double low, double high) {
   for (int i = 0; i < 128; ++i) {
@@ -47,7 +48,8 @@ struct Extreme {
 /// two inner points.
 ///
 /// Accuracy  the bracket shrinks to 1e-8 of its width, so the value is good to 1e-16 of the curve's
-/// drop over it. Cost      41 calls.
+///           drop over it.
+/// Cost      41 calls.
 template <class F>
 [[nodiscard]] Extreme golden_maximum(F&& f, double low, double high) {
   constexpr double kGolden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
