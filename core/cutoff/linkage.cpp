@@ -22,7 +22,7 @@ constexpr double kDeadPointMargin =
 constexpr double kTangentMargin =
     1e-6;  // of cos^2(theta - beta): nearer than 0.06 deg the inverse loses its digits
 constexpr double kStrokeMargin = 1e-12;  // of the stroke's width, kept from both limits
-constexpr int kPeakScan = 128;           // steps of psi that separate the roots of g''
+constexpr int kPeakScan = 64;            // steps of psi that separate the roots of g''
 
 double reduced(double angle) {  // to (-pi, pi]
   return angle - kTwoPi * std::ceil((angle - kPi) / kTwoPi);

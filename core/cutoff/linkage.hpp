@@ -57,7 +57,7 @@ struct Inverse {
 /// form.
 ///
 /// Accuracy  feed(stroke(x)) = x within 1e-12 of |x| + A/cos^2 psi0, 1 % away from the limits
-///           (worst seen over 10^5 seeded linkages: 1.5e-13).
+///           (worst seen over 10^5 seeded linkages: 3.0e-13).
 /// Source    docs/theory/feed-curves.md, section 2.
 class Mechanism {
  public:
