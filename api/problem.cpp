@@ -1,5 +1,7 @@
 #include "api/problem.hpp"
 
+#include <cmath>
+
 #include "api/writer.hpp"
 
 namespace tubecut::api {
@@ -10,7 +12,8 @@ bool retryable(ErrorKind kind) {
 }
 
 Json shown(const Shown& shown) {
-  if (const auto* d = std::get_if<double>(&shown)) return Json{*d};
+  if (const auto* d = std::get_if<double>(&shown))
+    return std::isfinite(*d) ? Json{*d} : Json{"not a finite number"};
   if (const auto* s = std::get_if<std::string>(&shown)) return Json{*s};
   if (const auto* intervals = std::get_if<Intervals>(&shown)) {
     Json::Array list;

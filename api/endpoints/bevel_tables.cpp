@@ -162,12 +162,13 @@ struct BevelTables {
     out.target = decode_target(in);
     out.partners = decode_cutters(in);
     out.sampling = decode_sampling(in);
-    const bool root_known = in.is<std::string>("root_surface");
     out.root_surface = in.choice("root_surface", kRoots);
     out.groove = in.object("groove", decode_groove);
     out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
     out.contact = in.choice("contact", kContacts, Contact::inner);
-    if (root_known && !supported(out))
+    const bool known =
+        in.understood("root_surface") && in.understood("dihedral") && in.understood("contact");
+    if (known && !supported(out))
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = "contact",
                 .hint = "root inner goes with contact inner or none; root outer with contact none"},
