@@ -76,6 +76,7 @@ cutoff::FitSpec decode_fit(Reader& in) {
     return out;
   }
   out.method = in.choice("method", kMethods, FitMethod::minimax);
+  if (!in.understood("method")) in.silence();
   switch (out.method) {
     case FitMethod::automatic:
       out.tolerance = in.number("tolerance_ratio", {.min = 1e-12, .max = 1.0}, 0.005);

@@ -68,14 +68,15 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
   const auto top = own.top(at.x(), at.y());
   labels.see(top ? std::abs(*top - p.z[i]) : scale, kLabel * scale);
   for (std::size_t k = 0; k < solids.size(); ++k) {
+    if (k == p.cutter[i]) continue;  // `labels` holds its own height
     // A partner lost or found here stands above on one side only.
     const bool beside = std::any_of(p.events.begin(), p.events.end(), [&](const Event& e) {
       return e.kind == EventKind::jump && (e.from == k || e.to == k) &&
              apart(e.phi, p.phi[i]) < 1e-9;
     });
-    if (beside && k != p.cutter[i]) continue;
+    if (beside) continue;
     const auto height = solids[k].top(at.x(), at.y());
-    if (height && !beside) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
+    if (height) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
   }
 }
 
