@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/base/angle.hpp"
@@ -55,7 +56,9 @@ Turn make_turn(const AngleProfile& profile, const EnvelopeSpec& spec) {
       .ahead = std::vector<double>(n),
       .width = std::vector<double>(n),
       .leave = std::vector<double>(n),
-      .corner = std::vector<char>(n)};
+      .corner = std::vector<char>(n),
+      .under = std::vector<std::size_t>(n, Turn::kNone),
+      .covers = std::vector<char>(n)};
   for (std::size_t j = 0; j < n; ++j) turn.ahead[j] = turn.distance(j, turn.next(j));
   for (std::size_t j = 0; j < n; ++j) {
     turn.width[j] = 0.5 * (turn.ahead[turn.previous(j)] + turn.ahead[j]);
@@ -87,7 +90,7 @@ Braking start(const Turn& turn, std::size_t j, Sense sense) {
 
 Sweep sweep(const Turn& turn, Sense sense) {
   const std::size_t n = turn.size();
-  Sweep out{std::vector<double>(n), std::vector<char>(n)};
+  Sweep out{std::vector<double>(n), std::vector<double>(n), std::vector<char>(n)};
   auto j = static_cast<std::size_t>(std::ranges::max_element(turn.b) - turn.b.begin());
   Braking at = start(turn, j, sense);
   // The first lap forgets that no curve came over the start; what the third leaves is the closed
@@ -95,9 +98,10 @@ Sweep sweep(const Turn& turn, Sense sense) {
   for (std::size_t visit = 0; visit < 3 * n; ++visit) {
     j = step(turn, j, sense);
     at = brake(at, arriving(turn, j, sense), turn.limits);
-    out.restarted[j] = turn.b[j] >= at.value;
+    out.restarted[j] = turn.restarts(j, at.value);
     if (out.restarted[j]) at = start(turn, j, sense);
     out.value[j] = at.value;
+    out.slope[j] = at.slope;
   }
   return out;
 }
@@ -148,7 +152,7 @@ Envelope make_envelope(const Turn& turn) {
                .contact_after = std::vector<std::size_t>(n),
                .contact_before = std::vector<std::size_t>(n)};
   for (std::size_t j = 0; j < n; ++j)
-    out.e[j] = std::max({turn.b[j], out.forward.value[j], out.backward.value[j]});
+    out.e[j] = std::max(out.forward.value[j], out.backward.value[j]);
   out.f = out.e;
   const auto hull = contacts(turn, out.e);
   for (std::size_t c = 0; c + 1 < hull.size(); ++c) {
@@ -159,7 +163,10 @@ Envelope make_envelope(const Turn& turn) {
     out.contact_before[k] = i;
     for (auto j = turn.next(i); j != k; j = turn.next(j)) out.f[j] = rolled(turn, out.e, i, j, k);
   }
-  for (std::size_t j = 0; j < n; ++j) out.area += (out.f[j] - turn.b[j]) * turn.width[j];
+  for (std::size_t j = 0; j < n; ++j) {
+    out.area += (out.f[j] - turn.b[j]) * turn.width[j];
+    if (out.e[j] < turn.b[j]) out.area = std::numeric_limits<double>::infinity();
+  }
   return out;
 }
 

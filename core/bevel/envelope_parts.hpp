@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/bevel/smoothing.hpp"
@@ -22,6 +23,11 @@ struct Turn {
   std::vector<double> width;  // (h left + h right)/2
   std::vector<double> leave;  // m, start slope of each node's braking curves, rad/mm
   std::vector<char> corner;   // concave beyond A: no start slope suits both sides
+  // The node whose curve stands in for this one, or kNone: such a node starts no curves of its own.
+  std::vector<std::size_t> under;
+  std::vector<char> covers;  // some node lies under this one
+
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
   [[nodiscard]] std::size_t size() const { return b.size(); }
   [[nodiscard]] std::size_t next(std::size_t j) const { return j + 1 == size() ? 0 : j + 1; }
@@ -29,6 +35,10 @@ struct Turn {
   /// From i forward to k; a whole turn when they are equal.
   [[nodiscard]] double distance(std::size_t i, std::size_t k) const {
     return k > i ? s[k] - s[i] : s[k] - s[i] + period;
+  }
+  /// A curve that arrives at j with that value ends there, and j's own begins.
+  [[nodiscard]] bool restarts(std::size_t j, double value) const {
+    return under[j] == kNone && b[j] >= value;
   }
   /// Largest start slope whose curve stays below `highest`.
   [[nodiscard]] double start_bound(std::size_t j) const;
@@ -53,6 +63,7 @@ enum class Sense { forward, backward };
 
 struct Sweep {
   std::vector<double> value;
+  std::vector<double> slope;    // in the direction of travel
   std::vector<char> restarted;  // value is B's own, the curve starts anew here
 };
 [[nodiscard]] Sweep sweep(const Turn& turn, Sense sense);
@@ -74,12 +85,12 @@ struct Envelope {
   std::vector<char> contact;               // f touches e
   std::vector<std::size_t> contact_after;  // at contacts only: the neighbouring contacts
   std::vector<std::size_t> contact_before;
-  double area = 0.0;  // sum of (f - B) width
+  double area = 0.0;  // sum of (f - B) width; infinite when some e lies below B
 };
 [[nodiscard]] Envelope make_envelope(const Turn& turn);
 
-/// Searches the start slopes of bare concave corners for least area; changes turn.leave. False when
-/// stopped.
+/// Searches the start slopes of concave corners for least area; changes turn.leave and turn.under.
+/// False when stopped.
 [[nodiscard]] bool refine(Turn& turn, Envelope& envelope, const std::stop_token& stop);
 
 }  // namespace tubecut::bevel::detail

@@ -95,19 +95,19 @@ Ratios compare(unsigned long seed, int nodes, std::size_t points, SwingLimits li
 }
 
 TEST(EnvelopeOptimum, HundredRealNodes) {
-  const auto got = compare(20240501, 100, 180, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, 1e9);
+  const auto got = compare(20240501, 100, 360, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, 1e9);
   EXPECT_LE(got.median, 1.01);
   EXPECT_LE(got.worst, 1.02);
 }
 
 TEST(EnvelopeOptimum, UnderTheTorchLimit) {
-  const auto got = compare(20240502, 100, 180, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, kTorch);
+  const auto got = compare(20240502, 100, 360, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, kTorch);
   EXPECT_LE(got.median, 1.01);
   EXPECT_LE(got.worst, 1.02);
 }
 
 TEST(EnvelopeOptimum, FasterAxis) {
-  const auto got = compare(20240503, 100, 180, {8.0 * kRadPerDeg, 4.0 * kRadPerDeg}, 1e9);
+  const auto got = compare(20240503, 100, 360, {8.0 * kRadPerDeg, 4.0 * kRadPerDeg}, 1e9);
   EXPECT_LE(got.median, 1.01);
   EXPECT_LE(got.worst, 1.02);
 }
