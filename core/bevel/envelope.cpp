@@ -88,6 +88,25 @@ Braking start(const Turn& turn, std::size_t j, Sense sense) {
   return {turn.b[j], sense == Sense::forward ? turn.leave[j] : -turn.leave[j]};
 }
 
+double node_bound(const Turn& turn, std::size_t j, Sense sense) {
+  // B + m d - A d^2/2 <= highest at the distance d of every node; m's bound is convex in d, least
+  // at `apex`.
+  if (turn.start_bound(j) >= turn.steepest_start) return turn.steepest_start;
+  const double room = turn.highest - turn.b[j];
+  const double half_rate = 0.5 * turn.limits.curvature;
+  const double apex = std::sqrt(room / half_rate);
+  double bound = turn.steepest_start;
+  double away = 0.0;
+  for (auto i = j; away < apex || away == 0.0;) {
+    if (away > turn.period) break;
+    i = step(turn, i, sense);
+    const double before = away;
+    away += arriving(turn, i, sense);
+    if (before > 0.0 && away >= apex) bound = std::min(bound, room / before + half_rate * before);
+  }
+  return std::min(bound, room / away + half_rate * away);
+}
+
 Sweep sweep(const Turn& turn, Sense sense) {
   const std::size_t n = turn.size();
   Sweep out{std::vector<double>(n), std::vector<double>(n), std::vector<char>(n)};
@@ -208,13 +227,16 @@ Result<std::vector<double>> envelope(const AngleProfile& profile, const Envelope
   auto turn = detail::make_turn(profile, spec);
   auto plain = detail::make_envelope(turn);
   if (!spec.refine) return std::move(plain.f);
-  const double plain_area = plain.area;
-  auto trial = plain;
-  if (!detail::refine(turn, trial, stop)) return fail({.code = ErrorCode::cancelled});
-  // The answer is one whole evaluation of the slopes found, so that its guarantees rest on nothing
-  // local.
-  auto refined = detail::make_envelope(turn);
-  return std::move(refined.area <= plain_area ? refined.f : plain.f);
+  auto best = std::pair{plain.area, plain.f};
+  for (const auto start : {detail::Start::refined, detail::Start::plain}) {
+    auto found = turn;
+    if (!detail::refine(found, plain, start, stop)) return fail({.code = ErrorCode::cancelled});
+    // Each answer is one whole evaluation of what was found, so that its guarantees rest on nothing
+    // local.
+    auto whole = detail::make_envelope(found);
+    if (whole.area < best.first) best = {whole.area, std::move(whole.f)};
+  }
+  return std::move(best.second);
 }
 
 }  // namespace tubecut::bevel

@@ -40,7 +40,7 @@ struct Turn {
   [[nodiscard]] bool restarts(std::size_t j, double value) const {
     return under[j] == kNone && b[j] >= value;
   }
-  /// Largest start slope whose curve stays below `highest`.
+  /// Largest start slope whose curve stays below `highest` everywhere.
   [[nodiscard]] double start_bound(std::size_t j) const;
 };
 [[nodiscard]] Turn make_turn(const AngleProfile& profile, const EnvelopeSpec& spec);
@@ -60,6 +60,10 @@ enum class Sense { forward, backward };
 [[nodiscard]] double arriving(const Turn& turn, std::size_t j, Sense sense);
 /// The start of node j's own curve.
 [[nodiscard]] Braking start(const Turn& turn, std::size_t j, Sense sense);
+
+/// Largest start slope of node j in that sense whose curve stays below `highest` at the nodes,
+/// where alone f is defined: a little more than Turn::start_bound.
+[[nodiscard]] double node_bound(const Turn& turn, std::size_t j, Sense sense);
 
 struct Sweep {
   std::vector<double> value;
@@ -89,8 +93,11 @@ struct Envelope {
 };
 [[nodiscard]] Envelope make_envelope(const Turn& turn);
 
-/// Searches the start slopes of concave corners for least area; changes turn.leave and turn.under.
-/// False when stopped.
-[[nodiscard]] bool refine(Turn& turn, Envelope& envelope, const std::stop_token& stop);
+/// The search has more than one valley, so it is begun twice: from the start slopes of single
+/// corners searched first (as published), and from those of `make_turn`.
+enum class Start { refined, plain };
+/// Searches the start slopes of concave corners for least area, from a turn and its envelope;
+/// changes turn.leave and turn.under. False when stopped.
+[[nodiscard]] bool refine(Turn& turn, Envelope envelope, Start from, const std::stop_token& stop);
 
 }  // namespace tubecut::bevel::detail

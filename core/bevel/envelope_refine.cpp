@@ -34,17 +34,17 @@ class CornerSearch {
   /// The same when j's curves may take the place of all nodes below them. The area then has more
   /// than one valley.
   bool improve_covering(std::size_t j) {
-    const double bound = turn_.start_bound(j);
-    if (!(bound > 0.0)) return false;
-    const double pitch = 2.0 * bound / kScan;
-    Choice best{.m = -bound, .area = trial(j, -bound, true)};
+    const double least = -node_bound(turn_, j, Sense::backward);
+    const double most = node_bound(turn_, j, Sense::forward);
+    const double pitch = (most - least) / kScan;
+    Choice best{.m = least, .area = trial(j, least, true)};
     for (int i = 1; i <= kScan; ++i) {
-      const double m = -bound + pitch * i;
+      const double m = i == kScan ? most : least + pitch * i;
       const double area = trial(j, m, true);
       if (area < best.area - margin()) best = {m, area};
     }
     const auto near =
-        section(j, std::max(best.m - pitch, -bound), std::min(best.m + pitch, bound), true);
+        section(j, std::max(best.m - pitch, least), std::min(best.m + pitch, most), true);
     if (near.area < best.area - margin()) best = near;
     return settle(j, best, true);
   }
@@ -96,9 +96,9 @@ class CornerSearch {
 
 }  // namespace
 
-bool refine(Turn& turn, Envelope& envelope, const std::stop_token& stop) {
+bool refine(Turn& turn, Envelope envelope, Start from, const std::stop_token& stop) {
   CornerSearch search(turn, envelope);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds && from == Start::refined; ++round) {
     for (std::size_t j = 0; j < turn.size(); ++j) {
       if (!turn.corner[j] || envelope.e[j] - turn.b[j] > kBare) continue;
       if (stop.stop_requested()) return false;
