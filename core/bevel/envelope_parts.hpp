@@ -22,7 +22,10 @@ struct Turn {
   std::vector<double> ahead;  // mm from each node to the next
   std::vector<double> width;  // (h left + h right)/2
   std::vector<double> leave;  // m, start slope of each node's braking curves, rad/mm
-  std::vector<char> corner;   // concave beyond A: no start slope suits both sides
+  // The profile keeps the limits here. Such a node needs no curve of its own: where e is its B, e
+  // at the neighbours is no lower than theirs, so e keeps the limits too.
+  std::vector<char> quiet;
+  std::vector<char> corner;  // concave beyond A: no start slope suits both sides
   // The node whose curve stands in for this one, or kNone: such a node starts no curves of its own.
   std::vector<std::size_t> under;
   std::vector<char> covers;  // some node lies under this one
@@ -49,7 +52,11 @@ struct Turn {
 struct Braking {
   double value = 0.0;
   double slope = 0.0;
+  friend bool operator==(const Braking&, const Braking&) = default;
 };
+/// Nothing comes from a node that starts no curve.
+inline constexpr Braking kNoCurve{-std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
 /// Travels h: the slope falls at the rate A down to -K. Exact integration.
 [[nodiscard]] Braking brake(Braking from, double h, const SwingLimits& limits);
 
@@ -69,6 +76,7 @@ struct Sweep {
   std::vector<double> value;
   std::vector<double> slope;    // in the direction of travel
   std::vector<char> restarted;  // value is B's own, the curve starts anew here
+  bool closed = false;  // a second lap repeats the first; else value is the highest of several
 };
 [[nodiscard]] Sweep sweep(const Turn& turn, Sense sense);
 

@@ -9,6 +9,7 @@ std::optional<double> LocalUpdate::apply(std::size_t j, double m, bool cover) {
   j_ = j;
   const auto through = put_under(m, cover);
   if (!through) return std::numeric_limits<double>::infinity();
+  if (!now_.forward.closed || !now_.backward.closed) return std::nullopt;
   const auto last = follow(*through, Sense::forward);
   const auto first = follow(*through, Sense::backward);
   if (!first || !last) return std::nullopt;
