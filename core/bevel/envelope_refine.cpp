@@ -12,6 +12,10 @@ constexpr double kWorthwhile =
 constexpr double kGolden = 0.6180339887498949;
 constexpr int kRounds = 3;
 constexpr int kNarrowings = 12;
+constexpr double kBend = 0.005;     // share of K
+constexpr double kHidden = 0.04;    // share of K^2/A, the height of a curve that turns from K to -K
+constexpr std::size_t kWork = 500;  // node visits for each node; a bound on hostile profiles
+constexpr std::size_t kWholeVisits = 8;  // of each node in one whole evaluation
 constexpr int kScan =
     8;  // steps of the scan that precedes the section when curves may cover other corners
 
@@ -30,6 +34,20 @@ class CornerSearch {
     const double bound = turn_.start_bound(j);
     return bound > 0.0 && settle(j, section(j, -bound, bound, false), false);
   }
+
+  /// Corners worth it: bent by more than numerical dust, and hidden by no more than a start slope
+  /// can bring to light.
+  bool may_cover(std::size_t j) const {
+    if (!turn_.corner[j]) return false;
+    const auto& [slope, curvature] = turn_.limits;
+    const auto before = turn_.previous(j);
+    const double bend = (turn_.b[j] - turn_.b[before]) / turn_.ahead[before] -
+                        (turn_.b[turn_.next(j)] - turn_.b[j]) / turn_.ahead[j];
+    return bend > kBend * slope && now_.e[j] - turn_.b[j] <= kHidden * slope * slope / curvature;
+  }
+
+  /// The work allowed is used up: the search stays where it is.
+  bool spent() const { return local_.visits() + whole_ > kWork * turn_.size(); }
 
   /// The same when j's curves may take the place of all nodes below them. The area then has more
   /// than one valley.
@@ -78,6 +96,7 @@ class CornerSearch {
       return *area;
     }
     const double whole = make_envelope(turn_).area;
+    whole_ += kWholeVisits * turn_.size();
     local_.take_back();
     return whole;
   }
@@ -92,29 +111,36 @@ class CornerSearch {
   Turn& turn_;
   Envelope& now_;
   LocalUpdate local_;
+  std::size_t whole_ = 0;  // nodes visited by whole evaluations
 };
 
-}  // namespace
-
-bool refine(Turn& turn, Envelope envelope, Start from, const std::stop_token& stop) {
-  CornerSearch search(turn, envelope);
+/// One search; false when stopped.
+bool search_from(Turn& turn, const Envelope& envelope, CornerSearch& search, Start from,
+                 const std::stop_token& stop) {
   for (int round = 0; round < kRounds && from == Start::refined; ++round) {
-    for (std::size_t j = 0; j < turn.size(); ++j) {
+    for (std::size_t j = 0; j < turn.size() && !search.spent(); ++j) {
       if (!turn.corner[j] || envelope.e[j] - turn.b[j] > kBare) continue;
       if (stop.stop_requested()) return false;
       search.improve(j);
     }
   }
-  for (int round = 0; round < kRounds; ++round) {
-    bool better = false;
-    for (std::size_t j = 0; j < turn.size(); ++j) {
-      if (!turn.corner[j]) continue;
+  bool better = true;
+  for (int round = 0; round < kRounds && better; ++round) {
+    better = false;
+    for (std::size_t j = 0; j < turn.size() && !search.spent(); ++j) {
+      if (!search.may_cover(j)) continue;
       if (stop.stop_requested()) return false;
       better |= search.improve_covering(j);
     }
-    if (!better) break;
   }
   return true;
+}
+
+}  // namespace
+
+bool refine(Turn& turn, Envelope envelope, Start from, const std::stop_token& stop) {
+  CornerSearch search(turn, envelope);
+  return search_from(turn, envelope, search, from, stop);
 }
 
 }  // namespace tubecut::bevel::detail

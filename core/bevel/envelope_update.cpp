@@ -22,8 +22,15 @@ std::optional<double> LocalUpdate::apply(std::size_t j, double m, bool cover) {
 }
 
 void LocalUpdate::take_back() {
-  for (; !log_.empty(); log_.pop_back())
-    std::visit([](auto& entry) { *entry.place = entry.old; }, log_.back());
+  numbers_.take_back();
+  flags_.take_back();
+  links_.take_back();
+}
+
+void LocalUpdate::keep() {
+  numbers_.entries.clear();
+  flags_.entries.clear();
+  links_.entries.clear();
 }
 
 std::size_t LocalUpdate::node(long away) const {
@@ -122,7 +129,7 @@ bool LocalUpdate::lift(Range changed) {
 /// Appends k to the hull; behind its bottom the old contacts go on. False when that would go round
 /// the turn.
 bool LocalUpdate::append(std::size_t k) {
-  while (true) {
+  for (;; ++visits_) {
     const bool bottom = hull_.size() == 1;
     const auto i = bottom ? now_.contact_before[hull_[0]] : hull_[hull_.size() - 2];
     if (bottom && gap(i, hull_[0]) + span_ >= turn_.size()) return false;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <variant>
+#include <utility>
 #include <vector>
 
 #include "core/bevel/envelope_parts.hpp"
@@ -22,15 +22,23 @@ class LocalUpdate {
   /// made anew.
   std::optional<double> apply(std::size_t j, double m, bool cover);
   void take_back();
-  void keep() { log_.clear(); }
+  void keep();
   /// Nodes visited since the start, the measure of work.
   [[nodiscard]] std::size_t visits() const { return visits_; }
 
  private:
+  /// The values that writes replaced, latest last.
   template <class T>
-  struct Entry {
-    T* place;
-    T old;
+  struct Log {
+    std::vector<std::pair<T*, T>> entries;
+    void set(T& place, T value) {
+      if (place == value) return;
+      entries.emplace_back(&place, place);
+      place = value;
+    }
+    void take_back() {
+      for (; !entries.empty(); entries.pop_back()) *entries.back().first = entries.back().second;
+    }
   };
   /// Nodes counted from the node that is changed.
   struct Range {
@@ -38,12 +46,9 @@ class LocalUpdate {
     long last = 0;
   };
 
-  template <class T>
-  void set(T& place, T value) {
-    if (place == value) return;
-    log_.push_back(Entry<T>{&place, place});
-    place = value;
-  }
+  void set(double& place, double value) { numbers_.set(place, value); }
+  void set(char& place, char value) { flags_.set(place, value); }
+  void set(std::size_t& place, std::size_t value) { links_.set(place, value); }
   [[nodiscard]] std::size_t node(long away) const;
   [[nodiscard]] std::size_t gap(std::size_t i, std::size_t k) const;
   bool below(long away, Sense sense);
@@ -58,7 +63,9 @@ class LocalUpdate {
   Turn& turn_;
   Envelope& now_;
   std::size_t j_ = 0;
-  std::vector<std::variant<Entry<double>, Entry<char>, Entry<std::size_t>>> log_;
+  Log<double> numbers_;
+  Log<char> flags_;
+  Log<std::size_t> links_;
   std::vector<long> below_;
   std::vector<std::size_t> hull_;
   std::size_t span_ = 0;  // nodes between the ends of what may change

@@ -7,14 +7,19 @@
 
 #include "core/bevel/smoothing.hpp"
 
-/// The envelope written down again as the theory note has it, whole at every evaluation: sweeps stepped by slope at both
-/// ends, the upper hull over three periods in (s, e - A s^2/2). Slow; for tests only.
+/// The envelope written down again as the theory note has it, whole at every evaluation: sweeps
+/// stepped by slope at both ends, the upper hull over three periods in (s, e - A s^2/2). Slow; for
+/// tests only.
 namespace tubecut::bevel {
 
 class PlainEnvelope {
  public:
   PlainEnvelope(const AngleProfile& profile, const EnvelopeSpec& spec)
-      : p_(profile), k_(spec.limits.slope), a_(spec.limits.curvature), top_(spec.highest), n_(profile.b.size()) {
+      : p_(profile),
+        k_(spec.limits.slope),
+        a_(spec.limits.curvature),
+        top_(spec.highest),
+        n_(profile.b.size()) {
     for (std::size_t j = 0; j < n_; ++j) {
       const double in = (b(j) - b(j + n_ - 1)) / h(j + n_ - 1);
       const double out = (b(j + 1) - b(j)) / h(j);
@@ -102,7 +107,8 @@ class PlainEnvelope {
 
   /// Travels from the highest B three times round; `sense` 1 or -1.
   void sweep(std::vector<double>& e, int sense) const {
-    const auto first = static_cast<std::size_t>(std::max_element(p_.b.begin(), p_.b.end()) - p_.b.begin());
+    const auto first =
+        static_cast<std::size_t>(std::max_element(p_.b.begin(), p_.b.end()) - p_.b.begin());
     std::vector<double> kept(n_);
     double value = b(first), slope = sense * m_[first];
     std::size_t j = first;
