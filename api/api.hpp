@@ -31,6 +31,7 @@ struct Call {
 struct Context {
   std::stop_token stop;
   std::function<double()> clock;  // monotonic seconds, for stage times; may be empty
+  int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
 };
 
 struct Stage {
@@ -63,7 +64,8 @@ struct Outcome {
 [[nodiscard]] Outcome dispatch(const Call& call, const Context& context);
 
 /// A problem document for what the server itself refuses (429, 503, 413 ...).
-[[nodiscard]] Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id);
+[[nodiscard]] Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,
+                              const Context& context);
 
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);

@@ -1,5 +1,7 @@
 #include "core/base/error.hpp"
 
+#include <charconv>
+
 namespace tubecut {
 namespace {
 
@@ -16,6 +18,11 @@ constexpr WarningInfo kWarnings[] = {
 };
 
 }  // namespace
+
+std::string shown(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
 
 const ErrorInfo& info(ErrorCode code) { return kErrors[static_cast<std::size_t>(code)]; }
 const WarningInfo& info(WarningCode code) { return kWarnings[static_cast<std::size_t>(code)]; }

@@ -73,6 +73,9 @@ struct WarningInfo {
   std::string_view meaning;
 };
 
+/// A number as text for hints and details, shortest that reads back the same.
+[[nodiscard]] std::string shown(double value);
+
 [[nodiscard]] const ErrorInfo& info(ErrorCode code);
 [[nodiscard]] const WarningInfo& info(WarningCode code);
 [[nodiscard]] std::span<const ErrorInfo> all_errors();

@@ -1,0 +1,115 @@
+#include "api/catalogue.hpp"
+
+#include "api/endpoint.hpp"
+#include "api/limits.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr std::string_view kJson = "application/json";
+
+std::string errors_page() {
+  Writer out;
+  out.object([](Writer& w) {
+    w.array("errors", all_errors(), [](Writer& each, const ErrorInfo& error) {
+      each.object([&](Writer& o) {
+        o.field("code", error.code);
+        o.field("meaning", error.meaning);
+        o.field("action", error.action);
+      });
+    });
+    w.array("warnings", all_warnings(), [](Writer& each, const WarningInfo& warning) {
+      each.object([&](Writer& o) {
+        o.field("code", warning.code);
+        o.field("severity", warning.severity == Severity::cut ? "cut" : "note");
+        o.field("meaning", warning.meaning);
+      });
+    });
+  });
+  return out.take();
+}
+
+std::string limits_page() {
+  Writer out;
+  out.object([](Writer& w) {
+    w.object("limits", [](Writer& o) {
+#define X(name, value) o.field(#name, limit::name);
+      TUBECUT_LIMITS(X)
+#undef X
+    });
+    w.object("verification", [](Writer& o) {
+      for (const auto& endpoint : endpoints())
+        o.array(endpoint.id, endpoint.checks, [](Writer& each, const CheckLimit& check) {
+          each.object([&](Writer& c) {
+            c.field("name", check.name);
+            c.field("limit", check.limit);
+            c.field("unit", check.unit);
+          });
+        });
+    });
+  });
+  return out.take();
+}
+
+std::string version_page() {
+  Writer out;
+  out.object([](Writer& w) {
+    w.field("engine", "tubecut " + std::string(version()));
+    w.field("version", version());
+    w.field("numerics", numerics());
+    w.array("endpoints", endpoints(), [](Writer& each, const Endpoint& endpoint) {
+      each.object([&](Writer& o) {
+        o.field("id", endpoint.id);
+        o.field("path", endpoint.path);
+        std::vector<std::string> formats{"application/json", "application/cbor"};
+        for (const auto& format : endpoint.formats) formats.emplace_back(format.media);
+        o.column("formats", formats);
+      });
+    });
+  });
+  return out.take();
+}
+
+/// examples/<endpoint>/<name>.json, each {"title", "body"}.
+std::string examples_page() {
+  Writer out;
+  out.object([](Writer& w) {
+    std::vector<Embedded> examples;
+    for (const auto& file : embedded_files())
+      if (file.name.starts_with("examples/") && file.name.ends_with(".json"))
+        examples.push_back(file);
+    w.array("examples", examples, [](Writer& each, const Embedded& file) {
+      const auto inner = file.name.substr(9);
+      const auto slash = inner.find('/');
+      each.object([&](Writer& o) {
+        o.field("endpoint", inner.substr(0, slash));
+        o.field("name", inner.substr(slash + 1, inner.size() - slash - 6));
+        o.raw("body", file.text);
+      });
+    });
+  });
+  return out.take();
+}
+
+}  // namespace
+
+std::optional<Page> catalogue(std::string_view path) {
+  static const struct {
+    std::string_view path;
+    std::string (*print)();
+  } kPages[] = {{"/v1/errors", errors_page},
+                {"/v1/limits", limits_page},
+                {"/v1/version", version_page},
+                {"/v1/examples", examples_page}};
+  for (const auto& page : kPages)
+    if (page.path == path) return Page{std::string(kJson), page.print()};
+  for (const auto& file : embedded_files()) {
+    if (path == "/openapi.yaml" && file.name == "openapi.yaml")
+      return Page{"application/yaml", std::string(file.text)};
+    if (path == "/openapi.json" && file.name == "openapi.json")
+      return Page{std::string(kJson), std::string(file.text)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,372 @@
+#include <algorithm>
+
+#include "api/api.hpp"
+#include "api/catalogue.hpp"
+#include "api/endpoint.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr std::string_view kJsonMedia = "application/json";
+constexpr std::string_view kCborMedia = "application/cbor";
+constexpr std::string_view kProblemMedia = "application/problem+json";
+constexpr std::string_view kAllPaths[] = {"/v1/errors",   "/v1/limits",    "/v1/version",
+                                          "/v1/examples", "/openapi.yaml", "/openapi.json"};
+
+/// Fields that belong to every request.
+struct Common {
+  std::vector<std::pair<std::string, std::string>> reference;
+  Json reference_echo;
+  bool inline_log = false;
+  std::optional<std::int64_t> numerics;
+  std::vector<Measure> accept;
+};
+
+struct Query {
+  bool validate_only = false;
+  std::string_view format;
+  std::string_view view;
+  std::string bad;  // the first parameter not known
+};
+
+Query parse_query(std::string_view text) {
+  Query out;
+  while (!text.empty()) {
+    const auto end = text.find('&');
+    const auto item = text.substr(0, end);
+    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+    const auto equals = item.find('=');
+    const auto name = item.substr(0, equals);
+    const auto value =
+        equals == std::string_view::npos ? std::string_view{} : item.substr(equals + 1);
+    if (name == "validate_only" && (value == "true" || value == "false")) {
+      out.validate_only = value == "true";
+    } else if (name == "format" && !value.empty()) {
+      out.format = value;
+    } else if (name == "view" && !value.empty()) {
+      out.view = value;
+    } else if (!item.empty() && out.bad.empty()) {
+      out.bad = item;
+    }
+  }
+  return out;
+}
+
+/// Media type without parameters, in lower case.
+std::string media_of(std::string_view header) {
+  auto media = std::string(header.substr(0, header.find(';')));
+  std::erase_if(media, [](char c) { return c == ' ' || c == '\t'; });
+  for (auto& c : media)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return media;
+}
+
+enum class Body { json, cbor, text };
+struct Choice {
+  Body body = Body::json;
+  const FormatName* format = nullptr;
+};
+
+std::optional<Choice> choice_by(std::string_view word, const Endpoint& endpoint, bool by_name) {
+  if (word == (by_name ? "json" : kJsonMedia)) return Choice{};
+  if (word == (by_name ? "cbor" : kCborMedia)) return Choice{Body::cbor, nullptr};
+  if (!by_name && (word == "*/*" || word == "application/*")) return Choice{};
+  for (const auto& format : endpoint.formats)
+    if (word == (by_name ? format.name : format.media)) return Choice{Body::text, &format};
+  return std::nullopt;
+}
+
+/// `?format=` first, then the first type in Accept that there is; nothing when none is.
+std::optional<Choice> choose(const Query& query, std::string_view accept,
+                             const Endpoint& endpoint) {
+  if (!query.format.empty()) return choice_by(query.format, endpoint, true);
+  if (accept.empty()) return Choice{};
+  while (!accept.empty()) {
+    const auto end = accept.find(',');
+    if (auto found = choice_by(media_of(accept.substr(0, end)), endpoint, false)) return found;
+    accept = end == std::string_view::npos ? std::string_view{} : accept.substr(end + 1);
+  }
+  return std::nullopt;
+}
+
+std::string list_formats(const Endpoint& endpoint) {
+  std::string out = "application/json (json), application/cbor (cbor)";
+  for (const auto& format : endpoint.formats)
+    out += ", " + std::string(format.media) + " (" + std::string(format.name) + ")";
+  return out;
+}
+
+/// One answer or problem, with what is needed to print it.
+class Job {
+ public:
+  Job(const Call& call, const Context& context) : call_(call), context_(context) { lap(); }
+
+  Outcome refuse(Problem problem, std::string allow = {}) {
+    const auto kind = info(problem.code).kind;
+    out_.error = kind;
+    out_.content_type = kProblemMedia;
+    out_.job.error_code = info(problem.code).code;
+    const int status = context_.status != nullptr ? context_.status(kind) : 0;
+    out_.body = print(problem, call_.request_id, status);
+    if (!allow.empty()) out_.headers.emplace_back("Allow", std::move(allow));
+    return std::move(out_);
+  }
+  Outcome refuse(ErrorCode code, std::string detail = {}) {
+    return refuse(Problem{.code = code, .detail = std::move(detail), .issues = {}});
+  }
+  Outcome page(Page page) {
+    out_.content_type = std::move(page.content_type);
+    out_.body = std::move(page.body);
+    return std::move(out_);
+  }
+  Outcome compute(const Endpoint& endpoint);
+
+ private:
+  Outcome answer(const Endpoint& endpoint, const Common& common, Answer answer,
+                 const Choice& choice, const Query& query);
+  void lap(std::string_view stage = {}) {
+    if (!context_.clock) return;
+    const double now = context_.clock();
+    if (!stage.empty()) out_.job.stages.push_back({stage, now - mark_});
+    mark_ = now;
+  }
+
+  const Call& call_;
+  const Context& context_;
+  Outcome out_;
+  double mark_ = 0.0;
+};
+
+Common read_common(Reader& in, const Endpoint& endpoint) {
+  Common out;
+  in.optional_object("reference", [&](Reader& r) {
+    for (const auto* name : {"part", "order", "drawing", "revision", "heat", "customer_id"})
+      if (auto value = r.optional_text(name, static_cast<std::size_t>(limit::reference_characters_max)))
+        out.reference.emplace_back(name, *value);
+    return 0;
+  });
+  out.reference_echo = in.take_echo("reference");
+  static constexpr std::array kLog{Option<bool>{"inline", true}};
+  if (in.has("log")) out.inline_log = in.choice("log", kLog);
+  in.note("log");
+  in.take_echo("log");
+  in.note("numerics");
+  if (in.has("numerics")) out.numerics = in.integer64("numerics");
+  in.note("accept");
+  if (!endpoint.accepts.empty() && in.has("accept"))
+    in.object("accept", [&](Reader& r) {
+      for (const auto name : endpoint.accepts)
+        if (const auto value = r.optional_number(name, kNotNegative))
+          out.accept.push_back({name, *value});
+      return 0;
+    });
+  return out;
+}
+
+Outcome Job::compute(const Endpoint& endpoint) {
+  out_.job.endpoint = endpoint.id;
+  const auto query = parse_query(call_.query);
+  if (!query.bad.empty())
+    return refuse(ErrorCode::bad_request, "unknown query parameter: " + query.bad);
+  const auto media = media_of(call_.content_type);
+  if (media != kJsonMedia)
+    return refuse(ErrorCode::unsupported_media_type,
+                  "got \"" + media + "\", accepted: application/json");
+  const auto choice = choose(query, call_.accept, endpoint);
+  if (!choice)
+    return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
+  if (call_.body.size() > endpoint.max_body)
+    return refuse(ErrorCode::body_too_large,
+                  "the limit is " + std::to_string(endpoint.max_body) + " bytes");
+  const auto body = parse(call_.body, {.depth = static_cast<std::size_t>(limit::nesting_max)});
+  lap("parse");
+  if (!body)
+    return refuse(ErrorCode::unreadable_json, body.error().reason + " at byte " +
+                                                  std::to_string(body.error().offset));
+  Reader in(*body);
+  const auto common = read_common(in, endpoint);
+  if (common.numerics && *common.numerics != numerics())
+    return refuse(Problem{.code = ErrorCode::numerics_mismatch,
+                          .detail = {},
+                          .issues = {{.code = ErrorCode::numerics_mismatch,
+                                      .pointer = "/numerics",
+                                      .got = Json{static_cast<double>(*common.numerics)},
+                                      .limit = Json{static_cast<double>(numerics())},
+                                      .unit = {},
+                                      .hint = {}}}});
+  Run run{.stop = context_.stop,
+          .format = choice->format,
+          .caption = {.reference = common.reference, .input_sha256 = {}, .result_sha256 = {},
+                      .view = std::string(query.view)},
+          .stage = [this](std::string_view stage) { lap(stage); }};
+  auto reply = endpoint.handle(in, run);
+  if (auto* problem = std::get_if<Problem>(&reply)) {
+    if (problem->code == ErrorCode::cancelled) problem->code = ErrorCode::over_budget;
+    return refuse(std::move(*problem));
+  }
+  return answer(endpoint, common, std::move(std::get<Answer>(reply)), *choice, query);
+}
+
+struct Verdict {
+  std::string_view status = "ok";
+  std::vector<std::string> reasons;
+};
+
+Verdict judge(const Answer& answer, const Common& common) {
+  Verdict out;
+  for (const auto& warning : answer.warnings) {
+    if (info(warning.code).severity != Severity::cut) continue;
+    out.status = "review";
+    out.reasons.emplace_back(info(warning.code).code);
+  }
+  for (const auto& bound : common.accept)
+    for (const auto& measure : answer.measures) {
+      if (measure.name != bound.name || measure.value <= bound.value) continue;
+      out.status = "reject";
+      std::string reason(bound.name);
+      reason += ": ";
+      append_number(reason, measure.value);
+      reason += " > ";
+      append_number(reason, bound.value);
+      out.reasons.push_back(std::move(reason));
+    }
+  return out;
+}
+
+void write_checks(Writer& w, const std::vector<Check>& checks) {
+  w.object("verification", [&](Writer& v) {
+    v.field("passed", true);  // a check that fails never gets here
+    v.array("checks", checks, [](Writer& each, const Check& check) {
+      each.object([&](Writer& o) {
+        o.field("name", check.name);
+        o.field("value", check.value);
+        o.field("limit", check.limit);
+        o.field("unit", check.unit);
+      });
+    });
+  });
+}
+
+void write_warnings(Writer& w, const Answer& answer) {
+  w.array("warnings", answer.warnings, [&](Writer& each, const Warning& warning) {
+    const auto& about = info(warning.code);
+    each.object([&](Writer& o) {
+      o.field("code", about.code);
+      o.field("severity", about.severity == Severity::cut ? "cut" : "note");
+      o.field("pointer", pointer_of(warning.member, answer.request));
+      o.field("detail", warning.detail.empty() ? std::string(about.meaning) : warning.detail);
+    });
+  });
+}
+
+Outcome Job::answer(const Endpoint& endpoint, const Common& common, Answer answer,
+                    const Choice& choice, const Query& query) {
+  for (const auto& check : answer.checks)
+    if (!check.passed())
+      return refuse(Problem{.code = ErrorCode::verification_failed,
+                            .detail = "check " + check.name + " failed",
+                            .issues = {{.code = ErrorCode::verification_failed,
+                                        .pointer = "",
+                                        .got = Json{check.name},
+                                        .limit = Json{check.limit},
+                                        .unit = check.unit,
+                                        .hint = {}}}});
+  const auto request_text = dump(answer.request);
+  auto& job = out_.job;
+  job.input_sha256 = sha256(request_text);
+  job.id = call_.job_id.empty() ? job.input_sha256.substr(0, 16) : call_.job_id;
+  job.reference = common.reference;
+  const auto verdict = judge(answer, common);
+  job.verdict = verdict.status;
+  for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
+  const auto result_sha256 = sha256(answer.result);
+  if (choice.body == Body::text && !query.validate_only) {
+    out_.content_type = choice.format->media;
+    out_.body = std::move(answer.text);
+    out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
+    out_.headers.emplace_back("Tubecut-Result-Sha256", result_sha256);
+    return std::move(out_);
+  }
+  auto echo = answer.request;
+  auto& members = *echo.as<Json::Object>();
+  if (!common.reference.empty()) members.emplace_back("reference", common.reference_echo);
+  if (common.inline_log) members.emplace_back("log", Json{"inline"});
+  Writer out(answer.result.size() + request_text.size() + 4096);
+  out.object([&](Writer& w) {
+    w.object("job", [&](Writer& o) {
+      o.field("id", job.id);
+      o.field("endpoint", endpoint.id);
+      o.field("engine", "tubecut " + std::string(version()));
+      o.field("numerics", numerics());
+      o.field("input_sha256", job.input_sha256);
+      o.field("result_sha256", result_sha256);
+    });
+    w.field("request", echo);
+    if (!query.validate_only) w.raw("result", answer.result);
+    write_checks(w, answer.checks);
+    w.object("verdict", [&](Writer& o) {
+      o.field("status", verdict.status);
+      o.column("reasons", verdict.reasons);
+    });
+    write_warnings(w, answer);
+    if (common.inline_log)
+      w.array("log", job.stages, [](Writer& each, const Stage& stage) {
+        each.object([&](Writer& o) {
+          o.field("event", stage.name);
+          o.field("duration_ms", stage.seconds * 1e3);
+        });
+      });
+  });
+  const bool cbor = choice.body == Body::cbor;
+  out_.content_type = cbor ? kCborMedia : kJsonMedia;
+  out_.body = cbor ? to_cbor(out.text()) : out.take();
+  return std::move(out_);
+}
+
+}  // namespace
+
+Outcome dispatch(const Call& call, const Context& context) {
+  Job job(call, context);
+  for (const auto& endpoint : endpoints()) {
+    if (endpoint.path != call.path) continue;
+    if (call.method != "POST")
+      return job.refuse(Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
+                        "POST");
+    return job.compute(endpoint);
+  }
+  if (std::find(std::begin(kAllPaths), std::end(kAllPaths), call.path) == std::end(kAllPaths))
+    return job.refuse(ErrorCode::not_found);
+  if (call.method != "GET" && call.method != "HEAD")
+    return job.refuse(Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
+                      "GET, HEAD");
+  auto page = catalogue(call.path);
+  return page ? job.page(std::move(*page)) : job.refuse(ErrorCode::not_found);
+}
+
+Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,
+                const Context& context) {
+  const Call call{.method = {}, .path = {}, .query = {}, .accept = {}, .content_type = {},
+                  .body = {}, .job_id = {}, .request_id = std::string(request_id)};
+  return Job(call, context).refuse(code, std::string(detail));
+}
+
+std::size_t max_body(std::string_view path) {
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return endpoint.max_body;
+  return static_cast<std::size_t>(limit::body_max_bytes);
+}
+
+std::string job_line(const Caption& caption) {
+  std::string out =
+      "tubecut " + std::string(version()) + ", input " + caption.input_sha256.substr(0, 16);
+  for (const auto& [name, text] : caption.reference) out += ", " + name + " " + text;
+  return out;
+}
+
+std::string_view version() { return TUBECUT_VERSION; }
+
+int numerics() {
+  return 1;
+}
+
+}  // namespace tubecut::api

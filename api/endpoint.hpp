@@ -1,0 +1,137 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "api/api.hpp"
+#include "api/limits.hpp"
+#include "api/problem.hpp"
+#include "api/reader.hpp"
+#include "api/writer.hpp"
+#include "core/base/error.hpp"
+
+namespace tubecut::api {
+
+/// What an answer measures of itself, to be held against the request's own `accept`.
+struct Measure {
+  std::string_view name;  // as in `accept`, for example "max_b_deg"
+  double value = 0.0;
+};
+
+/// How a check's limit is stated in `GET /v1/limits`.
+struct CheckLimit {
+  std::string_view name;
+  std::string_view limit;  // a number, or the formula it follows
+  std::string_view unit;
+};
+
+/// What a drawing or a machine file prints beside the result.
+struct Caption {
+  std::vector<std::pair<std::string, std::string>> reference;
+  std::string input_sha256;
+  std::string result_sha256;
+  std::string view;  // ?view=, empty: the format's default
+};
+
+/// One line that names the job on a drawing: engine, input hash, the caller's reference.
+[[nodiscard]] std::string job_line(const Caption& caption);
+
+/// One more way to print a result. `print` never sees JSON; core results in, text out.
+template <class Spec, class Out>
+struct Format {
+  std::string_view name;   // ?format=
+  std::string_view media;  // Accept
+  std::string (*print)(const Spec&, const Out&, const Caption&);
+};
+
+struct FormatName {
+  std::string_view name;
+  std::string_view media;
+};
+
+/// A request as understood and its answer; or why there is none.
+struct Answer {
+  Json request = {};  // echo without reference and log
+  std::string result = {};
+  std::vector<Check> checks = {};
+  std::vector<Warning> warnings = {};
+  std::vector<Measure> measures = {};
+  std::string text = {};  // in another format, if one was asked for
+};
+using Reply = std::variant<Answer, Problem>;
+
+/// What the pipeline runs with.
+struct Run {
+  std::stop_token stop = {};
+  const FormatName* format = nullptr;  // nullptr: JSON or CBOR
+  Caption caption = {};
+  std::function<void(std::string_view)> stage = {};  // called when a stage ends
+};
+
+struct Endpoint {
+  std::string_view id;
+  std::string_view path;
+  std::size_t max_body = 0;
+  Reply (*handle)(Reader& in, Run& run) = nullptr;
+  std::span<const FormatName> formats;
+  std::span<const std::string_view> accepts;  // names allowed in `accept`
+  std::span<const CheckLimit> checks;
+};
+
+/// sha256 in lower-case hex.
+[[nodiscard]] std::string sha256(std::string_view bytes);
+
+/// The one pipeline. An endpoint `E` plugs in:
+///   using Spec, Out;
+///   static Spec decode(Reader&);                                        types, units, ranges
+///   static Result<Out> compute(const Spec&, const std::stop_token&);    pure core call
+///   static std::vector<Check> verify(const Spec&, const Out&);          the proof
+///   static std::vector<Warning> warnings(const Spec&, const Out&);
+///   static std::vector<Measure> measure(const Spec&, const Out&);
+///   static void encode(const Spec&, const Out&, Writer&);               members of `result`
+///   static const std::vector<Format<Spec, Out>>& formats();
+///   kId, kPath, kMaxBody, kAccepts, kChecks
+template <class E>
+Reply run(Reader& in, Run& run) {
+  const auto spec = E::decode(in);
+  if (auto issues = in.finish_root(); !issues.empty()) return field_problem(std::move(issues));
+  Answer answer{.request = Json{in.echo()}};
+  run.stage("decode");
+  auto out = E::compute(spec, run.stop);
+  run.stage("compute");
+  if (!out) return core_problem(out.error(), answer.request);
+  answer.checks = E::verify(spec, *out);
+  run.stage("verify");
+  answer.warnings = E::warnings(spec, *out);
+  answer.measures = E::measure(spec, *out);
+  Writer writer(1 << 16);
+  writer.object([&](Writer& w) { E::encode(spec, *out, w); });
+  answer.result = writer.take();
+  if (run.format != nullptr) {
+    run.caption.input_sha256 = sha256(dump(answer.request));
+    run.caption.result_sha256 = sha256(answer.result);
+    for (const auto& format : E::formats())
+      if (format.name == run.format->name) answer.text = format.print(spec, *out, run.caption);
+  }
+  run.stage("encode");
+  return answer;
+}
+
+template <class E>
+Endpoint endpoint() {
+  static const auto names = [] {
+    std::vector<FormatName> list;
+    for (const auto& format : E::formats()) list.push_back({format.name, format.media});
+    return list;
+  }();
+  return {E::kId, E::kPath, E::kMaxBody, &run<E>, names, E::kAccepts, E::kChecks};
+}
+
+/// Every endpoint, in the order of the contract.
+[[nodiscard]] std::span<const Endpoint> endpoints();
+
+}  // namespace tubecut::api

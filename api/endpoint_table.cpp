@@ -1,0 +1,14 @@
+#include "api/endpoint.hpp"
+#include "api/endpoints/all.hpp"
+
+namespace tubecut::api {
+
+std::span<const Endpoint> endpoints() {
+  static const std::vector<Endpoint> kTable{
+      intersections(),
+      bevel_tables(),
+  };
+  return kTable;
+}
+
+}  // namespace tubecut::api

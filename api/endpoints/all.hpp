@@ -1,0 +1,11 @@
+#pragma once
+
+#include "api/endpoint.hpp"
+
+namespace tubecut::api {
+
+// One line per endpoint; the table in endpoint_table.cpp lists them in the order of the contract.
+[[nodiscard]] Endpoint intersections();
+[[nodiscard]] Endpoint bevel_tables();
+
+}  // namespace tubecut::api

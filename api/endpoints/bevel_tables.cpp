@@ -1,0 +1,283 @@
+#include <algorithm>
+#include <cmath>
+
+#include "api/endpoint.hpp"
+#include "api/endpoints/all.hpp"
+#include "api/endpoints/joint_codec.hpp"
+#include "api/formats/bevel_table_formats.hpp"
+#include "core/bevel/table.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using bevel::Contact;
+using bevel::Dihedral;
+using bevel::GrooveRule;
+using bevel::RootSurface;
+
+constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
+
+enum class RuleName { half_dihedral, fixed, none, square };
+
+GrooveRule decode_groove(Reader& in) {
+  static constexpr std::array kRules{Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
+                                     Option<RuleName>{"fixed", RuleName::fixed},
+                                     Option<RuleName>{"none", RuleName::none},
+                                     Option<RuleName>{"square", RuleName::square}};
+  if (in.find("rule") != nullptr && *in.find("rule") == Json{"zones"}) {
+    in.issue({.code = ErrorCode::unsupported_combination, .pointer = "rule"}, in.find("rule"));
+    in.note("rule");
+    in.ignore_rest();
+    return bevel::NoGroove{};
+  }
+  const auto rule = in.choice("rule", kRules);
+  if (!in.is<std::string>("rule")) return bevel::NoGroove{};
+  if (rule == RuleName::half_dihedral)
+    return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
+  if (rule == RuleName::fixed)
+    return bevel::FixedGroove{in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
+  if (rule == RuleName::square) return bevel::SquareCut{};
+  return bevel::NoGroove{};
+}
+
+/// Swing axis of the built-in five_axis_cutter, an assumption of docs/theory/pulse-schedules.md, section 4.5.
+constexpr double kSwingSpeed = 45.0 * kRadPerDeg;          // rad/s
+constexpr double kSwingAcceleration = 300.0 * kRadPerDeg;  // rad/s^2
+
+struct Smoothing {
+  bevel::Smoothing method = bevel::NoSmoothing{};
+  Angle mutation_limit = Angle::deg(10);
+};
+
+bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
+  static constexpr std::array kMachines{Option<int>{"five_axis_cutter", 0}};
+  static constexpr std::array kAlong{Option<bevel::Along>{"developed", bevel::Along::developed},
+                                     Option<bevel::Along>{"length", bevel::Along::length}};
+  bevel::EnvelopeSmoothing out;
+  bool by_machine = false;
+  in.object("limits", [&](Reader& l) {
+    by_machine = l.exactly_one({"max_slope_deg_per_mm", "machine"}) == 1;
+    if (by_machine) {
+      l.choice("machine", kMachines);
+      const double speed = l.number("speed_mm_min", {.min = 1.0, .max = 60'000.0});
+      const double use = l.number("use", {.min = 0.01, .max = 1.0}, 0.8);
+      if (const auto limits =
+              bevel::swing_limits(kSwingSpeed, kSwingAcceleration, speed / 60.0, use))
+        out.limits = *limits;
+    } else {
+      const Range limit{.min = 1e-6, .max = 1e6};
+      out.limits.slope = l.number("max_slope_deg_per_mm", limit) * kRadPerDeg;
+      out.limits.curvature = l.number("max_curvature_deg_per_mm2", limit) * kRadPerDeg;
+    }
+    return 0;
+  });
+  out.along = in.choice("along", kAlong, by_machine ? bevel::Along::length : bevel::Along::developed);
+  if (by_machine && out.along != bevel::Along::length)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "along",
+              .limit = Json{"length"},
+              .hint = "limits from a machine and a speed hold along the true length"},
+             in.find("along"));
+  out.refine = in.flag("refine", true);
+  return out;
+}
+
+bevel::HermiteSmoothing decode_hermite(Reader& in) {
+  bevel::HermiteSmoothing out;
+  if (in.find("transition_points") != nullptr && *in.find("transition_points") == Json{"auto"}) {
+    in.note("transition_points");
+    in.put("transition_points", Json{"auto"});
+    out.transition_points.reset();
+  } else {
+    out.transition_points = in.integer("transition_points", 2, 5'000);
+  }
+  return out;
+}
+
+Smoothing decode_smoothing(Reader& in) {
+  static constexpr std::array kMethods{Option<int>{"envelope", 0}, Option<int>{"hermite", 1},
+                                       Option<int>{"none", 2}};
+  Smoothing out;
+  const int method = in.choice("method", kMethods);
+  out.mutation_limit =
+      in.angle("mutation_limit_deg", {.min = 0.0, .max = 180.0, .open_min = true}, Angle::deg(10));
+  if (!in.is<std::string>("method")) return out;
+  if (method == 0) out.method = decode_envelope(in);
+  if (method == 1) out.method = decode_hermite(in);
+  return out;
+}
+
+bevel::TorchRange decode_torch(Reader& in) {
+  bevel::TorchRange out;
+  out.min = in.angle("min_deg", kTorchDeg, Angle::deg(-80));
+  out.max = in.angle("max_deg", kTorchDeg, Angle::deg(80));
+  if (!(out.min < out.max))
+    in.issue({.code = ErrorCode::out_of_range,
+              .pointer = "max_deg",
+              .limit = Json{out.min.deg()},
+              .unit = "deg",
+              .hint = "must be greater than min_deg"},
+             in.find("max_deg"));
+  return out;
+}
+
+/// The combinations that are offered (design: one root, what must touch, which angle between the tubes).
+bool supported(const bevel::TableSpec& s) {
+  if (s.contact == Contact::inner)
+    return s.root_surface == RootSurface::inner && s.dihedral == Dihedral::weld_side;
+  if (s.contact == Contact::none)
+    return s.root_surface == RootSurface::outer || s.dihedral == Dihedral::weld_side;
+  return false;
+}
+
+struct BevelTables {
+  using Spec = bevel::TableSpec;
+  using Out = bevel::Table;
+  static constexpr std::string_view kId = "bevel-tables";
+  static constexpr std::string_view kPath = "/v1/bevel-tables";
+  static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm", "max_extra_bevel_deg",
+                                                            "max_b_deg"};
+  static constexpr std::array<CheckLimit, 7> kChecks{{
+      {"dihedral", "1e-9", "deg"},
+      {"bevel_plane", "1e-9", ""},
+      {"above_required", "1e-9", "deg"},
+      {"slope", "max_slope_deg_per_mm (1 + 1e-9)", "deg_per_mm"},
+      {"second_difference", "max_curvature_deg_per_mm2 (1 + 1e-6) + rounding", "deg_per_mm2"},
+      {"torch_range", "1e-9", "deg"},
+      {"penetration", "1e-6", "mm"},
+  }};
+
+  static Spec decode(Reader& in) {
+    static constexpr std::array kRoots{Option<RootSurface>{"inner", RootSurface::inner},
+                                       Option<RootSurface>{"outer", RootSurface::outer}};
+    static constexpr std::array kDihedrals{
+        Option<Dihedral>{"weld_side", Dihedral::weld_side},
+        Option<Dihedral>{"inside", Dihedral::inside},
+        Option<Dihedral>{"as_published", Dihedral::as_published}};
+    static constexpr std::array kContacts{
+        Option<Contact>{"inner", Contact::inner}, Option<Contact>{"outer", Contact::outer},
+        Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
+    Spec out;
+    out.target = decode_target(in);
+    out.partners = decode_cutters(in);
+    out.sampling = decode_sampling(in);
+    const bool root_known = in.is<std::string>("root_surface");
+    out.root_surface = in.choice("root_surface", kRoots);
+    out.groove = in.object("groove", decode_groove);
+    out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
+    out.contact = in.choice("contact", kContacts, Contact::inner);
+    if (root_known && !supported(out))
+      in.issue({.code = ErrorCode::unsupported_combination,
+                .pointer = "contact",
+                .hint = "root inner goes with contact inner or none; root outer with contact none"},
+               in.find("contact"));
+    out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
+    out.torch = in.defaulted_object("torch", decode_torch);
+    const auto smoothing = in.object("smoothing", decode_smoothing);
+    out.smoothing = smoothing.method;
+    out.mutation_limit = smoothing.mutation_limit;
+    return out;
+  }
+
+  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
+    return bevel::table(spec, stop);
+  }
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    return bevel::verify(spec, out);
+  }
+  static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
+
+  static std::vector<Measure> measure(const Spec&, const Out& out) {
+    double gap = 0.0, extra = 0.0, b = 0.0;
+    for (std::size_t i = 0; i < out.b.size(); ++i) {
+      gap = std::max(gap, out.gap[i]);
+      extra = std::max(extra, out.b[i] - out.b_raw[i]);
+      b = std::max(b, std::abs(out.b[i]));
+    }
+    return {{"max_root_gap_mm", gap},
+            {"max_extra_bevel_deg", extra * kDegPerRad},
+            {"max_b_deg", b * kDegPerRad}};
+  }
+
+  static void encode(const Spec& spec, const Out& out, Writer& w) {
+    w.object("points", [&](Writer& p) { encode_points(spec, out, p); });
+    w.field("b_sign", out.inward ? "inward" : "outer_edge_into_part");
+    struct Placed {
+      const joint::Event* event;
+      bool outer;
+    };
+    std::vector<Placed> events;
+    for (const auto& event : out.inner_events) events.push_back({&event, false});
+    for (const auto& event : out.outer_events) events.push_back({&event, true});
+    w.array("events", events, [](Writer& each, const Placed& placed) {
+      encode_event(*placed.event, placed.outer, each);
+    });
+    w.array("mutations", out.mutations, [](Writer& each, const Out::Step& m) {
+      each.object([&](Writer& o) {
+        o.degrees("phi_deg", m.phi);
+        o.degrees("step_deg", m.step);
+      });
+    });
+    w.array("windows", out.windows, [](Writer& each, const Out::Window& v) {
+      each.object([&](Writer& o) {
+        o.degrees("phi_deg", v.phi);
+        o.degrees("step_deg", v.step);
+        o.field("kept", v.kept_before ? "before" : "after");
+        o.degrees("from_phi_deg", v.from);
+        o.degrees("to_phi_deg", v.to);
+        o.degrees("slope_start_deg_per_mm", v.slope_start);
+        o.degrees("slope_end_deg_per_mm", v.slope_end);
+      });
+    });
+    w.object("limits", [&](Writer& o) {
+      o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
+      if (const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing)) {
+        o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
+        o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
+      }
+    });
+    w.array("torch_binds", out.torch_binds, [](Writer& each, const Out::Binding& v) {
+      each.object([&](Writer& o) {
+        o.degrees("from_phi_deg", v.from);
+        o.degrees("to_phi_deg", v.to);
+        o.degrees("groove_lost_deg", v.groove_lost);
+      });
+    });
+    w.field("length_mm", out.length_total);
+    w.field("developed_length_mm", out.developed_total);
+  }
+
+  static void encode_points(const Spec& spec, const Out& out, Writer& p) {
+    encode_phi(out.phi, spec.sampling, p);
+    p.column("developed_mm", out.developed);
+    p.column("length_mm", out.length);
+    p.column("cutter", out.cutter);
+    p.column("z_inner_mm", out.z_inner);
+    p.column("z_outer_mm", out.z_outer);
+    p.degrees_column("dihedral_deg", out.dihedral);
+    p.degrees_column("groove_deg", out.groove);
+    p.degrees_column("tau_deg", out.tau);
+    p.degrees_column("gamma_deg", out.gamma);
+    p.degrees_column("flush_deg", out.flush);
+    p.degrees_column("b_raw_deg", out.b_raw);
+    p.degrees_column("b_required_deg", out.b_required);
+    p.degrees_column("b_deg", out.b);
+    p.column("gap_mm", out.gap);
+    p.column("beam_mm", out.beam);
+    p.column("torch_inner_mm", out.torch_inner);
+    p.column("torch_outer_mm", out.torch_outer);
+  }
+
+  static const std::vector<Format<Spec, Out>>& formats() {
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &bevel_table_csv}, {"svg", "image/svg+xml", &bevel_table_svg}};
+    return kFormats;
+  }
+};
+
+}  // namespace
+
+Endpoint bevel_tables() { return endpoint<BevelTables>(); }
+
+}  // namespace tubecut::api

@@ -1,0 +1,129 @@
+#include "api/endpoints/joint_codec.hpp"
+
+#include "api/limits.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
+constexpr Range kTolerance{.min = limit::tolerance_min_mm, .max = limit::tolerance_max_mm};
+constexpr Range kComponent{.min = -1e6, .max = 1e6};
+
+joint::AxisLine decode_axis(Reader& in) {
+  return {.point = in.vector3("point_mm", kOffset), .direction = in.vector3("direction", kComponent)};
+}
+
+joint::Partner decode_tube(Reader& in) {
+  const double radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
+  const auto which = in.exactly_one({"inclination_deg", "axis"});
+  if (which == 1) {
+    const auto axis = in.object("axis", decode_axis);
+    return joint::AxisTube{.radius = radius, .axis = axis};
+  }
+  joint::TubeCutter out{.radius = radius};
+  if (which) out.inclination = in.angle("inclination_deg", kInclinationDeg);
+  out.clocking = in.angle("clocking_deg", kAnyAngleDeg, Angle{});
+  out.offset = in.number("offset_mm", kOffset, 0.0);
+  out.height = in.number("height_mm", kOffset, 0.0);
+  return out;
+}
+
+joint::Partner decode_plane(Reader& in) {
+  return joint::PlaneCutter{.point = in.vector3("point_mm", kOffset),
+                            .normal = in.vector3("normal", kComponent)};
+}
+
+enum class Kind { tube, plane };
+
+joint::Partner decode_cutter(Reader& in) {
+  static constexpr std::array kKinds{Option<Kind>{"tube", Kind::tube},
+                                     Option<Kind>{"plane", Kind::plane}};
+  const auto kind = in.choice("kind", kKinds);
+  in.optional_text("id");
+  return kind == Kind::plane ? decode_plane(in) : decode_tube(in);
+}
+
+const char* name_of(joint::EventKind kind) {
+  switch (kind) {
+    case joint::EventKind::junction: return "junction";
+    case joint::EventKind::jump: return "jump";
+    case joint::EventKind::kink: return "kink";
+  }
+  return "";
+}
+
+}  // namespace
+
+joint::Target decode_target(Reader& in) {
+  return in.object("target", [](Reader& t) {
+    if (t.has("kind")) {
+      const auto kind = t.text("kind");
+      if (!kind.empty() && kind != "round")
+        t.issue({.code = ErrorCode::unsupported_target, .pointer = "kind", .limit = Json{"round"}},
+                t.find("kind"));
+    } else {
+      t.note("kind");
+      t.put("kind", Json{"round"});
+    }
+    t.optional_text("id");
+    joint::Target out;
+    out.outer_radius = t.number("outer_diameter_mm", kDiameter) / 2.0;
+    // 0 < wall < radius, and within what the service cuts
+    const Range wall{.min = kWall.min, .max = std::min(kWall.max, out.outer_radius),
+                     .open_min = false, .open_max = out.outer_radius <= kWall.max};
+    out.wall = t.number("wall_mm", t.is<double>("outer_diameter_mm") ? wall : kWall);
+    out.length = t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});
+    return out;
+  });
+}
+
+std::vector<joint::Partner> decode_cutters(Reader& in) {
+  return in.array("cutters", {.min = 1, .max = static_cast<std::size_t>(limit::cutters_max)},
+                  decode_cutter);
+}
+
+joint::Sampling decode_sampling(Reader& in) {
+  static constexpr std::array kMetrics{
+      Option<joint::Metric>{"developed", joint::Metric::developed},
+      Option<joint::Metric>{"chord", joint::Metric::chord}};
+  return in.defaulted_object("sampling", [](Reader& s) {
+    joint::Sampling out;
+    s.note("uniform_points");
+    s.note("tolerance_mm");
+    if (s.has("uniform_points"))
+      out.uniform_points = static_cast<std::size_t>(
+          s.integer("uniform_points", static_cast<int>(limit::uniform_points_min),
+                    static_cast<int>(limit::uniform_points_max)));
+    if (s.has("tolerance_mm") || !s.has("uniform_points")) {
+      joint::Tolerance tolerance;
+      tolerance.value = s.number("tolerance_mm", kTolerance, 0.05);
+      tolerance.metric = s.choice("metric", kMetrics, joint::Metric::developed);
+      out.tolerance = tolerance;
+    }
+    out.max_nodes = static_cast<std::size_t>(limit::nodes_max);
+    return out;
+  });
+}
+
+void encode_event(const joint::Event& event, bool outer, Writer& w) {
+  w.object([&](Writer& o) {
+    o.field("kind", name_of(event.kind));
+    o.field("surface", outer ? "outer" : "inner");
+    o.degrees("phi_deg", event.phi);
+    o.field("z_from_mm", event.z_from);
+    o.field("z_to_mm", event.z_to);
+    o.field("from", event.from);
+    o.field("to", event.to);
+  });
+}
+
+void encode_phi(const std::vector<double>& phi, const joint::Sampling& sampling, Writer& w) {
+  if (sampling.tolerance) return w.degrees_column("phi_deg", phi);
+  // Exactly 360 i / n, not that through radians and back.
+  std::vector<double> grid(phi.size());
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    grid[i] = 360.0 * static_cast<double>(i) / static_cast<double>(grid.size());
+  w.column("phi_deg", grid);
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "api/reader.hpp"
+
+namespace tubecut::api {
+
+/// The numbers a request may hold. One table: the reader's checks, `GET /v1/limits` and openapi.yaml all show it.
+/// X(name, value): names carry their unit.
+#define TUBECUT_LIMITS(X)            \
+  X(uniform_points_min, 8)           \
+  X(uniform_points_max, 20'000)      \
+  X(nodes_max, 100'000)              \
+  X(tolerance_min_mm, 1e-4)          \
+  X(tolerance_max_mm, 10)            \
+  X(cutters_max, 64)                 \
+  X(members_max, 10'000)             \
+  X(diameter_min_mm, 5)              \
+  X(diameter_max_mm, 5'000)          \
+  X(wall_min_mm, 0.5)                \
+  X(wall_max_mm, 200)                \
+  X(offset_max_mm, 1e6)              \
+  X(angle_max_deg, 3'600)            \
+  X(periods_json_max, 400'000)       \
+  X(periods_cbor_max, 4'000'000)     \
+  X(body_max_bytes, 1'048'576)       \
+  X(body_large_max_bytes, 8'388'608) \
+  X(nesting_max, 32)                 \
+  X(problems_named_max, 32)          \
+  X(reference_characters_max, 64)
+
+namespace limit {
+#define X(name, value) inline constexpr double name = value;
+TUBECUT_LIMITS(X)
+#undef X
+}  // namespace limit
+
+inline constexpr Range kDiameter{.min = limit::diameter_min_mm, .max = limit::diameter_max_mm};
+inline constexpr Range kWall{.min = limit::wall_min_mm, .max = limit::wall_max_mm};
+inline constexpr Range kOffset{.min = -limit::offset_max_mm, .max = limit::offset_max_mm};
+inline constexpr Range kAnyAngleDeg{.min = -limit::angle_max_deg, .max = limit::angle_max_deg};
+
+}  // namespace tubecut::api

@@ -1,0 +1,114 @@
+#include "api/problem.hpp"
+
+#include "api/writer.hpp"
+
+namespace tubecut::api {
+namespace {
+
+bool retryable(ErrorKind kind) {
+  return kind == ErrorKind::overloaded || kind == ErrorKind::unavailable;
+}
+
+Json shown(const Shown& shown) {
+  if (const auto* d = std::get_if<double>(&shown)) return Json{*d};
+  if (const auto* s = std::get_if<std::string>(&shown)) return Json{*s};
+  if (const auto* intervals = std::get_if<Intervals>(&shown)) {
+    Json::Array list;
+    for (const auto& [from, to] : *intervals)
+      list.push_back(Json{Json::Array{Json{from}, Json{to}}});
+    return Json{std::move(list)};
+  }
+  return Json{};
+}
+
+/// The member's name on the wire: itself, or itself with a unit.
+const Json::Member* wire_member(const Json::Object& object, std::string_view name) {
+  for (const auto& member : object)
+    if (member.first == name) return &member;
+  for (const auto& member : object) {
+    const auto unit = unit_of(member.first);
+    if (!unit.empty() && member.first.size() == name.size() + 1 + unit.size() &&
+        member.first.starts_with(name))
+      return &member;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string pointer_of(std::string_view member, const Json& request) {
+  std::string pointer;
+  const Json* here = &request;
+  while (!member.empty()) {
+    const auto slash = member.find('/');
+    const auto step = member.substr(0, slash);
+    member = slash == std::string_view::npos ? std::string_view{} : member.substr(slash + 1);
+    const Json* next = nullptr;
+    std::string name(step);
+    if (const auto* object = here == nullptr ? nullptr : here->as<Json::Object>()) {
+      if (const auto* found = wire_member(*object, step)) {
+        name = found->first;
+        next = &found->second;
+      }
+    } else if (const auto* array = here == nullptr ? nullptr : here->as<Json::Array>()) {
+      std::size_t index = 0;
+      for (const char c : step) index = index * 10 + static_cast<std::size_t>(c - '0');
+      if (index < array->size()) next = &(*array)[index];
+    }
+    pointer += "/" + name;
+    here = next;
+  }
+  return pointer;
+}
+
+Problem field_problem(std::vector<FieldIssue> issues) {
+  Problem out{.code = ErrorCode::invalid_request, .detail = {}, .issues = std::move(issues)};
+  const auto& first = out.issues.front();
+  out.detail = (first.pointer.empty() ? "the body" : first.pointer) + ": " +
+               std::string(info(first.code).meaning);
+  if (out.issues.size() > 1)
+    out.detail += " (and " + std::to_string(out.issues.size() - 1) + " more)";
+  return out;
+}
+
+Problem core_problem(const Error& error, const Json& request) {
+  Problem out{.code = error.code(), .detail = {}, .issues = {}};
+  for (const auto& issue : error.issues)
+    out.issues.push_back({.code = issue.code,
+                          .pointer = pointer_of(issue.member, request),
+                          .got = shown(issue.got),
+                          .limit = shown(issue.limit),
+                          .unit = issue.unit,
+                          .hint = issue.hint});
+  const auto& first = error.issues.front();
+  out.detail = first.hint.empty() ? std::string(info(first.code).meaning) : first.hint;
+  return out;
+}
+
+std::string print(const Problem& problem, std::string_view request_id, int status) {
+  const auto& about = info(problem.code);
+  Writer out;
+  out.object([&](Writer& w) {
+    w.field("type", "/v1/errors#" + std::string(about.code));
+    w.field("title", about.meaning);
+    w.field("status", status);
+    w.field("code", about.code);
+    w.field("detail", problem.detail.empty() ? about.meaning : std::string_view(problem.detail));
+    w.field("request_id", request_id);
+    w.field("retryable", retryable(about.kind));
+    w.field("action", about.action);
+    w.array("errors", problem.issues, [](Writer& each, const FieldIssue& issue) {
+      each.object([&](Writer& o) {
+        o.field("code", info(issue.code).code);
+        o.field("pointer", issue.pointer);
+        o.field("got", issue.got);
+        o.field("limit", issue.limit);
+        o.field("unit", issue.unit);
+        o.field("hint", issue.hint);
+      });
+    });
+  });
+  return out.take();
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,412 @@
+#include "api/reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tubecut::api {
+namespace {
+
+constexpr std::size_t kIssuesNamed = 32;
+constexpr std::size_t kShownText = 80;
+
+// Longest first, so that "_deg_per_mm2" is not read as "_mm2".
+constexpr std::string_view kUnits[] = {
+    "mm3_s",       "deg_per_mm2", "deg_per_mm", "rad_per_mm", "rev_min", "per_hour", "mm_s3", "mm_s2", "mm_min",
+    "pulses",      "mm_s",       "m_min",      "mm3",     "mm2",      "deg",   "rad",   "ms",
+    "us",          "um",         "kg",         "mm",      "s"};
+
+/// Levenshtein distance, for names of a few dozen characters.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const auto above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest(std::string_view name, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
+  if (name.size() > 64) return best;
+  for (const auto& candidate : known) {
+    const auto d = distance(name, candidate);
+    if (d < least) {
+      least = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// What was got, short enough for a problem document.
+Json shown(const Json& value) {
+  if (value.as<Json::Array>() != nullptr || value.as<Json::Object>() != nullptr) {
+    const bool object = value.as<Json::Object>() != nullptr;
+    const auto size = object ? value.as<Json::Object>()->size() : value.as<Json::Array>()->size();
+    return Json{std::string(object ? "an object of " : "an array of ") + std::to_string(size)};
+  }
+  if (const auto* s = value.as<std::string>(); s != nullptr && s->size() > kShownText) {
+    auto cut = kShownText;
+    while (cut > 0 && (static_cast<unsigned char>((*s)[cut]) & 0xC0) == 0x80) --cut;
+    return Json{s->substr(0, cut) + "..."};
+  }
+  return value;
+}
+
+std::string escaped(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    if (c == '~')
+      out += "~0";
+    else if (c == '/')
+      out += "~1";
+    else
+      out += c;
+  }
+  return out;
+}
+
+bool below(double v, Range r) { return r.open_min ? v <= r.min : v < r.min; }
+bool above(double v, Range r) { return r.open_max ? v >= r.max : v > r.max; }
+
+bool printable(const std::string& s, std::size_t longest) {
+  return !s.empty() && s.size() <= longest &&
+         std::all_of(s.begin(), s.end(), [](char c) { return c >= 0x20 && c < 0x7f; });
+}
+
+}  // namespace
+
+std::string_view unit_of(std::string_view field) {
+  for (const auto unit : kUnits)
+    if (field.size() > unit.size() && field.ends_with(unit) &&
+        field[field.size() - unit.size() - 1] == '_')
+      return unit;
+  return {};
+}
+
+Reader::Reader(const Json& body) : body_(&body), issues_(&own_issues_) {}
+
+void Reader::note(std::string_view name) {
+  if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.emplace_back(name);
+}
+
+void Reader::put(std::string_view name, Json value) {
+  echo_.emplace_back(std::string(name), std::move(value));
+}
+
+Json Reader::take_echo(std::string_view name) {
+  const auto place = std::find_if(echo_.begin(), echo_.end(),
+                                  [&](const Json::Member& member) { return member.first == name; });
+  if (place == echo_.end()) return Json{};
+  Json out = std::move(place->second);
+  echo_.erase(place);
+  return out;
+}
+
+void Reader::issue(FieldIssue issue, const Json* value) {
+  if (issues_->size() >= kIssuesNamed) return;
+  issue.pointer = issue.pointer.empty() ? pointer_ : pointer_ + "/" + issue.pointer;
+  if (value != nullptr) issue.got = shown(*value);
+  issues_->push_back(std::move(issue));
+}
+
+void Reader::adopt(std::string_view name, Reader& child) {
+  child.finish();
+  put(name, Json{std::move(child.echo_)});
+}
+
+void Reader::finish() {
+  const auto* object = body_->as<Json::Object>();
+  if (object == nullptr || ignore_rest_) return;
+  for (const auto& [name, value] : *object) {
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    const auto near = nearest(name, known_);
+    issue({.code = ErrorCode::unknown_field,
+           .pointer = escaped(name),
+           .hint = near.empty() ? std::string{} : "did you mean " + near + "?"},
+          &value);
+  }
+}
+
+std::vector<FieldIssue> Reader::finish_root() {
+  if (body_->as<Json::Object>() == nullptr)
+    issue({.code = ErrorCode::wrong_type, .hint = "the body must be one JSON object"}, body_);
+  finish();
+  return std::move(own_issues_);
+}
+
+const Json* Reader::required(std::string_view name) {
+  note(name);
+  const auto* field = find(name);
+  if (field == nullptr && body_->as<Json::Object>() != nullptr)
+    issue({.code = ErrorCode::missing_field, .pointer = std::string(name)});
+  return field;
+}
+
+const Json* Reader::required_container(std::string_view name, bool object) {
+  const auto* field = required(name);
+  if (field == nullptr) return nullptr;
+  const bool right =
+      object ? field->as<Json::Object>() != nullptr : field->as<Json::Array>() != nullptr;
+  if (right) return field;
+  issue({.code = ErrorCode::wrong_type,
+         .pointer = std::string(name),
+         .hint = object ? "an object is required" : "an array is required"},
+        field);
+  return nullptr;
+}
+
+const Json::Array* Reader::required_array(std::string_view name, CountRange count) {
+  const auto* field = required_container(name, false);
+  if (field == nullptr) return nullptr;
+  const auto* items = field->as<Json::Array>();
+  const auto n = items->size();
+  if (n >= count.min && n <= count.max) return items;
+  const bool few = n < count.min;
+  FieldIssue bad{.code = ErrorCode::wrong_count, .pointer = std::string(name)};
+  bad.got = Json{static_cast<double>(n)};
+  bad.limit = Json{static_cast<double>(few ? count.min : count.max)};
+  bad.hint = few ? "too few elements" : "too many elements";
+  issue(std::move(bad));
+  return nullptr;
+}
+
+std::optional<double> Reader::checked(std::string_view name, const Json& value, Range range,
+                                      const std::string& step) {
+  const auto* d = value.as<double>();
+  const auto unit = std::string(unit_of(name));
+  if (d == nullptr) {
+    issue({.code = ErrorCode::not_a_number, .pointer = step, .unit = unit}, &value);
+    return std::nullopt;
+  }
+  if (!below(*d, range) && !above(*d, range)) return *d;
+  const bool low = below(*d, range);
+  FieldIssue bad{.code = ErrorCode::out_of_range, .pointer = step, .unit = unit};
+  bad.limit = Json{low ? range.min : range.max};
+  bad.hint = low ? (range.open_min ? "must be greater than the limit" : "must be at least the limit")
+                 : (range.open_max ? "must be less than the limit" : "must be at most the limit");
+  issue(std::move(bad), &value);
+  return std::nullopt;
+}
+
+double Reader::number(std::string_view name, Range range, std::optional<double> fallback) {
+  note(name);
+  if (!has(name) && fallback) {
+    put(name, Json{*fallback});
+    return *fallback;
+  }
+  const auto* field = required(name);
+  const auto value =
+      field == nullptr ? std::nullopt : checked(name, *field, range, std::string(name));
+  if (!value) return fallback.value_or(1.0);
+  put(name, Json{*value});
+  return *value;
+}
+
+std::optional<double> Reader::optional_number(std::string_view name, Range range) {
+  note(name);
+  if (!has(name)) return std::nullopt;
+  return number(name, range);
+}
+
+int Reader::integer(std::string_view name, int min, int max, std::optional<int> fallback) {
+  const auto value = number(
+      name, {.min = static_cast<double>(min), .max = static_cast<double>(max)},
+      fallback ? std::optional<double>(static_cast<double>(*fallback)) : std::nullopt);
+  if (value != std::floor(value)) {
+    issue({.code = ErrorCode::not_an_integer, .pointer = std::string(name)}, find(name));
+    return fallback.value_or(min);
+  }
+  return static_cast<int>(std::clamp(value, static_cast<double>(min), static_cast<double>(max)));
+}
+
+std::int64_t Reader::integer64(std::string_view name, std::optional<std::int64_t> fallback) {
+  const auto value =
+      number(name, {}, fallback ? std::optional<double>(static_cast<double>(*fallback)) : std::nullopt);
+  if (value != std::floor(value)) {
+    issue({.code = ErrorCode::not_an_integer, .pointer = std::string(name)}, find(name));
+    return fallback.value_or(0);
+  }
+  return static_cast<std::int64_t>(value);
+}
+
+bool Reader::flag(std::string_view name, std::optional<bool> fallback) {
+  note(name);
+  if (!has(name) && fallback) {
+    put(name, Json{*fallback});
+    return *fallback;
+  }
+  const auto* field = required(name);
+  if (field == nullptr) return false;
+  const auto* value = field->as<bool>();
+  if (value == nullptr) {
+    issue({.code = ErrorCode::wrong_type,
+           .pointer = std::string(name),
+           .hint = "true or false is required"},
+          field);
+    return false;
+  }
+  put(name, Json{*value});
+  return *value;
+}
+
+std::string Reader::text(std::string_view name, std::size_t longest) {
+  const auto* field = required(name);
+  if (field == nullptr) return {};
+  const auto* value = field->as<std::string>();
+  if (value == nullptr) {
+    issue({.code = ErrorCode::wrong_type, .pointer = std::string(name), .hint = "a text is required"},
+          field);
+    return {};
+  }
+  if (!printable(*value, longest)) {
+    FieldIssue bad{.code = ErrorCode::bad_text, .pointer = std::string(name)};
+    bad.limit = Json{static_cast<double>(longest)};
+    bad.hint = "1 to that many printable ASCII characters";
+    issue(std::move(bad), field);
+    return {};
+  }
+  put(name, Json{*value});
+  return *value;
+}
+
+std::optional<std::string> Reader::optional_text(std::string_view name, std::size_t longest) {
+  note(name);
+  if (!has(name)) return std::nullopt;
+  return text(name, longest);
+}
+
+Angle Reader::angle(std::string_view name, Range range, std::optional<Angle> fallback) {
+  const bool degrees = name.ends_with("_deg");
+  const auto wire = [&](Angle a) { return degrees ? a.deg() : a.rad(); };
+  const auto value =
+      number(name, range, fallback ? std::optional<double>(wire(*fallback)) : std::nullopt);
+  return degrees ? Angle::deg(value) : Angle::rad(value);
+}
+
+std::optional<Angle> Reader::optional_angle(std::string_view name, Range range) {
+  note(name);
+  if (!has(name)) return std::nullopt;
+  return angle(name, range);
+}
+
+Angle Reader::angle_either(std::string_view stem, Range range) {
+  const auto degrees = std::string(stem) + "_deg";
+  const auto radians = std::string(stem) + "_rad";
+  const auto which = exactly_one({degrees, radians});
+  if (!which) return Angle::rad(1.0);
+  if (*which == 1) return angle(radians, range);
+  range.min *= kDegPerRad;
+  range.max *= kDegPerRad;
+  return angle(degrees, range);
+}
+
+std::vector<double> Reader::column(std::string_view name, CountRange count, Range range) {
+  std::vector<double> out;
+  const auto* items = required_array(name, count);
+  if (items == nullptr) return out;
+  out.reserve(items->size());
+  for (std::size_t i = 0; i < items->size(); ++i) {
+    const auto value =
+        checked(name, (*items)[i], range, std::string(name) + "/" + std::to_string(i));
+    out.push_back(value.value_or(0.0));
+  }
+  put(name, Json{Json::Array(items->begin(), items->end())});
+  return out;
+}
+
+std::vector<double> Reader::angle_column(std::string_view name, CountRange count, Range range) {
+  auto out = column(name, count, range);
+  if (name.ends_with("_deg"))
+    for (auto& v : out) v = Angle::deg(v).rad();
+  return out;
+}
+
+std::vector<bool> Reader::flag_column(std::string_view name, CountRange count) {
+  std::vector<bool> out;
+  const auto* items = required_array(name, count);
+  if (items == nullptr) return out;
+  for (std::size_t i = 0; i < items->size(); ++i) {
+    const auto* value = (*items)[i].as<bool>();
+    if (value == nullptr)
+      issue({.code = ErrorCode::wrong_type,
+             .pointer = std::string(name) + "/" + std::to_string(i),
+             .hint = "true or false is required"},
+            &(*items)[i]);
+    out.push_back(value != nullptr && *value);
+  }
+  put(name, Json{Json::Array(items->begin(), items->end())});
+  return out;
+}
+
+Eigen::Vector3d Reader::vector3(std::string_view name, Range range) {
+  const auto values = column(name, {.min = 3, .max = 3}, range);
+  return values.size() == 3 ? Eigen::Vector3d(values[0], values[1], values[2])
+                            : Eigen::Vector3d::UnitZ();
+}
+
+std::optional<std::size_t> Reader::choose(std::string_view name,
+                                          std::span<const std::string_view> names,
+                                          std::optional<std::size_t> fallback) {
+  note(name);
+  if (!has(name) && fallback) {
+    put(name, Json{std::string(names[*fallback])});
+    return fallback;
+  }
+  const auto* field = required(name);
+  if (field == nullptr) {
+    ignore_rest();
+    return std::nullopt;
+  }
+  const auto* value = field->as<std::string>();
+  for (std::size_t i = 0; value != nullptr && i < names.size(); ++i) {
+    if (*value != names[i]) continue;
+    put(name, *field);
+    return i;
+  }
+  FieldIssue bad{.code = value == nullptr ? ErrorCode::wrong_type : ErrorCode::bad_choice,
+                 .pointer = std::string(name)};
+  std::string list;
+  for (const auto option : names) list += (list.empty() ? "" : "|") + std::string(option);
+  bad.limit = Json{list};
+  issue(std::move(bad), field);
+  ignore_rest();
+  return std::nullopt;
+}
+
+std::optional<std::size_t> Reader::exactly_one(std::initializer_list<std::string_view> names) {
+  std::optional<std::size_t> found;
+  std::string list;
+  std::size_t i = 0;
+  bool twice = false;
+  for (const auto name : names) {
+    note(name);
+    list += (list.empty() ? "" : " or ") + std::string(name);
+    if (has(name)) {
+      if (found) {
+        twice = true;
+        issue({.code = ErrorCode::exclusive_fields,
+               .pointer = std::string(name),
+               .hint = "give exactly one of " + list},
+              find(name));
+      } else {
+        found = i;
+      }
+    }
+    ++i;
+  }
+  if (!found && body_->as<Json::Object>() != nullptr)
+    issue({.code = ErrorCode::missing_field,
+           .pointer = std::string(*names.begin()),
+           .hint = "give exactly one of " + list});
+  return twice ? std::nullopt : found;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/angle.hpp"
+#include "core/base/error.hpp"
+#include "core/bevel/angles.hpp"
+#include "core/bevel/smoothing.hpp"
+#include "core/joint/intersection.hpp"
+
+namespace tubecut::bevel {
+
+enum class RootSurface { inner, outer };
+enum class Contact { inner, outer, automatic, none };
+
+/// Angles the torch can take, of B.
+struct TorchRange {
+  Angle min = Angle::deg(-80);
+  Angle max = Angle::deg(80);
+};
+
+enum class Along { developed, length };
+
+struct EnvelopeSmoothing {
+  SwingLimits limits;  // of the swing axis along the path
+  Along along = Along::developed;
+  bool refine = true;
+};
+struct HermiteSmoothing {
+  std::optional<int> transition_points = 15;  // empty: the least that keeps the limit (`auto`)
+};
+struct NoSmoothing {};
+using Smoothing = std::variant<EnvelopeSmoothing, HermiteSmoothing, NoSmoothing>;
+
+struct TableSpec {
+  joint::Target target;
+  std::vector<joint::Partner> partners;
+  joint::Sampling sampling;
+  RootSurface root_surface = RootSurface::inner;
+  GrooveRule groove;
+  Dihedral dihedral = Dihedral::weld_side;
+  Contact contact = Contact::inner;
+  double kerf = 0.0;
+  TorchRange torch;
+  Smoothing smoothing;
+  Angle mutation_limit = Angle::deg(10);  // steps of the smoother's input above it are listed, with every method
+};
+
+/// The table, one entry per node, ascending phi; two nodes at a jump. Angles in rad, lengths in mm.
+struct Table {
+  std::vector<double> phi, developed, length;
+  std::vector<std::size_t> cutter;
+  std::vector<double> z_inner, z_outer;  // the finished part
+  std::vector<double> dihedral, groove, tau, gamma, flush;
+  std::vector<double> b_raw, b_required, b;  // rule within the torch range; least that keeps partners out; the cut
+  std::vector<double> gap;                   // root opening: z_inner less the envelope on the inner wall
+  std::vector<double> beam;                  // metal along the torch line
+  std::vector<double> torch_inner, torch_outer;  // the torch axis, kerf applied
+  bool inward = false;                       // B counts as published: positive = elevation seen inwards
+  std::vector<joint::Event> inner_events, outer_events;
+  struct Step {
+    double phi, step;
+  };
+  std::vector<Step> mutations;
+  struct Window {
+    double phi, step;
+    bool kept_before;
+    double from, to;                     // phi
+    double slope_start, slope_end;       // rad/mm
+  };
+  std::vector<Window> windows;
+  struct Binding {
+    double from, to;       // phi
+    double groove_lost;    // largest angle by which the rule was cut back
+  };
+  std::vector<Binding> torch_binds;
+  double length_total = 0.0, developed_total = 0.0;
+  std::vector<Warning> warnings;
+};
+
+/// The bevel table of one cut end: contour, angles, contact, smoothing, finished surface and torch line.
+///
+/// Frame   z along the target from the cut end into the kept member, phi from x towards y; B > 0: outer edge further into the part.
+/// Errors  open_profile, no_contact, parallel_axes, member_consumed, torch_range, sampling_not_uniform, smoothing_not_converged,
+///         smoothing_enters, transition_too_long, unsupported_combination, too_many_nodes, cancelled.
+/// Source  docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
+[[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
+
+/// The table proved from its own numbers by other formulas: 3D distances, normals from gradients, half tangents.
+[[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table);
+
+}  // namespace tubecut::bevel

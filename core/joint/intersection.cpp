@@ -1,0 +1,178 @@
+#include "core/joint/intersection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/elementary.hpp"
+#include "core/joint/solid.hpp"
+
+namespace tubecut::joint {
+namespace {
+
+Result<Profile> profile(const Contour& contour, const Sampling& sampling, bool outer,
+                        const std::stop_token& stop) {
+  const auto samples = sample(contour, sampling, {}, stop);
+  if (!samples) return tl::unexpected(samples.error());
+  Profile out{.outer = outer, .radius = contour.radius};
+  for (const auto& node : samples->nodes) {
+    out.phi.push_back(node.phi);
+    out.z.push_back(node.z);
+    out.cutter.push_back(node.after);
+  }
+  out.events = contour.events;
+  out.length = samples->true_length;
+  out.developed = samples->developed_length;
+  return out;
+}
+
+/// Distance on the circle.
+double apart(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d, kTwoPi - d);
+}
+
+/// Worst of its kind, by the share of its own limit.
+class Worst {
+ public:
+  Worst(std::string name, std::string unit) : check_{std::move(name), 0.0, 0.0, std::move(unit)} {}
+  void see(double value, double limit) {
+    if (check_.limit > 0.0 && !(value / limit > check_.value / check_.limit)) return;
+    check_.value = value;
+    check_.limit = limit;
+  }
+  [[nodiscard]] const Check& check() const { return check_; }
+
+ private:
+  Check check_;
+};
+
+constexpr double kOnCutter = 1e-12;  // of radius + rho
+constexpr double kAbove = 1e-9;      // of radius + rho
+constexpr double kLabel = 1e-7;      // of radius + rho: the curve is vertical at a silhouette
+
+struct Proof {
+  Worst on_cutter{"on_cutter", "mm"}, none_above{"none_above", "mm"}, event_gap{"event_gap", "mm"},
+      labels{"labels", "mm"};
+
+  void node(const std::vector<Solid>& solids, const Profile& p, std::size_t i);
+  void event(const std::vector<Solid>& solids, double rho, const Event& event);
+};
+
+void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t i) {
+  const auto turn = elementary::sincos(p.phi[i]);
+  const Eigen::Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z[i]);
+  const auto& own = solids.at(p.cutter[i]);
+  const double scale = own.radius() + p.radius;
+  on_cutter.see(std::abs(own.distance(at)), kOnCutter * std::max(scale, std::abs(p.z[i])));
+  const auto top = own.top(at.x(), at.y());
+  labels.see(top ? std::abs(*top - p.z[i]) : scale, kLabel * scale);
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    // A partner lost or found here stands above on one side only.
+    const bool beside = std::any_of(p.events.begin(), p.events.end(), [&](const Event& e) {
+      return e.kind == EventKind::jump && (e.from == k || e.to == k) &&
+             apart(e.phi, p.phi[i]) < 1e-9;
+    });
+    if (beside && k != p.cutter[i]) continue;
+    const auto height = solids[k].top(at.x(), at.y());
+    if (height && !beside) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
+  }
+}
+
+void Proof::event(const std::vector<Solid>& solids, double rho, const Event& event) {
+  const auto turn = elementary::sincos(event.phi);
+  const double x = rho * turn.cos, y = rho * turn.sin;
+  const auto& from = solids.at(event.from);
+  const auto& to = solids.at(event.to);
+  const double scale = std::max(from.radius(), to.radius()) + rho;
+  if (event.kind == EventKind::junction) {
+    const auto a = from.top(x, y);
+    const auto b = to.top(x, y);
+    event_gap.see(a && b ? std::abs(*a - *b) : scale, 1e-8 * scale);
+  } else {
+    // Lost, or turning its corner, where the generator touches the partner from outside.
+    const auto& lost = event.z_from > event.z_to ? from : to;
+    event_gap.see(std::abs(lost.clearance(x, y)), 1e-8 * scale);
+  }
+}
+
+}  // namespace
+
+Result<std::vector<Cutter>> resolve(std::span<const Partner> partners) {
+  std::vector<Cutter> out;
+  std::vector<Issue> issues;
+  for (std::size_t i = 0; i < partners.size(); ++i) {
+    if (const auto* tube = std::get_if<TubeCutter>(&partners[i])) {
+      out.emplace_back(*tube);
+    } else if (const auto* plane = std::get_if<PlaneCutter>(&partners[i])) {
+      out.emplace_back(*plane);
+    } else {
+      const auto& axis = std::get<AxisTube>(partners[i]);
+      const auto member = "cutters/" + std::to_string(i) + "/axis";
+      const auto placed = place(axis.axis, axis.radius, member);
+      if (placed)
+        out.emplace_back(placed->tube);
+      else
+        issues.insert(issues.end(), placed.error().issues.begin(), placed.error().issues.end());
+    }
+  }
+  if (!issues.empty()) return tl::unexpected(Error(std::move(issues)));
+  return out;
+}
+
+std::vector<Warning> partner_warnings(const Contour& contour) {
+  std::vector<Warning> out;
+  for (const auto i : contour.missed)
+    out.push_back({.code = WarningCode::cutter_missed, .member = "cutters/" + std::to_string(i)});
+  for (const auto i : contour.near_parallel)
+    out.push_back({.code = WarningCode::near_parallel, .member = "cutters/" + std::to_string(i)});
+  return out;
+}
+
+Result<void> check_length(const Target& target, std::span<const double> z) {
+  const double highest = *std::max_element(z.begin(), z.end());
+  if (!target.length || highest <= *target.length) return {};
+  return fail({.code = ErrorCode::member_consumed,
+               .member = "target/length",
+               .got = highest,
+               .limit = *target.length,
+               .unit = "mm"});
+}
+
+Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_token& stop) {
+  const auto cutters = resolve(spec.partners);
+  if (!cutters) return tl::unexpected(cutters.error());
+  Intersection out;
+  for (const bool outer : {false, true}) {
+    if (spec.surfaces == (outer ? Surfaces::inner : Surfaces::outer)) continue;
+    const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
+    const auto contour = trace(*cutters, rho);
+    if (!contour) return tl::unexpected(contour.error());
+    auto curve = profile(*contour, spec.sampling, outer, stop);
+    if (!curve) return tl::unexpected(curve.error());
+    if (auto fits = check_length(spec.target, curve->z); !fits)
+      return tl::unexpected(fits.error());
+    out.profiles.push_back(*std::move(curve));
+    out.warnings = partner_warnings(*contour);  // of the outer surface when both are asked for
+  }
+  return out;
+}
+
+std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer) {
+  const auto cutters = resolve(spec.partners);
+  std::vector<Solid> solids;
+  if (cutters)
+    for (const auto& cutter : *cutters) solids.emplace_back(cutter);
+  Proof proof;
+  for (const auto& p : answer.profiles) {
+    for (std::size_t i = 0; i < p.phi.size(); ++i) proof.node(solids, p, i);
+    for (const auto& e : p.events) proof.event(solids, p.radius, e);
+  }
+  std::vector<Check> out;
+  for (const auto* worst :
+       {&proof.on_cutter, &proof.none_above, &proof.event_gap, &proof.labels})
+    out.push_back(worst->check());
+  return out;
+}
+
+}  // namespace tubecut::joint

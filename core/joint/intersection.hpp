@@ -1,0 +1,70 @@
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/joint/contour.hpp"
+#include "core/joint/cutter.hpp"
+#include "core/joint/placement.hpp"
+#include "core/joint/sampling.hpp"
+#include "core/joint/target.hpp"
+
+namespace tubecut::joint {
+
+/// A tube partner given by its axis line in the target's frame.
+struct AxisTube {
+  double radius = 0.0;
+  AxisLine axis;
+};
+
+/// A partner as a request describes it.
+using Partner = std::variant<TubeCutter, AxisTube, PlaneCutter>;
+
+/// Every partner as a cutter. Errors  zero_length, parallel_axes (cutters/i/axis).
+[[nodiscard]] Result<std::vector<Cutter>> resolve(std::span<const Partner> partners);
+
+enum class Surfaces { inner, outer, both };
+
+struct IntersectionSpec {
+  Target target;
+  std::vector<Partner> partners;
+  Surfaces surfaces = Surfaces::both;
+  Sampling sampling;
+};
+
+/// The cut's curve on one surface of the target. Angles in rad, lengths in mm.
+struct Profile {
+  bool outer = false;
+  double radius = 0.0;
+  std::vector<double> phi, z;
+  std::vector<std::size_t> cutter;  // index among the partners
+  std::vector<Event> events;
+  double length = 0.0;     // true length of the closed curve
+  double developed = 0.0;  // 2 pi radius
+};
+
+struct Intersection {
+  std::vector<Profile> profiles;
+  std::vector<Warning> warnings;
+};
+
+/// Where the target's surfaces leave their partners.
+///
+/// Errors  those of `resolve`, `trace` and `sample`; member_consumed (target/length).
+/// Source  docs/theory/intersections-and-bevels.md, sections 1 and 3.
+[[nodiscard]] Result<Intersection> intersect(const IntersectionSpec& spec,
+                                             const std::stop_token& stop = {});
+
+/// The answer proved in 3D: distances by cross product, heights by the quadratic of line and cylinder.
+[[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer);
+
+/// Notes on partners that are never met or nearly parallel.
+[[nodiscard]] std::vector<Warning> partner_warnings(const Contour& contour);
+
+/// The error member_consumed when the curve reaches beyond the target's far end.
+[[nodiscard]] Result<void> check_length(const Target& target, std::span<const double> z);
+
+}  // namespace tubecut::joint

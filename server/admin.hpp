@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "server/http.hpp"
+
+namespace tubecut::server {
+
+/// What the admin port shows.
+struct AdminSources {
+  std::function<bool()> ready;
+  std::function<std::string()> metrics;
+};
+
+/// GET /livez: the process answers. GET /readyz: it takes work (503 while starting and stopping).
+/// GET /metrics.
+[[nodiscard]] Response admin(const Request& request, const AdminSources& sources);
+
+}  // namespace tubecut::server

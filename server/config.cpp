@@ -1,0 +1,115 @@
+#include "server/config.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdlib>
+#include <sstream>
+
+#include "api/api.hpp"
+
+namespace tubecut::server {
+namespace {
+
+/// --some-name also as TUBECUT_SOME_NAME.
+template <class T>
+CLI::Option* option(CLI::App& app, const std::string& name, T& value, const std::string& help) {
+  std::string variable = "TUBECUT_" + name;
+  for (char& c : variable) {
+    c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return app.add_option("--" + name, value, help)->envname(variable)->capture_default_str();
+}
+
+void add_network(CLI::App& app, Config& c) {
+  const CLI::Range port(0, 65535);
+  option(app, "host", c.host, "address to listen on; 0.0.0.0 in a container");
+  option(app, "port", c.port, "port of the service; 0 takes a free one")->check(port);
+  option(app, "admin-host", c.admin_host, "address of the admin port; empty: as --host");
+  option(app, "admin-port", c.admin_port, "port of /livez, /readyz, /metrics; 0 takes a free one")
+      ->check(port);
+  option(app, "replica", c.replica, "name sent as Tubecut-Replica; empty: the host's name");
+}
+
+void add_limits(CLI::App& app, Config& c) {
+  const CLI::Range seconds(0.01, 3600.0);
+  option(app, "connections", c.connections, "connections served at a time; more wait")
+      ->check(CLI::Range(1, 1024));
+  option(app, "max-body-bytes", c.max_body_bytes, "largest body; lowers the endpoints' own limits")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{8u << 20}));
+  option(app, "max-target-bytes", c.max_target_bytes, "longest path with query")
+      ->check(CLI::Range(std::size_t{64}, std::size_t{4096}));
+  option(app, "max-head-bytes", c.max_head_bytes, "largest request line with headers")
+      ->check(CLI::Range(std::size_t{1024}, std::size_t{65536}));
+  option(app, "idle-s", c.idle_s, "an idle connection is closed after")->check(seconds);
+  option(app, "head-s", c.head_s, "time for a request's head")->check(seconds);
+  option(app, "body-s", c.body_s, "time for a request's body")->check(seconds);
+  option(app, "write-s", c.write_s, "time for the client to take an answer")->check(seconds);
+  option(app, "drain-delay-s", c.drain_delay_s, "on SIGTERM: not ready, but still accepting, for")
+      ->check(CLI::Range(0.0, 3600.0));
+  option(app, "drain-s", c.drain_s, "on SIGTERM: time for accepted work")->check(seconds);
+  option(app, "log-queue", c.log_queue, "log lines kept for a slow reader of stdout")
+      ->check(CLI::Range(std::size_t{16}, std::size_t{1u << 20}));
+}
+
+/// The file of the environment must exist, as one named on the command line must.
+void add_file(CLI::App& app) {
+  const char* variable = std::getenv("TUBECUT_CONFIG");
+  const std::string from_environment = variable == nullptr ? "" : variable;
+  app.set_config("--config", from_environment, "TOML file with these options",
+                 !from_environment.empty());
+  app.allow_config_extras(CLI::config_extras_mode::error);  // a typo is not passed over
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// What no single option can tell.
+std::string contradiction(const Config& c) {
+  if (c.port != 0 && c.port == c.admin_port) return "--port and --admin-port must differ";
+  return {};
+}
+
+}  // namespace
+
+tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
+  Command command;
+  Config& c = command.config;
+  bool print = false;
+  CLI::App app{"tubecut: cuts and bevels of tube joints over HTTP", "tubecut-server"};
+  app.set_version_flag("--version",
+                       fmt::format("tubecut {} (numerics {})", api::version(), api::numerics()));
+  add_network(app, c);
+  add_limits(app, c);
+  add_file(app);
+  app.add_flag("--print-config", print, "print every option's value as TOML and end")
+      ->configurable(false);
+  auto* health = app.add_subcommand("health", "ask the running service whether it is ready");
+  auto* run = app.add_subcommand("run", "answer one request from a file without a server");
+  run->add_option("--endpoint", command.endpoint, "such as bevel-tables")->required();
+  run->add_option("file", command.file, "the request's body; - for stdin")->required();
+  for (auto* sub : {health, run}) sub->configurable(false);
+  app.require_subcommand(0, 1);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& end) {
+    std::ostringstream out;
+    std::ostringstream err;
+    const int code = app.exit(end, out, err);
+    return tl::unexpected(Exit{code == 0 ? 0 : 2, out.str(), err.str()});
+  }
+  if (print) return tl::unexpected(Exit{0, app.config_to_str(true, false), {}});
+  if (auto why = contradiction(c); !why.empty()) return tl::unexpected(Exit{2, {}, why + '\n'});
+  if (c.admin_host.empty()) c.admin_host = c.host;
+  if (c.replica.empty()) c.replica = host_name();
+  if (health->parsed()) command.kind = Command::Kind::health;
+  if (run->parsed()) command.kind = Command::Kind::run;
+  return command;
+}
+
+}  // namespace tubecut::server

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <tl/expected.hpp>
+
+namespace tubecut::server {
+
+/// Everything that can be set, with its default. Read and checked once, at start.
+struct Config {
+  std::string host = "127.0.0.1";
+  int port = 8080;         // 0: any free one, named in the ready line
+  std::string admin_host;  // empty: as host
+  int admin_port = 9090;
+  std::string replica;  // empty: the host's name
+  int connections = 64;
+  std::size_t max_body_bytes = 8u << 20;
+  std::size_t max_target_bytes = 2048;
+  std::size_t max_head_bytes = 16384;
+  double idle_s = 15.0;
+  double head_s = 10.0;
+  double body_s = 30.0;
+  double write_s = 30.0;
+  double drain_delay_s = 0.0;  // between "not ready" and the end of accepting
+  double drain_s = 8.0;        // for accepted work, after that
+  std::size_t log_queue = 4096;
+};
+
+/// What the command line asks for.
+struct Command {
+  enum class Kind { serve, health, run };
+  Kind kind = Kind::serve;
+  Config config;
+  std::string endpoint;  // of run: "bevel-tables"
+  std::string file;      // of run: "-" for stdin
+};
+
+/// An end before any work: help, version, the printed configuration, or a mistake in the options.
+struct Exit {
+  int code = 0;
+  std::string out;
+  std::string err;
+};
+
+/// Reads command line, TOML file and TUBECUT_* environment; where several set the same, the first
+/// of these three counts.
+[[nodiscard]] tl::expected<Command, Exit> read_command(int argc, const char* const* argv);
+
+}  // namespace tubecut::server

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/error_codes.hpp"
+
+/// Requests and answers as values: all that is left of HTTP once a transport has read a request.
+namespace tubecut::server {
+
+using Headers = std::vector<std::pair<std::string, std::string>>;
+
+/// Why a request is turned away before it reaches the api.
+struct Refusal {
+  ErrorCode code = ErrorCode::bad_request;
+  std::string detail = {};
+};
+
+struct Request {
+  std::string method = {};
+  std::string target = {};  // as sent: path and query, not decoded
+  Headers headers = {};
+  std::string body = {};
+  std::string peer = {};                // address of the socket, never of a header
+  std::optional<Refusal> refusal = {};  // set by a transport that could not read the request
+};
+
+/// The body stays in the answer to a HEAD: its length is sent, the transport leaves the bytes out.
+struct Response {
+  int status = 200;
+  std::string content_type = {};
+  Headers headers = {};
+  std::string body = {};
+};
+
+/// Every value sent under `name` (any case), in the order sent.
+[[nodiscard]] std::vector<std::string_view> header_values(const Headers& headers,
+                                                          std::string_view name);
+
+/// The first value sent under `name`, or nothing.
+[[nodiscard]] std::string_view header(const Headers& headers, std::string_view name);
+
+[[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);
+
+/// The target without its query, and the query without its '?'.
+[[nodiscard]] std::string_view path_of(std::string_view target);
+[[nodiscard]] std::string_view query_of(std::string_view target);
+
+}  // namespace tubecut::server

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "server/app.hpp"
+
+namespace tubecut::server {
+
+/// Lines on a file descriptor, written by a thread of its own. A reader that stops reading blocks
+/// nobody: the queue is bounded, the oldest lines are dropped, counted, and reported in a line of
+/// their own once writing goes on.
+class JobLog {
+ public:
+  explicit JobLog(std::size_t queue, int descriptor = 1);
+  ~JobLog();
+  JobLog(const JobLog&) = delete;
+  JobLog& operator=(const JobLog&) = delete;
+
+  /// Queues one line (without its end of line). Never blocks on the descriptor.
+  void write(std::string_view line);
+
+  /// Lines dropped or not writable so far.
+  [[nodiscard]] std::uint64_t dropped() const;
+
+  /// Waits until every queued line is written, at most so long; says whether it was so.
+  bool flush(std::chrono::milliseconds patience);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> x_;
+};
+
+/// {"event":"ready",...}: the first line of every run.
+[[nodiscard]] std::string ready_line(int port, int admin_port, std::string_view version);
+
+/// The line of one job, at that UTC time.
+[[nodiscard]] std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point now);
+
+/// "2024-03-01T12:00:00.123Z"
+[[nodiscard]] std::string utc(std::chrono::system_clock::time_point time);
+
+}  // namespace tubecut::server

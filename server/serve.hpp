@@ -1,0 +1,17 @@
+#pragma once
+
+#include "server/config.hpp"
+
+namespace tubecut::server {
+
+/// Runs the service until SIGTERM or SIGINT. Returns the process's exit code: 0 after a clean stop.
+[[nodiscard]] int serve(const Config& config);
+
+/// Asks the service of that configuration, on this machine, whether it is ready. 0: yes.
+[[nodiscard]] int health(const Config& config);
+
+/// Answers one request file on stdout with the bytes the service would send. 0: an answer, 1: a
+/// problem.
+[[nodiscard]] int run(const Command& command);
+
+}  // namespace tubecut::server

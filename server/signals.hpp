@@ -1,0 +1,19 @@
+#pragma once
+
+namespace tubecut::server {
+
+/// Ends of the service asked for from outside. Make it first in main: threads inherit what it
+/// blocks.
+class Signals {
+ public:
+  Signals();
+
+  /// Waits for SIGTERM or SIGINT (or `raise_stop`). From then on a second one ends the process at
+  /// once.
+  void wait() const;
+
+  /// Wakes `wait` from inside.
+  static void raise_stop();
+};
+
+}  // namespace tubecut::server

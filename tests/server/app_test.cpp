@@ -1,0 +1,232 @@
+#include "server/app.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "api/json.hpp"
+#include "server/identity.hpp"
+#include "server/status.hpp"
+
+namespace tubecut::server {
+namespace {
+
+/// An api that answers as told and keeps what it was asked.
+struct Fake {
+  api::Outcome outcome{
+      .error = {}, .content_type = "application/json", .body = "{}", .headers = {}, .job = {}};
+  std::vector<std::string> methods;
+  std::vector<std::string> job_ids;
+  std::vector<std::string> targets;
+  std::vector<JobRecord> records;
+
+  App app(AppOptions options = {}) {
+    options.dispatch = [this](const api::Call& call, const api::Context&) {
+      methods.emplace_back(call.method);
+      job_ids.push_back(call.job_id);
+      targets.push_back(std::string(call.path) + "|" + std::string(call.query));
+      return outcome;
+    };
+    options.finished = [this](const JobRecord& record) { records.push_back(record); };
+    return App(options);
+  }
+};
+
+Request request(Headers headers = {}) {
+  return {
+      .method = "POST", .target = "/v1/bevel-tables", .headers = std::move(headers), .body = "{}"};
+}
+
+std::string member(const Response& response, std::string_view name) {
+  const auto document = api::parse(response.body);
+  if (!document || document->find(name) == nullptr) return {};
+  const auto* text = document->find(name)->as<std::string>();
+  return text == nullptr ? std::string{} : *text;
+}
+
+TEST(Status, IsOnePerKindAsTheContractSays) {
+  const std::vector<std::pair<ErrorKind, int>> contract = {{ErrorKind::unreadable, 400},
+                                                           {ErrorKind::unauthorized, 401},
+                                                           {ErrorKind::forbidden, 403},
+                                                           {ErrorKind::not_found, 404},
+                                                           {ErrorKind::method_not_allowed, 405},
+                                                           {ErrorKind::not_acceptable, 406},
+                                                           {ErrorKind::conflict, 409},
+                                                           {ErrorKind::too_large, 413},
+                                                           {ErrorKind::unsupported_media, 415},
+                                                           {ErrorKind::invalid, 422},
+                                                           {ErrorKind::no_solution, 422},
+                                                           {ErrorKind::overloaded, 429},
+                                                           {ErrorKind::internal, 500},
+                                                           {ErrorKind::unavailable, 503},
+                                                           {ErrorKind::timeout, 504}};
+  EXPECT_EQ(contract.size(), static_cast<std::size_t>(ErrorKind::timeout) + 1);
+  Fake fake;
+  for (const auto& row : contract) {
+    fake.outcome.error = row.first;
+    const auto response = fake.app().handle(request());
+    EXPECT_EQ(response.status, row.second);
+    EXPECT_EQ(header(response.headers, "Retry-After").empty(),
+              row.second != 429 && row.second != 503);
+  }
+}
+
+TEST(App, PassesTheCallOnAsSent) {
+  Fake fake;
+  auto asked = request();
+  asked.target = "/v1/bevel-tables?validate_only=true&format=csv";
+  EXPECT_EQ(fake.app().handle(asked).status, 200);
+  EXPECT_EQ(fake.targets.front(), "/v1/bevel-tables|validate_only=true&format=csv");
+  EXPECT_EQ(fake.methods.front(), "POST");
+}
+
+TEST(App, EchoesTheClientsNamesAndUsesThem) {
+  Fake fake;
+  const std::string trace = "00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01";
+  const auto response = fake.app().handle(request({{"job-id", "J 17/a"},
+                                                   {"IDEMPOTENCY-KEY", "k1"},
+                                                   {"x-request-id", "r1"},
+                                                   {"TraceParent", trace}}));
+  EXPECT_EQ(header(response.headers, "Job-Id"), "J 17/a");
+  EXPECT_EQ(header(response.headers, "Idempotency-Key"), "k1");
+  EXPECT_EQ(header(response.headers, "X-Request-Id"), "r1");
+  EXPECT_EQ(header(response.headers, "traceparent"), trace);
+  EXPECT_EQ(fake.job_ids.front(), "J 17/a");
+  EXPECT_EQ(fake.records.front().request_id, "r1");
+
+  EXPECT_EQ(fake.app().handle(request({{"Idempotency-Key", "k2"}})).status, 200);
+  EXPECT_EQ(fake.job_ids.back(), "k2");
+}
+
+TEST(App, RefusesJobNamesThatItCannotKeep) {
+  for (const auto* name : {"Job-Id", "Idempotency-Key"}) {
+    for (const std::string bad :
+         {"", " a", "a ", "a\r\nSet-Cookie: x", "\x7f", "\xc3\xa4", "a\tb"}) {
+      Fake fake;
+      const auto response = fake.app().handle(request({{name, bad}}));
+      EXPECT_EQ(response.status, 400) << name << " " << bad;
+      EXPECT_EQ(member(response, "code"), "bad_request");
+      EXPECT_TRUE(header(response.headers, name).empty());
+      EXPECT_TRUE(fake.methods.empty());
+    }
+    Fake fake;
+    EXPECT_EQ(fake.app().handle(request({{name, std::string(128, 'x')}})).status, 200);
+    EXPECT_EQ(fake.app().handle(request({{name, std::string(129, 'x')}})).status, 400);
+    EXPECT_EQ(fake.app().handle(request({{name, "a"}, {name, "b"}})).status, 400);
+  }
+}
+
+TEST(App, LeavesOutUnsoundTraces) {
+  Fake fake;
+  const auto response = fake.app().handle(
+      request({{"X-Request-Id", "a\nb"},
+               {"traceparent", "00-00000000000000000000000000000000-00f067aa0ba902b7-01"}}));
+  EXPECT_EQ(response.status, 200);
+  EXPECT_EQ(header(response.headers, "X-Request-Id").size(), 32U);
+  EXPECT_TRUE(header(response.headers, "traceparent").empty());
+}
+
+TEST(App, GivesEveryRequestItsOwnId) {
+  Fake fake;
+  const App app = fake.app();
+  std::vector<std::string> ids;
+  for (int i = 0; i < 1000; ++i)
+    ids.emplace_back(header(app.handle(request()).headers, "X-Request-Id"));
+  std::ranges::sort(ids);
+  EXPECT_EQ(std::ranges::adjacent_find(ids), ids.end());
+}
+
+TEST(App, TellsStageTimesAndReplica) {
+  Fake fake;
+  fake.outcome.job.stages = {{"parse", 0.0005}, {"compute", 0.00125}};
+  const auto response = fake.app({.replica = "cell-3"}).handle(request());
+  const auto timing = header(response.headers, "Server-Timing");
+  EXPECT_EQ(timing.substr(0, timing.find("total")), "parse;dur=0.500, compute;dur=1.250, ");
+  EXPECT_EQ(header(response.headers, "Tubecut-Replica"), "cell-3");
+}
+
+TEST(App, NamesTheCharsetSoThatNobodyCompresses) {
+  Fake fake;
+  EXPECT_EQ(fake.app().handle(request()).content_type, "application/json; charset=utf-8");
+  fake.outcome.content_type = "application/cbor";
+  EXPECT_EQ(fake.app().handle(request()).content_type, "application/cbor");
+}
+
+TEST(App, AnswersHeadAsGet) {
+  Fake fake;
+  auto asked = request();
+  asked.method = "HEAD";
+  fake.outcome.headers = {{"Allow", "GET"}};
+  const auto response = fake.app().handle(asked);
+  EXPECT_EQ(fake.methods.front(), "GET");
+  EXPECT_EQ(response.body, "{}");  // the transport leaves the bytes out and keeps their length
+  EXPECT_EQ(header(response.headers, "Allow"), "GET, HEAD");
+}
+
+TEST(App, KeepsTheTextOfAnExceptionToItself) {
+  Fake fake;
+  AppOptions options;
+  options.dispatch = [](const api::Call&, const api::Context&) -> api::Outcome {
+    throw std::runtime_error("secret of /etc/x");
+  };
+  std::vector<JobRecord> records;
+  options.finished = [&](const JobRecord& record) { records.push_back(record); };
+  const auto response = App(options).handle(request({{"X-Request-Id", "r9"}}));
+  EXPECT_EQ(response.status, 500);
+  EXPECT_EQ(response.content_type, "application/problem+json");
+  EXPECT_EQ(member(response, "code"), "internal_error");
+  EXPECT_EQ(member(response, "request_id"), "r9");
+  EXPECT_EQ(response.body.find("secret"), std::string::npos);
+  for (const auto& [name, value] : response.headers)
+    EXPECT_EQ(value.find("secret"), value.npos) << name;
+  EXPECT_EQ(records.at(0).failure, "secret of /etc/x");
+
+  options.dispatch = [](const api::Call&, const api::Context&) -> api::Outcome { throw 7; };
+  EXPECT_EQ(App(options).handle(request()).status, 500);
+}
+
+TEST(App, TurnsAwayBeforeTheApi) {
+  Fake fake;
+  const App app = fake.app({.max_target_bytes = 100, .max_body_bytes = 10});
+  const auto code = [&](const Request& asked) { return member(app.handle(asked), "code"); };
+  auto asked = request();
+  asked.target = "/" + std::string(100, 'a');
+  EXPECT_EQ(code(asked), "bad_request");
+  asked.target = "/a\x01";
+  EXPECT_EQ(code(asked), "bad_request");
+  asked = request();
+  asked.body = std::string(11, ' ');
+  EXPECT_EQ(code(asked), "body_too_large");
+  EXPECT_EQ(code(request({{"Content-Encoding", "gzip"}})), "unsupported_encoding");
+  asked = request();
+  asked.refusal = Refusal{ErrorCode::overloaded, "full"};
+  EXPECT_EQ(code(asked), "overloaded");
+  EXPECT_TRUE(fake.methods.empty());
+  EXPECT_EQ(fake.records.size(), 5U);
+  EXPECT_EQ(app.handle(request({{"Content-Encoding", "identity"}})).status, 200);
+}
+
+TEST(App, CallsAStopAStop) {
+  Fake fake;
+  fake.outcome.error = ErrorKind::timeout;
+  std::stop_source stop;
+  const App app = fake.app({.stop = stop.get_token()});
+  EXPECT_EQ(app.handle(request()).status, 504);
+  stop.request_stop();
+  EXPECT_EQ(app.handle(request()).status, 503);
+}
+
+TEST(App, AnswersTheRealApi) {
+  const App app{AppOptions{}};
+  const auto version = app.handle({.method = "GET", .target = "/v1/version"});
+  EXPECT_EQ(version.status, 200);
+  EXPECT_EQ(member(version, "version"), api::version());
+  const auto unknown = app.handle({.method = "GET", .target = "/nowhere"});
+  EXPECT_EQ(unknown.status, 404);
+  EXPECT_EQ(unknown.content_type, "application/problem+json");
+  EXPECT_EQ(member(unknown, "request_id"), header(unknown.headers, "X-Request-Id"));
+}
+
+}  // namespace
+}  // namespace tubecut::server

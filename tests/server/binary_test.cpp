@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "api/json.hpp"
+#include "tests/server/client.hpp"
+
+namespace tubecut::test {
+namespace {
+
+/// The real program on free ports.
+struct Service {
+  Program program;
+  std::string ready;
+  int port = 0;
+  int admin_port = 0;
+
+  explicit Service(std::vector<std::string> more = {}) : program(words(std::move(more))) {
+    ready = program.line();
+    const auto json = api::parse(ready);
+    if (!json) return;
+    port = static_cast<int>(*json->find("port")->as<double>());
+    admin_port = static_cast<int>(*json->find("admin_port")->as<double>());
+  }
+
+  static std::vector<std::string> words(std::vector<std::string> more) {
+    std::vector<std::string> all = {TUBECUT_BINARY, "--port", "0", "--admin-port", "0"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+};
+
+Answer ask(int port, const std::string& bytes) {
+  Client client(port);
+  client.send(bytes);
+  return client.receive();
+}
+
+int readiness(int admin_port) { return ask(admin_port, get("/readyz")).status; }
+
+void await_ready(const Service& service) {
+  while (readiness(service.admin_port) != 200) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+TEST(Binary, SaysFirstWhereItListens) {
+  const Service service;
+  EXPECT_EQ(service.ready, "{\"event\":\"ready\",\"port\":" + std::to_string(service.port) +
+                               ",\"admin_port\":" + std::to_string(service.admin_port) +
+                               ",\"version\":\"0.1.0\"}");
+  await_ready(service);
+  EXPECT_EQ(ask(service.admin_port, get("/livez")).status, 200);
+  EXPECT_NE(ask(service.admin_port, get("/metrics")).body.find("tubecut_ready 1\n"),
+            std::string::npos);
+  EXPECT_EQ(ask(service.port, get("/livez")).status, 404);
+}
+
+TEST(Binary, LogsEachJobUnderItsId) {
+  Service service;
+  const auto answer =
+      ask(service.port, post("/v1/bevel-tables", "{not json", "Job-Id: order-17\r\n"));
+  EXPECT_EQ(answer.header("Job-Id"), "order-17");
+  EXPECT_EQ(answer.header("Content-Type"), "application/problem+json");
+  EXPECT_EQ(ask(service.port, get("/v1/version")).status, 200);  // no job, no line
+  EXPECT_EQ(ask(service.port, post("/v1/nowhere", "{}", "Idempotency-Key: k\r\n")).status, 404);
+  for (const auto* id : {"order-17", "k"}) {
+    const std::string line = service.program.line();
+    const auto json = api::parse(line);
+    ASSERT_TRUE(json) << line;
+    EXPECT_EQ(*json->find("event"), api::Json("job"));
+    EXPECT_EQ(*json->find("job"), api::Json(id));
+    EXPECT_NE(json->find("stages_ms"), nullptr);
+  }
+}
+
+TEST(Binary, AnswersAcceptedWorkAndEndsCleanly) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Service service;
+    std::vector<std::unique_ptr<Client>> clients;
+    const std::string request = post("/v1/nowhere", "{\"a\": 1}");
+    for (int i = 0; i < 20; ++i) {
+      clients.push_back(std::make_unique<Client>(service.port));
+      clients.back()->send(request.substr(0, request.size() - 3));
+    }
+    await_ready(service);
+    service.program.signal(signal);
+    // Accepted or still in the kernel's queue when the signal came; it is drained either way.
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (auto& client : clients) client->send(request.substr(request.size() - 3));
+    for (auto& client : clients) {
+      const auto answer = client->receive();
+      EXPECT_EQ(answer.status, 404);
+      EXPECT_EQ(answer.header("Connection"), "close");
+    }
+    EXPECT_EQ(service.program.exit_code(), 0);
+  }
+}
+
+TEST(Binary, TurnsReadinessOffFirst) {
+  Service service({"--drain-delay-s", "0.3"});
+  await_ready(service);
+  service.program.signal(SIGTERM);
+  int status = 200;
+  for (int i = 0; i < 1000 && status == 200; ++i) status = readiness(service.admin_port);
+  EXPECT_EQ(status, 503);
+  EXPECT_EQ(ask(service.port, get("/v1/version")).status, 200);  // still taken
+  EXPECT_EQ(service.program.exit_code(), 0);
+}
+
+TEST(Binary, EndsAtOnceOnASecondSignal) {
+  Service service({"--drain-delay-s", "60"});
+  await_ready(service);
+  service.program.signal(SIGTERM);
+  while (readiness(service.admin_port) == 200) {
+  }
+  service.program.signal(SIGTERM);
+  EXPECT_EQ(service.program.exit_code(), 128 + SIGTERM);
+}
+
+TEST(Binary, AnswersThoughNobodyReadsItsLog) {
+  Service service({"--log-queue", "16"});
+  Client client(service.port);
+  for (int i = 0; i < 2000; ++i) {  // lines of some 300 bytes: several times what the pipe holds
+    client.send(post("/v1/nowhere", "{}"));
+    ASSERT_EQ(client.receive().status, 404) << i;
+  }
+  const auto metrics = ask(service.admin_port, get("/metrics")).body;
+  EXPECT_EQ(metrics.find("tubecut_log_lines_dropped_total 0\n"), std::string::npos);
+  service.program.signal(SIGTERM);
+  EXPECT_EQ(service.program.exit_code(), 0);
+}
+
+TEST(Binary, RefusesAPortThatIsTaken) {
+  const Service service;
+  Program second({TUBECUT_BINARY, "--port", std::to_string(service.port), "--admin-port", "0"});
+  EXPECT_EQ(second.exit_code(), 1);
+}
+
+TEST(Binary, ProbesItself) {
+  Service service;
+  await_ready(service);
+  const std::vector<std::string> health = {TUBECUT_BINARY, "--admin-port",
+                                           std::to_string(service.admin_port), "health"};
+  EXPECT_EQ(Program(health).exit_code(), 0);
+  service.program.signal(SIGTERM);
+  EXPECT_EQ(service.program.exit_code(), 0);
+  EXPECT_EQ(Program(health).exit_code(), 1);
+}
+
+TEST(Binary, RunsOneRequestWithoutAServer) {
+  const std::string file = ::testing::TempDir() + "tubecut_run_test.json";
+  std::ofstream(file) << "{not json";
+  Program program({TUBECUT_BINARY, "run", "--endpoint", "bevel-tables", file});
+  EXPECT_EQ(program.exit_code(), 1);
+}
+
+}  // namespace
+}  // namespace tubecut::test

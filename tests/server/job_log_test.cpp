@@ -1,0 +1,119 @@
+#include "server/job_log.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "api/json.hpp"
+#include "server/json_line.hpp"
+
+namespace tubecut::server {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::system_clock;
+
+JobRecord hostile() {
+  JobRecord job;
+  job.facts.id = "J\"1\\";
+  job.facts.endpoint = "bevel-tables";
+  job.facts.input_sha256 = "ab";
+  job.facts.verdict = "review";
+  job.facts.warnings = {"cutter_missed", "ghost_contact"};
+  job.facts.reference = {{"part", "Tr\xc3\xa4ger"}, {"order", "a\nb\x1b[2J"}};
+  job.facts.stages = {{"parse", 0.0012345}, {"compute", 0.1}};
+  job.method = "POST";
+  job.request_id = "r";
+  job.failure = "bad byte \xff \xc3";
+  job.status = 500;
+  job.seconds = 0.25;
+  return job;
+}
+
+TEST(JobLine, IsOneLineOfStrictJsonWhateverItHolds) {
+  const auto line = job_line(hostile(), system_clock::time_point(milliseconds(1709294400123)));
+  EXPECT_EQ(line.find('\n'), line.npos);
+  EXPECT_EQ(line.find('\x1b'), line.npos);
+  const auto json = api::parse(line);
+  ASSERT_TRUE(json) << json.error().reason << line;
+  EXPECT_EQ(*json->find("ts"), api::Json("2024-03-01T12:00:00.123Z"));
+  EXPECT_EQ(*json->find("level"), api::Json("error"));
+  EXPECT_EQ(*json->find("event"), api::Json("job"));
+  EXPECT_EQ(*json->find("job"), api::Json("J\"1\\"));
+  EXPECT_EQ(*json->find("status"), api::Json(500.0));
+  EXPECT_EQ(*json->find("stages_ms")->find("parse"), api::Json(1.234));
+  EXPECT_EQ(*json->find("total_ms"), api::Json(250.0));
+  EXPECT_EQ(json->find("warnings")->as<api::Json::Array>()->size(), 2U);
+  EXPECT_EQ(*json->find("reference")->find("part"), api::Json("Tr\xc3\xa4ger"));
+  EXPECT_EQ(*json->find("reference")->find("order"), api::Json("a\nb\x1b[2J"));
+}
+
+TEST(JobLine, SurvivesEveryByte) {
+  for (int byte = 0; byte < 256; ++byte) {
+    const std::string text(2, static_cast<char>(byte));
+    EXPECT_TRUE(api::parse(JsonLine{}.text("x", text).done())) << byte;
+  }
+}
+
+TEST(ReadyLine, IsExact) {
+  EXPECT_EQ(ready_line(8080, 9090, "0.1.0"),
+            R"({"event":"ready","port":8080,"admin_port":9090,"version":"0.1.0"})");
+}
+
+TEST(JobLog, KeepsOrderAndNeverBlocksOnAReaderThatStopped) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  {
+    JobLog log(32, ends[1]);
+    log.write("first");
+    const std::string line(200, 'x');
+    while (log.flush(milliseconds(100))) {  // until the pipe is full
+      for (int i = 0; i < 30; ++i) log.write(line);
+    }
+    for (int i = 0; i < 1000; ++i) log.write(line);  // returns though nobody reads
+    EXPECT_GT(log.dropped(), 900U);
+    std::array<char, 5> first{};
+    ASSERT_EQ(read(ends[0], first.data(), first.size()), 5);
+    EXPECT_EQ(std::string(first.data(), 5), "first");
+    std::string rest;
+    std::array<char, 65536> some{};
+    while (!log.flush(milliseconds(0))) {  // read on: the rest comes, with a word on what is lost
+      const auto n = read(ends[0], some.data(), some.size());
+      if (n > 0) rest.append(some.data(), static_cast<std::size_t>(n));
+    }
+    if (rest.find("log_dropped") == rest.npos) {
+      const auto n = read(ends[0], some.data(), some.size());
+      rest.append(some.data(), static_cast<std::size_t>(n));
+    }
+    EXPECT_NE(rest.find(R"("event":"log_dropped","count":)"), rest.npos);
+  }
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST(JobLog, EndsThoughNobodyReads) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  {
+    JobLog log(32, ends[1]);
+    for (int i = 0; i < 1000; ++i) log.write(std::string(200, 'x'));
+  }
+  SUCCEED();
+  close(ends[0]);  // the thread left behind sees a closed pipe now
+}
+
+TEST(JobLog, CountsLinesThatNobodyTakes) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  signal(SIGPIPE, SIG_IGN);
+  close(ends[0]);
+  JobLog log(32, ends[1]);
+  log.write("lost");
+  EXPECT_TRUE(log.flush(milliseconds(5000)));
+  EXPECT_EQ(log.dropped(), 1U);
+  close(ends[1]);
+}
+
+}  // namespace
+}  // namespace tubecut::server

@@ -1,0 +1,238 @@
+#include "server/transport.hpp"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <latch>
+
+#include "tests/server/client.hpp"
+
+namespace tubecut::server {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Client;
+using test::get;
+using test::post;
+
+/// Answers "METHOD target body" and how many letters; a refusal's text with status 400.
+Response echo(const Request& request) {
+  if (request.refusal)
+    return {.status = 400, .content_type = "text/plain", .body = request.refusal->detail};
+  return {.status = 200,
+          .content_type = "text/plain",
+          .headers = {{"X-Peer", request.peer}},
+          .body = request.method + " " + request.target + " " + request.body};
+}
+
+/// A port with that handler, served until the end of the test.
+class Port {
+ public:
+  explicit Port(std::function<Response(const Request&)> handle = echo,
+                TransportOptions options = {})
+      : transport_(Transport::open(
+                       options, {.handle = std::move(handle),
+                                 .screen = [](const Request&) { return std::optional<Refusal>{}; },
+                                 .max_body = [](std::string_view) { return std::size_t{1000}; }})
+                       .value()),
+        served_(std::async(std::launch::async, [this] { return transport_.serve(); })) {
+    while (!transport_.serving()) std::this_thread::sleep_for(1ms);
+  }
+  ~Port() {
+    if (served_.valid()) stop();
+  }
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+
+  [[nodiscard]] int number() const { return transport_.port(); }
+  void drain() { transport_.drain(5s); }
+  bool join() { return served_.get(); }
+  bool stop() {
+    drain();
+    return join();
+  }
+
+ private:
+  Transport transport_;
+  std::future<bool> served_;
+};
+
+std::string one(const Port& port, std::string_view bytes) {
+  Client client(port.number());
+  client.send(bytes);
+  return client.receive().body;
+}
+
+TEST(Transport, AnswersOneAfterAnotherOnOneConnection) {
+  const Port port;
+  Client client(port.number());
+  for (int i = 0; i < 20; ++i) {
+    client.send(post("/a?b=c%20d", std::to_string(i)));
+    EXPECT_EQ(client.receive().body, "POST /a?b=c%20d " + std::to_string(i));
+  }
+  client.send(get("/x", "REMOTE_ADDR: 6.6.6.6\r\nX-Forwarded-For: 6.6.6.6\r\n"));
+  EXPECT_EQ(client.receive().header("X-Peer"), "127.0.0.1");
+}
+
+TEST(Transport, AnswersPipelinedRequestsInOrder) {
+  const Port port;
+  Client client(port.number());
+  client.send(post("/1", "one") + get("/2") + post("/3", "three") +
+              "POST /4 HTTP/1.1\r\nHost: x\r\n\r\n" + get("/5"));
+  for (const auto* body : {"POST /1 one", "GET /2 ", "POST /3 three", "POST /4 ", "GET /5 "}) {
+    EXPECT_EQ(client.receive().body, body);
+  }
+}
+
+TEST(Transport, ReadsChunkedBodies) {
+  const Port port;
+  Client client(port.number());
+  client.send(
+      "POST /c HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: "
+      "chunked\r\n\r\n3\r\nabc\r\n2\r\nde\r\n0\r\n\r\n");
+  EXPECT_EQ(client.receive().body, "POST /c abcde");
+  client.send(get("/next"));
+  EXPECT_EQ(client.receive().body, "GET /next ");
+}
+
+TEST(Transport, SendsTheHeadOnlyToHead) {
+  const Port port;
+  Client client(port.number());
+  client.send("HEAD /h HTTP/1.1\r\nHost: x\r\n\r\n" + get("/g"));
+  const auto head = client.receive(true);
+  EXPECT_EQ(head.header("Content-Length"), "8");  // "HEAD /h "
+  EXPECT_EQ(client.receive().body, "GET /g ");
+}
+
+TEST(Transport, NeitherCompressesNorCutsRanges) {
+  const Port port;
+  Client client(port.number());
+  client.send(get("/r", "Accept-Encoding: br, gzip\r\nRange: bytes=0-1,3-4\r\n"));
+  const auto answer = client.receive();
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.body, "GET /r ");
+  EXPECT_TRUE(answer.header("Content-Encoding").empty());
+}
+
+TEST(Transport, WaitsForExpectContinue) {
+  const Port port;
+  Client client(port.number());
+  client.send("POST /e HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
+  EXPECT_EQ(client.receive(true).status, 100);
+  client.send("ok");
+  EXPECT_EQ(client.receive().body, "POST /e ok");
+  client.send(
+      "POST /e HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: 2000\r\n\r\n");
+  EXPECT_EQ(client.receive().status, 400);
+  EXPECT_TRUE(client.at_end());
+}
+
+TEST(Transport, RefusesAndClosesWhatItDoesNotRead) {
+  const Port port;
+  const std::string head = "POST /b HTTP/1.1\r\nHost: x\r\n";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {head + "Content-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", "both sent"},
+      {head + "Content-Length: 3\r\nContent-Length: 4\r\n\r\nabcd", "more than once"},
+      {head + "Content-Length: -3\r\n\r\nabc", "whole number"},
+      {head + "Content-Length: 99999999999999999999\r\n\r\nabc", "whole number"},
+      {head + "Transfer-Encoding: gzip, chunked\r\n\r\n0\r\n\r\n", "not chunked"},
+      {head + "Host: y\r\nContent-Length: 0\r\n\r\n", "Host"},
+      {head + "Content-Length: 1001\r\n\r\n" + std::string(1001, 'x'), "larger than 1000"},
+      {head + "Transfer-Encoding: chunked\r\n\r\n" + "3e9\r\n" + std::string(1001, 'x'),
+       "larger than 1000"},
+      {head + "Transfer-Encoding: chunked\r\n\r\nzz\r\nabc\r\n0\r\n\r\n", "badly chunked"},
+      {"nonsense\r\n\r\n", "malformed"},
+      {"GET / HTTP/1.1\r\n" + std::string(40000, 'a') + ": b\r\n\r\n", "malformed"},
+      {"GET /" + std::string(9000, 'a') + " HTTP/1.1\r\n\r\n", "malformed"}};
+  for (const auto& [bytes, text] : cases) {
+    Client client(port.number());
+    client.send(bytes + get("/smuggled"));
+    const auto answer = client.receive();
+    EXPECT_EQ(answer.status, 400) << text;
+    EXPECT_NE(answer.body.find(text), std::string::npos) << text << ": " << answer.body;
+    EXPECT_EQ(answer.header("Connection"), "close") << text;
+    EXPECT_TRUE(client.at_end()) << text;
+  }
+  EXPECT_EQ(one(port, get("/alive")), "GET /alive ");
+}
+
+TEST(Transport, HoldsNoThreadForASlowClient) {
+  TransportOptions options;
+  options.connections = 2;
+  options.idle = options.head = options.body = 100ms;
+  const Port port(echo, options);
+  Client idle(port.number());
+  Client slow(port.number());
+  slow.send("GET /slow HTTP/1.1\r\n");
+  Client body(port.number());
+  body.send("POST /b HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\n\r\nab");
+  EXPECT_EQ(one(port, get("/good")), "GET /good ");
+  EXPECT_TRUE(idle.at_end());
+  EXPECT_EQ(slow.receive().status, 400);
+  EXPECT_EQ(body.receive().status, 400);
+}
+
+TEST(Transport, ShowsNoTextOfAnException) {
+  const Port port([](const Request&) -> Response { throw std::runtime_error("secret"); });
+  Client client(port.number());
+  client.send(get("/"));
+  const auto answer = client.receive();
+  EXPECT_EQ(answer.status, 500);
+  EXPECT_EQ((answer.head + answer.body).find("secret"), std::string::npos);
+}
+
+TEST(Transport, AnswersAcceptedWorkWhileDraining) {
+  constexpr int kJobs = 20;
+  std::latch begun(kJobs);
+  std::promise<void> go;
+  const auto gate = go.get_future().share();
+  Port port([&](const Request& request) {
+    begun.count_down();
+    gate.wait();
+    return echo(request);
+  });
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < kJobs; ++i) {
+    clients.push_back(std::make_unique<Client>(port.number()));
+    clients.back()->send(post("/job", std::to_string(i)));
+  }
+  begun.wait();
+  Client idle(port.number());
+  Client half(port.number());
+  half.send("POST /half HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\n\r\nab");
+  std::this_thread::sleep_for(50ms);  // until both are accepted
+  port.drain();
+  EXPECT_TRUE(idle.at_end());
+  EXPECT_THROW(Client late(port.number()), std::runtime_error);
+  go.set_value();
+  half.send("cd");
+  EXPECT_EQ(half.receive().body, "POST /half abcd");
+  for (int i = 0; i < kJobs; ++i) {
+    const auto answer = clients[static_cast<std::size_t>(i)]->receive();
+    EXPECT_EQ(answer.body, "POST /job " + std::to_string(i));
+    EXPECT_EQ(answer.header("Connection"), "close");
+  }
+  EXPECT_TRUE(port.join());
+}
+
+TEST(Transport, TakesAPortOnce) {
+  const Port port;
+  TransportOptions same;
+  same.port = port.number();
+  const auto second = Transport::open(same, {});
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().find(std::to_string(port.number())), std::string::npos);
+}
+
+TEST(Probe, TellsTheStatusOrNothing) {
+  int number = 0;
+  {
+    const Port port;
+    number = port.number();
+    EXPECT_EQ(probe("127.0.0.1", number, "/readyz", 2s), 200);
+  }
+  EXPECT_EQ(probe("127.0.0.1", number, "/readyz", 2s), std::nullopt);
+}
+
+}  // namespace
+}  // namespace tubecut::server
