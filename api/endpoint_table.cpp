@@ -1,9 +1,12 @@
 #include "api/endpoint.hpp"
+#include "api/endpoints/all.hpp"
 
 namespace tubecut::api {
 
 std::span<const Endpoint> endpoints() {
   static const std::vector<Endpoint> kTable{
+      intersections(),
+      bevel_tables(),
   };
   return kTable;
 }

@@ -16,28 +16,32 @@ using bevel::RootSurface;
 
 constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
 
-bevel::Groove decode_groove(Reader& in) {
-  static constexpr std::array kRules{Option<GrooveRule>{"half_dihedral", GrooveRule::half_dihedral},
-                                     Option<GrooveRule>{"fixed", GrooveRule::fixed},
-                                     Option<GrooveRule>{"none", GrooveRule::none},
-                                     Option<GrooveRule>{"square", GrooveRule::square}};
-  bevel::Groove out;
+enum class RuleName { half_dihedral, fixed, none, square };
+
+GrooveRule decode_groove(Reader& in) {
+  static constexpr std::array kRules{Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
+                                     Option<RuleName>{"fixed", RuleName::fixed},
+                                     Option<RuleName>{"none", RuleName::none},
+                                     Option<RuleName>{"square", RuleName::square}};
   if (in.find("rule") != nullptr && *in.find("rule") == Json{"zones"}) {
     in.issue({.code = ErrorCode::unsupported_combination, .pointer = "rule"}, in.find("rule"));
     in.note("rule");
     in.ignore_rest();
-    return out;
+    return bevel::NoGroove{};
   }
-  out.rule = in.choice("rule", kRules);
-  if (out.rule == GrooveRule::half_dihedral)
-    out.cap = in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45));
-  if (out.rule == GrooveRule::fixed)
-    out.angle = in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true});
-  return out;
+  const auto rule = in.choice("rule", kRules);
+  if (!in.is<std::string>("rule")) return bevel::NoGroove{};
+  if (rule == RuleName::half_dihedral)
+    return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
+  if (rule == RuleName::fixed)
+    return bevel::FixedGroove{in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
+  if (rule == RuleName::square) return bevel::SquareCut{};
+  return bevel::NoGroove{};
 }
 
 /// Swing axis of the built-in five_axis_cutter, an assumption of docs/theory/pulse-schedules.md, section 4.5.
-constexpr bevel::SwingAxis kFiveAxisSwing{.max_speed = 45.0, .max_acceleration = 300.0};
+constexpr double kSwingSpeed = 45.0 * kRadPerDeg;          // rad/s
+constexpr double kSwingAcceleration = 300.0 * kRadPerDeg;  // rad/s^2
 
 struct Smoothing {
   bevel::Smoothing method = bevel::NoSmoothing{};
@@ -56,11 +60,13 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
       l.choice("machine", kMachines);
       const double speed = l.number("speed_mm_min", {.min = 1.0, .max = 60'000.0});
       const double use = l.number("use", {.min = 0.01, .max = 1.0}, 0.8);
-      out.limits = bevel::limits_of(kFiveAxisSwing, speed / 60.0, use);
+      if (const auto limits =
+              bevel::swing_limits(kSwingSpeed, kSwingAcceleration, speed / 60.0, use))
+        out.limits = *limits;
     } else {
       const Range limit{.min = 1e-6, .max = 1e6};
-      out.limits.max_slope = l.number("max_slope_deg_per_mm", limit);
-      out.limits.max_curvature = l.number("max_curvature_deg_per_mm2", limit);
+      out.limits.slope = l.number("max_slope_deg_per_mm", limit) * kRadPerDeg;
+      out.limits.curvature = l.number("max_curvature_deg_per_mm2", limit) * kRadPerDeg;
     }
     return 0;
   });
@@ -153,7 +159,7 @@ struct BevelTables {
         Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
     Spec out;
     out.target = decode_target(in);
-    out.cutters = decode_cutters(in);
+    out.partners = decode_cutters(in);
     out.sampling = decode_sampling(in);
     const bool root_known = in.is<std::string>("root_surface");
     out.root_surface = in.choice("root_surface", kRoots);
@@ -194,10 +200,19 @@ struct BevelTables {
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
-    w.object("points", [&](Writer& p) { encode_points(out, p); });
+    w.object("points", [&](Writer& p) { encode_points(spec, out, p); });
     w.field("b_sign", out.inward ? "inward" : "outer_edge_into_part");
-    encode_events("events", out.events, w);
-    w.array("mutations", out.mutations, [](Writer& each, const Out::Mutation& m) {
+    struct Placed {
+      const joint::Event* event;
+      bool outer;
+    };
+    std::vector<Placed> events;
+    for (const auto& event : out.inner_events) events.push_back({&event, false});
+    for (const auto& event : out.outer_events) events.push_back({&event, true});
+    w.array("events", events, [](Writer& each, const Placed& placed) {
+      encode_event(*placed.event, placed.outer, each);
+    });
+    w.array("mutations", out.mutations, [](Writer& each, const Out::Step& m) {
       each.object([&](Writer& o) {
         o.degrees("phi_deg", m.phi);
         o.degrees("step_deg", m.step);
@@ -216,9 +231,9 @@ struct BevelTables {
     });
     w.object("limits", [&](Writer& o) {
       o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
-      if (std::holds_alternative<bevel::EnvelopeSmoothing>(spec.smoothing)) {
-        o.field("max_slope_deg_per_mm", out.limits.max_slope);
-        o.field("max_curvature_deg_per_mm2", out.limits.max_curvature);
+      if (const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing)) {
+        o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
+        o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
       }
     });
     w.array("torch_binds", out.torch_binds, [](Writer& each, const Out::Binding& v) {
@@ -232,8 +247,8 @@ struct BevelTables {
     w.field("developed_length_mm", out.developed_total);
   }
 
-  static void encode_points(const Out& out, Writer& p) {
-    p.degrees_column("phi_deg", out.phi);
+  static void encode_points(const Spec& spec, const Out& out, Writer& p) {
+    encode_phi(out.phi, spec.sampling, p);
     p.column("developed_mm", out.developed);
     p.column("length_mm", out.length);
     p.column("cutter", out.cutter);

@@ -91,12 +91,16 @@ joint::Sampling decode_sampling(Reader& in) {
     s.note("uniform_points");
     s.note("tolerance_mm");
     if (s.has("uniform_points"))
-      out.uniform_points = s.integer("uniform_points", static_cast<int>(limit::uniform_points_min),
-                                     static_cast<int>(limit::uniform_points_max));
-    if (s.has("tolerance_mm") || !out.uniform_points) {
-      out.tolerance = s.number("tolerance_mm", kTolerance, 0.05);
-      out.metric = s.choice("metric", kMetrics, joint::Metric::developed);
+      out.uniform_points = static_cast<std::size_t>(
+          s.integer("uniform_points", static_cast<int>(limit::uniform_points_min),
+                    static_cast<int>(limit::uniform_points_max)));
+    if (s.has("tolerance_mm") || !s.has("uniform_points")) {
+      joint::Tolerance tolerance;
+      tolerance.value = s.number("tolerance_mm", kTolerance, 0.05);
+      tolerance.metric = s.choice("metric", kMetrics, joint::Metric::developed);
+      out.tolerance = tolerance;
     }
+    out.max_nodes = static_cast<std::size_t>(limit::nodes_max);
     return out;
   });
 }
@@ -114,7 +118,7 @@ void encode_event(const joint::Event& event, bool outer, Writer& w) {
 }
 
 void encode_phi(const std::vector<double>& phi, const joint::Sampling& sampling, Writer& w) {
-  if (sampling.tolerance || !sampling.uniform_points) return w.degrees_column("phi_deg", phi);
+  if (sampling.tolerance) return w.degrees_column("phi_deg", phi);
   // Exactly 360 i / n, not that through radians and back.
   std::vector<double> grid(phi.size());
   for (std::size_t i = 0; i < grid.size(); ++i)

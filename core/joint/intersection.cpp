@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
-#include "core/joint/length.hpp"
 #include "core/joint/solid.hpp"
 
 namespace tubecut::joint {
@@ -13,17 +12,17 @@ namespace {
 
 Result<Profile> profile(const Contour& contour, const Sampling& sampling, bool outer,
                         const std::stop_token& stop) {
-  auto nodes = sample(contour, sampling, {}, stop);
-  if (!nodes) return tl::unexpected(nodes.error());
+  const auto samples = sample(contour, sampling, {}, stop);
+  if (!samples) return tl::unexpected(samples.error());
   Profile out{.outer = outer, .radius = contour.radius};
-  for (const auto& node : *nodes) {
+  for (const auto& node : samples->nodes) {
     out.phi.push_back(node.phi);
     out.z.push_back(node.z);
-    out.cutter.push_back(node.cutter);
+    out.cutter.push_back(node.after);
   }
   out.events = contour.events;
-  out.length = true_length(contour);
-  out.developed = kTwoPi * contour.radius;
+  out.length = samples->true_length;
+  out.developed = samples->developed_length;
   return out;
 }
 

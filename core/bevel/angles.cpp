@@ -1,0 +1,74 @@
+#include "core/bevel/angles.hpp"
+
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+/// The normal's parts by which the angles are given. For the inside dihedral the whole derivation
+/// holds with the radial part reversed.
+struct Parts {
+  double radial;      // cos(dihedral) = -radial
+  double across;      // sin(dihedral)
+  double tangential;  // as the kind of dihedral has it, with hypot(tangential, axial) = slant
+  double slant;
+  double axial;
+};
+
+Parts parts(const Eigen::Vector3d& n, Dihedral dihedral) {
+  Parts p{.radial = dihedral == Dihedral::weld_side ? n.x() : -n.x(),
+          .across = 0.0,
+          .tangential = n.y(),
+          .slant = elementary::hypot(n.y(), n.z()),
+          .axial = n.z()};
+  // The published normal is no unit vector; its radial part is right and gives the sine.
+  p.across = dihedral == Dihedral::as_published
+                 ? std::sqrt(std::max(0.0, (1.0 - n.x()) * (1.0 + n.x())))
+                 : p.slant;
+  return p;
+}
+
+}  // namespace
+
+Rule::Rule(const GrooveRule& rule, Dihedral dihedral) : rule_(rule), dihedral_(dihedral) {
+  if (const auto* half = std::get_if<HalfDihedral>(&rule)) limit_ = half->cap.rad();
+  if (const auto* fixed = std::get_if<FixedGroove>(&rule)) limit_ = fixed->angle.rad();
+  const auto at = elementary::sincos(limit_);
+  cos_limit_ = at.cos;
+  sin_limit_ = at.sin;
+}
+
+// tan B = tan tau / cos gamma with cos gamma = axial / slant, and tau = 90 deg - dihedral + groove.
+// With groove = dihedral / 2: tan tau = (1 + cos dihedral) / sin dihedral.
+Angles Rule::angles(const Eigen::Vector3d& normal) const {
+  const auto p = parts(normal, dihedral_);
+  Angles a{.dihedral = elementary::atan2(p.across, -p.radial),
+           .gamma = elementary::atan2(p.tangential, p.axial),
+           .flush = elementary::atan2(-p.radial, p.axial)};
+  if (std::holds_alternative<SquareCut>(rule_)) {
+    a.groove = a.dihedral - 0.5 * kPi;
+    return a;
+  }
+  if (std::holds_alternative<HalfDihedral>(rule_) && 0.5 * a.dihedral < limit_) {
+    a.groove = 0.5 * a.dihedral;
+    a.tau = 0.5 * kPi - a.groove;
+    a.b = dihedral_ == Dihedral::as_published
+              ? elementary::atan2((1.0 - p.radial) * p.slant, p.across * p.axial)
+              : elementary::atan2(1.0 - p.radial, p.axial);
+    return a;
+  }
+  a.groove = limit_;
+  a.tau = 0.5 * kPi - a.dihedral + a.groove;
+  const double sin_tau = p.across * sin_limit_ - p.radial * cos_limit_;
+  const double cos_tau = p.across * cos_limit_ + p.radial * sin_limit_;
+  a.b = elementary::atan2(sin_tau * p.slant, cos_tau * p.axial);
+  return a;
+}
+
+double flush_angle(const Eigen::Vector3d& normal) {
+  return elementary::atan2(-normal.x(), normal.z());
+}
+
+}  // namespace tubecut::bevel

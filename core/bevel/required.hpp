@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+
+#include "core/joint/cutter.hpp"
+
+namespace tubecut::bevel {
+
+/// The target's wall; 0 < inner < outer, mm.
+struct Wall {
+  double inner = 0.0;
+  double outer = 0.0;
+};
+
+/// Least B (rad, in [-pi/2, pi/2]) with which a cut whose root lies on the inner surface at height
+/// `z_root` enters no cutter within the wall, for one phi.
+///
+/// `z_root` is the profile's height on the inner surface there (at a jump one call for each side).
+/// `inner_line` is the generator on the inner surface. Result -pi/2 means no limit, +pi/2 that no
+/// torch angle will do.
+/// Accuracy  closed form, 1e-9 rad but where a cutter touches the root tangentially (1e-6).
+/// Cost      three square roots a cutter, one arc tangent.
+/// Source    docs/theory/intersections-and-bevels.md, section 5.3.
+[[nodiscard]] double required_bevel(std::span<const joint::Prepared> cutters, const Wall& wall,
+                                    const joint::Generator& inner_line, double z_root);
+
+/// Support height: the least z on the inner surface from which a straight cut rising by `slope` =
+/// tan B across the wall enters no cutter. -infinity when no cutter is met in the wall.
+/// Source    docs/theory/intersections-and-bevels.md, section 5.3.
+[[nodiscard]] double lift(std::span<const joint::Prepared> cutters, const Wall& wall,
+                          const joint::Generator& inner_line, double slope);
+
+}  // namespace tubecut::bevel

@@ -1,0 +1,392 @@
+#include "core/bevel/table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/bevel/kerf.hpp"
+#include "core/bevel/required.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+constexpr double kBelow = 1e-9 * kRadPerDeg;  // what counts as falling below, rad
+
+/// What is needed at every node, computed once.
+struct Ground {
+  const TableSpec& spec;
+  std::vector<joint::Cutter> cutters;
+  joint::Contour root;
+  std::optional<joint::Contour> inner;  // when the root is on the outer surface
+  std::vector<joint::Event> other_events;
+  Wall wall;
+  Rule rule;
+
+  [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
+};
+
+Result<Ground> ground(const TableSpec& spec) {
+  auto cutters = joint::resolve(spec.partners);
+  if (!cutters) return tl::unexpected(cutters.error());
+  const Wall wall{spec.target.inner_radius(), spec.target.outer_radius};
+  const bool outer = spec.root_surface == RootSurface::outer;
+  auto root = joint::trace(*cutters, outer ? wall.outer : wall.inner);
+  if (!root) return tl::unexpected(root.error());
+  Ground out{.spec = spec, .cutters = *std::move(cutters), .root = *std::move(root), .inner = {},
+             .other_events = {}, .wall = wall, .rule = Rule(spec.groove, spec.dihedral)};
+  out.other_events = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer).events;
+  if (outer) {
+    auto inner = joint::trace(out.cutters, wall.inner);
+    if (!inner) return tl::unexpected(inner.error());
+    out.inner = *std::move(inner);
+  }
+  return out;
+}
+
+/// One side of one node before smoothing. Angles in rad.
+struct Point {
+  std::size_t cutter = 0;
+  Angles angles;
+  double raw = 0.0;       // rule within the torch range
+  double required = 0.0;  // least B with which no partner enters the wall
+  double input = 0.0;     // of the smoother
+};
+
+Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutter,
+            double root_z) {
+  const auto line = joint::generator_at(g.root.radius, phi);
+  Point out{.cutter = cutter};
+  const bool published = g.spec.dihedral == Dihedral::as_published;
+  out.angles = g.rule.angles(published ? joint::published_normal(g.root.cutters[cutter], line)
+                                       : hit.normal);
+  const auto& torch = g.spec.torch;
+  out.raw = std::clamp(out.angles.b, torch.min.rad(), torch.max.rad());
+  const double z = g.inner ? joint::contact_at(*g.inner, phi).z : root_z;
+  out.required =
+      required_bevel(g.root.cutters, g.wall, joint::generator_at(g.wall.inner, phi), z);
+  out.input = g.spec.contact == Contact::inner ? std::max(out.raw, out.required) : out.raw;
+  return out;
+}
+
+/// The side of a node with the larger input: at an event the larger one-sided value counts.
+Point larger(const Ground& g, const joint::Node& node) {
+  const auto sides = joint::hits_at(g.root, node);
+  auto before = point(g, node.phi, sides.before, node.before, node.z);
+  if (node.kind == joint::NodeKind::smooth || node.kind == joint::NodeKind::jump) return before;
+  auto after = point(g, node.phi, sides.after, node.after, node.z);
+  return before.input >= after.input ? before : after;
+}
+
+bool jump_pair(const std::vector<joint::Node>& nodes, std::size_t i) {
+  return i + 1 < nodes.size() && nodes[i].kind == joint::NodeKind::jump &&
+         nodes[i + 1].kind == joint::NodeKind::jump && nodes[i].phi == nodes[i + 1].phi;
+}
+
+/// Runs of nodes (cyclic) that satisfy `holds`, as phi intervals; one that crosses 0 ends above 2 pi.
+template <class F>
+std::vector<std::pair<double, double>> runs(const std::vector<joint::Node>& nodes, F holds) {
+  std::vector<std::pair<double, double>> out;
+  bool inside = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!holds(i)) {
+      inside = false;
+      continue;
+    }
+    if (!inside) out.emplace_back(nodes[i].phi, nodes[i].phi);
+    out.back().second = nodes[i].phi;
+    inside = true;
+  }
+  if (out.size() > 1 && holds(0) && holds(nodes.size() - 1)) {
+    out.back().second = out.front().second + kTwoPi;
+    out.erase(out.begin());
+  }
+  return out;
+}
+
+Intervals degrees(std::vector<std::pair<double, double>> intervals) {
+  for (auto& [from, to] : intervals) {
+    from *= kDegPerRad;
+    to *= kDegPerRad;
+  }
+  return intervals;
+}
+
+/// The smoother's path: each phi once; along the true length both nodes of a jump stay.
+struct Path {
+  AngleProfile profile;
+  std::vector<std::size_t> entry;  // of each node
+  std::vector<std::size_t> node;   // first node of each entry
+};
+
+Path path(const Ground& g, const joint::Samples& samples, const std::vector<Point>& points) {
+  const auto* envelope = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing);
+  const bool along_length = envelope != nullptr && envelope->along == Along::length;
+  Path out;
+  out.profile.period = along_length ? samples.true_length : samples.developed_length;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool second = i > 0 && jump_pair(samples.nodes, i - 1);
+    const bool first = jump_pair(samples.nodes, i);
+    double input = points[i].input;
+    if (first) input = std::max(input, points[i + 1].input);
+    if (second) input = std::max(input, points[i - 1].input);
+    if (!second || along_length) {
+      const auto& node = samples.nodes[i];
+      out.profile.s.push_back(along_length ? node.length : g.root.radius * node.phi);
+      out.profile.b.push_back(input);
+      out.node.push_back(i);
+    }
+    out.entry.push_back(out.profile.s.size() - 1);
+  }
+  return out;
+}
+
+std::vector<std::size_t> junction_steps(const Ground& g, std::size_t n) {
+  std::vector<std::size_t> out;
+  for (const auto& event : g.root.events)
+    out.push_back(std::min(n - 1, static_cast<std::size_t>(event.phi / kTwoPi * static_cast<double>(n))));
+  return out;
+}
+
+Result<std::vector<double>> smooth_hermite(const Ground& g, const joint::Samples& samples,
+                                           const Path& p, const HermiteSmoothing& method,
+                                           Table& out, const std::stop_token& stop) {
+  if (g.spec.sampling.tolerance)
+    return fail({.code = ErrorCode::sampling_not_uniform,
+                 .member = "sampling/tolerance",
+                 .got = g.spec.sampling.tolerance->value,
+                 .limit = "uniform_points alone",
+                 .unit = "mm"});
+  auto smoothed = hermite(p.profile,
+                          {.limit = g.spec.mutation_limit.rad(),
+                           .transition = method.transition_points,
+                           .junctions = junction_steps(g, p.profile.s.size())},
+                          stop);
+  if (!smoothed) {
+    auto error = smoothed.error();
+    for (auto& issue : error.issues) issue.member = "smoothing/transition_points";
+    return tl::unexpected(std::move(error));
+  }
+  for (const auto& w : smoothed->windows)
+    out.windows.push_back({.phi = samples.nodes[w.index].phi,
+                           .step = w.step,
+                           .kept_before = w.kept == HermiteWindow::Kept::before,
+                           .from = samples.nodes[w.from].phi,
+                           .to = samples.nodes[w.to].phi,
+                           .slope_start = w.slope_start,
+                           .slope_end = w.slope_end});
+  return std::move(smoothed->b);
+}
+
+Result<std::vector<double>> smooth(const Ground& g, const joint::Samples& samples, const Path& p,
+                                   Table& out, const std::stop_token& stop) {
+  if (const auto* method = std::get_if<HermiteSmoothing>(&g.spec.smoothing))
+    return smooth_hermite(g, samples, p, *method, out, stop);
+  if (const auto* method = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing))
+    return envelope(p.profile,
+                    {.limits = method->limits, .highest = g.spec.torch.max.rad(),
+                     .refine = method->refine},
+                    stop);
+  return p.profile.b;
+}
+
+/// B required beyond the torch: an error, with the root gap that lifting the cut would open.
+Result<void> check_torch(const Ground& g, const joint::Samples& samples,
+                         const std::vector<Point>& points) {
+  if (g.spec.contact != Contact::inner) return {};
+  const double max = g.spec.torch.max.rad();
+  const auto beyond = [&](std::size_t i) { return points[i].required > max + kBelow; };
+  auto intervals = runs(samples.nodes, beyond);
+  if (intervals.empty()) return {};
+  const double slope = elementary::tan(max);
+  double gap = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (beyond(i))
+      gap = std::max(gap, lift(g.root.cutters, g.wall,
+                               joint::generator_at(g.wall.inner, samples.nodes[i].phi), slope) -
+                              samples.nodes[i].z);
+  return fail({.code = ErrorCode::torch_range,
+               .member = "torch/max",
+               .got = degrees(std::move(intervals)),
+               .limit = g.spec.torch.max.deg(),
+               .unit = "deg",
+               .hint = "contact auto would open the root by up to " + shown(gap) + " mm"});
+}
+
+/// What the smoothing left below what it was given. Only the published one may.
+Result<void> check_smoothed(const Ground& g, const joint::Samples& samples,
+                            const std::vector<Point>& points, Table& out) {
+  const auto beyond = runs(samples.nodes, [&](std::size_t i) {
+    return out.b[i] > g.spec.torch.max.rad() + kBelow || out.b[i] < g.spec.torch.min.rad() - kBelow;
+  });
+  if (!beyond.empty())
+    return fail({.code = ErrorCode::torch_range,
+                 .member = "torch/max",
+                 .got = degrees(beyond),
+                 .limit = g.spec.torch.max.deg(),
+                 .unit = "deg",
+                 .hint = "the smoothed bevel leaves the torch's range"});
+  const auto enters = runs(samples.nodes, [&](std::size_t i) {
+    return g.spec.contact == Contact::inner && out.b[i] < points[i].required - kBelow;
+  });
+  if (!enters.empty())
+    return fail({.code = ErrorCode::smoothing_enters,
+                 .member = "smoothing/method",
+                 .got = degrees(enters),
+                 .limit = "b_required_deg",
+                 .unit = "deg"});
+  double worst = 0.0, at = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double below = points[i].input - out.b[i];
+    if (below <= kBelow) continue;
+    ++count;
+    if (below > worst) {
+      worst = below;
+      at = samples.nodes[i].phi;
+    }
+  }
+  if (count > 0)
+    out.warnings.push_back({.code = WarningCode::smoothed_below_raw,
+                            .member = "smoothing/method",
+                            .detail = "by up to " + shown(worst * kDegPerRad) + " deg at phi " +
+                                      shown(at * kDegPerRad) + " deg, at " +
+                                      std::to_string(count) + " points"});
+  return {};
+}
+
+void note_torch_binds(const joint::Samples& samples, const std::vector<Point>& points, Table& out) {
+  const auto lost = [&](std::size_t i) { return std::abs(points[i].angles.b - points[i].raw); };
+  for (const auto& [from, to] :
+       runs(samples.nodes, [&](std::size_t i) { return lost(i) > kBelow; })) {
+    Table::Binding binding{.from = from, .to = to, .groove_lost = 0.0};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double phi = samples.nodes[i].phi;
+      if ((phi >= from && phi <= to) || phi + kTwoPi <= to)
+        binding.groove_lost = std::max(binding.groove_lost, lost(i));
+    }
+    out.torch_binds.push_back(binding);
+    out.warnings.push_back(
+        {.code = WarningCode::torch_range_binds,
+         .member = "torch",
+         .detail = "phi " + shown(from * kDegPerRad) + " to " + shown(to * kDegPerRad) +
+                   " deg, up to " + shown(binding.groove_lost * kDegPerRad) + " deg of groove lost"});
+  }
+}
+
+/// On a bare grid events lie between nodes: by how much the straight line between them falls short.
+void note_events_between(const Ground& g, Table& out) {
+  const auto n = out.phi.size();
+  const double step = kTwoPi / static_cast<double>(n);
+  double worst = 0.0, at = 0.0;
+  const auto see = [&](double phi, double input) {
+    const auto i = std::min(n - 1, static_cast<std::size_t>(phi / step));
+    const double t = phi / step - static_cast<double>(i);
+    const double line = (1.0 - t) * out.b[i] + t * out.b[(i + 1) % n];
+    if (input - line > worst) {
+      worst = input - line;
+      at = phi;
+    }
+  };
+  for (const auto& event : g.root.events)
+    for (const bool before : {true, false}) {
+      const auto cutter = before ? event.from : event.to;
+      const auto line = joint::generator_at(g.root.radius, event.phi);
+      const auto side = before ? joint::Side::before : joint::Side::after;
+      const auto hit = event.kind == joint::EventKind::kink
+                           ? joint::hit_at_corner(g.root.cutters[cutter], line, side)
+                           : joint::continued_hit(g.root.cutters[cutter], line);
+      see(event.phi, point(g, event.phi, hit, cutter, before ? event.z_from : event.z_to).input);
+    }
+  for (const auto& event : g.other_events) {
+    const auto contact = joint::contact_at(g.root, event.phi);
+    const auto line = joint::generator_at(g.root.radius, event.phi);
+    const auto hit = joint::continued_hit(g.root.cutters[contact.cutter], line);
+    see(event.phi, point(g, event.phi, hit, contact.cutter, contact.z).input);
+  }
+  out.warnings.push_back({.code = WarningCode::events_between_nodes,
+                          .member = "sampling/uniform_points",
+                          .detail = "largest shortfall of B between nodes " +
+                                    shown(worst * kDegPerRad) + " deg at phi " +
+                                    shown(at * kDegPerRad) + " deg"});
+}
+
+void fill_angles(const joint::Samples& samples, const std::vector<Point>& points, double rho,
+                 Table& out) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& [cutter, angles, raw, required, input] = points[i];
+    out.phi.push_back(samples.nodes[i].phi);
+    out.developed.push_back(rho * samples.nodes[i].phi);
+    out.length.push_back(samples.nodes[i].length);
+    out.cutter.push_back(cutter);
+    out.dihedral.push_back(angles.dihedral);
+    out.groove.push_back(angles.groove);
+    out.tau.push_back(angles.tau);
+    out.gamma.push_back(angles.gamma);
+    out.flush.push_back(angles.flush);
+    out.b_raw.push_back(raw);
+    out.b_required.push_back(required);
+  }
+}
+
+/// Finished surface, root opening, metal in the beam and the torch's own line.
+void fill_surfaces(const Ground& g, const joint::Samples& samples, Table& out) {
+  const double t = g.spec.target.wall;
+  const auto drop = kerf_drops(g.root, samples, out.b, out.gamma, g.spec.kerf);
+  for (std::size_t i = 0; i < out.b.size(); ++i) {
+    const double z = samples.nodes[i].z;
+    const double rise = (out.inward ? -1.0 : 1.0) * t * elementary::tan(out.b[i]);
+    const bool outer = g.inner.has_value();
+    out.z_inner.push_back(outer ? z - rise : z);
+    out.z_outer.push_back(outer ? z : z + rise);
+    out.gap.push_back(outer ? out.z_inner[i] - joint::contact_at(*g.inner, out.phi[i]).z : 0.0);
+    out.beam.push_back(t / elementary::cos(out.b[i]));
+    out.torch_inner.push_back(out.z_inner[i] - drop[i]);
+    out.torch_outer.push_back(out.z_outer[i] - drop[i]);
+  }
+}
+
+}  // namespace
+
+Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
+  const auto grounded = ground(spec);
+  if (!grounded) return tl::unexpected(grounded.error());
+  const auto& g = *grounded;
+  std::vector<double> also;
+  for (const auto& event : g.other_events) also.push_back(event.phi);
+  const auto samples = joint::sample(g.root, spec.sampling, also, stop);
+  if (!samples) return tl::unexpected(samples.error());
+
+  std::vector<Point> points;
+  points.reserve(samples->nodes.size());
+  for (const auto& node : samples->nodes) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    points.push_back(larger(g, node));
+  }
+  if (auto ok = check_torch(g, *samples, points); !ok) return tl::unexpected(ok.error());
+
+  Table out;
+  out.inward = spec.dihedral != Dihedral::weld_side;
+  out.inner_events = g.inner_contour().events;
+  out.outer_events = g.inner ? g.root.events : g.other_events;
+  out.length_total = samples->true_length;
+  out.developed_total = samples->developed_length;
+  out.warnings = joint::partner_warnings(g.root);
+  fill_angles(*samples, points, g.root.radius, out);
+
+  const auto p = path(g, *samples, points);
+  for (const auto& m : mutations(p.profile.b, spec.mutation_limit.rad()))
+    out.mutations.push_back({.phi = samples->nodes[p.node[m.index]].phi, .step = m.step});
+  auto smoothed = smooth(g, *samples, p, out, stop);
+  if (!smoothed) return tl::unexpected(smoothed.error());
+  for (const auto entry : p.entry) out.b.push_back((*smoothed)[entry]);
+  if (auto ok = check_smoothed(g, *samples, points, out); !ok) return tl::unexpected(ok.error());
+
+  fill_surfaces(g, *samples, out);
+  for (const auto* z : {&out.z_inner, &out.z_outer})
+    if (auto ok = joint::check_length(spec.target, *z); !ok) return tl::unexpected(ok.error());
+  note_torch_binds(*samples, points, out);
+  if (!spec.sampling.tolerance) note_events_between(g, out);
+  return out;
+}
+
+}  // namespace tubecut::bevel

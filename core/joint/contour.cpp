@@ -1,0 +1,68 @@
+#include "core/joint/contour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace tubecut::joint {
+namespace {
+
+constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg: below it dz grows as 1/sin a
+constexpr double kTie = 1e-12;                         // of radius + |z|, rounding of one height
+
+Result<std::vector<Prepared>> prepare_all(std::span<const Cutter> cutters) {
+  std::vector<Prepared> out;
+  std::vector<Issue> issues;
+  for (std::size_t i = 0; i < cutters.size(); ++i) {
+    auto one = prepare(cutters[i], "cutters/" + std::to_string(i));
+    if (one) {
+      out.push_back(*one);
+    } else {
+      issues.insert(issues.end(), one.error().issues.begin(), one.error().issues.end());
+    }
+  }
+  if (!issues.empty()) return tl::unexpected<Error>(Error{std::move(issues)});
+  return out;
+}
+
+}  // namespace
+
+Result<Contour> trace(std::span<const Cutter> cutters, double rho) {
+  if (cutters.empty()) return fail({.code = ErrorCode::wrong_count, .member = "cutters"});
+  auto prepared = prepare_all(cutters);
+  if (!prepared) return tl::unexpected<Error>(prepared.error());
+  Contour out;
+  out.radius = rho;
+  out.cutters = *std::move(prepared);
+  for (std::size_t i = 0; i < out.cutters.size(); ++i) {
+    if (misses(out.cutters[i], rho)) out.missed.push_back(i);
+    if (sin_inclination(out.cutters[i]) < kNearParallel) out.near_parallel.push_back(i);
+  }
+  if (out.missed.size() == out.cutters.size())
+    return fail({.code = ErrorCode::no_contact, .member = "cutters"});
+  auto division = divide(out.cutters, rho);
+  if (!division.open.empty())
+    return fail({.code = ErrorCode::open_profile,
+                 .member = "cutters",
+                 .got = std::move(division.open),
+                 .unit = "deg"});
+  out.events = std::move(division.events);
+  out.segments = std::move(division.segments);
+  return out;
+}
+
+const Segment& segment_at(const Contour& contour, double phi) {
+  const auto next = std::ranges::upper_bound(contour.segments, phi, {}, &Segment::from);
+  return next == contour.segments.begin() ? contour.segments.back() : *(next - 1);
+}
+
+Contact contact_at(const Contour& contour, double phi) {
+  const auto line = generator_at(contour.radius, phi);
+  const auto own = segment_at(contour, phi).cutter;
+  const Contact held{continued_sheet(contour.cutters[own], line), own};
+  const auto best = highest(contour.cutters, line);
+  const double tie = kTie * (contour.radius + std::abs(held.z));
+  return best && best->z > held.z + tie ? *best : held;
+}
+
+}  // namespace tubecut::joint

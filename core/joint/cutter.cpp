@@ -1,0 +1,219 @@
+#include "core/joint/cutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::joint {
+namespace {
+
+constexpr double kTouch = 2.5e-13;  // relative; a quarter of what the answer's own proof allows
+constexpr double kCorner = 1e-9;    // relative width within which a tangency counts as a corner
+
+/// The generator in the cutter's frame: u, v of the spec and the cutter's cross-section (X, S).
+struct Local {
+  double cos_delta, sin_delta, u, v, x;
+  double below, above;  // r - X, r + X
+  double s = 0.0;       // S, half the chord; 0 beyond the silhouette
+};
+
+// r -+ X, where the target's own side is nearest, by sin^2 instead of 1 - cos: next to a tangency
+// r - rho cos(delta) would keep no digit.
+Local local(const PreparedTube& t, const Generator& g) {
+  Local p{};
+  p.cos_delta = g.cos_phi * t.cos_clocking + g.sin_phi * t.sin_clocking;
+  p.sin_delta = g.sin_phi * t.cos_clocking - g.cos_phi * t.sin_clocking;
+  p.u = g.radius * p.cos_delta;
+  p.v = g.radius * p.sin_delta;
+  p.x = p.u + t.offset;
+  const double sagitta = p.v * p.sin_delta / (1.0 + std::abs(p.cos_delta));
+  const bool front = p.cos_delta >= 0.0;
+  p.below = front ? (t.radius - t.offset - g.radius) + sagitta : t.radius - p.x;
+  p.above = front ? t.radius + p.x : (t.radius + t.offset - g.radius) + sagitta;
+  p.s = std::sqrt(std::max(p.below, 0.0) * std::max(p.above, 0.0));
+  return p;
+}
+
+bool touches(const PreparedTube& t, const Generator& g, const Local& p) {
+  return std::min(p.below, p.above) >= -kTouch * (t.radius + g.radius);
+}
+
+double sheet(const PreparedTube& t, const Local& p) {
+  return t.height + (p.s - p.v * t.cos_inclination) / t.sin_inclination;
+}
+
+double level(const PreparedPlane& plane, const Generator& g) {
+  return plane.height + g.radius * (plane.slope_x * g.cos_phi + plane.slope_y * g.sin_phi);
+}
+
+/// The normal for the direction (cos theta, sin theta) in the cutter's cross-section.
+Eigen::Vector3d normal(const PreparedTube& t, const Local& p, double cos_theta, double sin_theta) {
+  return {cos_theta * p.cos_delta + t.cos_inclination * sin_theta * p.sin_delta,
+          -cos_theta * p.sin_delta + t.cos_inclination * sin_theta * p.cos_delta,
+          t.sin_inclination * sin_theta};
+}
+
+double clamped_cosine(const PreparedTube& t, const Local& p) {
+  return std::clamp(p.x / t.radius, -1.0, 1.0);
+}
+
+Hit tube_hit(const PreparedTube& t, const Local& p) {
+  const double ds = p.x * p.v / p.s;
+  const double dds = (p.x * p.u - p.v * p.v - ds * ds) / p.s;
+  return {.z = sheet(t, p),
+          .normal = normal(t, p, clamped_cosine(t, p), p.s / t.radius),
+          .z_dphi = (ds - p.u * t.cos_inclination) / t.sin_inclination,
+          .z_dphi2 = (dds + p.v * t.cos_inclination) / t.sin_inclination,
+          .axial = (p.s * t.cos_inclination - p.v) / t.sin_inclination};
+}
+
+Hit plane_hit(const PreparedPlane& plane, const Generator& g) {
+  const auto& n = plane.normal;
+  return {.z = level(plane, g),
+          .normal = {n.x() * g.cos_phi + n.y() * g.sin_phi,
+                     n.y() * g.cos_phi - n.x() * g.sin_phi, n.z()},
+          .z_dphi = g.radius * (plane.slope_y * g.cos_phi - plane.slope_x * g.sin_phi),
+          .z_dphi2 = plane.height - level(plane, g),
+          .axial = 0.0};
+}
+
+tl::unexpected<Error> parallel(std::string_view member, double sine) {
+  return fail({.code = ErrorCode::parallel_axes,
+               .member = std::string(member),
+               .got = elementary::asin(std::min(sine, 1.0)) * kDegPerRad,
+               .limit = elementary::asin(kParallel) * kDegPerRad,
+               .unit = "deg"});
+}
+
+Result<Prepared> prepare_tube(const TubeCutter& tube, std::string_view member) {
+  if (!(tube.radius > 0.0) || !std::isfinite(tube.radius))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = std::string(member) + "/radius",
+                 .got = tube.radius,
+                 .limit = 0.0,
+                 .unit = "mm"});
+  const auto a = elementary::sincos(tube.inclination.rad());
+  const auto b = elementary::sincos(tube.clocking.rad());
+  if (!(a.sin >= kParallel)) return parallel(member, std::abs(a.sin));
+  return PreparedTube{tube.radius, tube.offset, tube.height, a.cos, a.sin, b.cos, b.sin};
+}
+
+Result<Prepared> prepare_plane(const PlaneCutter& plane, std::string_view member) {
+  const double length = plane.normal.norm();
+  if (!(length > 0.0))
+    return fail({.code = ErrorCode::zero_length, .member = std::string(member) + "/normal"});
+  Eigen::Vector3d n = plane.normal / length;
+  if (n.z() < 0.0) n = -n;
+  if (!(n.z() >= kParallel)) return parallel(member, n.z());
+  return PreparedPlane{plane.point.dot(n) / n.z(), -n.x() / n.z(), -n.y() / n.z(), n};
+}
+
+}  // namespace
+
+Generator generator_at(double radius, double phi) {
+  const auto at = elementary::sincos(phi);
+  return {radius, at.cos, at.sin};
+}
+
+Result<Prepared> prepare(const Cutter& cutter, std::string_view member) {
+  if (const auto* tube = std::get_if<TubeCutter>(&cutter)) return prepare_tube(*tube, member);
+  return prepare_plane(std::get<PlaneCutter>(cutter), member);
+}
+
+double sin_inclination(const Prepared& cutter) {
+  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) return tube->sin_inclination;
+  return std::get<PreparedPlane>(cutter).normal.z();
+}
+
+std::optional<double> upper_sheet(const Prepared& cutter, const Generator& line) {
+  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) {
+    const auto p = local(*tube, line);
+    if (!touches(*tube, line, p)) return std::nullopt;
+    return sheet(*tube, p);
+  }
+  return level(std::get<PreparedPlane>(cutter), line);
+}
+
+std::optional<Hit> hit(const Prepared& cutter, const Generator& line) {
+  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) {
+    const auto p = local(*tube, line);
+    if (!touches(*tube, line, p)) return std::nullopt;
+    return tube_hit(*tube, p);
+  }
+  return plane_hit(std::get<PreparedPlane>(cutter), line);
+}
+
+double continued_sheet(const Prepared& cutter, const Generator& line) {
+  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) return sheet(*tube, local(*tube, line));
+  return level(std::get<PreparedPlane>(cutter), line);
+}
+
+Hit continued_hit(const Prepared& cutter, const Generator& line) {
+  if (const auto* tube = std::get_if<PreparedTube>(&cutter))
+    return tube_hit(*tube, local(*tube, line));
+  return plane_hit(std::get<PreparedPlane>(cutter), line);
+}
+
+double silhouette_height(const Prepared& cutter, const Generator& line) {
+  const auto* tube = std::get_if<PreparedTube>(&cutter);
+  if (tube == nullptr) return level(std::get<PreparedPlane>(cutter), line);
+  auto p = local(*tube, line);
+  p.s = 0.0;
+  return sheet(*tube, p);
+}
+
+// With d the distance in phi from the corner, S = sqrt(r rho) |d| and X = +-(r - rho d^2 / 2); the
+// curve is mirrored at delta = 0 and pi, so u and the tangential part take the side's sign.
+Hit hit_at_corner(const Prepared& cutter, const Generator& line, Side side) {
+  const auto* tube = std::get_if<PreparedTube>(&cutter);
+  if (tube == nullptr) return continued_hit(cutter, line);
+  constexpr double kBeside = 1e-12;
+  const double d = side == Side::before ? -1.0 : 1.0;
+  const double front = tube->cos_clocking * line.cos_phi + tube->sin_clocking * line.sin_phi;
+  const double u = front >= 0.0 ? line.radius : -line.radius;
+  const double ratio = std::sqrt(line.radius / tube->radius);  // dS/dphi / r
+  const double cos_a = tube->cos_inclination * (front >= 0.0 ? 1.0 : -1.0);
+  const double sin_a = tube->sin_inclination;
+  const double ds = d * ratio * tube->radius;
+  return {.z = tube->height,
+          .normal = {1.0, kBeside * (-d + cos_a * ratio), kBeside * sin_a * ratio},
+          .z_dphi = (ds - u * tube->cos_inclination) / sin_a,
+          .z_dphi2 = 0.0,
+          .axial = 0.0};
+}
+
+Eigen::Vector3d published_normal(const Prepared& cutter, const Generator& line) {
+  const auto* tube = std::get_if<PreparedTube>(&cutter);
+  if (tube == nullptr) return plane_hit(std::get<PreparedPlane>(cutter), line).normal;
+  const auto p = local(*tube, line);
+  const double cos_theta = clamped_cosine(*tube, p);
+  auto n = normal(*tube, p, cos_theta, p.s / tube->radius);
+  n.y() = cos_theta * p.sin_delta + tube->cos_inclination * p.s / tube->radius * p.cos_delta;
+  return n;
+}
+
+bool is_tangent(const PreparedTube& tube, double rho) {
+  return std::abs(tube.radius - rho - std::abs(tube.offset)) <= kCorner * tube.radius;
+}
+
+bool misses(const Prepared& cutter, double rho) {
+  const auto* tube = std::get_if<PreparedTube>(&cutter);
+  return tube != nullptr && std::abs(tube->offset) >= tube->radius + rho;
+}
+
+std::optional<double> upper_sheet(const Cutter& cutter, double rho, Angle phi) {
+  const auto prepared = prepare(cutter, "");
+  if (!prepared) return std::nullopt;
+  return upper_sheet(*prepared, generator_at(rho, phi.rad()));
+}
+
+std::optional<Hit> hit(const Cutter& cutter, double rho, Angle phi) {
+  const auto prepared = prepare(cutter, "");
+  if (!prepared) return std::nullopt;
+  return hit(*prepared, generator_at(rho, phi.rad()));
+}
+
+}  // namespace tubecut::joint

@@ -1,0 +1,271 @@
+#include "core/joint/events.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/joint/trig_roots.hpp"
+
+namespace tubecut::joint {
+namespace {
+
+constexpr double kSamePhase = 1e-11;      // rad; closer candidates are one
+constexpr double kSameCurve = 1e-13;      // relative; rounding of two descriptions of one curve
+constexpr double kContinuous = 1e-7;      // relative; noise of z at a silhouette is its square root
+constexpr std::array kBrackets = {1e-9, 1e-7, 1e-5, 1e-4, 1e-3};  // rad
+constexpr double kTouching = 1e-6;        // relative; kept without a sign change
+
+/// z = mid +- sqrt(square): both sheets of one cutter around the target. A plane has square 0.
+struct Sheets {
+  Trig<1> mid;
+  Trig<2> square;
+  double size;  // a length the rounding of z is proportional to
+  bool curved;
+};
+
+Sheets sheets(const Prepared& cutter, double rho) {
+  if (const auto* plane = std::get_if<PreparedPlane>(&cutter)) {
+    const double x = rho * plane->slope_x;
+    const double y = rho * plane->slope_y;
+    return {Trig<1>::first_order(plane->height, x, y), {}, rho + std::abs(x) + std::abs(y), false};
+  }
+  const auto& t = std::get<PreparedTube>(cutter);
+  const double tilt = rho * t.cos_inclination / t.sin_inclination;
+  const auto across = Trig<1>::first_order(t.offset, rho * t.cos_clocking, rho * t.sin_clocking);
+  const auto radius = Trig<1>::first_order(t.radius, 0.0, 0.0);
+  const double scale = 1.0 / (t.sin_inclination * t.sin_inclination);
+  return {Trig<1>::first_order(t.height, tilt * t.sin_clocking, -tilt * t.cos_clocking),
+          scale * ((radius - across) * (radius + across)), (t.radius + rho) / t.sin_inclination,
+          true};
+}
+
+bool same_curve(const Sheets& a, const Sheets& b) {
+  const double size = std::max(a.size, b.size);
+  return (a.mid - b.mid).bound() <= kSameCurve * size &&
+         (a.square - b.square).bound() <= kSameCurve * size * size;
+}
+
+/// Phases near every solution of mid_i +- sqrt(square_i) = mid_j +- sqrt(square_j). In this form
+/// (of (Q_i + Q_j - D^2)^2 - 4 Q_i Q_j) nearly equal curves lose no digits.
+std::vector<double> crossings(const Sheets& a, const Sheets& b) {
+  const auto apart = a.mid - b.mid;
+  if (!a.curved && !b.curved) return root_phases(apart);
+  const auto apart2 = apart * apart;
+  if (!b.curved) return root_phases(apart2 - a.square);
+  if (!a.curved) return root_phases(apart2 - b.square);
+  const auto unlike = a.square - b.square;
+  return root_phases(unlike * unlike - 2.0 * (apart2 * (a.square + b.square)) + apart2 * apart2);
+}
+
+double wrapped(double phi) {
+  phi -= kTwoPi * std::floor(phi / kTwoPi);
+  return phi < kTwoPi ? phi : 0.0;
+}
+
+double phase_distance(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d, kTwoPi - d);
+}
+
+class Divider {
+ public:
+  Divider(std::span<const Prepared> cutters, double rho) : cutters_(cutters), rho_(rho) {
+    for (const auto& cutter : cutters) sheets_.push_back(sheets(cutter, rho));
+    for (std::size_t i = 0; i < cutters.size(); ++i)
+      if (!misses(cutters[i], rho) && !repeats_an_earlier(i)) active_.push_back(i);
+  }
+
+  Division divide() {
+    for (const auto i : active_) add_own(i);
+    for (std::size_t a = 0; a < active_.size(); ++a)
+      for (std::size_t b = a + 1; b < active_.size(); ++b) add_pair(active_[a], active_[b]);
+    merge();
+    label();
+    return assemble();
+  }
+
+ private:
+  using Label = std::optional<std::size_t>;
+  struct Kink {
+    double phi;
+    std::size_t cutter;
+  };
+
+  bool repeats_an_earlier(std::size_t i) const {
+    return std::ranges::any_of(active_,
+                               [&](std::size_t j) { return same_curve(sheets_[j], sheets_[i]); });
+  }
+
+  void add_own(std::size_t i) {
+    const auto* tube = std::get_if<PreparedTube>(&cutters_[i]);
+    if (tube == nullptr) return;
+    const double beta = elementary::atan2(tube->sin_clocking, tube->cos_clocking);
+    for (const double side : {tube->radius, -tube->radius}) {
+      const double u = side - tube->offset;  // X = +-r
+      if (!(std::abs(u) <= rho_)) continue;
+      const double delta = elementary::atan2(std::sqrt((rho_ - u) * (rho_ + u)), u);
+      phases_.push_back(wrapped(beta + delta));
+      phases_.push_back(wrapped(beta - delta));
+    }
+    if (!is_tangent(*tube, rho_)) return;
+    if (tube->offset >= 0.0) add_kink(beta, i);
+    if (tube->offset <= 0.0) add_kink(beta + kPi, i);
+  }
+
+  void add_kink(double phi, std::size_t i) {
+    kinks_.push_back({wrapped(phi), i});
+    phases_.push_back(kinks_.back().phi);
+  }
+
+  double apart(std::size_t i, std::size_t j, double phi) const {
+    const auto line = generator_at(rho_, phi);
+    return continued_sheet(cutters_[i], line) - continued_sheet(cutters_[j], line);
+  }
+
+  void add_pair(std::size_t i, std::size_t j) {
+    const double size = std::max(sheets_[i].size, sheets_[j].size);
+    for (const double near : crossings(sheets_[i], sheets_[j])) {
+      if (const auto phi = polish(i, j, near)) {
+        phases_.push_back(wrapped(*phi));
+      } else if (std::abs(apart(i, j, near)) < kTouching * size) {
+        phases_.push_back(wrapped(near));
+      }
+    }
+  }
+
+  /// The narrowest bracket around `near` in which z_i - z_j changes sign, closed.
+  std::optional<double> polish(std::size_t i, std::size_t j, double near) const {
+    for (const double reach : kBrackets) {
+      const double ga = apart(i, j, near - reach);
+      const double gb = apart(i, j, near + reach);
+      if ((ga <= 0.0) != (gb <= 0.0)) return close_bracket(i, j, near - reach, ga, near + reach, gb);
+    }
+    return std::nullopt;
+  }
+
+  /// Secant steps with Illinois weights, a halving every third step: at most 3 * 53 steps.
+  double close_bracket(std::size_t i, std::size_t j, double a, double ga, double b,
+                       double gb) const {
+    for (int step = 0; step < 160 && std::abs(b - a) > 2.3e-16 * std::max(1.0, std::abs(b));
+         ++step) {
+      double phi = step % 3 == 2 ? a + 0.5 * (b - a) : b - gb * ((b - a) / (gb - ga));
+      if (!(phi > std::min(a, b) && phi < std::max(a, b))) phi = a + 0.5 * (b - a);
+      const double g = apart(i, j, phi);
+      if (g == 0.0) return phi;
+      if ((g < 0.0) != (gb < 0.0)) {
+        a = b;
+        ga = gb;
+      } else {
+        ga *= 0.5;
+      }
+      b = phi;
+      gb = g;
+    }
+    return b;
+  }
+
+  void merge() {
+    std::ranges::sort(phases_);
+    std::vector<double> kept;
+    for (const double phi : phases_)
+      if (kept.empty() || (phi - kept.back() > kSamePhase &&
+                           phase_distance(phi, kept.front()) > kSamePhase))
+        kept.push_back(phi);
+    phases_ = std::move(kept);
+  }
+
+  Label label_at(double phi) const {
+    const auto line = generator_at(rho_, phi);
+    Label best;
+    double best_z = 0.0;
+    for (const auto i : active_) {
+      const auto z = upper_sheet(cutters_[i], line);
+      if (!z || (best && !(*z > best_z))) continue;
+      best = i;
+      best_z = *z;
+    }
+    return best;
+  }
+
+  /// labels_[k] holds between phase k and the next one around the circle.
+  void label() {
+    if (phases_.empty()) labels_.push_back(label_at(0.5));
+    for (std::size_t k = 0; k < phases_.size(); ++k) {
+      const double next = k + 1 < phases_.size() ? phases_[k + 1] : phases_[0] + kTwoPi;
+      labels_.push_back(label_at(0.5 * (phases_[k] + next)));
+    }
+  }
+
+  bool is_kink(double phi, std::size_t cutter) const {
+    return std::ranges::any_of(kinks_, [&](const Kink& kink) {
+      return kink.cutter == cutter && phase_distance(kink.phi, phi) <= kSamePhase;
+    });
+  }
+
+  Event event_at(double phi, std::size_t from, std::size_t to) const {
+    const auto line = generator_at(rho_, phi);
+    Event event{.phi = phi,
+                .z_from = continued_sheet(cutters_[from], line),
+                .z_to = continued_sheet(cutters_[to], line),
+                .from = from,
+                .to = to};
+    const double noise = kContinuous * std::max(sheets_[from].size, sheets_[to].size);
+    const bool jumps = std::abs(event.z_to - event.z_from) > noise;
+    event.kind = from == to ? EventKind::kink : jumps ? EventKind::jump : EventKind::junction;
+    if (!jumps) return event;
+    // The higher of the two is the one at its silhouette.
+    const bool lost = event.z_from > event.z_to;
+    (lost ? event.z_from : event.z_to) = silhouette_height(cutters_[lost ? from : to], line);
+    return event;
+  }
+
+  /// Keeps the phases where something happens; the labels between them follow.
+  Division assemble() const {
+    Division out;
+    std::vector<std::pair<double, Label>> starts;  // of stretches
+    for (std::size_t k = 0; k < phases_.size(); ++k) {
+      const Label before = labels_[k > 0 ? k - 1 : labels_.size() - 1];
+      const Label after = labels_[k];
+      if (before == after && !(after && is_kink(phases_[k], *after))) continue;
+      starts.emplace_back(phases_[k], after);
+      if (before && after) out.events.push_back(event_at(phases_[k], *before, *after));
+    }
+    if (starts.empty()) starts.emplace_back(0.0, labels_.front());
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      const double from = starts[k].first;
+      const double to = k + 1 < starts.size() ? starts[k + 1].first : starts[0].first + kTwoPi;
+      if (const Label& cutter = starts[k].second) {
+        out.segments.push_back({from, to, *cutter});
+      } else {
+        out.open.emplace_back(from * kDegPerRad, to * kDegPerRad);
+      }
+    }
+    return out;
+  }
+
+  std::span<const Prepared> cutters_;
+  double rho_;
+  std::vector<Sheets> sheets_;
+  std::vector<std::size_t> active_;  // hit somewhere, and no other description of an earlier one
+  std::vector<double> phases_;
+  std::vector<Kink> kinks_;
+  std::vector<Label> labels_;
+};
+
+}  // namespace
+
+std::optional<Contact> highest(std::span<const Prepared> cutters, const Generator& line) {
+  std::optional<Contact> best;
+  for (std::size_t i = 0; i < cutters.size(); ++i) {
+    const auto z = upper_sheet(cutters[i], line);
+    if (z && (!best || *z > best->z)) best = Contact{*z, i};
+  }
+  return best;
+}
+
+Division divide(std::span<const Prepared> cutters, double rho) {
+  return Divider(cutters, rho).divide();
+}
+
+}  // namespace tubecut::joint

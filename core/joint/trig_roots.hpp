@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace tubecut::joint {
+
+/// A complex number with plain arithmetic: std::complex calls a compiler's own run-time routines,
+/// whose last bits differ between compilers.
+struct Complex {
+  double re = 0.0;
+  double im = 0.0;
+  friend Complex operator+(Complex a, Complex b) { return {a.re + b.re, a.im + b.im}; }
+  friend Complex operator-(Complex a, Complex b) { return {a.re - b.re, a.im - b.im}; }
+  friend Complex operator*(Complex a, Complex b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  friend Complex operator*(double k, Complex a) { return {k * a.re, k * a.im}; }
+  friend Complex operator/(Complex a, Complex b) {
+    const double n = b.re * b.re + b.im * b.im;
+    return {(a.re * b.re + a.im * b.im) / n, (a.im * b.re - a.re * b.im) / n};
+  }
+};
+
+/// A real trigonometric polynomial, sum over k = -Degree..Degree of c[k + Degree] e^{i k phi}.
+template <std::size_t Degree>
+struct Trig {
+  static constexpr std::size_t kTerms = 2 * Degree + 1;
+  std::array<Complex, kTerms> c = {};
+
+  /// mean + cosine cos(k phi) + sine sin(k phi) with k = 1.
+  static Trig first_order(double mean, double cosine, double sine) {
+    Trig t;
+    t.c[Degree] = {mean, 0.0};
+    t.c[Degree + 1] = {0.5 * cosine, -0.5 * sine};
+    t.c[Degree - 1] = {0.5 * cosine, 0.5 * sine};
+    return t;
+  }
+  /// Bound of the value: sum of the terms' sizes.
+  [[nodiscard]] double bound() const;
+
+  friend Trig operator+(Trig a, const Trig& b) {
+    for (std::size_t k = 0; k < kTerms; ++k) a.c[k] = a.c[k] + b.c[k];
+    return a;
+  }
+  friend Trig operator-(Trig a, const Trig& b) {
+    for (std::size_t k = 0; k < kTerms; ++k) a.c[k] = a.c[k] - b.c[k];
+    return a;
+  }
+  friend Trig operator*(double f, Trig a) {
+    for (auto& term : a.c) term = f * term;
+    return a;
+  }
+};
+
+template <std::size_t M, std::size_t N>
+[[nodiscard]] Trig<M + N> operator*(const Trig<M>& a, const Trig<N>& b) {
+  Trig<M + N> out;
+  for (std::size_t i = 0; i < Trig<M>::kTerms; ++i)
+    for (std::size_t j = 0; j < Trig<N>::kTerms; ++j) out.c[i + j] = out.c[i + j] + a.c[i] * b.c[j];
+  return out;
+}
+
+/// Phases (rad, in (-pi, pi]) near which the trigonometric polynomial may vanish: the roots within
+/// 3e-3 of the unit circle of its polynomial in e^{i phi}, by Aberth's iteration. A root of
+/// multiplicity m is found to about eps^(1/m); spurious phases occur, none of a real root is
+/// missing. Coefficients are those of `Trig::c`; an all-zero polynomial has none.
+/// Cost      at most 80 sweeps, each quadratic in the degree; degree 8: about 10 us.
+[[nodiscard]] std::vector<double> root_phases(const Complex* coefficients, std::size_t terms);
+
+template <std::size_t Degree>
+[[nodiscard]] std::vector<double> root_phases(const Trig<Degree>& t) {
+  return root_phases(t.c.data(), t.c.size());
+}
+
+[[nodiscard]] double modulus(Complex z);
+
+template <std::size_t Degree>
+double Trig<Degree>::bound() const {
+  double sum = 0.0;
+  for (const auto& term : c) sum += modulus(term);
+  return sum;
+}
+
+}  // namespace tubecut::joint

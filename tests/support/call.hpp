@@ -1,0 +1,77 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "api/api.hpp"
+#include "api/json.hpp"
+#include "tests/support/golden.hpp"
+
+namespace tubecut::testing {
+
+struct Posted {
+  api::Outcome outcome;
+  api::Json body;  // parsed when the answer is JSON
+};
+
+/// Posts a body through the api layer, as the server would.
+inline Posted post(std::string_view path, std::string_view body, std::string_view query = {},
+                   std::string_view accept = {}) {
+  const api::Call call{.method = "POST", .path = path, .query = query, .accept = accept,
+                       .content_type = "application/json", .body = body, .job_id = {},
+                       .request_id = "test"};
+  const api::Context context{.stop = {}, .clock = {}, .status = [](ErrorKind kind) {
+                               return 400 + static_cast<int>(kind);
+                             }};
+  Posted out{api::dispatch(call, context), {}};
+  if (auto parsed = api::parse(out.outcome.body)) out.body = *std::move(parsed);
+  return out;
+}
+
+inline Posted post(std::string_view path, const api::Json& body) {
+  return post(path, std::string_view(api::dump(body)));
+}
+
+/// A copy of `json` with the member at `path` ("a/b/0") replaced; made when it is absent.
+inline api::Json with(api::Json json, std::string_view path, api::Json value) {
+  api::Json* here = &json;
+  while (true) {
+    const auto slash = path.find('/');
+    const std::string step(path.substr(0, slash));
+    api::Json* next = nullptr;
+    if (auto* array = here->as<api::Json::Array>()) {
+      next = &array->at(std::stoul(step));
+    } else {
+      auto& object = *here->as<api::Json::Object>();
+      for (auto& [name, member] : object)
+        if (name == step) next = &member;
+      if (next == nullptr) {
+        object.emplace_back(step, api::Json{});
+        next = &object.back().second;
+      }
+    }
+    if (slash == std::string_view::npos) {
+      *next = std::move(value);
+      return json;
+    }
+    here = next;
+    path = path.substr(slash + 1);
+  }
+}
+
+/// A copy without the member at `path`.
+inline api::Json without(api::Json json, std::string_view path) {
+  const auto slash = path.rfind('/');
+  api::Json* here = &json;
+  if (slash != std::string_view::npos)
+    here = const_cast<api::Json*>(&at(json, path.substr(0, slash)));
+  const auto name = slash == std::string_view::npos ? path : path.substr(slash + 1);
+  std::erase_if(*here->as<api::Json::Object>(), [&](const auto& m) { return m.first == name; });
+  return json;
+}
+
+inline api::Json example(std::string_view file) {
+  return *api::parse(read_project_file("examples/" + std::string(file)));
+}
+
+}  // namespace tubecut::testing

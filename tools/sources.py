@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""Our own source files by kind, one per line: `tools/sources.py c++|headers|shell`. Also the module the other tools share."""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+CODE = ("core", "api", "server", "tests", "bench")
+SCRIPTS = ("dev", ".ci", "tools", "tests", "bench", "docker")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
+
+
+def _files(root, folders):
+    for folder in folders:
+        top = root / folder
+        paths = [top] if top.is_file() else sorted(top.rglob("*"))
+        yield from (p for p in paths if p.is_file() and "node_modules" not in p.parts)
+
+
+def cpp(root=ROOT, folders=CODE):
+    return [p for p in _files(root, folders) if p.suffix in (".cpp", ".hpp")]
+
+
+def headers(root=ROOT):
+    return [p for p in cpp(root) if p.suffix == ".hpp"]
+
+
+def shell(root=ROOT):
+    return [p for p in _files(root, SCRIPTS) if re.match(rb"#!.*\b(ba)?sh\b", p.open("rb").readline())]
+
+
+def includes(text):
+    """(quoted?, name) of every include in the text."""
+    return [(mark == '"', name) for mark, name in INCLUDE.findall(text)]
+
+
+def without_comments(text):
+    """The text with comments and the insides of literals blanked; line numbers stay."""
+    token = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'""", re.S)
+    return token.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
+
+
+if __name__ == "__main__":
+    kinds = {"c++": cpp, "headers": headers, "shell": shell}
+    if len(sys.argv) != 2 or sys.argv[1] not in kinds:
+        sys.exit("usage: tools/sources " + "|".join(kinds))
+    for path in kinds[sys.argv[1]]():
+        print(path.relative_to(ROOT))
