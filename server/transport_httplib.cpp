@@ -146,7 +146,7 @@ struct Transport::Impl final : httplib::Server {
     x.request.peer = raw.remote_addr;
     x.request.headers.assign(raw.headers.begin(), raw.headers.end());
     raw.ranges.clear();
-    raw.path = "/";
+    raw.path.assign(1, '/');  // g++ 12 sees an overlap in the assignment of a literal
     for (const auto* name : {"Range", "Accept-Encoding", "Content-Encoding", "Content-Type"}) {
       raw.headers.erase(name);
     }
