@@ -356,6 +356,13 @@ std::size_t max_body(std::string_view path) {
   return static_cast<std::size_t>(limit::body_max_bytes);
 }
 
+std::string job_line(const Caption& caption) {
+  std::string out =
+      "tubecut " + std::string(version()) + ", input " + caption.input_sha256.substr(0, 16);
+  for (const auto& [name, text] : caption.reference) out += ", " + name + " " + text;
+  return out;
+}
+
 std::string_view version() { return TUBECUT_VERSION; }
 
 int numerics() {

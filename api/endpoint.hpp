@@ -37,6 +37,9 @@ struct Caption {
   std::string view;  // ?view=, empty: the format's default
 };
 
+/// One line that names the job on a drawing: engine, input hash, the caller's reference.
+[[nodiscard]] std::string job_line(const Caption& caption);
+
 /// One more way to print a result. `print` never sees JSON; core results in, text out.
 template <class Spec, class Out>
 struct Format {

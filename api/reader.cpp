@@ -11,7 +11,7 @@ constexpr std::size_t kShownText = 80;
 
 // Longest first, so that "_deg_per_mm2" is not read as "_mm2".
 constexpr std::string_view kUnits[] = {
-    "deg_per_mm2", "deg_per_mm", "rad_per_mm", "rev_min", "per_hour", "mm_s3", "mm_s2", "mm_min",
+    "mm3_s",       "deg_per_mm2", "deg_per_mm", "rad_per_mm", "rev_min", "per_hour", "mm_s3", "mm_s2", "mm_min",
     "pulses",      "mm_s",       "m_min",      "mm3",     "mm2",      "deg",   "rad",   "ms",
     "us",          "um",         "kg",         "mm",      "s"};
 

@@ -4,6 +4,7 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/formats/bevel_table_formats.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
@@ -269,8 +270,9 @@ struct BevelTables {
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kNone;
-    return kNone;
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &bevel_table_csv}, {"svg", "image/svg+xml", &bevel_table_svg}};
+    return kFormats;
   }
 };
 

@@ -74,8 +74,8 @@ double tube_slope(const PreparedTube& t, const Wall& wall, const Generator& g, d
   const auto s = section(t, wall, g);
   if (!(s.from <= s.to) || s.to <= wall.inner * (1.0 + kSameHeight)) return -kInfinity;
   const double x = wall.inner * s.cos_delta + t.offset;
-  const double y = (z_root - t.height) * t.sin_inclination +
-                   wall.inner * s.sin_delta * t.cos_inclination;
+  const double y =
+      (z_root - t.height) * t.sin_inclination + wall.inner * s.sin_delta * t.cos_inclination;
   const double noise = kOnCutter * (t.radius + std::abs(z_root) + std::abs(t.height));
   if (s.from <= wall.inner && x * x + y * y <= t.radius * (t.radius + noise) && y >= 0.0)
     return slope_at(s, x, std::sqrt(std::max(0.0, (t.radius - x) * (t.radius + x))));
@@ -126,8 +126,8 @@ double lift(std::span<const Prepared> cutters, const Wall& wall, const Generator
     }
     const auto& p = std::get<PreparedPlane>(cutter);
     const double own = p.slope_x * inner_line.cos_phi + p.slope_y * inner_line.sin_phi;
-    z = std::max(z, p.height + wall.inner * own +
-                        std::max(0.0, (wall.outer - wall.inner) * (own - slope)));
+    z = std::max(
+        z, p.height + wall.inner * own + std::max(0.0, (wall.outer - wall.inner) * (own - slope)));
   }
   return z;
 }

@@ -13,8 +13,8 @@ namespace tubecut::joint {
 struct Contour {
   double radius = 0.0;  // rho of the surface, mm
   std::vector<Prepared> cutters;
-  std::vector<Event> events;       // ascending phi
-  std::vector<Segment> segments;   // see Division
+  std::vector<Event> events;               // ascending phi
+  std::vector<Segment> segments;           // see Division
   std::vector<std::size_t> missed;         // cutters no generator hits (warning cutter_missed)
   std::vector<std::size_t> near_parallel;  // within 5 deg of parallel (warning near_parallel)
 };

@@ -73,8 +73,8 @@ Hit tube_hit(const PreparedTube& t, const Local& p) {
 Hit plane_hit(const PreparedPlane& plane, const Generator& g) {
   const auto& n = plane.normal;
   return {.z = level(plane, g),
-          .normal = {n.x() * g.cos_phi + n.y() * g.sin_phi,
-                     n.y() * g.cos_phi - n.x() * g.sin_phi, n.z()},
+          .normal = {n.x() * g.cos_phi + n.y() * g.sin_phi, n.y() * g.cos_phi - n.x() * g.sin_phi,
+                     n.z()},
           .z_dphi = g.radius * (plane.slope_y * g.cos_phi - plane.slope_x * g.sin_phi),
           .z_dphi2 = plane.height - level(plane, g),
           .axial = 0.0};
@@ -147,7 +147,8 @@ std::optional<Hit> hit(const Prepared& cutter, const Generator& line) {
 }
 
 double continued_sheet(const Prepared& cutter, const Generator& line) {
-  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) return sheet(*tube, local(*tube, line));
+  if (const auto* tube = std::get_if<PreparedTube>(&cutter))
+    return sheet(*tube, local(*tube, line));
   return level(std::get<PreparedPlane>(cutter), line);
 }
 

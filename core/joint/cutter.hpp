@@ -59,9 +59,9 @@ struct PreparedTube {
   double cos_clocking, sin_clocking;
 };
 struct PreparedPlane {
-  double height;           // z on the target axis
+  double height;            // z on the target axis
   double slope_x, slope_y;  // z = height + slope_x x + slope_y y
-  Eigen::Vector3d normal;  // unit, z > 0, in the target frame
+  Eigen::Vector3d normal;   // unit, z > 0, in the target frame
 };
 using Prepared = std::variant<PreparedTube, PreparedPlane>;
 

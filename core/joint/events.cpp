@@ -10,11 +10,11 @@
 namespace tubecut::joint {
 namespace {
 
-constexpr double kSamePhase = 1e-11;      // rad; closer candidates are one
-constexpr double kSameCurve = 1e-13;      // relative; rounding of two descriptions of one curve
-constexpr double kContinuous = 1e-7;      // relative; noise of z at a silhouette is its square root
+constexpr double kSamePhase = 1e-11;  // rad; closer candidates are one
+constexpr double kSameCurve = 1e-13;  // relative; rounding of two descriptions of one curve
+constexpr double kContinuous = 1e-7;  // relative; noise of z at a silhouette is its square root
 constexpr std::array kBrackets = {1e-9, 1e-7, 1e-5, 1e-4, 1e-3};  // rad
-constexpr double kTouching = 1e-6;        // relative; kept without a sign change
+constexpr double kTouching = 1e-6;  // relative; kept without a sign change
 
 /// z = mid +- sqrt(square): both sheets of one cutter around the target. A plane has square 0.
 struct Sheets {
@@ -139,7 +139,8 @@ class Divider {
     for (const double reach : kBrackets) {
       const double ga = apart(i, j, near - reach);
       const double gb = apart(i, j, near + reach);
-      if ((ga <= 0.0) != (gb <= 0.0)) return close_bracket(i, j, near - reach, ga, near + reach, gb);
+      if ((ga <= 0.0) != (gb <= 0.0))
+        return close_bracket(i, j, near - reach, ga, near + reach, gb);
     }
     return std::nullopt;
   }
@@ -169,8 +170,8 @@ class Divider {
     std::ranges::sort(phases_);
     std::vector<double> kept;
     for (const double phi : phases_)
-      if (kept.empty() || (phi - kept.back() > kSamePhase &&
-                           phase_distance(phi, kept.front()) > kSamePhase))
+      if (kept.empty() ||
+          (phi - kept.back() > kSamePhase && phase_distance(phi, kept.front()) > kSamePhase))
         kept.push_back(phi);
     phases_ = std::move(kept);
   }
@@ -213,6 +214,14 @@ class Divider {
     const double noise = kContinuous * std::max(sheets_[from].size, sheets_[to].size);
     const bool jumps = std::abs(event.z_to - event.z_from) > noise;
     event.kind = from == to ? EventKind::kink : jumps ? EventKind::jump : EventKind::junction;
+    if (event.kind == EventKind::junction) {
+      // Next to a silhouette the steeper curve keeps only half the digits of the common height.
+      const auto slope = [&](std::size_t i) {
+        return std::abs(continued_hit(cutters_[i], line).z_dphi);
+      };
+      (slope(from) > slope(to) ? event.z_from : event.z_to) =
+          slope(from) > slope(to) ? event.z_to : event.z_from;
+    }
     if (!jumps) return event;
     // The higher of the two is the one at its silhouette.
     const bool lost = event.z_from > event.z_to;

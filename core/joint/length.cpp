@@ -13,16 +13,19 @@ namespace {
 struct GaussPoint {
   double at, weight;
 };
-constexpr std::array<GaussPoint, 3> kGauss3 = {
-    {{0.0, 0.8888888888888888}, {-0.7745966692414834, 0.5555555555555556},
-     {0.7745966692414834, 0.5555555555555556}}};
+constexpr std::array<GaussPoint, 3> kGauss3 = {{{0.0, 0.8888888888888888},
+                                                {-0.7745966692414834, 0.5555555555555556},
+                                                {0.7745966692414834, 0.5555555555555556}}};
 constexpr std::array<GaussPoint, 5> kGauss5 = {{{0.0, 0.5688888888888889},
                                                 {-0.5384693101056831, 0.47862867049936647},
                                                 {0.5384693101056831, 0.47862867049936647},
                                                 {-0.906179845938664, 0.23692688505618908},
                                                 {0.906179845938664, 0.23692688505618908}}};
 constexpr double kAgreement = 1e-10;  // of two orders; the higher one is then good to far less
-constexpr int kHalvings = 40;
+// Of the radius. Finer would resolve the rounding of the silhouette's own phase, in which the
+// sheet is 1e-8 radius high instead of 0.
+constexpr double kNegligible = 1e-10;
+constexpr int kHalvings = 14;
 
 template <class Points, class F>
 double gauss(const Points& points, const F& f, double a, double b) {
@@ -34,12 +37,14 @@ double gauss(const Points& points, const F& f, double a, double b) {
 }
 
 template <class F>
-double integrate(const F& f, double a, double b, int halvings) {
+double integrate(const F& f, double a, double b, double negligible, int halvings) {
   const double low = gauss(kGauss3, f, a, b);
   const double high = gauss(kGauss5, f, a, b);
-  if (halvings == 0 || std::abs(high - low) <= kAgreement * std::abs(high)) return high;
+  const double agreed = std::max(kAgreement * std::abs(high), negligible);
+  if (halvings == 0 || std::abs(high - low) <= agreed) return high;
   const double mid = 0.5 * (a + b);
-  return integrate(f, a, mid, halvings - 1) + integrate(f, mid, b, halvings - 1);
+  return integrate(f, a, mid, negligible, halvings - 1) +
+         integrate(f, mid, b, negligible, halvings - 1);
 }
 
 /// Walks once around from phi = 0, adding arcs, and at jumps the difference in height. It starts in
@@ -98,12 +103,14 @@ double arc_length(const Contour& contour, const Segment& segment, double from, d
     const auto hit = continued_hit(cutter, generator_at(contour.radius, phi));
     return elementary::hypot(contour.radius, hit.z_dphi);
   };
-  if (from > segment.from && to < segment.to) return integrate(speed, from, to, kHalvings);
+  const double negligible = kNegligible * contour.radius;
+  if (from > segment.from && to < segment.to)
+    return integrate(speed, from, to, negligible, kHalvings);
   const auto stretched = [&](double t) {
     const auto s = elementary::sincos(t);
     return speed(from + (to - from) * s.sin * s.sin) * (to - from) * 2.0 * s.sin * s.cos;
   };
-  return integrate(stretched, 0.0, 0.5 * kPi, kHalvings);
+  return integrate(stretched, 0.0, 0.5 * kPi, negligible, kHalvings);
 }
 
 std::vector<double> lengths_along(const Contour& contour, std::span<const double> phases) {

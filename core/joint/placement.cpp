@@ -15,8 +15,7 @@ Angle whole_turn(double phi) { return Angle::rad(phi < 0.0 ? phi + kTwoPi : phi)
 
 Result<Placement> place(const AxisLine& axis, double radius, std::string_view member) {
   const double length = axis.direction.norm();
-  if (!(length > 0.0))
-    return fail({.code = ErrorCode::zero_length, .member = std::string(member)});
+  if (!(length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = std::string(member)});
   const Eigen::Vector3d d = axis.direction / length;
   const double sin_a = elementary::hypot(d.x(), d.y());
   const double inclination = elementary::atan2(sin_a, d.z());
@@ -51,7 +50,8 @@ Result<MemberFrame> member_frame(const Eigen::Vector3d& cut, const Eigen::Vector
   const double length = along.norm();
   const double reference_length = reference.norm();
   if (!(length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "far"});
-  if (!(reference_length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "reference"});
+  if (!(reference_length > 0.0))
+    return fail({.code = ErrorCode::zero_length, .member = "reference"});
   const Eigen::Vector3d z = along / length;
   const Eigen::Vector3d g = reference / reference_length;
   const Eigen::Vector3d across = g - g.dot(z) * z;

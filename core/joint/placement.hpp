@@ -24,8 +24,8 @@ struct Placement {
 /// `member` names the tube in errors.
 ///
 /// Errors    zero_length, parallel_axes (limit kParallel).
-/// Accuracy  line -> numbers -> line passes the point within 1e-13 of |point| + |offset| + |height|.
-/// Source    docs/theory/intersections-and-bevels.md, section 1.1.
+/// Accuracy  line -> numbers -> line passes the point within 1e-13 of |point| + |offset| +
+/// |height|. Source    docs/theory/intersections-and-bevels.md, section 1.1.
 [[nodiscard]] Result<Placement> place(const AxisLine& axis, double radius, std::string_view member);
 
 /// The axis in the target's frame: the foot of the common perpendicular and the unit direction.

@@ -12,8 +12,8 @@ namespace {
 constexpr double kWidest = 10.0 * kRadPerDeg;  // before any deviation is measured
 constexpr int kProbes = 7;
 constexpr int kHalvings = 48;
-constexpr double kSameNode = 1e-6;   // mm, developed
-constexpr double kAtEvent = 1e-9;    // rad; a bare grid point so near an event lies on it
+constexpr double kSameNode = 1e-6;  // mm, developed
+constexpr double kAtEvent = 1e-9;   // rad; a bare grid point so near an event lies on it
 
 struct Point {
   double phi, z;
@@ -89,9 +89,15 @@ Node smooth_node(double phi, double z, std::size_t cutter) {
 void append_event(std::vector<Node>& nodes, const Event& event) {
   Node node{.phi = event.phi, .z = event.z_from, .before = event.from, .after = event.to};
   if (event.kind == EventKind::jump) {
-    nodes.push_back({.phi = event.phi, .z = event.z_from, .before = event.from,
-                     .after = event.from, .kind = NodeKind::jump});
-    nodes.push_back({.phi = event.phi, .z = event.z_to, .before = event.to, .after = event.to,
+    nodes.push_back({.phi = event.phi,
+                     .z = event.z_from,
+                     .before = event.from,
+                     .after = event.from,
+                     .kind = NodeKind::jump});
+    nodes.push_back({.phi = event.phi,
+                     .z = event.z_to,
+                     .before = event.to,
+                     .after = event.to,
                      .kind = NodeKind::jump});
     return;
   }
@@ -114,7 +120,8 @@ std::vector<double> stations(const Segment& segment, std::span<const double> als
   return kept;
 }
 
-Point end_point(const Contour& contour, const Segment& segment, const Refiner& refiner, double phi) {
+Point end_point(const Contour& contour, const Segment& segment, const Refiner& refiner,
+                double phi) {
   const auto k = static_cast<std::size_t>(&segment - contour.segments.data());
   if (!contour.events.empty() && phi == segment.from) return {phi, contour.events[k].z_to};
   if (!contour.events.empty() && phi == segment.to)
@@ -128,7 +135,8 @@ void append_segment(std::vector<Node>& nodes, const Contour& contour, const Segm
   for (std::size_t k = 0; k + 1 < phases.size(); ++k) {
     const auto from = end_point(contour, segment, refiner, phases[k]);
     const auto to = end_point(contour, segment, refiner, phases[k + 1]);
-    if (k > 0 || contour.events.empty()) nodes.push_back(smooth_node(from.phi, from.z, segment.cutter));
+    if (k > 0 || contour.events.empty())
+      nodes.push_back(smooth_node(from.phi, from.z, segment.cutter));
     refiner.points.clear();
     refiner.refine(segment.cutter, from, to);
     for (const auto& p : refiner.points) nodes.push_back(smooth_node(p.phi, p.z, segment.cutter));
@@ -213,7 +221,7 @@ Samples measured(const Contour& contour, std::vector<Node> nodes) {
 }  // namespace
 
 Result<Samples> sample(const Contour& contour, const Sampling& sampling,
-                       std::span<const double> also, std::stop_token stop) {
+                       std::span<const double> also, const std::stop_token& stop) {
   const auto& tolerance = sampling.tolerance;
   if (tolerance ? !(tolerance->value > 0.0) : sampling.uniform_points == 0)
     return fail({.code = ErrorCode::out_of_range, .member = "sampling"});

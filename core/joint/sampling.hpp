@@ -60,7 +60,8 @@ struct Samples {
 ///           stayed within the tolerance.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
 [[nodiscard]] Result<Samples> sample(const Contour& contour, const Sampling& sampling,
-                                     std::span<const double> also = {}, std::stop_token stop = {});
+                                     std::span<const double> also = {},
+                                     const std::stop_token& stop = {});
 
 /// The contact's normal and derivatives on both sides of a node; equal at smooth nodes.
 struct BothSides {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -95,7 +96,7 @@ struct Top {
 /// The highest body on a generator, and by how much.
 inline std::optional<Top> highest(const std::vector<Body>& bodies, Real rho, Real phi) {
   std::optional<Top> best;
-  Real second = -INFINITY;
+  Real second = -std::numeric_limits<Real>::infinity();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto z = top(bodies[i], rho, phi);
     if (!z) continue;

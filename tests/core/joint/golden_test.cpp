@@ -127,9 +127,8 @@ TEST(Golden, Node) {
 
 TEST(Golden, OffsetPairOfThePatent) {
   const auto golden = testing::golden(kGolden);
-  const auto cutter =
-      tube_deg(number(golden, "seed002/R"), number(golden, "seed002/alpha"), 90,
-               -number(golden, "seed002/e"));
+  const auto cutter = tube_deg(number(golden, "seed002/R"), number(golden, "seed002/alpha"), 90,
+                               -number(golden, "seed002/e"));
   const auto contour =
       trace(std::vector<Cutter>{cutter}, number(golden, "seed002/r") - number(golden, "seed002/t"));
   ASSERT_TRUE(contour);

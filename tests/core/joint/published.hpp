@@ -23,8 +23,8 @@ inline std::vector<Cutter> table1() {
 inline std::vector<Cutter> eccentric_cutters(const api::Json& golden) {
   std::vector<Cutter> out;
   for (int i = 0; i < 4; ++i) {
-    const auto row = testing::numbers(
-        golden, "eccentric/cutters_r_alpha_beta_s_h/" + std::to_string(i));
+    const auto row =
+        testing::numbers(golden, "eccentric/cutters_r_alpha_beta_s_h/" + std::to_string(i));
     out.emplace_back(tube_deg(row.at(0), row.at(1), row.at(2), row.at(3), row.at(4)));
   }
   return out;

@@ -1,0 +1,82 @@
+#include "api/formats/bevel_table_formats.hpp"
+
+#include <algorithm>
+
+#include "api/formats/chart.hpp"
+#include "api/formats/csv.hpp"
+
+namespace tubecut::api {
+namespace {
+
+std::vector<double> degrees(std::vector<double> radians) {
+  for (auto& v : radians) v *= kDegPerRad;
+  return radians;
+}
+
+double root_radius(const bevel::TableSpec& spec) {
+  return spec.root_surface == bevel::RootSurface::outer ? spec.target.outer_radius
+                                                        : spec.target.inner_radius();
+}
+
+Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
+  const double rho = root_radius(spec);
+  auto before = table.b_raw;
+  if (spec.contact == bevel::Contact::inner)
+    for (std::size_t i = 0; i < before.size(); ++i)
+      before[i] = std::max(before[i], table.b_required[i]);
+  Chart out{.title = "Cutting angle B before and after smoothing",
+            .x_label = "developed length, mm",
+            .y_label = "B, deg",
+            .series = {{.name = "before", .x = table.developed, .y = degrees(std::move(before)),
+                        .color = "#c0392b", .dashed = true},
+                       {.name = "after", .x = table.developed, .y = degrees(table.b)}}};
+  for (const auto& binding : table.torch_binds)
+    out.bands.push_back({rho * binding.from, rho * binding.to, "torch range binds"});
+  const auto& events = spec.root_surface == bevel::RootSurface::outer ? table.outer_events
+                                                                      : table.inner_events;
+  for (const auto& event : events)
+    out.marks.push_back({rho * event.phi,
+                         std::to_string(event.from) + " > " + std::to_string(event.to)});
+  return out;
+}
+
+Chart edge_chart(const bevel::Table& table) {
+  const auto phi = degrees(table.phi);
+  return {.title = "Finished edges",
+          .x_label = "phi, deg",
+          .y_label = "z, mm",
+          .series = {{.name = "inner edge", .x = phi, .y = table.z_inner, .color = "#1e8449"},
+                     {.name = "outer edge", .x = phi, .y = table.z_outer}}};
+}
+
+}  // namespace
+
+std::string bevel_table_csv(const bevel::TableSpec&, const bevel::Table& table, const Caption&) {
+  return Csv()
+      .degrees("phi_deg", table.phi)
+      .column("developed_mm", table.developed)
+      .column("length_mm", table.length)
+      .integers("cutter", table.cutter)
+      .column("z_inner_mm", table.z_inner)
+      .column("z_outer_mm", table.z_outer)
+      .degrees("dihedral_deg", table.dihedral)
+      .degrees("groove_deg", table.groove)
+      .degrees("tau_deg", table.tau)
+      .degrees("gamma_deg", table.gamma)
+      .degrees("flush_deg", table.flush)
+      .degrees("b_raw_deg", table.b_raw)
+      .degrees("b_required_deg", table.b_required)
+      .degrees("b_deg", table.b)
+      .column("gap_mm", table.gap)
+      .column("beam_mm", table.beam)
+      .column("torch_inner_mm", table.torch_inner)
+      .column("torch_outer_mm", table.torch_outer)
+      .print();
+}
+
+std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
+                            const Caption& caption) {
+  return print_charts({bevel_chart(spec, table), edge_chart(table)}, job_line(caption));
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,188 @@
+#include "api/formats/chart.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kWidth = 960.0, kHeight = 360.0;  // px, of one chart
+constexpr double kLeft = 78.0, kRight = 24.0, kTop = 56.0, kBottom = 56.0;
+constexpr double kLegendLine = 18.0;
+
+std::string fixed(double v, int digits = 2) {
+  char text[64];
+  return {text, std::to_chars(text, text + sizeof text, v == 0.0 ? 0.0 : v,
+                              std::chars_format::fixed, digits).ptr};
+}
+
+std::string xml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+/// Round ticks that cover [low, high]: steps of 1, 2 or 5 times a power of ten.
+struct Scale {
+  double low = 0.0, high = 1.0, step = 0.2;
+  int digits = 1;
+};
+
+Scale scale(double low, double high, int ticks) {
+  if (!(low < high)) {
+    const double room = std::max(std::abs(low) * 1e-3, 1e-9);
+    low -= room;
+    high += room;
+  }
+  const double raw = (high - low) / ticks;
+  double power = 1.0;
+  int digits = 0;
+  while (power > raw) {
+    power /= 10.0;
+    ++digits;
+  }
+  while (power * 10.0 <= raw) {
+    power *= 10.0;
+    --digits;
+  }
+  double step = power;
+  for (const double factor : {2.0, 5.0, 10.0})
+    if (step < raw) step = factor * power;
+  if (step >= 10.0 * power) --digits;
+  return {std::floor(low / step) * step, std::ceil(high / step) * step, step, std::max(0, digits)};
+}
+
+struct Frame {
+  Scale x, y;
+  double top = 0.0;  // of the plot area, px
+
+  [[nodiscard]] double px(double v) const {
+    return kLeft + (v - x.low) / (x.high - x.low) * (kWidth - kLeft - kRight);
+  }
+  [[nodiscard]] double py(double v) const {
+    return top + (y.high - v) / (y.high - y.low) * (kHeight - kTop - kBottom);
+  }
+};
+
+Frame frame(const Chart& chart, double top) {
+  double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
+  for (const auto& s : chart.series) {
+    for (const double v : s.x) {
+      x0 = std::min(x0, v);
+      x1 = std::max(x1, v);
+    }
+    for (const double v : s.y) {
+      y0 = std::min(y0, v);
+      y1 = std::max(y1, v);
+    }
+  }
+  if (chart.y_from_zero) y0 = std::min(y0, 0.0);
+  auto out = Frame{scale(x0, x1, 12), scale(y0, y1, 6), top};
+  out.x.low = x0;  // the data fill the width
+  out.x.high = x1 > x0 ? x1 : out.x.high;
+  return out;
+}
+
+void text(std::string& out, double x, double y, const std::string& what, const char* extra = "") {
+  out += "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" " + extra + ">" + xml(what) +
+         "</text>\n";
+}
+
+void line(std::string& out, double x1, double y1, double x2, double y2, const char* look) {
+  out += "<line x1=\"" + fixed(x1) + "\" y1=\"" + fixed(y1) + "\" x2=\"" + fixed(x2) + "\" y2=\"" +
+         fixed(y2) + "\" " + look + "/>\n";
+}
+
+void axes(std::string& out, const Chart& chart, const Frame& f) {
+  constexpr const char* kGrid = "stroke=\"#d8dde3\" stroke-width=\"1\"";
+  const double bottom = f.py(f.y.low), right = kWidth - kRight;
+  for (double v = std::ceil(f.x.low / f.x.step) * f.x.step; v <= f.x.high + 1e-9 * f.x.step;
+       v += f.x.step) {
+    line(out, f.px(v), f.top, f.px(v), bottom, kGrid);
+    text(out, f.px(v), bottom + 16, fixed(v, f.x.digits), "text-anchor=\"middle\"");
+  }
+  for (double v = f.y.low; v <= f.y.high + 1e-9 * f.y.step; v += f.y.step) {
+    line(out, kLeft, f.py(v), right, f.py(v), kGrid);
+    text(out, kLeft - 8, f.py(v) + 4, fixed(v, f.y.digits), "text-anchor=\"end\"");
+  }
+  constexpr const char* kAxis = "stroke=\"#38424d\" stroke-width=\"1.2\"";
+  line(out, kLeft, f.top, kLeft, bottom, kAxis);
+  line(out, kLeft, bottom, right, bottom, kAxis);
+  text(out, (kLeft + right) / 2, bottom + 36, chart.x_label, "text-anchor=\"middle\"");
+  const double middle = (f.top + bottom) / 2;
+  out += "<text transform=\"translate(18," + fixed(middle) +
+         ") rotate(-90)\" text-anchor=\"middle\">" + xml(chart.y_label) + "</text>\n";
+  text(out, kLeft, f.top - 34, chart.title, "font-size=\"15\" font-weight=\"600\"");
+}
+
+void legend(std::string& out, const Chart& chart, const Frame& f) {
+  double x = kLeft;
+  for (const auto& s : chart.series) {
+    if (s.name.empty()) continue;
+    line(out, x, f.top - 14, x + 24, f.top - 14,
+         ("stroke=\"" + s.color + "\" stroke-width=\"2\"" +
+          (s.dashed ? " stroke-dasharray=\"6 4\"" : ""))
+             .c_str());
+    text(out, x + 30, f.top - 10, s.name);
+    x += 46 + 7.0 * static_cast<double>(s.name.size());
+  }
+}
+
+void curve(std::string& out, const Series& s, const Frame& f) {
+  out += "<polyline fill=\"none\" stroke=\"" + s.color + "\" stroke-width=\"1.8\"" +
+         (s.dashed ? " stroke-dasharray=\"6 4\"" : "") + " points=\"";
+  for (std::size_t i = 0; i < s.x.size() && i < s.y.size(); ++i) {
+    if (s.steps && i > 0) out += fixed(f.px(s.x[i])) + "," + fixed(f.py(s.y[i - 1])) + " ";
+    out += fixed(f.px(s.x[i])) + "," + fixed(f.py(s.y[i])) + " ";
+  }
+  out += "\"/>\n";
+}
+
+void plot(std::string& out, const Chart& chart, double top) {
+  const auto f = frame(chart, top + kTop);
+  const double bottom = f.py(f.y.low);
+  for (const auto& band : chart.bands) {
+    out += "<rect x=\"" + fixed(f.px(band.from)) + "\" y=\"" + fixed(f.top) + "\" width=\"" +
+           fixed(std::max(1.0, f.px(band.to) - f.px(band.from))) + "\" height=\"" +
+           fixed(bottom - f.top) + "\" fill=\"" + band.color + "\" fill-opacity=\"0.12\"/>\n";
+    text(out, f.px(band.from) + 3, f.top + 12, band.label, "font-size=\"11\"");
+  }
+  axes(out, chart, f);
+  for (const auto& mark : chart.marks) {
+    line(out, f.px(mark.x), f.top, f.px(mark.x), bottom,
+         "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
+    text(out, f.px(mark.x) + 3, bottom - 5, mark.label, "font-size=\"11\" fill=\"#56626e\"");
+  }
+  for (const auto& s : chart.series) curve(out, s, f);
+  legend(out, chart, f);
+}
+
+}  // namespace
+
+std::string print_charts(const std::vector<Chart>& charts, const std::string& footer) {
+  const double height = kHeight * static_cast<double>(charts.size()) + kLegendLine;
+  std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(kWidth, 0) +
+                    " " + fixed(height, 0) + "\" width=\"" + fixed(kWidth, 0) + "\" height=\"" +
+                    fixed(height, 0) +
+                    "\" font-family=\"system-ui, sans-serif\" font-size=\"12\" fill=\"#1d242b\">\n"
+                    "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+  double top = 0.0;
+  for (const auto& chart : charts) {
+    plot(out, chart, top);
+    top += kHeight;
+  }
+  text(out, kLeft, height - 8, footer, "font-size=\"10\" fill=\"#56626e\"");
+  return out + "</svg>\n";
+}
+
+}  // namespace tubecut::api
