@@ -37,7 +37,8 @@ void see_sum(const Prepared& job, const AxisCounts& a, const AxisFunction& f, Wo
   worst.see(std::abs(static_cast<double>(a.total() - expected)), 0.0);
 }
 
-/// I3: whole turns of a rotary axis, nothing on all others but those that go round with phi uncounted in turns.
+/// I3: whole turns of a rotary axis, nothing on all others but those that go round with phi
+/// uncounted in turns.
 void see_closure(const Prepared& job, const AxisCounts& a, const AxisFunction& f, Worst& worst) {
   const bool goes_round = f.linear[0] != 0.0 && job.program.turns != 0;
   if (goes_round && a.axis.pulses_per_turn == 0) return;

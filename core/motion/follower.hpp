@@ -11,9 +11,9 @@ namespace tubecut::motion {
 /// A point as the follower sees it: tip coordinates in mm.
 using TipPoint = Coordinates;
 
-/// Follows reconstructed points along the polyline of a program: how far off each is, what of the polyline was never
-/// reached, and which B the contour has where each point lies. Looks only near the last place, so that the order of
-/// the cut counts.
+/// Follows reconstructed points along the polyline of a program: how far off each is, what of the
+/// polyline was never reached, and which B the contour has where each point lies. Looks only near
+/// the last place, so that the order of the cut counts.
 class Follower {
  public:
   /// `known`: coordinates that take part. `window`: mm of tip path looked at on both sides.
@@ -27,7 +27,8 @@ class Follower {
   /// Nearest place of the polyline to the next reconstructed point.
   Found follow(const TipPoint& tip);
 
-  /// Least and greatest value of coordinate `c` of the contour within `reach` mm of tip path around `at`.
+  /// Least and greatest value of coordinate `c` of the contour within `reach` mm of tip path around
+  /// `at`.
   [[nodiscard]] std::pair<double, double> range(std::size_t c, double at, double reach) const;
   /// Largest distance of a polyline point to the path followed, mm.
   [[nodiscard]] double farthest_missed() const;

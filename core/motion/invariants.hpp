@@ -32,7 +32,8 @@ class Worst {
   bool x_any = false;
 };
 
-/// I2 to I9: sums, closure, limits per period, travel, reversals. `jerk`: the schedule claims a jerk limit.
+/// I2 to I9: sums, closure, limits per period, travel, reversals. `jerk`: the schedule claims a
+/// jerk limit.
 [[nodiscard]] std::vector<Check> count_invariants(const Prepared& job, const Counted& counted,
                                                   bool jerk);
 

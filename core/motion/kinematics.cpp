@@ -130,10 +130,16 @@ double dot(const Coordinates& a, const Coordinates& b) {
 }  // namespace
 
 double AxisFunction::at(const Coordinates& x) const {
-  const double q = constant + dot(linear, x);
-  if (is_linear()) return q;
+  if (is_linear()) return constant + dot(linear, x);
   const auto [sin, cos] = elementary::sincos(x[kB]);
-  return q + (sin_b * sin + cos_b * cos + (tan_b == 0.0 ? 0.0 : tan_b * sin / cos));
+  return at(Pose{x, sin, cos});
+}
+
+double AxisFunction::at(const Pose& pose) const {
+  const double q = constant + dot(linear, pose.x);
+  if (is_linear()) return q;
+  const double tilt = tan_b == 0.0 ? 0.0 : tan_b * pose.sin_b / pose.cos_b;
+  return q + (sin_b * pose.sin_b + cos_b * pose.cos_b + tilt);
 }
 
 std::array<double, 3> AxisFunction::derivatives(const Jet& jet) const {

@@ -20,6 +20,13 @@ struct Jet {
   Coordinates third{};
 };
 
+/// Coordinates with sin B and cos B, so that several axes share one evaluation.
+struct Pose {
+  Coordinates x{};
+  double sin_b = 0.0;
+  double cos_b = 1.0;
+};
+
 /// q = constant + linear . x + sin_b sin B + cos_b cos B + tan_b tan B, with B the coordinate of
 /// index 2. Every machine here, and the trace of the beam on either wall surface, is of this form.
 struct AxisFunction {
@@ -31,6 +38,7 @@ struct AxisFunction {
 
   [[nodiscard]] bool is_linear() const { return sin_b == 0.0 && cos_b == 0.0 && tan_b == 0.0; }
   [[nodiscard]] double at(const Coordinates& x) const;
+  [[nodiscard]] double at(const Pose& pose) const;
   /// q', q'', q''' along the path by the chain rule.
   ///
   /// Source  docs/theory/pulse-schedules.md, section 3.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/elementary.hpp"
+
 namespace tubecut::motion {
 namespace {
 
@@ -131,13 +133,28 @@ std::vector<double> box2(const std::vector<double>& x, std::size_t m) {
 }
 
 Coordinates Path::at(std::size_t i, double offset) const {
-  Coordinates out{};
-  const bool end = i + 1 == intervals() && offset >= d;
-  for (std::size_t c = 0; c < control.size(); ++c) {
-    const Cubic q = cubic(control[c], i, d);
-    const double w = offset;
-    out[c] =
-        end ? control[c].back() : q.x + w * (q.first + w * (0.5 * q.second + w * (q.third / 6.0)));
+  return PathCursor(*this, false).at(i, offset).x;
+}
+
+Pose PathCursor::at(std::size_t i, double w) {
+  const std::size_t n = x_path.control.size();
+  if (i != x_interval) {
+    for (std::size_t c = 0; c < n; ++c) {
+      const auto [x, first, second, third] = cubic(x_path.control[c], i, x_path.d);
+      x_cubic[c] = {x, first, 0.5 * second, third / 6.0};
+    }
+    x_interval = i;
+  }
+  const bool end = i + 1 == x_path.intervals() && w >= x_path.d;
+  Pose out;
+  for (std::size_t c = 0; c < n; ++c) {
+    const Cubic& q = x_cubic[c];
+    out.x[c] = end ? x_path.control[c].back() : q.x + w * (q.first + w * (q.second + w * q.third));
+  }
+  if (x_bends) {
+    const auto [sin, cos] = elementary::sincos(out.x[2]);
+    out.sin_b = sin;
+    out.cos_b = cos;
   }
   return out;
 }

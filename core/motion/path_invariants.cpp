@@ -16,10 +16,10 @@ using Group = Coordinate::Group;
 
 /// Allowances of the geometric invariants.
 struct Allowance {
-  double tip = 0.0;      // I10, mm
-  double skipped = 0.0;  // I11, mm
-  double bevel = 0.0;    // I12 without half a pulse, rad
-  double speed = 0.0;    // t_q of the speed's trace, mm
+  double tip = 0.0;        // I10, mm
+  double skipped = 0.0;    // I11, mm
+  double bevel = 0.0;      // I12 without half a pulse, rad
+  double speed = 0.0;      // t_q of the speed's trace, mm
   double thickness = 0.0;  // what an error of B moves the beam on the far wall, mm
 };
 
@@ -38,7 +38,8 @@ double largest_bevel(const Program& program) {
 class Walker {
  public:
   Walker(const Counted& counted, const Prepared& job) : x_counted(counted), x_q(counted.start) {
-    for (const Axis& axis : job.course.machine.axes) x_pulses.push_back(axis.pulses_per_axis_unit());
+    for (const Axis& axis : job.course.machine.axes)
+      x_pulses.push_back(axis.pulses_per_axis_unit());
     x_sum.assign(x_q.size(), 0);
   }
   [[nodiscard]] const std::vector<double>& values() const { return x_q; }
@@ -59,10 +60,13 @@ class Walker {
 
 class Examination {
  public:
-  Examination(const ScheduleSpec& spec, const Prepared& job, const Counted& counted,
-              bool with_lead)
-      : x_spec(spec), x_job(job), x_counted(counted), x_torch(spec),
-        x_largest_b(largest_bevel(job.program)), x_quantum(x_torch.quantum(x_largest_b)) {
+  Examination(const ScheduleSpec& spec, const Prepared& job, const Counted& counted, bool with_lead)
+      : x_spec(spec),
+        x_job(job),
+        x_counted(counted),
+        x_torch(spec),
+        x_largest_b(largest_bevel(job.program)),
+        x_quantum(x_torch.quantum(x_largest_b)) {
     set_allowances();
     if (with_lead && spec.motion.lead) {
       if (auto border = part_border(spec); border && border->cut.closed) x_border = *border;
@@ -94,8 +98,8 @@ class Examination {
       if (coordinate.group == Group::bevel) bevel = std::max(bevel, q / kBevelWeight);
     }
     x_allow.tip = motion.eps_tip + path.sag_tip + std::sqrt(tip);
-    x_allow.skipped = motion.eps_tip + std::sqrt(tip) +
-                      0.5 * fastest() * x_counted.period + 0.5 * path.d;
+    x_allow.skipped =
+        motion.eps_tip + std::sqrt(tip) + 0.5 * fastest() * x_counted.period + 0.5 * path.d;
     x_allow.bevel = motion.eps_b.rad() + path.sag_b + bevel;
     for (const AxisFunction& f : x_job.course.tip) {
       const double q = trace_quantum(f);
@@ -157,7 +161,8 @@ class Examination {
   [[nodiscard]] double asked(const Follower& follower, const Follower::Found& found) const {
     const SpeedAlong& speed = x_job.course.speed;
     double most = std::max(speed.at_point(found.segment), speed.at_point(found.segment + 1));
-    for (std::size_t i = found.segment; i > 0 && follower.tip_length(i) >= found.at - x_allow.tip; --i) {
+    for (std::size_t i = found.segment; i > 0 && follower.tip_length(i) >= found.at - x_allow.tip;
+         --i) {
       most = std::max(most, speed.at_point(i - 1));
     }
     for (std::size_t i = found.segment + 1;
@@ -204,8 +209,8 @@ class Examination {
 
   void see_lead(const Coordinates& x, const Follower& follower, double at) {
     const Program& program = x_job.program;
-    const bool lead = at < follower.tip_length(program.cut_first) ||
-                      at > follower.tip_length(program.cut_last);
+    const bool lead =
+        at < follower.tip_length(program.cut_first) || at > follower.tip_length(program.cut_last);
     if (!lead || std::abs(at - x_lead_at) < kLeadStep) return;
     x_lead_at = at;
     const ContourPoint point{x[0], x[1], x[2], false, 0.0};

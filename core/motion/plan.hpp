@@ -15,7 +15,23 @@ struct Course {
   SpeedAlong speed;
   Limits limits = {};
   Machine machine = {};
+
+  /// Some axis or the tip needs sin B and cos B.
+  [[nodiscard]] bool bends() const;
 };
+
+/// Evaluates a course at its places, one after another.
+class CourseCursor {
+ public:
+  explicit CourseCursor(const Course& course) : x_path(course.path, course.bends()) {}
+  [[nodiscard]] Pose at(const Place& place) { return x_path.at(place.interval, place.offset); }
+
+ private:
+  PathCursor x_path;
+};
+
+/// Way of the tip between two poses, mm.
+[[nodiscard]] double tip_step(const Course& course, const Pose& from, const Pose& to);
 
 /// Share of each limit that the ideal samples use; 1 is the limit.
 struct AxisUse {

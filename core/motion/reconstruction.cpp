@@ -28,7 +28,7 @@ Reconstruction::Reconstruction(const ScheduleSpec& spec)
   if (const auto* const five = std::get_if<FiveAxisCutter>(&spec.machine.kinematics)) {
     x_kind = Kind::five_axis;
     x_pivot = five->pivot_length + five->standoff;
-    x_roles = {index_of(x_axes, "C"), index_of(x_axes, "Y"), index_of(x_axes, "B"),
+    x_roles = {index_of(x_axes, "C"),  index_of(x_axes, "Y"),  index_of(x_axes, "B"),
                index_of(x_axes, "Z1"), index_of(x_axes, "Z2"), false};
     x_roles.has_fine = x_roles.fine < x_axes.size();
   } else if (const auto* const crawler = std::get_if<Crawler>(&spec.machine.kinematics)) {
@@ -134,8 +134,8 @@ Coordinates Reconstruction::quantum(double largest_b) const {
   }
   const double cos = elementary::cos(largest_b);
   const double slope = std::max(4.0, 1.0 / (cos * cos));  // of tan B
-  const double tilt = x_kind == Kind::five_axis ? x_pivot + slope * x_past
-                                                : slope * (x_past + x_pivot);
+  const double tilt =
+      x_kind == Kind::five_axis ? x_pivot + slope * x_past : slope * (x_past + x_pivot);
   out[kB] = half_pulse(x_roles.b) * kRadPerDeg;
   out[kZ] = half_pulse(x_roles.z) + tilt * out[kB];
   out[kPhi] = x_kind == Kind::five_axis ? half_pulse(x_roles.phi) * kRadPerDeg

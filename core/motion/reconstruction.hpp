@@ -7,7 +7,8 @@
 
 namespace tubecut::motion {
 
-/// Forward kinematics: the path's coordinates from axis values, by other formulas than those that made them.
+/// Forward kinematics: the path's coordinates from axis values, by other formulas than those that
+/// made them.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 3.4.
 class Reconstruction {
@@ -38,10 +39,10 @@ class Reconstruction {
   std::vector<Axis> x_axes;
   Roles x_roles = {};
   double x_sigma = 1.0;
-  double x_pivot = 0.0;      // L: pivot to the wall along the beam
-  double x_past = 0.0;       // e: radially from the contour's surface to the outer one
+  double x_pivot = 0.0;  // L: pivot to the wall along the beam
+  double x_past = 0.0;   // e: radially from the contour's surface to the outer one
   double x_outer = 0.0;
-  double x_wheel = 0.0;      // radius of a crawler's wheel path
+  double x_wheel = 0.0;                     // radius of a crawler's wheel path
   std::vector<Coordinates> x_inverse = {};  // generic: what a unit of each axis moves
   Coordinates x_origin{};
   std::array<bool, kMostCoordinates> x_known{};

@@ -39,7 +39,8 @@ Result<std::size_t> periods_of(const ReplaySpec& spec) {
   };
   if (spec.counts.size() != axes) return wrong("schedule/counts");
   if (spec.start.size() != axes) return wrong("schedule/start");
-  if (!(spec.period > 0.0 && spec.period <= 1.0)) return wrong("schedule/period", ErrorCode::bad_number);
+  if (!(spec.period > 0.0 && spec.period <= 1.0))
+    return wrong("schedule/period", ErrorCode::bad_number);
   std::size_t periods = 0;
   for (std::size_t a = 0; a < axes; ++a) {
     const auto& column = spec.counts[a];

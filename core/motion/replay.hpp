@@ -20,19 +20,20 @@ struct Replay {
   std::vector<double> z = {};    // mm
   std::vector<double> b = {};    // rad, as the machine counts it
   std::vector<Check> invariants = {};
-  double deviation = 0.0;        // largest distance of the tip to the contour, mm
+  double deviation = 0.0;  // largest distance of the tip to the contour, mm
 };
 
-/// Rebuilds the torch from integer counts and holds it against the contour: invariants I1 to I15, each with its worst
-/// value, the limit there and the unit. Those that do not apply (no contour, no jerk limit) are left out.
+/// Rebuilds the torch from integer counts and holds it against the contour: invariants I1 to I15,
+/// each with its worst value, the limit there and the unit. Those that do not apply (no contour, no
+/// jerk limit) are left out.
 ///
 /// Errors  wrong_count, bad_number, and those of the job itself.
 /// Cost    one pass over the periods; per period the contour points within about a millimetre.
 /// Source  docs/theory/pulse-schedules.md, section 9.
 [[nodiscard]] Result<Replay> replay(const ReplaySpec& spec);
 
-/// The same invariants on an own answer, and `lead_clears_part`. An answer that does not even fit its request fails
-/// the check `replayable`.
+/// The same invariants on an own answer, and `lead_clears_part`. An answer that does not even fit
+/// its request fails the check `replayable`.
 [[nodiscard]] std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule);
 
 }  // namespace tubecut::motion

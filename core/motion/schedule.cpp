@@ -35,8 +35,9 @@ AxisPulses pulses_of(const Prepared& job, const Plan& plan, std::size_t a) {
   if (!is_moving(course, a)) return out;
   std::vector<double> cumulative;
   cumulative.reserve(plan.places.size());
+  CourseCursor cursor(course);
   for (const Place& p : plan.places) {
-    cumulative.push_back(ideal_pulses(axis, f.at(course.path.at(p.interval, p.offset)), out.start));
+    cumulative.push_back(ideal_pulses(axis, f.at(cursor.at(p)), out.start));
   }
   out.counts = increments(cumulative);
   for (const std::int32_t n : out.counts) {

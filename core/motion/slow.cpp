@@ -11,43 +11,31 @@ namespace {
 constexpr double kEndMargin = 2.0;  // mm where slow is just starting or stopping
 constexpr double kSlow = 0.5;       // of the speed asked
 
-double tip_speed(const Course& course, const Place& from, const Place& to) {
-  const Coordinates a = course.path.at(from.interval, from.offset);
-  const Coordinates b = course.path.at(to.interval, to.offset);
-  double square = 0.0;
-  for (const AxisFunction& f : course.tip) {
-    const double step = f.at(b) - f.at(a);
-    square += step * step;
-  }
-  return std::sqrt(square) / course.machine.period;
-}
-
 /// Largest share of its limits that an axis uses over samples `from`..`to`; roots make the three
 /// kinds comparable as speeds.
 double share(const Course& course, const std::vector<Place>& places, std::size_t axis,
              std::size_t from, std::size_t to) {
   const Axis& record = course.machine.axes[axis];
   const double t = course.machine.period;
+  CourseCursor cursor(course);
   const auto at = [&](std::size_t k) {
-    const Place& p = places[std::min(k, places.size() - 1)];
-    return course.axes[axis].at(course.path.at(p.interval, p.offset));
+    return course.axes[axis].at(cursor.at(places[std::min(k, places.size() - 1)]));
   };
-  double most = 0.0;
+  double speed = 0.0, acceleration = 0.0, jerk = 0.0;
   double a = at(from), b = at(from + 1), c = at(from + 2);
   for (std::size_t k = from + 3; k <= to + 3; ++k) {
     const double d = at(k);
-    const double v = std::abs(d - c) / (velocity_limit(record, t) * t);
-    const double acc = std::abs(d - 2.0 * c + b) / (record.a_max * t * t);
-    most = std::max({most, v, std::sqrt(acc)});
-    if (record.j_max) {
-      const double jerk = std::abs(d - 3.0 * c + 3.0 * b - a) / (*record.j_max * t * t * t);
-      most = std::max(most, elementary::cbrt(jerk));
-    }
+    speed = std::max(speed, std::abs(d - c));
+    acceleration = std::max(acceleration, std::abs(d - 2.0 * c + b));
+    jerk = std::max(jerk, std::abs(d - 3.0 * c + 3.0 * b - a));
     a = b;
     b = c;
     c = d;
   }
-  return most;
+  const double v = speed / (velocity_limit(record, t) * t);
+  const double root = std::sqrt(acceleration / (record.a_max * t * t));
+  const double cube = record.j_max ? elementary::cbrt(jerk / (*record.j_max * t * t * t)) : 0.0;
+  return std::max({v, root, cube});
 }
 
 std::string limiting_axis(const Course& course, const std::vector<Place>& places, std::size_t from,
@@ -69,9 +57,13 @@ std::vector<SlowZone> slow_zones(const Prepared& job, const std::vector<Place>& 
   const double d = course.path.d, end = course.path.length() - kEndMargin;
   std::vector<SlowZone> out;
   bool inside = false;
+  CourseCursor cursor(course);
+  Pose at = cursor.at(places[0]);
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     const double from = places[k].u(d), to = places[k + 1].u(d);
-    const double speed = tip_speed(course, places[k], places[k + 1]);
+    const Pose next = cursor.at(places[k + 1]);
+    const double speed = tip_step(course, at, next) / course.machine.period;
+    at = next;
     const bool slow =
         from >= kEndMargin && to <= end && speed < kSlow * course.speed.least(from, to);
     const auto period = static_cast<std::int64_t>(k);

@@ -47,7 +47,7 @@ struct Watched {
 };
 
 std::vector<Watched> watched(const Course& course) {
-  const Coordinates start = course.path.at(0, 0.0);
+  const Pose start = CourseCursor(course).at({});
   std::vector<Watched> out;
   for (const AxisBounds& bounds : course.limits.axes) {
     const AxisFunction& f = course.axes[bounds.axis];
@@ -83,28 +83,20 @@ void note(const Watched& w, double period, bool jerk, AxisUse& use) {
 template <class See>
 void walk(const Course& course, const std::vector<Place>& places, std::vector<Watched>& axes,
           const See& see) {
+  CourseCursor cursor(course);
   for (std::size_t k = 0; k < places.size() + kRest; ++k) {
-    const Place& p = places[std::min(k, places.size() - 1)];
-    const Coordinates x = course.path.at(p.interval, p.offset);
-    for (Watched& w : axes) w.differences.push(w.function->at(x));
+    const Pose pose = cursor.at(places[std::min(k, places.size() - 1)]);
+    for (Watched& w : axes) w.differences.push(w.function->at(pose));
     see(k);
   }
 }
 
-double tip_step(const Course& course, const Coordinates& from, const Coordinates& to) {
-  double square = 0.0;
-  for (const AxisFunction& f : course.tip) {
-    const double step = f.at(to) - f.at(from);
-    square += step * step;
-  }
-  return std::sqrt(square);
-}
-
 void note_tip(const Course& course, const std::vector<Place>& places, Uses& out) {
   const double d = course.path.d, length = course.path.length(), period = course.machine.period;
-  Coordinates from = course.path.at(places[0].interval, places[0].offset);
+  CourseCursor cursor(course);
+  Pose from = cursor.at(places[0]);
   for (std::size_t k = 1; k < places.size(); ++k) {
-    const Coordinates to = course.path.at(places[k].interval, places[k].offset);
+    const Pose to = cursor.at(places[k]);
     const double speed = tip_step(course, from, to) / period;
     const double start = places[k - 1].u(d), end = places[k].u(d);
     out.tip = std::max(out.tip, speed / course.speed.greatest(start, end));
@@ -116,6 +108,20 @@ void note_tip(const Course& course, const std::vector<Place>& places, Uses& out)
 }
 
 }  // namespace
+
+bool Course::bends() const {
+  const auto bent = [](const AxisFunction& f) { return !f.is_linear(); };
+  return std::ranges::any_of(axes, bent) || std::ranges::any_of(tip, bent);
+}
+
+double tip_step(const Course& course, const Pose& from, const Pose& to) {
+  double square = 0.0;
+  for (const AxisFunction& f : course.tip) {
+    const double step = f.at(to) - f.at(from);
+    square += step * step;
+  }
+  return std::sqrt(square);
+}
 
 double Uses::worst() const {
   double most = tip;
