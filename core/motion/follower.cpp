@@ -30,11 +30,10 @@ TipPoint between(const TipPoint& a, const TipPoint& b, double share) {
 
 }  // namespace
 
-Follower::Follower(const Program& program, const std::vector<bool>& known, double window)
+Follower::Follower(const Program& program, const std::vector<bool>& part, double window)
     : x_program(program), x_missed(program.size(), 1e300), x_window(window) {
   for (std::size_t c = 0; c < program.coordinates.size(); ++c) {
-    const bool tip = program.coordinates[c].group == Coordinate::Group::tip;
-    if (tip && known[c]) x_tip_coordinates.push_back(c);
+    if (part[c]) x_tip_coordinates.push_back(c);
   }
   for (std::size_t i = 0; i < program.size(); ++i) {
     Coordinates x{};

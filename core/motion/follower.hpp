@@ -16,8 +16,8 @@ using TipPoint = Coordinates;
 /// the last place, so that the order of the cut counts.
 class Follower {
  public:
-  /// `known`: coordinates that take part. `window`: mm of tip path looked at on both sides.
-  Follower(const Program& program, const std::vector<bool>& known, double window);
+  /// `part`: coordinates that take part. `window`: mm of tip path looked at on both sides.
+  Follower(const Program& program, const std::vector<bool>& part, double window);
 
   struct Found {
     double distance = 0.0;  // mm

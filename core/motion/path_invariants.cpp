@@ -74,10 +74,10 @@ class Examination {
   }
 
   Followed run() {
-    std::vector<bool> known;
-    for (std::size_t c = 0; c < x_job.program.x.size(); ++c) known.push_back(x_torch.knows(c));
+    std::vector<bool> part;
+    for (std::size_t c = 0; c < x_job.program.x.size(); ++c) part.push_back(takes_part(c));
     const double look = kLook + 2.0 * x_allow.tip + 2.0 * fastest() * x_counted.period;
-    Follower follower(x_job.program, known, look);
+    Follower follower(x_job.program, part, look);
     Walker walker(x_counted, x_job);
     for (std::size_t k = 0; k <= x_counted.periods; ++k) {
       if (k > 0) walker.step(k - 1);
@@ -87,19 +87,32 @@ class Examination {
   }
 
  private:
+  [[nodiscard]] bool is_tip(std::size_t c) const {
+    return x_job.program.coordinates[c].group == Group::tip;
+  }
+  /// Plain axes have no tip to go by: there every axis is followed, in generalised length.
+  [[nodiscard]] bool plain() const {
+    return std::holds_alternative<AxisColumns>(x_spec.cut) &&
+           std::holds_alternative<Generic>(x_spec.machine.kinematics);
+  }
+  [[nodiscard]] bool takes_part(std::size_t c) const {
+    return x_torch.knows(c) && (plain() || is_tip(c));
+  }
+
   void set_allowances() {
     const Path& path = x_job.course.path;
     const Motion& motion = x_spec.motion;
-    double tip = 0.0, bevel = 0.0;
+    double quanta = 0.0, bevel = 0.0, followed_bevels = 0.0;
     for (std::size_t c = 0; c < x_job.program.x.size(); ++c) {
-      const Coordinate& coordinate = x_job.program.coordinates[c];
-      const double q = coordinate.weight * x_quantum[c];
-      if (coordinate.group == Group::tip && x_torch.knows(c)) tip += q * q;
-      if (coordinate.group == Group::bevel) bevel = std::max(bevel, q / kBevelWeight);
+      const double q = x_job.program.coordinates[c].weight * x_quantum[c];
+      if (takes_part(c)) quanta += q * q;
+      if (is_tip(c)) continue;
+      bevel = std::max(bevel, q / kBevelWeight);
+      if (takes_part(c)) followed_bevels += kBevelWeight * (motion.eps_b.rad() + path.sag_b);
     }
-    x_allow.tip = motion.eps_tip + path.sag_tip + std::sqrt(tip);
-    x_allow.skipped =
-        motion.eps_tip + std::sqrt(tip) + 0.5 * fastest() * x_counted.period + 0.5 * path.d;
+    const double near = motion.eps_tip + std::sqrt(quanta) + followed_bevels;
+    x_allow.tip = near + path.sag_tip;
+    x_allow.skipped = near + 0.5 * fastest() * x_counted.period + 0.5 * path.d;
     x_allow.bevel = motion.eps_b.rad() + path.sag_b + bevel;
     for (const AxisFunction& f : x_job.course.tip) {
       const double q = trace_quantum(f);
