@@ -9,7 +9,8 @@
 namespace tubecut::groove {
 namespace {
 
-/// The bevel table's target frame is the branch frame turned half round, its phi counted from x: phi = omega - 90 deg.
+/// The bevel table's target frame is the branch frame turned half round, its phi counted from x:
+/// phi = omega - 90 deg.
 Angle table_phi(int index, int count) {
   const double turn = double(index) / count - 0.25;
   return Angle::rad(kTwoPi * (turn < 0.0 ? turn + 1.0 : turn));
@@ -57,7 +58,8 @@ Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
     if (!found) return fail({.code = found.error(), .member = "branch/wall"});
     out.sections.push_back(report(*joint, *found));
     out.sections.back().phi = table_phi(i, spec.sections);
-    if (out.compare) out.compare->filler_area.push_back(filler_area(*joint, found->toe, fixed_height));
+    if (out.compare)
+      out.compare->filler_area.push_back(filler_area(*joint, found->toe, fixed_height));
   }
   return out;
 }

@@ -39,14 +39,20 @@ struct ChordAxis {
 
   explicit ChordAxis(const GrooveSpec& spec)
       : point(spec.eccentricity, 0.0, 0.0),
-        along(0.0, elementary::sin(spec.inclination.rad()), elementary::cos(spec.inclination.rad())),
+        along(0.0, elementary::sin(spec.inclination.rad()),
+              elementary::cos(spec.inclination.rad())),
         radius(0.5 * spec.chord.outer_diameter) {}
 
-  [[nodiscard]] double off_surface(const Vector3d& p) const { return along.cross(p - point).norm() - radius; }
-  [[nodiscard]] Vector3d normal(const Vector3d& p) const { return (p - point) - along * along.dot(p - point); }
+  [[nodiscard]] double off_surface(const Vector3d& p) const {
+    return along.cross(p - point).norm() - radius;
+  }
+  [[nodiscard]] Vector3d normal(const Vector3d& p) const {
+    return (p - point) - along * along.dot(p - point);
+  }
 };
 
-/// Integrals over the filler region by Green's theorem, the chord's arc by Gauss-Legendre over its circle angle.
+/// Integrals over the filler region by Green's theorem, the chord's arc by Gauss-Legendre over its
+/// circle angle.
 struct Region {
   double area = 0.0;    // of the region P1 P2 P3, its side P1 P2 along the chord
   double moment = 0.0;  // about the branch axis
@@ -71,22 +77,27 @@ class RegionIntegral {
   }
 
  private:
-  // All coordinates from P1, so that a distant origin costs no digits: area = closed integral of -z dx, moment of -z (x1 + x) dx.
+  // All coordinates from P1, so that a distant origin costs no digits: area = closed integral of -z
+  // dx, moment of -z (x1 + x) dx.
   static void add_line(const Vector2d& from, const Vector2d& to, double x1, Region& out) {
     const double dx = to.x() - from.x(), mean = 0.5 * (from.y() + to.y());
     out.area -= mean * dx;
-    const double first = (from.x() * (2.0 * from.y() + to.y()) + to.x() * (from.y() + 2.0 * to.y())) / 6.0;
+    const double first =
+        (from.x() * (2.0 * from.y() + to.y()) + to.x() * (from.y() + 2.0 * to.y())) / 6.0;
     out.moment -= (x1 * mean + first) * dx;
   }
 
   void add_arc(const Vector2d& p1, const Vector2d& p2, Region& out) const {
     const double t1 = p1.x() * omega_.sin + eccentricity_;
     const double q1 = std::sqrt(radius_ * radius_ - t1 * t1);
-    const double q2 = q1 + (p2.y() - p1.y()) * tilt_.sin - (p2.x() - p1.x()) * omega_.cos * tilt_.cos;
+    const double q2 =
+        q1 + (p2.y() - p1.y()) * tilt_.sin - (p2.x() - p1.x()) * omega_.cos * tilt_.cos;
     const double dt = (p2.x() - p1.x()) * omega_.sin;
     const double end = elementary::atan2(dt * q1 - t1 * (q2 - q1), t1 * (t1 + dt) + q1 * q2);
-    static constexpr std::array<double, 3> kNode = {0.0, 0.53846931010568309104, 0.90617984593866399280};
-    static constexpr std::array<double, 3> kWeight = {0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751};
+    static constexpr std::array<double, 3> kNode = {0.0, 0.53846931010568309104,
+                                                    0.90617984593866399280};
+    static constexpr std::array<double, 3> kWeight = {
+        0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751};
     constexpr int kPanels = 4;
     for (int panel = 0; panel < kPanels; ++panel)
       for (int k = -2; k <= 2; ++k) {
@@ -101,7 +112,8 @@ class RegionIntegral {
     const auto half = elementary::sincos(0.5 * psi);
     const double chord = 2.0 * half.sin;
     const double x = chord * (q1 * half.cos - t1 * half.sin) / omega_.sin;
-    const double z = (x * omega_.cos * tilt_.cos - chord * (t1 * half.cos + q1 * half.sin)) / tilt_.sin;
+    const double z =
+        (x * omega_.cos * tilt_.cos - chord * (t1 * half.cos + q1 * half.sin)) / tilt_.sin;
     const auto [s, c] = elementary::sincos(psi);
     const double dx = (q1 * c - t1 * s) / omega_.sin * weight;
     out.area -= z * dx;
@@ -112,8 +124,10 @@ class RegionIntegral {
   elementary::SinCos omega_, tilt_;
 };
 
-/// The axial area the asked filler means here; the seam's direction from the chord's normal in space.
-double asked_area(const GrooveSpec& spec, const Groove& groove, const ChordAxis& chord, const GrooveSection& section) {
+/// The axial area the asked filler means here; the seam's direction from the chord's normal in
+/// space.
+double asked_area(const GrooveSpec& spec, const Groove& groove, const ChordAxis& chord,
+                  const GrooveSection& section) {
   if (spec.area_in == AreaIn::axial) return groove.area;
   const Vector3d root = in_space(section.omega, section.p1);
   const Vector3d turn = Vector3d::UnitZ().cross(root);  // C3' without its rise
@@ -156,12 +170,14 @@ double twist_by_points(const Joint& joint, Angle omega) {
     return surface_point(joint, at, 1.0) - surface_point(joint, at, 0.0);
   };
   const Vector3d root = surface_point(joint, *after, 0.0) - surface_point(joint, *before, 0.0);
-  const double side = root.dot((across(*after) + across(*before)).cross(across(*after) - across(*before)));
+  const double side =
+      root.dot((across(*after) + across(*before)).cross(across(*after) - across(*before)));
   const double turned = normal(0.0).cross(normal(1.0)).norm();
   return std::copysign(elementary::asin(std::min(1.0, turned)), side);
 }
 
-void add_section(const GrooveSpec& spec, const Groove& groove, const Joint& joint, std::size_t index, SectionDeviations& worst) {
+void add_section(const GrooveSpec& spec, const Groove& groove, const Joint& joint,
+                 std::size_t index, SectionDeviations& worst) {
   const GrooveSection& s = groove.sections[index];
   const ChordAxis chord{spec};
   worst.on_chord.add(chord.off_surface(s.curves.c3));
@@ -206,7 +222,9 @@ RoundDeviations round_figures(const GrooveSpec& spec, const Groove& groove, cons
     const double flat = integral.over(p1, p2, {joint.branch_radius, p1.y()}).area;
     out.least_area = std::max(out.least_area, flat / axial_factor(joint, found->dir, found->toe));
     if (groove.compare)
-      out.fixed_volume += step * integral.over(p1, p2, {joint.branch_radius, p1.y() + groove.compare->height}).moment;
+      out.fixed_volume +=
+          step *
+          integral.over(p1, p2, {joint.branch_radius, p1.y() + groove.compare->height}).moment;
   }
   return out;
 }
@@ -217,7 +235,8 @@ std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove) {
   const auto joint = joint_of(spec);
   if (!joint) return {{"joint", 1.0, 0.0, ""}};
   SectionDeviations worst;
-  for (std::size_t i = 0; i < groove.sections.size(); ++i) add_section(spec, groove, *joint, i, worst);
+  for (std::size_t i = 0; i < groove.sections.size(); ++i)
+    add_section(spec, groove, *joint, i, worst);
   const RoundDeviations round = round_figures(spec, groove, *joint);
   const GrooveLimits limit = groove_limits(*joint);
   const auto ratio = [](double a, double b) { return std::abs(a / b - 1.0); };
@@ -232,13 +251,16 @@ std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove) {
       {"curves", worst.curves.value(), limit.curves, "mm"},
       {"twist", worst.twist.value() * kDegPerRad, kTwistLimitDeg, "deg"},
       {"heights", heights.value(), kHeightLimit, "ratio"},
-      {"least_area", std::abs(groove.least_area - round.least_area) / groove.area, kLeastAreaLimit, "ratio"},
+      {"least_area", std::abs(groove.least_area - round.least_area) / groove.area, kLeastAreaLimit,
+       "ratio"},
       {"filler_volume", ratio(groove.filler_volume, round.volume), kVolumeLimit, "ratio"},
       {"weld_length", ratio(groove.weld_length, round.length), kLengthLimit, "ratio"},
   };
   if (groove.compare) {
     out.push_back({"compare_area", worst.compare.value(), limit.area, "mm2"});
-    out.push_back({"compare_volume", std::abs(groove.compare->filler_volume - round.fixed_volume) / round.volume, kVolumeLimit, "ratio"});
+    out.push_back({"compare_volume",
+                   std::abs(groove.compare->filler_volume - round.fixed_volume) / round.volume,
+                   kVolumeLimit, "ratio"});
   }
   return out;
 }

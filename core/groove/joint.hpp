@@ -43,13 +43,15 @@ struct FixedBevel {
   Angle bevel = Angle::deg(45);  // 0 <= bevel < 90 deg
 };
 
-/// A set-in branch and its equal-area groove. The chord axis lies in the half plane omega = 0, 180 deg.
+/// A set-in branch and its equal-area groove. The chord axis lies in the half plane omega = 0, 180
+/// deg.
 struct GrooveSpec {
   Pipe chord;
   Pipe branch;
   RootFace root_face;
-  Angle inclination = Angle::deg(90);  // alpha, between the axes, (0, 90] deg; omega = 0 is the heel
-  double eccentricity = 0.0;           // of the chord axis along +x of the branch frame, mm
+  Angle inclination =
+      Angle::deg(90);         // alpha, between the axes, (0, 90] deg; omega = 0 is the heel
+  double eccentricity = 0.0;  // of the chord axis along +x of the branch frame, mm
   Filler filler = FillerArea{};
   AreaIn area_in = AreaIn::axial;
   int sections = 24;  // reported sections, uniform from omega = 0
@@ -75,11 +77,11 @@ struct Joint {
 
 inline constexpr int kMaxSections = 20000;
 
-/// The joint of a spec. Only what single fields and the filler's reference section can tell is checked here; whether the
-/// groove exists all round is `survey`'s to say.
+/// The joint of a spec. Only what single fields and the filler's reference section can tell is
+/// checked here; whether the groove exists all round is `survey`'s to say.
 ///
-/// Errors  not_finite, out_of_range, wall, root_width, angle, no_pierce, area; no_p2 and p2_ambiguous at the reference
-///         section of a filler height.
+/// Errors  not_finite, out_of_range, wall, root_width, angle, no_pierce, area; no_p2 and
+///         p2_ambiguous at the reference section of a filler height.
 /// Source  docs/theory/grooves-and-milling.md, sections 1 and 9.
 [[nodiscard]] Result<Joint> joint_of(const GrooveSpec& spec);
 

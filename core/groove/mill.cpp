@@ -16,7 +16,8 @@ double z_sign(Mount mount) { return mount == Mount::end_up ? -1.0 : 1.0; }
 std::vector<Issue> number_issues(const Mill& mill, const Setup& setup) {
   std::vector<Issue> issues;
   const auto finite = [&issues](const char* member, double value, const char* unit) {
-    if (!std::isfinite(value)) issues.push_back({.code = ErrorCode::not_finite, .member = member, .unit = unit});
+    if (!std::isfinite(value))
+      issues.push_back({.code = ErrorCode::not_finite, .member = member, .unit = unit});
   };
   finite("mill/half_angle", mill.half_angle.deg(), "deg");
   finite("mill/tip_radius", mill.tip_radius, "mm");
@@ -30,35 +31,51 @@ std::vector<Issue> number_issues(const Mill& mill, const Setup& setup) {
 
 std::vector<Issue> shape_issues(const Mill& mill, const Setup& setup) {
   std::vector<Issue> issues;
-  const auto refuse = [&issues](ErrorCode code, const char* member, double got, double limit, const char* unit) {
+  const auto refuse = [&issues](ErrorCode code, const char* member, double got, double limit,
+                                const char* unit) {
     issues.push_back({.code = code, .member = member, .got = got, .limit = limit, .unit = unit});
   };
   const double kappa = mill.half_angle.deg();
-  if (!(kappa >= 0.0 && kappa < 90.0)) refuse(ErrorCode::tool, "mill/half_angle", kappa, 90.0, "deg");
+  if (!(kappa >= 0.0 && kappa < 90.0))
+    refuse(ErrorCode::tool, "mill/half_angle", kappa, 90.0, "deg");
   if (mill.tip_radius < 0.0 || (mill.tip_radius == 0.0 && kappa == 0.0))
     refuse(ErrorCode::tool, "mill/tip_radius", mill.tip_radius, 0.0, "mm");
   if (mill.length <= 0.0) refuse(ErrorCode::tool, "mill/length", mill.length, 0.0, "mm");
   if (setup.direction != 1 && setup.direction != -1)
     refuse(ErrorCode::tool, "setup/direction", setup.direction, 1.0, "");
-  if (setup.overrun < 0.0) refuse(ErrorCode::out_of_range, "setup/overrun", setup.overrun, 0.0, "mm");
-  if (setup.pivot_length < 0.0) refuse(ErrorCode::setup, "setup/pivot_length", setup.pivot_length, 0.0, "mm");
+  if (setup.overrun < 0.0)
+    refuse(ErrorCode::out_of_range, "setup/overrun", setup.overrun, 0.0, "mm");
+  if (setup.pivot_length < 0.0)
+    refuse(ErrorCode::setup, "setup/pivot_length", setup.pivot_length, 0.0, "mm");
   if (setup.mount != Mount::end_up && setup.mount != Mount::end_down)
     refuse(ErrorCode::setup, "setup/mount", double(setup.mount), 1.0, "");
   return issues;
 }
 
-std::vector<Issue> fit_issues(const Joint& joint, const Survey& survey, const Mill& mill, const Setup& setup) {
+std::vector<Issue> fit_issues(const Joint& joint, const Survey& survey, const Mill& mill,
+                              const Setup& setup) {
   std::vector<Issue> issues;
   const Cone cone{mill};
   const double longest = elementary::hypot(joint.groove_width, survey.height_max) + setup.overrun;
   if (cone.generatrix < longest)
-    issues.push_back({.code = ErrorCode::tool_short, .member = "mill/length", .got = mill.length, .limit = longest * cone.cos_k, .unit = "mm",
+    issues.push_back({.code = ErrorCode::tool_short,
+                      .member = "mill/length",
+                      .got = mill.length,
+                      .limit = longest * cone.cos_k,
+                      .unit = "mm",
                       .hint = "the generatrix must reach from curve 3 to curve 4 everywhere"});
-  // The tip's face leans over the root face where the generatrix's normal m points inward: beta + kappa > 90 deg.
+  // The tip's face leans over the root face where the generatrix's normal m points inward: beta +
+  // kappa > 90 deg.
   const double kappa = mill.half_angle.deg();
-  const double lean = setup.direction > 0 ? survey.groove_angle_max.deg() + kappa : std::max(survey.groove_angle_max.deg() - kappa, kappa - survey.groove_angle_min.deg());
+  const double lean = setup.direction > 0 ? survey.groove_angle_max.deg() + kappa
+                                          : std::max(survey.groove_angle_max.deg() - kappa,
+                                                     kappa - survey.groove_angle_min.deg());
   if (joint.root_height > 0.0 && lean > 90.0)
-    issues.push_back({.code = ErrorCode::root_collision, .member = "mill/half_angle", .got = kappa, .limit = kappa - (lean - 90.0), .unit = "deg"});
+    issues.push_back({.code = ErrorCode::root_collision,
+                      .member = "mill/half_angle",
+                      .got = kappa,
+                      .limit = kappa - (lean - 90.0),
+                      .unit = "deg"});
   return issues;
 }
 
@@ -98,7 +115,8 @@ FlankFoot Cone::foot(const ToolPose& pose, const Eigen::Vector3d& p) const {
   return out;
 }
 
-ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mill, const Setup& setup) {
+ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mill,
+                      const Setup& setup) {
   const Cone cone{mill};
   const double ruling = elementary::hypot(joint.groove_width, section.height);
   const Eigen::Vector2d up(joint.groove_width / ruling, section.height / ruling);
@@ -114,7 +132,8 @@ ToolPose moved(const ToolPose& pose, const Setup& setup, Hold hold, Increment by
   const double sg = z_sign(setup.mount);
   const auto [s, c] = elementary::sincos(by.db);
   // B turns the axis from machine Z towards X; against the branch axis for end_up.
-  const Eigen::Vector2d axis(pose.axis.x() * c + sg * pose.axis.y() * s, pose.axis.y() * c - sg * pose.axis.x() * s);
+  const Eigen::Vector2d axis(pose.axis.x() * c + sg * pose.axis.y() * s,
+                             pose.axis.y() * c - sg * pose.axis.x() * s);
   const Eigen::Vector2d lift(0.0, sg * by.dz);
   if (hold == Hold::tip) return {pose.tip + lift, axis};
   return {pose.tip + lift + setup.pivot_length * (pose.axis - axis), axis};
@@ -137,10 +156,12 @@ ToolPose tool_pose(const AxisPosition& axes, const Setup& setup) {
   return {Eigen::Vector2d(axes.x, sg * (axes.z - setup.z_zero)) - setup.pivot_length * axis, axis};
 }
 
-std::optional<Error> tool_fault(const Joint& joint, const Survey& survey, const Mill& mill, const Setup& setup) {
+std::optional<Error> tool_fault(const Joint& joint, const Survey& survey, const Mill& mill,
+                                const Setup& setup) {
   if (auto issues = number_issues(mill, setup); !issues.empty()) return Error{std::move(issues)};
   if (auto issues = shape_issues(mill, setup); !issues.empty()) return Error{std::move(issues)};
-  if (auto issues = fit_issues(joint, survey, mill, setup); !issues.empty()) return Error{std::move(issues)};
+  if (auto issues = fit_issues(joint, survey, mill, setup); !issues.empty())
+    return Error{std::move(issues)};
   return std::nullopt;
 }
 

@@ -32,11 +32,12 @@ struct Travel {
 
 struct Setup {
   Mount mount = Mount::end_up;
-  double pivot_length = 0.0;  // from the tip to the B axis, >= 0, mm; 0: X, Z are those of the tip's centre
-  double z_zero = 0.0;        // added to Z, mm
-  Angle c_zero;               // C at omega = 0
-  int direction = 1;          // +1: tip at curve 3, spindle beyond curve 4; -1: the other way round
-  double overrun = 0.0;       // of the generatrix past curve 3, >= 0, mm
+  double pivot_length =
+      0.0;  // from the tip to the B axis, >= 0, mm; 0: X, Z are those of the tip's centre
+  double z_zero = 0.0;   // added to Z, mm
+  Angle c_zero;          // C at omega = 0
+  int direction = 1;     // +1: tip at curve 3, spindle beyond curve 4; -1: the other way round
+  double overrun = 0.0;  // of the generatrix past curve 3, >= 0, mm
   Travel travel;
 };
 
@@ -46,7 +47,8 @@ struct ToolPose {
   Eigen::Vector2d axis;  // unit, from tip to spindle
 };
 
-/// The four axes. C is the table's turn (mod 360 deg), B the tilt of the tool axis from machine Z towards X.
+/// The four axes. C is the table's turn (mod 360 deg), B the tilt of the tool axis from machine Z
+/// towards X.
 struct AxisPosition {
   Angle c;
   double x = 0.0, z = 0.0;  // mm
@@ -64,17 +66,20 @@ struct Increment {
 };
 
 /// Pose with the whole generatrix on the ruling of the section. Source 6.2.
-[[nodiscard]] ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mill, const Setup& setup);
+[[nodiscard]] ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mill,
+                                    const Setup& setup);
 
 /// The pose after an increment. Source 8.1.
 [[nodiscard]] ToolPose moved(const ToolPose& pose, const Setup& setup, Hold hold, Increment by);
 
-/// Pose in the section at `omega` as axis positions, and back. Exact inverses of one another to rounding. Source 6.3.
+/// Pose in the section at `omega` as axis positions, and back. Exact inverses of one another to
+/// rounding. Source 6.3.
 [[nodiscard]] AxisPosition axis_position(const ToolPose& pose, const Setup& setup, Angle omega);
 [[nodiscard]] ToolPose tool_pose(const AxisPosition& axes, const Setup& setup);
 
-/// A point against the tool: `distance` to the unbounded flank cone (> 0 not cut), its gradient, and how far along the
-/// generatrix from the tip its foot lies. Coordinates of the tool's section half plane: (radial, tangential, axial).
+/// A point against the tool: `distance` to the unbounded flank cone (> 0 not cut), its gradient,
+/// and how far along the generatrix from the tip its foot lies. Coordinates of the tool's section
+/// half plane: (radial, tangential, axial).
 struct FlankFoot {
   double distance = 0.0;
   Eigen::Vector3d gradient;
@@ -106,13 +111,16 @@ struct Cone {
   [[nodiscard]] static Meridian meridian(const ToolPose& pose, const Eigen::Vector3d& p) {
     const double ws = p.x() - pose.tip.x(), wz = p.z() - pose.tip.y();
     const double across = ws * pose.axis.y() - wz * pose.axis.x();
-    return {std::sqrt(across * across + p.y() * p.y()), ws * pose.axis.x() + wz * pose.axis.y(), across};
+    return {std::sqrt(across * across + p.y() * p.y()), ws * pose.axis.x() + wz * pose.axis.y(),
+            across};
   }
 };
 
 /// Whether tool and setup are possible at all, and fit the groove.
 ///
-/// Errors  not_finite, out_of_range, tool, setup, tool_short, root_collision; `member` from "mill/..." and "setup/...".
-[[nodiscard]] std::optional<Error> tool_fault(const Joint& joint, const Survey& survey, const Mill& mill, const Setup& setup);
+/// Errors  not_finite, out_of_range, tool, setup, tool_short, root_collision; `member` from
+/// "mill/..." and "setup/...".
+[[nodiscard]] std::optional<Error> tool_fault(const Joint& joint, const Survey& survey,
+                                              const Mill& mill, const Setup& setup);
 
 }  // namespace tubecut::groove

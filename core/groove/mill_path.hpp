@@ -32,52 +32,56 @@ struct MillPathSpec {
 
 /// Gap and offset of the touched ruling, by v from curve 3 to curve 4.
 struct ContactLine {
-  std::vector<double> gap;     // mm, < 0 overcut
-  std::vector<double> offset;  // rad
+  std::vector<double> gap;                        // mm, < 0 overcut
+  std::vector<double> offset;                     // rad
   double over = 0.0, under = 0.0, largest = 0.0;  // mm
 };
 
 /// One emitted position.
 struct MillPosition {
   Angle omega;
-  AxisPosition at;     // B without jumps of a turn from the position before
-  Increment by;        // from the initial position
+  AxisPosition at;         // B without jumps of a turn from the position before
+  Increment by;            // from the initial position
   bool optimised = false;  // else between two optima, with their interpolated increments
   ContactLine before, after;
   GridFigures grid_before, grid;  // the source's own
   double certificate = 0.0;       // mm
   double bias = 0.0;              // mm, that the certificate refers to
   std::array<int, 3> reference = {};
-  int evaluations = 0;            // 0 between optima
+  int evaluations = 0;  // 0 between optima
   bool qualified = false;
 };
 
 struct MillPath {
   std::vector<MillPosition> positions;
-  Swept swept;               // of what the machine does: linear axes between all emitted positions
-  Swept swept_at_optima;     // had only the optima been emitted
+  Swept swept;            // of what the machine does: linear axes between all emitted positions
+  Swept swept_at_optima;  // had only the optima been emitted
   bool qualified = false;
   std::vector<Warning> warnings;
 };
 
 inline constexpr int kMinPositions = 4, kMaxPositions = 20000;
-inline constexpr int kMaxPoints = 101;      // per ruling; the minimax looks at every triple
-inline constexpr double kAxisSag = 1e-3;    // mm, of the tool between emitted positions, at mid interval
+inline constexpr int kMaxPoints = 101;  // per ruling; the minimax looks at every triple
+inline constexpr double kAxisSag =
+    1e-3;  // mm, of the tool between emitted positions, at mid interval
 inline constexpr double kRootFaceCut = -0.005;   // mm; below it a warning
 inline constexpr double kRootFaceReject = -0.5;  // mm; below it the path is not qualified
 
 /// The cone mill's path round the groove on a C, X, Z, B machine.
 ///
-/// Errors    of `groove` (member "groove/..."), of `tool_fault`; sampling, setup, out_of_range, window, contact,
-///           z_ineffective, travel, too_many_nodes (more than 20 000 positions for the sag), not_converged, cancelled.
+/// Errors    of `groove` (member "groove/..."), of `tool_fault`; sampling, setup, out_of_range,
+///           window, contact, z_ineffective, travel, too_many_nodes (more than 20 000 positions
+///           for the sag), not_converged, cancelled.
 /// Accuracy  increments 1e-9 mm and deg; certificate 1e-9 mm; swept figures as `swept`.
-/// Cost      0.2 ms per optimised and 0.1 ms per further position, 0.1 s for the swept figures; annealing 15 ms per position.
+/// Cost      0.4 ms per optimised and 0.2 ms per further position, 0.15 s for the swept figures;
+///           annealing 15 ms per position.
 /// Source    docs/theory/grooves-and-milling.md, sections 6-8.
 [[nodiscard]] Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop = {});
 
-/// Proves an answer by other formulas than those that made it: points in machine space against the cone's apex angle.
+/// Proves an answer by other formulas than those that made it: points in machine space against the
+/// cone's apex angle.
 ///
-/// Cost    about 25 us per position.
+/// Cost    about 0.1 ms per position.
 [[nodiscard]] std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path);
 
 }  // namespace tubecut::groove

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/groove/machine_space.hpp"
 #include "core/groove/mill_limits.hpp"
 #include "core/groove/mill_path.hpp"
 #include "core/groove/surface.hpp"
@@ -24,81 +25,10 @@ struct Worst {
   }
 };
 
-/// The tool as a body in machine space.
-struct Tool {
-  Vector3d tip;   // centre of its face
-  Vector3d axis;  // unit, to the spindle
-};
-
-/// The machine as rotations and shifts of points in space.
-class Machine {
- public:
-  explicit Machine(const MillPathSpec& spec) : spec_(spec) {
-    if (spec.setup.mount == Mount::end_up)
-      lying_ << 0, 1, 0, 1, 0, 0, 0, 0, -1;
-    else
-      lying_ << 0, 1, 0, -1, 0, 0, 0, 0, 1;
-  }
-
-  [[nodiscard]] Tool tool(const AxisPosition& at) const {
-    const Vector3d axis = AngleAxisd(at.b.rad(), Vector3d::UnitY()) * Vector3d::UnitZ();
-    return {Vector3d(at.x, 0.0, at.z) - spec_.setup.pivot_length * axis, axis};
-  }
-  [[nodiscard]] Matrix3d table(Angle c) const {
-    return AngleAxisd((c - spec_.setup.c_zero).rad(), Vector3d::UnitZ()).toRotationMatrix() * lying_;
-  }
-  [[nodiscard]] Vector3d lift() const { return {0.0, 0.0, spec_.setup.z_zero}; }
-  /// The axes without the optimisation's part.
-  [[nodiscard]] AxisPosition before(const MillPosition& p) const {
-    AxisPosition out = p.at;
-    out.b = p.at.b - Angle::rad(p.by.db);
-    out.z -= p.by.dz;
-    if (spec_.optimise.hold == Hold::pivot) return out;
-    const Vector3d arm = spec_.setup.pivot_length * (tool(p.at).axis - tool(out).axis);
-    out.x -= arm.x();
-    out.z -= arm.z();
-    return out;
-  }
-
- private:
-  const MillPathSpec& spec_;
-  Matrix3d lying_;
-};
-
-/// Distance to the flank from the cone's apex and the angle seen there; for nearly cylindrical mills, whose apex is far, from
-/// the axis.
-double flank_distance(const Mill& mill, const Tool& tool, const Vector3d& p) {
-  const double kappa = mill.half_angle.rad();
-  if (mill.half_angle.deg() < 0.5) {
-    const Vector3d to = p - tool.tip;
-    return (to.cross(tool.axis).norm() - mill.tip_radius) * elementary::cos(kappa) - to.dot(tool.axis) * elementary::sin(kappa);
-  }
-  const Vector3d to = p - (tool.tip - mill.tip_radius / elementary::tan(kappa) * tool.axis);
-  return to.norm() * elementary::sin(elementary::atan2(to.cross(tool.axis).norm(), to.dot(tool.axis)) - kappa);
-}
-
-/// Signed distance to the cutter's whole meridian, both sides of the axis, as a polygon.
-double solid_distance(const Mill& mill, const Tool& tool, const Vector3d& p) {
-  using Eigen::Vector2d;
-  const Vector3d to = p - tool.tip;
-  const Vector2d at(to.cross(tool.axis).norm(), to.dot(tool.axis));
-  const double back = mill.tip_radius + mill.length * elementary::tan(mill.half_angle.rad());
-  const std::array<Vector2d, 4> corner = {Vector2d(-mill.tip_radius, 0), Vector2d(mill.tip_radius, 0), Vector2d(back, mill.length), Vector2d(-back, mill.length)};
-  double nearest = std::numeric_limits<double>::infinity();
-  bool inside = true;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vector2d side = corner[(k + 1) % 4] - corner[k], from = at - corner[k];
-    if (side.squaredNorm() == 0.0) continue;
-    const double share = std::clamp(from.dot(side) / side.squaredNorm(), 0.0, 1.0);
-    nearest = std::min(nearest, (from - share * side).norm());
-    inside = inside && side.x() * from.y() - side.y() * from.x() >= 0.0;
-  }
-  return inside ? -nearest : nearest;
-}
-
 class Verifier {
  public:
-  Verifier(const MillPathSpec& spec, const MillPath& path, const Joint& joint) : spec_(spec), path_(path), joint_(joint), machine_(spec) {}
+  Verifier(const MillPathSpec& spec, const MillPath& path, const Joint& joint)
+      : spec_(spec), path_(path), joint_(joint), machine_(spec) {}
 
   std::vector<Check> run() {
     const std::size_t n = path_.positions.size();
@@ -128,40 +58,54 @@ class Verifier {
     if (!found) return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     return surface_point(joint_, *found, v);
   }
-  [[nodiscard]] Vector3d root_point(double omega, double level) const { return work_point(omega, 0.0) - Vector3d(0.0, 0.0, level * joint_.root_height); }
-  [[nodiscard]] Vector3d placed(const Vector3d& p, Angle c) const { return machine_.table(c) * p + machine_.lift(); }
+  [[nodiscard]] Vector3d root_point(double omega, double level) const {
+    return work_point(omega, 0.0) - Vector3d(0.0, 0.0, level * joint_.root_height);
+  }
+  [[nodiscard]] Vector3d placed(const Vector3d& p, Angle c) const {
+    return machine_.table(c) * p + machine_.lift();
+  }
 
-  /// Without its increments the tool lies along the ruling, its edge at the asked distance from curve 3.
+  /// Without its increments the tool lies along the ruling, its edge at the asked distance from
+  /// curve 3.
   void start_on_ruling(const MillPosition& p) {
     const AxisPosition at = machine_.before(p);
     const Tool tool = machine_.tool(at);
     const Matrix3d table = machine_.table(at.c);
     for (const double v : {0.0, 0.5, 1.0})
-      start_.add(std::abs(flank_distance(spec_.mill, tool, table * work_point(p.omega.rad(), v) + machine_.lift())));
+      start_.add(std::abs(flank_distance(spec_.mill, tool,
+                                         table * work_point(p.omega.rad(), v) + machine_.lift())));
     const Vector3d root = placed(work_point(p.omega.rad(), 0.0), at.c);
     const double generatrix = spec_.mill.length / elementary::cos(spec_.mill.half_angle.rad());
-    const double along = spec_.setup.direction > 0 ? spec_.setup.overrun : generatrix - spec_.setup.overrun;
-    start_.add(std::abs((root - tool.tip).norm() - elementary::hypot(spec_.mill.tip_radius, along)));
+    const double along =
+        spec_.setup.direction > 0 ? spec_.setup.overrun : generatrix - spec_.setup.overrun;
+    const double r = spec_.mill.tip_radius, sin_k = elementary::sin(spec_.mill.half_angle.rad());
+    start_.add(std::abs((root - tool.tip).norm() -
+                        std::sqrt(along * along + r * r + 2.0 * along * r * sin_k)));
   }
 
-  /// Every reported gap is the distance of the ruling it names, and no ruling beside it or further off is deeper.
+  /// Every reported gap is the distance of the ruling it names, and no ruling beside it or further
+  /// off is deeper.
   void contacts(const MillPosition& p, const AxisPosition& at, const ContactLine& line) {
     constexpr double kBeside = 1e-7;  // rad; d'' h^2 / 2 stays below 1e-11 mm
     const Tool tool = machine_.tool(at);
     const Matrix3d table = machine_.table(at.c);
-    const auto distance = [&](const Vector3d& point) { return flank_distance(spec_.mill, tool, table * point + machine_.lift()); };
+    const auto distance = [&](const Vector3d& point) {
+      return flank_distance(spec_.mill, tool, table * point + machine_.lift());
+    };
     const auto level = [&line](std::size_t i) { return double(i) / double(line.gap.size() - 1); };
     for (std::size_t i = 0; i < line.gap.size(); ++i) {
       const double omega = p.omega.rad() + line.offset[i];
       gap_.add(std::abs(distance(work_point(omega, level(i))) - line.gap[i]));
       if (!p.optimised) continue;
-      for (const double beside : {-kBeside, kBeside}) least_.add(line.gap[i] - distance(work_point(omega + beside, level(i))));
+      for (const double beside : {-kBeside, kBeside})
+        least_.add(line.gap[i] - distance(work_point(omega + beside, level(i))));
     }
     if (!p.optimised) return;
     for (const double part : {-1.0, -0.5, -0.25, 0.25, 0.5, 1.0}) {
       const double omega = p.omega.rad() + part * spec_.check.window.rad();
       const Vector3d root = work_point(omega, 0.0), edge = work_point(omega, 1.0);
-      for (std::size_t i = 0; i < line.gap.size(); ++i) least_.add(line.gap[i] - distance(root + level(i) * (edge - root)));
+      for (std::size_t i = 0; i < line.gap.size(); ++i)
+        least_.add(line.gap[i] - distance(root + level(i) * (edge - root)));
     }
   }
 
@@ -173,15 +117,17 @@ class Verifier {
       figures_.add(std::abs(line->under - std::max(0.0, *high)));
       figures_.add(std::abs(line->largest - std::max(-*low, *high)));
     }
-    const bool qualified = p.after.over < spec_.check.qualify && p.after.under < spec_.check.qualify;
+    const bool qualified =
+        p.after.over < spec_.check.qualify && p.after.under < spec_.check.qualify;
     if (qualified != p.qualified) figures_.add(1.0);
   }
 
-  /// Weak duality: with weights that no increment can change, sum lam g / sum |lam| bounds every position from below. Slopes by
-  /// differences of the apex-angle distance at the touched points.
+  /// Weak duality: with weights that no increment can change, sum lam g / sum |lam| bounds every
+  /// position from below. Slopes by differences of the apex-angle distance at the touched points.
   void optimum(const MillPosition& p) {
     constexpr double kStep = 1e-3;  // mm
-    const double reach = spec_.mill.length + spec_.mill.tip_radius + (spec_.optimise.hold == Hold::pivot ? spec_.setup.pivot_length : 0.0);
+    const double reach = spec_.mill.length + spec_.mill.tip_radius +
+                         (spec_.optimise.hold == Hold::pivot ? spec_.setup.pivot_length : 0.0);
     std::array<Eigen::Vector2d, 3> slope;
     Vector3d gaps;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -189,11 +135,17 @@ class Verifier {
       const double v = double(i) / double(p.after.gap.size() - 1);
       const Vector3d point = placed(work_point(p.omega.rad() + p.after.offset[i], v), p.at.c);
       gaps[Eigen::Index(k)] = p.after.gap[i] - p.bias;
-      slope[k].x() = (shifted(p, kStep, 0.0, point) - shifted(p, -kStep, 0.0, point)) / (2.0 * kStep);
-      slope[k].y() = (shifted(p, 0.0, kStep / reach, point) - shifted(p, 0.0, -kStep / reach, point)) / (2.0 * kStep);
+      slope[k].x() =
+          (shifted(p, kStep, 0.0, point) - shifted(p, -kStep, 0.0, point)) / (2.0 * kStep);
+      slope[k].y() =
+          (shifted(p, 0.0, kStep / reach, point) - shifted(p, 0.0, -kStep / reach, point)) /
+          (2.0 * kStep);
     }
-    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); };
-    const Vector3d lam(cross(slope[1], slope[2]), cross(slope[2], slope[0]), cross(slope[0], slope[1]));
+    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+      return a.x() * b.y() - a.y() * b.x();
+    };
+    const Vector3d lam(cross(slope[1], slope[2]), cross(slope[2], slope[0]),
+                       cross(slope[0], slope[1]));
     double worst = 0.0;
     for (const double g : p.after.gap) worst = std::max(worst, std::abs(g - p.bias));
     const double proven = worst - std::abs(lam.dot(gaps)) / lam.lpNorm<1>();
@@ -202,12 +154,14 @@ class Verifier {
   }
 
   /// Distance of a point in machine space after a further increment.
-  [[nodiscard]] double shifted(const MillPosition& p, double dz, double db, const Vector3d& point) const {
+  [[nodiscard]] double shifted(const MillPosition& p, double dz, double db,
+                               const Vector3d& point) const {
     AxisPosition at = p.at;
     at.b = at.b + Angle::rad(db);
     at.z += dz;
     Tool tool = machine_.tool(at);
-    if (spec_.optimise.hold == Hold::tip) tool.tip = machine_.tool(p.at).tip + Vector3d(0.0, 0.0, dz);
+    if (spec_.optimise.hold == Hold::tip)
+      tool.tip = machine_.tool(p.at).tip + Vector3d(0.0, 0.0, dz);
     return flank_distance(spec_.mill, tool, point);
   }
 
@@ -222,17 +176,25 @@ class Verifier {
     const double omega = 0.5 * (omega_at(i) + omega_at(i + 1));
     const Tool linear = machine_.tool(half), exact = laid(omega, half_increment(i, omega));
     sag_.add((linear.tip - exact.tip).norm());
-    sag_.add((linear.tip + spec_.mill.length * linear.axis - exact.tip - spec_.mill.length * exact.axis).norm());
+    sag_.add(
+        (linear.tip + spec_.mill.length * linear.axis - exact.tip - spec_.mill.length * exact.axis)
+            .norm());
   }
 
-  [[nodiscard]] const MillPosition& around(std::size_t i) const { return path_.positions[i % path_.positions.size()]; }
-  [[nodiscard]] double omega_at(std::size_t i) const { return around(i).omega.rad() + kTwoPi * double(i / path_.positions.size()); }
+  [[nodiscard]] const MillPosition& around(std::size_t i) const {
+    return path_.positions[i % path_.positions.size()];
+  }
+  [[nodiscard]] double omega_at(std::size_t i) const {
+    return around(i).omega.rad() + kTwoPi * double(i / path_.positions.size());
+  }
 
-  /// The increments between positions i and i + 1: through four neighbours where they are smooth, else through two.
+  /// The increments between positions i and i + 1: through four neighbours where they are smooth,
+  /// else through two.
   [[nodiscard]] Increment half_increment(std::size_t i, double omega) const {
     const std::size_t n = path_.positions.size();
     if (spec_.optimise.method != Method::chebyshev || n < 4)
-      return {0.5 * (around(i).by.dz + around(i + 1).by.dz), 0.5 * (around(i).by.db + around(i + 1).by.db)};
+      return {0.5 * (around(i).by.dz + around(i + 1).by.dz),
+              0.5 * (around(i).by.db + around(i + 1).by.db)};
     Increment out;
     for (std::size_t k = i + n - 1; k <= i + n + 2; ++k) {
       double share = 1.0;
@@ -244,17 +206,22 @@ class Verifier {
     return out;
   }
 
-  /// A tool laid on the ruling by turning the ruling itself about the seam's tangent plane, then incremented.
+  /// A tool laid on the ruling by turning the ruling itself about the seam's tangent plane, then
+  /// incremented.
   [[nodiscard]] Tool laid(double omega, Increment by) const {
     const double sg = spec_.setup.mount == Mount::end_up ? -1.0 : 1.0;
     const Matrix3d table = machine_.table(spec_.setup.c_zero - Angle::rad(sg * omega));
-    const Vector3d root = table * work_point(omega, 0.0) + machine_.lift(), edge = table * work_point(omega, 1.0) + machine_.lift();
+    const Vector3d root = table * work_point(omega, 0.0) + machine_.lift(),
+                   edge = table * work_point(omega, 1.0) + machine_.lift();
     const double dir = spec_.setup.direction;
     const Vector3d along = dir * (edge - root).normalized();
     const double kappa = spec_.mill.half_angle.rad();
     const AngleAxisd lean(sg * dir * kappa, Vector3d::UnitY());
-    const Vector3d axis = lean * along, across = AngleAxisd(0.5 * sg * dir * kPi, Vector3d::UnitY()) * axis;
-    const double before = dir > 0 ? spec_.setup.overrun : spec_.mill.length / elementary::cos(kappa) - spec_.setup.overrun;
+    const Vector3d axis = lean * along,
+                   across = AngleAxisd(0.5 * sg * dir * kPi, Vector3d::UnitY()) * axis;
+    const double before = dir > 0
+                              ? spec_.setup.overrun
+                              : spec_.mill.length / elementary::cos(kappa) - spec_.setup.overrun;
     Tool out{root - before * along + spec_.mill.tip_radius * across, axis};
     const Vector3d turned = AngleAxisd(by.db, Vector3d::UnitY()) * axis;
     if (spec_.optimise.hold == Hold::pivot) out.tip += spec_.setup.pivot_length * (axis - turned);
@@ -263,14 +230,16 @@ class Verifier {
     return out;
   }
 
-  /// Least distance of a workpiece point over the motion within one block of `station`, by ternary search.
+  /// Least distance of a workpiece point over the motion within one block of `station`, by ternary
+  /// search.
   template <class Distance>
   [[nodiscard]] double least_near(const Vector3d& point, double station, Distance distance) const {
     double low = station - 1.0, high = station + 1.0;
     const auto at = [&](double t) {
       const Block block = block_at(blocks_, t);
       const double sg = spec_.setup.mount == Mount::end_up ? -1.0 : 1.0;
-      const AxisPosition axes{spec_.setup.c_zero - Angle::rad(sg * block.omega), block.x, block.z, Angle::rad(block.b)};
+      const AxisPosition axes{spec_.setup.c_zero - Angle::rad(sg * block.omega), block.x, block.z,
+                              Angle::rad(block.b)};
       return distance(spec_.mill, machine_.tool(axes), placed(point, axes.c));
     };
     for (int i = 0; i < 40; ++i) {
@@ -282,13 +251,19 @@ class Verifier {
 
   /// Reported extremes found again where they are said to be, and no sampled point beyond them.
   void whole_round() {
-    for (const MillPosition& p : path_.positions) blocks_.push_back({p.omega.rad(), p.at.x, p.at.z, p.at.b.rad()});
+    for (const MillPosition& p : path_.positions)
+      blocks_.push_back({p.omega.rad(), p.at.x, p.at.z, p.at.b.rad()});
     const Swept& s = path_.swept;
     for (const Extreme* e : {&s.flank_min, &s.flank_max})
-      swept_.add(std::abs(least_near(work_point(e->omega.rad(), e->level), e->station, flank_distance) - e->value));
+      swept_.add(std::abs(
+          least_near(work_point(e->omega.rad(), e->level), e->station, flank_distance) - e->value));
     const Extreme &stock = s.stock_left_max, &root = s.root_face_min;
-    swept_.add(std::abs(least_near(work_point(stock.omega.rad(), stock.level), stock.station, solid_distance) - stock.value));
-    root_.add(std::abs(least_near(root_point(root.omega.rad(), root.level), root.station, solid_distance) - root.value));
+    swept_.add(std::abs(
+        least_near(work_point(stock.omega.rad(), stock.level), stock.station, solid_distance) -
+        stock.value));
+    root_.add(std::abs(
+        least_near(root_point(root.omega.rad(), root.level), root.station, solid_distance) -
+        root.value));
     constexpr int kRulings = 24;
     for (int j = 0; j < kRulings; ++j) {
       const double omega = kTwoPi * j / kRulings;

@@ -16,20 +16,25 @@ constexpr double kLeastZEffect = 0.0871557427476582;  // sin 5 deg
 constexpr double kOptimal = 1e-12;                    // mm, or 5e-15 R where that is coarser
 constexpr double kAcceptable = 1e-9;                  // mm, where rounding stops the descent
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
 /// Weights with sum lam J = 0: what no step can change is sum lam g.
-Eigen::Vector3d multipliers(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+Eigen::Vector3d multipliers(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                            const Eigen::Vector2d& c) {
   return {cross(b, c), cross(c, a), cross(a, b)};
 }
 
 Eigen::Vector3d pick(std::span<const double> values, const std::array<int, 3>& triple) {
-  return {values[std::size_t(triple[0])], values[std::size_t(triple[1])], values[std::size_t(triple[2])]};
+  return {values[std::size_t(triple[0])], values[std::size_t(triple[1])],
+          values[std::size_t(triple[2])]};
 }
 
 /// The step that levels the three residuals of the reference.
-Eigen::Vector2d levelling_step(const Eigen::Vector3d& g, std::span<const Eigen::Vector2d> slopes, const LinearMinimax& at, const Eigen::Vector3d& lam) {
+Eigen::Vector2d levelling_step(const Eigen::Vector3d& g, std::span<const Eigen::Vector2d> slopes,
+                               const LinearMinimax& at, const Eigen::Vector3d& lam) {
   Eigen::Matrix3d system;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector2d& slope = slopes[std::size_t(at.reference[std::size_t(k)])];
@@ -94,10 +99,13 @@ class Descent {
   };
 
   static bool effective(const std::vector<Eigen::Vector2d>& slopes) {
-    return std::any_of(slopes.begin(), slopes.end(), [](const Eigen::Vector2d& s) { return std::abs(s.x()) >= kLeastZEffect; });
+    return std::any_of(slopes.begin(), slopes.end(),
+                       [](const Eigen::Vector2d& s) { return std::abs(s.x()) >= kLeastZEffect; });
   }
 
-  [[nodiscard]] double tolerance() const { return std::max(kOptimal, 5e-15 * task_.near.joint->chord_radius); }
+  [[nodiscard]] double tolerance() const {
+    return std::max(kOptimal, 5e-15 * task_.near.joint->chord_radius);
+  }
 
   Trial evaluate(Increment by, double bias) {
     ++evaluations_;
@@ -113,8 +121,9 @@ class Descent {
     return evaluate({from.by.dz + part * by.x(), from.by.db + part * by.y()}, bias);
   }
 
-  /// Takes the whole step where it helps, and once also where it does not (a far B axis bends the way down, and the next
-  /// linear step mends that sooner than halving does); else goes back and halves. The last step can only polish.
+  /// Takes the whole step where it helps, and once also where it does not (a far B axis bends the
+  /// way down, and the next linear step mends that sooner than halving does); else goes back and
+  /// halves. The last step can only polish.
   bool step(const Eigen::Vector2d& by, double bias, bool last) {
     constexpr double kBearable = 2.0;
     Trial next = along(at_, by, 1.0, bias);
@@ -158,13 +167,16 @@ class Descent {
 
 }  // namespace
 
-LinearMinimax linear_minimax(std::span<const double> gaps, std::span<const Eigen::Vector2d> slopes) {
+LinearMinimax linear_minimax(std::span<const double> gaps,
+                             std::span<const Eigen::Vector2d> slopes) {
   const int n = int(gaps.size());
   const auto weights = [&](const std::array<int, 3>& t) {
-    return multipliers(slopes[std::size_t(t[0])], slopes[std::size_t(t[1])], slopes[std::size_t(t[2])]);
+    return multipliers(slopes[std::size_t(t[0])], slopes[std::size_t(t[1])],
+                       slopes[std::size_t(t[2])]);
   };
   double largest = 0.0;
-  every_triple(n, [&](const auto& t) { largest = std::max(largest, weights(t).template lpNorm<1>()); });
+  every_triple(
+      n, [&](const auto& t) { largest = std::max(largest, weights(t).template lpNorm<1>()); });
   LinearMinimax out;
   out.level = -1.0;
   every_triple(n, [&](const auto& t) {
@@ -220,19 +232,23 @@ tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap init
   return out;
 }
 
-tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& random, std::stop_token stop) {
+tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& random,
+                                           std::stop_token stop) {
   constexpr int kLevels = 80, kMoves = 30;
   constexpr double kCooling = 0.93;
   const auto objective = [&task](Increment by) {
-    return grid_figures(task.near, task.cone, moved(task.start, task.setup, task.hold, by)).objective();
+    return grid_figures(task.near, task.cone, moved(task.start, task.setup, task.hold, by))
+        .objective();
   };
   const auto uniform = [&random] { return double(random() >> 11) * 0x1p-53; };
   double here = objective({}), temperature = here;
   const double start = here;
   Increment at, best;
   double least = here;
-  // Moves as large as the error they are to remove: in Z directly, in B at the generatrix's far end.
-  const double reach = task.hold == Hold::tip ? task.cone.generatrix : task.cone.generatrix + task.setup.pivot_length;
+  // Moves as large as the error they are to remove: in Z directly, in B at the generatrix's far
+  // end.
+  const double reach = task.hold == Hold::tip ? task.cone.generatrix
+                                              : task.cone.generatrix + task.setup.pivot_length;
   for (int level = 0; level < kLevels; ++level, temperature *= kCooling) {
     if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
     const double size = 2.0 * std::max(temperature, 0.02 * start);

@@ -7,8 +7,9 @@
 namespace tubecut::groove {
 namespace {
 
-/// Solves m[i-1] + 4 m[i] + m[i+1] = rhs[i] round the turn. The system's inverse is a sum of two decaying geometric series with
-/// ratio sqrt(3) - 2, so one sweep forward and one back, each closed over the turn, are exact.
+/// Solves m[i-1] + 4 m[i] + m[i+1] = rhs[i] round the turn. The system's inverse is a sum of two
+/// decaying geometric series with ratio sqrt(3) - 2, so one sweep forward and one back, each closed
+/// over the turn, are exact.
 std::vector<double> solve_round(std::vector<double> rhs) {
   const std::size_t n = rhs.size();
   const double ratio = std::sqrt(3.0) - 2.0;
@@ -41,7 +42,8 @@ double PeriodicSpline::operator()(double station) const {
   const double n = double(values_.size());
   const auto i = std::size_t(whole - n * std::floor(whole / n));
   const std::size_t j = (i + 1) % values_.size();
-  return u * values_[i] + t * values_[j] + ((u * u * u - u) * bends_[i] + (t * t * t - t) * bends_[j]) / 6.0;
+  return u * values_[i] + t * values_[j] +
+         ((u * u * u - u) * bends_[i] + (t * t * t - t) * bends_[j]) / 6.0;
 }
 
 }  // namespace tubecut::groove

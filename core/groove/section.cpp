@@ -52,7 +52,8 @@ void place_p2(const ChordLine& chord, double D, Toe& toe) {
   toe.slope2 = chord.slope(toe.t2, toe.q2);
 }
 
-/// D^2 + dy^2 = c^2 within (0, reach]: Newton while it stays in the bracket, bisection else and after 50 steps.
+/// D^2 + dy^2 = c^2 within (0, reach]: Newton while it stays in the bracket, bisection else and
+/// after 50 steps.
 bool solve_p2(const ChordLine& chord, Toe& toe) {
   constexpr int kNewtonSteps = 50, kSteps = 120;  // 70 halvings leave less than 1e-21 c
   const double c = chord.joint.weld_width;
@@ -88,7 +89,8 @@ void measure_bow(const Joint& joint, Direction dir, Toe& toe) {
   const double R = joint.chord_radius;
   const double dt = toe.D * dir.sin;
   const double dq = -dt * (toe.t1 + toe.t2) / (toe.q1 + toe.q2);
-  toe.theta = 2.0 * elementary::asin(std::min(1.0, elementary::hypot(dt, dq) / (2.0 * R)));
+  toe.half_sin = std::min(1.0, std::sqrt(dt * dt + dq * dq) / (2.0 * R));
+  toe.theta = 2.0 * elementary::asin(toe.half_sin);
   toe.bow = R * R * bulge(toe.theta) / (2.0 * std::abs(dir.sin) * joint.sin_a);
 }
 
@@ -111,9 +113,8 @@ AreaAt area_at(const ChordLine& chord, const Toe& toe) {
 double bow_slope(const Joint& joint, Direction dir, const Toe& toe, double D_d) {
   if (dir.sin == 0.0) return 0.0;
   const double R = joint.chord_radius;
-  const double half = elementary::sin(0.5 * toe.theta);
-  const double theta_d =
-      (D_d * dir.sin + toe.x2 * dir.cos) / toe.q2 - toe.x1 * dir.cos / toe.q1;
+  const double half = toe.half_sin;
+  const double theta_d = (D_d * dir.sin + toe.x2 * dir.cos) / toe.q2 - toe.x1 * dir.cos / toe.q1;
   return (R * R * half * half * theta_d / joint.sin_a - toe.bow * dir.cos) / dir.sin;
 }
 
@@ -137,8 +138,9 @@ tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir) {
   toe.slope1 = chord.slope(toe.t1, toe.q1);
   if (!solve_p2(chord, toe)) return tl::unexpected(ErrorCode::no_p2);
   toe.y2 = toe.y1 + toe.dy;
-  // The chord is concave over x, so distance from P1 surely grows along it while it turns by less than a right angle. With a
-  // right angle and no eccentricity both slopes have one sign and it always does; a steep heel and a thick wall turn further.
+  // The chord is concave over x, so distance from P1 surely grows along it while it turns by less
+  // than a right angle. With a right angle and no eccentricity both slopes have one sign and it
+  // always does; a steep heel and a thick wall turn further.
   if (!(1.0 + toe.slope1 * toe.slope2 > 0.0)) return tl::unexpected(ErrorCode::p2_ambiguous);
   measure_bow(joint, dir, toe);
   return toe;

@@ -12,13 +12,13 @@ Eigen::Vector3d at(const Section& section, double s, double z) {
   return {-section.dir.sin * s, section.dir.cos * s, z};
 }
 
-/// First moment of the bow about the branch axis, mm^3. The circle segment it is the affine image of has the first moment
-/// chord^3 / 12 along its bisector.
+/// First moment of the bow about the branch axis, mm^3. The circle segment it is the affine image
+/// of has the first moment chord^3 / 12 along its bisector.
 double bow_moment(const Joint& joint, const Section& section) {
   const Direction dir = section.dir;
   const Toe& p = section.toe;
   if (dir.sin == 0.0 || p.theta == 0.0) return 0.0;
-  const double chord = 2.0 * joint.chord_radius * elementary::sin(0.5 * p.theta);
+  const double chord = 2.0 * joint.chord_radius * p.half_sin;
   const double bisector_t = (p.t1 + p.t2) / elementary::hypot(p.t1 + p.t2, p.q1 + p.q2);
   const double scale = std::abs(dir.sin) * joint.sin_a;
   return (chord * chord * chord / 12.0 * bisector_t / scale - joint.eccentricity * p.bow) / dir.sin;
@@ -51,7 +51,8 @@ Ruling ruling(const Joint& joint, const Section& section) {
   const double H = joint.groove_width, h = section.height, h_d = section.height_d;
   Ruling out;
   out.determinant = H * (H * section.z3_d - joint.root_radius * h_d);
-  // d = (H, 0, h) and d' = (0, H, h'): p = det / (|d|^2 |(d/|d|)'|^2), the second factor by Lagrange's identity.
+  // d = (H, 0, h) and d' = (0, H, h'): p = det / (|d|^2 |(d/|d|)'|^2), the second factor by
+  // Lagrange's identity.
   const double d2 = H * H + h * h;
   const double spread = d2 * (H * H + h_d * h_d) - h * h * h_d * h_d;
   out.distribution_parameter = out.determinant * d2 / spread;

@@ -7,7 +7,8 @@
 
 namespace tubecut::groove {
 
-/// The four characteristic curves at one section, in the branch frame (z along the branch, away from the chord), mm.
+/// The four characteristic curves at one section, in the branch frame (z along the branch, away
+/// from the chord), mm.
 struct CurvePoints {
   Eigen::Vector3d c1;  // inner edge of the root face's bottom
   Eigen::Vector3d c2;  // outer edge of the root face's bottom
@@ -32,8 +33,8 @@ struct Ruling {
 /// Source  docs/theory/grooves-and-milling.md, 5.
 [[nodiscard]] Ruling ruling(const Joint& joint, const Section& section);
 
-/// Filler between this section and its neighbour per radian of omega: the first moment of the filler area about the branch
-/// axis (Guldin), mm^3/rad, for a groove edge `height` above P1.
+/// Filler between this section and its neighbour per radian of omega: the first moment of the
+/// filler area about the branch axis (Guldin), mm^3/rad, for a groove edge `height` above P1.
 [[nodiscard]] double volume_rate(const Joint& joint, const Section& section, double height);
 
 /// Angle of the groove line to the branch axis.

@@ -35,8 +35,8 @@ std::optional<ErrorCode> fault(const Joint& joint, const Section& section) {
 
 bool in_bore(const Joint& joint, const Section& section, double s) {
   const double t = s * section.dir.sin + joint.eccentricity;
-  const double height = (section.toe.y1 - joint.root_height) * joint.sin_a -
-                        s * section.dir.cos * joint.cos_a;
+  const double height =
+      (section.toe.y1 - joint.root_height) * joint.sin_a - s * section.dir.cos * joint.cos_a;
   return elementary::hypot(t, height) < joint.bore_radius;
 }
 
@@ -142,7 +142,10 @@ Result<Survey> survey(const Joint& joint, double fixed_height, std::stop_token s
     const Angle omega = Angle::rad(kTwoPi * i / kSurveySections);
     const auto found = section(joint, omega);
     if (!found)
-      return fail({.code = found.error(), .member = "branch/wall", .got = omega.deg(), .unit = "deg",
+      return fail({.code = found.error(),
+                   .member = "branch/wall",
+                   .got = omega.deg(),
+                   .unit = "deg",
                    .hint = "first at this omega"});
     surveyor.add(*found);
   }

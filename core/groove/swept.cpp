@@ -9,9 +9,10 @@
 namespace tubecut::groove {
 namespace {
 
-// Steps of a golden section over two blocks. The flank's minimum is a parabola, the finite cutter's may be a corner.
-constexpr int kSmoothSteps = 22;  // leaves 5e-5 of a block
-constexpr int kCornerSteps = 38;  // leaves 2e-8 of a block
+// Steps of a golden section over two blocks. The flank's minimum is a parabola, the finite cutter's
+// may be a corner.
+constexpr int kSmoothSteps = 22;         // leaves 5e-5 of a block
+constexpr int kCornerSteps = 38;         // leaves 2e-8 of a block
 constexpr double kNear = 0.25 * kTwoPi;  // tools further round than this do not reach a ruling
 
 /// A point of the workpiece on its ruling.
@@ -48,13 +49,15 @@ class Motion {
     for (const Block& block : blocks) stations_.push_back(station_of(block, setup));
   }
 
-  /// Blocks within a quarter turn of omega: first index and count; the index runs past the end round the turn.
+  /// Blocks within a quarter turn of omega: first index and count; the index runs past the end
+  /// round the turn.
   void look_at(double omega) {
     const auto n = blocks_.size();
     const auto first_at = [&](double from) {
       const double turns = std::floor(from / kTwoPi);
-      const auto found = std::lower_bound(blocks_.begin(), blocks_.end(), from - turns * kTwoPi,
-                                          [](const Block& b, double value) { return b.omega < value; });
+      const auto found =
+          std::lower_bound(blocks_.begin(), blocks_.end(), from - turns * kTwoPi,
+                           [](const Block& b, double value) { return b.omega < value; });
       return std::ptrdiff_t(found - blocks_.begin()) + std::ptrdiff_t(turns) * std::ptrdiff_t(n);
     };
     first_ = first_at(omega - kNear);
@@ -74,9 +77,11 @@ class Motion {
   }
 
  private:
-  /// Golden section over the two segments beside the best block: there the distance falls and rises once.
+  /// Golden section over the two segments beside the best block: there the distance falls and rises
+  /// once.
   template <class Distance>
-  [[nodiscard]] Least refined(const WorkPoint& point, Distance distance, Least best, int steps) const {
+  [[nodiscard]] Least refined(const WorkPoint& point, Distance distance, Least best,
+                              int steps) const {
     constexpr double kGolden = 0.6180339887498949;
     const auto at = [&](double t) {
       const Station there = station_of(block_at(blocks_, t), setup_);
@@ -122,20 +127,26 @@ Block block_at(std::span<const Block> blocks, double station) {
   const Block& a = blocks[i];
   Block b = blocks[(i + 1) % blocks.size()];
   if (i + 1 == blocks.size()) b.omega += kTwoPi;
-  return {a.omega + share * (b.omega - a.omega), a.x + share * (b.x - a.x), a.z + share * (b.z - a.z), a.b + share * (b.b - a.b)};
+  return {a.omega + share * (b.omega - a.omega), a.x + share * (b.x - a.x),
+          a.z + share * (b.z - a.z), a.b + share * (b.b - a.b)};
 }
 
 ToolPose pose_of(const Block& block, const Setup& setup) {
   return tool_pose({.c = {}, .x = block.x, .z = block.z, .b = Angle::rad(block.b)}, setup);
 }
 
-tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const Setup& setup, std::span<const Block> blocks, Between between,
+tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const Setup& setup,
+                                     std::span<const Block> blocks, Between between,
                                      const SweptPoints& points, std::stop_token stop) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Motion motion{setup, blocks, between};
   Swept out{{.value = kFar}, {.value = -kFar}, {.value = -kFar}, {.value = kFar}};
-  const auto flank = [&cone](const ToolPose& pose, const Eigen::Vector3d& p) { return cone.flank(pose, p); };
-  const auto solid = [&cone](const ToolPose& pose, const Eigen::Vector3d& p) { return cone.solid(pose, p); };
+  const auto flank = [&cone](const ToolPose& pose, const Eigen::Vector3d& p) {
+    return cone.flank(pose, p);
+  };
+  const auto solid = [&cone](const ToolPose& pose, const Eigen::Vector3d& p) {
+    return cone.solid(pose, p);
+  };
   for (int j = 0; j < points.rulings; ++j) {
     if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
     const Angle omega = Angle::rad(kTwoPi * j / points.rulings);
@@ -148,7 +159,8 @@ tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const
     };
     for (int i = 0; i < points.per_ruling; ++i) {
       const double v = double(i) / (points.per_ruling - 1);
-      const double s = joint.root_radius + v * joint.groove_width, z = found->toe.y1 + v * found->height;
+      const double s = joint.root_radius + v * joint.groove_width,
+                   z = found->toe.y1 + v * found->height;
       const Extreme on_flank = seen(s, z, v, flank, kSmoothSteps);
       lower(out.flank_min, on_flank);
       raise(out.flank_max, on_flank);
@@ -156,7 +168,8 @@ tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const
     }
     for (int i = 0; i < points.root_levels; ++i) {
       const double level = double(i) / (points.root_levels - 1);
-      lower(out.root_face_min, seen(joint.root_radius, found->toe.y1 - level * joint.root_height, level, solid, kCornerSteps));
+      lower(out.root_face_min, seen(joint.root_radius, found->toe.y1 - level * joint.root_height,
+                                    level, solid, kCornerSteps));
     }
   }
   return out;

@@ -10,12 +10,12 @@
 
 namespace tubecut::groove {
 
-/// One emitted position: linear axes against omega, B without jumps of a turn. Ascending omega within one turn; the last
-/// block runs on into the first.
+/// One emitted position: linear axes against omega, B without jumps of a turn. Ascending omega
+/// within one turn; the last block runs on into the first.
 struct Block {
-  double omega = 0.0;         // rad
-  double x = 0.0, z = 0.0;    // mm
-  double b = 0.0;             // rad
+  double omega = 0.0;       // rad
+  double x = 0.0, z = 0.0;  // mm
+  double b = 0.0;           // rad
 };
 
 /// What the tool does between two blocks.
@@ -53,11 +53,14 @@ struct SweptPoints {
 /// Swept error of the flank, stock left and root-face clearance.
 ///
 /// Errors    of `section`; cancelled.
-/// Accuracy  at each point looked at, the least distance over the motion within 1e-7 mm; between the points nothing is said
-///           (a ruling per degree misses less than 4 % of a case's figure).
-/// Cost      about 0.1 us per point and block within a quarter turn, 3 us per point for the motion between: 30-60 ms.
+/// Accuracy  at each point looked at, the least distance over the motion within 1e-7 mm; between
+/// the
+///           points nothing is said (a ruling per degree misses less than 4 % of a case's figure).
+/// Cost      3 to 5 us per point: 40-90 ms.
 /// Source    docs/theory/grooves-and-milling.md, 7 and 8.4.
-[[nodiscard]] tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const Setup& setup, std::span<const Block> blocks, Between between,
+[[nodiscard]] tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone,
+                                                   const Setup& setup,
+                                                   std::span<const Block> blocks, Between between,
                                                    const SweptPoints& points, std::stop_token stop);
 
 }  // namespace tubecut::groove

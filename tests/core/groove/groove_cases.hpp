@@ -55,7 +55,9 @@ class RandomJoints {
  public:
   explicit RandomJoints(unsigned seed) : random_(seed) {}
 
-  double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution(low, high)(random_);
+  }
 
   GrooveSpec next() {
     for (;;) {

@@ -23,33 +23,74 @@ struct Refusal {
 };
 
 const std::vector<Refusal>& refusals() {
-  static const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  static const double kNan = std::numeric_limits<double>::quiet_NaN(),
+                      kInf = std::numeric_limits<double>::infinity();
   static const std::vector<Refusal> all = {
       {"nan", ErrorCode::not_finite, "eccentricity", [](GrooveSpec& s) { s.eccentricity = kNan; }},
-      {"infinite", ErrorCode::not_finite, "chord/outer_diameter", [](GrooveSpec& s) { s.chord.outer_diameter = kInf; }},
-      {"nan_area", ErrorCode::not_finite, "filler/area", [](GrooveSpec& s) { s.filler = FillerArea{kNan}; }},
-      {"zero_diameter", ErrorCode::out_of_range, "branch/outer_diameter", [](GrooveSpec& s) { s.branch.outer_diameter = 0; }},
-      {"zero_width", ErrorCode::out_of_range, "root_face/width", [](GrooveSpec& s) { s.root_face.width = 0; }},
-      {"negative_height", ErrorCode::out_of_range, "root_face/height", [](GrooveSpec& s) { s.root_face.height = -1; }},
-      {"zero_groove_height", ErrorCode::out_of_range, "filler/height", [](GrooveSpec& s) { s.filler = FillerHeight{0.0, {}}; }},
+      {"infinite", ErrorCode::not_finite, "chord/outer_diameter",
+       [](GrooveSpec& s) { s.chord.outer_diameter = kInf; }},
+      {"nan_area", ErrorCode::not_finite, "filler/area",
+       [](GrooveSpec& s) { s.filler = FillerArea{kNan}; }},
+      {"zero_diameter", ErrorCode::out_of_range, "branch/outer_diameter",
+       [](GrooveSpec& s) { s.branch.outer_diameter = 0; }},
+      {"zero_width", ErrorCode::out_of_range, "root_face/width",
+       [](GrooveSpec& s) { s.root_face.width = 0; }},
+      {"negative_height", ErrorCode::out_of_range, "root_face/height",
+       [](GrooveSpec& s) { s.root_face.height = -1; }},
+      {"zero_groove_height", ErrorCode::out_of_range, "filler/height",
+       [](GrooveSpec& s) {
+         s.filler = FillerHeight{0.0, {}};
+       }},
       {"no_sections", ErrorCode::out_of_range, "sections", [](GrooveSpec& s) { s.sections = 0; }},
-      {"bevel", ErrorCode::out_of_range, "compare/bevel", [](GrooveSpec& s) { s.compare = FixedBevel{Angle::deg(90)}; }},
+      {"bevel", ErrorCode::out_of_range, "compare/bevel",
+       [](GrooveSpec& s) { s.compare = FixedBevel{Angle::deg(90)}; }},
       {"chord_wall", ErrorCode::wall, "chord/wall", [](GrooveSpec& s) { s.chord.wall = 150; }},
       {"branch_wall", ErrorCode::wall, "branch/wall", [](GrooveSpec& s) { s.branch.wall = 80; }},
-      {"root_width", ErrorCode::root_width, "root_face/width", [](GrooveSpec& s) { s.root_face.width = 12; }},
+      {"root_width", ErrorCode::root_width, "root_face/width",
+       [](GrooveSpec& s) { s.root_face.width = 12; }},
       {"area", ErrorCode::area, "filler/area", [](GrooveSpec& s) { s.filler = FillerArea{0.0}; }},
-      {"area_of_height", ErrorCode::area, "filler/height", [](GrooveSpec& s) { s = groove_case("C_oblique_offset"); s.filler = FillerHeight{1.0, Angle::deg(0)}; }},
-      {"angle_zero", ErrorCode::angle, "inclination", [](GrooveSpec& s) { s.inclination = Angle::deg(0); }},
-      {"angle_wide", ErrorCode::angle, "inclination", [](GrooveSpec& s) { s.inclination = Angle::deg(90.1); }},
-      {"no_pierce", ErrorCode::no_pierce, "eccentricity", [](GrooveSpec& s) { s.eccentricity = -80; }},
+      {"area_of_height", ErrorCode::area, "filler/height",
+       [](GrooveSpec& s) {
+         s = groove_case("C_oblique_offset");
+         s.filler = FillerHeight{1.0, Angle::deg(0)};
+       }},
+      {"angle_zero", ErrorCode::angle, "inclination",
+       [](GrooveSpec& s) { s.inclination = Angle::deg(0); }},
+      {"angle_wide", ErrorCode::angle, "inclination",
+       [](GrooveSpec& s) { s.inclination = Angle::deg(90.1); }},
+      {"no_pierce", ErrorCode::no_pierce, "eccentricity",
+       [](GrooveSpec& s) { s.eccentricity = -80; }},
       {"no_p2", ErrorCode::no_p2, "branch/wall", [](GrooveSpec& s) { s.eccentricity = 79; }},
-      {"no_p2_at_the_reference", ErrorCode::no_p2, "filler/at", [](GrooveSpec& s) { s.eccentricity = 79; s.filler = FillerHeight{10.0, Angle::deg(90)}; }},
-      {"p3_below_p1", ErrorCode::p3_below_p1, "filler", [](GrooveSpec& s) { s.filler = FillerArea{40}; }},
-      {"groove_in_chord", ErrorCode::groove_in_chord, "filler", [](GrooveSpec& s) { s = groove_case("C_oblique_offset"); s.filler = FillerArea{0.01}; }},
-      {"face_in_chord", ErrorCode::face_in_chord, "filler", [](GrooveSpec& s) {
-         s.chord = {200, 10}; s.branch = {168.8, 67.2}; s.root_face.width = 29.9; s.inclination = Angle::deg(58.4); s.eccentricity = 22.4; s.filler = FillerArea{964}; }},
-      {"p2_ambiguous", ErrorCode::p2_ambiguous, "branch/wall", [](GrooveSpec& s) {
-         s.chord = {200, 10}; s.branch = {198.8, 37.2}; s.root_face.width = 3.2; s.inclination = Angle::deg(32.3); s.eccentricity = -26.5; s.filler = FillerArea{2870}; }},
+      {"no_p2_at_the_reference", ErrorCode::no_p2, "filler/at",
+       [](GrooveSpec& s) {
+         s.eccentricity = 79;
+         s.filler = FillerHeight{10.0, Angle::deg(90)};
+       }},
+      {"p3_below_p1", ErrorCode::p3_below_p1, "filler",
+       [](GrooveSpec& s) { s.filler = FillerArea{40}; }},
+      {"groove_in_chord", ErrorCode::groove_in_chord, "filler",
+       [](GrooveSpec& s) {
+         s = groove_case("C_oblique_offset");
+         s.filler = FillerArea{0.01};
+       }},
+      {"face_in_chord", ErrorCode::face_in_chord, "filler",
+       [](GrooveSpec& s) {
+         s.chord = {200, 10};
+         s.branch = {168.8, 67.2};
+         s.root_face.width = 29.9;
+         s.inclination = Angle::deg(58.4);
+         s.eccentricity = 22.4;
+         s.filler = FillerArea{964};
+       }},
+      {"p2_ambiguous", ErrorCode::p2_ambiguous, "branch/wall",
+       [](GrooveSpec& s) {
+         s.chord = {200, 10};
+         s.branch = {198.8, 37.2};
+         s.root_face.width = 3.2;
+         s.inclination = Angle::deg(32.3);
+         s.eccentricity = -26.5;
+         s.filler = FillerArea{2870};
+       }},
   };
   return all;
 }
@@ -95,14 +136,16 @@ TEST(GrooveErrors, Cancelled) {
 bool warns(const GrooveSpec& spec, WarningCode code) {
   const auto found = groove(spec);
   EXPECT_TRUE(found) << (found ? "" : info(found.error().code()).code);
-  return found && std::any_of(found->warnings.begin(), found->warnings.end(), [code](const Warning& w) { return w.code == code; });
+  return found && std::any_of(found->warnings.begin(), found->warnings.end(),
+                              [code](const Warning& w) { return w.code == code; });
 }
 
 TEST(GrooveWarnings, EachIsGiven) {
   GrooveSpec bore = good();
   bore.chord.wall = 3;
   EXPECT_TRUE(warns(bore, WarningCode::root_in_bore));
-  GrooveSpec overhang = groove_case("C_oblique_offset");  // a steep heel takes most of the weld's width upwards
+  GrooveSpec overhang =
+      groove_case("C_oblique_offset");  // a steep heel takes most of the weld's width upwards
   overhang.inclination = Angle::deg(28);
   overhang.filler = FillerArea{2500};
   EXPECT_TRUE(warns(overhang, WarningCode::p2_inside_branch));
@@ -118,7 +161,8 @@ TEST(GrooveWarnings, EachIsGiven) {
 }
 
 TEST(GrooveFigures, VolumeIsThatOfASolidCutIntoPrisms) {
-  // Filler between fine sections: prisms on triangles P1 P2 P3 less the bow, their volume by the divergence theorem.
+  // Filler between fine sections: prisms on triangles P1 P2 P3 less the bow, their volume by the
+  // divergence theorem.
   const GrooveSpec spec = groove_case("B_near_equal");
   GrooveSpec fine = spec;
   fine.sections = 2880;
@@ -132,16 +176,20 @@ TEST(GrooveFigures, VolumeIsThatOfASolidCutIntoPrisms) {
     for (int k = 0; k < kStrips; ++k) {
       const double x = a.p1.x() + (a.p2.x() - a.p1.x()) * (k + 0.5) / kStrips, w = a.omega.rad();
       const double chord = std::sqrt(150.0 * 150.0 - x * x * std::sin(w) * std::sin(w));
-      const double top = x < 120.0 ? a.p1.y() + (x - a.p1.x()) * a.height / 12.0 : a.p3.y() + (x - 120.0) * (a.p2.y() - a.p3.y()) / (a.p2.x() - 120.0);
+      const double top = x < 120.0
+                             ? a.p1.y() + (x - a.p1.x()) * a.height / 12.0
+                             : a.p3.y() + (x - 120.0) * (a.p2.y() - a.p3.y()) / (a.p2.x() - 120.0);
       volume += x * (top - chord) * (a.p2.x() - a.p1.x()) / kStrips * kTwoPi / 2880;
     }
   }
-  EXPECT_NEAR(found->filler_volume / volume, 1.0, 2e-5);  // the strips' own error is 1 / (kStrips^2)
+  EXPECT_NEAR(found->filler_volume / volume, 1.0,
+              2e-5);  // the strips' own error is 1 / (kStrips^2)
   EXPECT_NEAR(found->weld_length / length, 1.0, 1e-5);
 }
 
 TEST(GrooveFigures, DenserSurveyChangesNothing) {
-  // Trapezoids of periodic functions: 720 stations against the sections of a groove with eight times as many.
+  // Trapezoids of periodic functions: 720 stations against the sections of a groove with eight
+  // times as many.
   RandomJoints joints{14};
   double worst = 0.0;
   for (int i = 0; i < 20; ++i) {
@@ -150,7 +198,8 @@ TEST(GrooveFigures, DenserSurveyChangesNothing) {
     const auto found = groove(spec);
     ASSERT_TRUE(found);
     double length = 0.0;
-    for (const auto& s : found->sections) length += kTwoPi / 5760 * std::hypot(s.p1.x(), s.root_z_d);
+    for (const auto& s : found->sections)
+      length += kTwoPi / 5760 * std::hypot(s.p1.x(), s.root_z_d);
     worst = std::max(worst, std::abs(found->weld_length / length - 1.0));
   }
   EXPECT_LE(worst, 1e-12);
@@ -175,7 +224,8 @@ TEST(GrooveFigures, ComparedWithAFixedBevel) {
   ASSERT_TRUE(found && found->compare);
   EXPECT_NEAR(found->compare->height, 10.0, 1e-14);
   ASSERT_EQ(found->compare->filler_area.size(), 24U);
-  EXPECT_NEAR(found->compare->filler_area[0], 0.5 * 10.0 * 20.0, 1e-11);  // flat at the heel: half of h c
+  EXPECT_NEAR(found->compare->filler_area[0], 0.5 * 10.0 * 20.0,
+              1e-11);  // flat at the heel: half of h c
   // At 90 deg, from the hand check: triangle P1 P2 P3 less the bow.
   const double dy = 122.17317775 - 132.66499, D = 17.02709141;
   EXPECT_NEAR(found->compare->filler_area[6], 0.5 * (10.0 * D - 10.0 * dy) - 4.45038, 1e-4);
@@ -196,13 +246,17 @@ const std::vector<Proof>& proofs() {
       {"filler_area", [](Groove& g, double by) { g.sections[5].areas.d += by; }},
       {"area_sum", [](Groove& g, double by) { g.sections[5].areas.e += by; }},
       {"curves", [](Groove& g, double by) { g.sections[6].curves.c1.x() += by; }},
-      {"twist", [](Groove& g, double by) { g.sections[2].ruling.twist = g.sections[2].ruling.twist + Angle::deg(by); }},
+      {"twist",
+       [](Groove& g, double by) {
+         g.sections[2].ruling.twist = g.sections[2].ruling.twist + Angle::deg(by);
+       }},
       {"heights", [](Groove& g, double by) { g.height_max *= 1.0 + by; }},
       {"least_area", [](Groove& g, double by) { g.least_area += by * g.area; }},
       {"filler_volume", [](Groove& g, double by) { g.filler_volume *= 1.0 + by; }},
       {"weld_length", [](Groove& g, double by) { g.weld_length *= 1.0 + by; }},
       {"compare_area", [](Groove& g, double by) { g.compare->filler_area[7] += by; }},
-      {"compare_volume", [](Groove& g, double by) { g.compare->filler_volume += by * g.filler_volume; }},
+      {"compare_volume",
+       [](Groove& g, double by) { g.compare->filler_volume += by * g.filler_volume; }},
   };
   return all;
 }
@@ -220,7 +274,8 @@ TEST_P(Proofs, PassAndSeeEveryCorruption) {
     const auto checks = verify(spec, *found);
     ASSERT_EQ(checks.size(), proofs().size());
     for (std::size_t i = 0; i < checks.size(); ++i) {
-      EXPECT_TRUE(checks[i].passed()) << checks[i].name << ' ' << checks[i].value << " > " << checks[i].limit;
+      EXPECT_TRUE(checks[i].passed())
+          << checks[i].name << ' ' << checks[i].value << " > " << checks[i].limit;
       ASSERT_EQ(checks[i].name, proofs()[i].check);
       Groove bad = *found;
       proofs()[i].corrupt(bad, 10.0 * checks[i].limit);
@@ -237,7 +292,9 @@ TEST(GrooveProof, PassesOnRandomJoints) {
     spec.sections = 16;
     const auto found = groove(spec);
     ASSERT_TRUE(found);
-    for (const Check& check : verify(spec, *found)) EXPECT_TRUE(check.passed()) << i << ' ' << check.name << ' ' << check.value << " > " << check.limit;
+    for (const Check& check : verify(spec, *found))
+      EXPECT_TRUE(check.passed()) << i << ' ' << check.name << ' ' << check.value << " > "
+                                  << check.limit;
   }
 }
 

@@ -32,7 +32,8 @@ struct Simplex {
       std::sort(s.begin(), s.end(), [](const Vertex& a, const Vertex& b) { return a.f < b.f; });
       const Point centre = {0.5 * (s[0].p[0] + s[1].p[0]), 0.5 * (s[0].p[1] + s[1].p[1])};
       const auto along = [&](double k) {
-        const Point p = {centre[0] + k * (centre[0] - s[2].p[0]), centre[1] + k * (centre[1] - s[2].p[1])};
+        const Point p = {centre[0] + k * (centre[0] - s[2].p[0]),
+                         centre[1] + k * (centre[1] - s[2].p[1])};
         return Vertex{p, at(p)};
       };
       const Vertex reflected = along(1.0);
@@ -41,7 +42,8 @@ struct Simplex {
         s[2] = further.f < reflected.f ? further : reflected;
       } else if (reflected.f < s[1].f) {
         s[2] = reflected;
-      } else if (const Vertex drawn = along(reflected.f < s[2].f ? 0.5 : -0.5); drawn.f < std::min(reflected.f, s[2].f)) {
+      } else if (const Vertex drawn = along(reflected.f < s[2].f ? 0.5 : -0.5);
+                 drawn.f < std::min(reflected.f, s[2].f)) {
         s[2] = drawn;
       } else {
         for (std::size_t k = 1; k < 3; ++k) {
@@ -50,7 +52,9 @@ struct Simplex {
         }
       }
     }
-    return std::min_element(s.begin(), s.end(), [](const Vertex& a, const Vertex& b) { return a.f < b.f; })->p;
+    return std::min_element(s.begin(), s.end(),
+                            [](const Vertex& a, const Vertex& b) { return a.f < b.f; })
+        ->p;
   }
 };
 

@@ -18,7 +18,8 @@ inline MillPathSpec path_case(const std::string& name) { return path_case(name, 
 
 inline std::vector<Block> emitted_blocks(const MillPath& path) {
   std::vector<Block> out;
-  for (const MillPosition& p : path.positions) out.push_back({p.omega.rad(), p.at.x, p.at.z, p.at.b.rad()});
+  for (const MillPosition& p : path.positions)
+    out.push_back({p.omega.rad(), p.at.x, p.at.z, p.at.b.rad()});
   return out;
 }
 

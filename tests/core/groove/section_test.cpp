@@ -52,7 +52,8 @@ TEST_P(GoldenGroove, EverySection) {
     expect_geometry(got.areas.e, number(want[i], "areas/E"), where + " E");
     const api::Json& shape = at(want[i], "nondevelopability");
     expect_geometry(got.ruling.determinant, number(shape, "det"), where + " det");
-    expect_geometry(got.ruling.distribution_parameter, number(shape, "distribution_parameter"), where + " p");
+    expect_geometry(got.ruling.distribution_parameter, number(shape, "distribution_parameter"),
+                    where + " p");
     expect_geometry(got.ruling.twist.deg(), number(shape, "twist_deg"), where + " twist");
     expect_geometry(got.ruling.curvature, number(shape, "K_mid"), where + " K");
   }
@@ -68,7 +69,8 @@ TEST_P(GoldenGroove, Extremes) {
   EXPECT_TRUE(found->warnings.empty());
 }
 
-/// The chord's upper side at x of a section, from the joint's distances alone: bisection on the distance to the chord's axis.
+/// The chord's upper side at x of a section, from the joint's distances alone: bisection on the
+/// distance to the chord's axis.
 double chord_height(const GrooveSpec& spec, double omega, double x) {
   const double a = spec.inclination.rad();
   const Eigen::Vector3d along(0.0, std::sin(a), std::cos(a)), axis(spec.eccentricity, 0.0, 0.0);
@@ -77,14 +79,15 @@ double chord_height(const GrooveSpec& spec, double omega, double x) {
   const auto outside = [&](double z) {
     return (foot + Eigen::Vector3d(0.0, 0.0, z) - axis).cross(along).norm() > R;
   };
-  double low = along.dot(foot - axis) != 0.0 ? foot.y() * std::cos(a) / std::sin(a) : 0.0;  // nearest the axis
+  double low = along.dot(foot - axis) != 0.0 ? foot.y() * std::cos(a) / std::sin(a)
+                                             : 0.0;  // nearest the axis
   double high = low + 2.0 * R / std::sin(a);
   for (int i = 0; i < 60; ++i) (outside(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
   return 0.5 * (low + high);
 }
 
-/// Filler region as a plane integral over x: groove line and weld face above, chord below; tanh-sinh for the chord's
-/// possible vertical end.
+/// Filler region as a plane integral over x: groove line and weld face above, chord below;
+/// tanh-sinh for the chord's possible vertical end.
 double filler_by_quadrature(const GrooveSpec& spec, const GrooveSection& s) {
   const double omega = s.omega.rad(), x1 = s.p1.x(), x2 = s.p2.x();
   double chord = 0.0;
@@ -95,7 +98,8 @@ double filler_by_quadrature(const GrooveSpec& spec, const GrooveSection& s) {
     const double x = 0.5 * (x1 + x2) + 0.5 * (x2 - x1) * std::tanh(reach);
     chord += 0.5 * (x2 - x1) * weight * kStep * (chord_height(spec, omega, x) - s.p1.y());
   }
-  // Below P1 P3 and P3 P2, heights from P1; signed, so an overhanging face (x2 < x3) subtracts itself.
+  // Below P1 P3 and P3 P2, heights from P1; signed, so an overhanging face (x2 < x3) subtracts
+  // itself.
   const double to_edge = 0.5 * (s.p3.x() - x1) * (s.p3.y() - s.p1.y());
   const double to_toe = 0.5 * (x2 - s.p3.x()) * (s.p3.y() + s.p2.y() - 2.0 * s.p1.y());
   return to_edge + to_toe - chord;
@@ -159,8 +163,9 @@ TEST(GrooveSections, MirroredOffsetMirrorsTheGroove) {
 TEST(GrooveSections, ScaledByAPowerOfTwoIsTheSameGroove) {
   GrooveSpec spec = groove_case("C_oblique_offset");
   const auto small = groove(spec);
-  for (double* length : {&spec.chord.outer_diameter, &spec.chord.wall, &spec.branch.outer_diameter, &spec.branch.wall,
-                         &spec.root_face.height, &spec.root_face.width, &spec.eccentricity})
+  for (double* length :
+       {&spec.chord.outer_diameter, &spec.chord.wall, &spec.branch.outer_diameter,
+        &spec.branch.wall, &spec.root_face.height, &spec.root_face.width, &spec.eccentricity})
     *length *= 4.0;
   spec.filler = FillerArea{16.0 * 200.0};
   const auto big = groove(spec);

@@ -25,7 +25,8 @@ struct Increments {
     for (int i = 0; i < count; ++i) {
       const Angle omega = Angle::rad(kTwoPi * i / count);
       const auto near = neighbourhood(joint, omega, GapCheck{});
-      const Task task{*near, cone, setup, initial_pose(joint, *section(joint, omega), mill_case(name), setup), hold};
+      const Task task{*near, cone, setup,
+                      initial_pose(joint, *section(joint, omega), mill_case(name), setup), hold};
       const auto best = chebyshev(task, Bias::centred, *gap(*near, cone, task.start));
       EXPECT_TRUE(best);
       out.dz.push_back(best->by.dz);
@@ -52,7 +53,8 @@ std::vector<Block> blocks(const std::string& name, int count, Hold hold, Increme
   for (int i = 0; i < count; ++i) {
     const Angle omega = Angle::rad(kTwoPi * i / count);
     const ToolPose start = initial_pose(joint, *section(joint, omega), mill_case(name), setup);
-    const AxisPosition at = axis_position(moved(start, setup, hold, increment(double(i) / count)), setup, omega);
+    const AxisPosition at =
+        axis_position(moved(start, setup, hold, increment(double(i) / count)), setup, omega);
     out.push_back({omega.rad(), at.x, at.z, at.b.rad()});
   }
   return out;
@@ -61,13 +63,16 @@ std::vector<Block> blocks(const std::string& name, int count, Hold hold, Increme
 class GoldenSwept : public ::testing::TestWithParam<const char*> {
  protected:
   const std::string name = GetParam();
-  [[nodiscard]] Swept of(std::span<const Block> motion, Between between = Between::nothing, SweptPoints points = {}) const {
-    return *swept(joint_case(name), Cone{mill_case(name)}, setup_case(name), motion, between, points, {});
+  [[nodiscard]] Swept of(std::span<const Block> motion, Between between = Between::nothing,
+                         SweptPoints points = {}) const {
+    return *swept(joint_case(name), Cone{mill_case(name)}, setup_case(name), motion, between,
+                  points, {});
   }
 };
 INSTANTIATE_TEST_SUITE_P(Cases, GoldenSwept, ::testing::ValuesIn(kCases));
 
-/// The golden summary was sampled with rulings every 2 deg; the root face with the 180 optima alone and 5 levels.
+/// The golden summary was sampled with rulings every 2 deg; the root face with the 180 optima alone
+/// and 5 levels.
 constexpr SweptPoints kGoldenFlank{.rulings = 180, .per_ruling = 11, .root_levels = 5};
 
 void expect_summary(const Extreme& min, const Extreme& max, const api::Json& want) {
@@ -85,14 +90,17 @@ TEST_P(GoldenSwept, SummaryOf1440PositionsFrom180Optima) {
   const auto optima = Increments::optima(name, 180, hold_case(name));
   const PeriodicSpline dz{optima.dz}, db{optima.db};
   const auto spline = [&](double turn) { return Increment{dz(180 * turn), db(180 * turn)}; };
-  const auto after = of(blocks(name, 1440, hold_case(name), spline), Between::nothing, kGoldenFlank);
+  const auto after =
+      of(blocks(name, 1440, hold_case(name), spline), Between::nothing, kGoldenFlank);
   expect_summary(after.flank_min, after.flank_max, at(want, "swept_after_flank"));
   EXPECT_NEAR(after.stock_left_max.value, numbers(want, "swept_after_solid").at(1), 1e-8);
-  const auto coarse = of(blocks(name, 180, hold_case(name), spline), Between::nothing, kGoldenFlank);
+  const auto coarse =
+      of(blocks(name, 180, hold_case(name), spline), Between::nothing, kGoldenFlank);
   EXPECT_NEAR(coarse.root_face_min.value, number(want, "root_face_clearance_after"), 1e-8);
   // The root face of all 1440 positions: what 180 of them saw, or deeper.
   EXPECT_LE(after.root_face_min.value, coarse.root_face_min.value);
-  std::printf("%s root face: 180 positions %.6f, 1440 positions %.6f mm\n", name.c_str(), coarse.root_face_min.value, after.root_face_min.value);
+  std::printf("%s root face: 180 positions %.6f, 1440 positions %.6f mm\n", name.c_str(),
+              coarse.root_face_min.value, after.root_face_min.value);
   // evaluations per position, the first counted
   const auto evaluations = numbers(want, "evals_per_position");
   EXPECT_LE(optima.most, evaluations.at(2));
