@@ -245,13 +245,13 @@ tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& ra
   const double start = here;
   Increment at, best;
   double least = here;
-  // Moves as large as the error they are to remove: in Z directly, in B at the generatrix's far
+  // Moves some times the error they are to remove: in Z directly, in B at the generatrix's far
   // end.
   const double reach = task.hold == Hold::tip ? task.cone.generatrix
                                               : task.cone.generatrix + task.setup.pivot_length;
   for (int level = 0; level < kLevels; ++level, temperature *= kCooling) {
     if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
-    const double size = 2.0 * std::max(temperature, 0.02 * start);
+    const double size = 8.0 * std::max(temperature, 0.01 * start);
     for (int move = 0; move < kMoves; ++move) {
       const double dz = size * (2.0 * uniform() - 1.0), db = size / reach * (2.0 * uniform() - 1.0);
       const Increment next{at.dz + dz, at.db + db};
