@@ -7,7 +7,11 @@ std::span<const Endpoint> endpoints() {
   static const std::vector<Endpoint> kTable{
       intersections(),
       bevel_tables(),
+      pulse_schedules(),
+      replays(),
       feed_curves(),
+      grooves(),
+      mill_paths(),
   };
   return kTable;
 }

@@ -7,6 +7,10 @@ namespace tubecut::api {
 // One line per endpoint; the table in endpoint_table.cpp lists them in the order of the contract.
 [[nodiscard]] Endpoint intersections();
 [[nodiscard]] Endpoint bevel_tables();
+[[nodiscard]] Endpoint pulse_schedules();
+[[nodiscard]] Endpoint replays();
 [[nodiscard]] Endpoint feed_curves();
+[[nodiscard]] Endpoint grooves();
+[[nodiscard]] Endpoint mill_paths();
 
 }  // namespace tubecut::api
