@@ -216,6 +216,7 @@ class Reader {
   std::vector<std::string> known_;
   Json::Object echo_;
   bool silent_ = false;
+  bool binary_ = false;
 };
 
 /// "mm" for "offset_mm", "" for a pure number.
