@@ -219,6 +219,7 @@ class Reader {
   std::vector<std::string> known_;
   Json::Object echo_;
   bool ignore_rest_ = false;
+  bool binary_ = false;
   bool silent_ = false;
 };
 
