@@ -26,7 +26,11 @@ GrooveRule decode_groove(Reader& in) {
                                      Option<RuleName>{"none", RuleName::none},
                                      Option<RuleName>{"square", RuleName::square}};
   if (in.find("rule") != nullptr && *in.find("rule") == Json{"zones"}) {
-    in.issue({.code = ErrorCode::unsupported_combination, .pointer = "rule"}, in.find("rule"));
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "rule",
+              .limit = Json{"half_dihedral|fixed|none|square"},
+              .hint = "zones is not offered yet"},
+             in.find("rule"));
     in.silence();
     return bevel::NoGroove{};
   }
@@ -122,13 +126,23 @@ bevel::TorchRange decode_torch(Reader& in) {
   return out;
 }
 
-/// The combinations that are offered (design: one root, what must touch, which angle between the tubes).
-bool supported(const bevel::TableSpec& s) {
-  if (s.contact == Contact::inner)
-    return s.root_surface == RootSurface::inner && s.dihedral == Dihedral::weld_side;
-  if (s.contact == Contact::none)
-    return s.root_surface == RootSurface::outer || s.dihedral == Dihedral::weld_side;
-  return false;
+/// Refuses what is not offered: root inner goes with the weld's side, root outer with no contact.
+void check_combination(const bevel::TableSpec& s, Reader& in) {
+  const bool outer = s.root_surface == RootSurface::outer;
+  if (!outer && s.dihedral != Dihedral::weld_side)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "dihedral",
+              .limit = Json{"weld_side"},
+              .hint = "inside and as_published go with root_surface outer"},
+             in.find("dihedral"));
+  if (s.contact == Contact::none || (!outer && s.contact == Contact::inner)) return;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "contact",
+            .got = Json{s.contact == Contact::inner ? "inner" : ""},
+            .limit = Json{outer ? "none" : "inner|none"},
+            .hint = outer ? "root_surface outer goes with contact none"
+                          : "root_surface inner goes with contact inner or none"},
+           in.find("contact"));
 }
 
 struct BevelTables {
@@ -163,16 +177,13 @@ struct BevelTables {
     out.target = decode_target(in);
     out.partners = decode_cutters(in);
     out.sampling = decode_sampling(in);
-    const bool root_known = in.is<std::string>("root_surface");
     out.root_surface = in.choice("root_surface", kRoots);
     out.groove = in.object("groove", decode_groove);
     out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
     out.contact = in.choice("contact", kContacts, Contact::inner);
-    if (root_known && !supported(out))
-      in.issue({.code = ErrorCode::unsupported_combination,
-                .pointer = "contact",
-                .hint = "root inner goes with contact inner or none; root outer with contact none"},
-               in.find("contact"));
+    const bool known =
+        in.understood("root_surface") && in.understood("dihedral") && in.understood("contact");
+    if (known) check_combination(out, in);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
     out.torch = in.defaulted_object("torch", decode_torch);
     const auto smoothing = in.object("smoothing", decode_smoothing);
