@@ -18,7 +18,7 @@ struct Common {
   std::vector<std::pair<std::string, std::string>> reference;
   Json reference_echo;
   bool inline_log = false;
-  std::optional<std::int64_t> numerics;
+  std::optional<int> numerics;
   std::vector<Measure> accept;
 };
 
@@ -151,7 +151,7 @@ Common read_common(Reader& in, const Endpoint& endpoint) {
   in.note("log");
   in.take_echo("log");
   in.note("numerics");
-  if (in.has("numerics")) out.numerics = in.integer64("numerics");
+  if (in.has("numerics")) out.numerics = in.integer("numerics", 1, 1'000'000);
   in.note("accept");
   if (!endpoint.accepts.empty() && in.has("accept"))
     in.object("accept", [&](Reader& r) {

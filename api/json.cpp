@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace tubecut::api {
 namespace {
@@ -73,10 +74,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool end_array() override { return close(); }
   bool key(string_t& v) override {
     auto& object = *stack_.back().as<Json::Object>();
-    auto& names = keys_.back();
-    const auto place = std::lower_bound(names.begin(), names.end(), v);
-    if (place != names.end() && *place == v) return refuse("duplicate key");
-    names.insert(place, v);
+    if (!keys_.back().insert(v).second) return refuse("duplicate key");
     object.emplace_back(std::move(v), Json{});
     return true;
   }
@@ -123,7 +121,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   const char* begin_;
   const char* const* progress_;
   std::vector<Json> stack_;
-  std::vector<std::vector<std::string>> keys_;  // of each open object, sorted
+  std::vector<std::set<std::string>> keys_;  // of each open object
   Json root_;
   ParseError error_;
 };
@@ -151,6 +149,7 @@ void append_text(std::string& out, std::string_view text) {
 
 void append_number(std::string& out, double value) {
   char buffer[32];
+  value += 0.0;  // -0 is printed as 0: CBOR's integers have no other
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
   out.append(buffer, end);
 }

@@ -110,9 +110,18 @@ Json Reader::take_echo(std::string_view name) {
   return out;
 }
 
+bool Reader::understood(std::string_view name) const {
+  return std::any_of(echo_.begin(), echo_.end(),
+                     [&](const Json::Member& member) { return member.first == name; });
+}
+
 void Reader::issue(FieldIssue issue, const Json* value) {
-  if (issues_->size() >= kIssuesNamed) return;
   issue.pointer = issue.pointer.empty() ? pointer_ : pointer_ + "/" + issue.pointer;
+  record(std::move(issue), value);
+}
+
+void Reader::record(FieldIssue issue, const Json* value) {
+  if (silent_ || issues_->size() >= kIssuesNamed) return;
   if (value != nullptr) issue.got = shown(*value);
   issues_->push_back(std::move(issue));
 }
@@ -124,14 +133,15 @@ void Reader::adopt(std::string_view name, Reader& child) {
 
 void Reader::finish() {
   const auto* object = body_->as<Json::Object>();
-  if (object == nullptr || ignore_rest_) return;
+  if (object == nullptr || ignore_rest_ || silent_) return;
   for (const auto& [name, value] : *object) {
+    if (issues_->size() >= kIssuesNamed) return;
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
     const auto near = nearest(name, known_);
-    issue({.code = ErrorCode::unknown_field,
-           .pointer = escaped(name),
-           .hint = near.empty() ? std::string{} : "did you mean " + near + "?"},
-          &value);
+    record({.code = ErrorCode::unknown_field,
+            .pointer = pointer_ + "/" + escaped(name),  // the empty name too is a name
+            .hint = near.empty() ? std::string{} : "did you mean " + near + "?"},
+           &value);
   }
 }
 
@@ -384,29 +394,23 @@ std::optional<std::size_t> Reader::choose(std::string_view name,
 std::optional<std::size_t> Reader::exactly_one(std::initializer_list<std::string_view> names) {
   std::optional<std::size_t> found;
   std::string list;
-  std::size_t i = 0;
-  bool twice = false;
+  std::size_t index = 0, given = 0;
   for (const auto name : names) {
     note(name);
     list += (list.empty() ? "" : " or ") + std::string(name);
-    if (has(name)) {
-      if (found) {
-        twice = true;
-        issue({.code = ErrorCode::exclusive_fields,
-               .pointer = std::string(name),
-               .hint = "give exactly one of " + list},
-              find(name));
-      } else {
-        found = i;
-      }
-    }
-    ++i;
+    given += has(name) ? 1 : 0;
+    if (has(name)) found = index;
+    ++index;
   }
-  if (!found && body_->as<Json::Object>() != nullptr)
-    issue({.code = ErrorCode::missing_field,
-           .pointer = std::string(*names.begin()),
-           .hint = "give exactly one of " + list});
-  return twice ? std::nullopt : found;
+  if (given == 1) return found;
+  if (body_->as<Json::Object>() == nullptr) return std::nullopt;
+  for (const auto name : names)
+    if (given == 0 || has(name))
+      issue({.code = given == 0 ? ErrorCode::missing_field : ErrorCode::exclusive_fields,
+             .pointer = std::string(name),
+             .hint = "give exactly one of " + list},
+            find(name));
+  return std::nullopt;
 }
 
 }  // namespace tubecut::api

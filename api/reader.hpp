@@ -65,6 +65,9 @@ class Reader {
     return field != nullptr && field->as<T>() != nullptr;
   }
 
+  /// Has the field been read, or its default taken, without an issue of its own?
+  [[nodiscard]] bool understood(std::string_view name) const;
+
   double number(std::string_view name, Range range = {}, std::optional<double> fallback = {});
   std::optional<double> optional_number(std::string_view name, Range range = {});
   int integer(std::string_view name, int min, int max, std::optional<int> fallback = {});
@@ -96,7 +99,15 @@ class Reader {
     return index ? options[*index].value : options[0].value;
   }
 
-  /// Which one of these members is there; an issue (and nothing) when it is not exactly one.
+  /// The choice that tells what the other members are. Without a valid one nothing more of this object is an issue.
+  template <class E, std::size_t N>
+  std::optional<E> tag(std::string_view name, const std::array<Option<E>, N>& options) {
+    const auto value = choice(name, options);
+    silent_ = !understood(name);
+    return silent_ ? std::nullopt : std::optional<E>(value);
+  }
+
+  /// Which one of these members is there; when it is not exactly one, nothing, and an issue at each of them.
   std::optional<std::size_t> exactly_one(std::initializer_list<std::string_view> names);
 
   /// A nested object, read by `decode(Reader&)`; required.
@@ -158,8 +169,10 @@ class Reader {
   void note(std::string_view name);
   /// Records an issue; `issue.pointer` is relative to this object, `got` is taken from `value` when given.
   void issue(FieldIssue issue, const Json* value = nullptr);
-  /// Fields not asked for are not reported: the discriminator was wrong.
+  /// Fields not asked for are not reported: a choice was wrong, they may belong to another.
   void ignore_rest() { ignore_rest_ = true; }
+  /// Nothing more of this object is reported.
+  void silence() { silent_ = true; }
 
   /// Reports the fields never asked for and gives up the issues; call once, at the root.
   [[nodiscard]] std::vector<FieldIssue> finish_root();
@@ -176,6 +189,7 @@ class Reader {
     return {body, pointer_ + "/" + step, issues_};
   }
   void adopt(std::string_view name, Reader& child);
+  void record(FieldIssue issue, const Json* value);
   void finish();
   const Json* required(std::string_view name);
   const Json* required_container(std::string_view name, bool object);
@@ -192,6 +206,7 @@ class Reader {
   std::vector<std::string> known_;
   Json::Object echo_;
   bool ignore_rest_ = false;
+  bool silent_ = false;
 };
 
 /// "mm" for "offset_mm", "" for a pure number.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <future>
@@ -89,51 +90,68 @@ int fail(std::string_view why) {
   return 1;
 }
 
+/// Lets accepted work end, then cancels what is left; a job that does not even obey that ends the
+/// process.
+void stop_work(Transport& work, const std::future<bool>& served, std::stop_source& jobs,
+               const Config& c) {
+  std::this_thread::sleep_for(ms(c.drain_delay_s));
+  work.drain(ms(c.drain_s));
+  if (finished(served, ms(c.drain_s))) return;
+  jobs.request_stop();
+  if (!finished(served, 1s)) std::_Exit(fail("a job did not stop within its time"));
+}
+
+/// What both ports need, for the length of one run.
+struct Run {
+  explicit Run(const Config& c) : log(c.log_queue), app(options(c)) {}
+
+  AppOptions options(const Config& c) {
+    return {.replica = c.replica,
+            .max_target_bytes = c.max_target_bytes,
+            .max_body_bytes = c.max_body_bytes,
+            .stop = jobs.get_token(),
+            .started = [this] { metrics.started(); },
+            .finished = [this](const JobRecord& job) { record(job); }};
+  }
+  void record(const JobRecord& job) {
+    metrics.finished(job);
+    if (logged(job)) log.write(job_line(job, std::chrono::system_clock::now()));
+  }
+  AdminSources admin_sources() {
+    return {.ready = [this] { return ready.load(); }, .metrics = [this] { return metrics.text(); }};
+  }
+
+  JobLog log;
+  std::atomic<bool> ready = false;
+  std::stop_source jobs;
+  Metrics metrics{[this] { return log.dropped(); }, [this] { return ready.load(); }};
+  App app;
+};
+
 }  // namespace
 
 int serve(const Config& c) {
   const Signals signals;
-  JobLog log(c.log_queue);
-  std::atomic<bool> ready = false;
-  Metrics metrics([&log] { return log.dropped(); }, [&ready] { return ready.load(); });
-  std::stop_source stop;
-  const App app({.replica = c.replica,
-                 .max_target_bytes = c.max_target_bytes,
-                 .max_body_bytes = c.max_body_bytes,
-                 .stop = stop.get_token(),
-                 .started = [&metrics] { metrics.started(); },
-                 .finished =
-                     [&](const JobRecord& job) {
-                       metrics.finished(job);
-                       if (logged(job)) log.write(job_line(job, std::chrono::system_clock::now()));
-                     }});
-
-  auto work = Transport::open(service_port(c), service_of(app));
+  Run run(c);
+  auto work = Transport::open(service_port(c), service_of(run.app));
   if (!work) return fail(work.error());
-  auto probes = Transport::open(
-      admin_port(c), service_of(AdminSources{.ready = [&ready] { return ready.load(); },
-                                             .metrics = [&metrics] { return metrics.text(); }}));
+  auto probes = Transport::open(admin_port(c), service_of(run.admin_sources()));
   if (!probes) return fail(probes.error());
 
-  log.write(ready_line(work->port(), probes->port(), api::version()));
-  log.flush(kLogPatience);  // first, before any request can queue a line
+  run.log.write(ready_line(work->port(), probes->port(), api::version()));
+  run.log.flush(kLogPatience);  // first, before any request can queue a line
   auto probes_served = start(*probes);
   auto work_served = start(*work);
   await_serving(*probes, probes_served);
   await_serving(*work, work_served);
-  ready = true;
+  run.ready = true;
 
   signals.wait();
-  ready = false;
-  std::this_thread::sleep_for(ms(c.drain_delay_s));
-  work->drain(ms(c.drain_s));
-  if (!finished(work_served, ms(c.drain_s))) {
-    stop.request_stop();
-    if (!finished(work_served, 1s)) std::_Exit(fail("a job did not stop within its time"));
-  }
+  run.ready = false;
+  stop_work(*work, work_served, run.jobs, c);
   probes->drain(500ms);
   const bool sound = work_served.get() && probes_served.get();
-  log.flush(kLogPatience);
+  run.log.flush(kLogPatience);
   return sound ? 0 : fail("listening broke down");
 }
 

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "server/connection.hpp"
+#include "server/framing.hpp"
 #include "server/transport.hpp"
 
 namespace tubecut::server {
@@ -54,39 +55,6 @@ struct Exchange {
   bool close = false;
 };
 thread_local Exchange* t_exchange = nullptr;
-
-bool all_digits(std::string_view text) {
-  return !text.empty() && text.size() < 19 &&
-         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// What makes a head's framing ambiguous, as text; empty when nothing does.
-std::string_view framing_fault(const Headers& headers) {
-  const auto lengths = header_values(headers, "Content-Length");
-  const auto codings = header_values(headers, "Transfer-Encoding");
-  if (lengths.size() > 1) return "Content-Length is sent more than once.";
-  if (codings.size() > 1) return "Transfer-Encoding is sent more than once.";
-  if (!lengths.empty() && !codings.empty())
-    return "Content-Length and Transfer-Encoding are both sent.";
-  if (!lengths.empty() && !all_digits(lengths.front()))
-    return "Content-Length is not a whole number.";
-  if (!codings.empty() && !equal_ignoring_case(codings.front(), "chunked")) {
-    return "Transfer-Encoding is not chunked.";
-  }
-  if (header_values(headers, "Host").size() > 1) return "Host is sent more than once.";
-  return {};
-}
-
-bool announces_body(const Headers& headers) {
-  const auto length = header(headers, "Content-Length");
-  return !header(headers, "Transfer-Encoding").empty() ||
-         length.find_first_not_of('0') != std::string_view::npos;
-}
-
-std::uint64_t announced_length(const Headers& headers) {
-  const auto length = header(headers, "Content-Length");
-  return length.empty() ? 0 : std::stoull(std::string(length));
-}
 
 }  // namespace
 
@@ -178,7 +146,7 @@ struct Transport::Impl final : httplib::Server {
     x.request.peer = raw.remote_addr;
     x.request.headers.assign(raw.headers.begin(), raw.headers.end());
     raw.ranges.clear();
-    raw.path = "/";
+    raw.path.assign(1, '/');  // g++ 12 sees an overlap in the assignment of a literal
     for (const auto* name : {"Range", "Accept-Encoding", "Content-Encoding", "Content-Type"}) {
       raw.headers.erase(name);
     }

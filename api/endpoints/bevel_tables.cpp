@@ -26,12 +26,10 @@ GrooveRule decode_groove(Reader& in) {
                                      Option<RuleName>{"square", RuleName::square}};
   if (in.find("rule") != nullptr && *in.find("rule") == Json{"zones"}) {
     in.issue({.code = ErrorCode::unsupported_combination, .pointer = "rule"}, in.find("rule"));
-    in.note("rule");
-    in.ignore_rest();
+    in.silence();
     return bevel::NoGroove{};
   }
-  const auto rule = in.choice("rule", kRules);
-  if (!in.is<std::string>("rule")) return bevel::NoGroove{};
+  const auto rule = in.tag("rule", kRules);
   if (rule == RuleName::half_dihedral)
     return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
   if (rule == RuleName::fixed)
@@ -56,8 +54,11 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
   bevel::EnvelopeSmoothing out;
   bool by_machine = false;
   in.object("limits", [&](Reader& l) {
-    by_machine = l.exactly_one({"max_slope_deg_per_mm", "machine"}) == 1;
-    if (by_machine) {
+    const auto which = l.exactly_one({"max_slope_deg_per_mm", "machine"});
+    by_machine = which == 1;
+    if (!which) {
+      l.silence();
+    } else if (by_machine) {
       l.choice("machine", kMachines);
       const double speed = l.number("speed_mm_min", {.min = 1.0, .max = 60'000.0});
       const double use = l.number("use", {.min = 0.01, .max = 1.0}, 0.8);
@@ -98,10 +99,9 @@ Smoothing decode_smoothing(Reader& in) {
   static constexpr std::array kMethods{Option<int>{"envelope", 0}, Option<int>{"hermite", 1},
                                        Option<int>{"none", 2}};
   Smoothing out;
-  const int method = in.choice("method", kMethods);
+  const auto method = in.tag("method", kMethods);
   out.mutation_limit =
       in.angle("mutation_limit_deg", {.min = 0.0, .max = 180.0, .open_min = true}, Angle::deg(10));
-  if (!in.is<std::string>("method")) return out;
   if (method == 0) out.method = decode_envelope(in);
   if (method == 1) out.method = decode_hermite(in);
   return out;

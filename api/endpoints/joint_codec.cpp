@@ -38,7 +38,7 @@ enum class Kind { tube, plane };
 joint::Partner decode_cutter(Reader& in) {
   static constexpr std::array kKinds{Option<Kind>{"tube", Kind::tube},
                                      Option<Kind>{"plane", Kind::plane}};
-  const auto kind = in.choice("kind", kKinds);
+  const auto kind = in.tag("kind", kKinds);
   in.optional_text("id");
   return kind == Kind::plane ? decode_plane(in) : decode_tube(in);
 }
@@ -71,7 +71,7 @@ joint::Target decode_target(Reader& in) {
     // 0 < wall < radius, and within what the service cuts
     const Range wall{.min = kWall.min, .max = std::min(kWall.max, out.outer_radius),
                      .open_min = false, .open_max = out.outer_radius <= kWall.max};
-    out.wall = t.number("wall_mm", t.is<double>("outer_diameter_mm") ? wall : kWall);
+    out.wall = t.number("wall_mm", t.understood("outer_diameter_mm") ? wall : kWall);
     out.length = t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});
     return out;
   });
@@ -94,6 +94,13 @@ joint::Sampling decode_sampling(Reader& in) {
       out.uniform_points = static_cast<std::size_t>(
           s.integer("uniform_points", static_cast<int>(limit::uniform_points_min),
                     static_cast<int>(limit::uniform_points_max)));
+    if (s.has("metric") && s.has("uniform_points") && !s.has("tolerance_mm")) {
+      s.note("metric");
+      const char* hint = "metric goes with tolerance_mm";
+      s.issue({.code = ErrorCode::missing_field, .pointer = "tolerance_mm", .hint = hint});
+      s.issue({.code = ErrorCode::unknown_field, .pointer = "metric", .hint = hint},
+              s.find("metric"));
+    }
     if (s.has("tolerance_mm") || !s.has("uniform_points")) {
       joint::Tolerance tolerance;
       tolerance.value = s.number("tolerance_mm", kTolerance, 0.05);

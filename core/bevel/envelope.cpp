@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/base/angle.hpp"
@@ -9,16 +10,9 @@ namespace tubecut::bevel {
 namespace detail {
 namespace {
 
-double clamped(double x, double bound) { return std::clamp(x, -bound, bound); }
+constexpr std::size_t kLaps = 16;  // 4 are the most seen, on 10 000 hostile profiles
 
-/// Both curves of node j started at slope m lie below its neighbours at once, so they bind nothing
-/// but the node itself.
-bool hands_over(const Turn& turn, std::size_t j, double m) {
-  const auto& b = turn.b;
-  const auto before = turn.previous(j);
-  return brake({b[j], m}, turn.ahead[j], turn.limits).value <= b[turn.next(j)] &&
-         brake({b[j], -m}, turn.ahead[before], turn.limits).value <= b[before];
-}
+double clamped(double x, double bound) { return std::clamp(x, -bound, bound); }
 
 void choose_start(Turn& turn, std::size_t j) {
   const auto& b = turn.b;
@@ -32,9 +26,9 @@ void choose_start(Turn& turn, std::size_t j) {
   double m = 0.5 * (low + high);
   if (turn.corner[j]) m = std::abs(slope_in) <= std::abs(slope_out) ? low : high;
   m = clamped(m, turn.limits.slope);
-  // A node the axis can follow keeps its slope even close under `highest`: clipping it there would
-  // lift its neighbours.
-  turn.leave[j] = hands_over(turn, j, m) ? m : clamped(m, turn.start_bound(j));
+  turn.leave[j] = clamped(m, turn.start_bound(j));
+  turn.quiet[j] =
+      !turn.corner[j] && std::max(std::abs(slope_in), std::abs(slope_out)) <= turn.limits.slope;
 }
 
 }  // namespace
@@ -55,7 +49,10 @@ Turn make_turn(const AngleProfile& profile, const EnvelopeSpec& spec) {
       .ahead = std::vector<double>(n),
       .width = std::vector<double>(n),
       .leave = std::vector<double>(n),
-      .corner = std::vector<char>(n)};
+      .quiet = std::vector<char>(n),
+      .corner = std::vector<char>(n),
+      .under = std::vector<std::size_t>(n, Turn::kNone),
+      .covers = std::vector<char>(n)};
   for (std::size_t j = 0; j < n; ++j) turn.ahead[j] = turn.distance(j, turn.next(j));
   for (std::size_t j = 0; j < n; ++j) {
     turn.width[j] = 0.5 * (turn.ahead[turn.previous(j)] + turn.ahead[j]);
@@ -65,6 +62,7 @@ Turn make_turn(const AngleProfile& profile, const EnvelopeSpec& spec) {
 }
 
 Braking brake(Braking from, double h, const SwingLimits& limits) {
+  if (from.slope < -limits.slope) return kNoCurve;
   const double slope = from.slope - limits.curvature * h;
   if (slope >= -limits.slope)
     return {from.value + h * (from.slope - 0.5 * limits.curvature * h), slope};
@@ -82,23 +80,68 @@ double arriving(const Turn& turn, std::size_t j, Sense sense) {
 }
 
 Braking start(const Turn& turn, std::size_t j, Sense sense) {
+  if (turn.quiet[j]) return {turn.b[j], kNoCurve.slope};
   return {turn.b[j], sense == Sense::forward ? turn.leave[j] : -turn.leave[j]};
 }
 
-Sweep sweep(const Turn& turn, Sense sense) {
-  const std::size_t n = turn.size();
-  Sweep out{std::vector<double>(n), std::vector<char>(n)};
-  auto j = static_cast<std::size_t>(std::ranges::max_element(turn.b) - turn.b.begin());
-  Braking at = start(turn, j, sense);
-  // The first lap forgets that no curve came over the start; what the third leaves is the closed
-  // one.
-  for (std::size_t visit = 0; visit < 3 * n; ++visit) {
+double node_bound(const Turn& turn, std::size_t j, Sense sense) {
+  // B + m d - A d^2/2 <= highest at the distance d of every node; m's bound is convex in d, least
+  // at `apex`.
+  if (turn.start_bound(j) >= turn.steepest_start) return turn.steepest_start;
+  const double room = turn.highest - turn.b[j];
+  const double half_rate = 0.5 * turn.limits.curvature;
+  const double apex = std::sqrt(room / half_rate);
+  double bound = turn.steepest_start;
+  double away = 0.0;
+  for (auto i = j; away < apex || away == 0.0;) {
+    if (away > turn.period) break;
+    i = step(turn, i, sense);
+    const double before = away;
+    away += arriving(turn, i, sense);
+    if (before > 0.0 && away >= apex) bound = std::min(bound, room / before + half_rate * before);
+  }
+  return std::min(bound, room / away + half_rate * away);
+}
+
+namespace {
+
+/// Once round from j to j, the state there after it. What it passes goes to `out`, or raises it.
+Braking lap(const Turn& turn, std::size_t j, Sense sense, Braking at, bool raise, Sweep& out) {
+  for (std::size_t visit = 0; visit < turn.size(); ++visit) {
     j = step(turn, j, sense);
     at = brake(at, arriving(turn, j, sense), turn.limits);
-    out.restarted[j] = turn.b[j] >= at.value;
+    out.restarted[j] = turn.restarts(j, at.value);
     if (out.restarted[j]) at = start(turn, j, sense);
-    out.value[j] = at.value;
+    out.value[j] = raise ? std::max(out.value[j], at.value) : at.value;
+    out.slope[j] = at.slope;
   }
+  return at;
+}
+
+}  // namespace
+
+Sweep sweep(const Turn& turn, Sense sense) {
+  const std::size_t n = turn.size();
+  Sweep out{std::vector<double>(n), std::vector<double>(n), std::vector<char>(n)};
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(turn.b) - turn.b.begin());
+  std::vector<Braking> seen{start(turn, top, sense)};
+  while (seen.size() <= kLaps) {
+    const auto at = lap(turn, top, sense, seen.back(), false, out);
+    const auto again = std::ranges::find(seen, at);
+    const auto period = seen.end() - again;
+    if (again == seen.end()) {
+      seen.push_back(at);
+      continue;
+    }
+    out.closed = period == 1;
+    // Curves as long as the turn can take turns: the laps then repeat in twos or more. Each lap of
+    // the endless path is sound, so is their highest, and that closes.
+    auto state = at;
+    for (auto more = period; more > 1; --more) state = lap(turn, top, sense, state, true, out);
+    return out;
+  }
+  // Never seen. The constant is sound too.
+  out.value.assign(n, turn.b[top]);
   return out;
 }
 
@@ -148,7 +191,7 @@ Envelope make_envelope(const Turn& turn) {
                .contact_after = std::vector<std::size_t>(n),
                .contact_before = std::vector<std::size_t>(n)};
   for (std::size_t j = 0; j < n; ++j)
-    out.e[j] = std::max({turn.b[j], out.forward.value[j], out.backward.value[j]});
+    out.e[j] = std::max(out.forward.value[j], out.backward.value[j]);
   out.f = out.e;
   const auto hull = contacts(turn, out.e);
   for (std::size_t c = 0; c + 1 < hull.size(); ++c) {
@@ -159,7 +202,10 @@ Envelope make_envelope(const Turn& turn) {
     out.contact_before[k] = i;
     for (auto j = turn.next(i); j != k; j = turn.next(j)) out.f[j] = rolled(turn, out.e, i, j, k);
   }
-  for (std::size_t j = 0; j < n; ++j) out.area += (out.f[j] - turn.b[j]) * turn.width[j];
+  for (std::size_t j = 0; j < n; ++j) {
+    out.area += (out.f[j] - turn.b[j]) * turn.width[j];
+    if (out.e[j] < turn.b[j]) out.area = std::numeric_limits<double>::infinity();
+  }
   return out;
 }
 
@@ -194,20 +240,31 @@ Result<void> check_limits(const AngleProfile& profile, const EnvelopeSpec& spec)
 
 }  // namespace
 
+namespace {
+/// The last bits by which a parabola may overshoot the limit it is tangent to.
+std::vector<double> kept_below(std::vector<double> f, double highest) {
+  for (auto& value : f) value = std::min(value, highest);
+  return f;
+}
+}  // namespace
+
 Result<std::vector<double>> envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
                                      std::stop_token stop) {
   if (auto sound = check_profile(profile); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_limits(profile, spec); !sound) return tl::unexpected(sound.error());
   auto turn = detail::make_turn(profile, spec);
   auto plain = detail::make_envelope(turn);
-  if (!spec.refine) return std::move(plain.f);
-  const double plain_area = plain.area;
-  auto trial = plain;
-  if (!detail::refine(turn, trial, stop)) return fail({.code = ErrorCode::cancelled});
-  // The answer is one whole evaluation of the slopes found, so that its guarantees rest on nothing
-  // local.
-  auto refined = detail::make_envelope(turn);
-  return std::move(refined.area <= plain_area ? refined.f : plain.f);
+  if (!spec.refine) return kept_below(std::move(plain.f), spec.highest);
+  auto best = std::pair{plain.area, plain.f};
+  for (const auto start : {detail::Start::refined, detail::Start::plain}) {
+    auto found = turn;
+    if (!detail::refine(found, plain, start, stop)) return fail({.code = ErrorCode::cancelled});
+    // Each answer is one whole evaluation of what was found, so that its guarantees rest on nothing
+    // local.
+    auto whole = detail::make_envelope(found);
+    if (whole.area < best.first) best = {whole.area, std::move(whole.f)};
+  }
+  return kept_below(std::move(best.second), spec.highest);
 }
 
 }  // namespace tubecut::bevel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/bevel/smoothing.hpp"
@@ -21,7 +22,15 @@ struct Turn {
   std::vector<double> ahead;  // mm from each node to the next
   std::vector<double> width;  // (h left + h right)/2
   std::vector<double> leave;  // m, start slope of each node's braking curves, rad/mm
-  std::vector<char> corner;   // concave beyond A: no start slope suits both sides
+  // The profile keeps the limits here. Such a node needs no curve of its own: where e is its B, e
+  // at the neighbours is no lower than theirs, so e keeps the limits too.
+  std::vector<char> quiet;
+  std::vector<char> corner;  // concave beyond A: no start slope suits both sides
+  // The node whose curve stands in for this one, or kNone: such a node starts no curves of its own.
+  std::vector<std::size_t> under;
+  std::vector<char> covers;  // some node lies under this one
+
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
   [[nodiscard]] std::size_t size() const { return b.size(); }
   [[nodiscard]] std::size_t next(std::size_t j) const { return j + 1 == size() ? 0 : j + 1; }
@@ -30,7 +39,11 @@ struct Turn {
   [[nodiscard]] double distance(std::size_t i, std::size_t k) const {
     return k > i ? s[k] - s[i] : s[k] - s[i] + period;
   }
-  /// Largest start slope whose curve stays below `highest`.
+  /// A curve that arrives at j with that value ends there, and j's own begins.
+  [[nodiscard]] bool restarts(std::size_t j, double value) const {
+    return under[j] == kNone && b[j] >= value;
+  }
+  /// Largest start slope whose curve stays below `highest` everywhere.
   [[nodiscard]] double start_bound(std::size_t j) const;
 };
 [[nodiscard]] Turn make_turn(const AngleProfile& profile, const EnvelopeSpec& spec);
@@ -39,7 +52,11 @@ struct Turn {
 struct Braking {
   double value = 0.0;
   double slope = 0.0;
+  friend bool operator==(const Braking&, const Braking&) = default;
 };
+/// Nothing comes from a node that starts no curve.
+inline constexpr Braking kNoCurve{-std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
 /// Travels h: the slope falls at the rate A down to -K. Exact integration.
 [[nodiscard]] Braking brake(Braking from, double h, const SwingLimits& limits);
 
@@ -51,9 +68,15 @@ enum class Sense { forward, backward };
 /// The start of node j's own curve.
 [[nodiscard]] Braking start(const Turn& turn, std::size_t j, Sense sense);
 
+/// Largest start slope of node j in that sense whose curve stays below `highest` at the nodes,
+/// where alone f is defined: a little more than Turn::start_bound.
+[[nodiscard]] double node_bound(const Turn& turn, std::size_t j, Sense sense);
+
 struct Sweep {
   std::vector<double> value;
+  std::vector<double> slope;    // in the direction of travel
   std::vector<char> restarted;  // value is B's own, the curve starts anew here
+  bool closed = false;  // a second lap repeats the first; else value is the highest of several
 };
 [[nodiscard]] Sweep sweep(const Turn& turn, Sense sense);
 
@@ -74,12 +97,15 @@ struct Envelope {
   std::vector<char> contact;               // f touches e
   std::vector<std::size_t> contact_after;  // at contacts only: the neighbouring contacts
   std::vector<std::size_t> contact_before;
-  double area = 0.0;  // sum of (f - B) width
+  double area = 0.0;  // sum of (f - B) width; infinite when some e lies below B
 };
 [[nodiscard]] Envelope make_envelope(const Turn& turn);
 
-/// Searches the start slopes of bare concave corners for least area; changes turn.leave. False when
-/// stopped.
-[[nodiscard]] bool refine(Turn& turn, Envelope& envelope, const std::stop_token& stop);
+/// The search has more than one valley, so it is begun twice: from the start slopes of single
+/// corners searched first (as published), and from those of `make_turn`.
+enum class Start { refined, plain };
+/// Searches the start slopes of concave corners for least area, from a turn and its envelope;
+/// changes turn.leave and turn.under. False when stopped.
+[[nodiscard]] bool refine(Turn& turn, Envelope envelope, Start from, const std::stop_token& stop);
 
 }  // namespace tubecut::bevel::detail

@@ -62,16 +62,16 @@ struct EnvelopeSpec {
 /// The braking envelope with a rolling parabola: f >= B at every node, |slope| <= K, |second
 /// difference| <= A, f <= highest, area near the least possible. Always feasible.
 ///
-/// Accuracy  f >= B exactly; slope within 1e-9 K + 4 eps max|B| / h_min, second within 1e-6 A + 8
-/// eps max|B| / h_min^2,
-///           f <= highest + 1e-12 (10 000 hostile profiles). Area on 100 random real nodes against
-///           the linear programme's optimum: see tests/core/bevel/envelope_optimum_test.cpp. Where
-///           the smoothing does not act, f has B's own bits.
+/// Accuracy  f >= B and f <= highest exactly; slope within 1e-9 K + 4 eps max|f| / h_min, second
+///           within 1e-6 A + 8 eps max|f| / h_min^2 (10 000 hostile profiles). Refined area over the
+///           least possible, 1000 random real nodes at 5 deg/mm, 1 deg/mm^2: median 1.0004, one above
+///           1.01 (1.0235). A node further than (max B - min B)/K + 4K/A from every node where B
+///           itself breaks a limit keeps its bits.
 /// Errors    wrong_count, not_finite, out_of_range (order, period, limits, a B above `highest`),
-/// cancelled. Cost      linear; with `refine` 42 trials for each concave corner that is still bare,
-/// each linear in the stretch that the
-///           corner's curve reaches (in the worst case the whole turn).
-/// Source    section 6.2.
+///           cancelled.
+/// Cost      linear; `refine` at most some 1000 visits to each node, after which the search stays
+///           where it is. `stop` is looked at between corners.
+/// Source    section 6.2; the search goes beyond it (envelope_refine.cpp).
 [[nodiscard]] Result<std::vector<double>> envelope(const AngleProfile& profile,
                                                    const EnvelopeSpec& spec,
                                                    std::stop_token stop = {});

@@ -14,19 +14,22 @@ namespace {
 
 constexpr double kTorch = 80.0 * kRadPerDeg;
 
-/// Least area of any f >= B, f <= highest, |slope| <= K, |second difference| <= A at the same nodes; uniform spacing h.
-/// Unknown: f - B in degrees.
+/// Least area of any f >= B, f <= highest, |slope| <= K, |second difference| <= A at the same
+/// nodes; uniform spacing h. Unknown: f - B in degrees.
 class LinearProgramme {
  public:
   LinearProgramme(const AngleProfile& profile, const SwingLimits& limits, double highest)
-      : b_(profile.b), h_(profile.period / static_cast<double>(profile.b.size())), problem_(glp_create_prob()) {
+      : b_(profile.b),
+        h_(profile.period / static_cast<double>(profile.b.size())),
+        problem_(glp_create_prob()) {
     const int n = static_cast<int>(b_.size());
     glp_term_out(GLP_OFF);
     glp_set_obj_dir(problem_, GLP_MIN);
     glp_add_cols(problem_, n);
     glp_add_rows(problem_, 2 * n);
     for (int j = 0; j < n; ++j) {
-      glp_set_col_bnds(problem_, j + 1, GLP_DB, 0.0, std::max((highest - at(j)) * kDegPerRad, 1e-9));
+      glp_set_col_bnds(problem_, j + 1, GLP_DB, 0.0,
+                       std::max((highest - at(j)) * kDegPerRad, 1e-9));
       glp_set_obj_coef(problem_, j + 1, h_);
       row(2 * j + 1, limits.slope * h_, {{j, -1.0}, {j + 1, 1.0}});
       row(2 * j + 2, limits.curvature * h_ * h_, {{j, 1.0}, {j + 1, -2.0}, {j + 2, 1.0}});
@@ -36,11 +39,18 @@ class LinearProgramme {
   LinearProgramme(const LinearProgramme&) = delete;
   LinearProgramme& operator=(const LinearProgramme&) = delete;
 
-  double least_area() {
+  /// Asks for the least f - B at one node instead of the area.
+  void only(std::size_t node) {
+    for (std::size_t j = 0; j < b_.size(); ++j)
+      glp_set_obj_coef(problem_, static_cast<int>(j) + 1, j == node ? 1.0 : 0.0);
+  }
+
+  double least() {
     glp_smcp options;
     glp_init_smcp(&options);
     options.msg_lev = GLP_MSG_OFF;
-    options.meth = GLP_DUALP;  // f = highest is feasible, area has no negative cost: the dual starts feasible
+    options.meth =
+        GLP_DUALP;  // f = highest is feasible, area has no negative cost: the dual starts feasible
     EXPECT_EQ(glp_simplex(problem_, &options), 0);
     EXPECT_EQ(glp_get_status(problem_), GLP_OPT);
     return glp_get_obj_val(problem_);
@@ -63,8 +73,10 @@ class LinearProgramme {
       factors.push_back(term.factor);
       known += term.factor * at(term.node);
     }
-    glp_set_mat_row(problem_, index, static_cast<int>(terms.size()), columns.data(), factors.data());
-    glp_set_row_bnds(problem_, index, GLP_DB, (-bound - known) * kDegPerRad, (bound - known) * kDegPerRad);
+    glp_set_mat_row(problem_, index, static_cast<int>(terms.size()), columns.data(),
+                    factors.data());
+    glp_set_row_bnds(problem_, index, GLP_DB, (-bound - known) * kDegPerRad,
+                     (bound - known) * kDegPerRad);
   }
 
   std::vector<double> b_;
@@ -77,12 +89,13 @@ struct Ratios {
   double worst = 0.0;
 };
 
-Ratios compare(unsigned long seed, int nodes, std::size_t points, SwingLimits limits, double highest) {
+Ratios compare(unsigned long seed, int nodes, std::size_t points, SwingLimits limits,
+               double highest) {
   std::mt19937_64 random(seed);
   std::vector<double> ratios;
   while (static_cast<int>(ratios.size()) < nodes) {
     const auto profile = real_nodes::random_node(random, points, kTorch);
-    const double least = LinearProgramme(profile, limits, std::min(highest, 2.0)).least_area();
+    const double least = LinearProgramme(profile, limits, std::min(highest, 2.0)).least();
     if (least < 1e-3) continue;  // nothing to smooth: no ratio
     const auto out = envelope(profile, {.limits = limits, .highest = highest});
     EXPECT_TRUE(out);
@@ -90,26 +103,67 @@ Ratios compare(unsigned long seed, int nodes, std::size_t points, SwingLimits li
     EXPECT_GE(ratios.back(), 1.0 - 1e-7);  // nothing lies below the optimum
   }
   std::ranges::sort(ratios);
-  std::printf("%zu points: min %.8f median %.6f p90 %.6f worst %.6f %.6f %.6f\n", points, ratios.front(), ratios[ratios.size() / 2], ratios[ratios.size()*9 / 10], ratios[ratios.size()-3], ratios[ratios.size()-2], ratios.back());
+  ::testing::Test::RecordProperty("median", std::to_string(ratios[ratios.size() / 2]));
+  ::testing::Test::RecordProperty("worst", std::to_string(ratios.back()));
   return {ratios[ratios.size() / 2], ratios.back()};
 }
 
 TEST(EnvelopeOptimum, HundredRealNodes) {
-  const auto got = compare(20240501, 100, 180, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, 1e9);
+  const auto got = compare(20240501, 100, 360, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, 1e9);
   EXPECT_LE(got.median, 1.01);
   EXPECT_LE(got.worst, 1.02);
 }
 
 TEST(EnvelopeOptimum, UnderTheTorchLimit) {
-  const auto got = compare(20240502, 100, 180, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, kTorch);
+  const auto got = compare(20240502, 100, 360, {5.0 * kRadPerDeg, 1.0 * kRadPerDeg}, kTorch);
   EXPECT_LE(got.median, 1.01);
   EXPECT_LE(got.worst, 1.02);
 }
 
+/// At 8 deg/mm, 4 deg/mm^2 a node spacing is up to half the length K/A: curves that bend between
+/// nodes lose more.
 TEST(EnvelopeOptimum, FasterAxis) {
-  const auto got = compare(20240503, 100, 180, {8.0 * kRadPerDeg, 4.0 * kRadPerDeg}, 1e9);
+  const auto got = compare(20240503, 100, 360, {8.0 * kRadPerDeg, 4.0 * kRadPerDeg}, 1e9);
   EXPECT_LE(got.median, 1.01);
-  EXPECT_LE(got.worst, 1.02);
+  EXPECT_LE(got.worst, 1.05);
+}
+
+/// Nodes further than (largest step)/K + 2K/A from every break of a limit keep their bits, or no
+/// curve within the limits could have kept them.
+TEST(EnvelopeOptimum, FarNodesChangeOnlyWhenTheyMust) {
+  std::mt19937_64 random(20240504);
+  const SwingLimits limits{5.0 * kRadPerDeg, 4.0 * kRadPerDeg};
+  int far = 0;
+  int changed = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto p = real_nodes::random_node(random, 360, kTorch);
+    const auto f = *envelope(p, {.limits = limits});
+    const double h = p.period / 360.0;
+    std::vector<double> broken;
+    double step = 0.0;
+    for (std::size_t j = 0; j < 360; ++j) {
+      const double in = (p.b[j] - p.b[(j + 359) % 360]) / h;
+      const double out = (p.b[(j + 1) % 360] - p.b[j]) / h;
+      step = std::max(step, std::abs(out) * h);
+      if (std::max(std::abs(in), std::abs(out)) > limits.slope ||
+          std::abs(out - in) > limits.curvature * h)
+        broken.push_back(p.s[j]);
+    }
+    for (std::size_t j = 0; j < 360; ++j) {
+      double nearest = p.period;
+      for (const double s : broken)
+        nearest = std::min({nearest, std::abs(p.s[j] - s), p.period - std::abs(p.s[j] - s)});
+      if (nearest <= step / limits.slope + 2.0 * limits.slope / limits.curvature) continue;
+      ++far;
+      if (f[j] == p.b[j]) continue;
+      ++changed;
+      LinearProgramme programme(p, limits, 2.0);
+      programme.only(j);
+      EXPECT_GT(programme.least(), 1e-6) << i << ' ' << j;
+    }
+  }
+  EXPECT_GT(far, 20000);
+  EXPECT_GT(changed, 0);  // or the comment in envelope_test.cpp is wrong
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ AngleProfile on_grid(const std::vector<double>& b_deg, double rho) {
 double largest_difference(const std::vector<double>& rad, const std::vector<double>& deg) {
   EXPECT_EQ(rad.size(), deg.size());
   double worst = 0.0;
-  for (std::size_t i = 0; i < deg.size(); ++i) worst = std::max(worst, std::abs(rad[i] * kDegPerRad - deg[i]));
+  for (std::size_t i = 0; i < deg.size(); ++i)
+    worst = std::max(worst, std::abs(rad[i] * kDegPerRad - deg[i]));
   return worst;
 }
 
@@ -62,7 +63,9 @@ std::vector<Row> rows() {
 
 class Golden : public ::testing::TestWithParam<Row> {
  protected:
-  const api::Json& smoothed() const { return at(corpus(), GetParam().block + "/smoothed/" + GetParam().kind); }
+  const api::Json& smoothed() const {
+    return at(corpus(), GetParam().block + "/smoothed/" + GetParam().kind);
+  }
   AngleProfile profile() const {
     return on_grid(numbers(corpus(), GetParam().block + "/" + GetParam().b), GetParam().rho);
   }
@@ -110,15 +113,17 @@ TEST_P(Golden, HermiteRowsAndWindows) {
 
 TEST_P(Golden, MetricsOfTheGoldenRows) {
   const auto input = profile();
-  for (const auto& [row, metrics] : {std::pair{"envelope_K5_A1", "metrics_envelope"},
-                                     std::pair{"envelope_K5_A1_norefine", "metrics_envelope_norefine"},
-                                     std::pair{"hermite_T15_thr10", "metrics_hermite"}}) {
+  for (const auto& [row, metrics] :
+       {std::pair{"envelope_K5_A1", "metrics_envelope"},
+        std::pair{"envelope_K5_A1_norefine", "metrics_envelope_norefine"},
+        std::pair{"hermite_T15_thr10", "metrics_hermite"}}) {
     const auto smooth = scaled(numbers(smoothed(), row), kRadPerDeg);
     const auto steep = steepness({input.s, smooth, input.period});
     const auto path = std::string(metrics) + "/";
     EXPECT_NEAR(steep.slope * kDegPerRad, number(smoothed(), path + "max_slope"), 1e-11) << row;
     EXPECT_NEAR(steep.second * kDegPerRad, number(smoothed(), path + "max_second"), 1e-10) << row;
-    EXPECT_NEAR(area_above(input, smooth) * kDegPerRad, number(smoothed(), path + "area"), 1e-9) << row;
+    EXPECT_NEAR(area_above(input, smooth) * kDegPerRad, number(smoothed(), path + "area"), 1e-9)
+        << row;
   }
 }
 
@@ -143,7 +148,8 @@ TEST(GoldenWall, MutationsAndLargestStep) {
   const auto& wall = at(corpus(), "seed000_table1_wall");
   const auto input = on_grid(numbers(wall, "floor"), number(wall, "r_in"));
   const auto steps = mutations(input.b, 10.0 * kRadPerDeg);
-  const std::vector<std::pair<std::size_t, double>> expected{{8, -44.259}, {222, 18.075}, {258, -12.458}, {327, 29.668}};
+  const std::vector<std::pair<std::size_t, double>> expected{
+      {8, -44.259}, {222, 18.075}, {258, -12.458}, {327, 29.668}};
   ASSERT_EQ(steps.size(), expected.size());
   for (std::size_t i = 0; i < steps.size(); ++i) {
     EXPECT_EQ(steps[i].index, expected[i].first);
@@ -153,7 +159,8 @@ TEST(GoldenWall, MutationsAndLargestStep) {
   ASSERT_TRUE(smooth);
   const auto left = mutations(*smooth, 2.617 * kRadPerDeg);
   ASSERT_FALSE(left.empty());
-  for (const auto& step : left) EXPECT_NEAR(std::abs(step.step) * kDegPerRad, 5.0 * 30.0 * kRadPerDeg, 1e-9);
+  for (const auto& step : left)
+    EXPECT_NEAR(std::abs(step.step) * kDegPerRad, 5.0 * 30.0 * kRadPerDeg, 1e-9);
 }
 
 AngleProfile uniform(std::vector<double> b, double spacing = 1.0) {
@@ -182,7 +189,8 @@ TEST(Mutations, CyclicAscendingAndStrict) {
 
 TEST(Steepness, OfAParabolaWithUnequalSteps) {
   // b = s^2 on 0..2, back in one chord: second differences 2 inside, the corners known by hand.
-  const AngleProfile profile{.s = {0.0, 0.5, 0.75, 2.0}, .b = {0.0, 0.25, 0.5625, 4.0}, .period = 4.0};
+  const AngleProfile profile{
+      .s = {0.0, 0.5, 0.75, 2.0}, .b = {0.0, 0.25, 0.5625, 4.0}, .period = 4.0};
   const auto got = steepness(profile);
   EXPECT_DOUBLE_EQ(got.slope, 2.75);
   EXPECT_DOUBLE_EQ(got.second, (2.75 + 2.0) / 1.625);
@@ -193,7 +201,8 @@ TEST(SwingLimits, FollowSpeedAndUse) {
   ASSERT_TRUE(limits);
   EXPECT_DOUBLE_EQ(limits->slope, 0.25);
   EXPECT_DOUBLE_EQ(limits->curvature, 0.25);
-  // Cutting along a curve at both limits uses the axis exactly: speed * slope and speed^2 * curvature.
+  // Cutting along a curve at both limits uses the axis exactly: speed * slope and speed^2 *
+  // curvature.
   EXPECT_DOUBLE_EQ(limits->slope * 4.0, 0.5 * 2.0);
   EXPECT_DOUBLE_EQ(limits->curvature * 16.0, 0.5 * 8.0);
 }
@@ -253,7 +262,8 @@ TEST(Hermite, AutoStaysWithinHalfTheGap) {
   EXPECT_EQ(std::get<double>(refused.error().issues[0].got), 11.0);
   EXPECT_EQ(std::get<double>(refused.error().issues[0].limit), 10.0);
   // A junction with a step below the limit counts as well, when it is named.
-  const auto named = hermite(profile, {.limit = 0.15, .transition = {}, .junctions = {99, 112, 119}});
+  const auto named =
+      hermite(profile, {.limit = 0.15, .transition = {}, .junctions = {99, 112, 119}});
   ASSERT_FALSE(named);
   EXPECT_EQ(named.error().code(), ErrorCode::transition_too_long);
 }
@@ -272,7 +282,8 @@ TEST(Hermite, SpecCaseBelowItsInput) {
     const auto out = hermite(input, {.limit = 3.0 * kRadPerDeg, .transition = 25});
     EXPECT_TRUE(out);
     double worst = 0.0;
-    for (std::size_t i = 0; i < input.b.size(); ++i) worst = std::max(worst, input.b[i] - out->b[i]);
+    for (std::size_t i = 0; i < input.b.size(); ++i)
+      worst = std::max(worst, input.b[i] - out->b[i]);
     return worst * kDegPerRad;
   };
   EXPECT_NEAR(worst_below("seed000_table1_r35/B", 35.0), 3.27, 0.005);
@@ -281,26 +292,33 @@ TEST(Hermite, SpecCaseBelowItsInput) {
 
 TEST(Hermite, Refusals) {
   const auto profile = uniform(plateau(80, 0, 39, 1.0));
-  const auto code = [](const AngleProfile& p, const HermiteSpec& spec) { return hermite(p, spec).error().code(); };
+  const auto code = [](const AngleProfile& p, const HermiteSpec& spec) {
+    return hermite(p, spec).error().code();
+  };
   EXPECT_EQ(code(profile, {.limit = 0.1, .transition = 1}), ErrorCode::out_of_range);
   EXPECT_EQ(code(profile, {.limit = 0.1, .transition = 21}), ErrorCode::out_of_range);
   EXPECT_EQ(code(profile, {.limit = 0.1, .transition = -5}), ErrorCode::out_of_range);
   EXPECT_EQ(code(profile, {.limit = 0.0, .transition = 10}), ErrorCode::out_of_range);
-  EXPECT_EQ(code(profile, {.limit = 0.1, .transition = {}, .junctions = {80}}), ErrorCode::out_of_range);
-  EXPECT_EQ(code(profile, {.limit = 0.1, .transition = {}, .junctions = {9, 9}}), ErrorCode::out_of_range);
+  EXPECT_EQ(code(profile, {.limit = 0.1, .transition = {}, .junctions = {80}}),
+            ErrorCode::out_of_range);
+  EXPECT_EQ(code(profile, {.limit = 0.1, .transition = {}, .junctions = {9, 9}}),
+            ErrorCode::out_of_range);
   auto uneven = profile;
   uneven.s[7] += 0.01;
   EXPECT_EQ(code(uneven, {.limit = 0.1, .transition = 10}), ErrorCode::sampling_not_uniform);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(hermite(profile, {.limit = 0.1, .transition = 10}, stop.get_token()).error().code(), ErrorCode::cancelled);
+  EXPECT_EQ(hermite(profile, {.limit = 0.1, .transition = 10}, stop.get_token()).error().code(),
+            ErrorCode::cancelled);
   EXPECT_TRUE(hermite(profile, {.limit = 0.3, .transition = 20}));
 }
 
 TEST(Envelope, Refusals) {
   const auto profile = uniform(plateau(80, 0, 39, 1.0));
   const SwingLimits limits{0.1, 0.1};
-  const auto code = [](const AngleProfile& p, const EnvelopeSpec& spec) { return envelope(p, spec).error().code(); };
+  const auto code = [](const AngleProfile& p, const EnvelopeSpec& spec) {
+    return envelope(p, spec).error().code();
+  };
   auto bad = profile;
   bad.b.pop_back();
   EXPECT_EQ(code(bad, {.limits = limits}), ErrorCode::wrong_count);
@@ -319,7 +337,8 @@ TEST(Envelope, Refusals) {
   EXPECT_EQ(code(profile, {.limits = limits, .highest = 0.99}), ErrorCode::out_of_range);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(envelope(profile, {.limits = limits}, stop.get_token()).error().code(), ErrorCode::cancelled);
+  EXPECT_EQ(envelope(profile, {.limits = limits}, stop.get_token()).error().code(),
+            ErrorCode::cancelled);
 }
 
 }  // namespace

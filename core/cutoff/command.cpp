@@ -1,0 +1,199 @@
+#include "core/cutoff/command.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+
+#include "core/cutoff/fits.hpp"
+
+namespace tubecut::cutoff {
+namespace {
+
+using math::ChebyshevSeries;
+
+constexpr int kMostDigits = 17;          // every double comes back from 17 significant digits
+constexpr double kRoundingShare = 1.01;  // rounding may raise the speed error by 1 %
+
+template <class F>
+Extent extent_of(const F& f, const std::vector<double>& grid) {
+  std::vector<double> sampled;
+  std::vector<double> negated;
+  for (const double t : grid) sampled.push_back(f(t));
+  for (const double value : sampled) negated.push_back(-value);
+  const auto minus = [&f](double t) { return -f(t); };
+  return {-math::grid_maximum(minus, grid, negated).value,
+          math::grid_maximum(f, grid, sampled).value};
+}
+
+/// Errors  tan_pole: the command drives the cylinder beyond the linkage's range.
+Result<CommandErrors> assess(const WorkFeed& work, const ChebyshevSeries& series) {
+  const auto& w = work.work();
+  const auto& mechanism = work.mechanism();
+  const auto integral = math::antiderivative(series);
+  const auto stroke = [&](double t) { return w.start_stroke + math::value(integral, t); };
+  const Extent driven_range = extent_of(stroke, work.speed().grid);
+  for (const double end : {driven_range.low, driven_range.high})
+    if (auto inside = mechanism.tool_feed(end); !inside)
+      return fail({.code = ErrorCode::tan_pole, .member = "fit", .got = end, .unit = "mm"});
+  const auto driven = [&](double t) { return mechanism.forward(stroke(t)); };
+  CommandErrors out;
+  out.speed = extent_of(
+      [&](double t) {
+        const double exact = work.cylinder_speed(t);
+        return (math::value(series, t) - exact) / exact;
+      },
+      work.speed().grid);
+  out.tool_speed =
+      extent_of([&](double t) { return math::value(series, t) * driven(t).rate / w.feed - 1.0; },
+                work.speed().grid);
+  out.tool_position = extent_of(
+      [&](double t) { return driven(t).feed - (w.start_feed + w.feed * t); }, work.speed().grid);
+  out.max_relative_error = out.speed.largest();
+  out.tool_ripple = out.tool_speed.largest();
+  out.tool_position_error = out.tool_position.largest();
+  const double end = w.start_stroke + math::value(integral, w.duration);
+  out.end_drift = mechanism.forward(end).feed - w.end_feed;
+  out.cylinder_end_drift = end - w.end_stroke;
+  return out;
+}
+
+double rounded(double value, int digits) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1).ptr;
+  double out = 0.0;
+  std::from_chars(text, end, out);
+  return out;
+}
+
+double speed_error(const WorkFeed& work, const std::vector<double>& seconds) {
+  const auto& curve = work.speed();
+  const auto error = [&](double t) {
+    const double exact = curve.at(t);
+    return std::abs(math::horner(seconds, t) - exact) / exact;
+  };
+  std::vector<double> sampled;
+  for (std::size_t i = 0; i < curve.grid.size(); ++i)
+    sampled.push_back(std::abs(math::horner(seconds, curve.grid[i]) - curve.values[i]) /
+                      curve.values[i]);
+  return math::grid_maximum(error, curve.grid, sampled).value;
+}
+
+void round_coefficients(const WorkFeed& work, Command& out) {
+  const double allowed = kRoundingShare * out.errors.max_relative_error;
+  for (out.digits = 1; out.digits <= kMostDigits; ++out.digits) {
+    out.seconds_rounded.clear();
+    for (const double c : out.seconds) out.seconds_rounded.push_back(rounded(c, out.digits));
+    out.rounded_max_relative_error = speed_error(work, out.seconds_rounded);
+    if (out.rounded_max_relative_error <= allowed) return;
+  }
+  out.digits =
+      kMostDigits;  // the error is at the rounding floor; these are the coefficients themselves
+}
+
+Result<ChebyshevSeries> fit(const WorkFeed& work, FitMethod method, int degree,
+                            const std::optional<std::array<double, 3>>& nodes,
+                            std::stop_token stop) {
+  switch (method) {
+    case FitMethod::three_point:
+      return three_point(work, nodes);
+    case FitMethod::equispaced:
+      return equispaced(work, degree);
+    case FitMethod::least_squares:
+      return least_squares(work, degree);
+    default:
+      return minimax(work, degree, stop);
+  }
+}
+
+Result<ChebyshevSeries> shifted_fit(const WorkFeed& work, const FitSpec& spec, FitMethod method,
+                                    int degree, std::stop_token stop) {
+  auto series = fit(work, method, degree, spec.nodes, stop);
+  if (!series || !spec.preserve_stroke) return series;
+  const auto& w = work.work();
+  const double integral = math::value(math::antiderivative(*series), w.duration);
+  series->coefficients[0] += (w.end_stroke - w.start_stroke - integral) / w.duration;
+  return series;
+}
+
+Command describe(const WorkFeed& work, FitMethod method, const ChebyshevSeries& series,
+                 const CommandErrors& errors) {
+  Command out;
+  out.method = method;
+  out.degree = static_cast<int>(series.coefficients.size()) - 1;
+  out.duration = work.work().duration;
+  out.chebyshev = series.coefficients;
+  out.scaled = math::scaled_powers(series);
+  out.seconds = math::powers(series);
+  out.errors = errors;
+  round_coefficients(work, out);
+  return out;
+}
+
+Result<Command> automatic(const WorkFeed& work, const FitSpec& spec, std::stop_token stop) {
+  for (int degree = 1; degree <= kHighestDegree; ++degree) {
+    const auto series = shifted_fit(work, spec, FitMethod::minimax, degree, stop);
+    if (!series) return tl::unexpected(series.error());
+    const auto errors = assess(work, *series);
+    if (errors && errors->max_relative_error <= spec.tolerance)
+      return describe(work, FitMethod::minimax, *series, *errors);
+  }
+  return fail(
+      {.code = ErrorCode::tolerance_not_met, .member = "fit/tolerance", .got = spec.tolerance});
+}
+
+std::optional<Error> check(const FitSpec& spec) {
+  const auto wrong = [](ErrorCode code, const char* member, double got, Shown limit) {
+    return Error{{.code = code, .member = member, .got = got, .limit = std::move(limit)}};
+  };
+  const double degree = spec.degree;
+  if (spec.method == FitMethod::equispaced)
+    return Error{{.code = ErrorCode::bad_choice, .member = "fit/method"}};
+  if (spec.method == FitMethod::automatic &&
+      !(spec.tolerance > 0.0 && std::isfinite(spec.tolerance)))
+    return wrong(ErrorCode::out_of_range, "fit/tolerance", spec.tolerance, "> 0");
+  if (spec.method != FitMethod::automatic && (spec.degree < 1 || spec.degree > kHighestDegree))
+    return wrong(ErrorCode::out_of_range, "fit/degree", degree, Intervals{{1.0, kHighestDegree}});
+  if (spec.method == FitMethod::three_point && spec.degree != 2)
+    return wrong(ErrorCode::unsupported_combination, "fit/degree", degree, 2.0);
+  if (spec.method != FitMethod::three_point && spec.nodes)
+    return Error{{.code = ErrorCode::unsupported_combination, .member = "fit/nodes"}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<Command> command(const WorkFeed& work, const FitSpec& spec, std::stop_token stop) {
+  if (auto wrong = check(spec)) return tl::unexpected(*wrong);
+  if (spec.method == FitMethod::automatic) return automatic(work, spec, stop);
+  const auto series = shifted_fit(work, spec, spec.method, spec.degree, stop);
+  if (!series) return tl::unexpected(series.error());
+  const auto errors = assess(work, *series);
+  if (!errors) return tl::unexpected(errors.error());
+  return describe(work, spec.method, *series, *errors);
+}
+
+Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec,
+                                        std::stop_token stop) {
+  if (spec.first_degree < 1 || spec.last_degree > kHighestDegree ||
+      spec.first_degree > spec.last_degree)
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "comparison",
+                 .limit = Intervals{{1.0, kHighestDegree}}});
+  constexpr FitMethod kMethods[] = {FitMethod::three_point, FitMethod::equispaced,
+                                    FitMethod::least_squares, FitMethod::minimax};
+  std::vector<Command> rows;
+  for (int degree = spec.first_degree; degree <= spec.last_degree; ++degree)
+    for (const FitMethod method : kMethods) {
+      if (method == FitMethod::three_point && degree != 2) continue;
+      if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+      const auto series = fit(work, method, degree, std::nullopt, stop);
+      if (!series) return tl::unexpected(series.error());
+      if (const auto errors = assess(work, *series))
+        rows.push_back(describe(work, method, *series, *errors));
+    }
+  return rows;
+}
+
+}  // namespace tubecut::cutoff

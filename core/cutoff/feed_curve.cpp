@@ -1,0 +1,104 @@
+#include "core/cutoff/feed_curve.hpp"
+
+#include <cmath>
+#include <iterator>
+
+#include "core/cutoff/preconditions.hpp"
+
+namespace tubecut::cutoff {
+namespace {
+
+void push(Table& table, double time, const CylinderState& state) {
+  table.time.push_back(time);
+  table.feed.push_back(state.feed);
+  table.stroke.push_back(state.stroke);
+  table.speed.push_back(state.speed);
+  table.acceleration.push_back(state.acceleration);
+}
+
+Result<Table> tabulate(const WorkFeed& work, const TablePoints& spec) {
+  if (spec.points < 2 || spec.points > kMostTablePoints)
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "table/points",
+                 .got = static_cast<double>(spec.points),
+                 .limit = Intervals{{2.0, kMostTablePoints}}});
+  Table out;
+  for (int i = 0; i < spec.points; ++i) {
+    const double time = work.work().duration * i / (spec.points - 1);
+    push(out, time, work.at(time));
+  }
+  return out;
+}
+
+Result<Table> tabulate(const WorkFeed& work, const TableStep& spec) {
+  Preconditions on("table/");
+  on.positive("step", spec.step, "mm");
+  if (auto wrong = on.error()) return tl::unexpected(*wrong);
+  const auto& w = work.work();
+  const double range = w.end_feed - w.start_feed;
+  const double steps =
+      std::ceil(range / spec.step * (1.0 - 1e-12));  // a step that divides the range ends on it
+  if (steps + 1.0 > kMostTableRows)
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "table/step",
+                 .got = spec.step,
+                 .limit = range / (kMostTableRows - 1.0),
+                 .unit = "mm"});
+  Table out;
+  for (int i = 0; i < static_cast<int>(steps); ++i) {
+    const double time = spec.step * i / w.feed;
+    push(out, time, work.at(time));
+  }
+  push(out, w.duration, work.at(w.duration));
+  return out;
+}
+
+std::vector<Warning> warnings_of(const FeedCurveSpec& spec, const Work& work) {
+  std::vector<Warning> out{
+      {WarningCode::polynomial_window, "fit", "valid from the start of the work feed to its end"}};
+  if (!work.time_at_peak)
+    out.push_back({WarningCode::monotone_work_range, "cut", "the cylinder speed is monotone"});
+  if (!spec.tube) return out;
+  auto notes = tube_warnings(*spec.tube);
+  out.insert(out.end(), std::make_move_iterator(notes.begin()),
+             std::make_move_iterator(notes.end()));
+  return out;
+}
+
+}  // namespace
+
+Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop) {
+  const auto mechanism = Mechanism::make(spec.linkage);
+  if (!mechanism) return tl::unexpected(mechanism.error());
+  if (spec.tube)
+    if (auto wrong = check_tube(*spec.tube)) return tl::unexpected(*wrong);
+  const auto work = WorkFeed::make(*mechanism, spec.cut);
+  if (!work) return tl::unexpected(work.error());
+  auto table = std::visit([&](const auto& by) { return tabulate(*work, by); }, spec.table);
+  if (!table) return tl::unexpected(table.error());
+  auto fit = command(*work, spec.fit, stop);
+  if (!fit) return tl::unexpected(fit.error());
+
+  FeedCurve out{.geometry = mechanism->geometry(), .work = work->work()};
+  out.table = *std::move(table);
+  out.fit = *std::move(fit);
+  out.warnings = warnings_of(spec, out.work);
+  if (spec.comparison) {
+    auto rows = comparison(*work, *spec.comparison, stop);
+    if (!rows) return tl::unexpected(rows.error());
+    out.comparison = *std::move(rows);
+  }
+  if (spec.cycle) {
+    auto planned = cycle(*work, *spec.cycle, stop);
+    if (!planned) return tl::unexpected(planned.error());
+    out.cycle = *std::move(planned);
+  }
+  if (spec.tool) {
+    auto figures = tool_outputs(*spec.tool, spec.tube, out.work.feed, out.fit.errors.tool_ripple);
+    if (!figures) return tl::unexpected(figures.error());
+    out.tool = *figures;
+  }
+  return out;
+}
+
+}  // namespace tubecut::cutoff

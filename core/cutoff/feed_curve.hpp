@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/cutoff/command.hpp"
+#include "core/cutoff/cycle.hpp"
+#include "core/cutoff/linkage.hpp"
+#include "core/cutoff/tool.hpp"
+#include "core/cutoff/work_feed.hpp"
+
+namespace tubecut::cutoff {
+
+/// Equally spaced rows over the work feed, ends included.
+struct TablePoints {
+  int points = 400;  // 2..20 000
+};
+/// A row every `step` mm of feed, and one at the end.
+struct TableStep {
+  double step = 0.1;  // mm, > 0; at most 100 000 rows
+};
+using TableSpec = std::variant<TablePoints, TableStep>;
+
+/// The exact work feed in rows, times from its start.
+struct Table {
+  std::vector<double> time;          // s
+  std::vector<double> feed;          // mm
+  std::vector<double> stroke;        // mm
+  std::vector<double> speed;         // cylinder, mm/s
+  std::vector<double> acceleration;  // cylinder, mm/s^2
+};
+
+struct FeedCurveSpec {
+  Linkage linkage = {};
+  Cut cut = {};
+  FitSpec fit = {};
+  TableSpec table = {};
+  std::optional<CycleSpec> cycle = {};
+  std::optional<ToolSpec> tool = {};
+  std::optional<TubeSpec> tube = {};
+  std::optional<ComparisonSpec> comparison = {};
+};
+
+/// `cycle`, `tool` and `comparison` are there when the request has them.
+struct FeedCurve {
+  Geometry geometry = {};
+  Work work = {};
+  Table table = {};
+  Command fit = {};
+  std::optional<std::vector<Command>> comparison = {};
+  std::optional<Cycle> cycle = {};
+  std::optional<ToolOutputs> tool = {};
+  std::vector<Warning> warnings = {};
+};
+
+inline constexpr int kMostTablePoints = 20'000;
+inline constexpr double kMostTableRows = 100'000.0;
+
+/// Table, polynomial command, cycle and cutting figures of a constant tool feed through one
+/// linkage.
+///
+/// Errors    those of Mechanism::make, WorkFeed::make, command, comparison, cycle and tool_outputs;
+///           out_of_range for the table.
+/// Accuracy  strokes and speeds 1e-12 relative, accelerations 1e-12 of their largest value.
+/// Cost      under 1 us a table row or servo sample, some 3 ms a fit.
+[[nodiscard]] Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop = {});
+
+}  // namespace tubecut::cutoff

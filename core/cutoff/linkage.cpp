@@ -1,0 +1,259 @@
+#include "core/cutoff/linkage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/elementary.hpp"
+#include "core/cutoff/preconditions.hpp"
+#include "core/math/search.hpp"
+
+namespace tubecut::cutoff {
+namespace {
+
+using elementary::atan;
+using elementary::atan2;
+using elementary::cos;
+using elementary::sin;
+using elementary::sincos;
+
+constexpr double kDeadPointMargin =
+    1e-9;  // of 1 - rho cos e: nearer, the slot counts as tangent to the arm circle
+constexpr double kTangentMargin =
+    1e-6;  // of cos^2(theta - beta): nearer than 0.06 deg the inverse loses its digits
+constexpr double kStrokeMargin = 1e-12;  // of the stroke's width, kept from both limits
+constexpr int kPeakScan = 64;            // steps of psi that separate the roots of g''
+
+double reduced(double angle) {  // to (-pi, pi]
+  return angle - kTwoPi * std::ceil((angle - kPi) / kTwoPi);
+}
+
+std::optional<Error> check(const Linkage& l) {
+  Preconditions on("linkage/");
+  on.positive("arm", l.arm, "mm");
+  on.positive("pivot_distance", l.pivot_distance, "mm");
+  on.positive("pivot_offset", l.pivot_offset, "mm");
+  on.require(std::abs(l.rest_angle.rad()) < kPi, "rest_angle", l.rest_angle.deg(),
+             "within (-180, 180)", "deg");
+  on.require(l.slot_angle.rad() > 0.0 && l.slot_angle.rad() < kPi, "slot_angle", l.slot_angle.deg(),
+             "within (0, 180)", "deg");
+  if (!l.calibrate) on.positive("rad_per_mm", l.rad_per_mm, "rad_per_mm");
+  if (l.calibrate) {
+    const auto [feed, stroke] = *l.calibrate;
+    on.require(feed != 0.0, "calibrate/feed", feed, "not 0", "mm");
+    on.require(feed * stroke > 0.0, "calibrate/stroke", stroke, "not 0, of the feed's sign", "mm");
+  }
+  return on.error();
+}
+
+}  // namespace
+
+Result<Mechanism> Mechanism::make(const Linkage& l) {
+  if (auto wrong = check(l)) return tl::unexpected(*wrong);
+  if (l.calibrate && l.rad_per_mm != 0.0)
+    return fail({.code = ErrorCode::exclusive_fields, .member = "linkage/calibrate"});
+  if (l.pivot_distance < l.pivot_offset)
+    return fail({.code = ErrorCode::r2_lt_a,
+                 .member = "linkage/pivot_distance",
+                 .got = l.pivot_distance,
+                 .limit = l.pivot_offset,
+                 .unit = "mm"});
+  Mechanism m;
+  if (auto wrong = m.set_rest(l)) return tl::unexpected(*wrong);
+  m.set_limits();
+  if (auto wrong = m.set_rate(l)) return tl::unexpected(*wrong);
+  m.geometry_.feed_at_peak = m.find_peak();
+  return m;
+}
+
+/// The position at rest, from the triangle O1 O2 P in units of the arm.
+std::optional<Error> Mechanism::set_rest(const Linkage& l) {
+  const auto wrong = [](ErrorCode code, const char* member, Angle got) {
+    return Error{{.code = code, .member = member, .got = got.deg(), .unit = "deg"}};
+  };
+  offset_ = l.pivot_offset;
+  ratio_ = l.pivot_distance / l.arm;
+  one_minus_ratio_ = (l.arm - l.pivot_distance) / l.arm;
+  const double height2 = (l.pivot_distance - l.pivot_offset) * (l.pivot_distance + l.pivot_offset);
+  lag_ = atan2(std::sqrt(height2), l.pivot_offset) - l.rest_angle.rad();
+  const double half_sine = sin(0.5 * lag_);
+  const double lead = one_minus_ratio_ + 2.0 * ratio_ * half_sine * half_sine;  // 1 - rho cos e0
+  if (std::abs(lead) < kDeadPointMargin)
+    return wrong(ErrorCode::dead_point, "linkage/rest_angle", l.rest_angle);
+  if (lead < 0.0) return wrong(ErrorCode::reversed, "linkage/rest_angle", l.rest_angle);
+  const double across = ratio_ * sin(lag_);
+  const double reach = elementary::hypot(lead, across);  // |O2 P| / R1
+  const double swing = atan2(across, lead);              // theta0 - beta0
+  slot_lag_ = lag_ + swing;
+  sine_ = across / reach;
+  cosine_ = lead / reach;
+  const double psi = reduced(kPi - l.slot_angle.rad() - (l.rest_angle.rad() - swing));
+  if (std::abs(psi) >= 0.5 * kPi)
+    return wrong(ErrorCode::slot_off_rod, "linkage/slot_angle", l.slot_angle);
+  cos_psi_ = cos(psi);
+  geometry_.slot_elevation = Angle::rad(psi);
+  geometry_.rod_height = l.pivot_offset * elementary::tan(psi);
+  return std::nullopt;
+}
+
+/// Angle of slot 1 from rest at a feed: tan(psi0 - psi) from the two tangents, so nothing cancels
+/// near rest.
+double Mechanism::slot_turn(double feed) const {
+  const double x0 = geometry_.rod_height;
+  return atan2(feed / offset_, 1.0 + (x0 / offset_) * ((x0 - feed) / offset_));
+}
+
+/// theta - theta0 = (beta - beta0) + asin(rho sin delta) - asin(rho sin delta0); the difference of
+/// the two arcs is 2 atan of (difference of sines)/(sum of cosines), which keeps full relative
+/// accuracy near rest.
+double Mechanism::arm_turn(double turn) const {
+  const double sine = ratio_ * sin(slot_lag_ - turn);
+  const double cosine = std::sqrt(std::max(0.0, (1.0 - sine) * (1.0 + sine)));
+  const double rise = -2.0 * ratio_ * cos(slot_lag_ - 0.5 * turn) * sin(0.5 * turn);
+  return turn + 2.0 * atan(rise / (cosine + cosine_));
+}
+
+Mechanism::Limit Mechanism::limit(double pole, double dead, bool upper) const {
+  const bool dead_first = upper ? dead < pole : dead > pole;
+  if (!dead_first) return {arm_turn(pole), {}, false};
+  const double psi = geometry_.slot_elevation.rad();
+  // sin(theta - beta) is exactly 1 or -1 there; through its cosine half the digits would be lost
+  const double turn = dead + (upper ? 0.5 * kPi : -0.5 * kPi) - atan2(sine_, cosine_);
+  return {turn, offset_ * sin(dead) / (cos_psi_ * cos(psi - dead)), true};
+}
+
+void Mechanism::set_limits() {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double psi = geometry_.slot_elevation.rad();
+  double dead_low = -kNever;
+  double dead_high = kNever;
+  if (one_minus_ratio_ <= 0.0) {  // slot 1 is tangent to the arm circle where |sin delta| = 1/rho
+    const double half_width = elementary::asin(1.0 / ratio_);
+    const double centre = kPi + kTwoPi * std::floor(slot_lag_ / kTwoPi);
+    dead_low = slot_lag_ - centre - half_width;
+    dead_high = slot_lag_ - centre + half_width;
+  }
+  low_ = limit(psi - 0.5 * kPi, dead_low, false);
+  high_ = limit(psi + 0.5 * kPi, dead_high, true);
+  geometry_.feed_low = low_.feed;
+  geometry_.feed_high = high_.feed;
+}
+
+std::optional<Error> Mechanism::set_rate(const Linkage& l) {
+  k_ = l.rad_per_mm;
+  if (l.calibrate) {
+    const auto [feed, stroke] = *l.calibrate;
+    k_ = 1.0;
+    if (!reaches(feed))
+      return Error{{.code = ErrorCode::unreachable_x,
+                    .member = "linkage/calibrate/feed",
+                    .got = feed,
+                    .unit = "mm"}};
+    k_ = arm_turn(slot_turn(feed)) / stroke;
+  }
+  geometry_.rad_per_mm = k_;
+  geometry_.stroke_low = low_.turn / k_;
+  geometry_.stroke_high = high_.turn / k_;
+  return std::nullopt;
+}
+
+bool Mechanism::reaches(double feed) const {
+  if (!std::isfinite(feed) || (low_.feed && feed <= *low_.feed) ||
+      (high_.feed && feed >= *high_.feed))
+    return false;
+  const double margin = kStrokeMargin * (high_.turn - low_.turn);
+  const double slot = slot_turn(feed);
+  const double sine = ratio_ * sin(slot_lag_ - slot);
+  if (!((1.0 - sine) * (1.0 + sine) > kTangentMargin)) return false;
+  const double turn = arm_turn(slot);
+  return turn > low_.turn + margin && turn < high_.turn - margin;
+}
+
+Result<double> Mechanism::tool_feed(double stroke) const {
+  const double turn = k_ * stroke;
+  const double margin = kStrokeMargin * (high_.turn - low_.turn);
+  if (turn > low_.turn + margin && turn < high_.turn - margin) return forward(stroke).feed;
+  if (!std::isfinite(stroke))
+    return fail({.code = ErrorCode::not_finite, .member = "stroke", .unit = "mm"});
+  const Limit& crossed = turn < 0.0 ? low_ : high_;
+  return fail({.code = crossed.dead_point ? ErrorCode::dead_point : ErrorCode::tan_pole,
+               .member = "stroke",
+               .got = stroke,
+               .limit = Intervals{{geometry_.stroke_low, geometry_.stroke_high}},
+               .unit = "mm"});
+}
+
+Result<double> Mechanism::cylinder_stroke(double feed) const {
+  if (reaches(feed)) return inverse(feed).stroke;
+  Issue issue{.code = ErrorCode::unreachable_x, .member = "feed", .unit = "mm"};
+  if (std::isfinite(feed)) issue.got = feed;
+  const auto& crossed = feed > 0.0 ? high_ : low_;
+  if (crossed.feed) issue.limit = *crossed.feed;
+  return fail(std::move(issue));
+}
+
+Forward Mechanism::forward(double stroke) const {
+  const double turn = k_ * stroke;
+  const auto half = sincos(-0.5 * turn);
+  const double lag = lag_ - turn;
+  const double half_sine = sin(0.5 * lag);
+  const double half_rest = sin(0.5 * lag_);
+  const double lead = one_minus_ratio_ + 2.0 * ratio_ * half_sine * half_sine;  // 1 - rho cos e
+  const double lead_rest = one_minus_ratio_ + 2.0 * ratio_ * half_rest * half_rest;
+  const double cross = 2.0 * ratio_ * half.sin * (cos(lag_ - 0.5 * turn) - ratio_ * half.cos);
+  const double dot = lead * lead_rest + ratio_ * ratio_ * sin(lag) * sin(lag_);
+  const double slot = turn - atan2(cross, dot);
+  const double cos_psi = cos(geometry_.slot_elevation.rad() - slot);
+  const double reach2 = one_minus_ratio_ * one_minus_ratio_ + 4.0 * ratio_ * half_sine * half_sine;
+  return {offset_ * sin(slot) / (cos_psi_ * cos_psi),
+          k_ * offset_ * lead / (cos_psi * cos_psi * reach2)};
+}
+
+Inverse Mechanism::inverse(double feed) const {
+  const double a = offset_;
+  const double q = geometry_.rod_height - feed;
+  const double turn = slot_turn(feed);
+  const auto delta = sincos(slot_lag_ - turn);
+  const double rho = ratio_;
+  const double u = rho * delta.sin;
+  const double w = std::sqrt((1.0 - u) * (1.0 + u));
+  const double spread = one_minus_ratio_ * (1.0 + rho);  // 1 - rho^2
+  const double b = a / (a * a + q * q);
+  const double t =
+      delta.cos > 0.0 ? spread / (w * (w + rho * delta.cos)) : 1.0 - rho * delta.cos / w;
+  const double w3 = w * w * w;
+  const double e = 2.0 * q * t / a - spread * u / w3;
+  const double e1 = -2.0 * t / a - (2.0 * q * b / a) * spread * u / w3 +
+                    b * spread * rho * delta.cos * (1.0 / w3 + 3.0 * u * u / (w3 * w * w));
+  return {arm_turn(turn) / k_, b * t / k_, b * b * e / k_,
+          (4.0 * q * b * b * b * e / a + b * b * e1) / k_};
+}
+
+/// The highest g' inside the range: a scan over psi brackets every root of g'' that matters,
+/// bisection finds it.
+std::optional<double> Mechanism::find_peak() const {
+  const double psi = geometry_.slot_elevation.rad();
+  const double turn_low = low_.feed ? slot_turn(*low_.feed) : psi - 0.5 * kPi;
+  const double turn_high = high_.feed ? slot_turn(*high_.feed) : psi + 0.5 * kPi;
+  const auto feed_at = [&](int i) {
+    const double turn = turn_low + (turn_high - turn_low) * (i + 0.5) / kPeakScan;
+    return offset_ * sin(turn) / (cos_psi_ * cos(psi - turn));
+  };
+  std::optional<double> peak;
+  double left = feed_at(0);
+  bool rising = inverse(left).second > 0.0;
+  for (int i = 1; i < kPeakScan; ++i) {
+    const double right = feed_at(i);
+    const bool rises_on = inverse(right).second > 0.0;
+    if (rising && !rises_on) {
+      const double at =
+          math::sign_change([this](double x) { return inverse(x).second; }, left, right);
+      if (!peak || inverse(at).first > inverse(*peak).first) peak = at;
+    }
+    left = right;
+    rising = rises_on;
+  }
+  return peak;
+}
+
+}  // namespace tubecut::cutoff

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <optional>
+
+#include "core/base/angle.hpp"
+#include "core/base/error.hpp"
+
+namespace tubecut::cutoff {
+
+/// One measured position of the machine: the tool's feed at a cylinder stroke, both from rest.
+struct MeasuredPair {
+  double feed = 0.0;    // mm
+  double stroke = 0.0;  // mm, same sign as the feed
+};
+
+/// The linkage between cylinder and tool of a rotary cut-off machine. Lengths in mm.
+/// Frame: arm pivot O1 at the origin, X towards the slot plate's pivot O2, angles anticlockwise,
+/// rod line X = 0.
+struct Linkage {
+  double arm = 0.0;             // R1, > 0
+  double pivot_distance = 0.0;  // R2 = |O1 O2|, >= pivot_offset
+  double pivot_offset = 0.0;    // A, its part along X, > 0
+  Angle rest_angle = {};        // theta0 of the arm, open interval (-180, 180) deg
+  Angle slot_angle = {};        // alpha between the two slots, open interval (0, 180) deg
+  double rad_per_mm = 0.0;      // k, arm angle per stroke, > 0
+  std::optional<MeasuredPair> calibrate = {};  // gives rad_per_mm instead of the member
+};
+
+/// What the linkage alone decides. Empty limits are infinite.
+struct Geometry {
+  double rod_height = 0.0;    // x0, mm
+  Angle slot_elevation = {};  // psi0 of slot 2 at rest
+  double stroke_low = 0.0;    // open interval of the stroke, mm
+  double stroke_high = 0.0;
+  std::optional<double> feed_low = {};  // open interval of the feed, mm
+  std::optional<double> feed_high = {};
+  std::optional<double> feed_at_peak =
+      {};                   // where the cylinder runs fastest at constant feed; independent of k
+  double rad_per_mm = 0.0;  // k used
+};
+
+/// Tool feed and its derivative by the stroke.
+struct Forward {
+  double feed = 0.0;  // mm
+  double rate = 0.0;  // f', mm/mm
+};
+
+/// Stroke at a feed and its derivatives by the feed.
+struct Inverse {
+  double stroke = 0.0;  // mm
+  double first = 0.0;   // g'
+  double second = 0.0;  // g'', 1/mm
+  double third = 0.0;   // g''', 1/mm^2
+};
+
+/// The maps between cylinder stroke y and tool feed x of one linkage, both 0 at rest, in closed
+/// form.
+///
+/// Accuracy  feed(stroke(x)) = x within 1e-12 of |x| + A/cos^2 psi0, 1 % away from the limits
+///           (worst seen over 10^5 seeded linkages: 3.0e-13).
+/// Source    docs/theory/feed-curves.md, section 2.
+class Mechanism {
+ public:
+  /// Errors    out_of_range, not_finite, exclusive_fields, r2_lt_a, dead_point, reversed,
+  ///           slot_off_rod; unreachable_x for the feed of a calibration.
+  [[nodiscard]] static Result<Mechanism> make(const Linkage& linkage);
+
+  /// Tool feed at a stroke.
+  /// Errors    tan_pole or dead_point: the stroke is outside (stroke_low, stroke_high) shrunk by
+  ///           1e-12 of its width.
+  [[nodiscard]] Result<double> tool_feed(double stroke) const;
+
+  /// Cylinder stroke at a feed.
+  /// Errors    unreachable_x: the feed is outside the linkage's range, or the arm within 0.06 deg
+  ///           of a tangent position.
+  [[nodiscard]] Result<double> cylinder_stroke(double feed) const;
+
+  /// The same with derivatives, for arguments known to be in range.
+  /// Cost      some ten calls of elementary functions each.
+  [[nodiscard]] Forward forward(double stroke) const;
+  [[nodiscard]] Inverse inverse(double feed) const;
+
+  [[nodiscard]] bool reaches(double feed) const;
+  [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+  /// Horizontal part A of the pivots' distance, the scale of the accuracy line.
+  [[nodiscard]] double pivot_offset() const { return offset_; }
+
+ private:
+  struct Limit {
+    double turn = 0.0;  // arm angle from rest, rad
+    std::optional<double> feed = {};
+    bool dead_point = false;
+  };
+  Mechanism() = default;
+  [[nodiscard]] double slot_turn(double feed) const;      // beta - beta0
+  [[nodiscard]] double arm_turn(double slot_turn) const;  // theta - theta0
+  [[nodiscard]] Limit limit(double slot_turn_at_pole, double slot_turn_at_dead_point,
+                            bool upper) const;
+  [[nodiscard]] std::optional<double> find_peak() const;
+  [[nodiscard]] std::optional<Error> set_rest(const Linkage& linkage);
+  [[nodiscard]] std::optional<Error> set_rate(const Linkage& linkage);
+  void set_limits();
+
+  double offset_ = 0.0;  // A
+  double ratio_ = 0.0;   // rho = R2/R1
+  double one_minus_ratio_ = 0.0;
+  double lag_ = 0.0;       // e0 = gamma - theta0
+  double slot_lag_ = 0.0;  // delta0 = gamma - beta0
+  double sine_ = 0.0;      // sin(theta0 - beta0)
+  double cosine_ = 0.0;    // cos(theta0 - beta0), > 0
+  double cos_psi_ = 0.0;   // cos psi0, > 0
+  double k_ = 0.0;
+  Limit low_ = {};
+  Limit high_ = {};
+  Geometry geometry_ = {};
+};
+
+}  // namespace tubecut::cutoff

@@ -1,0 +1,121 @@
+#include "core/cutoff/work_feed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+#include "core/cutoff/preconditions.hpp"
+
+namespace tubecut::cutoff {
+namespace {
+
+constexpr std::size_t kGridPoints = 1601;
+
+std::optional<Error> check(const FeedWindow& window) {
+  Preconditions on("cut/");
+  on.require(true, "start_feed", window.start_feed, {}, "mm");
+  on.require(window.end_feed > window.start_feed, "end_feed", window.end_feed, "> start_feed_mm",
+             "mm");
+  return on.error();
+}
+
+std::optional<Error> check(const CutDistances& d) {
+  Preconditions on("cut/");
+  on.not_negative("clearance", d.clearance, "mm");
+  on.not_negative("slowdown", d.slowdown, "mm");
+  on.positive("wall", d.wall, "mm");
+  on.not_negative("overcut", d.overcut, "mm");
+  if (auto wrong = on.error()) return wrong;
+  if (d.slowdown > d.clearance)
+    return Error{{.code = ErrorCode::s2_gt_s1,
+                  .member = "cut/slowdown",
+                  .got = d.slowdown,
+                  .limit = d.clearance,
+                  .unit = "mm"}};
+  return std::nullopt;
+}
+
+FeedWindow window_of(const Cut& cut) {
+  if (const auto* window = std::get_if<FeedWindow>(&cut.range)) return *window;
+  const auto& d = std::get<CutDistances>(cut.range);
+  return {d.clearance - d.slowdown, d.clearance + d.wall + d.overcut};
+}
+
+double largest_magnitude(const std::function<double(double)>& f, const std::vector<double>& grid) {
+  const auto magnitude = [&f](double t) { return std::abs(f(t)); };
+  std::vector<double> sampled;
+  for (const double t : grid) sampled.push_back(magnitude(t));
+  return math::grid_maximum(magnitude, grid, sampled).value;
+}
+
+}  // namespace
+
+Result<WorkFeed> WorkFeed::make(const Mechanism& mechanism, const Cut& cut) {
+  if (auto wrong = std::visit([](const auto& range) { return check(range); }, cut.range))
+    return tl::unexpected(*wrong);
+  Preconditions on("cut/");
+  on.positive("feed", cut.feed, "mm_s");
+  if (auto wrong = on.error()) return tl::unexpected(*wrong);
+  const FeedWindow window = window_of(cut);
+  const bool by_ends = std::holds_alternative<FeedWindow>(cut.range);
+  const auto& geometry = mechanism.geometry();
+  const auto unreachable = [&](const char* member, double feed) {
+    const auto limit = feed > 0.0 ? geometry.feed_high : geometry.feed_low;
+    return fail({.code = ErrorCode::unreachable_x,
+                 .member = member,
+                 .got = feed,
+                 .limit = limit ? Shown{*limit} : Shown{},
+                 .unit = "mm"});
+  };
+  if (!mechanism.reaches(window.start_feed))
+    return unreachable(by_ends ? "cut/start_feed" : "cut/clearance", window.start_feed);
+  if (!mechanism.reaches(window.end_feed))
+    return unreachable(by_ends ? "cut/end_feed" : "cut/wall", window.end_feed);
+  WorkFeed out(mechanism);
+  out.work_.start_feed = window.start_feed;
+  out.work_.end_feed = window.end_feed;
+  out.work_.feed = cut.feed;
+  out.work_.duration = (window.end_feed - window.start_feed) / cut.feed;
+  if (!(out.work_.duration > 0.0) || !std::isfinite(out.work_.duration))
+    return fail(
+        {.code = ErrorCode::out_of_range, .member = "cut/feed", .got = cut.feed, .unit = "mm_s"});
+  out.find_extremes();
+  return out;
+}
+
+CylinderState WorkFeed::at(double time) const {
+  const double v = work_.feed;
+  const double feed = time >= work_.duration ? work_.end_feed : work_.start_feed + v * time;
+  const Inverse g = mechanism_.inverse(feed);
+  return {feed, g.stroke, v * g.first, v * v * g.second, v * v * v * g.third};
+}
+
+void WorkFeed::find_extremes() {
+  work_.start_stroke = mechanism_.inverse(work_.start_feed).stroke;
+  work_.end_stroke = mechanism_.inverse(work_.end_feed).stroke;
+  // A copy of this mechanism and window keeps the curve a value of its own.
+  const auto speed_at = [mechanism = mechanism_, w = work_](double time) {
+    const double feed = time >= w.duration ? w.end_feed : w.start_feed + w.feed * time;
+    return w.feed * mechanism.inverse(feed).first;
+  };
+  speed_ = math::sample(speed_at, math::chebyshev_grid(kGridPoints, 0.0, work_.duration));
+  const auto& grid = speed_.grid;
+  const auto top =
+      static_cast<std::size_t>(std::ranges::max_element(speed_.values) - speed_.values.begin());
+  work_.max_cylinder_speed = speed_.values[top];
+  if (top > 0 && top + 1 < grid.size()) {
+    const auto acceleration = [this](double t) { return at(t).acceleration; };
+    work_.time_at_peak = math::sign_change(acceleration, grid[top - 1], grid[top + 1]);
+    work_.max_cylinder_speed = at(*work_.time_at_peak).speed;
+  }
+  std::vector<double> negated;
+  for (const double v : speed_.values) negated.push_back(-v);
+  work_.min_cylinder_speed =
+      -math::grid_maximum([&](double t) { return -speed_at(t); }, grid, negated).value;
+  work_.max_cylinder_acceleration =
+      largest_magnitude([this](double t) { return at(t).acceleration; }, grid);
+  work_.max_cylinder_jerk = largest_magnitude([this](double t) { return at(t).jerk; }, grid);
+}
+
+}  // namespace tubecut::cutoff

@@ -1,0 +1,222 @@
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "tests/support/call.hpp"
+
+namespace tubecut::testing {
+namespace {
+
+constexpr const char* kPath = "/v1/feed-curves";
+
+api::Json example_of(const std::string& name) {
+  return example("feed-curves/" + name + ".json");
+}
+
+/// Evaluates the assignment of a Horner expression "a + t_s * (b + t_s * (c))", nothing else.
+class Expression {
+ public:
+  explicit Expression(std::string_view text) : text_(text) {}
+  double at(double t) {
+    at_ = 0;
+    return sum(t);
+  }
+
+ private:
+  double sum(double t) {
+    double out = product(t);
+    while (eat('+')) out += product(t);
+    return out;
+  }
+  double product(double t) {
+    double out = atom(t);
+    while (eat('*')) out *= atom(t);
+    return out;
+  }
+  double atom(double t) {
+    if (eat('(')) {
+      const double inner = sum(t);
+      EXPECT_TRUE(eat(')'));
+      return inner;
+    }
+    skip();
+    if (text_.substr(at_, 3) == "t_s") {
+      at_ += 3;
+      return t;
+    }
+    double value = 0.0;
+    const auto* end = text_.data() + text_.size();
+    const auto read = std::from_chars(text_.data() + at_, end, value);
+    EXPECT_EQ(read.ec, std::errc{}) << text_.substr(at_, 20);
+    at_ = static_cast<std::size_t>(read.ptr - text_.data());
+    return value;
+  }
+  void skip() {
+    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+  }
+  bool eat(char c) {
+    skip();
+    if (at_ >= text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+
+  std::string text_;
+  std::size_t at_ = 0;
+};
+
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+  const auto a = text.find(from);
+  EXPECT_NE(a, std::string::npos) << from;
+  const auto b = text.find(to, a + from.size());
+  EXPECT_NE(b, std::string::npos) << to;
+  return text.substr(a + from.size(), b - a - from.size());
+}
+
+TEST(FeedCurves, EveryExampleRuns) {
+  for (const char* name :
+       {"source-004-table-1-as-solved", "source-004-table-3-as-solved", "source-004-table-1-as-printed",
+        "source-004-table-3-as-printed", "cut-off-194-mm-whole-cycle", "calibrated-from-one-measurement"}) {
+    const auto answer = post(kPath, example_of(name));
+    EXPECT_FALSE(answer.outcome.error) << name << ": " << answer.outcome.body.substr(0, 1500);
+  }
+}
+
+// Source 004, equations (9) and (10), to the printed digits, from the windows and k solved for.
+TEST(FeedCurves, PublishedPolynomial9) {
+  const auto answer = post(kPath, example_of("source-004-table-1-as-solved"));
+  const auto c = numbers(answer.body, "result/fit/seconds");
+  ASSERT_EQ(c.size(), 3u);
+  EXPECT_NEAR(c[2], -0.000309806, 0.5e-9);
+  EXPECT_NEAR(c[1], 0.034573, 0.5e-6);
+  EXPECT_NEAR(c[0], 5.07086486, 0.5e-8);
+}
+
+TEST(FeedCurves, PublishedPolynomial10) {
+  const auto answer = post(kPath, example_of("source-004-table-3-as-solved"));
+  const auto c = numbers(answer.body, "result/fit/seconds");
+  ASSERT_EQ(c.size(), 3u);
+  EXPECT_NEAR(c[2], -0.0001874, 0.5e-7);
+  EXPECT_NEAR(c[1], 0.013353, 0.5e-6);
+  EXPECT_NEAR(c[0], 4.77309, 0.5e-5);
+}
+
+// The block as a controller would run it, by an evaluator of its own, against the exact table.
+TEST(FeedCurves, StructuredTextFollowsTheTableInsideItsWindow) {
+  for (const char* name : {"source-004-table-1-as-solved", "cut-off-194-mm-whole-cycle",
+                           "calibrated-from-one-measurement"}) {
+    const auto body = example_of(name);
+    const auto json = post(kPath, body);
+    const auto block = post(kPath, api::dump(body), "format=st").outcome;
+    ASSERT_EQ(block.content_type, "text/x-iec61131-st");
+    Expression speed(between(block.body, "THEN\n  cylinder_speed_mm_s := ", ";"));
+    const double end = std::strtod(between(block.body, "T_END_S : LREAL := ", ";").c_str(), nullptr);
+    EXPECT_EQ(end, number(json.body, "result/fit/duration_s"));
+    EXPECT_NE(block.body.find("valid := (t_s >= 0.0) AND (t_s <= T_END_S);"), std::string::npos);
+    EXPECT_NE(block.body.find("ELSE\n  cylinder_speed_mm_s := 0.0;"), std::string::npos);
+    const auto t = numbers(json.body, "result/table/t_s");
+    const auto exact = numbers(json.body, "result/table/cylinder_speed_mm_s");
+    const double allowed = number(json.body, "result/fit/rounded_max_relative_error");
+    double worst = 0.0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      worst = std::max(worst, std::abs(speed.at(t[i]) / exact[i] - 1.0));
+    EXPECT_LE(worst, allowed * (1.0 + 1e-3)) << name;
+    EXPECT_GE(worst, allowed * 0.5) << name;
+  }
+}
+
+TEST(FeedCurves, CsvHasEveryRowOfTheTableAndOfTheCycle) {
+  const auto body = example_of("cut-off-194-mm-whole-cycle");
+  const auto json = post(kPath, body);
+  const auto rows = [](const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+  };
+  EXPECT_EQ(rows(post(kPath, api::dump(body), "format=csv").outcome.body), 200u);
+  EXPECT_EQ(static_cast<double>(rows(post(kPath, api::dump(body), "format=csv&view=samples").outcome.body)),
+            number(json.body, "result/cycle/samples"));
+}
+
+TEST(FeedCurves, TargetRateAsInTheTheory) {
+  // 120 pieces per hour asked of the 194 mm machine, limits and handling assumed: 135 come.
+  const auto answer = post(kPath, example_of("cut-off-194-mm-whole-cycle"));
+  EXPECT_NEAR(number(answer.body, "result/cycle/cycle_s"), 26.60, 0.005);
+  EXPECT_EQ(std::floor(number(answer.body, "result/cycle/pieces_per_hour")), 135.0);
+  EXPECT_EQ(at(answer.body, "result/cycle/target_met"), api::Json{true});
+  EXPECT_NEAR(number(answer.body, "result/cycle/feed_for_target_mm_s"), 0.815147, 5e-7);
+  EXPECT_NEAR(number(answer.body, "result/cycle/estimated_feed_mm_s"), 0.815236, 5e-7);
+}
+
+struct Field {
+  const char* path;
+  double low, high;  // outside them the value is refused
+};
+
+// Twenty wrong values for each field: pointer, value and limit come back.
+TEST(FeedCurves, EveryFieldIsRefusedByNameValueAndLimit) {
+  const Field fields[] = {
+      {"linkage/arm_mm", 1, 100'000},
+      {"linkage/pivot_distance_mm", 1, 100'000},
+      {"linkage/pivot_offset_mm", 1, 100'000},
+      {"linkage/rest_angle_rad", -3.14159265358979, 3.14159265358979},
+      {"linkage/slot_angle_rad", 0, 3.14159265358979},
+      {"linkage/rad_per_mm", 0, 10},
+      {"cut/clearance_mm", 0, 10'000},
+      {"cut/slowdown_mm", 0, 10'000},
+      {"cut/wall_mm", 0.5, 200},
+      {"cut/overcut_mm", 0, 10'000},
+      {"cut/feed_mm_s", 0, 10'000},
+      {"fit/tolerance_ratio", 1e-12, 1},
+      {"table/points", 2, 20'000},
+      {"cycle/period_s", 1e-5, 1},
+      {"cycle/max_cylinder_speed_mm_s", 0, 1e9},
+      {"cycle/max_cylinder_acceleration_mm_s2", 0, 1e9},
+      {"cycle/max_cylinder_jerk_mm_s3", 0, 1e9},
+      {"cycle/max_feed_mm", 0, 1e9},
+      {"cycle/dwell_s", 0, 86'400},
+      {"cycle/handling_s", 0, 86'400},
+      {"cycle/target_per_hour", 0, 1e6},
+      {"tool/disc_rev_min", 0, 1e5},
+      {"tool/blades", 1, 100},
+      {"tool/corner_radius_mm", 0, 100},
+      {"tool/kerf_mm", 0, 50},
+      {"tube/outer_diameter_mm", 5, 5'000},
+      {"tube/wall_mm", 0.5, 200},
+  };
+  const auto body = example_of("cut-off-194-mm-whole-cycle");
+  for (const auto& field : fields)
+    for (int i = 0; i < 20; ++i) {
+      const double beyond = std::pow(10.0, i * 0.3 - 2.0);
+      const double bad = i % 2 == 0 ? field.low - beyond : field.high * 1.001 + beyond;
+      const auto answer = post(kPath, with(body, field.path, bad));
+      ASSERT_TRUE(answer.outcome.error) << field.path << " " << bad;
+      EXPECT_EQ(*answer.outcome.error, ErrorKind::invalid);
+      bool named = false;
+      for (const auto& issue : *at(answer.body, "errors").as<api::Json::Array>()) {
+        if (text(issue, "pointer") != "/" + std::string(field.path)) continue;
+        named = true;
+        EXPECT_EQ(number(issue, "got"), bad);
+        EXPECT_NEAR(number(issue, "limit"), i % 2 == 0 ? field.low : field.high, 1e-9 * std::abs(field.high));
+      }
+      EXPECT_TRUE(named) << field.path << " " << bad << answer.outcome.body;
+    }
+}
+
+TEST(FeedCurves, ExactlyOneOfEachPair) {
+  const auto body = example_of("source-004-table-1-as-solved");
+  const auto both = post(kPath, with(body, "linkage/rest_angle_deg", 60.0));
+  EXPECT_EQ(text(both.body, "errors/0/code"), "exclusive_fields");
+  const auto none = post(kPath, without(body, "linkage/rad_per_mm"));
+  EXPECT_EQ(text(none.body, "errors/0/code"), "missing_field");
+  EXPECT_EQ(text(none.body, "errors/0/pointer"), "/linkage/rad_per_mm");
+}
+
+TEST(FeedCurves, SolutionErrorsPointIntoTheRequest) {
+  const auto body = example_of("source-004-table-1-as-solved");
+  const auto answer = post(kPath, with(body, "linkage/pivot_offset_mm", 300.0));
+  EXPECT_EQ(text(answer.body, "code"), "r2_lt_a");
+  EXPECT_EQ(text(answer.body, "errors/0/pointer").rfind("/linkage/", 0), 0u) << answer.outcome.body;
+}
+
+}  // namespace
+}  // namespace tubecut::testing

@@ -1,0 +1,107 @@
+// Single edits of a valid request that a schema refuses, each with the pointers its problem may name.
+
+const escape = (name) => name.replaceAll('~', '~0').replaceAll('/', '~1');
+const typeOf = (value) => (value === null ? 'null' : Array.isArray(value) ? 'array' : typeof value);
+const copy = (value) => JSON.parse(JSON.stringify(value));
+
+const OTHERS = [null, true, false, 'text', '12', 7, [], [1, 2], {}, {value: 1}];
+const NAMES = ['tolerence_mm', 'wall', 'Kind', 'x', 'a/b', 'm~n', 'größe', '', 'constructor', 'offset_in', 'a'.repeat(200)];
+
+function types(contract, schema) {
+  if ('const' in schema) return [typeOf(schema.const)];
+  if (schema.enum) return [...new Set(schema.enum.map(typeOf))];
+  if (schema.oneOf) return schema.oneOf.flatMap((branch) => types(contract, contract.resolve(branch)));
+  return [schema.type === 'integer' ? 'number' : schema.type];
+}
+
+// The branch of a oneOf that holds the value; of objects the one whose constants and required members are there.
+export function branchOf(contract, schema, value) {
+  if (!schema.oneOf) return schema;
+  const fits = (branch) => {
+    if (branch.oneOf) return true;
+    if (branch.type !== 'object') return types(contract, branch).includes(typeOf(value));
+    return (branch.required ?? []).every((name) => name in value) &&
+      Object.entries(branch.properties).every(([name, p]) => !('const' in p) || !(name in value) || value[name] === p.const);
+  };
+  return branchOf(contract, schema.oneOf.map((b) => contract.resolve(b)).find(fits), value);
+}
+
+// Could one object be meant as either? Not when a constant of the same name tells them apart.
+function alike(a, b) {
+  return Object.entries(a.properties).every(([name, p]) => {
+    const q = b.properties[name];
+    return !q || !('const' in p) || !('const' in q) || p.const === q.const;
+  });
+}
+
+// Members that go with one another or exclude one another: naming any of them is naming the edit.
+function companions(contract, whole, schema) {
+  const branches = (whole.oneOf ?? []).map((b) => contract.resolve(b)).filter((b) => alike(b, schema));
+  const required = branches.map((b) => new Set(b.required ?? []));
+  const either = [...new Set(required.flatMap((set) => [...set]))].filter((name) => !required.every((set) => set.has(name)));
+  const dependent = Object.entries(schema.dependentSchemas ?? {}).flatMap(([name, {anyOf}]) => [name, ...anyOf[0].required]);
+  return [...either, ...dependent];
+}
+
+function badNumbers({minimum, maximum, exclusiveMinimum, exclusiveMaximum, type}) {
+  const out = [];
+  if (minimum !== undefined) out.push(minimum - Math.max(1e-6, Math.abs(minimum) * 1e-12), minimum - 1, -1e300);
+  if (maximum !== undefined) out.push(maximum + Math.max(1e-6, Math.abs(maximum) * 1e-12), maximum + 1, 1e300);
+  if (exclusiveMinimum !== undefined) out.push(exclusiveMinimum, exclusiveMinimum - 1e-9, -1e300);
+  if (exclusiveMaximum !== undefined) out.push(exclusiveMaximum, exclusiveMaximum + 1e-9, 1e300);
+  if (type === 'integer') out.push(12.5, 40.000001);
+  return out;
+}
+
+const badWords = (word) => ['nonsense', '', word.toUpperCase(), ` ${word}`, 'x'.repeat(300)];
+const badTexts = ['', 'x'.repeat(65), 'ä', 'a\nb', '\u0000', 'tab\t'];
+
+// Every edit of one value: {kind, pointers (first: the edited field), apply(body) -> the edited body}.
+export function edits(contract, requestSchema, body) {
+  const out = [];
+  const add = (kind, path, change, ...pointers) => out.push({kind, pointers, apply: () => {
+    const edited = copy(body);
+    const parent = path.slice(0, -1).reduce((node, step) => node[step], edited);
+    change(parent, path.at(-1));
+    return edited;
+  }});
+  const put = (kind, path, pointer, value) => add(kind, path, (parent, name) => { parent[name] = copy(value); }, pointer);
+
+  const walk = (given, value, path, pointer) => {
+    const whole = contract.resolve(given);
+    const schema = branchOf(contract, whole, value);
+    const allowed = types(contract, whole);
+    if (path.length) for (const other of OTHERS) if (!allowed.includes(typeOf(other))) put('type', path, pointer, other);
+    if (typeof value === 'number') for (const bad of badNumbers(schema)) put('range', path, pointer, bad);
+    if (typeof value === 'string') {
+      for (const bad of schema.pattern ? badTexts : badWords(value)) put('choice', path, pointer, bad);
+    }
+    if (Array.isArray(value)) {
+      const counts = [...Array(schema.minItems ?? 0).keys()];
+      if (schema.maxItems) counts.push(schema.maxItems + 1);
+      for (const n of counts) put('count', path, pointer, Array.from({length: n}, (_, i) => value[i % value.length]));
+      value.forEach((item, i) => walk(schema.items, item, [...path, i], `${pointer}/${i}`));
+    }
+    if (typeOf(value) === 'object') walkObject(whole, schema, value, path, pointer);
+  };
+
+  const walkObject = (whole, schema, value, path, pointer) => {
+    const either = companions(contract, whole, schema);
+    const at = (name) => `${pointer}/${escape(name)}`;
+    const group = (name) => (either.includes(name) ? either.filter((n) => n !== name).map(at) : []);
+    for (const name of Object.keys(value)) {
+      add('missing', [...path, name], (parent, key) => { delete parent[key]; }, at(name), ...group(name));
+    }
+    const known = Object.keys(schema.properties);
+    const strange = known.map((name) => `${name.slice(0, -1)}${name.endsWith('x') ? 'y' : 'x'}`);
+    for (const name of [...NAMES, ...strange, ...either]) {
+      if (Object.hasOwn(value, name) || known.includes(name)) continue;
+      add(either.includes(name) ? 'exclusive' : 'unknown', [...path, name], (parent, key) => { parent[key] = 1; }, at(name), ...group(name));
+    }
+    for (const [name, item] of Object.entries(value)) walk(schema.properties[name], item, [...path, name], at(name));
+  };
+
+  walk(requestSchema, body, [], '');
+  for (const root of [null, [], [body], 'text', 3, true]) out.push({kind: 'root', pointers: [''], apply: () => root});
+  return out;
+}

@@ -1,0 +1,137 @@
+// Requests from the schemas, and requests of joints that can be made.
+import fc from 'fast-check';
+import {branchOf} from './edits.mjs';
+
+const MANY = 6;  // elements more than the fewest; long lists belong to the tests of limits
+
+function number({minimum, maximum, exclusiveMinimum, exclusiveMaximum}) {
+  const min = minimum ?? exclusiveMinimum ?? -1e9;
+  const max = maximum ?? exclusiveMaximum ?? 1e9;
+  const range = {min, max, minExcluded: minimum === undefined && exclusiveMinimum !== undefined,
+    maxExcluded: maximum === undefined && exclusiveMaximum !== undefined, noNaN: true};
+  const inside = (value) => !(range.minExcluded && value === min) && !(range.maxExcluded && value === max);
+  return fc.oneof(
+    {weight: 6, arbitrary: fc.integer({min: 0, max: 4096}).map((k) => min + (max - min) * k / 4096).filter(inside)},
+    {weight: 2, arbitrary: fc.double(range)},
+    {weight: 1, arbitrary: fc.constantFrom(...[min, max, 0, (min + max) / 2].filter((v) => v >= min && v <= max && inside(v)))});
+}
+
+// Small ones mostly: the cost of an answer grows with them.
+function integer({minimum, maximum}) {
+  const low = Math.min(maximum, minimum + 100);
+  return fc.oneof({weight: 30, arbitrary: fc.integer({min: minimum, max: low})},
+    {weight: 1, arbitrary: fc.integer({min: minimum, max: Math.min(maximum, 2000)})});
+}
+
+const printable = (min, max) =>
+  fc.array(fc.integer({min: 32, max: 126}), {minLength: min, maxLength: max}).map((codes) => String.fromCharCode(...codes));
+
+// An arbitrary of the values a schema of the contract describes; `contract.validator` decides what it cannot say.
+export function fromSchema(contract, given) {
+  const schema = contract.resolve(given);
+  if ('const' in schema) return fc.constant(schema.const);
+  if (schema.enum) return fc.constantFrom(...schema.enum);
+  if (schema.oneOf) return fc.oneof(...schema.oneOf.map((branch) => fromSchema(contract, branch)));
+  switch (schema.type) {
+    case 'object':
+      return fc.record(Object.fromEntries(Object.entries(schema.properties).map(([name, property]) =>
+        [name, fromSchema(contract, property)])), {requiredKeys: schema.required ?? []});
+    case 'array':
+      return fc.array(fromSchema(contract, schema.items), {minLength: schema.minItems ?? 0,
+        maxLength: Math.min(schema.maxItems ?? MANY, (schema.minItems ?? 0) + MANY)});
+    case 'integer': return integer(schema);
+    case 'number': return number(schema);
+    case 'boolean': return fc.boolean();
+    case 'string': return printable(schema.minLength, schema.maxLength);
+    default: throw new Error(`no generator for ${JSON.stringify(schema)}`);
+  }
+}
+
+const between = (min, max) => fc.integer({min: 0, max: 1000}).map((k) => min + (max - min) * k / 1000);
+const maybe = (name, arbitrary) => fc.option(arbitrary, {nil: undefined}).map((v) => (v === undefined ? {} : {[name]: v}));
+const joined = (...parts) => fc.tuple(...parts).map((values) => Object.assign({}, ...values));
+
+// A tube with a chord that every generator meets, braces that may be met, and sometimes an end plane below them.
+const joint = fc.record({
+  radius: between(10, 120), wall: between(0.03, 0.3), chord: between(1.3, 3), lean: between(50, 130), turn: between(-360, 360),
+  aside: between(-0.9, 0.9),
+  braces: fc.array(fc.record({size: between(0.6, 1.3), lean: between(30, 150), turn: between(0, 360), aside: between(-0.3, 0.3),
+    height: between(-0.2, 0.5)}), {maxLength: 3}),
+  byAxis: fc.boolean(), plane: fc.boolean(), named: fc.boolean(),
+}).map((j) => {
+  const id = (text) => (j.named ? {id: text} : {});
+  const chord = {kind: 'tube', ...id('chord'), outer_diameter_mm: 2 * j.radius * j.chord};
+  const lean = j.lean * Math.PI / 180;
+  const place = j.byAxis
+    ? {axis: {point_mm: [0, 0, 0], direction: [0, -Math.sin(lean), Math.cos(lean)]}}
+    : {inclination_deg: j.lean, clocking_deg: j.turn, offset_mm: j.aside * j.radius * (j.chord - 1)};
+  const braces = j.braces.map((b, i) => ({kind: 'tube', ...id(`brace ${i}`), outer_diameter_mm: 2 * j.radius * b.size,
+    inclination_deg: b.lean, clocking_deg: b.turn, offset_mm: b.aside * j.radius, height_mm: b.height * j.radius}));
+  const plane = {kind: 'plane', point_mm: [0, 0, j.radius], normal: [0.1, 0, 1]};
+  return {
+    target: {...id('B1'), outer_diameter_mm: 2 * j.radius, wall_mm: Math.max(0.5, j.radius * j.wall)},
+    cutters: [{...chord, ...place}, ...braces, ...(j.plane ? [plane] : [])],
+  };
+});
+
+const points = fc.integer({min: 24, max: 90}).map((n) => ({sampling: {uniform_points: n}}));
+const sampling = fc.oneof(
+  {weight: 4, arbitrary: points},
+  {weight: 1, arbitrary: fc.record({tolerance_mm: between(0.3, 3), metric: fc.constantFrom('developed', 'chord')}).map((s) => ({sampling: s}))},
+  {weight: 1, arbitrary: fc.record({uniform_points: fc.integer({min: 8, max: 48}), tolerance_mm: between(0.5, 3)}).map((s) => ({sampling: s}))});
+
+const common = joined(
+  maybe('reference', fc.record({part: printable(1, 12), heat: printable(1, 64)})),
+  maybe('log', fc.constant('inline')),
+  maybe('numerics', fc.constant(1)));
+
+const limits = fc.oneof(
+  fc.record({max_slope_deg_per_mm: between(0.5, 10), max_curvature_deg_per_mm2: between(0.1, 3)}),
+  fc.record({machine: fc.constant('five_axis_cutter'), speed_mm_min: between(100, 2000), use: between(0.2, 1)},
+    {requiredKeys: ['machine', 'speed_mm_min']}));
+const envelope = fc.record({method: fc.constant('envelope'), limits, refine: fc.boolean(), mutation_limit_deg: between(1, 30)},
+  {requiredKeys: ['method', 'limits']});
+const untreated = fc.record({method: fc.constant('none'), mutation_limit_deg: between(1, 30)}, {requiredKeys: ['method']});
+const hermite = fc.record({method: fc.constant('hermite'), transition_points: fc.integer({min: 4, max: 9}), mutation_limit_deg: between(40, 90)});
+
+const groove = fc.oneof(
+  fc.record({rule: fc.constant('half_dihedral'), cap_deg: between(20, 60)}, {requiredKeys: ['rule']}),
+  fc.record({rule: fc.constant('fixed'), angle_deg: between(0, 60)}),
+  fc.constant({rule: 'none'}), fc.constant({rule: 'square'}));
+
+// Root, contact and dihedral as the table of combinations has them; hermite promises nothing, so without contact and on a bare grid.
+const ways = fc.oneof(
+  {weight: 3, arbitrary: joined(fc.record({root_surface: fc.constant('inner'), contact: fc.constantFrom('inner', 'none'),
+    smoothing: fc.oneof(envelope, untreated)}), sampling)},
+  {weight: 3, arbitrary: joined(fc.record({root_surface: fc.constant('outer'), contact: fc.constant('none'),
+    dihedral: fc.constantFrom('weld_side', 'inside', 'as_published'), smoothing: fc.oneof(envelope, untreated)}), sampling)},
+  {weight: 1, arbitrary: joined(fc.record({root_surface: fc.constantFrom('inner', 'outer'), contact: fc.constant('none'), smoothing: hermite}),
+    points)});
+
+const torch = fc.record({min_deg: between(-89, -80), max_deg: between(80, 89)}, {requiredKeys: []});
+const accept = fc.record({max_root_gap_mm: between(0, 2), max_extra_bevel_deg: between(0, 20), max_b_deg: between(10, 80)}, {requiredKeys: []});
+
+// The endpoint's examples with every number that is no count moved by up to a thousandth.
+function nearExamples(contract, endpoint) {
+  const move = (given, value, turns) => {
+    const schema = branchOf(contract, contract.resolve(given), value);
+    if (Array.isArray(value)) return value.map((item) => move(schema.items, item, turns));
+    if (value !== null && typeof value === 'object') {
+      return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, move(schema.properties[name], item, turns)]));
+    }
+    return schema.type === 'number' ? value * (1 + turns() / 1e6) : value;
+  };
+  return fc.tuple(fc.constantFrom(...endpoint.examples), fc.infiniteStream(fc.integer({min: -1000, max: 1000})))
+    .map(([{body}, stream]) => move(endpoint.request, body, () => stream.next().value))
+    .filter((body) => endpoint.validRequest(body));
+}
+
+// Requests that should be answered with 200. An endpoint without a generator of its own starts from its examples.
+export function sound(contract, endpoint) {
+  return own[endpoint.id] ?? nearExamples(contract, endpoint);
+}
+
+const own = {
+  intersections: joined(joint, sampling, maybe('surfaces', fc.constantFrom('inner', 'outer', 'both')), common),
+  'bevel-tables': joined(joint, ways, fc.record({groove, kerf_mm: between(0, 4)}), maybe('torch', torch), maybe('accept', accept), common),
+};

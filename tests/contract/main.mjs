@@ -1,0 +1,48 @@
+// The contract held against the running service: node main.mjs SUITE --server BINARY --contract openapi.yaml [--seed N]
+import {parseArgs} from 'node:util';
+import {answers} from './suites/answers.mjs';
+import {editsRefused} from './suites/edits_refused.mjs';
+import {http} from './suites/http.mjs';
+import {mutants} from './suites/mutants.mjs';
+import {valid} from './suites/valid.mjs';
+import {Contract} from './schemas.mjs';
+import {Service} from './service.mjs';
+
+const SUITES = {valid, edits: editsRefused, http, answers, mutants};
+const SHOWN = 10;
+
+class Report {
+  faults = [];
+
+  fault(about, lines) {
+    for (const line of [lines].flat()) this.faults.push(`${about}: ${line}`);
+  }
+
+  expect(condition, about, line) {
+    if (!condition) this.fault(about, line);
+  }
+}
+
+const {values, positionals: [suite]} = parseArgs({allowPositionals: true,
+  options: {server: {type: 'string'}, contract: {type: 'string'}, seed: {type: 'string'}}});
+if (!SUITES[suite] || !values.server || !values.contract) {
+  console.error(`usage: node main.mjs ${Object.keys(SUITES).join('|')} --server BINARY --contract FILE [--seed N]`);
+  process.exit(2);
+}
+const seed = Number(values.seed ?? Date.now() % 2 ** 31);
+console.log(`suite ${suite}, seed ${seed}`);
+
+const service = await Service.start(values.server);
+const report = new Report();
+try {
+  const contract = await new Contract(values.contract).learn(service);
+  const facts = await SUITES[suite]({service, contract, report, seed});
+  for (const fact of facts) console.log(fact);
+  report.expect(service.alive, 'service', 'it ended');
+} finally {
+  const code = await service.stop();
+  report.expect(code === 0, 'service', `it ended with ${code}`);
+}
+for (const fault of report.faults.slice(0, SHOWN)) console.log(`FAULT ${fault}`);
+console.log(`${service.asked} requests, ${report.faults.length} faults`);
+process.exitCode = report.faults.length ? 1 : 0;

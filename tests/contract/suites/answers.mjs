@@ -1,0 +1,79 @@
+// The examples, the catalogues, and what one answer promises of another: the echoed request, CBOR, validate_only.
+import assert from 'node:assert/strict';
+import fc from 'fast-check';
+import {decode} from '../cbor.mjs';
+import {answerFaults} from '../check.mjs';
+import {sound} from '../generate.mjs';
+import {member, parseRaw, print} from '../raw.mjs';
+import {each} from '../service.mjs';
+
+const SOUND = 60;
+
+const same = (a, b) => {
+  try {
+    assert.deepEqual(a, b);
+    return true;
+  } catch {
+    return false;
+  }
+};
+
+async function answerPromises({service, contract, report}, endpoint, name, body) {
+  const about = `${endpoint.id} ${name}`;
+  const first = await service.post(endpoint.path, body);
+  if (first.status !== 200) return report.fault(about, `${first.status} ${first.text.slice(0, 500)}`);
+  report.fault(about, answerFaults(contract, endpoint, body, first.text));
+  const answer = JSON.parse(first.text);
+
+  const echoed = print(member(parseRaw(first.text), 'request'));
+  const second = await service.ask(endpoint.path, {body: echoed});
+  const withoutTimes = (text) => ({...JSON.parse(text), log: undefined});
+  report.expect(same(withoutTimes(second.text), withoutTimes(first.text)), about, 'the echoed request gives another answer');
+  if (body.log === undefined) report.expect(second.text === first.text, about, 'the echoed request gives other bytes');
+
+  const binary = await service.post(endpoint.path, body, {headers: {Accept: 'application/cbor'}});
+  report.expect(binary.headers['content-type'] === 'application/cbor', about, `CBOR has type ${binary.headers['content-type']}`);
+  report.expect(same({...decode(binary.body), log: undefined}, {...answer, log: undefined}), about, 'CBOR differs from JSON');
+
+  const dry = await service.post(`${endpoint.path}?validate_only=true`, body);
+  report.fault(`${about} validate_only`, answerFaults(contract, endpoint, body, dry.text, {validateOnly: true}));
+  const checked = JSON.parse(dry.text);
+  for (const field of ['job', 'request', 'verification', 'verdict', 'warnings']) {
+    report.expect(same(checked[field], answer[field]), about, `validate_only has another ${field}`);
+  }
+}
+
+async function catalogues({service, contract, report}) {
+  for (const {path, valid} of contract.gets()) {
+    const reply = await service.ask(path, {method: 'GET'});
+    report.expect(reply.status === 200, path, `status ${reply.status}`);
+    if (valid) report.fault(path, contract.faults(valid, JSON.parse(reply.text)));
+    const head = await service.ask(path, {method: 'HEAD'});
+    report.expect(head.status === 200 && head.body.length === 0, path, `HEAD ${head.status}`);
+  }
+  const json = await service.ask('/openapi.json', {method: 'GET'});
+  report.expect(same(JSON.parse(json.text), contract.document), '/openapi.json', 'differs from openapi.yaml');
+  const known = JSON.parse((await service.ask('/v1/errors', {method: 'GET'})).text).errors.map((e) => e.code);
+  for (const endpoint of contract.posts()) {
+    report.expect(endpoint.codes.length > 0, endpoint.id, 'has no x-problem-codes');
+    for (const code of endpoint.codes) report.expect(known.includes(code), endpoint.id, `x-problem-codes has ${code}`);
+  }
+}
+
+export async function answers(context) {
+  await catalogues(context);
+  const endpoints = context.contract.posts();
+  const {examples} = context.contract;
+  for (const endpoint of endpoints) {
+    context.report.expect(endpoint.examples.length > 0, endpoint.id, 'has no example');
+    for (const {name, body} of endpoint.examples) {
+      context.report.fault(`example ${name}`, context.contract.faults(endpoint.validRequest, body));
+      await answerPromises(context, endpoint, name, body);
+    }
+    const bodies = fc.sample(sound(context.contract, endpoint), {seed: context.seed, numRuns: SOUND});
+    await each(bodies, async (body, i) => {
+      if ((await context.service.post(endpoint.path, body)).status === 200) await answerPromises(context, endpoint, `sound ${i}`, body);
+    });
+  }
+  return [`${examples.length} examples, ${SOUND} sound requests for each of ${endpoints.length} endpoints`];
+}

@@ -1,0 +1,50 @@
+// One edit that the schema calls invalid: a problem that names the edited field and nothing else.
+import fc from 'fast-check';
+import {problemFaults} from '../check.mjs';
+import {edits} from '../edits.mjs';
+import {sound} from '../generate.mjs';
+import {each} from '../service.mjs';
+
+const BODIES = 60;     // sound requests to edit, each endpoint
+const EDITS = 3600;    // sent, each endpoint
+const IN_ALL = 5000;   // at least
+const KINDS = ['type', 'range', 'choice', 'count', 'missing', 'unknown', 'exclusive', 'root'];
+
+function editFaults(contract, problem, edit, reply) {
+  if (reply.status < 400) return [`answered ${reply.status}`];
+  const faults = problemFaults(contract, problem, reply);
+  if (faults.length) return faults;
+  const body = JSON.parse(reply.text);
+  const named = body.errors.map((e) => e.pointer);
+  if (!named.includes(edit.pointers[0])) return [`names ${JSON.stringify(named)}, not ${edit.pointers[0]} (${body.code}, ${body.detail})`];
+  const others = named.filter((pointer) => !edit.pointers.includes(pointer));
+  if (others.length) return [`names ${JSON.stringify(others)} besides ${edit.pointers[0]}`];
+  return new Set(named).size < named.length ? [`names one field twice: ${JSON.stringify(body.errors)}`] : [];
+}
+
+export async function editsRefused({service, contract, report, seed}) {
+  const problem = contract.problem();
+  const counts = Object.fromEntries(KINDS.map((kind) => [kind, 0]));
+  let sent = 0;
+  for (const endpoint of contract.posts()) {
+    const bodies = fc.sample(sound(contract, endpoint), {seed, numRuns: BODIES});
+    const all = bodies.flatMap((body) => edits(contract, endpoint.request, body));
+    const chosen = fc.sample(fc.shuffledSubarray(all, {minLength: all.length}), {seed, numRuns: 1})[0];
+    const invalid = [];
+    for (const edit of chosen) {
+      if (invalid.length === EDITS) break;
+      const body = edit.apply();
+      if (!endpoint.validRequest(body)) invalid.push({edit, body});
+    }
+    await each(invalid, async ({edit, body}) => {
+      const reply = await service.post(endpoint.path, body);
+      counts[edit.kind] += 1;
+      sent += 1;
+      const faults = editFaults(contract, problem, edit, reply);
+      if (faults.length) report.fault(`${endpoint.id} ${edit.kind} ${edit.pointers[0]}`, `${faults[0]}\n  body ${JSON.stringify(body).slice(0, 1200)}`);
+    });
+  }
+  report.expect(sent >= IN_ALL, 'edits', `only ${sent} of ${IN_ALL}`);
+  for (const kind of KINDS) report.expect(counts[kind] > 0, 'edits', `none of kind ${kind}`);
+  return [`${sent} edits ${JSON.stringify(counts)}`];
+}
