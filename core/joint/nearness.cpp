@@ -154,7 +154,7 @@ Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size
   if (crowded)
     return fail({.code = ErrorCode::wrong_count,
                  .member = "members/" + std::to_string(*crowded / 2) +
-                           (*crowded % 2 == 0 ? "/start" : "/finish"),
+                           (*crowded % 2 == 0 ? "/start" : "/end"),
                  .got = static_cast<double>(count[*crowded]),
                  .limit = static_cast<double>(most),
                  .hint = "more members within reach of this end than one joint may have"});

@@ -19,7 +19,7 @@ constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
 
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
 std::string place_of(std::size_t member, End end) {
-  return place_of(member) + (end == End::start ? "/start" : "/finish");
+  return place_of(member) + (end == End::start ? "/start" : "/end");
 }
 std::string called(const NodeSpec& spec, std::size_t member) {
   const auto& name = spec.members[member].name;
