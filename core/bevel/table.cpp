@@ -481,29 +481,36 @@ void note_root_opens(const TableSpec& spec, Table& out) {
                                     shown(out.phi[at] * kDegPerRad) + " deg"});
 }
 
-}  // namespace
-
-Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
-  auto cutters = joint::resolve(spec.partners);
-  const double by = spec.coating + spec.root_gap;
-  if (!cutters || by == 0.0) return cutters;
-  for (auto& cutter : *cutters) {
-    if (auto* tube = std::get_if<joint::TubeCutter>(&cutter)) {
-      tube->radius += by;
-    } else if (auto* plane = std::get_if<joint::PlaneCutter>(&cutter)) {
-      const double up = plane->normal.z() < 0.0 ? -1.0 : 1.0;
-      plane->point += up * by * plane->normal.normalized();
+/// Phases between rows where a lifted cut, straight from row to row, would enter a partner by more
+/// than `tolerance` normal to the cut: the contours of the walls do not tell where it curves.
+std::vector<double> shortfalls(const Ground& g, const Table& t, double tolerance) {
+  constexpr double kNarrow = 1e-4;  // mm, developed: no finer
+  std::vector<double> out;
+  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+    const auto j = (i + 1) % t.phi.size();
+    const double step = t.phi[j] - t.phi[i] + (j == 0 ? kTwoPi : 0.0);
+    const double along = g.wall.inner * step;
+    if (along < kNarrow) continue;
+    const double rise = t.z_inner[j] - t.z_inner[i];
+    bool enters = false;
+    for (const double u : {0.25, 0.5, 0.75}) {
+      const double phi = t.phi[i] + u * step;
+      const double low = t.z_inner[i] + u * rise;
+      const double high = t.z_outer[i] + u * (t.z_outer[j] - t.z_outer[i]);
+      const double needed = lift(g.root.cutters, g.wall, joint::generator_at(g.wall.inner, phi),
+                                 (high - low) / g.spec.target.wall);
+      enters = enters || (needed - low) * along > tolerance * elementary::hypot(along, rise);
     }
+    for (const double u : {0.25, 0.5, 0.75})
+      if (const double phi = t.phi[i] + u * step; enters)
+        out.push_back(phi < kTwoPi ? phi : phi - kTwoPi);
   }
-  return cutters;
+  return out;
 }
 
-Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
-  const auto grounded = ground(spec);
-  if (!grounded) return tl::unexpected(grounded.error());
-  const auto& g = *grounded;
-  std::vector<double> also;
-  for (const auto& event : g.other_events) also.push_back(event.phi);
+/// The table with rows at the phases `also` besides those of the sampling.
+Result<Table> build(const Ground& g, const std::vector<double>& also, const std::stop_token& stop) {
+  const auto& spec = g.spec;
   const auto samples = joint::sample(g.root, spec.sampling, also, stop);
   if (!samples) return tl::unexpected(samples.error());
 
@@ -540,6 +547,41 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   note_torch_binds(g, *samples, points, out);
   note_root_opens(spec, out);
   if (!spec.sampling.tolerance) note_events_between(g, out);
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
+  auto cutters = joint::resolve(spec.partners);
+  const double by = spec.coating + spec.root_gap;
+  if (!cutters || by == 0.0) return cutters;
+  for (auto& cutter : *cutters) {
+    if (auto* tube = std::get_if<joint::TubeCutter>(&cutter)) {
+      tube->radius += by;
+    } else if (auto* plane = std::get_if<joint::PlaneCutter>(&cutter)) {
+      const double up = plane->normal.z() < 0.0 ? -1.0 : 1.0;
+      plane->point += up * by * plane->normal.normalized();
+    }
+  }
+  return cutters;
+}
+
+Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
+  constexpr int kRounds = 6;  // each divides a shortfall by sixteen where the cut is smooth
+  const auto grounded = ground(spec);
+  if (!grounded) return tl::unexpected(grounded.error());
+  const auto& g = *grounded;
+  std::vector<double> also;
+  for (const auto& event : g.other_events) also.push_back(event.phi);
+  auto out = build(g, also, stop);
+  if (spec.contact != Contact::automatic || !spec.sampling.tolerance) return out;
+  for (int round = 0; out && round < kRounds; ++round) {
+    const auto more = shortfalls(g, *out, spec.sampling.tolerance->value / 2.0);
+    if (more.empty()) break;
+    also.insert(also.end(), more.begin(), more.end());
+    out = build(g, also, stop);
+  }
   return out;
 }
 
