@@ -481,7 +481,7 @@ void note_root_opens(const TableSpec& spec, Table& out) {
                                     shown(out.phi[at] * kDegPerRad) + " deg"});
 }
 
-/// Phases between rows where a lifted cut, straight from row to row, would enter a partner by more
+/// Phases between rows where the cut, straight from row to row, would enter a partner by more
 /// than `tolerance` normal to the cut: the contours of the walls do not tell where it curves.
 std::vector<double> shortfalls(const Ground& g, const Table& t, double tolerance) {
   constexpr double kNarrow = 1e-4;  // mm, developed: no finer
@@ -575,9 +575,12 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   std::vector<double> also;
   for (const auto& event : g.other_events) also.push_back(event.phi);
   auto out = build(g, also, stop);
-  if (spec.contact != Contact::automatic || !spec.sampling.tolerance) return out;
+  const bool held = spec.contact == Contact::inner || spec.contact == Contact::automatic;
+  if (!held || !spec.sampling.tolerance || spec.root_face > 0.0) return out;
+  // On the inner wall the sampling itself uses the whole tolerance.
+  const double share = spec.contact == Contact::inner ? 1.0 : 0.5;
   for (int round = 0; out && round < kRounds; ++round) {
-    const auto more = shortfalls(g, *out, spec.sampling.tolerance->value / 2.0);
+    const auto more = shortfalls(g, *out, share * spec.sampling.tolerance->value);
     if (more.empty()) break;
     also.insert(also.end(), more.begin(), more.end());
     out = build(g, also, stop);
