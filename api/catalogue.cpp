@@ -2,6 +2,7 @@
 
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
+#include "api/machines.hpp"
 #include "api/tube_sizes.hpp"
 
 namespace tubecut::api {
@@ -117,6 +118,7 @@ std::optional<Page> catalogue(std::string_view path) {
                 {"/v1/limits", limits_page},
                 {"/v1/version", version_page},
                 {"/v1/tubes", tubes_page},
+                {"/v1/machines", machines_page},
                 {"/v1/examples", examples_page}};
   for (const auto& page : kPages)
     if (page.path == path) return Page{std::string(kJson), page.print()};

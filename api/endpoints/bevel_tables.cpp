@@ -5,6 +5,7 @@
 
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
@@ -342,6 +343,8 @@ struct BevelTables {
 };
 
 }  // namespace
+
+bevel::TableSpec decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
 
 Endpoint bevel_tables() { return endpoint<BevelTables>(); }
 
