@@ -10,8 +10,9 @@ namespace {
 constexpr std::string_view kJsonMedia = "application/json";
 constexpr std::string_view kCborMedia = "application/cbor";
 constexpr std::string_view kProblemMedia = "application/problem+json";
-constexpr std::string_view kAllPaths[] = {"/v1/errors",   "/v1/limits",    "/v1/version",
-                                          "/v1/machines", "/v1/examples", "/openapi.yaml", "/openapi.json"};
+constexpr std::string_view kAllPaths[] = {"/v1/errors",   "/v1/limits",   "/v1/version",
+                                          "/v1/machines", "/v1/tubes",    "/v1/examples",
+                                          "/openapi.yaml", "/openapi.json"};
 
 /// Fields that belong to every request.
 struct Common {

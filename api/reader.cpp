@@ -31,20 +31,6 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string nearest(std::string_view name, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
-  if (name.size() > 64) return best;
-  for (const auto& candidate : known) {
-    const auto d = distance(name, candidate);
-    if (d < least) {
-      least = d;
-      best = candidate;
-    }
-  }
-  return best;
-}
-
 /// What was got, short enough for a problem document.
 Json shown(const Json& value) {
   if (value.as<Json::Array>() != nullptr || value.as<Json::Object>() != nullptr) {
@@ -88,6 +74,20 @@ bool printable(const std::string& s, std::size_t longest) {
 }
 
 }  // namespace
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
+  if (name.size() > 64) return best;
+  for (const auto& candidate : known) {
+    const auto d = distance(name, candidate);
+    if (d < least) {
+      least = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
 
 std::string_view unit_of(std::string_view field) {
   for (const auto unit : kUnits)
@@ -143,7 +143,7 @@ void Reader::finish() {
   for (const auto& [name, value] : *object) {
     if (issues_->size() >= kIssuesNamed) return;
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    const auto near = nearest(name, known_);
+    const auto near = nearest_name(name, known_);
     record({.code = ErrorCode::unknown_field,
             .pointer = pointer_ + "/" + escaped(name),  // the empty name too is a name
             .hint = near.empty() ? "known here: " + list(known_) : "did you mean " + near + "?"},
@@ -355,6 +355,25 @@ std::vector<bool> Reader::flag_column(std::string_view name, CountRange count) {
              .hint = "true or false is required"},
             &(*items)[i]);
     out.push_back(value != nullptr && *value);
+  }
+  put(name, Json{Json::Array(items->begin(), items->end())});
+  return out;
+}
+
+std::vector<std::string> Reader::text_column(std::string_view name, CountRange count,
+                                             std::size_t longest) {
+  std::vector<std::string> out;
+  const auto* items = required_array(name, count);
+  if (items == nullptr) return out;
+  for (std::size_t i = 0; i < items->size(); ++i) {
+    const auto* value = (*items)[i].as<std::string>();
+    const bool text = value != nullptr && printable(*value, longest);
+    if (!text)
+      issue({.code = value == nullptr ? ErrorCode::wrong_type : ErrorCode::bad_text,
+             .pointer = std::string(name) + "/" + std::to_string(i),
+             .hint = "a text of printable ASCII characters is required"},
+            &(*items)[i]);
+    out.push_back(text ? *value : std::string{});
   }
   put(name, Json{Json::Array(items->begin(), items->end())});
   return out;

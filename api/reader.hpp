@@ -84,6 +84,9 @@ class Reader {
   std::vector<double> column(std::string_view name, CountRange count, Range range = {});
   std::vector<double> angle_column(std::string_view name, CountRange count, Range range = {});
   std::vector<bool> flag_column(std::string_view name, CountRange count);
+  /// Printable texts of 1 to `longest` characters; an empty text stands beside an issue.
+  std::vector<std::string> text_column(std::string_view name, CountRange count,
+                                       std::size_t longest = 64);
   Eigen::Vector3d vector3(std::string_view name, Range range = {});
   /// An array of [first, second].
   std::vector<std::pair<double, double>> pairs(std::string_view name, CountRange count, Range first,
@@ -215,9 +218,15 @@ class Reader {
   std::vector<FieldIssue>* issues_;
   std::vector<std::string> known_;
   Json::Object echo_;
+  bool ignore_rest_ = false;
+  bool binary_ = false;
   bool silent_ = false;
   bool binary_ = false;
 };
+
+/// The candidate most like `name`, empty when none is near.
+[[nodiscard]] std::string nearest_name(std::string_view name,
+                                       const std::vector<std::string>& candidates);
 
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);
