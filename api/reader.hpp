@@ -218,10 +218,8 @@ class Reader {
   std::vector<FieldIssue>* issues_;
   std::vector<std::string> known_;
   Json::Object echo_;
-  bool ignore_rest_ = false;
   bool binary_ = false;
   bool silent_ = false;
-  bool binary_ = false;
 };
 
 /// The candidate most like `name`, empty when none is near.

@@ -135,6 +135,9 @@ function nearExamples(contract, endpoint) {
     .filter((body) => endpoint.validRequest(body));
 }
 
+// Seconds a suite may spend on an endpoint's answers: of those with a generator of their own it asks a given number instead.
+export const seconds = (endpoint) => (own[endpoint.id] ? Infinity : 2);
+
 // Requests that should be answered with 200. An endpoint without a generator of its own starts from its examples.
 export function sound(contract, endpoint) {
   return own[endpoint.id] ?? nearExamples(contract, endpoint);
