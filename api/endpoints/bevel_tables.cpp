@@ -344,7 +344,23 @@ struct BevelTables {
 
 }  // namespace
 
-bevel::TableSpec decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
+bevel::TableSpec decode_bevel_table_request(Reader& in) {
+  auto spec = BevelTables::decode(in);
+  if (!spec.source.node) {
+    spec.target = spec.source.target;
+    spec.partners = spec.source.partners;
+    return spec;
+  }
+  if (!in.understood("node")) return spec;
+  // The reader of the rest asks for the target: a nested node is resolved at once.
+  auto resolved = BevelTables::resolve(spec, {});
+  if (resolved) return *std::move(resolved);
+  for (const auto& issue : resolved.error().issues)
+    in.issue({.code = issue.code,
+              .pointer = pointer_of(issue.member, Json{in.echo()}).substr(1),
+              .hint = issue.hint});
+  return spec;
+}
 
 Endpoint bevel_tables() { return endpoint<BevelTables>(); }
 

@@ -28,6 +28,7 @@ export function branchOf(contract, schema, value) {
 
 // Could one object be meant as either? Not when a constant of the same name tells them apart.
 function alike(a, b) {
+  if (!a.properties || !b.properties) return false;  // one of them is no object
   return Object.entries(a.properties).every(([name, p]) => {
     const q = b.properties[name];
     return !q || !('const' in p) || !('const' in q) || p.const === q.const;
