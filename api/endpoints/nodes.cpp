@@ -106,8 +106,9 @@ struct Nodes {
     w.field("open", end.open);
     w.field("consumed", end.consumed);
     const auto index = 2 * end.member + (start ? 0U : 1U);
-    if (index >= out.profiles.size() || !out.profiles[index]) return;
-    w.array("profiles", out.profiles[index]->profiles,
+    static const std::vector<joint::Profile> kNone;
+    const bool there = index < out.profiles.size() && out.profiles[index];
+    w.array("profiles", there ? out.profiles[index]->profiles : kNone,
             [&](Writer& each, const joint::Profile& profile) {
               each.object([&](Writer& o) { encode_profile(profile, spec.sampling, o); });
             });
