@@ -193,19 +193,20 @@ struct BevelTables {
     Spec out;
     out.source = decode_joint(in);
     out.sampling = decode_sampling(in);
-    const bool root_known = in.is<std::string>("root_surface");
     out.root_surface = in.choice("root_surface", kRoots);
     out.groove = in.object("groove", decode_groove);
     out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
     out.contact = in.choice("contact", kContacts, Contact::inner);
-    if (root_known && !supported(out))
+    const bool told = in.understood("root_surface") && in.understood("dihedral") &&
+                      in.understood("contact");
+    if (told && !supported(out))
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = "contact",
                 .hint = "root inner goes with contact inner, auto or none; root outer with contact "
                         "outer or none; another dihedral with root outer and contact none"},
                in.find("contact"));
     out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
-    if (out.root_face > 0.0 && out.contact != Contact::inner)
+    if (told && out.root_face > 0.0 && out.contact != Contact::inner)
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = "root_face_mm",
                 .hint = "a root face goes with contact inner"},

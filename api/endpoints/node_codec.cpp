@@ -40,7 +40,7 @@ Ids decode_ids(Reader& in, const std::vector<joint::Member>& members) {
   Ids out;
   const auto* field = in.find("members");
   const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
-  out.complete = items != nullptr && items->size() == members.size();
+  out.complete = items != nullptr && !items->empty() && items->size() == members.size();
   for (const auto& member : members) out.complete = out.complete && !member.name.empty();
   for (std::size_t i = 0; i < members.size(); ++i)
     if (!members[i].name.empty() && !out.places.emplace(members[i].name, i).second)
@@ -67,13 +67,14 @@ std::size_t known(Reader& in, const Ids& ids, const std::string& id, const std::
 
 joint::Link decode_link(Reader& in, const Ids& ids) {
   joint::Link out;
-  out.member = known(in, ids, in.text("member"), "member");
+  const auto own = in.text("member");
+  out.member = known(in, ids, own, "member");
   out.end = in.choice("end", kEnds);
   const auto to = in.text_column("to", {.min = 1, .max = joint::kMostCutters});
   for (std::size_t i = 0; i < to.size(); ++i) {
     const auto pointer = "to/" + std::to_string(i);
     const auto other = known(in, ids, to[i], pointer);
-    if (other == out.member && in.understood("member") && ids.places.contains(to[i]))
+    if (!own.empty() && to[i] == own)
       in.issue({.code = ErrorCode::bad_choice,
                 .pointer = pointer,
                 .got = Json{to[i]},
@@ -96,9 +97,8 @@ Decoded decode(Reader& in) {
     out.spec.connect = in.array("connect", {.min = 1, .max = 2 * kMembers},
                                 [&](Reader& link) { return decode_link(link, out.ids); });
   else
-    out.spec.connect = in.object("connect", [](Reader& c) {
-      return joint::Within{c.number("within_mm", kDistance)};
-    });
+    out.spec.connect = in.object(
+        "connect", [](Reader& c) { return joint::Within{c.number("within_mm", kDistance)}; });
   return out;
 }
 

@@ -93,8 +93,7 @@ struct Nodes {
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.nodes.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
-  static void encode_end(const Spec& spec, const Out& out, const joint::MemberEnd& end,
-                         Writer& w) {
+  static void encode_end(const Spec& spec, const Out& out, const joint::MemberEnd& end, Writer& w) {
     const bool start = end.end == joint::End::start;
     w.field("member", spec.node.members[end.member].name);
     w.field("end", start ? "start" : "finish");
