@@ -7,6 +7,7 @@ std::span<const Endpoint> endpoints() {
   static const std::vector<Endpoint> kTable{
       intersections(),
       bevel_tables(),
+      holes(),
       feed_curves(),
   };
   return kTable;

@@ -7,6 +7,7 @@ namespace tubecut::api {
 // One line per endpoint; the table in endpoint_table.cpp lists them in the order of the contract.
 [[nodiscard]] Endpoint intersections();
 [[nodiscard]] Endpoint bevel_tables();
+[[nodiscard]] Endpoint holes();
 [[nodiscard]] Endpoint feed_curves();
 
 }  // namespace tubecut::api
