@@ -70,6 +70,10 @@ struct Outcome {
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
 
+/// Adds a machine of one's own (a JSON object in the form of GET /v1/machines) to those a request can name. Only at start, before
+/// the first dispatch. Returns what is wrong with it, or nothing.
+[[nodiscard]] std::string add_machine(std::string_view json);
+
 /// "0.1.0", and the integer raised with every change of a result bit.
 [[nodiscard]] std::string_view version();
 [[nodiscard]] int numerics();

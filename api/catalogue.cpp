@@ -2,6 +2,7 @@
 
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
+#include "api/machines.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -100,6 +101,7 @@ std::optional<Page> catalogue(std::string_view path) {
   } kPages[] = {{"/v1/errors", errors_page},
                 {"/v1/limits", limits_page},
                 {"/v1/version", version_page},
+                {"/v1/machines", machines_page},
                 {"/v1/examples", examples_page}};
   for (const auto& page : kPages)
     if (page.path == path) return Page{std::string(kJson), page.print()};

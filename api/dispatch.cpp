@@ -11,7 +11,7 @@ constexpr std::string_view kJsonMedia = "application/json";
 constexpr std::string_view kCborMedia = "application/cbor";
 constexpr std::string_view kProblemMedia = "application/problem+json";
 constexpr std::string_view kAllPaths[] = {"/v1/errors",   "/v1/limits",    "/v1/version",
-                                          "/v1/examples", "/openapi.yaml", "/openapi.json"};
+                                          "/v1/machines", "/v1/examples", "/openapi.yaml", "/openapi.json"};
 
 /// Fields that belong to every request.
 struct Common {
@@ -184,6 +184,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
     return refuse(ErrorCode::unreadable_json, body.error().reason + " at byte " +
                                                   std::to_string(body.error().offset));
   Reader in(*body);
+  in.set_binary(choice->body == Body::cbor);
   const auto common = read_common(in, endpoint);
   if (common.numerics && *common.numerics != numerics())
     return refuse(Problem{.code = ErrorCode::numerics_mismatch,

@@ -8,7 +8,11 @@ std::span<const Endpoint> endpoints() {
       intersections(),
       bevel_tables(),
       holes(),
+      pulse_schedules(),
+      replays(),
       feed_curves(),
+      grooves(),
+      mill_paths(),
   };
   return kTable;
 }

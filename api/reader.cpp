@@ -362,6 +362,41 @@ Eigen::Vector3d Reader::vector3(std::string_view name, Range range) {
                             : Eigen::Vector3d::UnitZ();
 }
 
+std::vector<std::pair<double, double>> Reader::pairs(std::string_view name, CountRange count,
+                                                     Range first, Range second) {
+  std::vector<std::pair<double, double>> out;
+  const auto* items = required_array(name, count);
+  if (items == nullptr) return out;
+  for (std::size_t i = 0; i < items->size(); ++i) {
+    const auto step = std::string(name) + "/" + std::to_string(i);
+    const auto* pair = (*items)[i].as<Json::Array>();
+    if (pair == nullptr || pair->size() != 2) {
+      issue({.code = pair == nullptr ? ErrorCode::wrong_type : ErrorCode::wrong_count,
+             .pointer = step,
+             .limit = Json{2.0},
+             .hint = "a pair of numbers is required"},
+            &(*items)[i]);
+      continue;
+    }
+    const auto a = checked(name, (*pair)[0], first, step + "/0");
+    const auto b = checked(name, (*pair)[1], second, step + "/1");
+    out.emplace_back(a.value_or(0.0), b.value_or(0.0));
+  }
+  put(name, Json{Json::Array(items->begin(), items->end())});
+  return out;
+}
+
+bool Reader::is_null(std::string_view name) {
+  note(name);
+  if (!is<std::nullptr_t>(name)) return false;
+  put(name, Json{});
+  return true;
+}
+
+std::optional<double> Reader::nullable_number(std::string_view name, Range range) {
+  return is_null(name) ? std::nullopt : optional_number(name, range);
+}
+
 std::optional<std::size_t> Reader::choose(std::string_view name,
                                           std::span<const std::string_view> names,
                                           std::optional<std::size_t> fallback) {

@@ -86,6 +86,13 @@ class Reader {
   std::vector<double> angle_column(std::string_view name, CountRange count, Range range = {});
   std::vector<bool> flag_column(std::string_view name, CountRange count);
   Eigen::Vector3d vector3(std::string_view name, Range range = {});
+  /// An array of [first, second].
+  std::vector<std::pair<double, double>> pairs(std::string_view name, CountRange count, Range first,
+                                               Range second);
+  /// A number, or null for none; absent means none.
+  std::optional<double> nullable_number(std::string_view name, Range range);
+  /// True, and echoed, when the member is null.
+  bool is_null(std::string_view name);
 
   template <class E, std::size_t N>
   E choice(std::string_view name, const std::array<Option<E>, N>& options,
@@ -182,11 +189,17 @@ class Reader {
   Json take_echo(std::string_view name);
   [[nodiscard]] const Json* find(std::string_view name) const { return body_->find(name); }
 
+  /// Whether the answer goes out in a binary format, which may be longer. Set at the root.
+  void set_binary(bool binary) { binary_ = binary; }
+  [[nodiscard]] bool binary() const { return binary_; }
+
  private:
   Reader(const Json& body, std::string pointer, std::vector<FieldIssue>* issues)
       : body_(&body), pointer_(std::move(pointer)), issues_(issues) {}
   [[nodiscard]] Reader nested(const Json& body, const std::string& step) const {
-    return {body, pointer_ + "/" + step, issues_};
+    Reader child(body, pointer_ + "/" + step, issues_);
+    child.binary_ = binary_;
+    return child;
   }
   void adopt(std::string_view name, Reader& child);
   void record(FieldIssue issue, const Json* value);

@@ -81,6 +81,10 @@ class Writer {
     list(name, values, [this](const std::string& v) { append_text(out_, v); });
   }
 
+  void flags(std::string_view name, const std::vector<bool>& values) {
+    list(name, values, [this](bool v) { out_ += v ? "true" : "false"; });
+  }
+
   /// Text that is JSON already.
   void raw(std::string_view name, std::string_view json);
   /// An element of an array.

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <functional>
 #include <thread>
+#include <vector>
 
 #include "server/json_line.hpp"
 
@@ -106,9 +107,8 @@ JobLog::JobLog(std::size_t queue, int descriptor) : x_(std::make_unique<Impl>())
 JobLog::~JobLog() {
   // Ending the pool joins its thread: with a reader that never reads, that would never end. Then
   // the thread is left to the end of the process.
-  if (!flush(std::chrono::milliseconds(500))) {
-    static_cast<void>(new std::shared_ptr<spdlog::details::thread_pool>(x_->pool));
-  }
+  static auto* const abandoned = new std::vector<std::shared_ptr<spdlog::details::thread_pool>>;
+  if (!flush(std::chrono::milliseconds(500))) abandoned->push_back(x_->pool);
 }
 
 void JobLog::write(std::string_view line) {

@@ -59,7 +59,7 @@ Service service_of(const App& app) {
           .max_body = [&app](std::string_view target) { return app.max_body(target); }};
 }
 
-Service service_of(AdminSources sources) {
+Service service_of(const AdminSources& sources) {
   return {.handle = [sources](const Request& request) { return admin(request, sources); },
           .screen = [](const Request&) { return std::optional<Refusal>{}; },
           .max_body = [](std::string_view) { return std::size_t{0}; }};

@@ -128,11 +128,12 @@ struct Transport::Impl final : httplib::Server {
       answer_unreadable(out);
       return HandlerResponse::Handled;
     }));
-    set_exception_handler([](const httplib::Request&, httplib::Response& out, std::exception_ptr) {
-      out.status = 500;  // `handle` does not throw; this only keeps the library from showing the
-                         // text of what did
-      out.set_content("The service failed.\n", "text/plain; charset=utf-8");
-    });
+    set_exception_handler(
+        [](const httplib::Request&, httplib::Response& out, const std::exception_ptr&) {
+          out.status = 500;  // `handle` does not throw; this only keeps the library from showing
+                             // the text of what did
+          out.set_content("The service failed.\n", "text/plain; charset=utf-8");
+        });
   }
 
   /// Runs once a head is parsed, before routing: the one place where the library's request may be

@@ -8,6 +8,10 @@ namespace tubecut::api {
 [[nodiscard]] Endpoint intersections();
 [[nodiscard]] Endpoint bevel_tables();
 [[nodiscard]] Endpoint holes();
+[[nodiscard]] Endpoint pulse_schedules();
+[[nodiscard]] Endpoint replays();
 [[nodiscard]] Endpoint feed_curves();
+[[nodiscard]] Endpoint grooves();
+[[nodiscard]] Endpoint mill_paths();
 
 }  // namespace tubecut::api

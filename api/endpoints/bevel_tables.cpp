@@ -3,6 +3,7 @@
 
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "core/bevel/table.hpp"
@@ -277,6 +278,8 @@ struct BevelTables {
 };
 
 }  // namespace
+
+bevel::TableSpec decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
 
 Endpoint bevel_tables() { return endpoint<BevelTables>(); }
 

@@ -1,5 +1,7 @@
 #include "api/endpoints/joint_codec.hpp"
 
+#include <algorithm>
+
 #include "api/limits.hpp"
 
 namespace tubecut::api {
@@ -8,6 +10,7 @@ namespace {
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kTolerance{.min = limit::tolerance_min_mm, .max = limit::tolerance_max_mm};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
+constexpr Range kHalfAngleDeg{.min = -80.0, .max = 80.0};
 
 joint::AxisLine decode_axis(Reader& in) {
   return {.point = in.vector3("point_mm", kOffset), .direction = in.vector3("direction", kComponent)};
@@ -33,14 +36,45 @@ joint::Partner decode_plane(Reader& in) {
                             .normal = in.vector3("normal", kComponent)};
 }
 
-enum class Kind { tube, plane };
+joint::Partner decode_rectangular_tube(Reader& in) {
+  joint::BoxCutter out{.width = in.number("width_mm", kDiameter),
+                       .height = in.number("height_mm", kDiameter)};
+  const double widest = 0.5 * std::min(out.width, out.height);
+  out.corner = in.number("corner_radius_mm", {.min = 0.0,
+                                              .max = widest > 0.0 ? widest : kDiameter.max,
+                                              .open_min = true});
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  out.up = in.vector3("up", kComponent);
+  return out;
+}
+
+joint::Partner decode_cone(Reader& in) {
+  joint::ConeCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0,
+                        .half_angle = in.angle("half_angle_deg", kHalfAngleDeg)};
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  return out;
+}
+
+enum class Kind { tube, plane, rectangular_tube, cone };
 
 joint::Partner decode_cutter(Reader& in) {
   static constexpr std::array kKinds{Option<Kind>{"tube", Kind::tube},
-                                     Option<Kind>{"plane", Kind::plane}};
+                                     Option<Kind>{"plane", Kind::plane},
+                                     Option<Kind>{"rectangular_tube", Kind::rectangular_tube},
+                                     Option<Kind>{"cone", Kind::cone}};
   const auto kind = in.tag("kind", kKinds);
   in.optional_text("id");
-  return kind == Kind::plane ? decode_plane(in) : decode_tube(in);
+  switch (kind) {
+    case Kind::plane: return decode_plane(in);
+    case Kind::rectangular_tube: return decode_rectangular_tube(in);
+    case Kind::cone: return decode_cone(in);
+    case Kind::tube: break;
+  }
+  return decode_tube(in);
 }
 
 const char* name_of(joint::EventKind kind) {

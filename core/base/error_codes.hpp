@@ -130,6 +130,7 @@
   X(window_not_reached, cut, "A position stays outside the qualification window.")                                        \
   X(contour_too_coarse, cut, "The contour's points are too far apart for the tolerance.")                                 \
   X(slow_zone, cut, "The tip falls below half of the asked speed here.")                                                  \
+  X(invariant_broken, cut, "The schedule breaks an invariant; do not run it.")                                             \
   X(standoff, cut, "The stand-off changes and this machine cannot compensate it.")
 
 namespace tubecut {

@@ -29,7 +29,7 @@ Response echo(const Request& request) {
 class Port {
  public:
   explicit Port(std::function<Response(const Request&)> handle = echo,
-                TransportOptions options = {})
+                const TransportOptions& options = {})
       : transport_(Transport::open(
                        options, {.handle = std::move(handle),
                                  .screen = [](const Request&) { return std::optional<Refusal>{}; },

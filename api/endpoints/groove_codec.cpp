@@ -1,0 +1,149 @@
+#include "api/endpoints/groove_codec.hpp"
+
+#include "api/limits.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr Range kSmallLength{.min = 0.0, .max = 1'000.0};
+constexpr Range kArea{.min = 0.0, .max = 1e6, .open_min = true};
+constexpr Range kTravelMm{.min = -limit::offset_max_mm, .max = limit::offset_max_mm};
+
+groove::Pipe decode_pipe(Reader& in) {
+  groove::Pipe out;
+  out.outer_diameter = in.number("outer_diameter_mm", kDiameter);
+  out.wall = in.number("wall_mm", kWall);
+  return out;
+}
+
+groove::RootFace decode_root_face(Reader& in) {
+  groove::RootFace out;
+  out.height = in.number("height_mm", kSmallLength);
+  out.width = in.number("width_mm", {.min = 0.0, .max = limit::wall_max_mm, .open_min = true});
+  return out;
+}
+
+groove::Filler decode_filler(Reader& in) {
+  const auto which = in.exactly_one({"area_mm2", "height_mm"});
+  if (which != 1) {
+    groove::FillerArea out;
+    if (which) out.area = in.number("area_mm2", kArea);
+    return out;
+  }
+  groove::FillerHeight out;
+  out.height = in.number("height_mm", {.min = 0.0, .max = 1'000.0, .open_min = true});
+  out.at = in.angle("at_deg", kAnyAngleDeg, Angle{});
+  return out;
+}
+
+groove::FixedBevel decode_compare(Reader& in) {
+  static constexpr std::array kRules{Option<int>{"fixed", 0}};
+  in.choice("rule", kRules);
+  return {.bevel = in.angle("bevel_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
+}
+
+groove::Mill decode_mill(Reader& in) {
+  groove::Mill out;
+  out.half_angle = in.angle("half_angle_deg", {.min = 0.0, .max = 90.0, .open_max = true});
+  out.tip_radius = in.number("tip_radius_mm", kSmallLength);
+  out.length = in.number("length_mm", {.min = 0.0, .max = 1'000.0, .open_min = true});
+  return out;
+}
+
+std::optional<groove::Range> decode_range(Reader& in, std::string_view name, Range limits) {
+  in.note(name);
+  if (!in.has(name)) return std::nullopt;
+  const auto ends = in.column(name, {.min = 2, .max = 2}, limits);
+  if (ends.size() != 2) return std::nullopt;
+  if (!(ends[0] < ends[1]))
+    in.issue({.code = ErrorCode::out_of_range,
+              .pointer = std::string(name) + "/1",
+              .limit = Json{ends[0]},
+              .unit = std::string(unit_of(name)),
+              .hint = "must be greater than the limit"});
+  return groove::Range{ends[0], ends[1]};
+}
+
+groove::Setup decode_setup(Reader& in) {
+  using groove::Mount;
+  static constexpr std::array kMounts{Option<Mount>{"end_up", Mount::end_up},
+                                      Option<Mount>{"end_down", Mount::end_down}};
+  groove::Setup out;
+  out.mount = in.choice("mount", kMounts);
+  out.pivot_length = in.number("pivot_length_mm", {.min = 0.0, .max = 10'000.0}, 0.0);
+  out.z_zero = in.number("z_zero_mm", kTravelMm, 0.0);
+  out.c_zero = in.angle("c_zero_deg", kAnyAngleDeg, Angle{});
+  out.direction = in.integer("direction", -1, 1, 1);
+  if (out.direction == 0)
+    in.issue({.code = ErrorCode::bad_choice, .pointer = "direction", .limit = Json{"-1|1"}},
+             in.find("direction"));
+  out.overrun = in.number("overrun_mm", kSmallLength, 0.0);
+  in.optional_object("travel", [&](Reader& t) {
+    out.travel.x = decode_range(t, "x_mm", kTravelMm);
+    out.travel.z = decode_range(t, "z_mm", kTravelMm);
+    out.travel.b_deg = decode_range(t, "b_deg", kAnyAngleDeg);
+    return 0;
+  });
+  return out;
+}
+
+groove::Optimise decode_optimise(Reader& in) {
+  using groove::Bias;
+  using groove::Hold;
+  using groove::Method;
+  static constexpr std::array kMethods{Option<Method>{"chebyshev", Method::chebyshev},
+                                       Option<Method>{"annealing", Method::annealing},
+                                       Option<Method>{"none", Method::none}};
+  static constexpr std::array kHolds{Option<Hold>{"tip", Hold::tip},
+                                     Option<Hold>{"pivot", Hold::pivot}};
+  static constexpr std::array kBiases{Option<Bias>{"centred", Bias::centred},
+                                      Option<Bias>{"no_overcut", Bias::no_overcut}};
+  groove::Optimise out;
+  out.method = in.choice("method", kMethods, Method::chebyshev);
+  out.hold = in.choice("hold", kHolds, Hold::tip);
+  if (out.method == Method::chebyshev) out.bias = in.choice("bias", kBiases, Bias::centred);
+  if (out.method == Method::annealing)
+    out.seed = static_cast<std::uint64_t>(in.integer("seed", 0, 2'147'483'647, 1));
+  return out;
+}
+
+groove::GapCheck decode_check(Reader& in) {
+  groove::GapCheck out;
+  out.points = in.integer("points", 3, groove::kMaxPoints, 11);
+  out.window = in.angle("window_deg", {.min = 0.0, .max = 90.0, .open_min = true}, Angle::deg(40));
+  out.pitch = in.angle("pitch_deg", {.min = 0.05, .max = 90.0}, Angle::deg(1));
+  out.qualify = in.number("qualify_mm", {.min = 0.0, .max = 100.0, .open_min = true}, 0.5);
+  return out;
+}
+
+}  // namespace
+
+groove::GrooveSpec decode_groove_request(Reader& in) {
+  using groove::AreaIn;
+  static constexpr std::array kSections{Option<AreaIn>{"axial", AreaIn::axial},
+                                        Option<AreaIn>{"normal", AreaIn::normal}};
+  groove::GrooveSpec out;
+  out.chord = in.object("chord", decode_pipe);
+  out.branch = in.object("branch", decode_pipe);
+  out.root_face = in.object("root_face", decode_root_face);
+  out.inclination = in.angle("inclination_deg", {.min = 0.0, .max = 90.0, .open_min = true});
+  out.eccentricity = in.number("eccentricity_mm", {.min = -5'000.0, .max = 5'000.0}, 0.0);
+  out.filler = in.object("filler", decode_filler);
+  out.area_in = in.choice("area_in", kSections, AreaIn::axial);
+  out.sections = in.integer("sections", 4, groove::kMaxSections, 24);
+  out.compare = in.optional_object("compare", decode_compare);
+  return out;
+}
+
+groove::MillPathSpec decode_mill_path_request(Reader& in) {
+  groove::MillPathSpec out;
+  out.groove = in.object("groove", decode_groove_request);
+  out.mill = in.object("mill", decode_mill);
+  out.setup = in.object("setup", decode_setup);
+  out.positions = in.integer("positions", groove::kMinPositions, groove::kMaxPositions, 90);
+  out.optimise = in.defaulted_object("optimise", decode_optimise);
+  out.check = in.defaulted_object("check", decode_check);
+  return out;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "api/reader.hpp"
+#include "core/groove/groove.hpp"
+#include "core/groove/mill_path.hpp"
+
+namespace tubecut::api {
+
+/// A /v1/grooves request, also where it is nested in another.
+[[nodiscard]] groove::GrooveSpec decode_groove_request(Reader& in);
+/// A /v1/mill-paths request, also where it is nested in another.
+[[nodiscard]] groove::MillPathSpec decode_mill_path_request(Reader& in);
+
+}  // namespace tubecut::api

@@ -1,0 +1,286 @@
+#include "api/endpoints/motion_codec.hpp"
+
+#include <cmath>
+
+#include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/groove_codec.hpp"
+#include "api/limits.hpp"
+#include "api/machines.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using motion::Scrap;
+using motion::Surface;
+
+constexpr CountRange kPoints{.min = 3, .max = static_cast<std::size_t>(limit::nodes_max)};
+constexpr Range kUnwrappedDeg{.min = -36'000.0, .max = 36'000.0};
+constexpr Range kBevelDeg{.min = -85.0, .max = 85.0};
+constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};  // mm/min
+constexpr Range kBeam{.min = 0.0, .max = 1e5};
+
+constexpr std::array kSurfaces{Option<Surface>{"outer", Surface::outer},
+                               Option<Surface>{"inner", Surface::inner}};
+constexpr std::array kScraps{Option<Scrap>{"-z", Scrap::minus_z}, Option<Scrap>{"+z", Scrap::plus_z},
+                             Option<Scrap>{"inside", Scrap::inside}};
+
+void negate(std::vector<double>& values) {
+  for (auto& v : values) v = -v;
+}
+
+/// A bevel table's own points, unchanged: the torch line on the asked surface.
+void decode_table_points(Reader& in, Surface surface, motion::Contour& out) {
+  for (const auto* other : {"developed_mm", "length_mm", "cutter", "zone", "z_inner_mm", "z_outer_mm", "dihedral_deg",
+                            "groove_deg", "tau_deg", "gamma_deg", "flush_deg", "b_raw_deg", "b_required_deg", "gap_mm"})
+    in.note(other);
+  out.phi = in.angle_column("phi_deg", kPoints, kUnwrappedDeg);
+  out.b = in.angle_column("b_deg", kPoints, kBevelDeg);
+  out.beam = in.column("beam_mm", kPoints, kBeam);
+  auto inner = in.column("torch_inner_mm", kPoints, kOffset);
+  auto outer = in.column("torch_outer_mm", kPoints, kOffset);
+  out.z = surface == Surface::outer ? std::move(outer) : std::move(inner);
+}
+
+motion::Contour decode_contour(Reader& in) {
+  static constexpr std::array kSigns{Option<bool>{"outer_edge_into_part", false}, Option<bool>{"inward", true}};
+  motion::Contour out;
+  out.surface = in.choice("surface", kSurfaces);
+  out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
+  const Range wall{.min = kWall.min, .max = std::min(kWall.max, out.outer_radius), .open_max = out.outer_radius <= kWall.max};
+  out.wall = in.number("wall_mm", in.is<double>("outer_diameter_mm") ? wall : kWall);
+  out.closed = in.flag("closed");
+  in.note("scrap");
+  if (in.exactly_one({"phi_deg", "points"}) == 1) {
+    in.object("points", [&](Reader& p) {
+      decode_table_points(p, out.surface, out);
+      return 0;
+    });
+    if (in.choice("b_sign", kSigns, false)) negate(out.b);
+    out.scrap = in.choice("scrap", kScraps, Scrap::minus_z);
+    return out;
+  }
+  out.phi = in.angle_column("phi_deg", kPoints, kUnwrappedDeg);
+  out.z = in.column("z_mm", kPoints, kOffset);
+  out.b = in.angle_column("b_deg", kPoints, kBevelDeg);
+  in.note("corner");
+  if (in.has("corner")) out.corner = in.flag_column("corner", kPoints);
+  in.note("beam_mm");
+  if (in.has("beam_mm")) out.beam = in.column("beam_mm", kPoints, kBeam);
+  if (in.has("scrap")) out.scrap = in.choice("scrap", kScraps);
+  return out;
+}
+
+motion::AxisColumns decode_axes(Reader& in, const motion::Machine& machine) {
+  motion::AxisColumns out;
+  out.length = in.column("s_mm", kPoints, kOffset);
+  for (const auto& axis : machine.axes) out.columns.push_back(in.column(axis.name, kPoints, kOffset));
+  in.note("corner");
+  if (in.has("corner")) out.corner = in.flag_column("corner", kPoints);
+  out.closed = in.flag("closed", false);
+  return out;
+}
+
+motion::Speed decode_speed(Reader& in) {
+  if (in.exactly_one({"mm_min", "table"}) != 1) return in.number("mm_min", kSpeed) / 60.0;
+  motion::SpeedTable out;
+  out.pairs = in.pairs("table", {.min = 2, .max = 1'000}, kBeam, kSpeed);
+  for (std::size_t i = 0; i < out.pairs.size(); ++i) {
+    out.pairs[i].second /= 60.0;
+    if (i > 0 && !(out.pairs[i].first > out.pairs[i - 1].first))
+      in.issue({.code = ErrorCode::out_of_range,
+                .pointer = "table/" + std::to_string(i) + "/0",
+                .got = Json{out.pairs[i].first},
+                .limit = Json{out.pairs[i - 1].first},
+                .unit = "mm",
+                .hint = "the metal in the beam must ascend"});
+  }
+  return out;
+}
+
+motion::Lead decode_lead(Reader& in) {
+  motion::Lead out;
+  out.radius = in.number("radius_mm", {.min = 0.1, .max = 1'000.0}, 5.0);
+  out.sweep = in.angle("sweep_deg", {.min = 1.0, .max = 180.0}, Angle::deg(60));
+  out.overcut = in.number("overcut_mm", {.min = 0.0, .max = 1'000.0}, 5.0);
+  out.pierce_b = in.optional_angle("pierce_b_deg", {.min = 0.0, .max = 85.0});
+  out.fan = in.number("fan_mm", {.min = 0.1, .max = 1'000.0}, 10.0);
+  return out;
+}
+
+motion::Sector decode_sector(Reader& in) {
+  motion::Sector out;
+  out.from = in.angle("from_phi_deg", kAnyAngleDeg);
+  out.to = in.angle("to_phi_deg", kAnyAngleDeg);
+  out.back_up = in.number("back_up_mm", {.min = 0.0, .max = 1'000.0}, 5.0);
+  return out;
+}
+
+motion::Expert decode_expert(Reader& in) {
+  motion::Expert out;
+  out.optimism = in.number("optimism", {.min = 1.0, .max = 10.0}, 3.0);
+  if (const auto filter = in.nullable_number("filter_ms", {.min = 0.0, .max = 10'000.0, .open_min = true}))
+    out.filter = *filter * 1e-3;
+  out.sag_warning = in.flag("sag_warning", true);
+  return out;
+}
+
+/// What only a contour has: where to start, which way round, leads, a sector.
+void decode_course(Reader& in, bool hole, motion::Motion& out) {
+  using motion::Direction;
+  static constexpr std::array kDirections{Option<Direction>{"ccw", Direction::ccw},
+                                          Option<Direction>{"cw", Direction::cw}};
+  if (in.find("start_phi_deg") != nullptr && *in.find("start_phi_deg") == Json{"auto"}) {
+    in.note("start_phi_deg");
+    in.put("start_phi_deg", Json{"auto"});
+    out.start.at = motion::Start::At::automatic;
+  } else if (in.has("start_phi_deg") || !hole) {  // a hole need not have a point at phi 0
+    out.start = {motion::Start::At::phi, in.angle("start_phi_deg", kAnyAngleDeg, Angle{})};
+  }
+  in.note("start_phi_deg");
+  out.direction = in.choice("direction", kDirections, Direction::ccw);
+  if (!in.is_null("lead")) out.lead = in.optional_object("lead", decode_lead);
+  if (!in.is_null("sector")) out.sector = in.optional_object("sector", decode_sector);
+}
+
+motion::Motion decode_motion(Reader& in, const CutSource& cut) {
+  motion::Motion out;
+  const auto* contour = std::get_if<motion::Contour>(&cut);
+  const bool has_contour = contour != nullptr || std::holds_alternative<bevel::TableSpec>(cut);
+  out.speed = in.object("speed", decode_speed);
+  if (has_contour) out.speed_on = in.choice("speed_on", kSurfaces, Surface::outer);
+  out.eps_tip = in.number("eps_tip_mm", {.min = 1e-4, .max = 10.0}, 0.1);
+  out.eps_b = in.angle("eps_b_deg", {.min = 1e-4, .max = 10.0}, Angle::deg(0.5));
+  out.jerk = in.flag("jerk", true);
+  out.compare = in.flag("compare", false);
+  const bool closed = contour == nullptr || contour->closed;
+  if (has_contour) decode_course(in, !closed || (contour != nullptr && contour->scrap == Scrap::inside), out);
+  out.expert = in.defaulted_object("expert", decode_expert);
+  return out;
+}
+
+template <class T>
+tl::unexpected<Error> under(const Result<T>& result, const std::string& parent) {
+  auto error = result.error();
+  for (auto& issue : error.issues) issue.member = parent + (issue.member.empty() ? "" : "/" + issue.member);
+  return tl::unexpected(std::move(error));
+}
+
+/// The torch line of a table on its root surface, a corner at each event that is a node.
+motion::Contour contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
+  const bool outer = spec.root_surface == bevel::RootSurface::outer;
+  motion::Contour out;
+  out.phi = table.phi;
+  out.z = outer ? table.torch_outer : table.torch_inner;
+  out.b = table.b;
+  out.beam = table.beam;
+  out.outer_radius = spec.target.outer_radius;
+  out.wall = spec.target.wall;
+  out.surface = outer ? Surface::outer : Surface::inner;
+  if (table.inward) negate(out.b);
+  if (!spec.sampling.tolerance) return out;
+  out.corner.assign(out.phi.size(), false);
+  for (const auto* events : {&table.inner_events, &table.outer_events})
+    for (const auto& event : *events)
+      for (std::size_t i = 0; i < out.phi.size(); ++i)
+        if (out.phi[i] == event.phi) out.corner[i] = true;
+  return out;
+}
+
+/// The mill's emitted positions, closed after one turn of C. A machine counts C on, not modulo a turn.
+Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec, const groove::MillPath& path,
+                                       const motion::Machine& machine) {
+  motion::AxisColumns out{.tip_radius = 0.0, .closed = true};
+  const auto joint = groove::joint_of(spec.groove);
+  if (!joint) return tl::unexpected(joint.error());
+  out.tip_radius = joint->root_radius;
+  std::vector<double> c, x, z, b;
+  for (std::size_t i = 0; i <= path.positions.size(); ++i) {
+    const auto& at = path.positions[i % path.positions.size()].at;
+    double turned = at.c.deg();
+    if (i > 0) turned += 360.0 * std::round((c.back() - turned) / 360.0);
+    c.push_back(turned);
+    x.push_back(at.x);
+    z.push_back(at.z);
+    b.push_back(at.b.deg());
+  }
+  for (const auto& axis : machine.axes) {
+    const auto* column = axis.name == "C" ? &c : axis.name == "X" ? &x : axis.name == "Z" ? &z : axis.name == "B" ? &b : nullptr;
+    if (column == nullptr)
+      return fail({.code = ErrorCode::unsupported_combination,
+                   .member = "machine",
+                   .got = axis.name,
+                   .limit = "C, X, Z, B",
+                   .hint = "a mill path needs a cone_mill with the axes C, X, Z and B"});
+    out.columns.push_back(*column);
+  }
+  return out;
+}
+
+struct CutOf {
+  const JobRequest& request;
+  const std::stop_token& stop;
+  Job& job;
+
+  Result<motion::Cut> operator()(const bevel::TableSpec& spec) const {
+    const auto table = bevel::table(spec, stop);
+    if (!table) return under(table, "cut");
+    job.checks = bevel::verify(spec, *table);
+    job.warnings = table->warnings;
+    for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;
+    return (*this)(contour_of(spec, *table));
+  }
+  Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
+    const auto path = groove::mill_path(spec, stop);
+    if (!path) return under(path, "mill_path");
+    job.checks = groove::verify(spec, *path);
+    job.warnings = path->warnings;
+    for (auto& warning : job.warnings) warning.member = "mill_path/" + warning.member;
+    auto columns = columns_of(spec, *path, request.machine);
+    if (!columns) return tl::unexpected(columns.error());
+    return motion::Cut{*std::move(columns)};
+  }
+  Result<motion::Cut> operator()(const motion::Contour& contour) const {
+    return motion::Cut{motion::as_machine_counts(contour, request.machine.b_positive)};
+  }
+  Result<motion::Cut> operator()(const motion::AxisColumns& columns) const { return motion::Cut{columns}; }
+};
+
+}  // namespace
+
+JobRequest decode_job(Reader& in) {
+  JobRequest out;
+  out.machine = decode_machine_choice(in, "machine");
+  switch (in.exactly_one({"cut", "contour", "mill_path", "axes"}).value_or(4)) {
+    case 0: out.cut = in.object("cut", decode_bevel_table_request); break;
+    case 1: out.cut = in.object("contour", decode_contour); break;
+    case 2: out.cut = in.object("mill_path", decode_mill_path_request); break;
+    case 3:
+      out.cut = in.object("axes", [&](Reader& axes) { return decode_axes(axes, out.machine); });
+      break;
+    default: break;
+  }
+  out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
+  const auto* contour = std::get_if<motion::Contour>(&out.cut);
+  const auto* body = in.find("contour");
+  if (contour != nullptr && body != nullptr && out.motion.lead && body->find("scrap") == nullptr &&
+      body->find("points") == nullptr)
+    in.issue({.code = ErrorCode::missing_field,
+              .pointer = "contour/scrap",
+              .limit = Json{"-z|+z|inside"},
+              .hint = "a bare contour with a lead must say which side falls away"});
+  out.max_periods = static_cast<std::int64_t>(in.binary() ? limit::periods_cbor_max : limit::periods_json_max);
+  return out;
+}
+
+Result<Job> compute_job(const JobRequest& request, const std::stop_token& stop) {
+  Job out;
+  out.spec.machine = request.machine;
+  out.spec.motion = request.motion;
+  out.spec.max_periods = request.max_periods;
+  auto cut = std::visit(CutOf{request, stop, out}, request.cut);
+  if (!cut) return tl::unexpected(cut.error());
+  out.spec.cut = *std::move(cut);
+  return out;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,114 @@
+#include "core/motion/replay.hpp"
+
+#include "api/endpoint.hpp"
+#include "api/endpoints/all.hpp"
+#include "api/endpoints/motion_codec.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr auto kMostPeriods = static_cast<std::size_t>(limit::periods_cbor_max);
+
+/// A schedule's result as it came back; only the period, the counts and the start are read.
+struct Schedule {
+  double period = 0.0;
+  std::vector<std::vector<double>> counts;
+  std::vector<double> start;
+};
+
+Schedule decode_schedule(Reader& in, const motion::Machine& machine) {
+  for (const auto* other : {"machine_sha256", "periods", "axes", "idle", "total", "events", "report", "comparison"})
+    in.note(other);
+  Schedule out;
+  out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
+  in.object("counts", [&](Reader& c) {
+    for (const auto& axis : machine.axes) {
+      c.note(axis.name);
+      out.counts.push_back(c.has(axis.name) ? c.column(axis.name, {.min = 1, .max = kMostPeriods}) : std::vector<double>{});
+    }
+    return 0;
+  });
+  in.object("start", [&](Reader& s) {
+    for (const auto& axis : machine.axes) out.start.push_back(s.number(axis.name, {.min = -1e9, .max = 1e9}));
+    return 0;
+  });
+  return out;
+}
+
+struct Replays {
+  struct Spec {
+    JobRequest job;
+    Schedule schedule;
+  };
+  struct Out {
+    motion::Replay replay;
+    std::vector<Check> checks;
+    std::vector<Warning> warnings;
+  };
+  static constexpr std::string_view kId = "replays";
+  static constexpr std::string_view kPath = "/v1/replays";
+  static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
+  static constexpr std::array<std::string_view, 0> kAccepts{};
+  static constexpr std::array<CheckLimit, 1> kChecks{{{"nested cut", "the checks of its own endpoint", ""}}};
+
+  static Spec decode(Reader& in) {
+    Spec out;
+    out.job = decode_job(in);
+    out.schedule = in.object("schedule", [&](Reader& s) { return decode_schedule(s, out.job.machine); });
+    return out;
+  }
+
+  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
+    auto job = compute_job(spec.job, stop);
+    if (!job) return tl::unexpected(job.error());
+    auto replay = motion::replay({.job = std::move(job->spec),
+                                  .period = spec.schedule.period,
+                                  .counts = spec.schedule.counts,
+                                  .start = spec.schedule.start});
+    if (!replay) return tl::unexpected(replay.error());
+    Out out{*std::move(replay), std::move(job->checks), std::move(job->warnings)};
+    for (const auto& invariant : out.replay.invariants)
+      if (!invariant.passed())
+        out.warnings.push_back({.code = WarningCode::invariant_broken,
+                                .member = "schedule",
+                                .detail = invariant.name + " is " + shown(invariant.value) + ", limit " +
+                                          shown(invariant.limit) + " " + invariant.unit});
+    return out;
+  }
+
+  static std::vector<Check> verify(const Spec&, const Out& out) { return out.checks; }
+  static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
+  static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
+
+  static void encode(const Spec& spec, const Out& out, Writer& w) {
+    auto b = out.replay.b;
+    if (spec.job.machine.b_positive == motion::BPositive::outer_edge_to_waste)
+      for (auto& v : b) v = -v;
+    w.object("path", [&](Writer& o) {
+      o.degrees_column("phi_deg", out.replay.phi);
+      o.column("z_mm", out.replay.z);
+      o.degrees_column("b_deg", b);
+    });
+    w.field("deviation_mm", out.replay.deviation);
+    w.array("invariants", out.replay.invariants, [](Writer& each, const Check& check) {
+      each.object([&](Writer& o) {
+        o.field("name", check.name);
+        o.field("passed", check.passed());
+        o.field("value", check.value);
+        o.field("limit", check.limit);
+        o.field("unit", check.unit);
+      });
+    });
+  }
+
+  static const std::vector<Format<Spec, Out>>& formats() {
+    static const std::vector<Format<Spec, Out>> kNone;
+    return kNone;
+  }
+};
+
+}  // namespace
+
+Endpoint replays() { return endpoint<Replays>(); }
+
+}  // namespace tubecut::api

@@ -1,0 +1,82 @@
+#include "api/formats/schedule_formats.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/formats/chart.hpp"
+#include "api/formats/csv.hpp"
+#include "core/motion/replay.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr const char* kColors[] = {"#1f5fbf", "#c0392b", "#1e8449", "#8e44ad", "#b9770e"};
+constexpr std::size_t kMostPoints = 4'000;  // of a curve: more cannot be told apart
+
+/// Extremes of equal stretches of a long column, so that no peak is lost.
+Series thinned(std::string name, const std::vector<double>& y, double dt, const char* color) {
+  Series out{.name = std::move(name), .x = {}, .y = {}, .color = color};
+  const auto stride = std::max<std::size_t>(1, 2 * y.size() / kMostPoints);
+  for (std::size_t i = 0; i < y.size(); i += stride) {
+    const auto end = y.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, y.size()));
+    const auto [low, high] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(i), end);
+    for (const auto at : {std::min(low, high), std::max(low, high)}) {
+      out.x.push_back(dt * static_cast<double>(at - y.begin()));
+      out.y.push_back(*at);
+      if (low == high) break;
+    }
+  }
+  return out;
+}
+
+std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s) {
+  motion::ReplaySpec again{.job = spec, .period = s.period, .counts = {}, .start = {}};
+  for (const auto& axis : s.axes) {
+    again.counts.emplace_back(axis.counts.begin(), axis.counts.end());
+    again.start.push_back(axis.start);
+  }
+  const auto path = motion::replay(again);
+  std::vector<double> out;
+  if (!path) return out;
+  const double radius = std::get<motion::Contour>(spec.cut).radius();
+  constexpr std::size_t kMean = 25;  // periods, over which the rounding of pulses averages out
+  for (std::size_t i = kMean; i < path->phi.size(); ++i) {
+    const double length = std::hypot(radius * (path->phi[i] - path->phi[i - kMean]), path->z[i] - path->z[i - kMean]);
+    out.push_back(60.0 * length / (static_cast<double>(kMean) * s.period));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string schedule_csv(const motion::Schedule& schedule, const Caption&) {
+  Csv csv;
+  std::vector<std::int64_t> period(static_cast<std::size_t>(schedule.periods));
+  for (std::size_t i = 0; i < period.size(); ++i) period[i] = static_cast<std::int64_t>(i);
+  csv.integers("period", period);
+  for (const auto& axis : schedule.axes)
+    if (!axis.idle()) csv.integers(axis.name + "_pulses", axis.counts);
+  return csv.print();
+}
+
+std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedule& s, const Caption& caption) {
+  Chart pulses{.title = "Pulses per period of " + shown(s.period * 1e3) + " ms", .x_label = "time, s", .y_label = "pulses", .series = {}};
+  for (std::size_t a = 0; a < s.axes.size(); ++a) {
+    if (s.axes[a].idle()) continue;
+    const std::vector<double> counts(s.axes[a].counts.begin(), s.axes[a].counts.end());
+    pulses.series.push_back(thinned(s.axes[a].name, counts, s.period, kColors[a % std::size(kColors)]));
+  }
+  for (const auto& event : s.events)
+    pulses.marks.push_back({s.period * static_cast<double>(event.period), std::string(motion::name_of(event.what))});
+  std::vector<Chart> charts{std::move(pulses)};
+  if (std::holds_alternative<motion::Contour>(spec.cut)) {
+    Chart speed{.title = "Speed of the tip along the cut, mean of 25 periods", .x_label = "time, s", .y_label = "mm/min",
+                .series = {thinned("tip", tip_speed(spec, s), s.period, kColors[0])}, .y_from_zero = true};
+    for (const auto& zone : s.report.slow)
+      speed.bands.push_back({s.period * static_cast<double>(zone.from), s.period * static_cast<double>(zone.to), "slow"});
+    charts.push_back(std::move(speed));
+  }
+  return print_charts(charts, job_line(caption));
+}
+
+}  // namespace tubecut::api

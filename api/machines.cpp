@@ -1,0 +1,229 @@
+#include "api/machines.hpp"
+
+#include <algorithm>
+
+#include "api/api.hpp"
+#include "api/endpoint.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using motion::AxisUnit;
+using motion::BPositive;
+using motion::SwingCenter;
+
+constexpr Range kLimit{.min = 0.0, .max = 1e9, .open_min = true};
+constexpr Range kAnywhere{.min = -1e6, .max = 1e6};
+constexpr Range kArm{.min = 0.0, .max = 10'000.0};
+
+enum class Type { five_axis_cutter, crawler, cone_mill, generic };
+
+motion::Axis decode_axis(Reader& in) {
+  static constexpr std::array kUnits{Option<AxisUnit>{"deg", AxisUnit::deg},
+                                     Option<AxisUnit>{"mm", AxisUnit::mm}};
+  motion::Axis out;
+  out.name = in.text("name", 16);
+  out.unit = in.choice("unit", kUnits);
+  const auto which = in.exactly_one({"pulses_per_unit", "pulses_per_turn"});
+  if (which == 0) out.pulses_per_unit = in.number("pulses_per_unit", kLimit);
+  if (which == 1) out.pulses_per_turn = in.integer("pulses_per_turn", 1, 1'000'000'000);
+  out.v_max = in.number("v_max", kLimit);
+  out.a_max = in.number("a_max", kLimit);
+  out.j_max = in.nullable_number("j_max", kLimit);
+  if (!in.is_null("n_max") && in.has("n_max")) out.n_max = in.integer("n_max", 1, 1'000'000'000);
+  out.soft_min = in.nullable_number("soft_min", kAnywhere);
+  out.soft_max = in.nullable_number("soft_max", kAnywhere);
+  return out;
+}
+
+motion::Kinematics decode_kinematics(Reader& in, Type type) {
+  static constexpr std::array kCenters{Option<SwingCenter>{"remote", SwingCenter::remote},
+                                       Option<SwingCenter>{"pivot", SwingCenter::pivot}};
+  switch (type) {
+    case Type::five_axis_cutter: {
+      motion::FiveAxisCutter out;
+      out.pivot_length = in.number("pivot_length_mm", kArm);
+      out.standoff = in.number("standoff_mm", kArm, 0.0);
+      out.z2_share = in.number("z2_share", {.min = 0.0, .max = 1.0}, 0.0);
+      return out;
+    }
+    case Type::crawler: {
+      motion::Crawler out;
+      out.wheel_offset = in.number("wheel_offset_mm", kArm);
+      out.swing_center = in.choice("swing_center", kCenters);
+      if (out.swing_center == SwingCenter::pivot) out.pivot_length = in.number("pivot_length_mm", kArm);
+      out.standoff_max = in.nullable_number("standoff_max_mm", kArm);
+      return out;
+    }
+    case Type::cone_mill: return motion::ConeMill{};
+    case Type::generic: break;
+  }
+  motion::Generic out;
+  in.note("maps");
+  if (in.has("maps"))
+    out.maps = in.array("maps", {.min = 1, .max = 8}, [](Reader& m) {
+      motion::LinearMap map;
+      map.k_phi = m.number("k_phi", kAnywhere, 0.0);
+      map.k_z = m.number("k_z", kAnywhere, 0.0);
+      map.k_b = m.number("k_b", kAnywhere, 0.0);
+      map.k_0 = m.number("k_0", kAnywhere, 0.0);
+      return map;
+    });
+  return out;
+}
+
+void optional_field(std::string_view name, const std::optional<double>& value, Writer& w) {
+  if (value)
+    w.field(name, *value);
+  else
+    w.raw(name, "null");
+}
+
+void encode_axis(const motion::Axis& axis, Writer& w) {
+  w.object([&](Writer& o) {
+    o.field("name", axis.name);
+    o.field("unit", motion::name_of(axis.unit));
+    if (axis.pulses_per_turn > 0)
+      o.field("pulses_per_turn", axis.pulses_per_turn);
+    else
+      o.field("pulses_per_unit", axis.pulses_per_unit);
+    o.field("v_max", axis.v_max);
+    o.field("a_max", axis.a_max);
+    optional_field("j_max", axis.j_max, o);
+    optional_field("n_max", axis.n_max ? std::optional<double>(static_cast<double>(*axis.n_max)) : std::nullopt, o);
+    optional_field("soft_min", axis.soft_min, o);
+    optional_field("soft_max", axis.soft_max, o);
+  });
+}
+
+struct KinematicFields {
+  Writer& w;
+  void operator()(const motion::FiveAxisCutter& m) const {
+    w.field("pivot_length_mm", m.pivot_length);
+    w.field("standoff_mm", m.standoff);
+    w.field("z2_share", m.z2_share);
+  }
+  void operator()(const motion::Crawler& m) const {
+    w.field("wheel_offset_mm", m.wheel_offset);
+    w.field("swing_center", m.swing_center == SwingCenter::pivot ? "pivot" : "remote");
+    if (m.swing_center == SwingCenter::pivot) w.field("pivot_length_mm", m.pivot_length);
+    optional_field("standoff_max_mm", m.standoff_max, w);
+  }
+  void operator()(const motion::ConeMill&) const {}
+  void operator()(const motion::Generic& m) const {
+    if (m.maps.empty()) return;
+    w.array("maps", m.maps, [](Writer& each, const motion::LinearMap& map) {
+      each.object([&](Writer& o) {
+        o.field("k_phi", map.k_phi);
+        o.field("k_z", map.k_z);
+        o.field("k_b", map.k_b);
+        o.field("k_0", map.k_0);
+      });
+    });
+  }
+};
+
+std::vector<ShelfMachine>& shelf() {
+  static std::vector<ShelfMachine> all = [] {
+    std::vector<ShelfMachine> out;
+    for (auto& entry : motion::catalogue()) {
+      auto hash = machine_sha256(entry.machine);
+      out.push_back({std::move(entry.machine), std::move(entry.values), std::move(hash)});
+    }
+    return out;
+  }();
+  return all;
+}
+
+}  // namespace
+
+std::span<const ShelfMachine> machines() { return shelf(); }
+
+const ShelfMachine* find_machine(std::string_view name) {
+  const auto all = machines();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ShelfMachine& m) { return m.machine.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+motion::Machine decode_machine(Reader& in) {
+  static constexpr std::array kTypes{Option<Type>{"five_axis_cutter", Type::five_axis_cutter},
+                                     Option<Type>{"crawler", Type::crawler},
+                                     Option<Type>{"cone_mill", Type::cone_mill},
+                                     Option<Type>{"generic", Type::generic}};
+  static constexpr std::array kSigns{
+      Option<BPositive>{"outer_edge_into_part", BPositive::outer_edge_into_part},
+      Option<BPositive>{"outer_edge_to_waste", BPositive::outer_edge_to_waste}};
+  motion::Machine out;
+  if (auto name = in.optional_text("name", 64)) out.name = *name;
+  const auto type = in.choice("type", kTypes);
+  out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
+  out.b_positive = in.choice("b_positive", kSigns);
+  if (in.is<std::string>("type")) out.kinematics = decode_kinematics(in, type);
+  out.axes = in.array("axes", {.min = 1, .max = 8}, decode_axis);
+  return out;
+}
+
+void encode_machine(const motion::Machine& machine, Writer& w) {
+  if (!machine.name.empty()) w.field("name", machine.name);
+  w.field("type", motion::type_name(machine));
+  w.field("period_us", std::round(machine.period * 1e9) / 1e3);
+  w.field("b_positive", machine.b_positive == BPositive::outer_edge_into_part ? "outer_edge_into_part"
+                                                                              : "outer_edge_to_waste");
+  std::visit(KinematicFields{w}, machine.kinematics);
+  w.array("axes", machine.axes, [](Writer& each, const motion::Axis& axis) { encode_axis(axis, each); });
+}
+
+std::string machine_sha256(const motion::Machine& machine) {
+  Writer out;
+  out.object([&](Writer& w) { encode_machine(machine, w); });
+  return sha256(out.text());
+}
+
+motion::Machine decode_machine_choice(Reader& in, std::string_view name) {
+  if (!in.is<std::string>(name)) return in.object(name, decode_machine);
+  const auto wanted = in.text(name);
+  if (const auto* found = find_machine(wanted)) return found->machine;
+  std::string list;
+  for (const auto& m : machines()) list += (list.empty() ? "" : "|") + m.machine.name;
+  in.issue({.code = ErrorCode::unknown_machine, .pointer = std::string(name), .limit = Json{list}}, in.find(name));
+  return machines().front().machine;
+}
+
+std::string machines_page() {
+  Writer out;
+  out.object([](Writer& w) {
+    w.array("machines", machines(), [](Writer& each, const ShelfMachine& m) {
+      each.object([&](Writer& o) {
+        o.field("name", m.machine.name);
+        o.field("machine_sha256", m.sha256);
+        o.object("machine", [&](Writer& r) { encode_machine(m.machine, r); });
+        o.array("values", m.values, [](Writer& v, const motion::Provenance& value) {
+          v.object([&](Writer& x) {
+            x.field("member", value.member);
+            x.field("assumption", value.assumption);
+            x.field("source", value.source);
+          });
+        });
+      });
+    });
+  });
+  return out.take();
+}
+
+std::string add_machine(std::string_view json) {
+  const auto body = parse(json);
+  if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);
+  Reader in(*body);
+  auto machine = decode_machine(in);
+  if (const auto issues = in.finish_root(); !issues.empty())
+    return issues.front().pointer + ": " + std::string(info(issues.front().code).meaning);
+  if (machine.name.empty()) return "/name: a machine on the shelf needs a name";
+  if (find_machine(machine.name) != nullptr) return "/name: there is a machine of this name already";
+  if (const auto sound = motion::check(machine); !sound)
+    return sound.error().issues.front().member + ": " + std::string(info(sound.error().code()).meaning);
+  auto hash = machine_sha256(machine);
+  shelf().push_back({std::move(machine), {}, std::move(hash)});
+  return {};
+}
+
+}  // namespace tubecut::api

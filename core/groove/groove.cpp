@@ -1,0 +1,67 @@
+#include "core/groove/groove.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/groove/survey.hpp"
+
+namespace tubecut::groove {
+namespace {
+
+/// The bevel table's target frame is the branch frame turned half round, its phi counted from x:
+/// phi = omega - 90 deg.
+Angle table_phi(int index, int count) {
+  const double turn = double(index) / count - 0.25;
+  return Angle::rad(kTwoPi * (turn < 0.0 ? turn + 1.0 : turn));
+}
+
+GrooveSection report(const Joint& joint, const Section& section) {
+  GrooveSection out;
+  const Toe& p = section.toe;
+  out.omega = section.omega;
+  out.p1 = {p.x1, p.y1};
+  out.p2 = {p.x2, p.y2};
+  out.p3 = {joint.branch_radius, section.y3};
+  out.height = section.height;
+  out.root_z = p.y1;
+  out.root_z_d = section.z3_d;
+  out.height_d = section.height_d;
+  if (section.dir.sin != 0.0) out.ellipse_a = joint.chord_radius / std::abs(section.dir.sin);
+  out.areas = areas(joint, section);
+  out.ruling = ruling(joint, section);
+  out.curves = curve_points(joint, section);
+  out.groove_angle = groove_angle(joint, section);
+  return out;
+}
+
+}  // namespace
+
+Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
+  const auto joint = joint_of(spec);
+  if (!joint) return tl::unexpected(joint.error());
+  const double fixed_height =
+      spec.compare ? joint->groove_width * elementary::tan(spec.compare->bevel.rad()) : 0.0;
+  auto whole = survey(*joint, fixed_height, stop);
+  if (!whole) return tl::unexpected(whole.error());
+  Groove out;
+  out.area = joint->area;
+  out.least_area = whole->least_area;
+  out.height_min = whole->height_min;
+  out.height_max = whole->height_max;
+  out.filler_volume = whole->filler_volume;
+  out.weld_length = whole->weld_length;
+  out.warnings = std::move(whole->warnings);
+  if (spec.compare) out.compare = Comparison{fixed_height, {}, whole->fixed_volume};
+  for (int i = 0; i < spec.sections; ++i) {
+    const auto found = section(*joint, Angle::rad(kTwoPi * i / spec.sections));
+    if (!found) return fail({.code = found.error(), .member = "branch/wall"});
+    out.sections.push_back(report(*joint, *found));
+    out.sections.back().phi = table_phi(i, spec.sections);
+    if (out.compare)
+      out.compare->filler_area.push_back(filler_area(*joint, found->toe, fixed_height));
+  }
+  return out;
+}
+
+}  // namespace tubecut::groove

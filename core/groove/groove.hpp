@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/groove/joint.hpp"
+#include "core/groove/section.hpp"
+#include "core/groove/surface.hpp"
+
+namespace tubecut::groove {
+
+/// A reported section.
+struct GrooveSection {
+  Angle omega;  // about the branch axis from the heel half plane
+  Angle phi;    // of the bevel table of the same joint (same inclination, clocking 0, offset =
+                // eccentricity)
+  Eigen::Vector2d p1, p2, p3;  // x from the branch axis, y along it, mm
+  double height = 0.0;         // h, mm
+  double root_z = 0.0;         // of curve 3, mm
+  double root_z_d = 0.0;       // its derivative by omega, mm/rad
+  double height_d = 0.0;       // mm/rad
+  std::optional<double>
+      ellipse_a;  // semi-axis of the chord's section across the branch, mm; a line pair has none
+  Areas areas;
+  Ruling ruling;
+  CurvePoints curves;
+  Angle groove_angle;  // beta, of the groove line to the branch axis
+};
+
+/// The same joint with a groove line at one angle all round.
+struct Comparison {
+  double height = 0.0;              // of that groove, mm
+  std::vector<double> filler_area;  // per reported section, axial, mm^2; negative where its edge
+                                    // would lie in the chord
+  double filler_volume = 0.0;       // mm^3
+};
+
+struct Groove {
+  std::vector<GrooveSection> sections;
+  double area = 0.0;        // asked or found filler area, in the section `area_in` names, mm^2
+  double least_area = 0.0;  // below it the groove vanishes somewhere, mm^2
+  double height_min = 0.0, height_max = 0.0;  // over 720 sections, mm
+  double filler_volume = 0.0;                 // mm^3
+  double weld_length = 0.0;                   // along curve 3, mm
+  std::optional<Comparison> compare;
+  std::vector<Warning> warnings;
+};
+
+/// The equal-area groove of a joint. Branch frame: z along the branch axis away from the chord, x
+/// along the common perpendicular; omega from +y towards -x.
+///
+/// Errors    of `joint_of` and `survey`.
+/// Accuracy  sections 1e-12 relative; volume and length as in `survey`.
+/// Cost      1 ms and 1 us per section.
+/// Source    docs/theory/grooves-and-milling.md, sections 1-5.
+[[nodiscard]] Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop = {});
+
+/// Proves an answer by other formulas than those that made it.
+///
+/// Cost    about 3 ms.
+[[nodiscard]] std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove);
+
+}  // namespace tubecut::groove

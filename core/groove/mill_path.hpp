@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/groove/joint.hpp"
+#include "core/groove/mill.hpp"
+#include "core/groove/optimise.hpp"
+#include "core/groove/overcut.hpp"
+#include "core/groove/swept.hpp"
+
+namespace tubecut::groove {
+
+struct Optimise {
+  Method method = Method::chebyshev;
+  Hold hold = Hold::tip;
+  Bias bias = Bias::centred;  // of chebyshev
+  std::uint64_t seed = 1;     // of annealing
+};
+
+struct MillPathSpec {
+  GrooveSpec groove;
+  Mill mill;
+  Setup setup;
+  int positions = 90;  // optimised, uniform from omega = 0; 4..20 000
+  Optimise optimise;
+  GapCheck check;
+};
+
+/// Gap and offset of the touched ruling, by v from curve 3 to curve 4.
+struct ContactLine {
+  std::vector<double> gap;                        // mm, < 0 overcut
+  std::vector<double> offset;                     // rad
+  double over = 0.0, under = 0.0, largest = 0.0;  // mm
+};
+
+/// One emitted position.
+struct MillPosition {
+  Angle omega;
+  AxisPosition at;         // B without jumps of a turn from the position before
+  Increment by;            // from the initial position
+  bool optimised = false;  // else between two optima, with their interpolated increments
+  ContactLine before, after;
+  GridFigures grid_before, grid;  // the source's own
+  double certificate = 0.0;       // mm
+  double bias = 0.0;              // mm, that the certificate refers to
+  std::array<int, 3> reference = {};
+  int evaluations = 0;  // 0 between optima
+  bool qualified = false;
+};
+
+struct MillPath {
+  std::vector<MillPosition> positions;
+  Swept swept;            // of what the machine does: linear axes between all emitted positions
+  Swept swept_at_optima;  // had only the optima been emitted
+  bool qualified = false;
+  std::vector<Warning> warnings;
+};
+
+inline constexpr int kMinPositions = 4, kMaxPositions = 20000;
+inline constexpr int kMaxPoints = 101;  // per ruling; the minimax looks at every triple
+inline constexpr double kAxisSag =
+    1e-3;  // mm, of the tool between emitted positions, at mid interval
+inline constexpr double kRootFaceCut = -0.005;   // mm; below it a warning
+inline constexpr double kRootFaceReject = -0.5;  // mm; below it the path is not qualified
+
+/// The cone mill's path round the groove on a C, X, Z, B machine.
+///
+/// Errors    of `groove` (member "groove/..."), of `tool_fault`; sampling, setup, out_of_range,
+///           window, contact, z_ineffective, travel, too_many_nodes (more than 20 000 positions
+///           for the sag), not_converged, cancelled.
+/// Accuracy  increments 1e-9 mm and deg; certificate 1e-9 mm; swept figures as `swept`.
+/// Cost      0.4 ms per optimised and 0.2 ms per further position, 0.15 s for the swept figures;
+///           annealing 15 ms per position.
+/// Source    docs/theory/grooves-and-milling.md, sections 6-8.
+[[nodiscard]] Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop = {});
+
+/// Proves an answer by other formulas than those that made it: points in machine space against the
+/// cone's apex angle.
+///
+/// Cost    about 0.1 ms per position.
+[[nodiscard]] std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path);
+
+}  // namespace tubecut::groove

@@ -1,0 +1,191 @@
+#include "core/groove/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::groove {
+namespace {
+
+/// The chord seen in one section: y over x and its derivatives.
+struct ChordLine {
+  const Joint& joint;
+  Direction dir;
+
+  [[nodiscard]] double t(double x) const { return x * dir.sin + joint.eccentricity; }
+  [[nodiscard]] double q(double t) const {
+    return std::sqrt(std::max(0.0, (joint.chord_radius - t) * (joint.chord_radius + t)));
+  }
+  [[nodiscard]] double y(double x, double q) const {
+    return (x * dir.cos * joint.cos_a + q) / joint.sin_a;
+  }
+  [[nodiscard]] double slope(double t, double q) const {
+    return (dir.cos * joint.cos_a - t * dir.sin / q) / joint.sin_a;
+  }
+  [[nodiscard]] double turn(double x, double t, double q) const {  // Y_w
+    return -x * (dir.sin * joint.cos_a + t * dir.cos / q) / joint.sin_a;
+  }
+  [[nodiscard]] double turn2(double x, double t, double q) const {  // Y_ww
+    const double R = joint.chord_radius;
+    const double along = x * dir.cos;
+    return (-along * joint.cos_a + t * x * dir.sin / q - along * along * R * R / (q * q * q)) /
+           joint.sin_a;
+  }
+  /// How far out the section line reaches before the chord's silhouette.
+  [[nodiscard]] double reach() const {
+    if (dir.sin == 0.0) return std::numeric_limits<double>::infinity();
+    const double side = dir.sin > 0.0 ? -joint.eccentricity : joint.eccentricity;
+    return (joint.chord_radius + side) / std::abs(dir.sin);
+  }
+};
+
+/// P2 at distance D outward of P1.
+void place_p2(const ChordLine& chord, double D, Toe& toe) {
+  toe.D = D;
+  toe.x2 = toe.x1 + D;
+  toe.t2 = chord.t(toe.x2);
+  toe.q2 = chord.q(toe.t2);
+  const double dq = -D * chord.dir.sin * (toe.t1 + toe.t2) / (toe.q1 + toe.q2);
+  toe.dy = (D * chord.dir.cos * chord.joint.cos_a + dq) / chord.joint.sin_a;
+  toe.slope2 = chord.slope(toe.t2, toe.q2);
+}
+
+/// D^2 + dy^2 = c^2 within (0, reach]: Newton while it stays in the bracket, bisection else and
+/// after 50 steps.
+bool solve_p2(const ChordLine& chord, Toe& toe) {
+  constexpr int kNewtonSteps = 50, kSteps = 120;  // 70 halvings leave less than 1e-21 c
+  const double c = chord.joint.weld_width;
+  double low = 0.0, high = std::min(c, chord.reach() - toe.x1);
+  place_p2(chord, high, toe);
+  const double at_high = toe.D * toe.D + toe.dy * toe.dy - c * c;
+  if (!(high > 0.0) || !(at_high >= 0.0)) return false;
+  if (at_high == 0.0) return true;
+  double D = std::min(high, c / std::sqrt(1.0 + toe.slope1 * toe.slope1));
+  for (int i = 0; i < kSteps; ++i) {
+    place_p2(chord, D, toe);
+    const double f = D * D + toe.dy * toe.dy - c * c;
+    (f < 0.0 ? low : high) = D;
+    double next = D - f / (2.0 * (D + toe.dy * toe.slope2));
+    if (i >= kNewtonSteps || !(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - D) <= 4e-16 * c) break;
+    D = next;
+  }
+  return true;
+}
+
+/// theta - sin theta, without cancellation.
+double bulge(double theta) {
+  if (theta > 0.7) return theta - elementary::sin(theta);
+  const double s = theta * theta;
+  double sum = 1.0;
+  for (const double k : {272.0, 210.0, 156.0, 110.0, 72.0, 42.0, 20.0}) sum = 1.0 - s / k * sum;
+  return theta * s / 6.0 * sum;
+}
+
+void measure_bow(const Joint& joint, Direction dir, Toe& toe) {
+  if (dir.sin == 0.0) return;
+  const double R = joint.chord_radius;
+  const double dt = toe.D * dir.sin;
+  const double dq = -dt * (toe.t1 + toe.t2) / (toe.q1 + toe.q2);
+  toe.half_sin = std::min(1.0, std::sqrt(dt * dt + dq * dq) / (2.0 * R));
+  toe.theta = 2.0 * elementary::asin(toe.half_sin);
+  toe.bow = R * R * bulge(toe.theta) / (2.0 * std::abs(dir.sin) * joint.sin_a);
+}
+
+struct AreaAt {
+  double value = 0.0;  // S_D of the axial section
+  double slope = 0.0;  // its derivative by omega
+};
+
+AreaAt area_at(const ChordLine& chord, const Toe& toe) {
+  const Joint& joint = chord.joint;
+  if (joint.area_in == AreaIn::axial) return {joint.area, 0.0};
+  const double rho = joint.root_radius;
+  const double z3_d = chord.turn(toe.x1, toe.t1, toe.q1);
+  const double z3_dd = chord.turn2(toe.x1, toe.t1, toe.q1);
+  const double factor = axial_factor(joint, chord.dir, toe);
+  return {joint.area * factor, joint.area * z3_d * z3_dd / (rho * rho * factor)};
+}
+
+/// d S_C / d omega, given D' .
+double bow_slope(const Joint& joint, Direction dir, const Toe& toe, double D_d) {
+  if (dir.sin == 0.0) return 0.0;
+  const double R = joint.chord_radius;
+  const double half = toe.half_sin;
+  const double theta_d = (D_d * dir.sin + toe.x2 * dir.cos) / toe.q2 - toe.x1 * dir.cos / toe.q1;
+  return (R * R * half * half * theta_d / joint.sin_a - toe.bow * dir.cos) / dir.sin;
+}
+
+}  // namespace
+
+Direction direction(Angle omega) {
+  const auto [s, c] = elementary::sincos(omega.rad());
+  const double rounding = 4e-16 * std::max(1.0, std::abs(omega.rad()) / kTwoPi);
+  if (std::abs(s) <= rounding) return {0.0, c > 0.0 ? 1.0 : -1.0};
+  if (std::abs(c) <= rounding) return {s > 0.0 ? 1.0 : -1.0, 0.0};
+  return {s, c};
+}
+
+tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir) {
+  const ChordLine chord{joint, dir};
+  Toe toe;
+  toe.x1 = joint.root_radius;
+  toe.t1 = chord.t(toe.x1);
+  toe.q1 = chord.q(toe.t1);
+  toe.y1 = chord.y(toe.x1, toe.q1);
+  toe.slope1 = chord.slope(toe.t1, toe.q1);
+  if (!solve_p2(chord, toe)) return tl::unexpected(ErrorCode::no_p2);
+  toe.y2 = toe.y1 + toe.dy;
+  // The chord is concave over x, so distance from P1 surely grows along it while it turns by less
+  // than a right angle. With a right angle and no eccentricity both slopes have one sign and it
+  // always does; a steep heel and a thick wall turn further.
+  if (!(1.0 + toe.slope1 * toe.slope2 > 0.0)) return tl::unexpected(ErrorCode::p2_ambiguous);
+  measure_bow(joint, dir, toe);
+  return toe;
+}
+
+double axial_factor(const Joint& joint, Direction dir, const Toe& toe) {
+  if (joint.area_in == AreaIn::axial) return 1.0;
+  const double z3_d = ChordLine{joint, dir}.turn(toe.x1, toe.t1, toe.q1);
+  return std::sqrt(1.0 + z3_d * z3_d / (joint.root_radius * joint.root_radius));
+}
+
+double filler_area(const Joint& joint, const Toe& toe, double height) {
+  return 0.5 * (height * toe.D - joint.groove_width * toe.dy) - toe.bow;
+}
+
+tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega) {
+  Section out{.omega = omega, .dir = direction(omega)};
+  auto found = toe(joint, out.dir);
+  if (!found) return tl::unexpected(found.error());
+  out.toe = *found;
+  const Toe& p = out.toe;
+  const ChordLine chord{joint, out.dir};
+  const double H = joint.groove_width;
+  const auto [area, area_d] = area_at(chord, p);
+  out.height = (2.0 * (area + p.bow) + H * p.dy) / p.D;
+  out.y3 = p.y1 + out.height;
+  out.z3_d = chord.turn(p.x1, p.t1, p.q1);
+  const double turn2 = chord.turn(p.x2, p.t2, p.q2);
+  const double D_d = -p.dy * (turn2 - out.z3_d) / (p.D + p.dy * p.slope2);
+  const double dy_d = turn2 + p.slope2 * D_d - out.z3_d;
+  const double bow_d = bow_slope(joint, out.dir, p, D_d);
+  out.height_d = (2.0 * (area_d + bow_d) + H * dy_d - out.height * D_d) / p.D;
+  return out;
+}
+
+Areas areas(const Joint& joint, const Section& section) {
+  const Toe& p = section.toe;
+  const double H = joint.groove_width, h = section.height;
+  Areas out;
+  out.a = 0.5 * H * h;
+  out.b = -0.5 * p.D * p.dy;
+  out.c = p.bow;
+  out.d = filler_area(joint, p, h);
+  out.e = 0.5 * (H + p.D) * (h - p.dy);
+  return out;
+}
+
+}  // namespace tubecut::groove

@@ -1,0 +1,157 @@
+#include "core/motion/lead.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kArcStep = 3.0 * kRadPerDeg;  // between points of a lead arc
+constexpr double kRunStep = 0.5;               // mm between points of a straight run
+
+/// A point or direction of the developed surface: s = radius * phi, and z.
+struct Flat {
+  double s = 0.0;
+  double z = 0.0;
+};
+Flat operator+(Flat a, Flat b) { return {a.s + b.s, a.z + b.z}; }
+Flat operator*(double k, Flat a) { return {k * a.s, k * a.z}; }
+
+struct Join {
+  ContourPoint at;
+  Flat point;
+  Flat tangent;
+  Flat normal;  // unit, towards the scrap
+};
+
+Flat flat(const Track& t, const ContourPoint& p) { return {t.radius * p.phi, p.z}; }
+
+Flat unit(Flat a) {
+  const double length = elementary::hypot(a.s, a.z);
+  return length > 0.0 ? (1.0 / length) * a : Flat{1.0, 0.0};
+}
+
+/// First direction with a length going from point `i` by `by`; a pure swing of B has none.
+Flat chord(const Track& t, std::size_t i, int by) {
+  const auto last = static_cast<std::ptrdiff_t>(t.points.size()) - 1;
+  for (auto j = static_cast<std::ptrdiff_t>(i) + by; j >= 0 && j <= last; j += by) {
+    const auto to = static_cast<std::size_t>(j);
+    if (t.tip_step(i, to) > 0.0) return flat(t, t.points[to]) + -1.0 * flat(t, t.points[i]);
+  }
+  return {};
+}
+
+/// Tangent in the middle of a smooth seam (parabola through three points), of the cut's own side at
+/// a corner.
+Flat tangent(const Track& t, Flat before, Flat after, bool starting) {
+  const double a = elementary::hypot(before.s, before.z);
+  const double b = elementary::hypot(after.s, after.z);
+  const Flat own = starting ? after : before;
+  const bool smooth = t.closed && !t.points.front().corner &&
+                      before.s * after.s + before.z * after.z > 0.94 * a * b;
+  return unit(smooth ? (b / a) * before + (a / b) * after : own);
+}
+
+Flat scrap_normal(Flat t, int orientation, Scrap scrap) {
+  const Flat left{-t.z, t.s};
+  if (scrap == Scrap::inside) return orientation * left;
+  return (scrap == Scrap::plus_z ? orientation : -orientation) * left;
+}
+
+/// Direction along the track just before point `i`; none at the start of an open one.
+Flat behind(const Track& t, std::size_t i) {
+  if (i == 0 && !t.closed) return {};
+  return -1.0 * chord(t, i == 0 ? t.points.size() - 1 : i, -1);
+}
+
+Join join(const Track& t, Scrap scrap, std::size_t i, bool starting) {
+  const Flat before = behind(t, i);
+  const Flat after = i + 1 == t.points.size() ? before : chord(t, i, 1);
+  const bool start = i == 0 && !t.closed;
+  const Flat along = tangent(t, start ? after : before, after, starting);
+  return {t.points[i], flat(t, t.points[i]), along, scrap_normal(along, t.orientation(), scrap)};
+}
+
+/// A point `a` rad round the arc from the join; `way` is -1 before the join, +1 behind it.
+Flat on_arc(const Join& j, double radius, double a, double way) {
+  const auto [sin, cos] = elementary::sincos(a);
+  return j.point + radius * (1.0 - cos) * j.normal + way * radius * sin * j.tangent;
+}
+
+/// The arc's points away from the join, nearest first, and their distances from it along the path.
+struct Away {
+  std::vector<Flat> points;
+  std::vector<double> distance;
+};
+
+Away arc(const Join& j, const Lead& lead, double way) {
+  Away out;
+  const double sweep = lead.sweep.rad();
+  const auto n = std::max(1, static_cast<int>(std::ceil(sweep / kArcStep)));
+  for (int i = 1; i <= n; ++i) {
+    out.points.push_back(on_arc(j, lead.radius, sweep * i / n, way));
+    out.distance.push_back(lead.radius * sweep * i / n);
+  }
+  return out;
+}
+
+/// Lengthens the way in straight until the fan of B fits before the cut.
+void add_run(Away& way_in, const Join& j, const Lead& lead) {
+  const double run = lead.fan - way_in.distance.back();
+  if (!lead.pierce_b || run <= 0.0) return;
+  const auto [sin, cos] = elementary::sincos(lead.sweep.rad());
+  const Flat back = sin * j.normal + -cos * j.tangent;
+  const Flat from = way_in.points.back();
+  const double start = way_in.distance.back();
+  const auto n = std::max(1, static_cast<int>(std::ceil(run / kRunStep)));
+  for (int i = 1; i <= n; ++i) {
+    way_in.points.push_back(from + (run * i / n) * back);
+    way_in.distance.push_back(start + run * i / n);
+  }
+}
+
+ContourPoint placed(const Track& t, Flat p, const ContourPoint& at_join) {
+  return {p.s / t.radius, p.z, at_join.b, false, at_join.beam};
+}
+
+std::vector<ContourPoint> way_in(const Track& t, const Join& j, const Lead& lead) {
+  Away way = arc(j, lead, -1.0);
+  add_run(way, j, lead);
+  const double most = lead.pierce_b ? lead.pierce_b->rad() : std::abs(j.at.b);
+  const double pierce = std::clamp(j.at.b, -most, most);
+  const double fan = std::min(lead.fan, way.distance.back());
+  std::vector<ContourPoint> out;
+  for (std::size_t i = way.points.size(); i-- > 0;) {
+    ContourPoint p = placed(t, way.points[i], j.at);
+    const double done =
+        fan > 0.0 ? std::min(1.0, (way.distance.back() - way.distance[i]) / fan) : 1.0;
+    p.b = pierce + done * (j.at.b - pierce);
+    out.push_back(p);
+  }
+  return out;
+}
+
+}  // namespace
+
+Led with_lead(const Track& cut, const Lead& lead, Scrap scrap) {
+  Track t = cut;
+  if (t.closed) {
+    std::vector<ContourPoint> again = first_stretch(cut, lead.overcut);
+    for (auto p = again.begin() + 1; p != again.end(); ++p) {
+      p->phi += kTwoPi * cut.turns;
+      t.points.push_back(*p);
+    }
+  }
+  Led out;
+  out.points = way_in(cut, join(cut, scrap, 0, true), lead);
+  out.cut_first = out.points.size();
+  out.points.insert(out.points.end(), t.points.begin(), t.points.end());
+  out.cut_last = out.points.size() - 1;
+  const Join end = join(t, scrap, t.points.size() - 1, false);
+  for (const Flat p : arc(end, lead, 1.0).points) out.points.push_back(placed(t, p, end.at));
+  return out;
+}
+
+}  // namespace tubecut::motion

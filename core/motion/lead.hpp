@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "core/motion/contour.hpp"
+
+namespace tubecut::motion {
+
+/// A cut with its run-in and run-out, all on the contour's surface. Point `cut_first` is the first
+/// of the cut, `cut_last` the last (overcut included).
+struct Led {
+  std::vector<ContourPoint> points = {};
+  std::size_t cut_first = 0;
+  std::size_t cut_last = 0;
+};
+
+/// The finished part's border and the side of it that falls away.
+struct PartBorder {
+  Track cut = {};  // the whole contour, whatever stretch of it is cut
+  Scrap scrap = Scrap::minus_z;
+  double outer_radius = 0.0;
+  double inner_radius = 0.0;
+  double sigma = -1.0;  // of the machine that counts the B of `cut`
+};
+
+/// Lead-in arc (after a straight run where the fan of B needs it), the cut, its overcut, lead-out
+/// arc. The arcs are tangent to the cut and lie on the scrap side of the developed surface; the fan
+/// ends before the cut begins.
+///
+/// Source  docs/theory/pulse-schedules.md, section 2.6.
+[[nodiscard]] Led with_lead(const Track& cut, const Lead& lead, Scrap scrap);
+
+/// How far, in mm, the beam at a point reaches into the finished part, over both wall surfaces and
+/// their middle. Negative: how far it stays away. Zero on the cut itself. Half the kerf is in the
+/// torch line already.
+[[nodiscard]] double intrusion(const PartBorder& part, const ContourPoint& point);
+
+}  // namespace tubecut::motion

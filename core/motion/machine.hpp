@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace tubecut::motion {
+
+/// An axis counts in its own unit, which its record names; nothing else of core is in degrees.
+enum class AxisUnit : std::uint8_t { deg, mm };
+
+[[nodiscard]] std::string_view name_of(AxisUnit unit);
+
+/// One driven axis. Limits per second in the axis' unit; exactly one of the two pulse counts is
+/// set.
+struct Axis {
+  std::string name = {};
+  AxisUnit unit = AxisUnit::mm;
+  double pulses_per_unit = 0.0;
+  std::int64_t pulses_per_turn =
+      0;  // rotary axes: an integer, so that a closed cut returns exactly
+  double v_max = 0.0;
+  double a_max = 0.0;
+  std::optional<double> j_max = {};        // empty: this axis has no jerk limit
+  std::optional<std::int64_t> n_max = {};  // pulses per period the controller can hold
+  std::optional<double> soft_min = {};
+  std::optional<double> soft_max = {};
+
+  [[nodiscard]] double pulses_per_axis_unit() const {
+    return pulses_per_turn > 0 ? static_cast<double>(pulses_per_turn) / 360.0 : pulses_per_unit;
+  }
+};
+
+/// Source 000: rotating pipe C, carriage Y, height Z1, optional fine height Z2, swinging torch B.
+struct FiveAxisCutter {
+  double pivot_length = 0.0;  // pivot to torch tip, mm
+  double standoff = 0.0;      // tip to wall, mm
+  double z2_share = 0.0;      // share of the height given to Z2; 0: left to the height control
+};
+
+enum class SwingCenter : std::uint8_t { remote, pivot };
+
+/// Source 002: a carriage that crawls round the pipe (S), a cross slide (E) and the swing (B).
+struct Crawler {
+  double wheel_offset = 0.0;  // of the wheel path over the pipe, mm
+  SwingCenter swing_center = SwingCenter::remote;
+  double pivot_length = 0.0;  // pivot above the wall, mm; used with SwingCenter::pivot
+  std::optional<double> standoff_max = {};  // largest tolerated growth of the stand-off, mm
+};
+
+/// Source 001: the mill's axes C, X, Z, B, given directly as columns.
+struct ConeMill {};
+
+/// q = k_phi * phi_deg + k_z * z + k_b * B_deg + k_0, in the order of the machine's axes.
+struct LinearMap {
+  double k_phi = 0.0;
+  double k_z = 0.0;
+  double k_b = 0.0;
+  double k_0 = 0.0;
+};
+struct Generic {
+  std::vector<LinearMap> maps = {};  // empty when the cut comes as plain axis columns
+};
+
+using Kinematics = std::variant<FiveAxisCutter, Crawler, ConeMill, Generic>;
+
+/// Which way the machine counts B: towards the outer edge lying further into the kept part, or
+/// towards the waste.
+enum class BPositive : std::uint8_t { outer_edge_into_part, outer_edge_to_waste };
+
+struct Machine {
+  std::string name = {};
+  Kinematics kinematics = FiveAxisCutter{};
+  double period = 0.004;  // control period, s
+  BPositive b_positive = BPositive::outer_edge_into_part;
+  std::vector<Axis> axes = {};
+
+  /// +1 where the torch's tip leads its pivot towards +z for B > 0 (source 000), else -1.
+  [[nodiscard]] double sigma() const {
+    return b_positive == BPositive::outer_edge_into_part ? -1.0 : 1.0;
+  }
+};
+
+/// The machine's word for its kind: five_axis_cutter, crawler, cone_mill, generic.
+[[nodiscard]] std::string_view type_name(const Machine& machine);
+
+/// Everything that is wrong with the machine itself; `member` starts at "machine".
+///
+/// Errors  bad_number, zero_limit, wrong_count (axes 1..8, names missing or twice), out_of_range.
+[[nodiscard]] Result<void> check(const Machine& machine);
+
+/// The largest speed of an axis in its unit per second: its own limit or the overflow limit n_max /
+/// (pulses * period).
+[[nodiscard]] double velocity_limit(const Axis& axis, double period);
+
+/// Where one number of a built-in machine comes from.
+struct Provenance {
+  std::string member;  // such as "axes/1/v_max"
+  bool assumption = true;
+  std::string source;
+};
+struct CatalogueEntry {
+  Machine machine;
+  std::vector<Provenance> values;  // one per number and choice of the record, in its order
+};
+
+/// The built-in machines. The sources publish axes but no pulse counts, periods or limits, so
+/// nearly every number is marked an assumption.
+///
+/// Source  docs/theory/pulse-schedules.md, sections 3 and 4.5.
+[[nodiscard]] std::vector<CatalogueEntry> catalogue();
+
+}  // namespace tubecut::motion

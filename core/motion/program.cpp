@@ -1,0 +1,218 @@
+#include "core/motion/program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/lead.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kRadOfDeg = kBevelWeight * kRadPerDeg;  // weight of a coordinate in degrees
+
+Program from_points(const std::vector<ContourPoint>& points, double radius) {
+  Program out;
+  out.coordinates = {{radius, Coordinate::Group::tip},
+                     {1.0, Coordinate::Group::tip},
+                     {kBevelWeight, Coordinate::Group::bevel}};
+  out.x.assign(3, {});
+  for (const ContourPoint& p : points) {
+    out.x[0].push_back(p.phi);
+    out.x[1].push_back(p.z);
+    out.x[2].push_back(p.b);
+    out.corner.push_back(p.corner);
+    out.beam.push_back(p.beam);
+  }
+  out.cut_last = points.size() - 1;
+  return out;
+}
+
+/// The contour in its direction and, for a sector, only that stretch of it.
+Result<Track> stretch(const Track& whole, const Motion& motion) {
+  if (motion.sector) {
+    Motion direction_only = motion;
+    direction_only.start = {};
+    const auto turned = directed(whole, direction_only);
+    return turned ? sector_of(*turned, *motion.sector) : turned;
+  }
+  return directed(whole, motion);
+}
+
+Result<void> check_lead(const Led& led, const PartBorder& part, double allowed) {
+  const auto blocked = [&](const ContourPoint& p) -> Result<void> {
+    const double depth = intrusion(part, p);
+    if (depth <= allowed) return {};
+    return fail({ErrorCode::lead_blocked, "motion/lead", depth, allowed, "mm",
+                 "at phi " + std::to_string(p.phi * kDegPerRad) + " deg"});
+  };
+  if (!part.cut.closed) return {};
+  for (std::size_t i = 0; i < led.points.size(); ++i) {
+    if (i >= led.cut_first && i <= led.cut_last) continue;
+    if (auto ok = blocked(led.points[i]); !ok) return ok;
+  }
+  return {};
+}
+
+Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec) {
+  auto whole = track(contour);
+  if (!whole) return tl::unexpected<Error>(whole.error());
+  const auto cut = stretch(*whole, spec.motion);
+  if (!cut) return tl::unexpected<Error>(cut.error());
+  if (!spec.motion.lead) {
+    Program out = from_points(cut->points, cut->radius);
+    out.closed = cut->closed;
+    out.turns = cut->turns;
+    return out;
+  }
+  const Led led = with_lead(*cut, *spec.motion.lead, contour.scrap);
+  const auto border = part_border(spec);
+  if (auto ok = check_lead(led, *border, kLeadTouch); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  Program out = from_points(led.points, cut->radius);
+  out.cut_first = led.cut_first;
+  out.cut_last = led.cut_last;
+  return out;
+}
+
+Coordinate coordinate_of(const Axis& axis, const AxisColumns& columns, bool turns_tip) {
+  if (turns_tip) return {columns.tip_radius * kRadPerDeg, Coordinate::Group::tip};
+  if (axis.unit == AxisUnit::deg) return {kRadOfDeg, Coordinate::Group::bevel};
+  return {1.0, Coordinate::Group::tip};
+}
+
+Result<void> check_sizes(const AxisColumns& cut, const Machine& machine) {
+  const auto wrong = [](const char* member) {
+    return fail({.code = ErrorCode::wrong_count, .member = member});
+  };
+  if (cut.columns.size() != machine.axes.size()) return wrong("axes/columns");
+  const std::size_t n = cut.columns.front().size();
+  if (n < 3) return wrong("axes/columns/0");
+  for (const auto& column : cut.columns) {
+    if (column.size() != n) return wrong("axes/columns");
+  }
+  if (!cut.corner.empty() && cut.corner.size() != n) return wrong("axes/corner");
+  const bool mill = std::holds_alternative<ConeMill>(machine.kinematics);
+  if (mill ? !cut.length.empty() : cut.length.size() != n) return wrong("axes/length");
+  if (mill && !(cut.tip_radius > 0.0 && cut.tip_radius < 1e6)) {
+    return fail({.code = ErrorCode::bad_number, .member = "axes/tip_radius"});
+  }
+  return {};
+}
+
+Result<void> check_motion_of_columns(const Motion& motion) {
+  if (motion.lead || motion.sector || motion.start.at != Start::At::first_point) {
+    return fail({ErrorCode::unsupported_combination,
+                 "motion",
+                 {},
+                 {},
+                 {},
+                 "lead, sector and start need a contour"});
+  }
+  if (std::holds_alternative<SpeedTable>(motion.speed)) {
+    return fail({ErrorCode::unsupported_combination,
+                 "motion/speed",
+                 {},
+                 {},
+                 {},
+                 "a speed table needs a contour"});
+  }
+  return {};
+}
+
+Result<void> check_values(const Program& p) {
+  for (std::size_t c = 0; c < p.x.size(); ++c) {
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (!(std::abs(p.x[c][i]) <= 1e6)) {
+        return fail({.code = ErrorCode::bad_number,
+                     .member = "axes/columns/" + std::to_string(c) + "/" + std::to_string(i)});
+      }
+    }
+  }
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (p.step(i - 1, i) == 0.0) {
+      return fail({.code = ErrorCode::duplicate_point,
+                   .member = "axes/columns",
+                   .got = static_cast<double>(i)});
+    }
+  }
+  return {};
+}
+
+/// A closed column path ends where it began, rotary axes up to whole turns.
+Result<void> check_closed(const AxisColumns& cut, const Machine& machine) {
+  for (std::size_t a = 0; a < cut.columns.size(); ++a) {
+    const double gap = cut.columns[a].back() - cut.columns[a].front();
+    const bool rotary = machine.axes[a].pulses_per_turn > 0;
+    const double open = rotary ? gap - 360.0 * std::floor(gap / 360.0 + 0.5) : gap;
+    if (!(std::abs(open) <= 1e-6)) {
+      return fail({ErrorCode::not_closed,
+                   "axes/columns/" + std::to_string(a),
+                   open,
+                   1e-6,
+                   std::string(name_of(machine.axes[a].unit)),
+                   {}});
+    }
+  }
+  return {};
+}
+
+Result<Program> of_columns(const AxisColumns& cut, const ScheduleSpec& spec) {
+  const Machine& machine = spec.machine;
+  if (auto ok = check_sizes(cut, machine); !ok) return tl::unexpected<Error>(ok.error());
+  if (auto ok = check_motion_of_columns(spec.motion); !ok) return tl::unexpected<Error>(ok.error());
+  const bool mill = std::holds_alternative<ConeMill>(machine.kinematics);
+  Program out;
+  for (std::size_t a = 0; a < cut.columns.size(); ++a) {
+    const bool turns_tip = mill && machine.axes[a].name == "C";
+    out.coordinates.push_back(coordinate_of(machine.axes[a], cut, turns_tip));
+    out.x.push_back(cut.columns[a]);
+  }
+  if (!mill) {
+    out.coordinates.push_back({1.0, Coordinate::Group::tip});
+    out.x.push_back(cut.length);
+  }
+  out.corner = cut.corner.empty() ? std::vector<bool>(out.size(), false) : cut.corner;
+  out.cut_last = out.size() - 1;
+  out.closed = cut.closed;
+  if (auto ok = check_values(out); !ok) return tl::unexpected<Error>(ok.error());
+  if (cut.closed) {
+    if (auto ok = check_closed(cut, machine); !ok) return tl::unexpected<Error>(ok.error());
+  }
+  return out;
+}
+
+}  // namespace
+
+double Program::step(std::size_t from, std::size_t to) const {
+  double square = 0.0;
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    const double d = coordinates[c].weight * (x[c][to] - x[c][from]);
+    square += d * d;
+  }
+  return std::sqrt(square);
+}
+
+std::vector<double> Program::lengths() const {
+  std::vector<double> s(size(), 0.0);
+  for (std::size_t i = 1; i < s.size(); ++i) s[i] = s[i - 1] + step(i - 1, i);
+  return s;
+}
+
+Result<PartBorder> part_border(const ScheduleSpec& spec) {
+  const auto* const contour = std::get_if<Contour>(&spec.cut);
+  if (contour == nullptr) return fail({.code = ErrorCode::unsupported_combination});
+  auto whole = track(*contour);
+  if (!whole) return tl::unexpected<Error>(whole.error());
+  return PartBorder{std::move(*whole), contour->scrap, contour->outer_radius,
+                    contour->inner_radius(), spec.machine.sigma()};
+}
+
+Result<Program> program(const ScheduleSpec& spec) {
+  if (const auto* const contour = std::get_if<Contour>(&spec.cut)) {
+    return of_contour(*contour, spec);
+  }
+  return of_columns(std::get<AxisColumns>(spec.cut), spec);
+}
+
+}  // namespace tubecut::motion

@@ -1,0 +1,120 @@
+#include "core/motion/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/course.hpp"
+#include "core/motion/invariants.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kMostCount = 2147483647.0;
+
+/// The counts as integers, and how far the worst was from one.
+struct Integers {
+  std::vector<std::vector<std::int32_t>> counts = {};
+  double worst = 0.0;
+};
+
+Integers integers(const std::vector<std::vector<double>>& counts) {
+  Integers out;
+  for (const auto& column : counts) {
+    std::vector<std::int32_t> whole;
+    whole.reserve(column.size());
+    for (const double n : column) {
+      const double nearest = std::floor(n + 0.5);
+      out.worst = std::max(out.worst, std::abs(n - nearest));
+      whole.push_back(static_cast<std::int32_t>(nearest));
+    }
+    out.counts.push_back(std::move(whole));
+  }
+  return out;
+}
+
+Result<std::size_t> periods_of(const ReplaySpec& spec) {
+  const std::size_t axes = spec.job.machine.axes.size();
+  const auto wrong = [](const std::string& member, ErrorCode code = ErrorCode::wrong_count) {
+    return fail({.code = code, .member = member});
+  };
+  if (spec.counts.size() != axes) return wrong("schedule/counts");
+  if (spec.start.size() != axes) return wrong("schedule/start");
+  if (!(spec.period > 0.0 && spec.period <= 1.0))
+    return wrong("schedule/period", ErrorCode::bad_number);
+  std::size_t periods = 0;
+  for (std::size_t a = 0; a < axes; ++a) {
+    const auto& column = spec.counts[a];
+    const std::string at = "schedule/counts/" + spec.job.machine.axes[a].name;
+    if (!column.empty() && periods != 0 && column.size() != periods) return wrong(at);
+    if (!column.empty()) periods = column.size();
+    if (!std::isfinite(spec.start[a])) return wrong("schedule/start", ErrorCode::bad_number);
+    for (const double n : column) {
+      if (!(std::abs(n) < kMostCount)) return wrong(at, ErrorCode::bad_number);
+    }
+  }
+  if (periods == 0) return wrong("schedule/counts");
+  return periods;
+}
+
+std::vector<Check> examine(const ScheduleSpec& spec, const Prepared& job, const Counted& counted,
+                           double fraction, bool own, double* deviation) {
+  std::vector<Check> out{{"I1", fraction, 0.0, "pulses"}};
+  const std::vector<Check> counts = count_invariants(job, counted, spec.motion.jerk);
+  out.insert(out.end(), counts.begin(), counts.end());
+  const Followed followed = path_invariants(spec, job, counted, own);
+  out.insert(out.end(), followed.checks.begin(), followed.checks.end());
+  if (deviation != nullptr) *deviation = followed.deviation;
+  return out;
+}
+
+void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out) {
+  if (!std::holds_alternative<Contour>(spec.cut)) return;
+  const Reconstruction torch(spec);
+  std::vector<double> q = counted.start;
+  std::vector<std::int64_t> sum(q.size(), 0);
+  for (std::size_t k = 0; k <= counted.periods; ++k) {
+    for (std::size_t a = 0; k > 0 && a < q.size(); ++a) {
+      if (counted.counts[a].empty()) continue;
+      sum[a] += counted.counts[a][k - 1];
+      q[a] = counted.start[a] +
+             static_cast<double>(sum[a]) / spec.machine.axes[a].pulses_per_axis_unit();
+    }
+    const Coordinates x = torch.at(q);
+    out.phi.push_back(x[0]);
+    out.z.push_back(x[1]);
+    out.b.push_back(x[2]);
+  }
+}
+
+}  // namespace
+
+Result<Replay> replay(const ReplaySpec& spec) {
+  const auto job = prepared(spec.job, {});
+  if (!job) return tl::unexpected<Error>(job.error());
+  const auto periods = periods_of(spec);
+  if (!periods) return tl::unexpected<Error>(periods.error());
+  const Integers whole = integers(spec.counts);
+  Counted counted{spec.period, *periods, {}, spec.start};
+  for (const auto& column : whole.counts) counted.counts.emplace_back(column);
+  Replay out;
+  rebuild(spec.job, counted, out);
+  out.invariants = examine(spec.job, *job, counted, whole.worst, false, &out.deviation);
+  return out;
+}
+
+std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule) {
+  const auto job = prepared(spec, {});
+  const bool fits = job && schedule.axes.size() == spec.machine.axes.size() &&
+                    schedule.period == spec.machine.period && schedule.periods > 0;
+  Counted counted{schedule.period, static_cast<std::size_t>(schedule.periods), {}, {}};
+  bool sized = true;
+  for (const AxisPulses& axis : schedule.axes) {
+    sized = sized && (axis.idle() || axis.counts.size() == counted.periods);
+    counted.counts.emplace_back(axis.counts);
+    counted.start.push_back(axis.start);
+  }
+  if (!fits || !sized) return {{"replayable", 1.0, 0.0, ""}};
+  return examine(spec, *job, counted, 0.0, true, nullptr);
+}
+
+}  // namespace tubecut::motion

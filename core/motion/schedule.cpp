@@ -1,0 +1,183 @@
+#include "core/motion/schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/course.hpp"
+#include "core/motion/pulses.hpp"
+#include "core/motion/slow.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+Coordinates end_of(const Path& path) { return path.at(path.intervals() - 1, path.d); }
+
+bool is_moving(const Course& course, std::size_t axis) {
+  return std::ranges::count(course.limits.axes, axis, &AxisBounds::axis) > 0;
+}
+
+/// Pulses by which a closed cut ends beside its start, whole turns of a rotary axis apart.
+std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& course,
+                     std::int64_t total) {
+  if (axis.pulses_per_turn > 0) return total % axis.pulses_per_turn;
+  const double start = f.at(course.path.at(0, 0.0)), end = f.at(end_of(course.path));
+  return total - rounded(ideal_pulses(axis, end, start));
+}
+
+AxisPulses pulses_of(const Prepared& job, const Plan& plan, std::size_t a) {
+  const Course& course = job.course;
+  const Axis& axis = course.machine.axes[a];
+  const AxisFunction& f = course.axes[a];
+  AxisPulses out;
+  out.name = axis.name;
+  out.unit = axis.unit;
+  out.start = f.at(course.path.at(0, 0.0));
+  if (!is_moving(course, a)) return out;
+  std::vector<double> cumulative;
+  cumulative.reserve(plan.places.size());
+  CourseCursor cursor(course);
+  for (const Place& p : plan.places) {
+    cumulative.push_back(ideal_pulses(axis, f.at(cursor.at(p)), out.start));
+  }
+  out.counts = increments(cumulative);
+  for (const std::int32_t n : out.counts) {
+    out.total += n;
+    out.peak = std::max<std::int64_t>(out.peak, std::abs(n));
+  }
+  if (out.peak == 0) out.counts = {};
+  if (job.program.closed) out.closure = closure(axis, f, course, out.total);
+  return out;
+}
+
+/// First sample at or behind a point of the program.
+std::int64_t passes(const Course& course, const std::vector<Place>& places, std::size_t point) {
+  const double mark = course.path.at_point[point] - 1e-9;
+  const auto at = std::ranges::lower_bound(places, mark, {},
+                                           [&](const Place& p) { return p.u(course.path.d); });
+  return at - places.begin();
+}
+
+std::vector<Event> events(const Prepared& job, const Plan& plan) {
+  const auto periods = static_cast<std::int64_t>(plan.places.size()) - 1;
+  return {{0, EventKind::pierce},
+          {0, EventKind::torch_on},
+          {passes(job.course, plan.places, job.program.cut_first), EventKind::cut_start},
+          {std::min(periods, passes(job.course, plan.places, job.program.cut_last)),
+           EventKind::cut_end},
+          {periods, EventKind::torch_off}};
+}
+
+std::vector<Use> largest_uses(const Course& course, const Plan& plan, bool jerk) {
+  std::vector<Use> out;
+  for (std::size_t i = 0; i < plan.uses.axes.size(); ++i) {
+    const Axis& axis = course.machine.axes[course.limits.axes[i].axis];
+    const AxisUse& use = plan.uses.axes[i];
+    out.push_back({axis.name, 'v', use.velocity});
+    out.push_back({axis.name, 'a', use.acceleration * use.acceleration});
+    if (jerk && axis.j_max) out.push_back({axis.name, 'j', use.jerk * use.jerk * use.jerk});
+    if (axis.n_max) out.push_back({axis.name, 'n', use.pulses});
+  }
+  return out;
+}
+
+/// Pulses by which one turn of a crawler misses a whole count: a second lap must go on from the
+/// ideal position.
+double closing_residual(const ScheduleSpec& spec) {
+  const auto* const crawler = std::get_if<Crawler>(&spec.machine.kinematics);
+  const auto* const contour = std::get_if<Contour>(&spec.cut);
+  if (crawler == nullptr || contour == nullptr || !contour->closed) return 0.0;
+  const auto s = std::ranges::find(spec.machine.axes, "S", &Axis::name);
+  const double turn = kTwoPi * (contour->outer_radius + crawler->wheel_offset) * s->pulses_per_unit;
+  return turn - std::floor(turn);
+}
+
+Report report(const ScheduleSpec& spec, const Prepared& job, const Plan& plan) {
+  const Path& path = job.course.path;
+  Report out;
+  out.time = static_cast<double>(plan.places.size() - 1) * spec.machine.period;
+  out.ideal = job.ideal;
+  out.no_jerk = plan.no_jerk;
+  out.proven = plan.proven;
+  out.filter = plan.timing.filter;
+  out.stretch = plan.stretch;
+  out.length = job.length;
+  out.deviation_tip = path.deviation_tip;
+  out.deviation_b = path.deviation_b;
+  out.sag_tip = path.sag_tip;
+  out.sag_b = path.sag_b;
+  out.least_tip = plan.uses.least_tip < 1e300 ? plan.uses.least_tip : 0.0;
+  out.standoff_growth = job.standoff_growth;
+  out.closing_residual = closing_residual(spec);
+  out.max_use = largest_uses(job.course, plan, spec.motion.jerk);
+  out.slow = slow_zones(job, plan.places);
+  out.slow_time = 0.0;
+  for (const SlowZone& zone : out.slow) {
+    out.slow_time += static_cast<double>(zone.to - zone.from + 1) * spec.machine.period;
+  }
+  return out;
+}
+
+std::string mm(double value) { return std::to_string(value) + " mm"; }
+
+std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
+  std::vector<Warning> out;
+  const Motion& motion = spec.motion;
+  const bool coarse =
+      report.sag_tip > 5.0 * motion.eps_tip || report.sag_b > 5.0 * motion.eps_b.rad();
+  if (coarse && motion.expert.sag_warning) {
+    out.push_back({WarningCode::contour_too_coarse, "contour",
+                   "between its points the curve leaves the contour's chords by " +
+                       mm(report.sag_tip) + " and " + std::to_string(report.sag_b * kDegPerRad) +
+                       " deg"});
+  }
+  for (const SlowZone& zone : report.slow) {
+    out.push_back({WarningCode::slow_zone, "contour",
+                   "periods " + std::to_string(zone.from) + " to " + std::to_string(zone.to) +
+                       ": down to " + std::to_string(60.0 * zone.least_speed) + " mm/min, axis " +
+                       zone.axis});
+  }
+  if (report.standoff_growth > motion.eps_tip) {
+    out.push_back({WarningCode::standoff, "machine", "grows by " + mm(report.standoff_growth)});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string_view name_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::pierce:
+      return "pierce";
+    case EventKind::torch_on:
+      return "torch_on";
+    case EventKind::cut_start:
+      return "cut_start";
+    case EventKind::cut_end:
+      return "cut_end";
+    case EventKind::torch_off:
+      return "torch_off";
+  }
+  return {};
+}
+
+Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
+  const auto job = prepared(spec, stop);
+  if (!job) return tl::unexpected<Error>(job.error());
+  const PlanOptions options{spec.motion.jerk, spec.motion.expert.optimism,
+                            spec.motion.expert.filter, spec.max_periods};
+  const auto timed = plan(job->course, options, stop);
+  if (!timed) return tl::unexpected<Error>(timed.error());
+  Schedule out;
+  out.period = spec.machine.period;
+  out.periods = static_cast<std::int64_t>(timed->places.size()) - 1;
+  for (std::size_t a = 0; a < spec.machine.axes.size(); ++a) {
+    out.axes.push_back(pulses_of(*job, *timed, a));
+  }
+  out.events = events(*job, *timed);
+  out.report = report(spec, *job, *timed);
+  if (spec.motion.compare) out.comparison = comparison(*job);
+  out.warnings = warnings(spec, out.report);
+  return out;
+}
+
+}  // namespace tubecut::motion

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/limits.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kMostSpeed = 1e5;  // mm/s; anything faster is a unit mistake
+
+Result<void> check_speed(double speed, const std::string& member) {
+  if (!std::isfinite(speed)) return fail({.code = ErrorCode::bad_number, .member = member});
+  if (speed == 0.0) return fail({ErrorCode::zero_limit, member, speed, {}, "mm/s", {}});
+  if (speed < 0.0 || speed > kMostSpeed) {
+    return fail({ErrorCode::out_of_range, member, speed, kMostSpeed, "mm/s", {}});
+  }
+  return {};
+}
+
+Result<void> check_table(const SpeedTable& table) {
+  if (table.pairs.empty()) {
+    return fail({.code = ErrorCode::wrong_count, .member = "motion/speed/table"});
+  }
+  double before = -1.0;
+  for (std::size_t i = 0; i < table.pairs.size(); ++i) {
+    const std::string at = "motion/speed/table/" + std::to_string(i);
+    const auto& [beam, speed] = table.pairs[i];
+    if (!(beam >= 0.0 && beam > before)) {
+      return fail({ErrorCode::out_of_range, at, beam, before, "mm", "beams must ascend"});
+    }
+    if (auto ok = check_speed(speed, at); !ok) return ok;
+    before = beam;
+  }
+  return {};
+}
+
+Result<void> check_covered(const SpeedTable& table, const Program& program) {
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const double beam = program.beam[i];
+    const double low = table.pairs.front().first, high = table.pairs.back().first;
+    if (beam >= low && beam <= high) continue;
+    return fail({ErrorCode::speed_table_range, "motion/speed/table", beam, beam < low ? low : high,
+                 "mm", "at phi " + std::to_string(program.x[0][i] * kDegPerRad) + " deg"});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<SpeedAlong> SpeedAlong::of(const Motion& motion, const Program& program) {
+  SpeedAlong out;
+  if (const auto* const number = std::get_if<double>(&motion.speed)) {
+    if (auto ok = check_speed(*number, "motion/speed"); !ok) {
+      return tl::unexpected<Error>(ok.error());
+    }
+    out.x_number = *number;
+    return out;
+  }
+  const auto& table = std::get<SpeedTable>(motion.speed);
+  if (auto ok = check_table(table); !ok) return tl::unexpected<Error>(ok.error());
+  if (auto ok = check_covered(table, program); !ok) return tl::unexpected<Error>(ok.error());
+  out.x_pairs = table.pairs;
+  out.x_lengths = program.lengths();
+  out.x_beam = program.beam;
+  return out;
+}
+
+double SpeedAlong::of_beam(double beam) const {
+  const auto after = std::ranges::lower_bound(x_pairs, beam, {}, &std::pair<double, double>::first);
+  if (after == x_pairs.begin()) return x_pairs.front().second;
+  if (after == x_pairs.end()) return x_pairs.back().second;
+  const auto before = after - 1;
+  const double share = (beam - before->first) / (after->first - before->first);
+  return before->second + share * (after->second - before->second);
+}
+
+double SpeedAlong::at_point(std::size_t i) const {
+  return x_pairs.empty() ? x_number : of_beam(x_beam[i]);
+}
+
+double SpeedAlong::extreme(double from, double to, bool least) const {
+  if (x_pairs.empty()) return x_number;
+  const auto beam_at = [this](double s) {
+    const auto after = std::ranges::upper_bound(x_lengths, s);
+    if (after == x_lengths.begin()) return x_beam.front();
+    if (after == x_lengths.end()) return x_beam.back();
+    const auto i = static_cast<std::size_t>(after - x_lengths.begin());
+    const double share = (s - x_lengths[i - 1]) / (x_lengths[i] - x_lengths[i - 1]);
+    return x_beam[i - 1] + share * (x_beam[i] - x_beam[i - 1]);
+  };
+  double thin = std::min(beam_at(from), beam_at(to));
+  double thick = std::max(beam_at(from), beam_at(to));
+  for (auto s = std::ranges::upper_bound(x_lengths, from); s != x_lengths.end() && *s < to; ++s) {
+    const double beam = x_beam[static_cast<std::size_t>(s - x_lengths.begin())];
+    thin = std::min(thin, beam);
+    thick = std::max(thick, beam);
+  }
+  const auto pick = [least](double a, double b) { return least ? std::min(a, b) : std::max(a, b); };
+  double found = pick(of_beam(thin), of_beam(thick));
+  for (const auto& [beam, speed] : x_pairs) {
+    if (beam > thin && beam < thick) found = pick(found, speed);
+  }
+  return found;
+}
+
+}  // namespace tubecut::motion

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "core/motion/limits.hpp"
+
+namespace tubecut::motion {
+
+/// u(t) of a path: x = u_dot^2 at the knots, then a moving average of `filter` seconds over u(t).
+struct Timing {
+  std::vector<double> x = {};
+  double filter = 0.0;  // s; 0: no jerk limit
+  double time = 0.0;    // s, the filter included
+};
+
+/// A place of the path: `offset` mm behind knot `interval`.
+struct Place {
+  std::uint32_t interval = 0;
+  double offset = 0.0;
+
+  [[nodiscard]] double u(double d) const { return d * interval + offset; }
+};
+
+/// u at the ends of `periods` equal periods, 0 first and the path's end last, never decreasing.
+///
+/// Accuracy  times, integrals and their differences in long double, summed over the window alone.
+/// Source    docs/theory/pulse-schedules.md, section 6.3.
+[[nodiscard]] std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods);
+
+/// The widest optimism of the jerk rows on every interval; 1 is proven.
+using Optimism = std::vector<double>;
+
+/// Fastest profile whose rows still hold after a filter of `filter` seconds. With optimism 1
+/// everywhere the filtered motion keeps every limit by proof.
+///
+/// Cost    `rounds` (1..4) times 16 sliding maxima and two passes.
+/// Source  docs/theory/pulse-schedules.md, section 6.4 (with the proof).
+[[nodiscard]] Timing filtered_profile(const Limits& limits, const std::vector<double>& without_jerk,
+                                      double filter, const Optimism& optimism, int rounds);
+
+/// Largest value of `values` over each window [low[i], high[i]]; both bounds never decrease.
+[[nodiscard]] std::vector<double> widened(const std::vector<double>& values,
+                                          const std::vector<std::size_t>& low,
+                                          const std::vector<std::size_t>& high);
+
+}  // namespace tubecut::motion

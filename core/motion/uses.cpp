@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/motion/plan.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kEndMargin = 2.0;  // mm at both ends where a slow tip is a start or stop
+constexpr std::size_t kRest = 3;    // resting samples before and after
+
+/// First, second and third difference of a value that is given sample by sample.
+class Differences {
+ public:
+  explicit Differences(double start) : x_last{start, start, start, start} {}
+  void push(double value) { x_last = {x_last[1], x_last[2], x_last[3], value}; }
+  [[nodiscard]] double first() const { return x_last[3] - x_last[2]; }
+  [[nodiscard]] double second() const { return (x_last[3] - x_last[2]) - (x_last[2] - x_last[1]); }
+  [[nodiscard]] double third() const {
+    return second() - ((x_last[2] - x_last[1]) - (x_last[1] - x_last[0]));
+  }
+
+ private:
+  std::array<double, 4> x_last;
+};
+
+/// Rounding of one axis value: a few units in the last place of its largest part.
+double rounding(const Course& course, const AxisFunction& f) {
+  double size =
+      std::abs(f.constant) + std::abs(f.sin_b) + std::abs(f.cos_b) + 12.0 * std::abs(f.tan_b);
+  for (std::size_t c = 0; c < course.path.control.size(); ++c) {
+    if (f.linear[c] == 0.0) continue;
+    const auto [low, high] = std::ranges::minmax(course.path.control[c]);
+    size += std::abs(f.linear[c]) * std::max(std::abs(low), std::abs(high));
+  }
+  return 4.0 * 2.220446049250313e-16 * size;
+}
+
+/// One moving axis under watch.
+struct Watched {
+  const AxisFunction* function;
+  const Axis* axis;
+  Differences differences;
+  double noise;
+};
+
+std::vector<Watched> watched(const Course& course) {
+  const Pose start = CourseCursor(course).at({});
+  std::vector<Watched> out;
+  for (const AxisBounds& bounds : course.limits.axes) {
+    const AxisFunction& f = course.axes[bounds.axis];
+    out.push_back(
+        {&f, &course.machine.axes[bounds.axis], Differences(f.at(start)), rounding(course, f)});
+  }
+  return out;
+}
+
+double over(double difference, double noise, double limit) {
+  return std::max(0.0, std::abs(difference) - noise) / limit;
+}
+
+double jerk_ratio(const Watched& w, double period) {
+  if (!w.axis->j_max) return 0.0;
+  return over(w.differences.third(), 8.0 * w.noise, *w.axis->j_max * period * period * period);
+}
+
+void note(const Watched& w, double period, bool jerk, AxisUse& use) {
+  const double v = over(w.differences.first(), 2.0 * w.noise, w.axis->v_max * period);
+  const double a = over(w.differences.second(), 4.0 * w.noise, w.axis->a_max * period * period);
+  use.velocity = std::max(use.velocity, v);
+  use.acceleration = std::max(use.acceleration, a);
+  if (jerk) use.jerk = std::max(use.jerk, jerk_ratio(w, period));
+  if (w.axis->n_max) {
+    const double pulses = std::abs(w.differences.first()) * w.axis->pulses_per_axis_unit();
+    use.pulses = std::max(use.pulses, pulses / static_cast<double>(*w.axis->n_max));
+  }
+}
+
+/// Calls `see(k)` after every sample, the resting ones behind the end included; k may pass the last
+/// place.
+template <class See>
+void walk(const Course& course, const std::vector<Place>& places, std::vector<Watched>& axes,
+          const See& see) {
+  CourseCursor cursor(course);
+  for (std::size_t k = 0; k < places.size() + kRest; ++k) {
+    const Pose pose = cursor.at(places[std::min(k, places.size() - 1)]);
+    for (Watched& w : axes) w.differences.push(w.function->at(pose));
+    see(k);
+  }
+}
+
+void note_tip(const Course& course, const std::vector<Place>& places, Uses& out) {
+  const double d = course.path.d, length = course.path.length(), period = course.machine.period;
+  CourseCursor cursor(course);
+  Pose from = cursor.at(places[0]);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const Pose to = cursor.at(places[k]);
+    const double speed = tip_step(course, from, to) / period;
+    const double start = places[k - 1].u(d), end = places[k].u(d);
+    out.tip = std::max(out.tip, speed / course.speed.greatest(start, end));
+    if (start >= kEndMargin && end <= length - kEndMargin) {
+      out.least_tip = std::min(out.least_tip, speed);
+    }
+    from = to;
+  }
+}
+
+}  // namespace
+
+bool Course::bends() const {
+  const auto bent = [](const AxisFunction& f) { return !f.is_linear(); };
+  return std::ranges::any_of(axes, bent) || std::ranges::any_of(tip, bent);
+}
+
+double tip_step(const Course& course, const Pose& from, const Pose& to) {
+  double square = 0.0;
+  for (const AxisFunction& f : course.tip) {
+    const double step = f.at(to) - f.at(from);
+    square += step * step;
+  }
+  return std::sqrt(square);
+}
+
+double Uses::worst() const {
+  double most = tip;
+  for (const AxisUse& use : axes) {
+    most = std::max({most, use.velocity, use.acceleration, use.jerk, use.pulses});
+  }
+  return most;
+}
+
+Uses uses(const Course& course, const std::vector<Place>& places, bool jerk) {
+  Uses out;
+  std::vector<Watched> axes = watched(course);
+  out.axes.resize(axes.size());
+  walk(course, places, axes, [&](std::size_t) {
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      note(axes[a], course.machine.period, jerk, out.axes[a]);
+    }
+  });
+  for (AxisUse& use : out.axes) {
+    use.acceleration = std::sqrt(use.acceleration);
+    use.jerk = elementary::cbrt(use.jerk);
+  }
+  note_tip(course, places, out);
+  return out;
+}
+
+std::vector<double> jerk_ratios(const Course& course, const std::vector<Place>& places) {
+  std::vector<double> ratio(places.size(), 0.0);
+  std::vector<Watched> axes = watched(course);
+  walk(course, places, axes, [&](std::size_t k) {
+    double worst = 0.0;
+    for (const Watched& w : axes) worst = std::max(worst, jerk_ratio(w, course.machine.period));
+    for (const std::size_t back : {std::size_t{1}, std::size_t{2}}) {
+      if (k < back) continue;
+      double& at = ratio[std::min(k - back, places.size() - 1)];
+      at = std::max(at, worst);
+    }
+  });
+  return ratio;
+}
+
+}  // namespace tubecut::motion
