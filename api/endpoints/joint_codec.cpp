@@ -59,19 +59,33 @@ joint::Partner decode_cone(Reader& in) {
   return out;
 }
 
-enum class Kind { tube, plane, rectangular_tube, cone };
+joint::Partner decode_elbow(Reader& in) {
+  joint::ElbowCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0};
+  out.bend_radius = in.number("bend_radius_mm", {.min = out.radius, .max = limit::offset_max_mm,
+                                                 .open_min = true});
+  out.bend = in.angle("bend_deg", {.min = 0.0, .max = 180.0, .open_min = true});
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  out.inwards = in.vector3("inwards", kComponent);
+  return out;
+}
+
+enum class Kind { tube, plane, rectangular_tube, cone, elbow };
 
 joint::Partner decode_cutter(Reader& in) {
   static constexpr std::array kKinds{Option<Kind>{"tube", Kind::tube},
                                      Option<Kind>{"plane", Kind::plane},
                                      Option<Kind>{"rectangular_tube", Kind::rectangular_tube},
-                                     Option<Kind>{"cone", Kind::cone}};
+                                     Option<Kind>{"cone", Kind::cone},
+                                     Option<Kind>{"elbow", Kind::elbow}};
   const auto kind = in.tag("kind", kKinds);
   in.optional_text("id");
   switch (kind) {
     case Kind::plane: return decode_plane(in);
     case Kind::rectangular_tube: return decode_rectangular_tube(in);
     case Kind::cone: return decode_cone(in);
+    case Kind::elbow: return decode_elbow(in);
     case Kind::tube: break;
   }
   return decode_tube(in);

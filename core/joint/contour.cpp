@@ -46,6 +46,13 @@ Result<Contour> trace(std::span<const Cutter> cutters, double rho) {
                  .member = "cutters",
                  .got = std::move(division.open),
                  .unit = "deg"});
+  if (division.hidden)
+    return fail(
+        {.code = ErrorCode::unsupported_combination,
+         .member = "cutters/" + std::to_string(division.hidden->cutter),
+         .got = division.hidden->phi * kDegPerRad,
+         .unit = "deg",
+         .hint = "the elbow's bend hides a lower part of the same elbow from the target here"});
   out.events = std::move(division.events);
   out.segments = std::move(division.segments);
   return out;

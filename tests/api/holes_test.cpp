@@ -84,7 +84,7 @@ TEST(Holes, EveryFieldIsChecked) {
       refusal(with(with(good, "joint/kind", "through"), "joint/depth_mm", 5.0), "/joint/depth_mm"),
       "unsupported_combination");
   EXPECT_EQ(refusal(with(good, "branch/wall_mm", 44.45), "/branch/wall_mm"), "out_of_range");
-  EXPECT_EQ(refusal(with(good, "branch/axis", api::Json{api::Json::Object{}}), "/branch"),
+  EXPECT_EQ(refusal(with(good, "branch/axis", api::Json{api::Json::Object{}}), "/branch/axis"),
             "exclusive_fields");
   EXPECT_EQ(refusal(with(good, "tilt", "both"), "/tilt"), "bad_choice");
   EXPECT_EQ(refusal(with(good, "groove/rule", "zones"), "/groove/rule"), "bad_choice");

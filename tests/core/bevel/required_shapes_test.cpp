@@ -16,7 +16,7 @@ namespace tubecut::bevel {
 namespace {
 
 constexpr std::uint64_t kSeed = 20260122;
-constexpr int kNodes = 60, kPhases = 24, kScan = 2001;
+constexpr int kNodes = 30, kPhases = 16, kScan = 401;
 
 std::vector<joint::Cutter> random_partners(std::mt19937_64& random, double rho) {
   const auto any = [&](double low, double high) {
