@@ -3,6 +3,7 @@
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
+#include "api/tube_sizes.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -71,6 +72,21 @@ std::string version_page() {
   return out.take();
 }
 
+std::string tubes_page() {
+  Writer out;
+  out.object([](Writer& w) {
+    w.array("tubes", tube_sizes(), [](Writer& each, const TubeSize& tube) {
+      each.object([&](Writer& o) {
+        o.field("size", tube.name);
+        o.field("outer_diameter_mm", tube.outer_diameter);
+        o.field("wall_mm", tube.wall);
+        o.field("standard", tube.standard);
+      });
+    });
+  });
+  return out.take();
+}
+
 /// examples/<endpoint>/<name>.json, each {"title", "body"}.
 std::string examples_page() {
   Writer out;
@@ -101,6 +117,7 @@ std::optional<Page> catalogue(std::string_view path) {
   } kPages[] = {{"/v1/errors", errors_page},
                 {"/v1/limits", limits_page},
                 {"/v1/version", version_page},
+                {"/v1/tubes", tubes_page},
                 {"/v1/machines", machines_page},
                 {"/v1/examples", examples_page}};
   for (const auto& page : kPages)

@@ -88,6 +88,7 @@ struct Endpoint {
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;
 ///   static Spec decode(Reader&);                                        types, units, ranges
+///   static Result<Spec> resolve(Spec, const std::stop_token&);           optional: what only core can tell of the input
 ///   static Result<Out> compute(const Spec&, const std::stop_token&);    pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);          the proof
 ///   static std::vector<Warning> warnings(const Spec&, const Out&);
@@ -97,10 +98,15 @@ struct Endpoint {
 ///   kId, kPath, kMaxBody, kAccepts, kChecks
 template <class E>
 Reply run(Reader& in, Run& run) {
-  const auto spec = E::decode(in);
+  auto spec = E::decode(in);
   if (auto issues = in.finish_root(); !issues.empty()) return field_problem(std::move(issues));
   Answer answer{.request = Json{in.echo()}};
   run.stage("decode");
+  if constexpr (requires { E::resolve(spec, run.stop); }) {
+    auto resolved = E::resolve(std::move(spec), run.stop);
+    if (!resolved) return core_problem(resolved.error(), answer.request);
+    spec = *std::move(resolved);
+  }
   auto out = E::compute(spec, run.stop);
   run.stage("compute");
   if (!out) return core_problem(out.error(), answer.request);

@@ -6,6 +6,7 @@ namespace tubecut::api {
 std::span<const Endpoint> endpoints() {
   static const std::vector<Endpoint> kTable{
       intersections(),
+      nodes(),
       bevel_tables(),
       holes(),
       pulse_schedules(),

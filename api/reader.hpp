@@ -71,7 +71,6 @@ class Reader {
   double number(std::string_view name, Range range = {}, std::optional<double> fallback = {});
   std::optional<double> optional_number(std::string_view name, Range range = {});
   int integer(std::string_view name, int min, int max, std::optional<int> fallback = {});
-  std::int64_t integer64(std::string_view name, std::optional<std::int64_t> fallback = {});
   bool flag(std::string_view name, std::optional<bool> fallback = {});
   /// Printable text of 1 to `longest` characters. `fallback` empty: required.
   std::string text(std::string_view name, std::size_t longest = 64);
@@ -85,6 +84,9 @@ class Reader {
   std::vector<double> column(std::string_view name, CountRange count, Range range = {});
   std::vector<double> angle_column(std::string_view name, CountRange count, Range range = {});
   std::vector<bool> flag_column(std::string_view name, CountRange count);
+  /// Printable texts of 1 to `longest` characters; an empty text stands beside an issue.
+  std::vector<std::string> text_column(std::string_view name, CountRange count,
+                                       std::size_t longest = 64);
   Eigen::Vector3d vector3(std::string_view name, Range range = {});
   /// An array of [first, second].
   std::vector<std::pair<double, double>> pairs(std::string_view name, CountRange count, Range first,
@@ -176,8 +178,6 @@ class Reader {
   void note(std::string_view name);
   /// Records an issue; `issue.pointer` is relative to this object, `got` is taken from `value` when given.
   void issue(FieldIssue issue, const Json* value = nullptr);
-  /// Fields not asked for are not reported: a choice was wrong, they may belong to another.
-  void ignore_rest() { ignore_rest_ = true; }
   /// Nothing more of this object is reported.
   void silence() { silent_ = true; }
 
@@ -219,8 +219,13 @@ class Reader {
   std::vector<std::string> known_;
   Json::Object echo_;
   bool ignore_rest_ = false;
+  bool binary_ = false;
   bool silent_ = false;
 };
+
+/// The candidate most like `name`, empty when none is near.
+[[nodiscard]] std::string nearest_name(std::string_view name,
+                                       const std::vector<std::string>& candidates);
 
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);

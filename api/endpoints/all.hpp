@@ -6,6 +6,7 @@ namespace tubecut::api {
 
 // One line per endpoint; the table in endpoint_table.cpp lists them in the order of the contract.
 [[nodiscard]] Endpoint intersections();
+[[nodiscard]] Endpoint nodes();
 [[nodiscard]] Endpoint bevel_tables();
 [[nodiscard]] Endpoint holes();
 [[nodiscard]] Endpoint pulse_schedules();

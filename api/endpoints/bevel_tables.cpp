@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/node_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "core/bevel/table.hpp"
 
@@ -16,26 +19,47 @@ using bevel::Dihedral;
 using bevel::GrooveRule;
 using bevel::RootSurface;
 
+constexpr std::size_t kMostZones = 16;
 constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
 
-enum class RuleName { half_dihedral, fixed, none, square };
+enum class RuleName { half_dihedral, fixed, none, square, zones };
+
+/// Two angles of an array [from, to], each within 0..180 or less than 90 deg.
+std::pair<Angle, Angle> decode_pair(Reader& in, std::string_view name, Range range) {
+  const auto values = in.angle_column(name, {.min = 2, .max = 2}, range);
+  if (values.size() != 2) return {};
+  return {Angle::rad(values[0]), Angle::rad(values[1])};
+}
+
+bevel::ZonedGroove decode_zones(Reader& in) {
+  bevel::ZonedGroove out;
+  in.optional_text("source");
+  out.zones = in.array("zones", {.min = 1, .max = kMostZones}, [](Reader& z) {
+    bevel::GrooveZone zone;
+    zone.id = z.text("id");
+    std::tie(zone.dihedral_from, zone.dihedral_to) =
+        decode_pair(z, "dihedral_deg", {.min = 0.0, .max = 180.0});
+    std::tie(zone.groove_from, zone.groove_to) =
+        decode_pair(z, "groove_deg", {.min = 0.0, .max = 90.0, .open_max = true});
+    return zone;
+  });
+  out.overlap = in.angle("overlap_deg", {.min = 0.0, .max = 90.0}, Angle{});
+  return out;
+}
 
 GrooveRule decode_groove(Reader& in) {
   static constexpr std::array kRules{Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
                                      Option<RuleName>{"fixed", RuleName::fixed},
                                      Option<RuleName>{"none", RuleName::none},
-                                     Option<RuleName>{"square", RuleName::square}};
-  if (in.find("rule") != nullptr && *in.find("rule") == Json{"zones"}) {
-    in.issue({.code = ErrorCode::unsupported_combination, .pointer = "rule"}, in.find("rule"));
-    in.silence();
-    return bevel::NoGroove{};
-  }
+                                     Option<RuleName>{"square", RuleName::square},
+                                     Option<RuleName>{"zones", RuleName::zones}};
   const auto rule = in.tag("rule", kRules);
   if (rule == RuleName::half_dihedral)
     return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
   if (rule == RuleName::fixed)
     return bevel::FixedGroove{in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
   if (rule == RuleName::square) return bevel::SquareCut{};
+  if (rule == RuleName::zones) return decode_zones(in);
   return bevel::NoGroove{};
 }
 
@@ -122,24 +146,36 @@ bevel::TorchRange decode_torch(Reader& in) {
   return out;
 }
 
-/// The combinations that are offered (design: one root, what must touch, which angle between the tubes).
-bool supported(const bevel::TableSpec& s) {
-  if (s.contact == Contact::inner)
-    return s.root_surface == RootSurface::inner && s.dihedral == Dihedral::weld_side;
-  if (s.contact == Contact::none)
-    return s.root_surface == RootSurface::outer || s.dihedral == Dihedral::weld_side;
-  return false;
+/// Refuses what is not offered: which surface holds the root, which one touches, which angle counts.
+void check_combination(const bevel::TableSpec& s, Reader& in) {
+  const bool outer = s.root_surface == RootSurface::outer;
+  const bool weld = s.dihedral == Dihedral::weld_side;
+  if (!weld && !(outer && s.contact == Contact::none))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "dihedral",
+              .limit = Json{"weld_side"},
+              .hint = "inside and as_published go with root_surface outer and contact none"},
+             in.find("dihedral"));
+  const bool goes = s.contact == Contact::none || (s.contact == Contact::outer) == outer;
+  if (goes) return;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "contact",
+            .got = Json{"inner"},
+            .limit = Json{outer ? "outer|none" : "inner|auto|none"},
+            .hint = outer ? "root_surface outer goes with contact outer or none"
+                          : "root_surface inner goes with contact inner, auto or none"},
+           in.find("contact"));
 }
 
 struct BevelTables {
-  using Spec = bevel::TableSpec;
+  using Spec = BevelTableRequest;
   using Out = bevel::Table;
   static constexpr std::string_view kId = "bevel-tables";
   static constexpr std::string_view kPath = "/v1/bevel-tables";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm", "max_extra_bevel_deg",
                                                             "max_b_deg"};
-  static constexpr std::array<CheckLimit, 7> kChecks{{
+  static constexpr std::array<CheckLimit, 8> kChecks{{
       {"dihedral", "1e-9", "deg"},
       {"bevel_plane", "1e-9", ""},
       {"above_required", "1e-9", "deg"},
@@ -147,6 +183,7 @@ struct BevelTables {
       {"second_difference", "max_curvature_deg_per_mm2 (1 + 1e-6) + rounding", "deg_per_mm2"},
       {"torch_range", "1e-9", "deg"},
       {"penetration", "1e-6", "mm"},
+      {"touch", "1e-6", "mm"},
   }};
 
   static Spec decode(Reader& in) {
@@ -160,19 +197,23 @@ struct BevelTables {
         Option<Contact>{"inner", Contact::inner}, Option<Contact>{"outer", Contact::outer},
         Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
     Spec out;
-    out.target = decode_target(in);
-    out.partners = decode_cutters(in);
+    out.source = decode_joint(in);
     out.sampling = decode_sampling(in);
-    const bool root_known = in.is<std::string>("root_surface");
     out.root_surface = in.choice("root_surface", kRoots);
     out.groove = in.object("groove", decode_groove);
     out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
     out.contact = in.choice("contact", kContacts, Contact::inner);
-    if (root_known && !supported(out))
+    const bool known =
+        in.understood("root_surface") && in.understood("dihedral") && in.understood("contact");
+    if (known) check_combination(out, in);
+    out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
+    if (out.root_face > 0.0 && out.contact != Contact::inner)
       in.issue({.code = ErrorCode::unsupported_combination,
-                .pointer = "contact",
-                .hint = "root inner goes with contact inner or none; root outer with contact none"},
-               in.find("contact"));
+                .pointer = "root_face_mm",
+                .hint = "a root face goes with contact inner"},
+               in.find("root_face_mm"));
+    out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
+    out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
     out.torch = in.defaulted_object("torch", decode_torch);
     const auto smoothing = in.object("smoothing", decode_smoothing);
@@ -181,13 +222,20 @@ struct BevelTables {
     return out;
   }
 
+  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
+    return api::resolve(std::move(spec), stop);
+  }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return bevel::table(spec, stop);
+    auto out = bevel::table(spec, stop);
+    if (!out) return tl::unexpected(on_node(spec.source, out.error()));
+    return out;
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out) {
     return bevel::verify(spec, out);
   }
-  static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
+  static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
+    return on_node(spec.source, out.warnings);
+  }
 
   static std::vector<Measure> measure(const Spec&, const Out& out) {
     double gap = 0.0, extra = 0.0, b = 0.0;
@@ -243,10 +291,12 @@ struct BevelTables {
         o.degrees("from_phi_deg", v.from);
         o.degrees("to_phi_deg", v.to);
         o.degrees("groove_lost_deg", v.groove_lost);
+        o.field("root_gap_mm", v.root_gap);
       });
     });
     w.field("length_mm", out.length_total);
     w.field("developed_length_mm", out.developed_total);
+    if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
   }
 
   static void encode_points(const Spec& spec, const Out& out, Writer& p) {
@@ -268,18 +318,39 @@ struct BevelTables {
     p.column("beam_mm", out.beam);
     p.column("torch_inner_mm", out.torch_inner);
     p.column("torch_outer_mm", out.torch_outer);
+    if (spec.root_face > 0.0) {
+      p.column("z_face_mm", out.z_face);
+      p.degrees_column("b_face_deg", out.b_face);
+    }
+    if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove)) {
+      std::vector<std::string> zone;
+      for (const auto i : out.zone) zone.push_back(zoned->zones[i].id);
+      p.column("zone", zone);
+    }
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv", &bevel_table_csv}, {"svg", "image/svg+xml", &bevel_table_svg}};
+        {"csv", "text/csv",
+         [](const Spec& s, const Out& o, const Caption& c) { return bevel_table_csv(s, o, c); }},
+        {"svg", "image/svg+xml",
+         [](const Spec& s, const Out& o, const Caption& c) { return bevel_table_svg(s, o, c); }}};
     return kFormats;
   }
 };
 
 }  // namespace
 
-bevel::TableSpec decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
+BevelTableRequest decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
+
+Result<BevelTableRequest> resolve(BevelTableRequest request, const std::stop_token& stop) {
+  auto source = resolve(std::move(request.source), stop);
+  if (!source) return tl::unexpected(source.error());
+  request.source = *std::move(source);
+  request.target = request.source.target;
+  request.partners = request.source.partners;
+  return request;
+}
 
 Endpoint bevel_tables() { return endpoint<BevelTables>(); }
 

@@ -1,13 +1,18 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/node_codec.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::api {
 namespace {
 
+struct IntersectionRequest : joint::IntersectionSpec {
+  JointSource source;
+};
+
 struct Intersections {
-  using Spec = joint::IntersectionSpec;
+  using Spec = IntersectionRequest;
   using Out = joint::Intersection;
   static constexpr std::string_view kId = "intersections";
   static constexpr std::string_view kPath = "/v1/intersections";
@@ -15,9 +20,9 @@ struct Intersections {
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr std::array<CheckLimit, 4> kChecks{{
       {"on_cutter", "1e-12 max(radius + rho, |z|)", "mm"},
-      {"none_above", "1e-9 (radius + rho)", "mm"},
+      {"none_above", "1e-9 max(radius + rho, |z|)", "mm"},
       {"event_gap", "1e-8 (radius + rho)", "mm"},
-      {"labels", "1e-7 (radius + rho)", "mm"},
+      {"labels", "1e-7 max(radius + rho, |z|)", "mm"},
   }};
 
   static Spec decode(Reader& in) {
@@ -26,39 +31,38 @@ struct Intersections {
                                           Option<Surfaces>{"outer", Surfaces::outer},
                                           Option<Surfaces>{"both", Surfaces::both}};
     Spec out;
-    out.target = decode_target(in);
-    out.partners = decode_cutters(in);
+    out.source = decode_joint(in);
     out.surfaces = in.choice("surfaces", kSurfaces, Surfaces::both);
     out.sampling = decode_sampling(in);
     return out;
   }
 
+  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
+    auto source = api::resolve(std::move(spec.source), stop);
+    if (!source) return tl::unexpected(source.error());
+    spec.source = *std::move(source);
+    spec.target = spec.source.target;
+    spec.partners = spec.source.partners;
+    return spec;
+  }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return joint::intersect(spec, stop);
+    auto out = joint::intersect(spec, stop);
+    if (!out) return tl::unexpected(on_node(spec.source, out.error()));
+    return out;
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out) {
     return joint::verify(spec, out);
   }
-  static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
+  static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
+    return on_node(spec.source, out.warnings);
+  }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
     w.array("profiles", out.profiles, [&](Writer& each, const joint::Profile& p) {
-      each.object([&](Writer& o) {
-        o.field("surface", p.outer ? "outer" : "inner");
-        o.field("radius_mm", p.radius);
-        o.object("points", [&](Writer& c) {
-          encode_phi(p.phi, spec.sampling, c);
-          c.column("z_mm", p.z);
-          c.column("cutter", p.cutter);
-        });
-        o.array("events", p.events, [&](Writer& e, const joint::Event& event) {
-          encode_event(event, p.outer, e);
-        });
-        o.field("length_mm", p.length);
-        o.field("developed_length_mm", p.developed);
-      });
+      each.object([&](Writer& o) { encode_profile(p, spec.sampling, o); });
     });
+    if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/limits.hpp"
+#include "api/tube_sizes.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -17,7 +18,7 @@ joint::AxisLine decode_axis(Reader& in) {
 }
 
 joint::Partner decode_tube(Reader& in) {
-  const double radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
+  const double radius = decode_section(in, false).outer_radius;
   const auto which = in.exactly_one({"inclination_deg", "axis"});
   if (which == 1) {
     const auto axis = in.object("axis", decode_axis);
@@ -102,6 +103,38 @@ const char* name_of(joint::EventKind kind) {
 
 }  // namespace
 
+Section decode_section(Reader& in, bool with_wall) {
+  const auto which = in.exactly_one({"outer_diameter_mm", "size"});
+  Section out;
+  if (with_wall && which != 0) in.note("wall_mm");
+  if (which == 1) {
+    const auto name = in.text("size");
+    const auto* size = find_tube_size(name);
+    if (size == nullptr) {
+      if (!name.empty())
+        in.issue({.code = ErrorCode::unknown_size,
+                  .pointer = "size",
+                  .hint = "did you mean " + nearest_tube_size(name) + "?"},
+                 in.find("size"));
+      return out;
+    }
+    if (with_wall && in.has("wall_mm"))
+      in.issue({.code = ErrorCode::exclusive_fields,
+                .pointer = "wall_mm",
+                .hint = "the size already tells the wall"},
+               in.find("wall_mm"));
+    return {size->outer_diameter / 2.0, size->wall};
+  }
+  if (!which) return out;
+  out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
+  if (!with_wall) return out;
+  // 0 < wall < radius, and within what the service cuts
+  const Range wall{.min = kWall.min, .max = std::min(kWall.max, out.outer_radius),
+                   .open_min = false, .open_max = out.outer_radius <= kWall.max};
+  out.wall = in.number("wall_mm", in.understood("outer_diameter_mm") ? wall : kWall);
+  return out;
+}
+
 joint::Target decode_target(Reader& in) {
   return in.object("target", [](Reader& t) {
     if (t.has("kind")) {
@@ -114,12 +147,8 @@ joint::Target decode_target(Reader& in) {
       t.put("kind", Json{"round"});
     }
     t.optional_text("id");
-    joint::Target out;
-    out.outer_radius = t.number("outer_diameter_mm", kDiameter) / 2.0;
-    // 0 < wall < radius, and within what the service cuts
-    const Range wall{.min = kWall.min, .max = std::min(kWall.max, out.outer_radius),
-                     .open_min = false, .open_max = out.outer_radius <= kWall.max};
-    out.wall = t.number("wall_mm", t.understood("outer_diameter_mm") ? wall : kWall);
+    const auto section = decode_section(t, true);
+    joint::Target out{.outer_radius = section.outer_radius, .wall = section.wall};
     out.length = t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});
     return out;
   });
@@ -170,6 +199,21 @@ void encode_event(const joint::Event& event, bool outer, Writer& w) {
     o.field("from", event.from);
     o.field("to", event.to);
   });
+}
+
+void encode_profile(const joint::Profile& profile, const joint::Sampling& sampling, Writer& w) {
+  w.field("surface", profile.outer ? "outer" : "inner");
+  w.field("radius_mm", profile.radius);
+  w.object("points", [&](Writer& c) {
+    encode_phi(profile.phi, sampling, c);
+    c.column("z_mm", profile.z);
+    c.column("cutter", profile.cutter);
+  });
+  w.array("events", profile.events, [&](Writer& e, const joint::Event& event) {
+    encode_event(event, profile.outer, e);
+  });
+  w.field("length_mm", profile.length);
+  w.field("developed_length_mm", profile.developed);
 }
 
 void encode_phi(const std::vector<double>& phi, const joint::Sampling& sampling, Writer& w) {

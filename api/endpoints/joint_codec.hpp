@@ -8,6 +8,14 @@
 
 namespace tubecut::api {
 
+/// A tube's outer radius and wall, mm.
+struct Section {
+  double outer_radius = 1.0;
+  double wall = 0.5;
+};
+/// `outer_diameter_mm` and `wall_mm` (if `with_wall`), or `size` by name.
+[[nodiscard]] Section decode_section(Reader& in, bool with_wall);
+
 /// Fields that every request about a joint shares.
 [[nodiscard]] joint::Target decode_target(Reader& in);
 [[nodiscard]] std::vector<joint::Partner> decode_cutters(Reader& in);
@@ -15,6 +23,8 @@ namespace tubecut::api {
 
 /// One event as an object; `outer` names the wall it is on.
 void encode_event(const joint::Event& event, bool outer, Writer& w);
+/// The curve on one wall, as members of an object.
+void encode_profile(const joint::Profile& profile, const joint::Sampling& sampling, Writer& w);
 /// The column phi_deg: on uniform points exactly 360 i / n.
 void encode_phi(const std::vector<double>& phi, const joint::Sampling& sampling, Writer& w);
 

@@ -21,7 +21,7 @@ double root_radius(const bevel::TableSpec& spec) {
 Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
   const double rho = root_radius(spec);
   auto before = table.b_raw;
-  if (spec.contact == bevel::Contact::inner)
+  if (spec.contact == bevel::Contact::inner || spec.contact == bevel::Contact::automatic)
     for (std::size_t i = 0; i < before.size(); ++i)
       before[i] = std::max(before[i], table.b_required[i]);
   Chart out{.title = "Cutting angle B before and after smoothing",

@@ -42,6 +42,7 @@
   X(parallel_axes, no_solution, "A partner's axis is parallel to the target's axis.", "Check the inclination, or use a plane.")              \
   X(member_consumed, no_solution, "The cut lies beyond the far end of the member.", "Check the member's length and the partners' places.")   \
   X(torch_range, no_solution, "The bevel that keeps partners out of the wall is beyond the torch's range.", "Use contact auto, a wider torch range, or another root surface.") \
+  X(cut_enters, no_solution, "With this bevel the cut enters a partner.", "Use contact auto, another bevel, or root and contact inner.") \
   X(sampling_not_uniform, no_solution, "The chosen smoothing needs uniform points.", "Use sampling uniform_points alone, or smoothing envelope.") \
   X(smoothing_not_converged, no_solution, "The published smoothing left steps above its limit.", "Raise transition_points or the limit, or use smoothing envelope.") \
   X(smoothing_enters, no_solution, "The published smoothing falls below the bevel that keeps partners out.", "Use smoothing envelope.")      \
@@ -117,6 +118,9 @@
   X(smoothed_below_raw, cut, "The published smoothing falls below its input here.")                                       \
   X(ghost_contact, cut, "The cut follows a partner beyond that member's end.")                                            \
   X(free_end, cut, "This end meets no member.")                                                                           \
+  X(end_open, cut, "Some generators of this end meet no cutter, so the cut is not closed.")                                 \
+  X(end_consumed, cut, "The cut at this end reaches beyond the member's other end.")                                       \
+  X(parallel_members, cut, "Two members that join are parallel; neither cuts the other.")                                 \
   X(root_opens, cut, "The root is opened so that the cut can be made.")                                                   \
   X(unit_suspicion, cut, "The value looks as if it were given in another unit.")                                          \
   X(tube_outside_range, note, "The tube is outside the range the source's machine was built for.")                        \

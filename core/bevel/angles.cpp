@@ -35,6 +35,7 @@ Parts parts(const Eigen::Vector3d& n, Dihedral dihedral) {
 Rule::Rule(const GrooveRule& rule, Dihedral dihedral) : rule_(rule), dihedral_(dihedral) {
   if (const auto* half = std::get_if<HalfDihedral>(&rule)) limit_ = half->cap.rad();
   if (const auto* fixed = std::get_if<FixedGroove>(&rule)) limit_ = fixed->angle.rad();
+  if (const auto* zoned = std::get_if<ZonedGroove>(&rule)) zones_ = Zones(*zoned);
   const auto at = elementary::sincos(limit_);
   cos_limit_ = at.cos;
   sin_limit_ = at.sin;
@@ -60,9 +61,14 @@ Angles Rule::angles(const Eigen::Vector3d& normal) const {
     return a;
   }
   a.groove = limit_;
+  elementary::SinCos groove{sin_limit_, cos_limit_};
+  if (std::holds_alternative<ZonedGroove>(rule_)) {
+    a.groove = zones_.at(a.dihedral).groove;
+    groove = elementary::sincos(a.groove);
+  }
   a.tau = 0.5 * kPi - a.dihedral + a.groove;
-  const double sin_tau = p.across * sin_limit_ - p.radial * cos_limit_;
-  const double cos_tau = p.across * cos_limit_ + p.radial * sin_limit_;
+  const double sin_tau = p.across * groove.sin - p.radial * groove.cos;
+  const double cos_tau = p.across * groove.cos + p.radial * groove.sin;
   a.b = elementary::atan2(sin_tau * p.slant, cos_tau * p.axial);
   return a;
 }

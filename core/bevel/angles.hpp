@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/base/angle.hpp"
+#include "core/bevel/zones.hpp"
 
 namespace tubecut::bevel {
 
@@ -26,7 +27,7 @@ struct FixedGroove {
 struct NoGroove {};
 /// The torch stays perpendicular to the axis: B = 0.
 struct SquareCut {};
-using GrooveRule = std::variant<HalfDihedral, FixedGroove, NoGroove, SquareCut>;
+using GrooveRule = std::variant<HalfDihedral, FixedGroove, NoGroove, SquareCut, ZonedGroove>;
 
 /// The angles of one point of the cut, rad.
 struct Angles {
@@ -62,6 +63,7 @@ class Rule {
   double cos_limit_ = 0.0;  // of the cap or the fixed angle
   double sin_limit_ = 0.0;
   double limit_ = 0.0;
+  Zones zones_;
 };
 
 /// Flush angle alone, the slope of the partner's surface in the axial plane: atan(dz/drho).

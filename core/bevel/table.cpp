@@ -25,8 +25,29 @@ struct Ground {
   [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
 };
 
+Result<void> check(const TableSpec& spec) {
+  if (!(spec.root_face >= 0.0 && spec.root_face < spec.target.wall))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "root_face",
+                 .got = spec.root_face,
+                 .limit = spec.target.wall,
+                 .unit = "mm",
+                 .hint = "must be less than the wall"});
+  if (spec.root_face > 0.0 && spec.contact != Contact::inner)
+    return fail({.code = ErrorCode::unsupported_combination,
+                 .member = "root_face",
+                 .hint = "a root face goes with contact inner"});
+  const auto* zoned = std::get_if<ZonedGroove>(&spec.groove);
+  if (zoned == nullptr) return {};
+  auto ok = check_zones(*zoned);
+  if (!ok)
+    for (auto& issue : ok.error().issues) issue.member = "groove/" + issue.member;
+  return ok;
+}
+
 Result<Ground> ground(const TableSpec& spec) {
-  auto cutters = joint::resolve(spec.partners);
+  if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());
+  auto cutters = grown_partners(spec);
   if (!cutters) return tl::unexpected(cutters.error());
   const Wall wall{spec.target.inner_radius(), spec.target.outer_radius};
   const bool outer = spec.root_surface == RootSurface::outer;
@@ -50,7 +71,27 @@ struct Point {
   double raw = 0.0;       // rule within the torch range
   double required = 0.0;  // least B with which no partner enters the wall
   double input = 0.0;     // of the smoother
+  double face = 0.0;      // elevation of the land
 };
+
+/// What the smoother starts from.
+double input_of(const TableSpec& spec, const Point& p) {
+  if (spec.contact == Contact::inner) return std::max(p.raw, p.required);
+  const bool floored =
+      spec.contact == Contact::automatic && !std::holds_alternative<SquareCut>(spec.groove);
+  return floored ? std::min(std::max(p.raw, p.required), spec.torch.max.rad()) : p.raw;
+}
+
+/// With a land: its elevation, and the least B from its outer edge.
+void stand_on_face(const Ground& g, double phi, double z, Point& out) {
+  const double edge = g.wall.inner + g.spec.root_face;
+  const double least = required_bevel(g.root.cutters, {g.wall.inner, edge},
+                                      joint::generator_at(g.wall.inner, phi), z);
+  out.face = std::max(0.0, least);
+  const double slope = elementary::tan(std::min(out.face, g.spec.torch.max.rad()));
+  out.required = required_bevel(g.root.cutters, {edge, g.wall.outer},
+                                joint::generator_at(edge, phi), z + g.spec.root_face * slope);
+}
 
 Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutter,
             double root_z) {
@@ -62,9 +103,12 @@ Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutt
   const auto& torch = g.spec.torch;
   out.raw = std::clamp(out.angles.b, torch.min.rad(), torch.max.rad());
   const double z = g.inner ? joint::contact_at(*g.inner, phi).z : root_z;
-  out.required =
-      required_bevel(g.root.cutters, g.wall, joint::generator_at(g.wall.inner, phi), z);
-  out.input = g.spec.contact == Contact::inner ? std::max(out.raw, out.required) : out.raw;
+  if (g.spec.root_face > 0.0)
+    stand_on_face(g, phi, z, out);
+  else
+    out.required =
+        required_bevel(g.root.cutters, g.wall, joint::generator_at(g.wall.inner, phi), z);
+  out.input = input_of(g.spec, out);
   return out;
 }
 
@@ -194,7 +238,9 @@ Result<void> check_torch(const Ground& g, const joint::Samples& samples,
                          const std::vector<Point>& points) {
   if (g.spec.contact != Contact::inner) return {};
   const double max = g.spec.torch.max.rad();
-  const auto beyond = [&](std::size_t i) { return points[i].required > max + kBelow; };
+  const auto beyond = [&](std::size_t i) {
+    return std::max(points[i].required, points[i].face) > max + kBelow;
+  };
   auto intervals = runs(samples.nodes, beyond);
   if (intervals.empty()) return {};
   const double slope = elementary::tan(max);
@@ -209,7 +255,7 @@ Result<void> check_torch(const Ground& g, const joint::Samples& samples,
                .got = degrees(std::move(intervals)),
                .limit = g.spec.torch.max.deg(),
                .unit = "deg",
-               .hint = "contact auto would open the root by up to " + shown(gap) + " mm"});
+               .hint = "contact auto would open the root by up to " + brief(gap) + " mm"});
 }
 
 /// What the smoothing left below what it was given. Only the published one may.
@@ -233,7 +279,8 @@ Result<void> check_smoothed(const Ground& g, const joint::Samples& samples,
                  .member = "smoothing/method",
                  .got = degrees(enters),
                  .limit = "b_required_deg",
-                 .unit = "deg"});
+                 .unit = "deg",
+                 .hint = "at these phi the smoothed bevel lies below what keeps partners out of the wall"});
   double worst = 0.0, at = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -248,28 +295,35 @@ Result<void> check_smoothed(const Ground& g, const joint::Samples& samples,
   if (count > 0)
     out.warnings.push_back({.code = WarningCode::smoothed_below_raw,
                             .member = "smoothing/method",
-                            .detail = "by up to " + shown(worst * kDegPerRad) + " deg at phi " +
-                                      shown(at * kDegPerRad) + " deg, at " +
+                            .detail = "by up to " + brief(worst * kDegPerRad) + " deg at phi " +
+                                      brief(at * kDegPerRad) + " deg, at " +
                                       std::to_string(count) + " points"});
   return {};
 }
 
-void note_torch_binds(const joint::Samples& samples, const std::vector<Point>& points, Table& out) {
-  const auto lost = [&](std::size_t i) { return std::abs(points[i].angles.b - points[i].raw); };
+void note_torch_binds(const Ground& g, const joint::Samples& samples,
+                      const std::vector<Point>& points, Table& out) {
+  const bool lifted = g.spec.contact == Contact::automatic;
+  const auto lost = [&](std::size_t i) {
+    const double rule = std::abs(points[i].angles.b - points[i].raw);
+    return lifted ? std::max(rule, points[i].required - g.spec.torch.max.rad()) : rule;
+  };
   for (const auto& [from, to] :
        runs(samples.nodes, [&](std::size_t i) { return lost(i) > kBelow; })) {
-    Table::Binding binding{.from = from, .to = to, .groove_lost = 0.0};
+    Table::Binding binding{.from = from, .to = to, .groove_lost = 0.0, .root_gap = 0.0};
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double phi = samples.nodes[i].phi;
-      if ((phi >= from && phi <= to) || phi + kTwoPi <= to)
-        binding.groove_lost = std::max(binding.groove_lost, lost(i));
+      if (!((phi >= from && phi <= to) || phi + kTwoPi <= to)) continue;
+      binding.groove_lost = std::max(binding.groove_lost, lost(i));
+      binding.root_gap = std::max(binding.root_gap, out.gap[i]);
     }
     out.torch_binds.push_back(binding);
     out.warnings.push_back(
         {.code = WarningCode::torch_range_binds,
          .member = "torch",
-         .detail = "phi " + shown(from * kDegPerRad) + " to " + shown(to * kDegPerRad) +
-                   " deg, up to " + shown(binding.groove_lost * kDegPerRad) + " deg of groove lost"});
+         .detail = "phi " + brief(from * kDegPerRad) + " to " + brief(to * kDegPerRad) +
+                   " deg, up to " + brief(binding.groove_lost * kDegPerRad) + " deg of groove lost" +
+                   (lifted ? ", root open up to " + brief(binding.root_gap) + " mm" : "")});
   }
 }
 
@@ -306,14 +360,14 @@ void note_events_between(const Ground& g, Table& out) {
   out.warnings.push_back({.code = WarningCode::events_between_nodes,
                           .member = "sampling/uniform_points",
                           .detail = "largest shortfall of B between nodes " +
-                                    shown(worst * kDegPerRad) + " deg at phi " +
-                                    shown(at * kDegPerRad) + " deg"});
+                                    brief(worst * kDegPerRad) + " deg at phi " +
+                                    brief(at * kDegPerRad) + " deg"});
 }
 
 void fill_angles(const joint::Samples& samples, const std::vector<Point>& points, double rho,
                  Table& out) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& [cutter, angles, raw, required, input] = points[i];
+    const auto& [cutter, angles, raw, required, input, face] = points[i];
     out.phi.push_back(samples.nodes[i].phi);
     out.developed.push_back(rho * samples.nodes[i].phi);
     out.length.push_back(samples.nodes[i].length);
@@ -328,31 +382,136 @@ void fill_angles(const joint::Samples& samples, const std::vector<Point>& points
   }
 }
 
+/// Height at which a cut of this slope just touches, at one node. A partner that is lost here at its
+/// silhouette, all across the wall, does not hold the lower of the jump's two nodes.
+double lift_at(const Ground& g, const std::vector<joint::Node>& nodes, std::size_t i,
+               double slope) {
+  const auto line = joint::generator_at(g.wall.inner, nodes[i].phi);
+  const bool first = jump_pair(nodes, i);
+  const auto pair = first ? i + 1 : i - 1;
+  const bool lower = nodes[i].kind == joint::NodeKind::jump && pair < nodes.size() &&
+                     nodes[i].z < nodes[pair].z;
+  if (!lower) return lift(g.root.cutters, g.wall, line, slope);
+  constexpr double kBeside = 1e-9;  // rad
+  const double beside = nodes[i].phi + (first ? -kBeside : kBeside);
+  const auto& lost = g.root.cutters[first ? nodes[pair].after : nodes[pair].before];
+  for (const double rho : {g.wall.inner, g.wall.outer})
+    if (joint::upper_sheet(lost, joint::generator_at(rho, beside)))
+      return lift(g.root.cutters, g.wall, line, slope);
+  auto others = g.root.cutters;
+  others.erase(others.begin() + (&lost - g.root.cutters.data()));
+  return lift(others, g.wall, line, slope);
+}
+
 /// Finished surface, root opening, metal in the beam and the torch's own line.
-void fill_surfaces(const Ground& g, const joint::Samples& samples, Table& out) {
-  const double t = g.spec.target.wall;
+void fill_surfaces(const Ground& g, const joint::Samples& samples, const std::vector<Point>& points,
+                   Table& out) {
+  const double t = g.spec.target.wall, f = g.spec.root_face;
   const auto drop = kerf_drops(g.root, samples, out.b, out.gamma, g.spec.kerf);
   for (std::size_t i = 0; i < out.b.size(); ++i) {
-    const double z = samples.nodes[i].z;
-    const double rise = (out.inward ? -1.0 : 1.0) * t * elementary::tan(out.b[i]);
+    const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
     const bool outer = g.inner.has_value();
-    out.z_inner.push_back(outer ? z - rise : z);
-    out.z_outer.push_back(outer ? z : z + rise);
-    out.gap.push_back(outer ? out.z_inner[i] - joint::contact_at(*g.inner, out.phi[i]).z : 0.0);
+    const bool lifted = g.spec.contact == Contact::automatic;
+    double z = samples.nodes[i].z;  // of the root surface
+    if (lifted) z = std::max(z, lift_at(g, samples.nodes, i, slope));
+    double foot = outer ? z - t * slope : z;  // where the bevel's line meets the inner wall
+    out.z_inner.push_back(foot);
+    if (f > 0.0) {
+      out.b_face.push_back(points[i].face);
+      out.z_face.push_back(z + f * elementary::tan(points[i].face));
+      foot = out.z_face[i] - f * slope;
+    }
+    out.z_outer.push_back(outer ? z : foot + t * slope);
+    out.gap.push_back(outer    ? out.z_inner[i] - joint::contact_at(*g.inner, out.phi[i]).z
+                      : lifted ? z - samples.nodes[i].z
+                               : 0.0);
     out.beam.push_back(t / elementary::cos(out.b[i]));
-    out.torch_inner.push_back(out.z_inner[i] - drop[i]);
+    out.torch_inner.push_back(foot - drop[i]);
     out.torch_outer.push_back(out.z_outer[i] - drop[i]);
   }
 }
 
-}  // namespace
+/// Contact outer: does the cut stay clear of every partner across the wall?
+Result<void> check_clearance(const Ground& g, const joint::Samples& samples, const Table& out) {
+  if (g.spec.contact != Contact::outer) return {};
+  constexpr double kEnters = 1e-9;  // of the radius
+  std::vector<double> depth;
+  for (std::size_t i = 0; i < out.b.size(); ++i)
+    depth.push_back(lift_at(g, samples.nodes, i, elementary::tan(out.b[i])) - out.z_inner[i]);
+  auto intervals = runs(samples.nodes, [&](std::size_t i) {
+    return depth[i] > kEnters * g.wall.outer;
+  });
+  if (intervals.empty()) return {};
+  return fail({.code = ErrorCode::cut_enters,
+               .member = "contact",
+               .got = degrees(std::move(intervals)),
+               .limit = 0.0,
+               .unit = "deg",
+               .hint = "by up to " + shown(*std::ranges::max_element(depth)) +
+                       " mm along the axis; contact auto lifts the cut clear"});
+}
 
-Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
-  const auto grounded = ground(spec);
-  if (!grounded) return tl::unexpected(grounded.error());
-  const auto& g = *grounded;
-  std::vector<double> also;
-  for (const auto& event : g.other_events) also.push_back(event.phi);
+/// The zone of every row; a dihedral the table does not have is an error.
+Result<void> fill_zones(const TableSpec& spec, const joint::Samples& samples, Table& out) {
+  const auto* zoned = std::get_if<ZonedGroove>(&spec.groove);
+  if (zoned == nullptr) return {};
+  const Zones zones(*zoned);
+  for (const double dihedral : out.dihedral) out.zone.push_back(zones.at(dihedral).zone);
+  auto missing = runs(samples.nodes, [&](std::size_t i) {
+    return !zones.at(out.dihedral[i]).inside;
+  });
+  if (missing.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(out.dihedral);
+  return fail({.code = ErrorCode::out_of_range,
+               .member = "groove/zones",
+               .got = degrees(std::move(missing)),
+               .unit = "deg",
+               .hint = "no zone for the dihedral there; this joint has " +
+                       shown(low * kDegPerRad) + " to " + shown(high * kDegPerRad) + " deg"});
+}
+
+void note_root_opens(const TableSpec& spec, Table& out) {
+  if (spec.contact != Contact::automatic && spec.contact != Contact::outer) return;
+  constexpr double kOpen = 1e-3;  // mm
+  const auto widest = std::ranges::max_element(out.gap);
+  if (widest == out.gap.end() || *widest <= kOpen) return;
+  const auto at = static_cast<std::size_t>(widest - out.gap.begin());
+  out.warnings.push_back({.code = WarningCode::root_opens,
+                          .member = "contact",
+                          .detail = "by up to " + shown(*widest) + " mm, at phi " +
+                                    shown(out.phi[at] * kDegPerRad) + " deg"});
+}
+
+/// Phases between rows where the cut, straight from row to row, would enter a partner by more
+/// than `tolerance` normal to the cut: the contours of the walls do not tell where it curves.
+std::vector<double> shortfalls(const Ground& g, const Table& t, double tolerance) {
+  constexpr double kNarrow = 1e-4;  // mm, developed: no finer
+  std::vector<double> out;
+  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+    const auto j = (i + 1) % t.phi.size();
+    const double step = t.phi[j] - t.phi[i] + (j == 0 ? kTwoPi : 0.0);
+    const double along = g.wall.inner * step;
+    if (along < kNarrow) continue;
+    const double rise = t.z_inner[j] - t.z_inner[i];
+    bool enters = false;
+    for (const double u : {0.25, 0.5, 0.75}) {
+      const double phi = t.phi[i] + u * step;
+      const double low = t.z_inner[i] + u * rise;
+      const double high = t.z_outer[i] + u * (t.z_outer[j] - t.z_outer[i]);
+      const double needed = lift(g.root.cutters, g.wall, joint::generator_at(g.wall.inner, phi),
+                                 (high - low) / g.spec.target.wall);
+      enters = enters || (needed - low) * along > tolerance * elementary::hypot(along, rise);
+    }
+    for (const double u : {0.25, 0.5, 0.75})
+      if (const double phi = t.phi[i] + u * step; enters)
+        out.push_back(phi < kTwoPi ? phi : phi - kTwoPi);
+  }
+  return out;
+}
+
+/// The table with rows at the phases `also` besides those of the sampling.
+Result<Table> build(const Ground& g, const std::vector<double>& also, const std::stop_token& stop) {
+  const auto& spec = g.spec;
   const auto samples = joint::sample(g.root, spec.sampling, also, stop);
   if (!samples) return tl::unexpected(samples.error());
 
@@ -372,6 +531,7 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   out.developed_total = samples->developed_length;
   out.warnings = joint::partner_warnings(g.root);
   fill_angles(*samples, points, g.root.radius, out);
+  if (auto ok = fill_zones(spec, *samples, out); !ok) return tl::unexpected(ok.error());
 
   const auto p = path(g, *samples, points);
   for (const auto& m : mutations(p.profile.b, spec.mutation_limit.rad()))
@@ -381,11 +541,59 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   for (const auto entry : p.entry) out.b.push_back((*smoothed)[entry]);
   if (auto ok = check_smoothed(g, *samples, points, out); !ok) return tl::unexpected(ok.error());
 
-  fill_surfaces(g, *samples, out);
+  fill_surfaces(g, *samples, points, out);
+  if (auto ok = check_clearance(g, *samples, out); !ok) return tl::unexpected(ok.error());
   for (const auto* z : {&out.z_inner, &out.z_outer})
     if (auto ok = joint::check_length(spec.target, *z); !ok) return tl::unexpected(ok.error());
-  note_torch_binds(*samples, points, out);
+  note_torch_binds(g, *samples, points, out);
+  note_root_opens(spec, out);
   if (!spec.sampling.tolerance) note_events_between(g, out);
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
+  auto cutters = joint::resolve(spec.partners);
+  const double by = spec.coating + spec.root_gap;
+  if (!cutters || by == 0.0) return cutters;
+  for (auto& cutter : *cutters) {
+    if (auto* tube = std::get_if<joint::TubeCutter>(&cutter)) {
+      tube->radius += by;
+    } else if (auto* plane = std::get_if<joint::PlaneCutter>(&cutter)) {
+      const double up = plane->normal.z() < 0.0 ? -1.0 : 1.0;
+      plane->point += up * by * plane->normal.normalized();
+    } else if (auto* box = std::get_if<joint::BoxCutter>(&cutter)) {
+      box->width += 2.0 * by;
+      box->height += 2.0 * by;
+      box->corner += by;
+    } else if (auto* cone = std::get_if<joint::ConeCutter>(&cutter)) {
+      cone->radius += by / elementary::cos(cone->half_angle.rad());
+    } else if (auto* elbow = std::get_if<joint::ElbowCutter>(&cutter)) {
+      elbow->radius += by;
+    }
+  }
+  return cutters;
+}
+
+Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
+  constexpr int kRounds = 6;  // each divides a shortfall by sixteen where the cut is smooth
+  const auto grounded = ground(spec);
+  if (!grounded) return tl::unexpected(grounded.error());
+  const auto& g = *grounded;
+  std::vector<double> also;
+  for (const auto& event : g.other_events) also.push_back(event.phi);
+  auto out = build(g, also, stop);
+  const bool held = spec.contact == Contact::inner || spec.contact == Contact::automatic;
+  if (!held || !spec.sampling.tolerance || spec.root_face > 0.0) return out;
+  // On the inner wall the sampling itself uses the whole tolerance.
+  const double share = spec.contact == Contact::inner ? 1.0 : 0.5;
+  for (int round = 0; out && round < kRounds; ++round) {
+    const auto more = shortfalls(g, *out, share * spec.sampling.tolerance->value);
+    if (more.empty()) break;
+    also.insert(also.end(), more.begin(), more.end());
+    out = build(g, also, stop);
+  }
   return out;
 }
 

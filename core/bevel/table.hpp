@@ -44,6 +44,9 @@ struct TableSpec {
   GrooveRule groove;
   Dihedral dihedral = Dihedral::weld_side;
   Contact contact = Contact::inner;
+  double root_face = 0.0;  // height of the land at the root, across the wall; contact inner only
+  double root_gap = 0.0;   // the cut stands off every partner by this much, normal to it
+  double coating = 0.0;    // thickness on every partner
   double kerf = 0.0;
   TorchRange torch;
   Smoothing smoothing;
@@ -55,6 +58,8 @@ struct Table {
   std::vector<double> phi, developed, length;
   std::vector<std::size_t> cutter;
   std::vector<double> z_inner, z_outer;  // the finished part
+  std::vector<double> z_face, b_face;    // outer edge and elevation of the land; empty without one
+  std::vector<std::size_t> zone;         // of the groove rule's table; empty without one
   std::vector<double> dihedral, groove, tau, gamma, flush;
   std::vector<double> b_raw, b_required, b;  // rule within the torch range; least that keeps partners out; the cut
   std::vector<double> gap;                   // root opening: z_inner less the envelope on the inner wall
@@ -75,7 +80,8 @@ struct Table {
   std::vector<Window> windows;
   struct Binding {
     double from, to;       // phi
-    double groove_lost;    // largest angle by which the rule was cut back
+    double groove_lost;    // largest angle by which the bevel was cut back
+    double root_gap;       // largest root opening there, mm
   };
   std::vector<Binding> torch_binds;
   double length_total = 0.0, developed_total = 0.0;
@@ -84,11 +90,24 @@ struct Table {
 
 /// The bevel table of one cut end: contour, angles, contact, smoothing, finished surface and torch line.
 ///
+/// Contact inner: the root's inner edge lies on the partners' envelope at the inner wall, and B is at
+/// least what keeps every partner out. Contact automatic: the cut is lifted until it just touches;
+/// B is the same but for the torch's range, so that the root opens (`gap`) only where the torch
+/// binds; with the square rule B is 0. Contact outer: the outer edge lies on the envelope at the outer wall.
+///
+/// Partners count as grown by coating + root_gap, so the cut stays that far off their metal; gap is
+/// what opens beyond that. A root face of height f is a land from the inner edge to the radius
+/// r_in + f, square to the axis, or as steep as a partner makes it; the bevel begins at its outer
+/// edge, and `torch_*` is the bevel's line.
+///
 /// Frame   z along the target from the cut end into the kept member, phi from x towards y; B > 0: outer edge further into the part.
 /// Errors  open_profile, no_contact, parallel_axes, member_consumed, torch_range, sampling_not_uniform, smoothing_not_converged,
-///         smoothing_enters, transition_too_long, unsupported_combination, too_many_nodes, cancelled.
+///         smoothing_enters, cut_enters (contact outer), out_of_range (groove/zones, root_face), transition_too_long, unsupported_combination, too_many_nodes, cancelled.
 /// Source  docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
 [[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
+
+/// The partners as the cut must see them: grown by coating and root gap.
+[[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
 
 /// The table proved from its own numbers by other formulas: 3D distances, normals from gradients, half tangents.
 [[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table);

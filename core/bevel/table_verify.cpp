@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/bevel/table.hpp"
 #include "core/joint/solid.hpp"
+#include "core/math/search.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -16,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double kAngle = 1e-9;        // deg
 constexpr double kPlane = 1e-9;        // sine of the angle between line and plane
 constexpr double kPenetration = 1e-6;  // mm
-constexpr int kAcross = 5;             // points across the wall
+constexpr int kAlongBend = 24;
 constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
 
 /// One row seen in 3D, from the table's own z and the partner as a solid.
@@ -33,7 +34,7 @@ Row row(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& 
   const auto turn = elementary::sincos(t.phi[i]);
   Row out;
   out.radial = {turn.cos, turn.sin, 0.0};
-  const double z = outer ? t.z_outer[i] : t.z_inner[i];
+  const double z = outer ? t.z_outer[i] : t.z_inner[i] - t.gap[i];
   out.normal = solids.at(t.cutter[i]).normal(rho * out.radial + z * out.axial);
   out.axial_normal = out.normal.z();
   return out;
@@ -110,27 +111,56 @@ void steepness_checks(const EnvelopeSmoothing& method, const Table& t, std::vect
                  "deg_per_mm2"});
 }
 
-/// How deep the cut of row i enters a partner, mm: points across the wall against each solid.
-double penetration(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
-                   const Row& r, std::size_t i) {
-  double worst = 0.0;
-  for (int k = 0; k < kAcross; ++k) {
-    const double share = static_cast<double>(k) / (kAcross - 1);
-    const double rho = spec.target.inner_radius() + share * spec.target.wall;
-    const double z = t.z_inner[i] + share * (t.z_outer[i] - t.z_inner[i]);
-    const Vector3d at = rho * r.radial + z * r.axial;
-    for (const auto& solid : solids) worst = std::max(worst, -solid.distance(at));
+/// Least signed distance of a straight cut from `a` to `b` to a partner. Along a line the squared
+/// distance to a tube's axis is a parabola, given by three of its points; the distance to another
+/// convex partner has one least value; to an elbow it is looked for on a grid.
+double least_distance(const joint::Solid& solid, const Vector3d& a, const Vector3d& b) {
+  const double ends[] = {solid.distance(a), solid.distance(0.5 * (a + b)), solid.distance(b)};
+  const double least = std::min({ends[0], ends[1], ends[2]});
+  const auto near = [&](double share) { return -solid.distance(a + share * (b - a)); };
+  if (solid.shape() == joint::Solid::Shape::convex)
+    return std::min(least, -math::golden_maximum(near, 0.0, 1.0).value);
+  if (solid.shape() == joint::Solid::Shape::bent) {
+    std::vector<double> grid, sampled;
+    for (int k = 0; k <= kAlongBend; ++k) {
+      grid.push_back(static_cast<double>(k) / kAlongBend);
+      sampled.push_back(near(grid.back()));
+    }
+    return std::min(least, -math::grid_maximum(near, grid, sampled).value);
   }
-  return worst;
+  const auto square = [&](double d) { return (d + solid.radius()) * (d + solid.radius()); };
+  const double low = square(ends[0]), mid = square(ends[1]), high = square(ends[2]);
+  const double bend = 2.0 * (low - 2.0 * mid + high);
+  if (!(solid.radius() > 0.0 && bend > 0.0)) return least;
+  const double share = std::clamp((3.0 * low - 4.0 * mid + high) / (2.0 * bend), 0.0, 1.0);
+  return std::min(least, -near(share));
+}
+
+/// How far the cut of row i stays from the nearest partner, mm; negative: it enters.
+double clearance(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
+                 const Row& r, std::size_t i) {
+  const double inner = spec.target.inner_radius(), outer = spec.target.outer_radius;
+  const Vector3d a = inner * r.radial + t.z_inner[i] * r.axial;
+  const Vector3d b = outer * r.radial + t.z_outer[i] * r.axial;
+  const bool face = !t.z_face.empty();
+  const Vector3d edge =
+      face ? Vector3d((inner + spec.root_face) * r.radial + t.z_face[i] * r.axial) : a;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& solid : solids) {
+    least = std::min(least, least_distance(solid, edge, b));
+    if (face) least = std::min(least, least_distance(solid, a, edge));
+  }
+  return least;
 }
 
 }  // namespace
 
 std::vector<Check> verify(const TableSpec& spec, const Table& t) {
   std::vector<joint::Solid> solids;
-  if (const auto cutters = joint::resolve(spec.partners))
+  if (const auto cutters = grown_partners(spec))
     for (const auto& cutter : *cutters) solids.emplace_back(cutter);
-  double dihedral = 0.0, plane = 0.0, below = 0.0, beyond = 0.0, deep = 0.0;
+  double dihedral = 0.0, plane = 0.0, below = 0.0, beyond = 0.0, deep = 0.0, off = 0.0;
+  const bool lifted = spec.contact == Contact::automatic;
   const bool published = spec.dihedral == Dihedral::as_published;
   const bool square = std::holds_alternative<SquareCut>(spec.groove);
   for (std::size_t i = 0; i < t.b.size(); ++i) {
@@ -142,12 +172,17 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
     if (!steep) dihedral = std::max(dihedral, dihedral_error(spec, t, r, i));
     if (!steep && !published && !square && cut_back > 1e-9)
       plane = std::max(plane, plane_error(spec, t, r, i));
-    const double least =
-        spec.contact == Contact::inner ? std::max(t.b_required[i], t.b_raw[i]) : t.b_raw[i];
+    double least = t.b_raw[i];
+    if (spec.contact == Contact::inner || (lifted && !square))
+      least = std::max(least, t.b_required[i]);
+    if (lifted) least = std::min(least, spec.torch.max.rad());
     below = std::max(below, (least - t.b[i]) * kDegPerRad);
     beyond = std::max({beyond, (t.b[i] - spec.torch.max.rad()) * kDegPerRad,
                        (spec.torch.min.rad() - t.b[i]) * kDegPerRad});
-    if (spec.contact == Contact::inner) deep = std::max(deep, penetration(spec, t, solids, r, i));
+    if (spec.contact == Contact::none) continue;
+    const double clear = clearance(spec, t, solids, r, i);
+    deep = std::max(deep, -clear);
+    off = std::max(off, clear);
   }
   std::vector<Check> out;
   out.push_back({"dihedral", dihedral, kAngle, "deg"});
@@ -158,7 +193,8 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
     steepness_checks(*envelope, t, out);
   }
   out.push_back({"torch_range", beyond, kAngle, "deg"});
-  if (spec.contact == Contact::inner) out.push_back({"penetration", deep, kPenetration, "mm"});
+  if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
+  if (lifted) out.push_back({"touch", off, kPenetration, "mm"});
   return out;
 }
 

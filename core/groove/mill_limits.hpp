@@ -9,7 +9,8 @@ namespace tubecut::groove {
 /// Limits of `verify` that do not depend on size.
 inline constexpr double kContactLimit =
     1e-9;  // mm, gaps again by the apex angle; worst seen 1.3e-13
-inline constexpr double kCertificateLimit = 1e-9;  // mm
+inline constexpr double kCertificateLimit = 1e-9;  // mm, beyond
+inline constexpr double kSlopeError = 1e-7;        // of a gap: slopes by differences
 inline constexpr double kSagLimit =
     1.2e-3;  // mm; 1e-3 was asked, the check interpolates increments linearly
 inline constexpr double kSweptLimit =

@@ -85,7 +85,8 @@ tl::unexpected<Error> parallel(std::string_view member, double sine) {
                .member = std::string(member),
                .got = elementary::asin(std::min(sine, 1.0)) * kDegPerRad,
                .limit = elementary::asin(kParallel) * kDegPerRad,
-               .unit = "deg"});
+               .unit = "deg",
+               .hint = "the angle must be greater than the limit"});
 }
 
 Result<Prepared> prepare_tube(const TubeCutter& tube, std::string_view member) {
@@ -97,17 +98,21 @@ Result<Prepared> prepare_tube(const TubeCutter& tube, std::string_view member) {
                  .unit = "mm"});
   const auto a = elementary::sincos(tube.inclination.rad());
   const auto b = elementary::sincos(tube.clocking.rad());
-  if (!(a.sin >= kParallel)) return parallel(member, std::abs(a.sin));
+  if (!(a.sin >= kParallel)) return parallel(std::string(member) + "/inclination", std::abs(a.sin));
   return PreparedTube{tube.radius, tube.offset, tube.height, a.cos, a.sin, b.cos, b.sin};
 }
 
 Result<Prepared> prepare_plane(const PlaneCutter& plane, std::string_view member) {
   const double length = plane.normal.norm();
   if (!(length > 0.0))
-    return fail({.code = ErrorCode::zero_length, .member = std::string(member) + "/normal"});
+    return fail({.code = ErrorCode::zero_length,
+                 .member = std::string(member) + "/normal",
+                 .got = 0.0,
+                 .limit = 0.0,
+                 .hint = "the vector's length must be greater than the limit"});
   Eigen::Vector3d n = plane.normal / length;
   if (n.z() < 0.0) n = -n;
-  if (!(n.z() >= kParallel)) return parallel(member, n.z());
+  if (!(n.z() >= kParallel)) return parallel(std::string(member) + "/normal", n.z());
   return PreparedPlane{plane.point.dot(n) / n.z(), -n.x() / n.z(), -n.y() / n.z(), n};
 }
 

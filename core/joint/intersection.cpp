@@ -47,9 +47,9 @@ class Worst {
   Check check_;
 };
 
-constexpr double kOnCutter = 1e-12;  // of radius + rho
-constexpr double kAbove = 1e-9;      // of radius + rho
-constexpr double kLabel = 1e-7;      // of radius + rho: the curve is vertical at a silhouette
+constexpr double kOnCutter = 1e-12;  // of the larger of radius + rho and |z|
+constexpr double kAbove = 1e-9;      // likewise
+constexpr double kLabel = 1e-7;      // likewise: the curve is vertical at a silhouette
 
 struct Proof {
   Worst on_cutter{"on_cutter", "mm"}, none_above{"none_above", "mm"}, event_gap{"event_gap", "mm"},
@@ -63,19 +63,20 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
   const auto turn = elementary::sincos(p.phi[i]);
   const Eigen::Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z[i]);
   const auto& own = solids.at(p.cutter[i]);
-  const double scale = own.radius() + p.radius;
-  on_cutter.see(std::abs(own.distance(at)), kOnCutter * std::max(scale, std::abs(p.z[i])));
+  const double scale = std::max(own.radius() + p.radius, std::abs(p.z[i]));
+  on_cutter.see(std::abs(own.distance(at)), kOnCutter * scale);
   const auto top = own.top(at.x(), at.y());
   labels.see(top ? std::abs(*top - p.z[i]) : scale, kLabel * scale);
   for (std::size_t k = 0; k < solids.size(); ++k) {
+    if (k == p.cutter[i]) continue;  // `labels` holds its own height
     // A partner lost or found here stands above on one side only.
     const bool beside = std::any_of(p.events.begin(), p.events.end(), [&](const Event& e) {
       return e.kind == EventKind::jump && (e.from == k || e.to == k) &&
              apart(e.phi, p.phi[i]) < 1e-9;
     });
-    if (beside && k != p.cutter[i]) continue;
+    if (beside) continue;
     const auto height = solids[k].top(at.x(), at.y());
-    if (height && !beside) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
+    if (height) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
   }
 }
 

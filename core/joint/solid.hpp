@@ -21,6 +21,14 @@ class Solid {
   [[nodiscard]] std::optional<double> top(double x, double y) const;
   /// Least distance of that line to the surface, negative where it passes inside.
   [[nodiscard]] double clearance(double x, double y) const;
+  /// What its distance does along a straight line: a tube's or plane's follows a formula, a convex
+  /// one's has one least value, a bent one's may have several.
+  enum class Shape { plain, convex, bent };
+  [[nodiscard]] Shape shape() const {
+    return kind_ == Kind::elbow                        ? Shape::bent
+           : kind_ == Kind::box || kind_ == Kind::cone ? Shape::convex
+                                                       : Shape::plain;
+  }
   /// Radius of a tube, 0 of a plane: the scale of rounding.
   [[nodiscard]] double radius() const { return radius_; }
 

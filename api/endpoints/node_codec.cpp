@@ -1,0 +1,181 @@
+#include "api/endpoints/node_codec.hpp"
+
+#include <map>
+#include <set>
+
+#include "api/endpoints/joint_codec.hpp"
+#include "api/limits.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using joint::End;
+
+constexpr Range kDistance{.min = 0.0, .max = limit::offset_max_mm};
+constexpr Range kComponent{.min = -1e6, .max = 1e6};
+constexpr int kPriorities = 1'000;
+constexpr auto kMembers = static_cast<std::size_t>(limit::members_max);
+constexpr std::array kEnds{Option<End>{"start", End::start}, Option<End>{"finish", End::finish}};
+
+joint::Member decode_member(Reader& in) {
+  joint::Member out;
+  out.name = in.text("id");
+  out.start = in.vector3("start_mm", kOffset);
+  out.finish = in.vector3("end_mm", kOffset);
+  const auto section = decode_section(in, true);
+  out.outer_radius = section.outer_radius;
+  out.wall = section.wall;
+  out.priority = in.integer("priority", 0, kPriorities, 0);
+  in.note("up");
+  if (in.has("up")) out.up = in.vector3("up", kComponent);
+  return out;
+}
+
+/// Places of the members by id.
+using Ids = std::map<std::string, std::size_t, std::less<>>;
+
+Ids decode_ids(Reader& in, const std::vector<joint::Member>& members) {
+  Ids out;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (!members[i].name.empty() && !out.emplace(members[i].name, i).second)
+      in.issue({.code = ErrorCode::bad_text,
+                .pointer = "members/" + std::to_string(i) + "/id",
+                .hint = "another member has this id"});
+  return out;
+}
+
+/// The member of this id; `pointer` names the field for an issue.
+std::size_t known(Reader& in, const Ids& ids, const std::string& id, const std::string& pointer) {
+  const auto found = ids.find(id);
+  if (found != ids.end()) return found->second;
+  if (id.empty()) return 0;  // has its issue already
+  std::vector<std::string> names;
+  for (const auto& [name, place] : ids) names.push_back(name);
+  const auto near = nearest_name(id, names);
+  in.issue({.code = ErrorCode::bad_choice,
+            .pointer = pointer,
+            .got = Json{id},
+            .hint = near.empty() ? "no member has this id" : "did you mean " + near + "?"});
+  return 0;
+}
+
+joint::Link decode_link(Reader& in, const Ids& ids) {
+  joint::Link out;
+  out.member = known(in, ids, in.text("member"), "member");
+  out.end = in.choice("end", kEnds);
+  const auto to = in.text_column("to", {.min = 1, .max = joint::kMostCutters});
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const auto pointer = "to/" + std::to_string(i);
+    const auto other = known(in, ids, to[i], pointer);
+    if (other == out.member && in.understood("member") && !to[i].empty() && ids.contains(to[i]))
+      in.issue({.code = ErrorCode::bad_choice,
+                .pointer = pointer,
+                .got = Json{to[i]},
+                .hint = "a member cannot join itself"});
+    out.to.push_back(other);
+  }
+  return out;
+}
+
+struct Decoded {
+  joint::NodeSpec spec;
+  Ids ids;
+};
+
+Decoded decode(Reader& in) {
+  Decoded out;
+  out.spec.members = in.array("members", {.min = 1, .max = kMembers}, decode_member);
+  out.ids = decode_ids(in, out.spec.members);
+  if (in.is<Json::Array>("connect"))
+    out.spec.connect = in.array("connect", {.min = 1, .max = 2 * kMembers},
+                                [&](Reader& link) { return decode_link(link, out.ids); });
+  else
+    out.spec.connect = in.object("connect", [](Reader& c) {
+      return joint::Within{c.number("within_mm", kDistance)};
+    });
+  return out;
+}
+
+NodeEnd decode_end(Reader& in) {
+  auto node = decode(in);
+  NodeEnd out{.node = std::move(node.spec)};
+  out.member = known(in, node.ids, in.text("member"), "member");
+  out.end = in.choice("end", kEnds);
+  return out;
+}
+
+/// "cutters/1/offset" as the member that cutter is.
+std::string renamed(const JointSource& source, std::string_view member) {
+  const auto of = [](std::size_t i) { return "node/members/" + std::to_string(i); };
+  if (member.starts_with("target")) return of(source.found.member);
+  constexpr std::string_view kCutters = "cutters/";
+  if (member == "cutters") return of(source.found.member);
+  if (!member.starts_with(kCutters)) return std::string(member);
+  std::size_t index = 0;
+  for (const char c : member.substr(kCutters.size())) {
+    if (c < '0' || c > '9') break;
+    index = index * 10 + static_cast<std::size_t>(c - '0');
+  }
+  return index < source.found.cutters.size() ? of(source.found.cutters[index]) : "node";
+}
+
+}  // namespace
+
+joint::NodeSpec decode_node(Reader& in) { return decode(in).spec; }
+
+JointSource decode_joint(Reader& in) {
+  JointSource out;
+  const auto which = in.exactly_one({"target", "node"});
+  in.note("cutters");
+  if (which == 1) {
+    out.node = in.object("node", decode_end);
+    if (in.has("cutters"))
+      in.issue({.code = ErrorCode::exclusive_fields,
+                .pointer = "cutters",
+                .hint = "the node's members are the cutters"},
+               in.find("cutters"));
+  } else if (which == 0) {
+    out.target = decode_target(in);
+    out.partners = decode_cutters(in);
+  }
+  return out;
+}
+
+Result<JointSource> resolve(JointSource source, const std::stop_token& stop) {
+  if (!source.node) return source;
+  auto found = joint::joint_at(source.node->node, source.node->member, source.node->end, stop);
+  if (!found) {
+    auto error = found.error();
+    for (auto& issue : error.issues) issue.member = "node/" + issue.member;
+    return tl::unexpected(std::move(error));
+  }
+  source.found = *std::move(found);
+  source.target = source.found.target;
+  source.partners = source.found.partners;
+  return source;
+}
+
+Error on_node(const JointSource& source, Error error) {
+  if (source.node)
+    for (auto& issue : error.issues) issue.member = renamed(source, issue.member);
+  return error;
+}
+
+std::vector<Warning> on_node(const JointSource& source, std::vector<Warning> warnings) {
+  if (!source.node) return warnings;
+  for (auto& warning : warnings) warning.member = renamed(source, warning.member);
+  for (auto warning : source.found.warnings) {
+    warning.member = "node/" + warning.member;
+    warnings.push_back(std::move(warning));
+  }
+  return warnings;
+}
+
+std::vector<std::string> cutter_ids(const JointSource& source) {
+  std::vector<std::string> out;
+  if (source.node)
+    for (const auto i : source.found.cutters) out.push_back(source.node->node.members[i].name);
+  return out;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/reader.hpp"
+#include "core/joint/node.hpp"
+
+namespace tubecut::api {
+
+/// `members` and `connect`: what /v1/nodes asks, and what stands inside `node` elsewhere.
+[[nodiscard]] joint::NodeSpec decode_node(Reader& in);
+
+/// One end of one member of a node.
+struct NodeEnd {
+  joint::NodeSpec node;
+  std::size_t member = 0;
+  joint::End end = joint::End::start;
+};
+
+/// A joint given directly, or as one end of a node: exactly one of the two.
+struct JointSource {
+  joint::Target target = {};
+  std::vector<joint::Partner> partners = {};
+  std::optional<NodeEnd> node = {};
+  joint::EndJoint found = {};  // of the node, once resolved
+};
+/// `target` with `cutters`, or `node`.
+[[nodiscard]] JointSource decode_joint(Reader& in);
+
+/// Finds target and partners of a node's end. Errors  those of joint::joint_at, naming node/...
+[[nodiscard]] Result<JointSource> resolve(JointSource source, const std::stop_token& stop);
+
+/// The same issue or warning, naming the node's members instead of target and cutters.
+[[nodiscard]] Error on_node(const JointSource& source, Error error);
+[[nodiscard]] std::vector<Warning> on_node(const JointSource& source,
+                                           std::vector<Warning> warnings);
+
+/// Ids of the members that cut the node's end, in the order of the index `cutter`; empty without a
+/// node.
+[[nodiscard]] std::vector<std::string> cutter_ids(const JointSource& source);
+
+}  // namespace tubecut::api

@@ -1,0 +1,167 @@
+#include "core/joint/nearness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tubecut::joint {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kCellsPerMember = 8.0;
+constexpr double kCellsAlongAxis = 1 << 20;  // three of them fit one key of 64 bits
+
+using Cell = std::array<std::int64_t, 3>;
+
+/// The ends of all stretches, sorted into cubes.
+class Grid {
+ public:
+  explicit Grid(std::span<const Stretch> stretches);
+
+  /// Calls `visit(end)` for every end in a cube that the box meets.
+  template <class F>
+  void in_box(const Vector3d& low, const Vector3d& high, F visit) const {
+    const Cell a = cell(low), b = cell(high);
+    for (auto i = a[0]; i <= b[0]; ++i)
+      for (auto j = a[1]; j <= b[1]; ++j) {
+        auto at = std::ranges::lower_bound(entries_, key({i, j, a[2]}), {}, &Entry::key);
+        for (const auto last = key({i, j, b[2]}); at != entries_.end() && at->key <= last; ++at)
+          visit(at->end);
+      }
+  }
+  /// Rows of cubes that a box meets: what `in_box` costs besides its visits.
+  [[nodiscard]] double rows(const Vector3d& low, const Vector3d& high) const {
+    const Cell a = cell(low), b = cell(high);
+    return static_cast<double>(b[0] - a[0] + 1) * static_cast<double>(b[1] - a[1] + 1);
+  }
+  [[nodiscard]] double size() const { return size_; }
+
+ private:
+  struct Entry {
+    std::uint64_t key;
+    std::size_t end;
+  };
+  [[nodiscard]] Cell cell(const Vector3d& at) const {
+    Cell out{};
+    for (int k = 0; k < 3; ++k)
+      out[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(
+          std::clamp(std::floor((at[k] - low_[k]) / size_), 0.0, kCellsAlongAxis - 1.0));
+    return out;
+  }
+  [[nodiscard]] static std::uint64_t key(const Cell& c) {
+    return (static_cast<std::uint64_t>(c[0]) << 40U) | (static_cast<std::uint64_t>(c[1]) << 20U) |
+           static_cast<std::uint64_t>(c[2]);
+  }
+
+  Vector3d low_ = Vector3d::Zero();
+  double size_ = 1.0;
+  std::vector<Entry> entries_;  // ascending key, then end
+};
+
+Grid::Grid(std::span<const Stretch> stretches) {
+  Vector3d low = stretches.front().start, high = low;
+  double length = 0.0, reach = 0.0;
+  for (const auto& s : stretches) {
+    low = low.cwiseMin(s.start).cwiseMin(s.finish);
+    high = high.cwiseMax(s.start).cwiseMax(s.finish);
+    length += (s.finish - s.start).norm();
+    reach += s.reach;
+  }
+  const auto n = static_cast<double>(stretches.size());
+  low_ = low;
+  size_ = std::max({length / (kCellsPerMember * n), 2.0 * reach / n,
+                    (high - low).maxCoeff() / (kCellsAlongAxis - 2.0), 1e-9});
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    entries_.push_back({key(cell(stretches[i].start)), 2 * i});
+    entries_.push_back({key(cell(stretches[i].finish)), 2 * i + 1});
+  }
+  std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
+    return a.key != b.key ? a.key < b.key : a.end < b.end;
+  });
+}
+
+/// Calls `visit(end)` for every end near the stretch, each once: piece by piece along it, so that a
+/// long diagonal member does not search its whole box.
+template <class F>
+void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
+  const Vector3d along = s.finish - s.start;
+  const Vector3d reach = Vector3d::Constant(s.reach);
+  int axis = 0;
+  along.cwiseAbs().maxCoeff(&axis);
+  const double span = std::abs(along[axis]);
+  const double step = std::max(grid.size(), 2.0 * s.reach);
+  const auto pieces = static_cast<std::size_t>(std::ceil((span + 2.0 * s.reach) / step));
+  const double from = std::min(s.start[axis], s.finish[axis]) - s.reach;
+  double rows = 0.0;
+  const auto box = [&](std::size_t k, auto each) {
+    const double low = from + static_cast<double>(k) * step;
+    // The part of the axis whose reach meets this piece, and the box around it.
+    const auto share = [&](double at) {
+      return std::clamp((at - s.start[axis]) / along[axis], 0.0, 1.0);
+    };
+    const Vector3d a = s.start + share(low - s.reach) * along;
+    const Vector3d b = s.start + share(low + step + s.reach) * along;
+    Vector3d bottom = a.cwiseMin(b) - reach, top = a.cwiseMax(b) + reach;
+    bottom[axis] = low;
+    top[axis] = low + step;
+    each(bottom, top);
+  };
+  for (std::size_t k = 0; k < pieces && rows <= static_cast<double>(ends); ++k)
+    box(k, [&](const Vector3d& low, const Vector3d& high) { rows += grid.rows(low, high); });
+  if (rows > static_cast<double>(ends)) {  // looking at every end is cheaper
+    for (std::size_t end = 0; end < ends; ++end) visit(end);
+    return;
+  }
+  for (std::size_t k = 0; k < pieces; ++k)
+    box(k, [&](const Vector3d& low, const Vector3d& high) { grid.in_box(low, high, visit); });
+}
+
+}  // namespace
+
+Nearness nearness(const Vector3d& point, const Stretch& stretch) {
+  const Vector3d along = stretch.finish - stretch.start;
+  const double length = along.norm();
+  const Vector3d unit = along / length;
+  const double at = std::clamp((point - stretch.start).dot(unit), 0.0, length);
+  return {.distance = (point - (stretch.start + at * unit)).norm(),
+          .inside = std::min(at, length - at)};
+}
+
+Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size_t most,
+                                   const std::stop_token& stop) {
+  std::vector<Touch> out;
+  if (stretches.empty()) return out;
+  const Grid grid(stretches);
+  const auto ends = 2 * stretches.size();
+  std::vector<std::size_t> count(ends, 0), seen(ends, stretches.size());
+  std::optional<std::size_t> crowded;
+  for (std::size_t i = 0; i < stretches.size() && !crowded; ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    search(grid, stretches[i], ends, [&](std::size_t end) {
+      if (end / 2 == i || seen[end] == i) return;  // a cube on the border of two pieces comes twice
+      seen[end] = i;
+      const auto& own = stretches[end / 2];
+      const auto near = nearness(end % 2 == 0 ? own.start : own.finish, stretches[i]);
+      if (near.distance > stretches[i].reach) return;
+      out.push_back({end, i, near});
+      if (++count[end] > most) crowded = end;
+    });
+  }
+  if (crowded)
+    return fail({.code = ErrorCode::wrong_count,
+                 .member = "members/" + std::to_string(*crowded / 2) +
+                           (*crowded % 2 == 0 ? "/start" : "/end"),
+                 .got = static_cast<double>(count[*crowded]),
+                 .limit = static_cast<double>(most),
+                 .hint = "more members within reach of this end than one joint may have"});
+  std::ranges::sort(out, [](const Touch& a, const Touch& b) {
+    return a.end != b.end ? a.end < b.end : a.other < b.other;
+  });
+  return out;
+}
+
+}  // namespace tubecut::joint

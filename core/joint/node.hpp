@@ -1,0 +1,120 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/joint/intersection.hpp"
+#include "core/joint/placement.hpp"
+
+namespace tubecut::joint {
+
+/// Cutters one end may have.
+inline constexpr std::size_t kMostCutters = 64;
+
+enum class End { start, finish };
+
+/// A tube by its centre-line in the world. Lengths in mm.
+struct Member {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Eigen::Vector3d finish = Eigen::Vector3d::UnitX();
+  double outer_radius = 0.0;
+  double wall = 0.0;
+  int priority = 0;                       // a lower number cuts a higher one
+  std::optional<Eigen::Vector3d> up = {};  // phi = 0 on this side at both ends; empty: the chord's
+  std::string name = {};                   // for messages only
+
+  [[nodiscard]] const Eigen::Vector3d& at(End end) const {
+    return end == End::start ? start : finish;
+  }
+};
+
+/// An end joins every member whose axis, between its ends, is within `distance` + that member's
+/// radius.
+struct Within {
+  double distance = 0.0;
+};
+/// One end joins just these members.
+struct Link {
+  std::size_t member = 0;
+  End end = End::start;
+  std::vector<std::size_t> to;
+};
+
+/// Members that meet at one or more nodes. Of two that join, the one with the lower priority
+/// number, then the larger diameter, then the earlier place in the list cuts the other: two never
+/// cut each other.
+struct NodeSpec {
+  std::vector<Member> members;
+  std::variant<Within, std::vector<Link>> connect;
+};
+
+/// One member that cuts an end. Lengths in mm.
+struct CutBy {
+  std::size_t member = 0;
+  Placement placement;        // in the frame of the end; its line's point is the member's start
+  double gap = 0.0;           // from the end to the member's axis between its ends
+  double eccentricity = 0.0;  // least distance of the two axes, >= 0
+  bool ghost = false;         // the cut follows it beyond one of its own ends
+};
+
+/// One end of one member, and what is cut there.
+struct MemberEnd {
+  std::size_t member = 0;
+  End end = End::start;
+  MemberFrame frame;
+  std::vector<CutBy> cut_by;  // the chord first
+  bool free = false;          // joins nothing
+  bool open = false;          // some generator meets no cutter
+  bool consumed = false;      // the cut reaches beyond the member's other end
+};
+
+struct Nodes {
+  std::vector<MemberEnd> ends;  // start and finish of each member, in their order
+  std::vector<Warning> warnings;
+};
+
+/// Finds at every end who joins, who cuts whom, and where. Phase zero of an end: `up`; else source
+/// 000's, with which its chord has clocking 0; an end without cutters takes the world axis
+/// furthest from its own (the first of equals).
+///
+/// Errors    zero_length, bad_reference_direction (members/i...); wrong_count (more than
+///           kMostCutters join one end); ambiguous_connection (two passing members, alike in
+///           priority and diameter, equally near); out_of_range (a link's index); cancelled.
+/// Accuracy  world -> numbers -> world 1e-12 relative (worst seen: see tests/core/joint/node_test).
+/// Cost      memory linear in members; time as `touches`, and 1 us for each cutter, 10 us for each
+///           end whose cut may pass its partners' ends.
+/// Source    docs/theory/intersections-and-bevels.md, section 1.1.
+[[nodiscard]] Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop = {});
+
+/// The target and partners of one cut end, as `intersect` and `bevel::table` take them, and which
+/// members they are.
+struct EndJoint {
+  Target target;
+  std::vector<Partner> partners;
+  std::size_t member = 0;
+  std::vector<std::size_t> cutters;
+  std::vector<Warning> warnings;  // those of `solve` about this end
+};
+
+/// Errors  as `solve`; no_contact (members/i: nothing cuts this end).
+[[nodiscard]] Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
+                                        const std::stop_token& stop = {});
+[[nodiscard]] EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end);
+
+/// The curves of every end that is cut all round: the others, and those whose member is consumed,
+/// have none. Errors  too_many_nodes (of all ends together), cancelled.
+[[nodiscard]] Result<std::vector<std::optional<Intersection>>> profiles(
+    const NodeSpec& spec, const Nodes& nodes, const Sampling& sampling,
+    const std::stop_token& stop = {});
+
+/// The answer held against the centre-lines in the world: axes by cross products, angles by half
+/// tangents, who cuts whom by the rules alone.
+[[nodiscard]] std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes);
+
+}  // namespace tubecut::joint

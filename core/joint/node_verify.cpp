@@ -1,0 +1,125 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/joint/node.hpp"
+
+namespace tubecut::joint {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRound = 1e-12;  // of the lengths involved
+constexpr double kAngle = 1e-9;   // deg
+
+/// Angle between two unit vectors by half tangents.
+double between(const Vector3d& a, const Vector3d& b) {
+  return 2.0 * elementary::atan2((a - b).norm(), (a + b).norm());
+}
+
+/// The cutter's axis in the world, from the four numbers alone: turned and tilted step by step.
+struct Line {
+  Vector3d point, direction;
+};
+Line in_world(const MemberFrame& frame, const TubeCutter& t) {
+  const auto a = elementary::sincos(t.inclination.rad());
+  const auto b = elementary::sincos(t.clocking.rad());
+  Eigen::Matrix3d tilt, clock;
+  tilt << 1, 0, 0, 0, a.cos, -a.sin, 0, a.sin, a.cos;
+  clock << b.cos, -b.sin, 0, b.sin, b.cos, 0, 0, 0, 1;
+  const Eigen::Matrix3d out = frame.rows.transpose() * clock * tilt;
+  return {frame.origin + frame.rows.transpose() * Vector3d(0, 0, t.height) -
+              t.offset * (frame.rows.transpose() * clock.col(0)),
+          out.col(2)};
+}
+
+double from_line(const Vector3d& p, const Line& line) {
+  return (p - line.point).cross(line.direction).norm();
+}
+
+struct Worst {
+  double axis = 0.0, angle = 0.0, eccentricity = 0.0, gap = 0.0, frame = 0.0;
+};
+
+/// Least distance of a point to a member's axis: to its ends, or to the line where the foot is
+/// between them (both angles at the ends are acute).
+double to_axis(const Vector3d& p, const Member& m) {
+  const Vector3d along = m.finish - m.start;
+  const double ends = std::min((p - m.start).norm(), (p - m.finish).norm());
+  const bool between_ends = (p - m.start).dot(along) > 0.0 && (m.finish - p).dot(along) > 0.0;
+  return between_ends ? (p - m.start).cross(along).norm() / along.norm() : ends;
+}
+
+void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& worst) {
+  const auto& member = spec.members[end.member];
+  const auto& other = spec.members[cut.member];
+  const auto& t = cut.placement.tube;
+  const Vector3d own = member.at(end.end == End::start ? End::finish : End::start) -
+                       member.at(end.end);
+  const Vector3d along = other.finish - other.start;
+  const Vector3d common = own.cross(along);
+  const double sine = common.norm() / (own.norm() * along.norm());
+  const double scale = (other.start - end.frame.origin).norm() +
+                       (other.finish - end.frame.origin).norm() + std::abs(t.height) +
+                       std::abs(t.offset);
+  const auto line = in_world(end.frame, t);
+  worst.axis = std::max({worst.axis, from_line(other.start, line) / scale,
+                         from_line(other.finish, line) / scale});
+  worst.angle = std::max(worst.angle, std::abs(between(own.normalized(), along.normalized()) -
+                                               t.inclination.rad()) *
+                                          kDegPerRad);
+  const double apart =
+      std::abs((other.start - end.frame.origin).dot(common)) / (own.norm() * along.norm());
+  worst.eccentricity =
+      std::max(worst.eccentricity, std::abs(apart - cut.eccentricity * sine) / scale);
+  worst.gap = std::max(worst.gap, std::abs(to_axis(end.frame.origin, other) - cut.gap) / scale);
+}
+
+double frame_error(const NodeSpec& spec, const MemberEnd& end) {
+  const auto& m = spec.members[end.member];
+  const Vector3d far = m.at(end.end == End::start ? End::finish : End::start);
+  const double length = (m.finish - m.start).norm();
+  const Vector3d seen = end.frame.local(far);
+  const double square =
+      (end.frame.rows * end.frame.rows.transpose() - Eigen::Matrix3d::Identity()).norm();
+  return std::max({square, std::abs(end.frame.rows.determinant() - 1.0),
+                   (seen - Vector3d(0, 0, length)).norm() / length,
+                   (end.frame.origin - m.at(end.end)).norm()});
+}
+
+/// Cuts against the rule of priority, diameter and order, or in both directions.
+double wrong_cuts(const NodeSpec& spec, const Nodes& nodes) {
+  std::set<std::pair<std::size_t, std::size_t>> cuts;
+  double wrong = 0.0;
+  for (const auto& end : nodes.ends)
+    for (const auto& cut : end.cut_by) {
+      const auto& by = spec.members[cut.member];
+      const auto& of = spec.members[end.member];
+      const bool lower = by.priority > of.priority ||
+                         (by.priority == of.priority && by.outer_radius < of.outer_radius);
+      if (lower || cuts.contains({end.member, cut.member})) wrong += 1.0;
+      cuts.insert({cut.member, end.member});
+    }
+  return wrong;
+}
+
+}  // namespace
+
+std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes) {
+  Worst worst;
+  for (const auto& end : nodes.ends) {
+    worst.frame = std::max(worst.frame, frame_error(spec, end));
+    for (const auto& cut : end.cut_by) see(spec, end, cut, worst);
+  }
+  return {{"axis_in_world", worst.axis, kRound, ""},
+          {"inclination", worst.angle, kAngle, "deg"},
+          {"eccentricity", worst.eccentricity, kRound, ""},
+          {"gap", worst.gap, kRound, ""},
+          {"frame", worst.frame, kRound, ""},
+          {"one_cuts_the_other", wrong_cuts(spec, nodes), 0.0, ""}};
+}
+
+}  // namespace tubecut::joint
