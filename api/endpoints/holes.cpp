@@ -18,20 +18,9 @@ constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 
-struct TubeSize {
-  double radius = 0.0, wall = 0.0;
-};
-
-TubeSize decode_size(Reader& in) {
+Section decode_tube(Reader& in) {
   in.optional_text("id");
-  TubeSize out;
-  out.radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
-  const Range wall{.min = kWall.min,
-                   .max = std::min(kWall.max, out.radius),
-                   .open_min = false,
-                   .open_max = out.radius <= kWall.max};
-  out.wall = in.number("wall_mm", in.is<double>("outer_diameter_mm") ? wall : kWall);
-  return out;
+  return decode_section(in, true);
 }
 
 struct Branch {
@@ -40,11 +29,11 @@ struct Branch {
 };
 
 Branch decode_branch(Reader& in) {
-  const auto size = decode_size(in);
+  const auto size = decode_tube(in);
   const auto which = in.exactly_one({"inclination_deg", "axis"});
   if (which == 1)
     return {
-        .placement = joint::AxisTube{.radius = size.radius,
+        .placement = joint::AxisTube{.radius = size.outer_radius,
                                      .axis = in.object("axis",
                                                        [](Reader& a) {
                                                          return joint::AxisLine{
@@ -52,7 +41,7 @@ Branch decode_branch(Reader& in) {
                                                              a.vector3("direction", kComponent)};
                                                        })},
         .wall = size.wall};
-  joint::TubeCutter tube{.radius = size.radius};
+  joint::TubeCutter tube{.radius = size.outer_radius};
   if (which) tube.inclination = in.angle("inclination_deg", kInclinationDeg);
   tube.clocking = in.angle("clocking_deg", kAnyAngleDeg, Angle{});
   tube.offset = in.number("offset_mm", kOffset, 0.0);
@@ -136,13 +125,13 @@ struct Holes {
     static constexpr std::array kTilts{Option<Tilt>{"axial", Tilt::axial},
                                        Option<Tilt>{"free", Tilt::free}};
     Spec out;
-    const auto chord = in.object("chord", decode_size);
-    out.chord = {.outer_radius = chord.radius, .wall = chord.wall};
+    const auto chord = in.object("chord", decode_tube);
+    out.chord = {.outer_radius = chord.outer_radius, .wall = chord.wall};
     const auto branch = in.object("branch", decode_branch);
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
     const auto joint = in.object(
-        "joint", [&](Reader& j) { return decode_joint(j, std::max(chord.radius, kDiameter.min)); });
+        "joint", [&](Reader& j) { return decode_joint(j, std::max(chord.outer_radius, kDiameter.min)); });
     out.kind = joint.kind;
     out.gap = joint.gap;
     out.depth = joint.depth;
@@ -214,7 +203,7 @@ struct Holes {
   static void encode_branch(const Spec& spec, const bevel::BranchEnd& end, Writer& o) {
     o.object("cutter", [&](Writer& c) {
       c.field("kind", "tube");
-      c.field("outer_diameter_mm", 2.0 * end.chord.radius);
+      c.field("outer_diameter_mm", 2.0 * end.chord.outer_radius);
       c.degrees("inclination_deg", end.chord.inclination.rad());
       c.degrees("clocking_deg", end.chord.clocking.rad());
       c.field("offset_mm", end.chord.offset);

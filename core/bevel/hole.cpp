@@ -40,6 +40,7 @@ Result<joint::Contour> curve(const joint::TubeCutter& branch, double chord_radiu
   return fail({.code = ErrorCode::open_profile,
                .member = "branch",
                .got = Intervals{{phi, phi}},
+               .limit = "a hole within the chord's sides",
                .unit = "deg",
                .hint = "the branch reaches the chord's side, where the two surfaces are tangent"});
 }
@@ -169,6 +170,7 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
     return fail({.code = ErrorCode::open_profile,
                  .member = "branch",
                  .got = std::move(open),
+                 .limit = "a wall that reaches the bore",
                  .unit = "deg",
                  .hint = "the hole's wall does not reach the chord's bore here"});
   auto beyond = runs(nodes, [](const WallLine& w) { return w.beyond_torch; });
