@@ -60,9 +60,10 @@ Joint decode_joint(Reader& in, double chord_radius) {
                                      Option<JointKind>{"set_in", JointKind::set_in},
                                      Option<JointKind>{"through", JointKind::through}};
   Joint out;
-  out.kind = in.choice("kind", kKinds);
+  const auto kind = in.tag("kind", kKinds);
+  out.kind = kind.value_or(JointKind::set_in);
   out.gap = in.number("gap_mm", kGap, 0.0);
-  if (in.is<std::string>("kind") && out.kind != JointKind::set_in && in.has("depth_mm"))
+  if (out.kind != JointKind::set_in && in.has("depth_mm"))
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "depth_mm",
               .hint = "only a set-in branch has a depth"},
@@ -79,8 +80,7 @@ bevel::GrooveRule decode_rule(Reader& in) {
                                      Option<RuleName>{"fixed", RuleName::fixed},
                                      Option<RuleName>{"none", RuleName::none},
                                      Option<RuleName>{"square", RuleName::square}};
-  const auto rule = in.choice("rule", kRules);
-  if (!in.is<std::string>("rule")) in.ignore_rest();
+  const auto rule = in.tag("rule", kRules);
   if (rule == RuleName::half_dihedral)
     return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
   if (rule == RuleName::fixed)
@@ -203,7 +203,7 @@ struct Holes {
   static void encode_branch(const Spec& spec, const bevel::BranchEnd& end, Writer& o) {
     o.object("cutter", [&](Writer& c) {
       c.field("kind", "tube");
-      c.field("outer_diameter_mm", 2.0 * end.chord.outer_radius);
+      c.field("outer_diameter_mm", 2.0 * end.chord.radius);
       c.degrees("inclination_deg", end.chord.inclination.rad());
       c.degrees("clocking_deg", end.chord.clocking.rad());
       c.field("offset_mm", end.chord.offset);

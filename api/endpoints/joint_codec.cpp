@@ -40,10 +40,9 @@ joint::Partner decode_plane(Reader& in) {
 joint::Partner decode_rectangular_tube(Reader& in) {
   joint::BoxCutter out{.width = in.number("width_mm", kDiameter),
                        .height = in.number("height_mm", kDiameter)};
-  const double widest = 0.5 * std::min(out.width, out.height);
-  out.corner = in.number("corner_radius_mm", {.min = 0.0,
-                                              .max = widest > 0.0 ? widest : kDiameter.max,
-                                              .open_min = true});
+  const bool sized = in.understood("width_mm") && in.understood("height_mm");
+  const double widest = 0.5 * (sized ? std::min(out.width, out.height) : kDiameter.max);
+  out.corner = in.number("corner_radius_mm", {.min = 0.0, .max = widest, .open_min = true});
   const auto axis = in.object("axis", decode_axis);
   out.point = axis.point;
   out.direction = axis.direction;
@@ -62,8 +61,9 @@ joint::Partner decode_cone(Reader& in) {
 
 joint::Partner decode_elbow(Reader& in) {
   joint::ElbowCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0};
-  out.bend_radius = in.number("bend_radius_mm", {.min = out.radius, .max = limit::offset_max_mm,
-                                                 .open_min = true});
+  const double least = in.understood("outer_diameter_mm") ? out.radius : kDiameter.min / 2.0;
+  out.bend_radius = in.number("bend_radius_mm",
+                              {.min = least, .max = limit::offset_max_mm, .open_min = true});
   out.bend = in.angle("bend_deg", {.min = 0.0, .max = 180.0, .open_min = true});
   const auto axis = in.object("axis", decode_axis);
   out.point = axis.point;
@@ -82,7 +82,7 @@ joint::Partner decode_cutter(Reader& in) {
                                      Option<Kind>{"elbow", Kind::elbow}};
   const auto kind = in.tag("kind", kKinds);
   in.optional_text("id");
-  switch (kind) {
+  switch (kind.value_or(Kind::tube)) {
     case Kind::plane: return decode_plane(in);
     case Kind::rectangular_tube: return decode_rectangular_tube(in);
     case Kind::cone: return decode_cone(in);
