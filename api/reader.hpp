@@ -227,6 +227,9 @@ class Reader {
 [[nodiscard]] std::string nearest_name(std::string_view name,
                                        const std::vector<std::string>& candidates);
 
+/// Lets a nested request carry the fields that belong to every request; they count at the root only.
+void note_common(Reader& in);
+
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);
 

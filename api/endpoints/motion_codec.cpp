@@ -257,9 +257,19 @@ JobRequest decode_job(Reader& in) {
   JobRequest out;
   out.machine = decode_machine_choice(in, "machine");
   switch (in.exactly_one({"cut", "contour", "mill_path", "axes"}).value_or(4)) {
-    case 0: out.cut = in.object("cut", decode_bevel_table_request); break;
+    case 0:
+      out.cut = in.object("cut", [](Reader& cut) {
+        note_common(cut);
+        return decode_bevel_table_request(cut);
+      });
+      break;
     case 1: out.cut = in.object("contour", decode_contour); break;
-    case 2: out.cut = in.object("mill_path", decode_mill_path_request); break;
+    case 2:
+      out.cut = in.object("mill_path", [](Reader& path) {
+        note_common(path);
+        return decode_mill_path_request(path);
+      });
+      break;
     case 3:
       out.cut = in.object("axes", [&](Reader& axes) { return decode_axes(axes, out.machine); });
       break;
