@@ -563,6 +563,14 @@ Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
     } else if (auto* plane = std::get_if<joint::PlaneCutter>(&cutter)) {
       const double up = plane->normal.z() < 0.0 ? -1.0 : 1.0;
       plane->point += up * by * plane->normal.normalized();
+    } else if (auto* box = std::get_if<joint::BoxCutter>(&cutter)) {
+      box->width += 2.0 * by;
+      box->height += 2.0 * by;
+      box->corner += by;
+    } else if (auto* cone = std::get_if<joint::ConeCutter>(&cutter)) {
+      cone->radius += by / elementary::cos(cone->half_angle.rad());
+    } else if (auto* elbow = std::get_if<joint::ElbowCutter>(&cutter)) {
+      elbow->radius += by;
     }
   }
   return cutters;
