@@ -189,7 +189,8 @@ Outcome Job::compute(const Endpoint& endpoint) {
   const auto common = read_common(in, endpoint);
   if (common.numerics && *common.numerics != numerics())
     return refuse(Problem{.code = ErrorCode::numerics_mismatch,
-                          .detail = {},
+                          .detail = "/numerics: this engine's numerics version is " +
+                                    std::to_string(numerics()),
                           .issues = {{.code = ErrorCode::numerics_mismatch,
                                       .pointer = "/numerics",
                                       .got = Json{static_cast<double>(*common.numerics)},
@@ -227,9 +228,7 @@ Verdict judge(const Answer& answer, const Common& common) {
       out.status = "reject";
       std::string reason(bound.name);
       reason += ": ";
-      append_number(reason, measure.value);
-      reason += " > ";
-      append_number(reason, bound.value);
+      reason += brief(measure.value) + " > " + brief(bound.value);
       out.reasons.push_back(std::move(reason));
     }
   return out;

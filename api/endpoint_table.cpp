@@ -8,6 +8,7 @@ std::span<const Endpoint> endpoints() {
       intersections(),
       nodes(),
       bevel_tables(),
+      holes(),
       pulse_schedules(),
       replays(),
       feed_curves(),

@@ -1,5 +1,8 @@
 #include "api/problem.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "api/writer.hpp"
 
 namespace tubecut::api {
@@ -10,7 +13,8 @@ bool retryable(ErrorKind kind) {
 }
 
 Json shown(const Shown& shown) {
-  if (const auto* d = std::get_if<double>(&shown)) return Json{*d};
+  if (const auto* d = std::get_if<double>(&shown))
+    return std::isfinite(*d) ? Json{*d} : Json{"not a finite number"};
   if (const auto* s = std::get_if<std::string>(&shown)) return Json{*s};
   if (const auto* intervals = std::get_if<Intervals>(&shown)) {
     Json::Array list;
@@ -32,6 +36,19 @@ const Json::Member* wire_member(const Json::Object& object, std::string_view nam
       return &member;
   }
   return nullptr;
+}
+
+/// The first issue in words: where, what, and what would do.
+std::string sentence(const std::vector<FieldIssue>& issues) {
+  const auto& first = issues.front();
+  std::string out = (first.pointer.empty() ? "the request" : first.pointer) + ": ";
+  out += info(first.code).meaning;
+  if (!first.hint.empty()) {
+    out.back() = ';';
+    out += " " + first.hint;
+  }
+  if (issues.size() > 1) out += " (and " + std::to_string(issues.size() - 1) + " more)";
+  return out;
 }
 
 }  // namespace
@@ -64,10 +81,10 @@ std::string pointer_of(std::string_view member, const Json& request) {
 Problem field_problem(std::vector<FieldIssue> issues) {
   Problem out{.code = ErrorCode::invalid_request, .detail = {}, .issues = std::move(issues)};
   const auto& first = out.issues.front();
-  out.detail = (first.pointer.empty() ? "the body" : first.pointer) + ": " +
-               std::string(info(first.code).meaning);
-  if (out.issues.size() > 1)
-    out.detail += " (and " + std::to_string(out.issues.size() - 1) + " more)";
+  const bool alike = std::all_of(out.issues.begin(), out.issues.end(),
+                                 [&](const FieldIssue& issue) { return issue.code == first.code; });
+  if (alike) out.code = first.code;
+  out.detail = sentence(out.issues);
   return out;
 }
 
@@ -80,8 +97,7 @@ Problem core_problem(const Error& error, const Json& request) {
                           .limit = shown(issue.limit),
                           .unit = issue.unit,
                           .hint = issue.hint});
-  const auto& first = error.issues.front();
-  out.detail = first.hint.empty() ? std::string(info(first.code).meaning) : first.hint;
+  out.detail = sentence(out.issues);
   return out;
 }
 

@@ -17,7 +17,7 @@ struct Problem {
   std::vector<FieldIssue> issues = {};
 };
 
-/// Field issues as one problem: their own code when they agree on one field only, else `invalid_request`.
+/// Field issues as one problem: their own code when they agree on it, else `invalid_request`.
 [[nodiscard]] Problem field_problem(std::vector<FieldIssue> issues);
 
 /// A core error, its members mapped to pointers into the request as it was understood.

@@ -59,6 +59,12 @@ std::string escaped(std::string_view name) {
   return out;
 }
 
+std::string list(const std::vector<std::string>& names) {
+  std::string out;
+  for (const auto& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
 bool below(double v, Range r) { return r.open_min ? v <= r.min : v < r.min; }
 bool above(double v, Range r) { return r.open_max ? v >= r.max : v > r.max; }
 
@@ -133,14 +139,14 @@ void Reader::adopt(std::string_view name, Reader& child) {
 
 void Reader::finish() {
   const auto* object = body_->as<Json::Object>();
-  if (object == nullptr || ignore_rest_ || silent_) return;
+  if (object == nullptr || silent_) return;
   for (const auto& [name, value] : *object) {
     if (issues_->size() >= kIssuesNamed) return;
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
     const auto near = nearest_name(name, known_);
     record({.code = ErrorCode::unknown_field,
             .pointer = pointer_ + "/" + escaped(name),  // the empty name too is a name
-            .hint = near.empty() ? std::string{} : "did you mean " + near + "?"},
+            .hint = near.empty() ? "known here: " + list(known_) : "did you mean " + near + "?"},
            &value);
   }
 }
@@ -183,7 +189,7 @@ const Json::Array* Reader::required_array(std::string_view name, CountRange coun
   FieldIssue bad{.code = ErrorCode::wrong_count, .pointer = std::string(name)};
   bad.got = Json{static_cast<double>(n)};
   bad.limit = Json{static_cast<double>(few ? count.min : count.max)};
-  bad.hint = few ? "too few elements" : "too many elements";
+  bad.hint = (few ? "at least " : "at most ") + std::to_string(few ? count.min : count.max) + " elements";
   issue(std::move(bad));
   return nullptr;
 }
@@ -193,15 +199,20 @@ std::optional<double> Reader::checked(std::string_view name, const Json& value, 
   const auto* d = value.as<double>();
   const auto unit = std::string(unit_of(name));
   if (d == nullptr) {
-    issue({.code = ErrorCode::not_a_number, .pointer = step, .unit = unit}, &value);
+    issue({.code = ErrorCode::not_a_number,
+           .pointer = step,
+           .unit = unit,
+           .hint = "a JSON number is required"},
+          &value);
     return std::nullopt;
   }
   if (!below(*d, range) && !above(*d, range)) return *d;
   const bool low = below(*d, range);
   FieldIssue bad{.code = ErrorCode::out_of_range, .pointer = step, .unit = unit};
   bad.limit = Json{low ? range.min : range.max};
-  bad.hint = low ? (range.open_min ? "must be greater than the limit" : "must be at least the limit")
-                 : (range.open_max ? "must be less than the limit" : "must be at most the limit");
+  bad.hint = low ? (range.open_min ? "must be greater than " : "must be at least ")
+                 : (range.open_max ? "must be less than " : "must be at most ");
+  bad.hint += tubecut::shown(low ? range.min : range.max) + (unit.empty() ? "" : " " + unit);
   issue(std::move(bad), &value);
   return std::nullopt;
 }
@@ -231,20 +242,13 @@ int Reader::integer(std::string_view name, int min, int max, std::optional<int> 
       name, {.min = static_cast<double>(min), .max = static_cast<double>(max)},
       fallback ? std::optional<double>(static_cast<double>(*fallback)) : std::nullopt);
   if (value != std::floor(value)) {
-    issue({.code = ErrorCode::not_an_integer, .pointer = std::string(name)}, find(name));
+    issue({.code = ErrorCode::not_an_integer,
+           .pointer = std::string(name),
+           .hint = "a whole number is required"},
+          find(name));
     return fallback.value_or(min);
   }
   return static_cast<int>(std::clamp(value, static_cast<double>(min), static_cast<double>(max)));
-}
-
-std::int64_t Reader::integer64(std::string_view name, std::optional<std::int64_t> fallback) {
-  const auto value =
-      number(name, {}, fallback ? std::optional<double>(static_cast<double>(*fallback)) : std::nullopt);
-  if (value != std::floor(value)) {
-    issue({.code = ErrorCode::not_an_integer, .pointer = std::string(name)}, find(name));
-    return fallback.value_or(0);
-  }
-  return static_cast<std::int64_t>(value);
 }
 
 bool Reader::flag(std::string_view name, std::optional<bool> fallback) {
@@ -425,10 +429,7 @@ std::optional<std::size_t> Reader::choose(std::string_view name,
     return fallback;
   }
   const auto* field = required(name);
-  if (field == nullptr) {
-    ignore_rest();
-    return std::nullopt;
-  }
+  if (field == nullptr) return std::nullopt;
   const auto* value = field->as<std::string>();
   for (std::size_t i = 0; value != nullptr && i < names.size(); ++i) {
     if (*value != names[i]) continue;
@@ -439,9 +440,9 @@ std::optional<std::size_t> Reader::choose(std::string_view name,
                  .pointer = std::string(name)};
   std::string list;
   for (const auto option : names) list += (list.empty() ? "" : "|") + std::string(option);
-  bad.limit = Json{list};
+  bad.hint = "one of " + list;
+  bad.limit = Json{std::move(list)};
   issue(std::move(bad), field);
-  ignore_rest();
   return std::nullopt;
 }
 
@@ -465,6 +466,10 @@ std::optional<std::size_t> Reader::exactly_one(std::initializer_list<std::string
              .hint = "give exactly one of " + list},
             find(name));
   return std::nullopt;
+}
+
+void note_common(Reader& in) {
+  for (const auto* name : {"reference", "log", "numerics", "accept"}) in.note(name);
 }
 
 }  // namespace tubecut::api

@@ -71,7 +71,6 @@ class Reader {
   double number(std::string_view name, Range range = {}, std::optional<double> fallback = {});
   std::optional<double> optional_number(std::string_view name, Range range = {});
   int integer(std::string_view name, int min, int max, std::optional<int> fallback = {});
-  std::int64_t integer64(std::string_view name, std::optional<std::int64_t> fallback = {});
   bool flag(std::string_view name, std::optional<bool> fallback = {});
   /// Printable text of 1 to `longest` characters. `fallback` empty: required.
   std::string text(std::string_view name, std::size_t longest = 64);
@@ -179,8 +178,6 @@ class Reader {
   void note(std::string_view name);
   /// Records an issue; `issue.pointer` is relative to this object, `got` is taken from `value` when given.
   void issue(FieldIssue issue, const Json* value = nullptr);
-  /// Fields not asked for are not reported: a choice was wrong, they may belong to another.
-  void ignore_rest() { ignore_rest_ = true; }
   /// Nothing more of this object is reported.
   void silence() { silent_ = true; }
 
@@ -229,6 +226,9 @@ class Reader {
 /// The candidate most like `name`, empty when none is near.
 [[nodiscard]] std::string nearest_name(std::string_view name,
                                        const std::vector<std::string>& candidates);
+
+/// Lets a nested request carry the fields that belong to every request; they count at the root only.
+void note_common(Reader& in);
 
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);

@@ -9,6 +9,7 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
+#include "api/machines.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
@@ -63,9 +64,24 @@ GrooveRule decode_groove(Reader& in) {
   return bevel::NoGroove{};
 }
 
-/// Swing axis of the built-in five_axis_cutter, an assumption of docs/theory/pulse-schedules.md, section 4.5.
-constexpr double kSwingSpeed = 45.0 * kRadPerDeg;          // rad/s
-constexpr double kSwingAcceleration = 300.0 * kRadPerDeg;  // rad/s^2
+/// What the swing axis B of a machine follows at a cutting speed.
+bevel::SwingLimits decode_swing(Reader& in) {
+  const auto machine = decode_machine_choice(in, "machine");
+  const double speed = in.number("speed_mm_min", {.min = 1.0, .max = 60'000.0}) / 60.0;
+  const double use = in.number("use", {.min = 0.01, .max = 1.0}, 0.8);
+  for (const auto& axis : machine.axes) {
+    if (axis.name != "B") continue;
+    const auto limits =
+        bevel::swing_limits(axis.v_max * kRadPerDeg, axis.a_max * kRadPerDeg, speed, use);
+    if (limits) return *limits;
+  }
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "machine",
+            .limit = Json{"B"},
+            .hint = "limits need a machine with a swing axis named B"},
+           in.find("machine"));
+  return {};
+}
 
 struct Smoothing {
   bevel::Smoothing method = bevel::NoSmoothing{};
@@ -73,7 +89,6 @@ struct Smoothing {
 };
 
 bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
-  static constexpr std::array kMachines{Option<int>{"five_axis_cutter", 0}};
   static constexpr std::array kAlong{Option<bevel::Along>{"developed", bevel::Along::developed},
                                      Option<bevel::Along>{"length", bevel::Along::length}};
   bevel::EnvelopeSmoothing out;
@@ -84,12 +99,7 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
     if (!which) {
       l.silence();
     } else if (by_machine) {
-      l.choice("machine", kMachines);
-      const double speed = l.number("speed_mm_min", {.min = 1.0, .max = 60'000.0});
-      const double use = l.number("use", {.min = 0.01, .max = 1.0}, 0.8);
-      if (const auto limits =
-              bevel::swing_limits(kSwingSpeed, kSwingAcceleration, speed / 60.0, use))
-        out.limits = *limits;
+      out.limits = decode_swing(l);
     } else {
       const Range limit{.min = 1e-6, .max = 1e6};
       out.limits.slope = l.number("max_slope_deg_per_mm", limit) * kRadPerDeg;
@@ -146,20 +156,26 @@ bevel::TorchRange decode_torch(Reader& in) {
   return out;
 }
 
-/// The combinations that are offered (design: one root, what must touch, which angle between the tubes).
-bool supported(const bevel::TableSpec& s) {
-  if (s.contact == Contact::inner || s.contact == Contact::automatic)
-    return s.root_surface == RootSurface::inner && s.dihedral == Dihedral::weld_side;
-  if (s.contact == Contact::outer)
-    return s.root_surface == RootSurface::outer && s.dihedral == Dihedral::weld_side;
-  if (s.contact == Contact::none)
-    return s.root_surface == RootSurface::outer || s.dihedral == Dihedral::weld_side;
-  return false;
+/// Refuses what is not offered: which surface holds the root, which one touches, which angle counts.
+void check_combination(const bevel::TableSpec& s, Reader& in) {
+  const bool outer = s.root_surface == RootSurface::outer;
+  const bool weld = s.dihedral == Dihedral::weld_side;
+  if (!weld && !(outer && s.contact == Contact::none))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "dihedral",
+              .limit = Json{"weld_side"},
+              .hint = "inside and as_published go with root_surface outer and contact none"},
+             in.find("dihedral"));
+  const bool goes = s.contact == Contact::none || (s.contact == Contact::outer) == outer;
+  if (goes) return;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "contact",
+            .got = Json{"inner"},
+            .limit = Json{outer ? "outer|none" : "inner|auto|none"},
+            .hint = outer ? "root_surface outer goes with contact outer or none"
+                          : "root_surface inner goes with contact inner, auto or none"},
+           in.find("contact"));
 }
-
-struct BevelTableRequest : bevel::TableSpec {
-  JointSource source;
-};
 
 struct BevelTables {
   using Spec = BevelTableRequest;
@@ -197,16 +213,11 @@ struct BevelTables {
     out.groove = in.object("groove", decode_groove);
     out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
     out.contact = in.choice("contact", kContacts, Contact::inner);
-    const bool told = in.understood("root_surface") && in.understood("dihedral") &&
-                      in.understood("contact");
-    if (told && !supported(out))
-      in.issue({.code = ErrorCode::unsupported_combination,
-                .pointer = "contact",
-                .hint = "root inner goes with contact inner, auto or none; root outer with contact "
-                        "outer or none; another dihedral with root outer and contact none"},
-               in.find("contact"));
+    const bool known =
+        in.understood("root_surface") && in.understood("dihedral") && in.understood("contact");
+    if (known) check_combination(out, in);
     out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
-    if (told && out.root_face > 0.0 && out.contact != Contact::inner)
+    if (known && out.root_face > 0.0 && out.contact != Contact::inner)
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = "root_face_mm",
                 .hint = "a root face goes with contact inner"},
@@ -222,12 +233,7 @@ struct BevelTables {
   }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    auto source = api::resolve(std::move(spec.source), stop);
-    if (!source) return tl::unexpected(source.error());
-    spec.source = *std::move(source);
-    spec.target = spec.source.target;
-    spec.partners = spec.source.partners;
-    return spec;
+    return api::resolve(std::move(spec), stop);
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto out = bevel::table(spec, stop);
@@ -345,22 +351,15 @@ struct BevelTables {
 
 }  // namespace
 
-bevel::TableSpec decode_bevel_table_request(Reader& in) {
-  auto spec = BevelTables::decode(in);
-  if (!spec.source.node) {
-    spec.target = spec.source.target;
-    spec.partners = spec.source.partners;
-    return spec;
-  }
-  if (!in.understood("node")) return spec;
-  // The reader of the rest asks for the target: a nested node is resolved at once.
-  auto resolved = BevelTables::resolve(spec, {});
-  if (resolved) return *std::move(resolved);
-  for (const auto& issue : resolved.error().issues)
-    in.issue({.code = issue.code,
-              .pointer = pointer_of(issue.member, Json{in.echo()}).substr(1),
-              .hint = issue.hint});
-  return spec;
+BevelTableRequest decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
+
+Result<BevelTableRequest> resolve(BevelTableRequest request, const std::stop_token& stop) {
+  auto source = resolve(std::move(request.source), stop);
+  if (!source) return tl::unexpected(source.error());
+  request.source = *std::move(source);
+  request.target = request.source.target;
+  request.partners = request.source.partners;
+  return request;
 }
 
 Endpoint bevel_tables() { return endpoint<BevelTables>(); }

@@ -67,7 +67,16 @@ cutoff::Cut decode_cut(Reader& in) {
 
 cutoff::FitSpec decode_fit(Reader& in) {
   cutoff::FitSpec out;
+  for (const auto& [field, method] : {std::pair("nodes_s", "three_point"), std::pair("tolerance_ratio", "auto")}) {
+    if (in.has("method") || !in.has(field)) continue;
+    const auto hint = std::string(field) + " goes with method " + method;
+    in.issue({.code = ErrorCode::missing_field, .pointer = "method", .hint = hint});
+    in.issue({.code = ErrorCode::unknown_field, .pointer = field, .hint = hint}, in.find(field));
+    in.silence();
+    return out;
+  }
   out.method = in.choice("method", kMethods, FitMethod::minimax);
+  if (!in.understood("method")) in.silence();
   switch (out.method) {
     case FitMethod::automatic:
       out.tolerance = in.number("tolerance_ratio", {.min = 1e-12, .max = 1.0}, 0.005);

@@ -1,5 +1,7 @@
 #include "api/endpoints/joint_codec.hpp"
 
+#include <algorithm>
+
 #include "api/limits.hpp"
 #include "api/tube_sizes.hpp"
 
@@ -9,6 +11,7 @@ namespace {
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kTolerance{.min = limit::tolerance_min_mm, .max = limit::tolerance_max_mm};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
+constexpr Range kHalfAngleDeg{.min = -80.0, .max = 80.0};
 
 joint::AxisLine decode_axis(Reader& in) {
   return {.point = in.vector3("point_mm", kOffset), .direction = in.vector3("direction", kComponent)};
@@ -34,14 +37,59 @@ joint::Partner decode_plane(Reader& in) {
                             .normal = in.vector3("normal", kComponent)};
 }
 
-enum class Kind { tube, plane };
+joint::Partner decode_rectangular_tube(Reader& in) {
+  joint::BoxCutter out{.width = in.number("width_mm", kDiameter),
+                       .height = in.number("height_mm", kDiameter)};
+  const bool sized = in.understood("width_mm") && in.understood("height_mm");
+  const double widest = 0.5 * (sized ? std::min(out.width, out.height) : kDiameter.max);
+  out.corner = in.number("corner_radius_mm", {.min = 0.0, .max = widest, .open_min = true});
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  out.up = in.vector3("up", kComponent);
+  return out;
+}
+
+joint::Partner decode_cone(Reader& in) {
+  joint::ConeCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0,
+                        .half_angle = in.angle("half_angle_deg", kHalfAngleDeg)};
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  return out;
+}
+
+joint::Partner decode_elbow(Reader& in) {
+  joint::ElbowCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0};
+  const double least = in.understood("outer_diameter_mm") ? out.radius : kDiameter.min / 2.0;
+  out.bend_radius = in.number("bend_radius_mm",
+                              {.min = least, .max = limit::offset_max_mm, .open_min = true});
+  out.bend = in.angle("bend_deg", {.min = 0.0, .max = 180.0, .open_min = true});
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  out.inwards = in.vector3("inwards", kComponent);
+  return out;
+}
+
+enum class Kind { tube, plane, rectangular_tube, cone, elbow };
 
 joint::Partner decode_cutter(Reader& in) {
   static constexpr std::array kKinds{Option<Kind>{"tube", Kind::tube},
-                                     Option<Kind>{"plane", Kind::plane}};
+                                     Option<Kind>{"plane", Kind::plane},
+                                     Option<Kind>{"rectangular_tube", Kind::rectangular_tube},
+                                     Option<Kind>{"cone", Kind::cone},
+                                     Option<Kind>{"elbow", Kind::elbow}};
   const auto kind = in.tag("kind", kKinds);
   in.optional_text("id");
-  return kind == Kind::plane ? decode_plane(in) : decode_tube(in);
+  switch (kind.value_or(Kind::tube)) {
+    case Kind::plane: return decode_plane(in);
+    case Kind::rectangular_tube: return decode_rectangular_tube(in);
+    case Kind::cone: return decode_cone(in);
+    case Kind::elbow: return decode_elbow(in);
+    case Kind::tube: break;
+  }
+  return decode_tube(in);
 }
 
 const char* name_of(joint::EventKind kind) {

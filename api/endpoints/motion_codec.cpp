@@ -145,7 +145,7 @@ void decode_course(Reader& in, bool hole, motion::Motion& out) {
 motion::Motion decode_motion(Reader& in, const CutSource& cut) {
   motion::Motion out;
   const auto* contour = std::get_if<motion::Contour>(&cut);
-  const bool has_contour = contour != nullptr || std::holds_alternative<bevel::TableSpec>(cut);
+  const bool has_contour = contour != nullptr || std::holds_alternative<BevelTableRequest>(cut);
   out.speed = in.object("speed", decode_speed);
   if (has_contour) out.speed_on = in.choice("speed_on", kSurfaces, Surface::outer);
   out.eps_tip = in.number("eps_tip_mm", {.min = 1e-4, .max = 10.0}, 0.1);
@@ -221,11 +221,17 @@ struct CutOf {
   const std::stop_token& stop;
   Job& job;
 
-  Result<motion::Cut> operator()(const bevel::TableSpec& spec) const {
-    const auto table = bevel::table(spec, stop);
-    if (!table) return under(table, "cut");
+  Result<motion::Cut> operator()(const BevelTableRequest& asked) const {
+    const auto found = resolve(asked, stop);
+    if (!found) return under(found, "cut");
+    const auto& spec = *found;
+    auto table = bevel::table(spec, stop);
+    if (!table) {
+      table = tl::unexpected(on_node(spec.source, table.error()));
+      return under(table, "cut");
+    }
     job.checks = bevel::verify(spec, *table);
-    job.warnings = table->warnings;
+    job.warnings = on_node(spec.source, table->warnings);
     for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;
     return (*this)(contour_of(spec, *table));
   }
@@ -251,9 +257,19 @@ JobRequest decode_job(Reader& in) {
   JobRequest out;
   out.machine = decode_machine_choice(in, "machine");
   switch (in.exactly_one({"cut", "contour", "mill_path", "axes"}).value_or(4)) {
-    case 0: out.cut = in.object("cut", decode_bevel_table_request); break;
+    case 0:
+      out.cut = in.object("cut", [](Reader& cut) {
+        note_common(cut);
+        return decode_bevel_table_request(cut);
+      });
+      break;
     case 1: out.cut = in.object("contour", decode_contour); break;
-    case 2: out.cut = in.object("mill_path", decode_mill_path_request); break;
+    case 2:
+      out.cut = in.object("mill_path", [](Reader& path) {
+        note_common(path);
+        return decode_mill_path_request(path);
+      });
+      break;
     case 3:
       out.cut = in.object("axes", [&](Reader& axes) { return decode_axes(axes, out.machine); });
       break;

@@ -6,15 +6,15 @@
 #include <variant>
 #include <vector>
 
+#include "api/endpoints/bevel_table_codec.hpp"
 #include "api/reader.hpp"
-#include "core/bevel/table.hpp"
 #include "core/groove/mill_path.hpp"
 #include "core/motion/spec.hpp"
 
 namespace tubecut::api {
 
 /// Where a schedule's cut comes from: computed here (a bevel table, a mill path), or given.
-using CutSource = std::variant<bevel::TableSpec, groove::MillPathSpec, motion::Contour, motion::AxisColumns>;
+using CutSource = std::variant<BevelTableRequest, groove::MillPathSpec, motion::Contour, motion::AxisColumns>;
 
 struct JobRequest {
   CutSource cut;

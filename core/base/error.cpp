@@ -24,6 +24,12 @@ std::string shown(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+std::string brief(double value) {
+  char text[32];
+  constexpr auto kGeneral = std::chars_format::general;
+  return {text, std::to_chars(text, text + sizeof text, value + 0.0, kGeneral, 6).ptr};
+}
+
 const ErrorInfo& info(ErrorCode code) { return kErrors[static_cast<std::size_t>(code)]; }
 const WarningInfo& info(WarningCode code) { return kWarnings[static_cast<std::size_t>(code)]; }
 std::span<const ErrorInfo> all_errors() { return kErrors; }

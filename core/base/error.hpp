@@ -73,8 +73,10 @@ struct WarningInfo {
   std::string_view meaning;
 };
 
-/// A number as text for hints and details, shortest that reads back the same.
+/// A number as text, shortest that reads back the same.
 [[nodiscard]] std::string shown(double value);
+/// A number as text for hints and details: six significant digits.
+[[nodiscard]] std::string brief(double value);
 
 [[nodiscard]] const ErrorInfo& info(ErrorCode code);
 [[nodiscard]] const WarningInfo& info(WarningCode code);

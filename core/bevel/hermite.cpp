@@ -38,7 +38,8 @@ Result<void> check(const AngleProfile& profile, const HermiteSpec& spec) {
     return fail({.code = ErrorCode::out_of_range,
                  .member = "transition",
                  .got = static_cast<double>(*spec.transition),
-                 .limit = *spec.transition < 2 ? 2.0 : static_cast<double>(n / 4)});
+                 .limit = *spec.transition < 2 ? 2.0 : static_cast<double>(n / 4),
+                 .hint = "at least 2 points and at most a quarter of the turn"});
   for (std::size_t i = 0; i < spec.junctions.size(); ++i) {
     if (spec.junctions[i] >= n || (i > 0 && spec.junctions[i] <= spec.junctions[i - 1]))
       return fail({.code = ErrorCode::out_of_range,

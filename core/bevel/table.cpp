@@ -255,7 +255,7 @@ Result<void> check_torch(const Ground& g, const joint::Samples& samples,
                .got = degrees(std::move(intervals)),
                .limit = g.spec.torch.max.deg(),
                .unit = "deg",
-               .hint = "contact auto would open the root by up to " + shown(gap) + " mm"});
+               .hint = "contact auto would open the root by up to " + brief(gap) + " mm"});
 }
 
 /// What the smoothing left below what it was given. Only the published one may.
@@ -279,7 +279,8 @@ Result<void> check_smoothed(const Ground& g, const joint::Samples& samples,
                  .member = "smoothing/method",
                  .got = degrees(enters),
                  .limit = "b_required_deg",
-                 .unit = "deg"});
+                 .unit = "deg",
+                 .hint = "at these phi the smoothed bevel lies below what keeps partners out of the wall"});
   double worst = 0.0, at = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -294,8 +295,8 @@ Result<void> check_smoothed(const Ground& g, const joint::Samples& samples,
   if (count > 0)
     out.warnings.push_back({.code = WarningCode::smoothed_below_raw,
                             .member = "smoothing/method",
-                            .detail = "by up to " + shown(worst * kDegPerRad) + " deg at phi " +
-                                      shown(at * kDegPerRad) + " deg, at " +
+                            .detail = "by up to " + brief(worst * kDegPerRad) + " deg at phi " +
+                                      brief(at * kDegPerRad) + " deg, at " +
                                       std::to_string(count) + " points"});
   return {};
 }
@@ -320,9 +321,9 @@ void note_torch_binds(const Ground& g, const joint::Samples& samples,
     out.warnings.push_back(
         {.code = WarningCode::torch_range_binds,
          .member = "torch",
-         .detail = "phi " + shown(from * kDegPerRad) + " to " + shown(to * kDegPerRad) +
-                   " deg, up to " + shown(binding.groove_lost * kDegPerRad) + " deg of groove lost" +
-                   (lifted ? ", root open up to " + shown(binding.root_gap) + " mm" : "")});
+         .detail = "phi " + brief(from * kDegPerRad) + " to " + brief(to * kDegPerRad) +
+                   " deg, up to " + brief(binding.groove_lost * kDegPerRad) + " deg of groove lost" +
+                   (lifted ? ", root open up to " + brief(binding.root_gap) + " mm" : "")});
   }
 }
 
@@ -359,8 +360,8 @@ void note_events_between(const Ground& g, Table& out) {
   out.warnings.push_back({.code = WarningCode::events_between_nodes,
                           .member = "sampling/uniform_points",
                           .detail = "largest shortfall of B between nodes " +
-                                    shown(worst * kDegPerRad) + " deg at phi " +
-                                    shown(at * kDegPerRad) + " deg"});
+                                    brief(worst * kDegPerRad) + " deg at phi " +
+                                    brief(at * kDegPerRad) + " deg"});
 }
 
 void fill_angles(const joint::Samples& samples, const std::vector<Point>& points, double rho,
@@ -562,6 +563,14 @@ Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
     } else if (auto* plane = std::get_if<joint::PlaneCutter>(&cutter)) {
       const double up = plane->normal.z() < 0.0 ? -1.0 : 1.0;
       plane->point += up * by * plane->normal.normalized();
+    } else if (auto* box = std::get_if<joint::BoxCutter>(&cutter)) {
+      box->width += 2.0 * by;
+      box->height += 2.0 * by;
+      box->corner += by;
+    } else if (auto* cone = std::get_if<joint::ConeCutter>(&cutter)) {
+      cone->radius += by / elementary::cos(cone->half_angle.rad());
+    } else if (auto* elbow = std::get_if<joint::ElbowCutter>(&cutter)) {
+      elbow->radius += by;
     }
   }
   return cutters;

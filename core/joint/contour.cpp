@@ -39,13 +39,29 @@ Result<Contour> trace(std::span<const Cutter> cutters, double rho) {
     if (sin_inclination(out.cutters[i]) < kNearParallel) out.near_parallel.push_back(i);
   }
   if (out.missed.size() == out.cutters.size())
-    return fail({.code = ErrorCode::no_contact, .member = "cutters"});
+    return fail({.code = ErrorCode::no_contact,
+                 .member = "cutters",
+                 .got = 0.0,
+                 .limit = 1.0,
+                 .hint = "none of " + std::to_string(cutters.size()) +
+                         " partners is met on the surface of radius " + brief(rho) + " mm"});
   auto division = divide(out.cutters, rho);
   if (!division.open.empty())
-    return fail({.code = ErrorCode::open_profile,
-                 .member = "cutters",
-                 .got = std::move(division.open),
-                 .unit = "deg"});
+    return fail(
+        {.code = ErrorCode::open_profile,
+         .member = "cutters",
+         .got = std::move(division.open),
+         .limit = "a partner at every phi",
+         .unit = "deg",
+         .hint = "at these phi nothing is met on the surface of radius " + brief(rho) + " mm"});
+  if (division.hidden)
+    return fail(
+        {.code = ErrorCode::unsupported_combination,
+         .member = "cutters/" + std::to_string(division.hidden->cutter),
+         .got = division.hidden->phi * kDegPerRad,
+         .limit = "an elbow that does not hide itself",
+         .unit = "deg",
+         .hint = "the elbow's bend hides a lower part of the same elbow from the target here"});
   out.events = std::move(division.events);
   out.segments = std::move(division.segments);
   return out;

@@ -47,9 +47,9 @@ class Worst {
   Check check_;
 };
 
-constexpr double kOnCutter = 1e-12;  // of radius + rho
-constexpr double kAbove = 1e-9;      // of radius + rho
-constexpr double kLabel = 1e-7;      // of radius + rho: the curve is vertical at a silhouette
+constexpr double kOnCutter = 1e-12;  // of the larger of radius + rho and |z|
+constexpr double kAbove = 1e-9;      // likewise
+constexpr double kLabel = 1e-7;      // likewise: the curve is vertical at a silhouette
 
 struct Proof {
   Worst on_cutter{"on_cutter", "mm"}, none_above{"none_above", "mm"}, event_gap{"event_gap", "mm"},
@@ -63,19 +63,20 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
   const auto turn = elementary::sincos(p.phi[i]);
   const Eigen::Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z[i]);
   const auto& own = solids.at(p.cutter[i]);
-  const double scale = own.radius() + p.radius;
-  on_cutter.see(std::abs(own.distance(at)), kOnCutter * std::max(scale, std::abs(p.z[i])));
+  const double scale = std::max(own.radius() + p.radius, std::abs(p.z[i]));
+  on_cutter.see(std::abs(own.distance(at)), kOnCutter * scale);
   const auto top = own.top(at.x(), at.y());
   labels.see(top ? std::abs(*top - p.z[i]) : scale, kLabel * scale);
   for (std::size_t k = 0; k < solids.size(); ++k) {
+    if (k == p.cutter[i]) continue;  // `labels` holds its own height
     // A partner lost or found here stands above on one side only.
     const bool beside = std::any_of(p.events.begin(), p.events.end(), [&](const Event& e) {
       return e.kind == EventKind::jump && (e.from == k || e.to == k) &&
              apart(e.phi, p.phi[i]) < 1e-9;
     });
-    if (beside && k != p.cutter[i]) continue;
+    if (beside) continue;
     const auto height = solids[k].top(at.x(), at.y());
-    if (height && !beside) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
+    if (height) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
   }
 }
 
@@ -102,19 +103,21 @@ Result<std::vector<Cutter>> resolve(std::span<const Partner> partners) {
   std::vector<Cutter> out;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i < partners.size(); ++i) {
-    if (const auto* tube = std::get_if<TubeCutter>(&partners[i])) {
-      out.emplace_back(*tube);
-    } else if (const auto* plane = std::get_if<PlaneCutter>(&partners[i])) {
-      out.emplace_back(*plane);
-    } else {
-      const auto& axis = std::get<AxisTube>(partners[i]);
-      const auto member = "cutters/" + std::to_string(i) + "/axis";
-      const auto placed = place(axis.axis, axis.radius, member);
-      if (placed)
-        out.emplace_back(placed->tube);
-      else
-        issues.insert(issues.end(), placed.error().issues.begin(), placed.error().issues.end());
-    }
+    std::visit(
+        [&]<class Kind>(const Kind& partner) {
+          if constexpr (std::is_same_v<Kind, AxisTube>) {
+            const auto member = "cutters/" + std::to_string(i) + "/axis";
+            const auto placed = place(partner.axis, partner.radius, member);
+            if (placed)
+              out.emplace_back(placed->tube);
+            else
+              issues.insert(issues.end(), placed.error().issues.begin(),
+                            placed.error().issues.end());
+          } else {
+            out.emplace_back(partner);
+          }
+        },
+        partners[i]);
   }
   if (!issues.empty()) return tl::unexpected(Error(std::move(issues)));
   return out;
@@ -150,8 +153,7 @@ Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_tok
     if (!contour) return tl::unexpected(contour.error());
     auto curve = profile(*contour, spec.sampling, outer, stop);
     if (!curve) return tl::unexpected(curve.error());
-    if (auto fits = check_length(spec.target, curve->z); !fits)
-      return tl::unexpected(fits.error());
+    if (auto fits = check_length(spec.target, curve->z); !fits) return tl::unexpected(fits.error());
     out.profiles.push_back(*std::move(curve));
     out.warnings = partner_warnings(*contour);  // of the outer surface when both are asked for
   }
@@ -169,8 +171,7 @@ std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answ
     for (const auto& e : p.events) proof.event(solids, p.radius, e);
   }
   std::vector<Check> out;
-  for (const auto* worst :
-       {&proof.on_cutter, &proof.none_above, &proof.event_gap, &proof.labels})
+  for (const auto* worst : {&proof.on_cutter, &proof.none_above, &proof.event_gap, &proof.labels})
     out.push_back(worst->check());
   return out;
 }

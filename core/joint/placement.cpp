@@ -15,16 +15,22 @@ Angle whole_turn(double phi) { return Angle::rad(phi < 0.0 ? phi + kTwoPi : phi)
 
 Result<Placement> place(const AxisLine& axis, double radius, std::string_view member) {
   const double length = axis.direction.norm();
-  if (!(length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = std::string(member)});
+  if (!(length > 0.0))
+    return fail({.code = ErrorCode::zero_length,
+                 .member = std::string(member) + "/direction",
+                 .got = 0.0,
+                 .limit = 0.0,
+                 .hint = "the vector's length must be greater than the limit"});
   const Eigen::Vector3d d = axis.direction / length;
   const double sin_a = elementary::hypot(d.x(), d.y());
   const double inclination = elementary::atan2(sin_a, d.z());
   if (!(sin_a >= kParallel))
     return fail({.code = ErrorCode::parallel_axes,
-                 .member = std::string(member),
+                 .member = std::string(member) + "/direction",
                  .got = std::min(inclination, kPi - inclination) * kDegPerRad,
                  .limit = kParallel * kDegPerRad,
-                 .unit = "deg"});
+                 .unit = "deg",
+                 .hint = "the angle must be greater than the limit"});
   const double cos_b = -d.y() / sin_a;
   const double sin_b = d.x() / sin_a;
   const auto& q = axis.point;

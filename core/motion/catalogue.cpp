@@ -58,7 +58,7 @@ Machine cone_mill() {
   return {.name = "cone_mill",
           .kinematics = ConeMill{},
           .axes = {rotary("C", 360000, 60, 300, 6000), slide("X", 100, 500, 10000),
-                   slide("Z", 100, 500, 10000), swing()}};
+                   slide("Z", 100, 500, 10000), counted("B", AxisUnit::deg, 45, 300, 6000)}};
 }
 
 Machine generic() {

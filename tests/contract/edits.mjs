@@ -21,19 +21,33 @@ export function branchOf(contract, schema, value) {
     if (branch.oneOf) return true;
     if (branch.type !== 'object') return types(contract, branch).includes(typeOf(value));
     return (branch.required ?? []).every((name) => name in value) &&
-      Object.entries(branch.properties).every(([name, p]) => !('const' in p) || !(name in value) || value[name] === p.const);
+      Object.entries(branch.properties).every(([name, p]) => !words(p) || !(name in value) || words(p).includes(value[name]));
   };
   return branchOf(contract, schema.oneOf.map((b) => contract.resolve(b)).find(fits), value);
 }
 
-// Could one object be meant as either? Not when a constant of the same name tells them apart.
+const words = (schema) => ('const' in schema ? [schema.const] : schema.enum);
+
+// Could one object be meant as either? Not when a member takes other words in each.
 function alike(a, b) {
   if (!a.properties || !b.properties) return false;  // one of them is no object
   return Object.entries(a.properties).every(([name, p]) => {
     const q = b.properties[name];
-    return !q || !('const' in p) || !('const' in q) || p.const === q.const;
+    return !q || !words(p) || !words(q) || words(p).some((word) => words(q).includes(word));
   });
 }
+
+// Of branches told apart by a member that may be left out, as {method: minimax} by default: that member, and those only some have.
+function impliedTag(contract, whole) {
+  const branches = (whole.oneOf ?? []).map((b) => contract.resolve(b)).filter((b) => b.properties);
+  const tag = Object.keys(branches[0]?.properties ?? {}).find((name) => branches.every((b) => b.properties[name] && words(b.properties[name])));
+  if (!tag || branches.every((b) => b.required?.includes(tag))) return [];
+  const names = new Set(branches.flatMap((b) => Object.keys(b.properties)));
+  return [tag, ...[...names].filter((name) => !branches.every((b) => b.properties[name]))];
+}
+
+// The groups of members of which an object has exactly one, as allOf: [{oneOf: [{required: [a]}, {required: [b]}]}].
+export const groups = (schema) => (schema.allOf ?? []).map(({oneOf}) => oneOf.map(({required}) => required[0]));
 
 // Members that go with one another or exclude one another: naming any of them is naming the edit.
 function companions(contract, whole, schema) {
@@ -41,7 +55,9 @@ function companions(contract, whole, schema) {
   const required = branches.map((b) => new Set(b.required ?? []));
   const either = [...new Set(required.flatMap((set) => [...set]))].filter((name) => !required.every((set) => set.has(name)));
   const dependent = Object.entries(schema.dependentSchemas ?? {}).flatMap(([name, {anyOf}]) => [name, ...anyOf[0].required]);
-  return [...either, ...dependent];
+  const exclusive = groups(schema).flat();
+  const few = schema.maxProperties ? Object.keys(schema.properties) : [];
+  return [...either, ...dependent, ...exclusive, ...few, ...impliedTag(contract, whole)];
 }
 
 function badNumbers({minimum, maximum, exclusiveMinimum, exclusiveMaximum, type}) {

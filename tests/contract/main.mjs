@@ -1,4 +1,4 @@
-// The contract held against the running service: node main.mjs SUITE --server BINARY --contract openapi.yaml [--seed N]
+// The contract held against the running service: node main.mjs SUITE --server BINARY --contract openapi.yaml [--seed N] [--endpoint ID]
 import {parseArgs} from 'node:util';
 import {answers} from './suites/answers.mjs';
 import {editsRefused} from './suites/edits_refused.mjs';
@@ -24,9 +24,9 @@ class Report {
 }
 
 const {values, positionals: [suite]} = parseArgs({allowPositionals: true,
-  options: {server: {type: 'string'}, contract: {type: 'string'}, seed: {type: 'string'}}});
+  options: {server: {type: 'string'}, contract: {type: 'string'}, seed: {type: 'string'}, endpoint: {type: 'string'}}});
 if (!SUITES[suite] || !values.server || !values.contract) {
-  console.error(`usage: node main.mjs ${Object.keys(SUITES).join('|')} --server BINARY --contract FILE [--seed N]`);
+  console.error(`usage: node main.mjs ${Object.keys(SUITES).join('|')} --server BINARY --contract FILE [--seed N] [--endpoint ID]`);
   process.exit(2);
 }
 const seed = Number(values.seed ?? Date.now() % 2 ** 31);
@@ -35,7 +35,7 @@ console.log(`suite ${suite}, seed ${seed}`);
 const service = await Service.start(values.server);
 const report = new Report();
 try {
-  const contract = await new Contract(values.contract).learn(service);
+  const contract = await new Contract(values.contract).learn(service, values.endpoint);
   const facts = await SUITES[suite]({service, contract, report, seed});
   for (const fact of facts) console.log(fact);
   report.expect(service.alive, 'service', 'it ended');

@@ -14,10 +14,10 @@ export class Contract {
     this.ajv.addSchema(this.document, ID);
   }
 
-  // What this service has: its endpoints, and requests that run.
-  async learn(service) {
+  // What this service has: its endpoints (or the one to look at), and requests that run.
+  async learn(service, only) {
     const {endpoints} = JSON.parse((await service.ask('/v1/version', {method: 'GET'})).text);
-    this.served = endpoints.map(({path}) => path);
+    this.served = endpoints.filter(({id}) => !only || id === only).map(({path}) => path);
     this.examples = JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text).examples;
     return this;
   }

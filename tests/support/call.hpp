@@ -42,6 +42,7 @@ inline api::Json with(api::Json json, std::string_view path, api::Json value) {
     if (auto* array = here->as<api::Json::Array>()) {
       next = &array->at(std::stoul(step));
     } else {
+      if (*here == api::Json{}) *here = api::Json::Object{};
       auto& object = *here->as<api::Json::Object>();
       for (auto& [name, member] : object)
         if (name == step) next = &member;

@@ -126,7 +126,7 @@ TEST(Cases, ParallelAxes) {
     const auto result = trace_one(tube_deg(50, inclination, 0, 0), 35);
     ASSERT_FALSE(result) << inclination;
     EXPECT_EQ(result.error().code(), ErrorCode::parallel_axes);
-    EXPECT_EQ(result.error().issues.front().member, "cutters/0");
+    EXPECT_EQ(result.error().issues.front().member, "cutters/0/inclination");
     EXPECT_NEAR(std::get<double>(result.error().issues.front().limit), 5.73e-5, 1e-7);
   }
   const auto near = trace_one(tube_deg(60, 4.9, 0, 0), 35);

@@ -1,0 +1,27 @@
+// Runs every file of a corpus through the fuzzer's own function, without libFuzzer: replay FOLDER.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "tests/fuzz/dispatch_bytes.hpp"
+
+int main(int argc, char** argv) {
+  std::vector<std::filesystem::path> files;
+  for (int i = 1; i < argc; ++i)
+    for (const auto& entry : std::filesystem::directory_iterator(argv[i]))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const auto& path : files) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+    std::printf("%s: %zu bytes\n", path.filename().c_str(), bytes.size());
+    std::fflush(stdout);  // so that the last name is there when it aborts
+    tubecut::fuzz::dispatch_bytes(bytes);
+  }
+  std::printf("%zu inputs\n", files.size());
+  return files.empty() ? 1 : 0;
+}
