@@ -9,6 +9,7 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
+#include "api/machines.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
@@ -63,9 +64,24 @@ GrooveRule decode_groove(Reader& in) {
   return bevel::NoGroove{};
 }
 
-/// Swing axis of the built-in five_axis_cutter, an assumption of docs/theory/pulse-schedules.md, section 4.5.
-constexpr double kSwingSpeed = 45.0 * kRadPerDeg;          // rad/s
-constexpr double kSwingAcceleration = 300.0 * kRadPerDeg;  // rad/s^2
+/// What the swing axis B of a machine follows at a cutting speed.
+bevel::SwingLimits decode_swing(Reader& in) {
+  const auto machine = decode_machine_choice(in, "machine");
+  const double speed = in.number("speed_mm_min", {.min = 1.0, .max = 60'000.0}) / 60.0;
+  const double use = in.number("use", {.min = 0.01, .max = 1.0}, 0.8);
+  for (const auto& axis : machine.axes) {
+    if (axis.name != "B") continue;
+    const auto limits =
+        bevel::swing_limits(axis.v_max * kRadPerDeg, axis.a_max * kRadPerDeg, speed, use);
+    if (limits) return *limits;
+  }
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "machine",
+            .limit = Json{"B"},
+            .hint = "limits need a machine with a swing axis named B"},
+           in.find("machine"));
+  return {};
+}
 
 struct Smoothing {
   bevel::Smoothing method = bevel::NoSmoothing{};
@@ -73,7 +89,6 @@ struct Smoothing {
 };
 
 bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
-  static constexpr std::array kMachines{Option<int>{"five_axis_cutter", 0}};
   static constexpr std::array kAlong{Option<bevel::Along>{"developed", bevel::Along::developed},
                                      Option<bevel::Along>{"length", bevel::Along::length}};
   bevel::EnvelopeSmoothing out;
@@ -84,12 +99,7 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
     if (!which) {
       l.silence();
     } else if (by_machine) {
-      l.choice("machine", kMachines);
-      const double speed = l.number("speed_mm_min", {.min = 1.0, .max = 60'000.0});
-      const double use = l.number("use", {.min = 0.01, .max = 1.0}, 0.8);
-      if (const auto limits =
-              bevel::swing_limits(kSwingSpeed, kSwingAcceleration, speed / 60.0, use))
-        out.limits = *limits;
+      out.limits = decode_swing(l);
     } else {
       const Range limit{.min = 1e-6, .max = 1e6};
       out.limits.slope = l.number("max_slope_deg_per_mm", limit) * kRadPerDeg;

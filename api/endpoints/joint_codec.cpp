@@ -111,10 +111,11 @@ Section decode_section(Reader& in, bool with_wall) {
     const auto name = in.text("size");
     const auto* size = find_tube_size(name);
     if (size == nullptr) {
+      const auto near = nearest_tube_size(name);
       if (!name.empty())
         in.issue({.code = ErrorCode::unknown_size,
                   .pointer = "size",
-                  .hint = "did you mean " + nearest_tube_size(name) + "?"},
+                  .hint = near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?"},
                  in.find("size"));
       return out;
     }
