@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/bevel/hole_end.hpp"
 #include "core/bevel/hole_fit.hpp"
 #include "core/bevel/hole_wall.hpp"
-#include "core/bevel/required.hpp"
 #include "core/joint/length.hpp"
 #include "core/joint/placement.hpp"
 
@@ -22,28 +22,6 @@ constexpr int kHalvings = 20;
 constexpr double kShallow = 1e-9 * kRadPerDeg;  // rad; what counts as a groove lost
 
 double wrapped(double phi) { return phi - kTwoPi * std::floor(phi / kTwoPi); }
-
-/// Errors about the joint's one curve are errors about the branch.
-Error about_branch(Error error) {
-  for (auto& issue : error.issues)
-    if (issue.member.starts_with("cutters"))
-      issue.member = issue.code == ErrorCode::parallel_axes ? "branch/inclination" : "branch";
-  return error;
-}
-
-Result<joint::Contour> curve(const joint::TubeCutter& branch, double chord_radius, double rho) {
-  const joint::Cutter chord = chord_seen_from(branch, chord_radius);
-  auto out = joint::trace({&chord, 1}, rho);
-  if (!out) return tl::unexpected(about_branch(out.error()));
-  if (out->events.empty()) return out;
-  const double phi = out->events.front().phi * kDegPerRad;
-  return fail({.code = ErrorCode::open_profile,
-               .member = "branch",
-               .got = Intervals{{phi, phi}},
-               .limit = "a hole within the chord's sides",
-               .unit = "deg",
-               .hint = "the branch reaches the chord's side, where the two surfaces are tangent"});
-}
 
 /// One node: its phase on the branch and its wall line.
 struct Node {
@@ -239,7 +217,8 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
                  .got = spec.kerf,
                  .limit = 2.0 * rho,
                  .unit = "mm"});
-  const auto root = curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho);
+  const auto root =
+      joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho);
   if (!root) return tl::unexpected(root.error());
   const WallLines walls(spec, branch, rho, root->cutters.front());
   const auto nodes = sample(spec, walls, stop);
@@ -249,68 +228,6 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
     warnings.push_back({.code = WarningCode::near_parallel, .member = "branch"});
   note_lost(*nodes, warnings);
   return tabulate(spec, walls, *root, *nodes, far);
-}
-
-/// Root on the inner wall, `gap` off the chord; never below flush there, where the chord would
-/// enter the wall.
-Result<void> stand_on(const HoleSpec& spec, const joint::Contour& contour, double radius,
-                      BranchEnd& end) {
-  const Wall wall{contour.radius, radius};
-  const Rule rule(spec.groove, Dihedral::weld_side);
-  Intervals beyond;
-  for (const double phi : end.phi) {
-    const auto line = joint::generator_at(contour.radius, phi);
-    const auto hit = joint::continued_hit(contour.cutters.front(), line);
-    const double required = required_bevel(contour.cutters, wall, line, hit.z);
-    const double asked =
-        std::clamp(rule.angles(hit.normal).b, spec.torch.min.rad(), spec.torch.max.rad());
-    if (required > spec.torch.max.rad()) beyond.emplace_back(phi * kDegPerRad, phi * kDegPerRad);
-    const double b = std::max(asked, std::min(required, spec.torch.max.rad()));
-    end.b.push_back(b);
-    end.z_inner.push_back(hit.z);
-    end.z_outer.push_back(hit.z + spec.branch_wall * elementary::tan(b));
-  }
-  if (beyond.empty()) return {};
-  return fail({.code = ErrorCode::torch_range,
-               .member = "torch/max",
-               .got = Intervals{{beyond.front().first, beyond.back().second}},
-               .limit = spec.torch.max.deg(),
-               .unit = "deg",
-               .hint = "the branch's end cannot be cut flush on the chord here"});
-}
-
-/// Both edges on a cylinder about the chord's axis.
-Result<void> end_inside(const HoleSpec& spec, const joint::Contour& inner,
-                        const joint::Contour& outer, BranchEnd& end) {
-  for (const double phi : end.phi) {
-    end.z_inner.push_back(joint::contact_at(inner, phi).z);
-    end.z_outer.push_back(joint::contact_at(outer, phi).z);
-    end.b.push_back(elementary::atan2(end.z_outer.back() - end.z_inner.back(), spec.branch_wall));
-  }
-  return {};
-}
-
-Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& branch,
-                             const std::vector<double>& phases) {
-  const bool on = spec.kind == JointKind::set_on;
-  const double depth = spec.depth.value_or(spec.chord.wall);
-  const double radius = spec.chord.outer_radius + (on ? spec.gap : -depth);
-  BranchEnd end{.chord = chord_seen_from(branch, radius),
-                .phi = phases,
-                .z_inner = {},
-                .z_outer = {},
-                .b = {}};
-  const auto inner = curve(branch, radius, branch.radius - spec.branch_wall);
-  if (!inner) return tl::unexpected(inner.error());
-  if (on) {
-    if (auto ok = stand_on(spec, *inner, branch.radius, end); !ok)
-      return tl::unexpected(ok.error());
-    return end;
-  }
-  const auto outer = curve(branch, radius, branch.radius);
-  if (!outer) return tl::unexpected(outer.error());
-  if (auto ok = end_inside(spec, *inner, *outer, end); !ok) return tl::unexpected(ok.error());
-  return end;
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ struct ElbowPass {
 /// by the distance itself, or by a bound of second order, which converges quadratically.
 /// Accuracy  the point is within 1e-12 (radius + bend radius) of the surface.
 /// Cost      about ten distances; a grazing generator up to a hundred.
+/// Source    docs/theory/intersections-and-bevels.md, section 9.
 [[nodiscard]] ElbowPass elbow_pass(const PreparedElbow& elbow, const Generator& line);
 [[nodiscard]] Hit elbow_hit(const PreparedElbow& elbow, const Generator& line);
 

@@ -62,6 +62,7 @@ struct PreparedCone {
 
 /// Where a generator leaves the partner: as `upper_sheet`, `hit` and their continuations.
 /// Accuracy  the point is on the surface within 1e-12 of its size and the target's radius.
+/// Source    docs/theory/intersections-and-bevels.md, section 9.
 [[nodiscard]] std::optional<double> shape_top(const PreparedBox& box, const Generator& line);
 [[nodiscard]] std::optional<double> shape_top(const PreparedCone& cone, const Generator& line);
 [[nodiscard]] Hit shape_hit(const PreparedBox& box, const Generator& line);

@@ -361,6 +361,26 @@ TEST(Shapes, ElbowEventsOnScans) {
   EXPECT_GT(changes, 10);
 }
 
+// A hairpin whose upper leg lies beside the lower one: at the upper one's side z would jump to the
+// lower one, from the partner to itself.
+TEST(Shapes, AnElbowThatHidesItselfIsRefused) {
+  const std::vector<Cutter> cutters{ElbowCutter{.radius = 50,
+                                                .bend_radius = 80,
+                                                .bend = Angle::deg(180),
+                                                .point = {-300, 0, 0},
+                                                .direction = {-1, 0, 0},
+                                                .inwards = {0, 0.4, 1}},
+                                    PlaneCutter{{0, 0, -100}, {0, 0, 1}}};
+  const auto contour = trace(cutters, 60.0);
+  ASSERT_FALSE(contour);
+  EXPECT_EQ(contour.error().code(), ErrorCode::unsupported_combination);
+  EXPECT_EQ(contour.error().issues.front().member, "cutters/0");
+  // With the bend's plane upright only the upper leg is seen.
+  auto upright = cutters;
+  std::get<ElbowCutter>(upright[0]).inwards = {0, 0, 1};
+  EXPECT_TRUE(trace(upright, 60.0));
+}
+
 TEST(Shapes, NoEventMissedNoneExtraOnScans) {
   std::mt19937_64 random(kSeed + 1);
   int changes = 0, events = 0;
