@@ -221,6 +221,7 @@ class Reader {
   bool ignore_rest_ = false;
   bool binary_ = false;
   bool silent_ = false;
+  bool binary_ = false;
 };
 
 /// The candidate most like `name`, empty when none is near.
