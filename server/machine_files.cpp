@@ -22,7 +22,8 @@ std::string load_machines(const std::string& folder) {
   for (const auto& path : files) {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (const auto wrong = api::add_machine(text); !wrong.empty()) return path.string() + ": " + wrong;
+    if (const auto wrong = api::add_machine(text); !wrong.empty())
+      return path.string() + ": " + wrong;
   }
   return {};
 }

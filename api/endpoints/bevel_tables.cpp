@@ -49,11 +49,10 @@ bevel::ZonedGroove decode_zones(Reader& in) {
 }
 
 GrooveRule decode_groove(Reader& in) {
-  static constexpr std::array kRules{Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
-                                     Option<RuleName>{"fixed", RuleName::fixed},
-                                     Option<RuleName>{"none", RuleName::none},
-                                     Option<RuleName>{"square", RuleName::square},
-                                     Option<RuleName>{"zones", RuleName::zones}};
+  static constexpr std::array kRules{
+      Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
+      Option<RuleName>{"fixed", RuleName::fixed}, Option<RuleName>{"none", RuleName::none},
+      Option<RuleName>{"square", RuleName::square}, Option<RuleName>{"zones", RuleName::zones}};
   const auto rule = in.tag("rule", kRules);
   if (rule == RuleName::half_dihedral)
     return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
@@ -107,7 +106,8 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
     }
     return 0;
   });
-  out.along = in.choice("along", kAlong, by_machine ? bevel::Along::length : bevel::Along::developed);
+  out.along =
+      in.choice("along", kAlong, by_machine ? bevel::Along::length : bevel::Along::developed);
   if (by_machine && out.along != bevel::Along::length)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "along",
@@ -156,7 +156,8 @@ bevel::TorchRange decode_torch(Reader& in) {
   return out;
 }
 
-/// Refuses what is not offered: which surface holds the root, which one touches, which angle counts.
+/// Refuses what is not offered: which surface holds the root, which one touches, which angle
+/// counts.
 void check_combination(const bevel::TableSpec& s, Reader& in) {
   const bool outer = s.root_surface == RootSurface::outer;
   const bool weld = s.dihedral == Dihedral::weld_side;
@@ -183,8 +184,8 @@ struct BevelTables {
   static constexpr std::string_view kId = "bevel-tables";
   static constexpr std::string_view kPath = "/v1/bevel-tables";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
-  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm", "max_extra_bevel_deg",
-                                                            "max_b_deg"};
+  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
+                                                            "max_extra_bevel_deg", "max_b_deg"};
   static constexpr std::array<CheckLimit, 8> kChecks{{
       {"dihedral", "1e-9", "deg"},
       {"bevel_plane", "1e-9", ""},

@@ -130,8 +130,9 @@ struct Holes {
     const auto branch = in.object("branch", decode_branch);
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
-    const auto joint = in.object(
-        "joint", [&](Reader& j) { return decode_joint(j, std::max(chord.outer_radius, kDiameter.min)); });
+    const auto joint = in.object("joint", [&](Reader& j) {
+      return decode_joint(j, std::max(chord.outer_radius, kDiameter.min));
+    });
     out.kind = joint.kind;
     out.gap = joint.gap;
     out.depth = joint.depth;

@@ -1,8 +1,7 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Geometry>
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/table.hpp"
@@ -18,7 +17,7 @@ constexpr double kAngle = 1e-9;        // deg
 constexpr double kPlane = 1e-9;        // sine of the angle between line and plane
 constexpr double kPenetration = 1e-6;  // mm
 constexpr int kAlongBend = 24;
-constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
+constexpr double kSilhouette = 1e-5;  // axial part of the normal below which angles lose digits
 
 /// One row seen in 3D, from the table's own z and the partner as a solid.
 struct Row {
@@ -105,10 +104,10 @@ void steepness_checks(const EnvelopeSmoothing& method, const Table& t, std::vect
   out.push_back({"slope", slope * kDegPerRad,
                  (limits.slope * (1.0 + 1e-9) + 4.0 * kEps * highest / narrow) * kDegPerRad,
                  "deg_per_mm"});
-  out.push_back({"second_difference", second * kDegPerRad,
-                 (limits.curvature * (1.0 + 1e-6) + 8.0 * kEps * highest / (narrow * narrow)) *
-                     kDegPerRad,
-                 "deg_per_mm2"});
+  out.push_back(
+      {"second_difference", second * kDegPerRad,
+       (limits.curvature * (1.0 + 1e-6) + 8.0 * kEps * highest / (narrow * narrow)) * kDegPerRad,
+       "deg_per_mm2"});
 }
 
 /// Least signed distance of a straight cut from `a` to `b` to a partner. Along a line the squared
@@ -166,9 +165,10 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
   for (std::size_t i = 0; i < t.b.size(); ++i) {
     const auto r = row(spec, t, solids, i);
     const bool steep = std::abs(r.axial_normal) < kSilhouette;
-    // Near a silhouette, at the limit of the torch, and with the paper's own gamma there is no such plane.
-    const double cut_back = std::min(t.b_raw[i] - spec.torch.min.rad(),
-                                     spec.torch.max.rad() - t.b_raw[i]);
+    // Near a silhouette, at the limit of the torch, and with the paper's own gamma there is no such
+    // plane.
+    const double cut_back =
+        std::min(t.b_raw[i] - spec.torch.min.rad(), spec.torch.max.rad() - t.b_raw[i]);
     if (!steep) dihedral = std::max(dihedral, dihedral_error(spec, t, r, i));
     if (!steep && !published && !square && cut_back > 1e-9)
       plane = std::max(plane, plane_error(spec, t, r, i));

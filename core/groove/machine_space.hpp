@@ -26,8 +26,7 @@ class Machine {
   }
 
   [[nodiscard]] Tool tool(const AxisPosition& at) const {
-    const Eigen::Vector3d axis =
-        math::turn_about_y(at.b.rad()) * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d axis = math::turn_about_y(at.b.rad()) * Eigen::Vector3d::UnitZ();
     return {Eigen::Vector3d(at.x, 0.0, at.z) - spec_.setup.pivot_length * axis, axis};
   }
   [[nodiscard]] Eigen::Matrix3d table(Angle c) const {

@@ -202,7 +202,8 @@ Hit hit_on(const SurfaceAt& surface, const Matrix3d& rows, const Generator& line
 }
 
 Result<PreparedBox> prepare_shape(const BoxCutter& box, std::string_view member) {
-  for (const auto& [field, value] : {std::pair{"width", box.width}, std::pair{"height", box.height}})
+  for (const auto& [field, value] :
+       {std::pair{"width", box.width}, std::pair{"height", box.height}})
     if (!(value > 0.0) || !std::isfinite(value))
       return out_of_range(member, field, value, 0.0, "mm");
   const double widest = 0.5 * std::min(box.width, box.height);

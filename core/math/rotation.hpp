@@ -6,7 +6,8 @@
 
 namespace tubecut::math {
 
-/// Right-handed turns by an angle in rad, with the reproducible sine and cosine (Eigen's own would call the C library's).
+/// Right-handed turns by an angle in rad, with the reproducible sine and cosine (Eigen's own would
+/// call the C library's).
 [[nodiscard]] inline Eigen::Matrix3d turn_about_y(double angle) {
   const auto t = elementary::sincos(angle);
   Eigen::Matrix3d out;

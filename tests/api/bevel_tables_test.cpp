@@ -19,7 +19,8 @@ double largest_step(const std::vector<double>& b) {
   return worst;
 }
 
-// docs/theory/intersections-and-bevels.md, section 7: "What Table 1 gives with root inner, contact inner".
+// docs/theory/intersections-and-bevels.md, section 7: "What Table 1 gives with root inner, contact
+// inner".
 TEST(BevelTables, Table1GivesWhatTheTheoryLists) {
   const auto answer = post(kPath, table_1());
   ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 2000);
@@ -73,10 +74,9 @@ TEST(BevelTables, Table1WithoutRefinementHasTheListedArea) {
 }
 
 TEST(BevelTables, EveryExampleRuns) {
-  for (const char* name :
-       {"source-000-table-1", "source-000-table-1-as-published", "source-002-offset-pair",
-        "table-1-five-axis-at-600-mm-min", "mitre", "k-joint-from-centre-lines", "zones",
-        "table-1-torch-45-deg"}) {
+  for (const char* name : {"source-000-table-1", "source-000-table-1-as-published",
+                           "source-002-offset-pair", "table-1-five-axis-at-600-mm-min", "mitre",
+                           "k-joint-from-centre-lines", "zones", "table-1-torch-45-deg"}) {
     const auto answer = post(kPath, example("bevel-tables/" + std::string(name) + ".json"));
     EXPECT_FALSE(answer.outcome.error) << name << ": " << answer.outcome.body.substr(0, 1500);
   }

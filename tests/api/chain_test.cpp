@@ -49,7 +49,8 @@ TEST(Chain, ADamagedScheduleIsNamed) {
   const auto schedule = post("/v1/pulse-schedules", body);
   auto result = at(schedule.body, "result");
   const double first = number(result, "counts/C/100");
-  const auto replay = post("/v1/replays", with(body, "schedule", with(result, "counts/C/100", first + 40.0)));
+  const auto replay =
+      post("/v1/replays", with(body, "schedule", with(result, "counts/C/100", first + 40.0)));
   ASSERT_FALSE(replay.outcome.error);
   EXPECT_EQ(text(replay.body, "verdict/status"), "review");
   EXPECT_NE(replay.outcome.body.find("invariant_broken"), std::string::npos);
@@ -58,7 +59,8 @@ TEST(Chain, ADamagedScheduleIsNamed) {
 TEST(Chain, GrooveToMillPathToSchedule) {
   const auto groove = post("/v1/grooves", example("grooves/case-a-right-angle.json"));
   ASSERT_FALSE(groove.outcome.error);
-  auto path_body = with(example("mill-paths/case-a-end-up.json"), "groove", at(groove.body, "request"));
+  auto path_body =
+      with(example("mill-paths/case-a-end-up.json"), "groove", at(groove.body, "request"));
   path_body = with(path_body, "positions", 24.0);
   const auto path = post("/v1/mill-paths", path_body);
   ASSERT_FALSE(path.outcome.error) << path.outcome.body.substr(0, 1000);
@@ -86,7 +88,8 @@ TEST(Chain, OffsetPairOfSource002GoesToTheCrawler) {
   EXPECT_EQ(text(schedule.body, "verdict/status"), "review");  // the stand-off grows: reported
 }
 
-// Curve 3 of a groove is the intersection curve of a tube of diameter 2 rho3 on the chord: two codes that share nothing.
+// Curve 3 of a groove is the intersection curve of a tube of diameter 2 rho3 on the chord: two
+// codes that share nothing.
 TEST(Chain, Curve3IsTheIntersectionCurve) {
   std::mt19937_64 random(20261120);
   const auto any = [&](double low, double high) {
@@ -101,7 +104,8 @@ TEST(Chain, Curve3IsTheIntersectionCurve) {
     const double offset = any(-0.5, 0.5) * (chord / 2 - root);
     const Json groove{Json::Object{
         {"chord", Json{Json::Object{{"outer_diameter_mm", Json{chord}}, {"wall_mm", Json{10.0}}}}},
-        {"branch", Json{Json::Object{{"outer_diameter_mm", Json{branch}}, {"wall_mm", Json{wall}}}}},
+        {"branch",
+         Json{Json::Object{{"outer_diameter_mm", Json{branch}}, {"wall_mm", Json{wall}}}}},
         {"root_face", Json{Json::Object{{"height_mm", Json{2.0}}, {"width_mm", Json{width}}}}},
         {"inclination_deg", Json{angle}},
         {"eccentricity_mm", Json{offset}},
@@ -110,7 +114,8 @@ TEST(Chain, Curve3IsTheIntersectionCurve) {
     const auto answer = post("/v1/grooves", groove);
     if (answer.outcome.error) continue;  // this filler area makes no groove on this joint
     const Json joint{Json::Object{
-        {"target", Json{Json::Object{{"outer_diameter_mm", Json{2 * root}}, {"wall_mm", Json{0.5}}}}},
+        {"target",
+         Json{Json::Object{{"outer_diameter_mm", Json{2 * root}}, {"wall_mm", Json{0.5}}}}},
         {"cutters", Json{Json::Array{Json{Json::Object{{"kind", Json{"tube"}},
                                                        {"outer_diameter_mm", Json{chord}},
                                                        {"inclination_deg", Json{angle}},
