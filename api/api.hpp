@@ -30,7 +30,7 @@ struct Call {
 /// What a call runs with besides its text.
 struct Context {
   std::stop_token stop;
-  std::function<double()> clock;  // monotonic seconds, for stage times; may be empty
+  std::function<double()> clock;       // monotonic seconds, for stage times; may be empty
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
 };
 
@@ -42,10 +42,10 @@ struct Stage {
 /// What a log line and the metrics may know of a call: never the geometry.
 struct JobFacts {
   std::string id;
-  std::string endpoint;      // id in the endpoint table; empty when the path is not in it
-  std::string input_sha256;  // empty when the request was not understood
-  std::string verdict;       // ok | review | reject; empty for errors
-  std::string error_code;    // empty for answers
+  std::string endpoint;               // id in the endpoint table; empty when the path is not in it
+  std::string input_sha256;           // empty when the request was not understood
+  std::string verdict;                // ok | review | reject; empty for errors
+  std::string error_code;             // empty for answers
   std::vector<std::string> warnings;  // codes
   std::vector<std::pair<std::string, std::string>> reference;
   std::vector<Stage> stages;
@@ -59,8 +59,8 @@ struct Outcome {
   JobFacts job;
 };
 
-/// Answers one call. Pure but for the clock: same call, same body. Never throws for bad input; a bug throws and is the
-/// server's to turn into a 500.
+/// Answers one call. Pure but for the clock: same call, same body. Never throws for bad input; a
+/// bug throws and is the server's to turn into a 500.
 [[nodiscard]] Outcome dispatch(const Call& call, const Context& context);
 
 /// A problem document for what the server itself refuses (429, 503, 413 ...).
@@ -70,8 +70,8 @@ struct Outcome {
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
 
-/// Adds a machine of one's own (a JSON object in the form of GET /v1/machines) to those a request can name. Only at start, before
-/// the first dispatch. Returns what is wrong with it, or nothing.
+/// Adds a machine of one's own (a JSON object in the form of GET /v1/machines) to those a request
+/// can name. Only at start, before the first dispatch. Returns what is wrong with it, or nothing.
 [[nodiscard]] std::string add_machine(std::string_view json);
 
 /// "0.1.0", and the integer raised with every change of a result bit.

@@ -114,12 +114,9 @@ std::optional<Page> catalogue(std::string_view path) {
   static const struct {
     std::string_view path;
     std::string (*print)();
-  } kPages[] = {{"/v1/errors", errors_page},
-                {"/v1/limits", limits_page},
-                {"/v1/version", version_page},
-                {"/v1/tubes", tubes_page},
-                {"/v1/machines", machines_page},
-                {"/v1/examples", examples_page}};
+  } kPages[] = {{"/v1/errors", errors_page},     {"/v1/limits", limits_page},
+                {"/v1/version", version_page},   {"/v1/tubes", tubes_page},
+                {"/v1/machines", machines_page}, {"/v1/examples", examples_page}};
   for (const auto& page : kPages)
     if (page.path == path) return Page{std::string(kJson), page.print()};
   for (const auto& file : embedded_files()) {

@@ -21,7 +21,8 @@ struct Page {
   std::string body;
 };
 
-/// The answer to a GET of a catalogue (`/v1/errors`, `/openapi.yaml`, ...); nothing for other paths.
+/// The answer to a GET of a catalogue (`/v1/errors`, `/openapi.yaml`, ...); nothing for other
+/// paths.
 [[nodiscard]] std::optional<Page> catalogue(std::string_view path);
 
 }  // namespace tubecut::api

@@ -10,8 +10,8 @@ namespace {
 constexpr std::string_view kJsonMedia = "application/json";
 constexpr std::string_view kCborMedia = "application/cbor";
 constexpr std::string_view kProblemMedia = "application/problem+json";
-constexpr std::string_view kAllPaths[] = {"/v1/errors",   "/v1/limits",   "/v1/version",
-                                          "/v1/machines", "/v1/tubes",    "/v1/examples",
+constexpr std::string_view kAllPaths[] = {"/v1/errors",    "/v1/limits",   "/v1/version",
+                                          "/v1/machines",  "/v1/tubes",    "/v1/examples",
                                           "/openapi.yaml", "/openapi.json"};
 
 /// Fields that belong to every request.
@@ -142,7 +142,8 @@ Common read_common(Reader& in, const Endpoint& endpoint) {
   Common out;
   in.optional_object("reference", [&](Reader& r) {
     for (const auto* name : {"part", "order", "drawing", "revision", "heat", "customer_id"})
-      if (auto value = r.optional_text(name, static_cast<std::size_t>(limit::reference_characters_max)))
+      if (auto value =
+              r.optional_text(name, static_cast<std::size_t>(limit::reference_characters_max)))
         out.reference.emplace_back(name, *value);
     return 0;
   });
@@ -174,32 +175,33 @@ Outcome Job::compute(const Endpoint& endpoint) {
     return refuse(ErrorCode::unsupported_media_type,
                   "got \"" + media + "\", accepted: application/json");
   const auto choice = choose(query, call_.accept, endpoint);
-  if (!choice)
-    return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
+  if (!choice) return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
                   "the limit is " + std::to_string(endpoint.max_body) + " bytes");
   const auto body = parse(call_.body, {.depth = static_cast<std::size_t>(limit::nesting_max)});
   lap("parse");
   if (!body)
-    return refuse(ErrorCode::unreadable_json, body.error().reason + " at byte " +
-                                                  std::to_string(body.error().offset));
+    return refuse(ErrorCode::unreadable_json,
+                  body.error().reason + " at byte " + std::to_string(body.error().offset));
   Reader in(*body);
   in.set_binary(choice->body == Body::cbor);
   const auto common = read_common(in, endpoint);
   if (common.numerics && *common.numerics != numerics())
-    return refuse(Problem{.code = ErrorCode::numerics_mismatch,
-                          .detail = "/numerics: this engine's numerics version is " +
-                                    std::to_string(numerics()),
-                          .issues = {{.code = ErrorCode::numerics_mismatch,
-                                      .pointer = "/numerics",
-                                      .got = Json{static_cast<double>(*common.numerics)},
-                                      .limit = Json{static_cast<double>(numerics())},
-                                      .unit = {},
-                                      .hint = {}}}});
+    return refuse(Problem{
+        .code = ErrorCode::numerics_mismatch,
+        .detail = "/numerics: this engine's numerics version is " + std::to_string(numerics()),
+        .issues = {{.code = ErrorCode::numerics_mismatch,
+                    .pointer = "/numerics",
+                    .got = Json{static_cast<double>(*common.numerics)},
+                    .limit = Json{static_cast<double>(numerics())},
+                    .unit = {},
+                    .hint = {}}}});
   Run run{.stop = context_.stop,
           .format = choice->format,
-          .caption = {.reference = common.reference, .input_sha256 = {}, .result_sha256 = {},
+          .caption = {.reference = common.reference,
+                      .input_sha256 = {},
+                      .result_sha256 = {},
                       .view = std::string(query.view)},
           .stage = [this](std::string_view stage) { lap(stage); }};
   auto reply = endpoint.handle(in, run);
@@ -346,8 +348,14 @@ Outcome dispatch(const Call& call, const Context& context) {
 
 Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,
                 const Context& context) {
-  const Call call{.method = {}, .path = {}, .query = {}, .accept = {}, .content_type = {},
-                  .body = {}, .job_id = {}, .request_id = std::string(request_id)};
+  const Call call{.method = {},
+                  .path = {},
+                  .query = {},
+                  .accept = {},
+                  .content_type = {},
+                  .body = {},
+                  .job_id = {},
+                  .request_id = std::string(request_id)};
   return Job(call, context).refuse(code, std::string(detail));
 }
 
@@ -366,8 +374,6 @@ std::string job_line(const Caption& caption) {
 
 std::string_view version() { return TUBECUT_VERSION; }
 
-int numerics() {
-  return 1;
-}
+int numerics() { return 1; }
 
 }  // namespace tubecut::api

@@ -88,14 +88,13 @@ struct Endpoint {
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;
 ///   static Spec decode(Reader&);                                        types, units, ranges
-///   static Result<Spec> resolve(Spec, const std::stop_token&);           optional: what only core can tell of the input
-///   static Result<Out> compute(const Spec&, const std::stop_token&);    pure core call
-///   static std::vector<Check> verify(const Spec&, const Out&);          the proof
-///   static std::vector<Warning> warnings(const Spec&, const Out&);
-///   static std::vector<Measure> measure(const Spec&, const Out&);
-///   static void encode(const Spec&, const Out&, Writer&);               members of `result`
-///   static const std::vector<Format<Spec, Out>>& formats();
-///   kId, kPath, kMaxBody, kAccepts, kChecks
+///   static Result<Spec> resolve(Spec, const std::stop_token&);           optional: what only core
+///   can tell of the input static Result<Out> compute(const Spec&, const std::stop_token&);    pure
+///   core call static std::vector<Check> verify(const Spec&, const Out&);          the proof static
+///   std::vector<Warning> warnings(const Spec&, const Out&); static std::vector<Measure>
+///   measure(const Spec&, const Out&); static void encode(const Spec&, const Out&, Writer&);
+///   members of `result` static const std::vector<Format<Spec, Out>>& formats(); kId, kPath,
+///   kMaxBody, kAccepts, kChecks
 template <class E>
 Reply run(Reader& in, Run& run) {
   auto spec = E::decode(in);

@@ -12,7 +12,8 @@
 namespace tubecut::api {
 namespace {
 
-/// Walks bytes and tells a shared place how far it has come, so that a SAX callback knows its offset.
+/// Walks bytes and tells a shared place how far it has come, so that a SAX callback knows its
+/// offset.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -245,9 +246,9 @@ tl::expected<Json, ParseError> parse(std::string_view bytes, ParseLimits limits)
   const char* const begin = bytes.data();
   const char* progress = begin;
   Builder builder(limits, begin, &progress);
-  const bool ok = nlohmann::json::sax_parse(CountingIterator(begin, &progress),
-                                            CountingIterator(begin + bytes.size(), &progress),
-                                            &builder);
+  const bool ok =
+      nlohmann::json::sax_parse(CountingIterator(begin, &progress),
+                                CountingIterator(begin + bytes.size(), &progress), &builder);
   if (!ok) return tl::make_unexpected(builder.error());
   return builder.take();
 }

@@ -10,8 +10,9 @@
 
 namespace tubecut::api {
 
-/// A JSON document as a plain value. Objects keep the order of their members; numbers are doubles (integers beyond 2^53 are
-/// refused while parsing). Made only by `parse`; requests are read only through `Reader`.
+/// A JSON document as a plain value. Objects keep the order of their members; numbers are doubles
+/// (integers beyond 2^53 are refused while parsing). Made only by `parse`; requests are read only
+/// through `Reader`.
 struct Json {
   using Array = std::vector<Json>;
   using Member = std::pair<std::string, Json>;
@@ -19,17 +20,21 @@ struct Json {
   std::variant<std::nullptr_t, bool, double, std::string, Array, Object> value = nullptr;
 
   Json() = default;
-  Json(bool v) : value(v) {}                       // NOLINT(google-explicit-constructor)
-  Json(double v) : value(v) {}                     // NOLINT(google-explicit-constructor)
-  Json(std::string v) : value(std::move(v)) {}     // NOLINT(google-explicit-constructor)
-  Json(const char* v) : value(std::string(v)) {}   // NOLINT(google-explicit-constructor)
-  Json(Array v) : value(std::move(v)) {}           // NOLINT(google-explicit-constructor)
-  Json(Object v) : value(std::move(v)) {}          // NOLINT(google-explicit-constructor)
+  Json(bool v) : value(v) {}                      // NOLINT(google-explicit-constructor)
+  Json(double v) : value(v) {}                    // NOLINT(google-explicit-constructor)
+  Json(std::string v) : value(std::move(v)) {}    // NOLINT(google-explicit-constructor)
+  Json(const char* v) : value(std::string(v)) {}  // NOLINT(google-explicit-constructor)
+  Json(Array v) : value(std::move(v)) {}          // NOLINT(google-explicit-constructor)
+  Json(Object v) : value(std::move(v)) {}         // NOLINT(google-explicit-constructor)
 
   template <class T>
-  [[nodiscard]] const T* as() const { return std::get_if<T>(&value); }
+  [[nodiscard]] const T* as() const {
+    return std::get_if<T>(&value);
+  }
   template <class T>
-  [[nodiscard]] T* as() { return std::get_if<T>(&value); }
+  [[nodiscard]] T* as() {
+    return std::get_if<T>(&value);
+  }
 
   /// The member of that name, or nullptr (also when this is not an object).
   [[nodiscard]] const Json* find(std::string_view key) const;
@@ -47,8 +52,8 @@ struct ParseLimits {
   std::size_t depth = 32;
 };
 
-/// Strict RFC 8259: UTF-8 without BOM, one document, no duplicate keys, no lone surrogates, depth bounded, every number
-/// finite and representable (no underflow to zero, no integer beyond 2^53).
+/// Strict RFC 8259: UTF-8 without BOM, one document, no duplicate keys, no lone surrogates, depth
+/// bounded, every number finite and representable (no underflow to zero, no integer beyond 2^53).
 /// Cost linear in the bytes; never throws.
 [[nodiscard]] tl::expected<Json, ParseError> parse(std::string_view bytes, ParseLimits limits = {});
 
@@ -59,8 +64,9 @@ struct ParseLimits {
 void append_text(std::string& out, std::string_view text);
 void append_number(std::string& out, double value);
 
-/// The same document in CBOR (RFC 8949), order kept. `json_text` is text this service printed. Arrays under the name
-/// `counts` become RFC 8746 typed arrays (tag 77, int16 little endian; tag 78, int32, where a value does not fit).
+/// The same document in CBOR (RFC 8949), order kept. `json_text` is text this service printed.
+/// Arrays under the name `counts` become RFC 8746 typed arrays (tag 77, int16 little endian; tag
+/// 78, int32, where a value does not fit).
 [[nodiscard]] std::string to_cbor(std::string_view json_text);
 
 }  // namespace tubecut::api

@@ -4,8 +4,8 @@
 
 namespace tubecut::api {
 
-/// The numbers a request may hold. One table: the reader's checks, `GET /v1/limits` and openapi.yaml all show it.
-/// X(name, value): names carry their unit.
+/// The numbers a request may hold. One table: the reader's checks, `GET /v1/limits` and
+/// openapi.yaml all show it. X(name, value): names carry their unit.
 #define TUBECUT_LIMITS(X)            \
   X(uniform_points_min, 8)           \
   X(uniform_points_max, 20'000)      \

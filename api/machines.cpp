@@ -51,12 +51,15 @@ motion::Kinematics decode_kinematics(Reader& in, Type type) {
       motion::Crawler out;
       out.wheel_offset = in.number("wheel_offset_mm", kArm);
       out.swing_center = in.choice("swing_center", kCenters);
-      if (out.swing_center == SwingCenter::pivot) out.pivot_length = in.number("pivot_length_mm", kArm);
+      if (out.swing_center == SwingCenter::pivot)
+        out.pivot_length = in.number("pivot_length_mm", kArm);
       out.standoff_max = in.nullable_number("standoff_max_mm", kArm);
       return out;
     }
-    case Type::cone_mill: return motion::ConeMill{};
-    case Type::generic: break;
+    case Type::cone_mill:
+      return motion::ConeMill{};
+    case Type::generic:
+      break;
   }
   motion::Generic out;
   in.note("maps");
@@ -90,7 +93,9 @@ void encode_axis(const motion::Axis& axis, Writer& w) {
     o.field("v_max", axis.v_max);
     o.field("a_max", axis.a_max);
     optional_field("j_max", axis.j_max, o);
-    optional_field("n_max", axis.n_max ? std::optional<double>(static_cast<double>(*axis.n_max)) : std::nullopt, o);
+    optional_field(
+        "n_max",
+        axis.n_max ? std::optional<double>(static_cast<double>(*axis.n_max)) : std::nullopt, o);
     optional_field("soft_min", axis.soft_min, o);
     optional_field("soft_max", axis.soft_max, o);
   });
@@ -141,7 +146,8 @@ std::span<const ShelfMachine> machines() { return shelf(); }
 
 const ShelfMachine* find_machine(std::string_view name) {
   const auto all = machines();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const ShelfMachine& m) { return m.machine.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const ShelfMachine& m) { return m.machine.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -167,10 +173,12 @@ void encode_machine(const motion::Machine& machine, Writer& w) {
   if (!machine.name.empty()) w.field("name", machine.name);
   w.field("type", motion::type_name(machine));
   w.field("period_us", std::round(machine.period * 1e9) / 1e3);
-  w.field("b_positive", machine.b_positive == BPositive::outer_edge_into_part ? "outer_edge_into_part"
-                                                                              : "outer_edge_to_waste");
+  w.field("b_positive", machine.b_positive == BPositive::outer_edge_into_part
+                            ? "outer_edge_into_part"
+                            : "outer_edge_to_waste");
   std::visit(KinematicFields{w}, machine.kinematics);
-  w.array("axes", machine.axes, [](Writer& each, const motion::Axis& axis) { encode_axis(axis, each); });
+  w.array("axes", machine.axes,
+          [](Writer& each, const motion::Axis& axis) { encode_axis(axis, each); });
 }
 
 std::string machine_sha256(const motion::Machine& machine) {
@@ -185,7 +193,8 @@ motion::Machine decode_machine_choice(Reader& in, std::string_view name) {
   if (const auto* found = find_machine(wanted)) return found->machine;
   std::string list;
   for (const auto& m : machines()) list += (list.empty() ? "" : "|") + m.machine.name;
-  in.issue({.code = ErrorCode::unknown_machine, .pointer = std::string(name), .limit = Json{list}}, in.find(name));
+  in.issue({.code = ErrorCode::unknown_machine, .pointer = std::string(name), .limit = Json{list}},
+           in.find(name));
   return machines().front().machine;
 }
 
@@ -218,9 +227,11 @@ std::string add_machine(std::string_view json) {
   if (const auto issues = in.finish_root(); !issues.empty())
     return issues.front().pointer + ": " + std::string(info(issues.front().code).meaning);
   if (machine.name.empty()) return "/name: a machine on the shelf needs a name";
-  if (find_machine(machine.name) != nullptr) return "/name: there is a machine of this name already";
+  if (find_machine(machine.name) != nullptr)
+    return "/name: there is a machine of this name already";
   if (const auto sound = motion::check(machine); !sound)
-    return sound.error().issues.front().member + ": " + std::string(info(sound.error().code()).meaning);
+    return sound.error().issues.front().member + ": " +
+           std::string(info(sound.error().code()).meaning);
   auto hash = machine_sha256(machine);
   shelf().push_back({std::move(machine), {}, std::move(hash)});
   return {};

@@ -11,9 +11,9 @@ constexpr std::size_t kShownText = 80;
 
 // Longest first, so that "_deg_per_mm2" is not read as "_mm2".
 constexpr std::string_view kUnits[] = {
-    "mm3_s",       "deg_per_mm2", "deg_per_mm", "rad_per_mm", "rev_min", "per_hour", "mm_s3", "mm_s2", "mm_min",
-    "pulses",      "mm_s",       "m_min",      "mm3",     "mm2",      "deg",   "rad",   "ms",
-    "us",          "um",         "kg",         "mm",      "s"};
+    "mm3_s",  "deg_per_mm2", "deg_per_mm", "rad_per_mm", "rev_min", "per_hour", "mm_s3", "mm_s2",
+    "mm_min", "pulses",      "mm_s",       "m_min",      "mm3",     "mm2",      "deg",   "rad",
+    "ms",     "us",          "um",         "kg",         "mm",      "s"};
 
 /// Levenshtein distance, for names of a few dozen characters.
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -189,7 +189,8 @@ const Json::Array* Reader::required_array(std::string_view name, CountRange coun
   FieldIssue bad{.code = ErrorCode::wrong_count, .pointer = std::string(name)};
   bad.got = Json{static_cast<double>(n)};
   bad.limit = Json{static_cast<double>(few ? count.min : count.max)};
-  bad.hint = (few ? "at least " : "at most ") + std::to_string(few ? count.min : count.max) + " elements";
+  bad.hint =
+      (few ? "at least " : "at most ") + std::to_string(few ? count.min : count.max) + " elements";
   issue(std::move(bad));
   return nullptr;
 }
@@ -238,9 +239,9 @@ std::optional<double> Reader::optional_number(std::string_view name, Range range
 }
 
 int Reader::integer(std::string_view name, int min, int max, std::optional<int> fallback) {
-  const auto value = number(
-      name, {.min = static_cast<double>(min), .max = static_cast<double>(max)},
-      fallback ? std::optional<double>(static_cast<double>(*fallback)) : std::nullopt);
+  const auto value =
+      number(name, {.min = static_cast<double>(min), .max = static_cast<double>(max)},
+             fallback ? std::optional<double>(static_cast<double>(*fallback)) : std::nullopt);
   if (value != std::floor(value)) {
     issue({.code = ErrorCode::not_an_integer,
            .pointer = std::string(name),
@@ -276,8 +277,9 @@ std::string Reader::text(std::string_view name, std::size_t longest) {
   if (field == nullptr) return {};
   const auto* value = field->as<std::string>();
   if (value == nullptr) {
-    issue({.code = ErrorCode::wrong_type, .pointer = std::string(name), .hint = "a text is required"},
-          field);
+    issue(
+        {.code = ErrorCode::wrong_type, .pointer = std::string(name), .hint = "a text is required"},
+        field);
     return {};
   }
   if (!printable(*value, longest)) {
@@ -466,6 +468,10 @@ std::optional<std::size_t> Reader::exactly_one(std::initializer_list<std::string
              .hint = "give exactly one of " + list},
             find(name));
   return std::nullopt;
+}
+
+void note_common(Reader& in) {
+  for (const auto* name : {"reference", "log", "numerics", "accept"}) in.note(name);
 }
 
 }  // namespace tubecut::api

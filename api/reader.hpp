@@ -51,9 +51,10 @@ struct Option {
 
 /// Reads one object of a request: the only reader of request fields.
 ///
-/// Every field that is asked for is checked (type, finite, range, unit) and echoed as understood, with its default if it was
-/// absent; a field never asked for is an issue. All issues are collected; a getter returns a harmless value beside an issue.
-/// Degrees become radians here and nowhere else.
+/// Every field that is asked for is checked (type, finite, range, unit) and echoed as understood,
+/// with its default if it was absent; a field never asked for is an issue. All issues are
+/// collected; a getter returns a harmless value beside an issue. Degrees become radians here and
+/// nowhere else.
 class Reader {
  public:
   explicit Reader(const Json& body);
@@ -108,7 +109,8 @@ class Reader {
     return index ? options[*index].value : options[0].value;
   }
 
-  /// The choice that tells what the other members are. Without a valid one nothing more of this object is an issue.
+  /// The choice that tells what the other members are. Without a valid one nothing more of this
+  /// object is an issue.
   template <class E, std::size_t N>
   std::optional<E> tag(std::string_view name, const std::array<Option<E>, N>& options) {
     const auto value = choice(name, options);
@@ -116,7 +118,8 @@ class Reader {
     return silent_ ? std::nullopt : std::optional<E>(value);
   }
 
-  /// Which one of these members is there; when it is not exactly one, nothing, and an issue at each of them.
+  /// Which one of these members is there; when it is not exactly one, nothing, and an issue at each
+  /// of them.
   std::optional<std::size_t> exactly_one(std::initializer_list<std::string_view> names);
 
   /// A nested object, read by `decode(Reader&)`; required.
@@ -176,7 +179,8 @@ class Reader {
 
   /// Marks a name as known without reading it (it belongs to the request, another reader takes it).
   void note(std::string_view name);
-  /// Records an issue; `issue.pointer` is relative to this object, `got` is taken from `value` when given.
+  /// Records an issue; `issue.pointer` is relative to this object, `got` is taken from `value` when
+  /// given.
   void issue(FieldIssue issue, const Json* value = nullptr);
   /// Nothing more of this object is reported.
   void silence() { silent_ = true; }
@@ -225,6 +229,10 @@ class Reader {
 /// The candidate most like `name`, empty when none is near.
 [[nodiscard]] std::string nearest_name(std::string_view name,
                                        const std::vector<std::string>& candidates);
+
+/// Lets a nested request carry the fields that belong to every request; they count at the root
+/// only.
+void note_common(Reader& in);
 
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);

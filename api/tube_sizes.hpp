@@ -21,7 +21,7 @@ struct TubeSize {
 /// The size of that very name, or nullptr.
 [[nodiscard]] const TubeSize* find_tube_size(std::string_view name);
 
-/// The name most like this one, for a hint.
+/// The name most like this one, for a hint; empty when none is near.
 [[nodiscard]] std::string nearest_tube_size(std::string_view name);
 
 }  // namespace tubecut::api

@@ -11,8 +11,9 @@
 
 namespace tubecut::api {
 
-/// Prints results straight into a buffer, without a tree between: columns dominate an answer's cost.
-/// Numbers are shortest-round-trip; a number that is not finite throws NotFinite, which becomes a 500.
+/// Prints results straight into a buffer, without a tree between: columns dominate an answer's
+/// cost. Numbers are shortest-round-trip; a number that is not finite throws NotFinite, which
+/// becomes a 500.
 class Writer {
  public:
   struct NotFinite : std::runtime_error {
@@ -48,8 +49,7 @@ class Writer {
 
   void field(std::string_view name, double value);
   template <std::integral T>
-    requires(!std::same_as<T, bool>)
-  void field(std::string_view name, T value) {
+  requires(!std::same_as<T, bool>) void field(std::string_view name, T value) {
     key(name);
     out_ += std::to_string(value);
     fresh_ = false;

@@ -30,6 +30,7 @@ void add_network(CLI::App& app, Config& c) {
   option(app, "admin-host", c.admin_host, "address of the admin port; empty: as --host");
   option(app, "admin-port", c.admin_port, "port of /livez, /readyz, /metrics; 0 takes a free one")
       ->check(port);
+  option(app, "machines", c.machines, "folder whose *.json files join GET /v1/machines");
   option(app, "replica", c.replica, "name sent as Tubecut-Replica; empty: the host's name");
 }
 

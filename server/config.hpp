@@ -12,7 +12,8 @@ struct Config {
   int port = 8080;         // 0: any free one, named in the ready line
   std::string admin_host;  // empty: as host
   int admin_port = 9090;
-  std::string replica;  // empty: the host's name
+  std::string machines;  // folder of machines of one's own; empty: none
+  std::string replica;   // empty: the host's name
   int connections = 64;
   std::size_t max_body_bytes = 8u << 20;
   std::size_t max_target_bytes = 2048;

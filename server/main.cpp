@@ -2,6 +2,7 @@
 #include <exception>
 
 #include "server/config.hpp"
+#include "server/machine_files.hpp"
 #include "server/serve.hpp"
 
 int main(int argc, char** argv) try {
@@ -11,6 +12,10 @@ int main(int argc, char** argv) try {
     std::fputs(command.error().out.c_str(), stdout);
     std::fputs(command.error().err.c_str(), stderr);
     return command.error().code;
+  }
+  if (const auto wrong = server::load_machines(command->config.machines); !wrong.empty()) {
+    std::fprintf(stderr, "tubecut-server: %s\n", wrong.c_str());
+    return 1;
   }
   switch (command->kind) {
     case server::Command::Kind::health:

@@ -8,6 +8,7 @@ namespace tubecut::api {
 [[nodiscard]] Endpoint intersections();
 [[nodiscard]] Endpoint nodes();
 [[nodiscard]] Endpoint bevel_tables();
+[[nodiscard]] Endpoint holes();
 [[nodiscard]] Endpoint pulse_schedules();
 [[nodiscard]] Endpoint replays();
 [[nodiscard]] Endpoint feed_curves();

@@ -5,7 +5,8 @@
 
 namespace tubecut::api {
 
-/// A bevel table asked for by its joint, given directly or as an end of a node; `resolve` fills in target and partners.
+/// A bevel table asked for by its joint, given directly or as an end of a node; `resolve` fills in
+/// target and partners.
 struct BevelTableRequest : bevel::TableSpec {
   JointSource source;
 };

@@ -9,6 +9,7 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
+#include "api/machines.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
@@ -48,11 +49,10 @@ bevel::ZonedGroove decode_zones(Reader& in) {
 }
 
 GrooveRule decode_groove(Reader& in) {
-  static constexpr std::array kRules{Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
-                                     Option<RuleName>{"fixed", RuleName::fixed},
-                                     Option<RuleName>{"none", RuleName::none},
-                                     Option<RuleName>{"square", RuleName::square},
-                                     Option<RuleName>{"zones", RuleName::zones}};
+  static constexpr std::array kRules{
+      Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
+      Option<RuleName>{"fixed", RuleName::fixed}, Option<RuleName>{"none", RuleName::none},
+      Option<RuleName>{"square", RuleName::square}, Option<RuleName>{"zones", RuleName::zones}};
   const auto rule = in.tag("rule", kRules);
   if (rule == RuleName::half_dihedral)
     return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
@@ -63,9 +63,24 @@ GrooveRule decode_groove(Reader& in) {
   return bevel::NoGroove{};
 }
 
-/// Swing axis of the built-in five_axis_cutter, an assumption of docs/theory/pulse-schedules.md, section 4.5.
-constexpr double kSwingSpeed = 45.0 * kRadPerDeg;          // rad/s
-constexpr double kSwingAcceleration = 300.0 * kRadPerDeg;  // rad/s^2
+/// What the swing axis B of a machine follows at a cutting speed.
+bevel::SwingLimits decode_swing(Reader& in) {
+  const auto machine = decode_machine_choice(in, "machine");
+  const double speed = in.number("speed_mm_min", {.min = 1.0, .max = 60'000.0}) / 60.0;
+  const double use = in.number("use", {.min = 0.01, .max = 1.0}, 0.8);
+  for (const auto& axis : machine.axes) {
+    if (axis.name != "B") continue;
+    const auto limits =
+        bevel::swing_limits(axis.v_max * kRadPerDeg, axis.a_max * kRadPerDeg, speed, use);
+    if (limits) return *limits;
+  }
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "machine",
+            .limit = Json{"B"},
+            .hint = "limits need a machine with a swing axis named B"},
+           in.find("machine"));
+  return {};
+}
 
 struct Smoothing {
   bevel::Smoothing method = bevel::NoSmoothing{};
@@ -73,7 +88,6 @@ struct Smoothing {
 };
 
 bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
-  static constexpr std::array kMachines{Option<int>{"five_axis_cutter", 0}};
   static constexpr std::array kAlong{Option<bevel::Along>{"developed", bevel::Along::developed},
                                      Option<bevel::Along>{"length", bevel::Along::length}};
   bevel::EnvelopeSmoothing out;
@@ -84,12 +98,7 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
     if (!which) {
       l.silence();
     } else if (by_machine) {
-      l.choice("machine", kMachines);
-      const double speed = l.number("speed_mm_min", {.min = 1.0, .max = 60'000.0});
-      const double use = l.number("use", {.min = 0.01, .max = 1.0}, 0.8);
-      if (const auto limits =
-              bevel::swing_limits(kSwingSpeed, kSwingAcceleration, speed / 60.0, use))
-        out.limits = *limits;
+      out.limits = decode_swing(l);
     } else {
       const Range limit{.min = 1e-6, .max = 1e6};
       out.limits.slope = l.number("max_slope_deg_per_mm", limit) * kRadPerDeg;
@@ -97,7 +106,8 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
     }
     return 0;
   });
-  out.along = in.choice("along", kAlong, by_machine ? bevel::Along::length : bevel::Along::developed);
+  out.along =
+      in.choice("along", kAlong, by_machine ? bevel::Along::length : bevel::Along::developed);
   if (by_machine && out.along != bevel::Along::length)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "along",
@@ -146,7 +156,8 @@ bevel::TorchRange decode_torch(Reader& in) {
   return out;
 }
 
-/// Refuses what is not offered: which surface holds the root, which one touches, which angle counts.
+/// Refuses what is not offered: which surface holds the root, which one touches, which angle
+/// counts.
 void check_combination(const bevel::TableSpec& s, Reader& in) {
   const bool outer = s.root_surface == RootSurface::outer;
   const bool weld = s.dihedral == Dihedral::weld_side;
@@ -173,8 +184,8 @@ struct BevelTables {
   static constexpr std::string_view kId = "bevel-tables";
   static constexpr std::string_view kPath = "/v1/bevel-tables";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
-  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm", "max_extra_bevel_deg",
-                                                            "max_b_deg"};
+  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
+                                                            "max_extra_bevel_deg", "max_b_deg"};
   static constexpr std::array<CheckLimit, 8> kChecks{{
       {"dihedral", "1e-9", "deg"},
       {"bevel_plane", "1e-9", ""},
@@ -207,7 +218,7 @@ struct BevelTables {
         in.understood("root_surface") && in.understood("dihedral") && in.understood("contact");
     if (known) check_combination(out, in);
     out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
-    if (out.root_face > 0.0 && out.contact != Contact::inner)
+    if (known && out.root_face > 0.0 && out.contact != Contact::inner)
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = "root_face_mm",
                 .hint = "a root face goes with contact inner"},

@@ -1,8 +1,7 @@
-#include "core/cutoff/feed_curve.hpp"
-
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/formats/feed_curve_formats.hpp"
+#include "core/cutoff/feed_curve.hpp"
 #include "core/cutoff/verify.hpp"
 
 namespace tubecut::api {
@@ -27,10 +26,10 @@ cutoff::Linkage decode_linkage(Reader& in) {
   out.arm = in.number("arm_mm", kLinkageLength);
   out.pivot_distance = in.number("pivot_distance_mm", kLinkageLength);
   out.pivot_offset = in.number("pivot_offset_mm", kLinkageLength);
-  out.rest_angle = in.angle_either(
-      "rest_angle", {.min = -kPi, .max = kPi, .open_min = true, .open_max = true});
-  out.slot_angle = in.angle_either(
-      "slot_angle", {.min = 0.0, .max = kPi, .open_min = true, .open_max = true});
+  out.rest_angle =
+      in.angle_either("rest_angle", {.min = -kPi, .max = kPi, .open_min = true, .open_max = true});
+  out.slot_angle =
+      in.angle_either("slot_angle", {.min = 0.0, .max = kPi, .open_min = true, .open_max = true});
   const auto which = in.exactly_one({"rad_per_mm", "calibrate"});
   if (which == 0)
     out.rad_per_mm = in.number("rad_per_mm", {.min = 0.0, .max = 10.0, .open_min = true});
@@ -57,7 +56,8 @@ cutoff::Cut decode_cut(Reader& in) {
   } else {
     cutoff::FeedWindow w;
     if (which == 0) w.start_feed = in.number("start_feed_mm", kFeed);
-    const Range beyond{.min = which == 0 ? w.start_feed : kFeed.min, .max = kFeed.max, .open_min = true};
+    const Range beyond{
+        .min = which == 0 ? w.start_feed : kFeed.min, .max = kFeed.max, .open_min = true};
     w.end_feed = in.number("end_feed_mm", beyond);
     out.range = w;
   }
@@ -67,7 +67,8 @@ cutoff::Cut decode_cut(Reader& in) {
 
 cutoff::FitSpec decode_fit(Reader& in) {
   cutoff::FitSpec out;
-  for (const auto& [field, method] : {std::pair("nodes_s", "three_point"), std::pair("tolerance_ratio", "auto")}) {
+  for (const auto& [field, method] :
+       {std::pair("nodes_s", "three_point"), std::pair("tolerance_ratio", "auto")}) {
     if (in.has("method") || !in.has(field)) continue;
     const auto hint = std::string(field) + " goes with method " + method;
     in.issue({.code = ErrorCode::missing_field, .pointer = "method", .hint = hint});
@@ -137,8 +138,7 @@ cutoff::TubeSpec decode_tube(Reader& in) {
 cutoff::ComparisonSpec decode_comparison(Reader& in) {
   cutoff::ComparisonSpec out;
   out.first_degree = in.integer("first_degree", 1, cutoff::kHighestDegree, 2);
-  out.last_degree =
-      in.integer("last_degree", out.first_degree, cutoff::kHighestDegree, 5);
+  out.last_degree = in.integer("last_degree", out.first_degree, cutoff::kHighestDegree, 5);
   return out;
 }
 

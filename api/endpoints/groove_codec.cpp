@@ -138,7 +138,10 @@ groove::GrooveSpec decode_groove_request(Reader& in) {
 
 groove::MillPathSpec decode_mill_path_request(Reader& in) {
   groove::MillPathSpec out;
-  out.groove = in.object("groove", decode_groove_request);
+  out.groove = in.object("groove", [](Reader& nested) {
+    note_common(nested);
+    return decode_groove_request(nested);
+  });
   out.mill = in.object("mill", decode_mill);
   out.setup = in.object("setup", decode_setup);
   out.positions = in.integer("positions", groove::kMinPositions, groove::kMaxPositions, 90);

@@ -105,9 +105,10 @@ struct Grooves {
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kFormats{{"csv", "text/csv", &groove_csv},
-                                                         {"svg", "image/svg+xml", &groove_svg},
-                                                         {"glb", "model/gltf-binary", &groove_gltf}};
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &groove_csv},
+        {"svg", "image/svg+xml", &groove_svg},
+        {"glb", "model/gltf-binary", &groove_gltf}};
     return kFormats;
   }
 };

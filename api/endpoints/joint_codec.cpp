@@ -1,5 +1,7 @@
 #include "api/endpoints/joint_codec.hpp"
 
+#include <algorithm>
+
 #include "api/limits.hpp"
 #include "api/tube_sizes.hpp"
 
@@ -9,9 +11,11 @@ namespace {
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kTolerance{.min = limit::tolerance_min_mm, .max = limit::tolerance_max_mm};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
+constexpr Range kHalfAngleDeg{.min = -80.0, .max = 80.0};
 
 joint::AxisLine decode_axis(Reader& in) {
-  return {.point = in.vector3("point_mm", kOffset), .direction = in.vector3("direction", kComponent)};
+  return {.point = in.vector3("point_mm", kOffset),
+          .direction = in.vector3("direction", kComponent)};
 }
 
 joint::Partner decode_tube(Reader& in) {
@@ -34,21 +38,73 @@ joint::Partner decode_plane(Reader& in) {
                             .normal = in.vector3("normal", kComponent)};
 }
 
-enum class Kind { tube, plane };
+joint::Partner decode_rectangular_tube(Reader& in) {
+  joint::BoxCutter out{.width = in.number("width_mm", kDiameter),
+                       .height = in.number("height_mm", kDiameter)};
+  const bool sized = in.understood("width_mm") && in.understood("height_mm");
+  const double widest = 0.5 * (sized ? std::min(out.width, out.height) : kDiameter.max);
+  out.corner = in.number("corner_radius_mm", {.min = 0.0, .max = widest, .open_min = true});
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  out.up = in.vector3("up", kComponent);
+  return out;
+}
+
+joint::Partner decode_cone(Reader& in) {
+  joint::ConeCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0,
+                        .half_angle = in.angle("half_angle_deg", kHalfAngleDeg)};
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  return out;
+}
+
+joint::Partner decode_elbow(Reader& in) {
+  joint::ElbowCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0};
+  const double least = in.understood("outer_diameter_mm") ? out.radius : kDiameter.min / 2.0;
+  out.bend_radius =
+      in.number("bend_radius_mm", {.min = least, .max = limit::offset_max_mm, .open_min = true});
+  out.bend = in.angle("bend_deg", {.min = 0.0, .max = 180.0, .open_min = true});
+  const auto axis = in.object("axis", decode_axis);
+  out.point = axis.point;
+  out.direction = axis.direction;
+  out.inwards = in.vector3("inwards", kComponent);
+  return out;
+}
+
+enum class Kind { tube, plane, rectangular_tube, cone, elbow };
 
 joint::Partner decode_cutter(Reader& in) {
-  static constexpr std::array kKinds{Option<Kind>{"tube", Kind::tube},
-                                     Option<Kind>{"plane", Kind::plane}};
+  static constexpr std::array kKinds{
+      Option<Kind>{"tube", Kind::tube}, Option<Kind>{"plane", Kind::plane},
+      Option<Kind>{"rectangular_tube", Kind::rectangular_tube}, Option<Kind>{"cone", Kind::cone},
+      Option<Kind>{"elbow", Kind::elbow}};
   const auto kind = in.tag("kind", kKinds);
   in.optional_text("id");
-  return kind == Kind::plane ? decode_plane(in) : decode_tube(in);
+  switch (kind.value_or(Kind::tube)) {
+    case Kind::plane:
+      return decode_plane(in);
+    case Kind::rectangular_tube:
+      return decode_rectangular_tube(in);
+    case Kind::cone:
+      return decode_cone(in);
+    case Kind::elbow:
+      return decode_elbow(in);
+    case Kind::tube:
+      break;
+  }
+  return decode_tube(in);
 }
 
 const char* name_of(joint::EventKind kind) {
   switch (kind) {
-    case joint::EventKind::junction: return "junction";
-    case joint::EventKind::jump: return "jump";
-    case joint::EventKind::kink: return "kink";
+    case joint::EventKind::junction:
+      return "junction";
+    case joint::EventKind::jump:
+      return "jump";
+    case joint::EventKind::kink:
+      return "kink";
   }
   return "";
 }
@@ -63,11 +119,13 @@ Section decode_section(Reader& in, bool with_wall) {
     const auto name = in.text("size");
     const auto* size = find_tube_size(name);
     if (size == nullptr) {
+      const auto near = nearest_tube_size(name);
       if (!name.empty())
-        in.issue({.code = ErrorCode::unknown_size,
-                  .pointer = "size",
-                  .hint = "did you mean " + nearest_tube_size(name) + "?"},
-                 in.find("size"));
+        in.issue(
+            {.code = ErrorCode::unknown_size,
+             .pointer = "size",
+             .hint = near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?"},
+            in.find("size"));
       return out;
     }
     if (with_wall && in.has("wall_mm"))
@@ -81,8 +139,10 @@ Section decode_section(Reader& in, bool with_wall) {
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
   if (!with_wall) return out;
   // 0 < wall < radius, and within what the service cuts
-  const Range wall{.min = kWall.min, .max = std::min(kWall.max, out.outer_radius),
-                   .open_min = false, .open_max = out.outer_radius <= kWall.max};
+  const Range wall{.min = kWall.min,
+                   .max = std::min(kWall.max, out.outer_radius),
+                   .open_min = false,
+                   .open_max = out.outer_radius <= kWall.max};
   out.wall = in.number("wall_mm", in.understood("outer_diameter_mm") ? wall : kWall);
   return out;
 }
@@ -101,7 +161,8 @@ joint::Target decode_target(Reader& in) {
     t.optional_text("id");
     const auto section = decode_section(t, true);
     joint::Target out{.outer_radius = section.outer_radius, .wall = section.wall};
-    out.length = t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});
+    out.length =
+        t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});
     return out;
   });
 }
@@ -112,9 +173,8 @@ std::vector<joint::Partner> decode_cutters(Reader& in) {
 }
 
 joint::Sampling decode_sampling(Reader& in) {
-  static constexpr std::array kMetrics{
-      Option<joint::Metric>{"developed", joint::Metric::developed},
-      Option<joint::Metric>{"chord", joint::Metric::chord}};
+  static constexpr std::array kMetrics{Option<joint::Metric>{"developed", joint::Metric::developed},
+                                       Option<joint::Metric>{"chord", joint::Metric::chord}};
   return in.defaulted_object("sampling", [](Reader& s) {
     joint::Sampling out;
     s.note("uniform_points");
@@ -161,9 +221,8 @@ void encode_profile(const joint::Profile& profile, const joint::Sampling& sampli
     c.column("z_mm", profile.z);
     c.column("cutter", profile.cutter);
   });
-  w.array("events", profile.events, [&](Writer& e, const joint::Event& event) {
-    encode_event(event, profile.outer, e);
-  });
+  w.array("events", profile.events,
+          [&](Writer& e, const joint::Event& event) { encode_event(event, profile.outer, e); });
   w.field("length_mm", profile.length);
   w.field("developed_length_mm", profile.developed);
 }

@@ -21,7 +21,8 @@ constexpr Range kBeam{.min = 0.0, .max = 1e5};
 
 constexpr std::array kSurfaces{Option<Surface>{"outer", Surface::outer},
                                Option<Surface>{"inner", Surface::inner}};
-constexpr std::array kScraps{Option<Scrap>{"-z", Scrap::minus_z}, Option<Scrap>{"+z", Scrap::plus_z},
+constexpr std::array kScraps{Option<Scrap>{"-z", Scrap::minus_z},
+                             Option<Scrap>{"+z", Scrap::plus_z},
                              Option<Scrap>{"inside", Scrap::inside}};
 
 void negate(std::vector<double>& values) {
@@ -30,8 +31,9 @@ void negate(std::vector<double>& values) {
 
 /// A bevel table's own points, unchanged: the torch line on the asked surface.
 void decode_table_points(Reader& in, Surface surface, motion::Contour& out) {
-  for (const auto* other : {"developed_mm", "length_mm", "cutter", "zone", "z_inner_mm", "z_outer_mm", "dihedral_deg",
-                            "groove_deg", "tau_deg", "gamma_deg", "flush_deg", "b_raw_deg", "b_required_deg", "gap_mm"})
+  for (const auto* other :
+       {"developed_mm", "length_mm", "cutter", "zone", "z_inner_mm", "z_outer_mm", "dihedral_deg",
+        "groove_deg", "tau_deg", "gamma_deg", "flush_deg", "b_raw_deg", "b_required_deg", "gap_mm"})
     in.note(other);
   out.phi = in.angle_column("phi_deg", kPoints, kUnwrappedDeg);
   out.b = in.angle_column("b_deg", kPoints, kBevelDeg);
@@ -42,11 +44,14 @@ void decode_table_points(Reader& in, Surface surface, motion::Contour& out) {
 }
 
 motion::Contour decode_contour(Reader& in) {
-  static constexpr std::array kSigns{Option<bool>{"outer_edge_into_part", false}, Option<bool>{"inward", true}};
+  static constexpr std::array kSigns{Option<bool>{"outer_edge_into_part", false},
+                                     Option<bool>{"inward", true}};
   motion::Contour out;
   out.surface = in.choice("surface", kSurfaces);
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
-  const Range wall{.min = kWall.min, .max = std::min(kWall.max, out.outer_radius), .open_max = out.outer_radius <= kWall.max};
+  const Range wall{.min = kWall.min,
+                   .max = std::min(kWall.max, out.outer_radius),
+                   .open_max = out.outer_radius <= kWall.max};
   out.wall = in.number("wall_mm", in.is<double>("outer_diameter_mm") ? wall : kWall);
   out.closed = in.flag("closed");
   in.note("scrap");
@@ -73,7 +78,8 @@ motion::Contour decode_contour(Reader& in) {
 motion::AxisColumns decode_axes(Reader& in, const motion::Machine& machine) {
   motion::AxisColumns out;
   out.length = in.column("s_mm", kPoints, kOffset);
-  for (const auto& axis : machine.axes) out.columns.push_back(in.column(axis.name, kPoints, kOffset));
+  for (const auto& axis : machine.axes)
+    out.columns.push_back(in.column(axis.name, kPoints, kOffset));
   in.note("corner");
   if (in.has("corner")) out.corner = in.flag_column("corner", kPoints);
   out.closed = in.flag("closed", false);
@@ -118,7 +124,8 @@ motion::Sector decode_sector(Reader& in) {
 motion::Expert decode_expert(Reader& in) {
   motion::Expert out;
   out.optimism = in.number("optimism", {.min = 1.0, .max = 10.0}, 3.0);
-  if (const auto filter = in.nullable_number("filter_ms", {.min = 0.0, .max = 10'000.0, .open_min = true}))
+  if (const auto filter =
+          in.nullable_number("filter_ms", {.min = 0.0, .max = 10'000.0, .open_min = true}))
     out.filter = *filter * 1e-3;
   out.sag_warning = in.flag("sag_warning", true);
   return out;
@@ -153,7 +160,8 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut) {
   out.jerk = in.flag("jerk", true);
   out.compare = in.flag("compare", false);
   const bool closed = contour == nullptr || contour->closed;
-  if (has_contour) decode_course(in, !closed || (contour != nullptr && contour->scrap == Scrap::inside), out);
+  if (has_contour)
+    decode_course(in, !closed || (contour != nullptr && contour->scrap == Scrap::inside), out);
   out.expert = in.defaulted_object("expert", decode_expert);
   return out;
 }
@@ -161,7 +169,8 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut) {
 template <class T>
 tl::unexpected<Error> under(const Result<T>& result, const std::string& parent) {
   auto error = result.error();
-  for (auto& issue : error.issues) issue.member = parent + (issue.member.empty() ? "" : "/" + issue.member);
+  for (auto& issue : error.issues)
+    issue.member = parent + (issue.member.empty() ? "" : "/" + issue.member);
   return tl::unexpected(std::move(error));
 }
 
@@ -186,8 +195,10 @@ motion::Contour contour_of(const bevel::TableSpec& spec, const bevel::Table& tab
   return out;
 }
 
-/// The mill's emitted positions, closed after one turn of C. A machine counts C on, not modulo a turn.
-Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec, const groove::MillPath& path,
+/// The mill's emitted positions, closed after one turn of C. A machine counts C on, not modulo a
+/// turn.
+Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec,
+                                       const groove::MillPath& path,
                                        const motion::Machine& machine) {
   motion::AxisColumns out{.tip_radius = 0.0, .closed = true};
   const auto joint = groove::joint_of(spec.groove);
@@ -204,7 +215,11 @@ Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec, const g
     b.push_back(at.b.deg());
   }
   for (const auto& axis : machine.axes) {
-    const auto* column = axis.name == "C" ? &c : axis.name == "X" ? &x : axis.name == "Z" ? &z : axis.name == "B" ? &b : nullptr;
+    const auto* column = axis.name == "C"   ? &c
+                         : axis.name == "X" ? &x
+                         : axis.name == "Z" ? &z
+                         : axis.name == "B" ? &b
+                                            : nullptr;
     if (column == nullptr)
       return fail({.code = ErrorCode::unsupported_combination,
                    .member = "machine",
@@ -248,7 +263,9 @@ struct CutOf {
   Result<motion::Cut> operator()(const motion::Contour& contour) const {
     return motion::Cut{motion::as_machine_counts(contour, request.machine.b_positive)};
   }
-  Result<motion::Cut> operator()(const motion::AxisColumns& columns) const { return motion::Cut{columns}; }
+  Result<motion::Cut> operator()(const motion::AxisColumns& columns) const {
+    return motion::Cut{columns};
+  }
 };
 
 }  // namespace
@@ -257,13 +274,26 @@ JobRequest decode_job(Reader& in) {
   JobRequest out;
   out.machine = decode_machine_choice(in, "machine");
   switch (in.exactly_one({"cut", "contour", "mill_path", "axes"}).value_or(4)) {
-    case 0: out.cut = in.object("cut", decode_bevel_table_request); break;
-    case 1: out.cut = in.object("contour", decode_contour); break;
-    case 2: out.cut = in.object("mill_path", decode_mill_path_request); break;
+    case 0:
+      out.cut = in.object("cut", [](Reader& cut) {
+        note_common(cut);
+        return decode_bevel_table_request(cut);
+      });
+      break;
+    case 1:
+      out.cut = in.object("contour", decode_contour);
+      break;
+    case 2:
+      out.cut = in.object("mill_path", [](Reader& path) {
+        note_common(path);
+        return decode_mill_path_request(path);
+      });
+      break;
     case 3:
       out.cut = in.object("axes", [&](Reader& axes) { return decode_axes(axes, out.machine); });
       break;
-    default: break;
+    default:
+      break;
   }
   out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
   const auto* contour = std::get_if<motion::Contour>(&out.cut);
@@ -274,7 +304,8 @@ JobRequest decode_job(Reader& in) {
               .pointer = "contour/scrap",
               .limit = Json{"-z|+z|inside"},
               .hint = "a bare contour with a lead must say which side falls away"});
-  out.max_periods = static_cast<std::int64_t>(in.binary() ? limit::periods_cbor_max : limit::periods_json_max);
+  out.max_periods =
+      static_cast<std::int64_t>(in.binary() ? limit::periods_cbor_max : limit::periods_json_max);
   return out;
 }
 

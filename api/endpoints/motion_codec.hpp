@@ -14,7 +14,8 @@
 namespace tubecut::api {
 
 /// Where a schedule's cut comes from: computed here (a bevel table, a mill path), or given.
-using CutSource = std::variant<BevelTableRequest, groove::MillPathSpec, motion::Contour, motion::AxisColumns>;
+using CutSource =
+    std::variant<BevelTableRequest, groove::MillPathSpec, motion::Contour, motion::AxisColumns>;
 
 struct JobRequest {
   CutSource cut;
@@ -30,11 +31,12 @@ struct Job {
   std::vector<Warning> warnings;
 };
 
-/// The fields `cut`, `contour`, `mill_path` or `axes`, `machine` and `motion`. `axes` and a mill path take their columns in the
-/// order of the machine's axes.
+/// The fields `cut`, `contour`, `mill_path` or `axes`, `machine` and `motion`. `axes` and a mill
+/// path take their columns in the order of the machine's axes.
 [[nodiscard]] JobRequest decode_job(Reader& in);
 
-/// Errors  those of the nested request, their members under `cut` or `mill_path`; unsupported_combination.
+/// Errors  those of the nested request, their members under `cut` or `mill_path`;
+/// unsupported_combination.
 [[nodiscard]] Result<Job> compute_job(const JobRequest& request, const std::stop_token& stop);
 
 }  // namespace tubecut::api

@@ -1,7 +1,6 @@
 #include "api/endpoints/node_codec.hpp"
 
 #include <map>
-#include <set>
 
 #include "api/endpoints/joint_codec.hpp"
 #include "api/limits.hpp"
@@ -32,12 +31,19 @@ joint::Member decode_member(Reader& in) {
 }
 
 /// Places of the members by id.
-using Ids = std::map<std::string, std::size_t, std::less<>>;
+struct Ids {
+  std::map<std::string, std::size_t, std::less<>> places;
+  bool complete = true;  // every member has told its id: an unknown one is wrong
+};
 
 Ids decode_ids(Reader& in, const std::vector<joint::Member>& members) {
   Ids out;
+  const auto* field = in.find("members");
+  const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
+  out.complete = items != nullptr && !items->empty() && items->size() == members.size();
+  for (const auto& member : members) out.complete = out.complete && !member.name.empty();
   for (std::size_t i = 0; i < members.size(); ++i)
-    if (!members[i].name.empty() && !out.emplace(members[i].name, i).second)
+    if (!members[i].name.empty() && !out.places.emplace(members[i].name, i).second)
       in.issue({.code = ErrorCode::bad_text,
                 .pointer = "members/" + std::to_string(i) + "/id",
                 .hint = "another member has this id"});
@@ -46,11 +52,11 @@ Ids decode_ids(Reader& in, const std::vector<joint::Member>& members) {
 
 /// The member of this id; `pointer` names the field for an issue.
 std::size_t known(Reader& in, const Ids& ids, const std::string& id, const std::string& pointer) {
-  const auto found = ids.find(id);
-  if (found != ids.end()) return found->second;
-  if (id.empty()) return 0;  // has its issue already
+  const auto found = ids.places.find(id);
+  if (found != ids.places.end()) return found->second;
+  if (id.empty() || !ids.complete) return 0;  // has its issue already
   std::vector<std::string> names;
-  for (const auto& [name, place] : ids) names.push_back(name);
+  for (const auto& [name, place] : ids.places) names.push_back(name);
   const auto near = nearest_name(id, names);
   in.issue({.code = ErrorCode::bad_choice,
             .pointer = pointer,
@@ -61,13 +67,14 @@ std::size_t known(Reader& in, const Ids& ids, const std::string& id, const std::
 
 joint::Link decode_link(Reader& in, const Ids& ids) {
   joint::Link out;
-  out.member = known(in, ids, in.text("member"), "member");
+  const auto own = in.text("member");
+  out.member = known(in, ids, own, "member");
   out.end = in.choice("end", kEnds);
   const auto to = in.text_column("to", {.min = 1, .max = joint::kMostCutters});
   for (std::size_t i = 0; i < to.size(); ++i) {
     const auto pointer = "to/" + std::to_string(i);
     const auto other = known(in, ids, to[i], pointer);
-    if (other == out.member && in.understood("member") && !to[i].empty() && ids.contains(to[i]))
+    if (!own.empty() && to[i] == own)
       in.issue({.code = ErrorCode::bad_choice,
                 .pointer = pointer,
                 .got = Json{to[i]},
@@ -90,9 +97,8 @@ Decoded decode(Reader& in) {
     out.spec.connect = in.array("connect", {.min = 1, .max = 2 * kMembers},
                                 [&](Reader& link) { return decode_link(link, out.ids); });
   else
-    out.spec.connect = in.object("connect", [](Reader& c) {
-      return joint::Within{c.number("within_mm", kDistance)};
-    });
+    out.spec.connect = in.object(
+        "connect", [](Reader& c) { return joint::Within{c.number("within_mm", kDistance)}; });
   return out;
 }
 

@@ -93,8 +93,7 @@ struct Nodes {
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.nodes.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
-  static void encode_end(const Spec& spec, const Out& out, const joint::MemberEnd& end,
-                         Writer& w) {
+  static void encode_end(const Spec& spec, const Out& out, const joint::MemberEnd& end, Writer& w) {
     const bool start = end.end == joint::End::start;
     w.field("member", spec.node.members[end.member].name);
     w.field("end", start ? "start" : "finish");
@@ -106,8 +105,9 @@ struct Nodes {
     w.field("open", end.open);
     w.field("consumed", end.consumed);
     const auto index = 2 * end.member + (start ? 0U : 1U);
-    if (index >= out.profiles.size() || !out.profiles[index]) return;
-    w.array("profiles", out.profiles[index]->profiles,
+    static const std::vector<joint::Profile> kNone;
+    const bool there = index < out.profiles.size() && out.profiles[index];
+    w.array("profiles", there ? out.profiles[index]->profiles : kNone,
             [&](Writer& each, const joint::Profile& profile) {
               each.object([&](Writer& o) { encode_profile(profile, spec.sampling, o); });
             });

@@ -13,7 +13,9 @@ using motion::AxisPulses;
 void encode_uses(const std::vector<motion::Use>& uses, Writer& w) {
   w.object("max_use", [&](Writer& o) {
     for (const auto& use : uses)
-      o.field(use.axis.empty() ? std::string(1, use.limit) : std::string(1, use.limit) + "_" + use.axis, use.share);
+      o.field(
+          use.axis.empty() ? std::string(1, use.limit) : std::string(1, use.limit) + "_" + use.axis,
+          use.share);
   });
 }
 
@@ -93,7 +95,8 @@ struct PulseSchedules {
 
   static std::vector<Check> verify(const Spec&, const Out& out) {
     auto checks = out.job.checks;
-    for (auto& check : motion::verify(out.job.spec, out.schedule)) checks.push_back(std::move(check));
+    for (auto& check : motion::verify(out.job.spec, out.schedule))
+      checks.push_back(std::move(check));
     return checks;
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) {

@@ -1,8 +1,7 @@
-#include "core/motion/replay.hpp"
-
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
+#include "core/motion/replay.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -17,19 +16,22 @@ struct Schedule {
 };
 
 Schedule decode_schedule(Reader& in, const motion::Machine& machine) {
-  for (const auto* other : {"machine_sha256", "periods", "axes", "idle", "total", "events", "report", "comparison"})
+  for (const auto* other :
+       {"machine_sha256", "periods", "axes", "idle", "total", "events", "report", "comparison"})
     in.note(other);
   Schedule out;
   out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
   in.object("counts", [&](Reader& c) {
     for (const auto& axis : machine.axes) {
       c.note(axis.name);
-      out.counts.push_back(c.has(axis.name) ? c.column(axis.name, {.min = 1, .max = kMostPeriods}) : std::vector<double>{});
+      out.counts.push_back(c.has(axis.name) ? c.column(axis.name, {.min = 1, .max = kMostPeriods})
+                                            : std::vector<double>{});
     }
     return 0;
   });
   in.object("start", [&](Reader& s) {
-    for (const auto& axis : machine.axes) out.start.push_back(s.number(axis.name, {.min = -1e9, .max = 1e9}));
+    for (const auto& axis : machine.axes)
+      out.start.push_back(s.number(axis.name, {.min = -1e9, .max = 1e9}));
     return 0;
   });
   return out;
@@ -49,12 +51,14 @@ struct Replays {
   static constexpr std::string_view kPath = "/v1/replays";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 1> kChecks{{{"nested cut", "the checks of its own endpoint", ""}}};
+  static constexpr std::array<CheckLimit, 1> kChecks{
+      {{"nested cut", "the checks of its own endpoint", ""}}};
 
   static Spec decode(Reader& in) {
     Spec out;
     out.job = decode_job(in);
-    out.schedule = in.object("schedule", [&](Reader& s) { return decode_schedule(s, out.job.machine); });
+    out.schedule =
+        in.object("schedule", [&](Reader& s) { return decode_schedule(s, out.job.machine); });
     return out;
   }
 
@@ -71,8 +75,9 @@ struct Replays {
       if (!invariant.passed())
         out.warnings.push_back({.code = WarningCode::invariant_broken,
                                 .member = "schedule",
-                                .detail = invariant.name + " is " + shown(invariant.value) + ", limit " +
-                                          shown(invariant.limit) + " " + invariant.unit});
+                                .detail = invariant.name + " is " + shown(invariant.value) +
+                                          ", limit " + shown(invariant.limit) + " " +
+                                          invariant.unit});
     return out;
   }
 

@@ -27,16 +27,19 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
   Chart out{.title = "Cutting angle B before and after smoothing",
             .x_label = "developed length, mm",
             .y_label = "B, deg",
-            .series = {{.name = "before", .x = table.developed, .y = degrees(std::move(before)),
-                        .color = "#c0392b", .dashed = true},
+            .series = {{.name = "before",
+                        .x = table.developed,
+                        .y = degrees(std::move(before)),
+                        .color = "#c0392b",
+                        .dashed = true},
                        {.name = "after", .x = table.developed, .y = degrees(table.b)}}};
   for (const auto& binding : table.torch_binds)
     out.bands.push_back({rho * binding.from, rho * binding.to, "torch range binds"});
-  const auto& events = spec.root_surface == bevel::RootSurface::outer ? table.outer_events
-                                                                      : table.inner_events;
+  const auto& events =
+      spec.root_surface == bevel::RootSurface::outer ? table.outer_events : table.inner_events;
   for (const auto& event : events)
-    out.marks.push_back({rho * event.phi,
-                         std::to_string(event.from) + " > " + std::to_string(event.to)});
+    out.marks.push_back(
+        {rho * event.phi, std::to_string(event.from) + " > " + std::to_string(event.to)});
   return out;
 }
 

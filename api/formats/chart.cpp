@@ -15,18 +15,28 @@ constexpr double kLegendLine = 18.0;
 std::string fixed(double v, int digits = 2) {
   char text[64];
   return {text, std::to_chars(text, text + sizeof text, v == 0.0 ? 0.0 : v,
-                              std::chars_format::fixed, digits).ptr};
+                              std::chars_format::fixed, digits)
+                    .ptr};
 }
 
 std::string xml(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;

@@ -38,7 +38,8 @@ struct Chart {
   bool y_from_zero = false;
 };
 
-/// The charts one below the other as image/svg+xml; `footer` names the job. Coordinates are printed to 0.01 px.
+/// The charts one below the other as image/svg+xml; `footer` names the job. Coordinates are printed
+/// to 0.01 px.
 [[nodiscard]] std::string print_charts(const std::vector<Chart>& charts, const std::string& footer);
 
 }  // namespace tubecut::api

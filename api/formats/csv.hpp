@@ -6,7 +6,8 @@
 
 namespace tubecut::api {
 
-/// Columns as text/csv (RFC 4180): a header row of names that carry their units, then rows; numbers shortest-round-trip.
+/// Columns as text/csv (RFC 4180): a header row of names that carry their units, then rows; numbers
+/// shortest-round-trip.
 class Csv {
  public:
   Csv& column(std::string name, const std::vector<double>& values);

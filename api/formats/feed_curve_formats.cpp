@@ -63,12 +63,16 @@ std::string feed_curve_svg(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve
        .x_label = "time, s",
        .y_label = "speed, mm/s",
        .series = {{.name = "exact", .x = curve.table.time, .y = curve.table.speed}}},
-      {.title = "Polynomial command over the exact speed, degree " + std::to_string(curve.fit.degree) +
-                ", error " + shown(curve.fit.errors.max_relative_error * 100.0).substr(0, 6) + " %",
+      {.title = "Polynomial command over the exact speed, degree " +
+                std::to_string(curve.fit.degree) + ", error " +
+                shown(curve.fit.errors.max_relative_error * 100.0).substr(0, 6) + " %",
        .x_label = "time, s",
        .y_label = "speed, mm/s",
        .series = {{.name = "exact", .x = curve.table.time, .y = curve.table.speed},
-                  {.name = "command", .x = curve.table.time, .y = command, .color = "#c0392b",
+                  {.name = "command",
+                   .x = curve.table.time,
+                   .y = command,
+                   .color = "#c0392b",
                    .dashed = true}}}};
   if (curve.cycle) {
     const auto& c = *curve.cycle;
@@ -87,16 +91,24 @@ std::string feed_curve_structured_text(const cutoff::FeedCurveSpec&, const cutof
   std::string horner = literal(fit.seconds_rounded.back());
   for (auto i = fit.seconds_rounded.size() - 1; i-- > 0;)
     horner = literal(fit.seconds_rounded[i]) + " + t_s * (" + horner + ")";
-  return "(* Cylinder speed that keeps the tool feed constant. " + job_line(caption) + ".\n"
-         "   Degree " + std::to_string(fit.degree) + ", largest relative error " +
-         shown(fit.rounded_max_relative_error) + ".\n"
-         "   t_s: seconds from the start of the work feed. Outside the window valid is FALSE and the speed 0. *)\n"
+  return "(* Cylinder speed that keeps the tool feed constant. " + job_line(caption) +
+         ".\n"
+         "   Degree " +
+         std::to_string(fit.degree) + ", largest relative error " +
+         shown(fit.rounded_max_relative_error) +
+         ".\n"
+         "   t_s: seconds from the start of the work feed. Outside the window valid is FALSE and "
+         "the speed 0. *)\n"
          "FUNCTION_BLOCK TubecutFeedCurve\n"
          "VAR_INPUT\n  t_s : LREAL;\nEND_VAR\n"
          "VAR_OUTPUT\n  cylinder_speed_mm_s : LREAL;\n  valid : BOOL;\nEND_VAR\n"
-         "VAR CONSTANT\n  T_END_S : LREAL := " + literal(fit.duration) + ";\nEND_VAR\n\n"
+         "VAR CONSTANT\n  T_END_S : LREAL := " +
+         literal(fit.duration) +
+         ";\nEND_VAR\n\n"
          "valid := (t_s >= 0.0) AND (t_s <= T_END_S);\n"
-         "IF valid THEN\n  cylinder_speed_mm_s := " + horner + ";\n"
+         "IF valid THEN\n  cylinder_speed_mm_s := " +
+         horner +
+         ";\n"
          "ELSE\n  cylinder_speed_mm_s := 0.0;\nEND_IF;\n"
          "END_FUNCTION_BLOCK\n";
 }

@@ -11,11 +11,13 @@ namespace tubecut::api {
 [[nodiscard]] std::string feed_curve_csv(const cutoff::FeedCurveSpec& spec,
                                          const cutoff::FeedCurve& curve, const Caption& caption);
 
-/// The source's four pictures: stroke over feed, cylinder speed, fit over speed, displacement over the cycle.
+/// The source's four pictures: stroke over feed, cylinder speed, fit over speed, displacement over
+/// the cycle.
 [[nodiscard]] std::string feed_curve_svg(const cutoff::FeedCurveSpec& spec,
                                          const cutoff::FeedCurve& curve, const Caption& caption);
 
-/// An IEC 61131-3 function block: the rounded polynomial in Horner form, its time window, and `valid`, false outside it.
+/// An IEC 61131-3 function block: the rounded polynomial in Horner form, its time window, and
+/// `valid`, false outside it.
 [[nodiscard]] std::string feed_curve_structured_text(const cutoff::FeedCurveSpec& spec,
                                                      const cutoff::FeedCurve& curve,
                                                      const Caption& caption);

@@ -11,7 +11,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF is little endian");
 constexpr float kMetresPerMm = 1e-3F;
-constexpr int kFloat = 5126, kUnsigned = 5125;                 // component types of glTF
+constexpr int kFloat = 5126, kUnsigned = 5125;  // component types of glTF
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 
 template <class T>
@@ -47,7 +47,8 @@ struct Buffer {
 };
 
 void vector3(std::string_view name, const Eigen::Vector3f& v, Writer& w) {
-  w.column(name, std::vector<double>{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
+  w.column(name, std::vector<double>{static_cast<double>(v[0]), static_cast<double>(v[1]),
+                                     static_cast<double>(v[2])});
 }
 
 void accessors(const std::vector<Mesh>& meshes, Writer& w) {
@@ -58,7 +59,8 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w) {
   };
   std::vector<Accessor> all;
   for (std::size_t m = 0; m < meshes.size(); ++m)
-    for (int part = 0; part < 3; ++part) all.push_back({&meshes[m], part, 3 * m + static_cast<std::size_t>(part)});
+    for (int part = 0; part < 3; ++part)
+      all.push_back({&meshes[m], part, 3 * m + static_cast<std::size_t>(part)});
   w.array("accessors", all, [](Writer& each, const Accessor& a) {
     each.object([&](Writer& o) {
       o.field("bufferView", a.view);
@@ -77,7 +79,8 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w) {
   });
 }
 
-std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer, const std::string& title) {
+std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer,
+                     const std::string& title) {
   std::vector<std::size_t> numbers(meshes.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
   Writer out;
@@ -87,11 +90,12 @@ std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer, cons
       o.field("generator", title);
     });
     w.field("scene", 0);
-    w.raw("scenes", "[{\"nodes\":[" + [&] {
-      std::string list;
-      for (const auto i : numbers) list += (i ? "," : "") + std::to_string(i);
-      return list;
-    }() + "]}]");
+    w.raw(
+        "scenes", "[{\"nodes\":[" + [&] {
+          std::string list;
+          for (const auto i : numbers) list += (i ? "," : "") + std::to_string(i);
+          return list;
+        }() + "]}]");
     w.array("nodes", numbers, [&](Writer& each, std::size_t i) {
       each.object([&](Writer& o) {
         o.field("name", meshes[i].name);
@@ -103,7 +107,8 @@ std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer, cons
         o.field("doubleSided", true);
         o.field("alphaMode", mesh.opacity < 1.0F ? "BLEND" : "OPAQUE");
         o.object("pbrMetallicRoughness", [&](Writer& p) {
-          p.column("baseColorFactor", std::vector<double>{1.0, 1.0, 1.0, static_cast<double>(mesh.opacity)});
+          p.column("baseColorFactor",
+                   std::vector<double>{1.0, 1.0, 1.0, static_cast<double>(mesh.opacity)});
           p.field("metallicFactor", 0.1);
           p.field("roughnessFactor", 0.7);
         });
@@ -112,8 +117,9 @@ std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer, cons
     w.array("meshes", numbers, [&](Writer& each, std::size_t i) {
       each.object([&](Writer& o) {
         o.field("name", meshes[i].name);
-        o.raw("primitives", "[{\"attributes\":{\"POSITION\":" + std::to_string(3 * i) + ",\"COLOR_0\":" +
-                                std::to_string(3 * i + 1) + "},\"indices\":" + std::to_string(3 * i + 2) +
+        o.raw("primitives", "[{\"attributes\":{\"POSITION\":" + std::to_string(3 * i) +
+                                ",\"COLOR_0\":" + std::to_string(3 * i + 1) +
+                                "},\"indices\":" + std::to_string(3 * i + 2) +
                                 ",\"material\":" + std::to_string(i) + "}]");
       });
     });
@@ -159,9 +165,11 @@ std::string print_gltf(const std::vector<Mesh>& meshes, const std::string& title
 }
 
 Eigen::Vector3f diverging(double value) {
-  const Eigen::Vector3f grey(0.72F, 0.74F, 0.76F), red(0.75F, 0.10F, 0.08F), blue(0.05F, 0.20F, 0.70F);
+  const Eigen::Vector3f grey(0.72F, 0.74F, 0.76F), red(0.75F, 0.10F, 0.08F),
+      blue(0.05F, 0.20F, 0.70F);
   const auto t = static_cast<float>(std::clamp(value, -1.0, 1.0));
-  return t < 0.0F ? Eigen::Vector3f((1.0F + t) * grey - t * blue) : Eigen::Vector3f((1.0F - t) * grey + t * red);
+  return t < 0.0F ? Eigen::Vector3f((1.0F + t) * grey - t * blue)
+                  : Eigen::Vector3f((1.0F - t) * grey + t * red);
 }
 
 std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across) {

@@ -16,7 +16,8 @@ struct Mesh {
   float opacity = 1.0F;
 };
 
-/// glTF 2.0 binary (.glb), one node a mesh, in metres as the format asks; flat normals are the viewer's.
+/// glTF 2.0 binary (.glb), one node a mesh, in metres as the format asks; flat normals are the
+/// viewer's.
 [[nodiscard]] std::string print_gltf(const std::vector<Mesh>& meshes, const std::string& title);
 
 /// A colour of -1..1: blue (below), grey (0), red (above).

@@ -23,15 +23,23 @@ using P = const groove::MillPosition&;
 /// Straight pieces from P1 and P2 up to P3, and the chord between them, in the section's own plane.
 Chart section_chart(const groove::Groove& g) {
   const auto& s = g.sections.front();
-  const auto title = "Section at " + shown(s.omega.deg()) + " deg: filler D " + shown(s.areas.d).substr(0, 7) +
-                     " mm2 (A " + shown(s.areas.a).substr(0, 6) + ", B " + shown(s.areas.b).substr(0, 6) + ", C " +
+  const auto title = "Section at " + shown(s.omega.deg()) + " deg: filler D " +
+                     shown(s.areas.d).substr(0, 7) + " mm2 (A " + shown(s.areas.a).substr(0, 6) +
+                     ", B " + shown(s.areas.b).substr(0, 6) + ", C " +
                      shown(s.areas.c).substr(0, 6) + ", E " + shown(s.areas.e).substr(0, 6) + ")";
   return {.title = title,
           .x_label = "from the branch axis, mm",
           .y_label = "along it, mm",
-          .series = {{.name = "groove line P1 P3", .x = {s.p1.x(), s.p3.x()}, .y = {s.p1.y(), s.p3.y()}},
-                     {.name = "weld face P2 P3", .x = {s.p2.x(), s.p3.x()}, .y = {s.p2.y(), s.p3.y()}, .color = "#c0392b"},
-                     {.name = "chord P1 P2", .x = {s.p1.x(), s.p2.x()}, .y = {s.p1.y(), s.p2.y()}, .color = "#1e8449"}}};
+          .series = {
+              {.name = "groove line P1 P3", .x = {s.p1.x(), s.p3.x()}, .y = {s.p1.y(), s.p3.y()}},
+              {.name = "weld face P2 P3",
+               .x = {s.p2.x(), s.p3.x()},
+               .y = {s.p2.y(), s.p3.y()},
+               .color = "#c0392b"},
+              {.name = "chord P1 P2",
+               .x = {s.p1.x(), s.p2.x()},
+               .y = {s.p1.y(), s.p2.y()},
+               .color = "#1e8449"}}};
 }
 
 }  // namespace
@@ -58,24 +66,31 @@ std::string groove_csv(const groove::GrooveSpec&, const groove::Groove& g, const
 std::string groove_svg(const groove::GrooveSpec&, const groove::Groove& g, const Caption& caption) {
   if (caption.view == "section") return print_charts({section_chart(g)}, job_line(caption));
   const auto omega = each(g.sections, [](S s) { return s.omega.deg(); });
-  std::vector<Chart> charts{{.title = "Groove height for equal filler area",
-                             .x_label = "section omega, deg",
-                             .y_label = "height, mm",
-                             .series = {{.name = "height", .x = omega,
-                                         .y = each(g.sections, [](S s) { return s.height; })}}}};
+  std::vector<Chart> charts{
+      {.title = "Groove height for equal filler area",
+       .x_label = "section omega, deg",
+       .y_label = "height, mm",
+       .series = {
+           {.name = "height", .x = omega, .y = each(g.sections, [](S s) { return s.height; })}}}};
   if (g.compare)
     charts.push_back({.title = "Filler area per section: ours beside a fixed bevel",
                       .x_label = "section omega, deg",
                       .y_label = "filler area, mm2",
-                      .series = {{.name = "ours", .x = omega, .y = each(g.sections, [](S s) { return s.areas.d; })},
-                                 {.name = "fixed bevel", .x = omega, .y = g.compare->filler_area,
-                                  .color = "#c0392b", .dashed = true}},
+                      .series = {{.name = "ours",
+                                  .x = omega,
+                                  .y = each(g.sections, [](S s) { return s.areas.d; })},
+                                 {.name = "fixed bevel",
+                                  .x = omega,
+                                  .y = g.compare->filler_area,
+                                  .color = "#c0392b",
+                                  .dashed = true}},
                       .y_from_zero = true});
   charts.push_back(section_chart(g));
   return print_charts(charts, job_line(caption));
 }
 
-std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g, const Caption& caption) {
+std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g,
+                        const Caption& caption) {
   Mesh mesh{.name = "groove", .positions = {}, .colors = {}, .indices = {}};
   double worst = 1e-12;
   for (const auto& s : g.sections) worst = std::max(worst, std::abs(s.ruling.twist.rad()));
@@ -88,7 +103,8 @@ std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g, cons
   return print_gltf({mesh}, job_line(caption));
 }
 
-std::string mill_path_csv(const groove::MillPathSpec&, const groove::MillPath& path, const Caption&) {
+std::string mill_path_csv(const groove::MillPathSpec&, const groove::MillPath& path,
+                          const Caption&) {
   const auto& all = path.positions;
   return Csv()
       .degrees("omega_deg", each(all, [](P p) { return p.omega.rad(); }))
@@ -103,7 +119,8 @@ std::string mill_path_csv(const groove::MillPathSpec&, const groove::MillPath& p
       .print();
 }
 
-std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& path, const Caption& caption) {
+std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& path,
+                          const Caption& caption) {
   const auto& all = path.positions;
   const auto omega = each(all, [](P p) { return p.omega.deg(); });
   const auto um = [&](auto value) { return each(all, [&](P p) { return 1e3 * value(p); }); };
@@ -111,18 +128,27 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
       {{.title = "Before: overcut of the initial position",
         .x_label = "section omega, deg",
         .y_label = "um",
-        .series = {{.name = "overcut", .x = omega, .y = um([](P p) { return p.before.over; }), .color = "#c0392b"},
+        .series = {{.name = "overcut",
+                    .x = omega,
+                    .y = um([](P p) { return p.before.over; }),
+                    .color = "#c0392b"},
                    {.name = "undercut", .x = omega, .y = um([](P p) { return p.before.under; })}}},
        {.title = "After: what the optimised position leaves",
         .x_label = "section omega, deg",
         .y_label = "um",
-        .series = {{.name = "overcut", .x = omega, .y = um([](P p) { return p.after.over; }), .color = "#c0392b"},
+        .series = {{.name = "overcut",
+                    .x = omega,
+                    .y = um([](P p) { return p.after.over; }),
+                    .color = "#c0392b"},
                    {.name = "undercut", .x = omega, .y = um([](P p) { return p.after.under; })}}},
        {.title = "Axes X and Z",
         .x_label = "section omega, deg",
         .y_label = "mm",
         .series = {{.name = "X", .x = omega, .y = each(all, [](P p) { return p.at.x; })},
-                   {.name = "Z", .x = omega, .y = each(all, [](P p) { return p.at.z; }), .color = "#1e8449"}}},
+                   {.name = "Z",
+                    .x = omega,
+                    .y = each(all, [](P p) { return p.at.z; }),
+                    .color = "#1e8449"}}},
        {.title = "Axis B",
         .x_label = "section omega, deg",
         .y_label = "deg",
@@ -130,7 +156,8 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
       job_line(caption));
 }
 
-std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillPath& path, const Caption& caption) {
+std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillPath& path,
+                           const Caption& caption) {
   const auto joint = groove::joint_of(spec.groove);
   std::vector<Mesh> meshes{{.name = "before", .positions = {}, .colors = {}, .indices = {}},
                            {.name = "after", .positions = {}, .colors = {}, .indices = {}}};
@@ -142,7 +169,8 @@ std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillP
     across = p.after.gap.size();
     for (std::size_t k = 0; k < across; ++k) {
       const double v = static_cast<double>(k) / static_cast<double>(across - 1);
-      for (auto& mesh : meshes) mesh.positions.push_back(groove::surface_point(*joint, *section, v));
+      for (auto& mesh : meshes)
+        mesh.positions.push_back(groove::surface_point(*joint, *section, v));
       meshes[0].colors.push_back(diverging(-p.before.gap[k] / worst));
       meshes[1].colors.push_back(diverging(-p.after.gap[k] / worst));
     }

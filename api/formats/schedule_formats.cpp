@@ -41,7 +41,8 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
   const double radius = std::get<motion::Contour>(spec.cut).radius();
   constexpr std::size_t kMean = 25;  // periods, over which the rounding of pulses averages out
   for (std::size_t i = kMean; i < path->phi.size(); ++i) {
-    const double length = std::hypot(radius * (path->phi[i] - path->phi[i - kMean]), path->z[i] - path->z[i - kMean]);
+    const double length =
+        std::hypot(radius * (path->phi[i] - path->phi[i - kMean]), path->z[i] - path->z[i - kMean]);
     out.push_back(60.0 * length / (static_cast<double>(kMean) * s.period));
   }
   return out;
@@ -59,21 +60,31 @@ std::string schedule_csv(const motion::Schedule& schedule, const Caption&) {
   return csv.print();
 }
 
-std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedule& s, const Caption& caption) {
-  Chart pulses{.title = "Pulses per period of " + shown(s.period * 1e3) + " ms", .x_label = "time, s", .y_label = "pulses", .series = {}};
+std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedule& s,
+                         const Caption& caption) {
+  Chart pulses{.title = "Pulses per period of " + shown(s.period * 1e3) + " ms",
+               .x_label = "time, s",
+               .y_label = "pulses",
+               .series = {}};
   for (std::size_t a = 0; a < s.axes.size(); ++a) {
     if (s.axes[a].idle()) continue;
     const std::vector<double> counts(s.axes[a].counts.begin(), s.axes[a].counts.end());
-    pulses.series.push_back(thinned(s.axes[a].name, counts, s.period, kColors[a % std::size(kColors)]));
+    pulses.series.push_back(
+        thinned(s.axes[a].name, counts, s.period, kColors[a % std::size(kColors)]));
   }
   for (const auto& event : s.events)
-    pulses.marks.push_back({s.period * static_cast<double>(event.period), std::string(motion::name_of(event.what))});
+    pulses.marks.push_back(
+        {s.period * static_cast<double>(event.period), std::string(motion::name_of(event.what))});
   std::vector<Chart> charts{std::move(pulses)};
   if (std::holds_alternative<motion::Contour>(spec.cut)) {
-    Chart speed{.title = "Speed of the tip along the cut, mean of 25 periods", .x_label = "time, s", .y_label = "mm/min",
-                .series = {thinned("tip", tip_speed(spec, s), s.period, kColors[0])}, .y_from_zero = true};
+    Chart speed{.title = "Speed of the tip along the cut, mean of 25 periods",
+                .x_label = "time, s",
+                .y_label = "mm/min",
+                .series = {thinned("tip", tip_speed(spec, s), s.period, kColors[0])},
+                .y_from_zero = true};
     for (const auto& zone : s.report.slow)
-      speed.bands.push_back({s.period * static_cast<double>(zone.from), s.period * static_cast<double>(zone.to), "slow"});
+      speed.bands.push_back({s.period * static_cast<double>(zone.from),
+                             s.period * static_cast<double>(zone.to), "slow"});
     charts.push_back(std::move(speed));
   }
   return print_charts(charts, job_line(caption));

@@ -11,7 +11,7 @@ namespace tubecut::api {
 [[nodiscard]] std::string schedule_csv(const motion::Schedule& schedule, const Caption& caption);
 
 /// Pulses per period of every moving axis, and the tip's speed for cuts along a contour.
-[[nodiscard]] std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedule& schedule,
-                                       const Caption& caption);
+[[nodiscard]] std::string schedule_svg(const motion::ScheduleSpec& spec,
+                                       const motion::Schedule& schedule, const Caption& caption);
 
 }  // namespace tubecut::api

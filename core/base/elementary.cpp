@@ -1,14 +1,18 @@
 #include "core/base/elementary.hpp"
 
-#include <cmath>
 #include <sleef.h>
 
-// The two-lane SSE2 build returns the same bits as the portable one and is three times as fast (bench/core_bench.cpp).
+#include <cmath>
+
+// The two-lane SSE2 build returns the same bits as the portable one and is three times as fast
+// (bench/core_bench.cpp).
 #if defined(__SSE2__)
 #define TUBECUT_UNARY(name) \
   double name(double x) { return _mm_cvtsd_f64(Sleef_cinz_##name##d2_u10sse2(_mm_set1_pd(x))); }
-#define TUBECUT_BINARY(name) \
-  double name(double x, double y) { return _mm_cvtsd_f64(Sleef_cinz_##name##d2_u10sse2(_mm_set1_pd(x), _mm_set1_pd(y))); }
+#define TUBECUT_BINARY(name)                                                             \
+  double name(double x, double y) {                                                      \
+    return _mm_cvtsd_f64(Sleef_cinz_##name##d2_u10sse2(_mm_set1_pd(x), _mm_set1_pd(y))); \
+  }
 #else
 #define TUBECUT_UNARY(name) \
   double name(double x) { return Sleef_cinz_##name##d1_u10purec(x); }

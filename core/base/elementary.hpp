@@ -2,9 +2,9 @@
 
 /// The one door of core to the transcendental functions.
 ///
-/// Results are bit-identical on every x86-64 and arm64 CPU: SLEEF's reproducible non-FMA variants (`cinz`), never the C
-/// library's, whose own CPU dispatch changes last bits. `std::sqrt`, `std::abs`, `std::floor` and the like are exact by
-/// IEEE 754 and are used directly.
+/// Results are bit-identical on every x86-64 and arm64 CPU: SLEEF's reproducible non-FMA variants
+/// (`cinz`), never the C library's, whose own CPU dispatch changes last bits. `std::sqrt`,
+/// `std::abs`, `std::floor` and the like are exact by IEEE 754 and are used directly.
 ///
 /// Accuracy  1 ulp (SLEEF u10) for each; `hypot` 1 ulp for arguments within 1e-150..1e150.
 namespace tubecut::elementary {

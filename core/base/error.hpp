@@ -19,8 +19,9 @@ using Intervals = std::vector<std::pair<double, double>>;
 /// A value shown to the caller: what was got, or what the limit is.
 using Shown = std::variant<std::monostate, double, std::string, Intervals>;
 
-/// One thing that is wrong. `member` is a path in core's own names, such as "cutters/1/offset" (empty: the whole request);
-/// the api maps it to the wire's pointer. `got` and `limit` are in `unit` (wire units: mm, deg, s).
+/// One thing that is wrong. `member` is a path in core's own names, such as "cutters/1/offset"
+/// (empty: the whole request); the api maps it to the wire's pointer. `got` and `limit` are in
+/// `unit` (wire units: mm, deg, s).
 struct Issue {
   ErrorCode code = ErrorCode::internal_error;
   std::string member = {};
@@ -34,7 +35,7 @@ struct Issue {
 struct Error {
   std::vector<Issue> issues;
 
-  Error(Issue issue) : issues{std::move(issue)} {}                            // NOLINT(google-explicit-constructor)
+  Error(Issue issue) : issues{std::move(issue)} {}  // NOLINT(google-explicit-constructor)
   explicit Error(std::vector<Issue> all) : issues(std::move(all)) {}
   [[nodiscard]] ErrorCode code() const { return issues.front().code; }
 };
@@ -42,8 +43,11 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// Shorthand for returning an error: `return fail({.code = ErrorCode::no_contact, .member = "cutters"});`
-[[nodiscard]] inline tl::unexpected<Error> fail(Issue issue) { return tl::unexpected<Error>(Error{std::move(issue)}); }
+/// Shorthand for returning an error: `return fail({.code = ErrorCode::no_contact, .member =
+/// "cutters"});`
+[[nodiscard]] inline tl::unexpected<Error> fail(Issue issue) {
+  return tl::unexpected<Error>(Error{std::move(issue)});
+}
 
 /// Something the caller should know about an answer that stands. `member` as in `Issue`.
 struct Warning {

@@ -9,7 +9,8 @@
 namespace tubecut::bevel {
 namespace {
 
-constexpr double kSteep = 3.0;  // tan gamma from which the plane's formula is held against the disc's
+constexpr double kSteep =
+    3.0;  // tan gamma from which the plane's formula is held against the disc's
 
 /// Lowest z of the curve within `reach` (rad) of node i, both ends of the stretch included.
 double lowest_near(const joint::Contour& contour, const std::vector<joint::Node>& nodes,
@@ -45,7 +46,8 @@ std::vector<double> kerf_drops(const joint::Contour& contour, const joint::Sampl
   if (kerf == 0.0) return out;
   for (std::size_t i = 0; i < b.size(); ++i) {
     const double tan_b = elementary::tan(b[i]);
-    const double cos_gamma = std::max(elementary::cos(gamma[i]), std::numeric_limits<double>::min());
+    const double cos_gamma =
+        std::max(elementary::cos(gamma[i]), std::numeric_limits<double>::min());
     const double tan_gamma = elementary::sin(gamma[i]) / cos_gamma;
     const double plane = half * elementary::hypot(1.0, tan_b, tan_gamma);
     out[i] = plane;

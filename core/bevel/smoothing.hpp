@@ -63,10 +63,10 @@ struct EnvelopeSpec {
 /// difference| <= A, f <= highest, area near the least possible. Always feasible.
 ///
 /// Accuracy  f >= B and f <= highest exactly; slope within 1e-9 K + 4 eps max|f| / h_min, second
-///           within 1e-6 A + 8 eps max|f| / h_min^2 (10 000 hostile profiles). Refined area over the
-///           least possible, 1000 random real nodes at 5 deg/mm, 1 deg/mm^2: median 1.0004, one above
-///           1.01 (1.0235). A node further than (max B - min B)/K + 4K/A from every node where B
-///           itself breaks a limit keeps its bits.
+///           within 1e-6 A + 8 eps max|f| / h_min^2 (10 000 hostile profiles). Refined area over
+///           the least possible, 1000 random real nodes at 5 deg/mm, 1 deg/mm^2: median 1.0004, one
+///           above 1.01 (1.0235). A node further than (max B - min B)/K + 4K/A from every node
+///           where B itself breaks a limit keeps its bits.
 /// Errors    wrong_count, not_finite, out_of_range (order, period, limits, a B above `highest`),
 ///           cancelled.
 /// Cost      linear; `refine` at most some 1000 visits to each node, after which the search stays

@@ -53,8 +53,13 @@ Result<Ground> ground(const TableSpec& spec) {
   const bool outer = spec.root_surface == RootSurface::outer;
   auto root = joint::trace(*cutters, outer ? wall.outer : wall.inner);
   if (!root) return tl::unexpected(root.error());
-  Ground out{.spec = spec, .cutters = *std::move(cutters), .root = *std::move(root), .inner = {},
-             .other_events = {}, .wall = wall, .rule = Rule(spec.groove, spec.dihedral)};
+  Ground out{.spec = spec,
+             .cutters = *std::move(cutters),
+             .root = *std::move(root),
+             .inner = {},
+             .other_events = {},
+             .wall = wall,
+             .rule = Rule(spec.groove, spec.dihedral)};
   out.other_events = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer).events;
   if (outer) {
     auto inner = joint::trace(out.cutters, wall.inner);
@@ -93,13 +98,12 @@ void stand_on_face(const Ground& g, double phi, double z, Point& out) {
                                 joint::generator_at(edge, phi), z + g.spec.root_face * slope);
 }
 
-Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutter,
-            double root_z) {
+Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutter, double root_z) {
   const auto line = joint::generator_at(g.root.radius, phi);
   Point out{.cutter = cutter};
   const bool published = g.spec.dihedral == Dihedral::as_published;
-  out.angles = g.rule.angles(published ? joint::published_normal(g.root.cutters[cutter], line)
-                                       : hit.normal);
+  out.angles =
+      g.rule.angles(published ? joint::published_normal(g.root.cutters[cutter], line) : hit.normal);
   const auto& torch = g.spec.torch;
   out.raw = std::clamp(out.angles.b, torch.min.rad(), torch.max.rad());
   const double z = g.inner ? joint::contact_at(*g.inner, phi).z : root_z;
@@ -126,7 +130,8 @@ bool jump_pair(const std::vector<joint::Node>& nodes, std::size_t i) {
          nodes[i + 1].kind == joint::NodeKind::jump && nodes[i].phi == nodes[i + 1].phi;
 }
 
-/// Runs of nodes (cyclic) that satisfy `holds`, as phi intervals; one that crosses 0 ends above 2 pi.
+/// Runs of nodes (cyclic) that satisfy `holds`, as phi intervals; one that crosses 0 ends above 2
+/// pi.
 template <class F>
 std::vector<std::pair<double, double>> runs(const std::vector<joint::Node>& nodes, F holds) {
   std::vector<std::pair<double, double>> out;
@@ -187,7 +192,8 @@ Path path(const Ground& g, const joint::Samples& samples, const std::vector<Poin
 std::vector<std::size_t> junction_steps(const Ground& g, std::size_t n) {
   std::vector<std::size_t> out;
   for (const auto& event : g.root.events)
-    out.push_back(std::min(n - 1, static_cast<std::size_t>(event.phi / kTwoPi * static_cast<double>(n))));
+    out.push_back(
+        std::min(n - 1, static_cast<std::size_t>(event.phi / kTwoPi * static_cast<double>(n))));
   return out;
 }
 
@@ -226,10 +232,10 @@ Result<std::vector<double>> smooth(const Ground& g, const joint::Samples& sample
   if (const auto* method = std::get_if<HermiteSmoothing>(&g.spec.smoothing))
     return smooth_hermite(g, samples, p, *method, out, stop);
   if (const auto* method = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing))
-    return envelope(p.profile,
-                    {.limits = method->limits, .highest = g.spec.torch.max.rad(),
-                     .refine = method->refine},
-                    stop);
+    return envelope(
+        p.profile,
+        {.limits = method->limits, .highest = g.spec.torch.max.rad(), .refine = method->refine},
+        stop);
   return p.profile.b;
 }
 
@@ -275,12 +281,13 @@ Result<void> check_smoothed(const Ground& g, const joint::Samples& samples,
     return g.spec.contact == Contact::inner && out.b[i] < points[i].required - kBelow;
   });
   if (!enters.empty())
-    return fail({.code = ErrorCode::smoothing_enters,
-                 .member = "smoothing/method",
-                 .got = degrees(enters),
-                 .limit = "b_required_deg",
-                 .unit = "deg",
-                 .hint = "at these phi the smoothed bevel lies below what keeps partners out of the wall"});
+    return fail(
+        {.code = ErrorCode::smoothing_enters,
+         .member = "smoothing/method",
+         .got = degrees(enters),
+         .limit = "b_required_deg",
+         .unit = "deg",
+         .hint = "at these phi the smoothed bevel lies below what keeps partners out of the wall"});
   double worst = 0.0, at = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -296,8 +303,8 @@ Result<void> check_smoothed(const Ground& g, const joint::Samples& samples,
     out.warnings.push_back({.code = WarningCode::smoothed_below_raw,
                             .member = "smoothing/method",
                             .detail = "by up to " + brief(worst * kDegPerRad) + " deg at phi " +
-                                      brief(at * kDegPerRad) + " deg, at " +
-                                      std::to_string(count) + " points"});
+                                      brief(at * kDegPerRad) + " deg, at " + std::to_string(count) +
+                                      " points"});
   return {};
 }
 
@@ -322,7 +329,8 @@ void note_torch_binds(const Ground& g, const joint::Samples& samples,
         {.code = WarningCode::torch_range_binds,
          .member = "torch",
          .detail = "phi " + brief(from * kDegPerRad) + " to " + brief(to * kDegPerRad) +
-                   " deg, up to " + brief(binding.groove_lost * kDegPerRad) + " deg of groove lost" +
+                   " deg, up to " + brief(binding.groove_lost * kDegPerRad) +
+                   " deg of groove lost" +
                    (lifted ? ", root open up to " + brief(binding.root_gap) + " mm" : "")});
   }
 }
@@ -382,15 +390,15 @@ void fill_angles(const joint::Samples& samples, const std::vector<Point>& points
   }
 }
 
-/// Height at which a cut of this slope just touches, at one node. A partner that is lost here at its
-/// silhouette, all across the wall, does not hold the lower of the jump's two nodes.
+/// Height at which a cut of this slope just touches, at one node. A partner that is lost here at
+/// its silhouette, all across the wall, does not hold the lower of the jump's two nodes.
 double lift_at(const Ground& g, const std::vector<joint::Node>& nodes, std::size_t i,
                double slope) {
   const auto line = joint::generator_at(g.wall.inner, nodes[i].phi);
   const bool first = jump_pair(nodes, i);
   const auto pair = first ? i + 1 : i - 1;
-  const bool lower = nodes[i].kind == joint::NodeKind::jump && pair < nodes.size() &&
-                     nodes[i].z < nodes[pair].z;
+  const bool lower =
+      nodes[i].kind == joint::NodeKind::jump && pair < nodes.size() && nodes[i].z < nodes[pair].z;
   if (!lower) return lift(g.root.cutters, g.wall, line, slope);
   constexpr double kBeside = 1e-9;  // rad
   const double beside = nodes[i].phi + (first ? -kBeside : kBeside);
@@ -438,9 +446,8 @@ Result<void> check_clearance(const Ground& g, const joint::Samples& samples, con
   std::vector<double> depth;
   for (std::size_t i = 0; i < out.b.size(); ++i)
     depth.push_back(lift_at(g, samples.nodes, i, elementary::tan(out.b[i])) - out.z_inner[i]);
-  auto intervals = runs(samples.nodes, [&](std::size_t i) {
-    return depth[i] > kEnters * g.wall.outer;
-  });
+  auto intervals =
+      runs(samples.nodes, [&](std::size_t i) { return depth[i] > kEnters * g.wall.outer; });
   if (intervals.empty()) return {};
   return fail({.code = ErrorCode::cut_enters,
                .member = "contact",
@@ -457,17 +464,16 @@ Result<void> fill_zones(const TableSpec& spec, const joint::Samples& samples, Ta
   if (zoned == nullptr) return {};
   const Zones zones(*zoned);
   for (const double dihedral : out.dihedral) out.zone.push_back(zones.at(dihedral).zone);
-  auto missing = runs(samples.nodes, [&](std::size_t i) {
-    return !zones.at(out.dihedral[i]).inside;
-  });
+  auto missing =
+      runs(samples.nodes, [&](std::size_t i) { return !zones.at(out.dihedral[i]).inside; });
   if (missing.empty()) return {};
   const auto [low, high] = std::ranges::minmax(out.dihedral);
   return fail({.code = ErrorCode::out_of_range,
                .member = "groove/zones",
                .got = degrees(std::move(missing)),
                .unit = "deg",
-               .hint = "no zone for the dihedral there; this joint has " +
-                       shown(low * kDegPerRad) + " to " + shown(high * kDegPerRad) + " deg"});
+               .hint = "no zone for the dihedral there; this joint has " + shown(low * kDegPerRad) +
+                       " to " + shown(high * kDegPerRad) + " deg"});
 }
 
 void note_root_opens(const TableSpec& spec, Table& out) {
@@ -563,6 +569,14 @@ Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
     } else if (auto* plane = std::get_if<joint::PlaneCutter>(&cutter)) {
       const double up = plane->normal.z() < 0.0 ? -1.0 : 1.0;
       plane->point += up * by * plane->normal.normalized();
+    } else if (auto* box = std::get_if<joint::BoxCutter>(&cutter)) {
+      box->width += 2.0 * by;
+      box->height += 2.0 * by;
+      box->corner += by;
+    } else if (auto* cone = std::get_if<joint::ConeCutter>(&cutter)) {
+      cone->radius += by / elementary::cos(cone->half_angle.rad());
+    } else if (auto* elbow = std::get_if<joint::ElbowCutter>(&cutter)) {
+      elbow->radius += by;
     }
   }
   return cutters;

@@ -50,7 +50,8 @@ struct TableSpec {
   double kerf = 0.0;
   TorchRange torch;
   Smoothing smoothing;
-  Angle mutation_limit = Angle::deg(10);  // steps of the smoother's input above it are listed, with every method
+  Angle mutation_limit =
+      Angle::deg(10);  // steps of the smoother's input above it are listed, with every method
 };
 
 /// The table, one entry per node, ascending phi; two nodes at a jump. Angles in rad, lengths in mm.
@@ -61,11 +62,12 @@ struct Table {
   std::vector<double> z_face, b_face;    // outer edge and elevation of the land; empty without one
   std::vector<std::size_t> zone;         // of the groove rule's table; empty without one
   std::vector<double> dihedral, groove, tau, gamma, flush;
-  std::vector<double> b_raw, b_required, b;  // rule within the torch range; least that keeps partners out; the cut
-  std::vector<double> gap;                   // root opening: z_inner less the envelope on the inner wall
-  std::vector<double> beam;                  // metal along the torch line
+  std::vector<double> b_raw, b_required,
+      b;                     // rule within the torch range; least that keeps partners out; the cut
+  std::vector<double> gap;   // root opening: z_inner less the envelope on the inner wall
+  std::vector<double> beam;  // metal along the torch line
   std::vector<double> torch_inner, torch_outer;  // the torch axis, kerf applied
-  bool inward = false;                       // B counts as published: positive = elevation seen inwards
+  bool inward = false;  // B counts as published: positive = elevation seen inwards
   std::vector<joint::Event> inner_events, outer_events;
   struct Step {
     double phi, step;
@@ -74,42 +76,47 @@ struct Table {
   struct Window {
     double phi, step;
     bool kept_before;
-    double from, to;                     // phi
-    double slope_start, slope_end;       // rad/mm
+    double from, to;                // phi
+    double slope_start, slope_end;  // rad/mm
   };
   std::vector<Window> windows;
   struct Binding {
-    double from, to;       // phi
-    double groove_lost;    // largest angle by which the bevel was cut back
-    double root_gap;       // largest root opening there, mm
+    double from, to;     // phi
+    double groove_lost;  // largest angle by which the bevel was cut back
+    double root_gap;     // largest root opening there, mm
   };
   std::vector<Binding> torch_binds;
   double length_total = 0.0, developed_total = 0.0;
   std::vector<Warning> warnings;
 };
 
-/// The bevel table of one cut end: contour, angles, contact, smoothing, finished surface and torch line.
+/// The bevel table of one cut end: contour, angles, contact, smoothing, finished surface and torch
+/// line.
 ///
-/// Contact inner: the root's inner edge lies on the partners' envelope at the inner wall, and B is at
-/// least what keeps every partner out. Contact automatic: the cut is lifted until it just touches;
-/// B is the same but for the torch's range, so that the root opens (`gap`) only where the torch
-/// binds; with the square rule B is 0. Contact outer: the outer edge lies on the envelope at the outer wall.
+/// Contact inner: the root's inner edge lies on the partners' envelope at the inner wall, and B is
+/// at least what keeps every partner out. Contact automatic: the cut is lifted until it just
+/// touches; B is the same but for the torch's range, so that the root opens (`gap`) only where the
+/// torch binds; with the square rule B is 0. Contact outer: the outer edge lies on the envelope at
+/// the outer wall.
 ///
 /// Partners count as grown by coating + root_gap, so the cut stays that far off their metal; gap is
 /// what opens beyond that. A root face of height f is a land from the inner edge to the radius
 /// r_in + f, square to the axis, or as steep as a partner makes it; the bevel begins at its outer
 /// edge, and `torch_*` is the bevel's line.
 ///
-/// Frame   z along the target from the cut end into the kept member, phi from x towards y; B > 0: outer edge further into the part.
-/// Errors  open_profile, no_contact, parallel_axes, member_consumed, torch_range, sampling_not_uniform, smoothing_not_converged,
-///         smoothing_enters, cut_enters (contact outer), out_of_range (groove/zones, root_face), transition_too_long, unsupported_combination, too_many_nodes, cancelled.
+/// Frame   z along the target from the cut end into the kept member, phi from x towards y; B > 0:
+/// outer edge further into the part. Errors  open_profile, no_contact, parallel_axes,
+/// member_consumed, torch_range, sampling_not_uniform, smoothing_not_converged,
+///         smoothing_enters, cut_enters (contact outer), out_of_range (groove/zones, root_face),
+///         transition_too_long, unsupported_combination, too_many_nodes, cancelled.
 /// Source  docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
 [[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
 
 /// The partners as the cut must see them: grown by coating and root gap.
 [[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
 
-/// The table proved from its own numbers by other formulas: 3D distances, normals from gradients, half tangents.
+/// The table proved from its own numbers by other formulas: 3D distances, normals from gradients,
+/// half tangents.
 [[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table);
 
 }  // namespace tubecut::bevel

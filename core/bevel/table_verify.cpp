@@ -1,12 +1,12 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-
 #include "core/base/elementary.hpp"
 #include "core/bevel/table.hpp"
 #include "core/joint/solid.hpp"
+#include "core/math/search.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 constexpr double kAngle = 1e-9;        // deg
 constexpr double kPlane = 1e-9;        // sine of the angle between line and plane
 constexpr double kPenetration = 1e-6;  // mm
-constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
+constexpr int kAlongBend = 24;
+constexpr double kSilhouette = 1e-5;  // axial part of the normal below which angles lose digits
 
 /// One row seen in 3D, from the table's own z and the partner as a solid.
 struct Row {
@@ -103,25 +104,35 @@ void steepness_checks(const EnvelopeSmoothing& method, const Table& t, std::vect
   out.push_back({"slope", slope * kDegPerRad,
                  (limits.slope * (1.0 + 1e-9) + 4.0 * kEps * highest / narrow) * kDegPerRad,
                  "deg_per_mm"});
-  out.push_back({"second_difference", second * kDegPerRad,
-                 (limits.curvature * (1.0 + 1e-6) + 8.0 * kEps * highest / (narrow * narrow)) *
-                     kDegPerRad,
-                 "deg_per_mm2"});
+  out.push_back(
+      {"second_difference", second * kDegPerRad,
+       (limits.curvature * (1.0 + 1e-6) + 8.0 * kEps * highest / (narrow * narrow)) * kDegPerRad,
+       "deg_per_mm2"});
 }
 
 /// Least signed distance of a straight cut from `a` to `b` to a partner. Along a line the squared
-/// distance to a tube's axis is a parabola, given by three of its points.
+/// distance to a tube's axis is a parabola, given by three of its points; the distance to another
+/// convex partner has one least value; to an elbow it is looked for on a grid.
 double least_distance(const joint::Solid& solid, const Vector3d& a, const Vector3d& b) {
   const double ends[] = {solid.distance(a), solid.distance(0.5 * (a + b)), solid.distance(b)};
-  double least = std::min({ends[0], ends[1], ends[2]});
+  const double least = std::min({ends[0], ends[1], ends[2]});
+  const auto near = [&](double share) { return -solid.distance(a + share * (b - a)); };
+  if (solid.shape() == joint::Solid::Shape::convex)
+    return std::min(least, -math::golden_maximum(near, 0.0, 1.0).value);
+  if (solid.shape() == joint::Solid::Shape::bent) {
+    std::vector<double> grid, sampled;
+    for (int k = 0; k <= kAlongBend; ++k) {
+      grid.push_back(static_cast<double>(k) / kAlongBend);
+      sampled.push_back(near(grid.back()));
+    }
+    return std::min(least, -math::grid_maximum(near, grid, sampled).value);
+  }
   const auto square = [&](double d) { return (d + solid.radius()) * (d + solid.radius()); };
   const double low = square(ends[0]), mid = square(ends[1]), high = square(ends[2]);
   const double bend = 2.0 * (low - 2.0 * mid + high);
-  if (solid.radius() > 0.0 && bend > 0.0) {
-    const double share = std::clamp((3.0 * low - 4.0 * mid + high) / (2.0 * bend), 0.0, 1.0);
-    least = std::min(least, solid.distance(a + share * (b - a)));
-  }
-  return least;
+  if (!(solid.radius() > 0.0 && bend > 0.0)) return least;
+  const double share = std::clamp((3.0 * low - 4.0 * mid + high) / (2.0 * bend), 0.0, 1.0);
+  return std::min(least, -near(share));
 }
 
 /// How far the cut of row i stays from the nearest partner, mm; negative: it enters.
@@ -154,9 +165,10 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
   for (std::size_t i = 0; i < t.b.size(); ++i) {
     const auto r = row(spec, t, solids, i);
     const bool steep = std::abs(r.axial_normal) < kSilhouette;
-    // Near a silhouette, at the limit of the torch, and with the paper's own gamma there is no such plane.
-    const double cut_back = std::min(t.b_raw[i] - spec.torch.min.rad(),
-                                     spec.torch.max.rad() - t.b_raw[i]);
+    // Near a silhouette, at the limit of the torch, and with the paper's own gamma there is no such
+    // plane.
+    const double cut_back =
+        std::min(t.b_raw[i] - spec.torch.min.rad(), spec.torch.max.rad() - t.b_raw[i]);
     if (!steep) dihedral = std::max(dihedral, dihedral_error(spec, t, r, i));
     if (!steep && !published && !square && cut_back > 1e-9)
       plane = std::max(plane, plane_error(spec, t, r, i));

@@ -36,7 +36,8 @@ Zones::At Zones::at(double dihedral) const {
     const double share = std::clamp((dihedral - row.from) / (row.to - row.from), 0.0, 1.0);
     return row.groove_from + share * (row.groove_to - row.groove_from);
   };
-  const bool inside = dihedral >= rows_.front().from - kRound && dihedral <= rows_.back().to + kRound;
+  const bool inside =
+      dihedral >= rows_.front().from - kRound && dihedral <= rows_.back().to + kRound;
   std::size_t k = 0;
   while (k + 1 < rows_.size() && dihedral >= rows_[k].band_to) ++k;
   const auto& row = rows_[k];
@@ -67,8 +68,7 @@ Result<void> check_zones(const ZonedGroove& table) {
     if (from < band_to)
       return bad(order[k], "its transition meets that of " + last.id + " and the zone before");
     band_to = last.dihedral_to.rad() + table.overlap.rad() / 2.0;
-    if (zone.dihedral_to.rad() < band_to)
-      return bad(order[k], "it ends within its own transition");
+    if (zone.dihedral_to.rad() < band_to) return bad(order[k], "it ends within its own transition");
   }
   return {};
 }

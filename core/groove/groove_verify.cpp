@@ -8,6 +8,7 @@
 #include "core/groove/groove.hpp"
 #include "core/groove/groove_limits.hpp"
 #include "core/groove/survey.hpp"
+#include "core/math/rotation.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -28,7 +29,7 @@ class Worst {
 };
 
 Vector3d in_space(Angle omega, const Vector2d& point) {
-  return Eigen::AngleAxisd(omega.rad(), Vector3d::UnitZ()) * Vector3d(0.0, point.x(), point.y());
+  return math::turn_about_z(omega.rad()) * Vector3d(0.0, point.x(), point.y());
 }
 
 /// The chord as a line in space; everything about it is found by vectors.

@@ -1,7 +1,6 @@
 #include "core/groove/joint.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -143,13 +142,7 @@ Joint dimensions(const GrooveSpec& spec) {
 
 }  // namespace
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-std::string degrees_text(Angle angle) { return number_text(angle.deg()) + " deg"; }
+std::string degrees_text(Angle angle) { return brief(angle.deg()) + " deg"; }
 
 Result<Joint> joint_of(const GrooveSpec& spec) {
   if (auto issues = field_issues(spec); !issues.empty())

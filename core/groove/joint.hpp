@@ -87,6 +87,5 @@ inline constexpr int kMaxSections = 20000;
 
 /// An angle as degrees with enough digits for a message.
 [[nodiscard]] std::string degrees_text(Angle angle);
-[[nodiscard]] std::string number_text(double value);
 
 }  // namespace tubecut::groove

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/groove/mill_path.hpp"
+#include "core/math/rotation.hpp"
 
 namespace tubecut::groove {
 
@@ -25,14 +26,11 @@ class Machine {
   }
 
   [[nodiscard]] Tool tool(const AxisPosition& at) const {
-    const Eigen::Vector3d axis =
-        Eigen::AngleAxisd(at.b.rad(), Eigen::Vector3d::UnitY()) * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d axis = math::turn_about_y(at.b.rad()) * Eigen::Vector3d::UnitZ();
     return {Eigen::Vector3d(at.x, 0.0, at.z) - spec_.setup.pivot_length * axis, axis};
   }
   [[nodiscard]] Eigen::Matrix3d table(Angle c) const {
-    return Eigen::AngleAxisd((c - spec_.setup.c_zero).rad(), Eigen::Vector3d::UnitZ())
-               .toRotationMatrix() *
-           lying_;
+    return math::turn_about_z((c - spec_.setup.c_zero).rad()) * lying_;
   }
   [[nodiscard]] Eigen::Vector3d lift() const { return {0.0, 0.0, spec_.setup.z_zero}; }
   /// The axes without the optimisation's part.

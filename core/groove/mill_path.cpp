@@ -72,7 +72,7 @@ std::vector<Warning> path_warnings(const MillPathSpec& spec, const MillPath& pat
   const Extreme& root = path.swept.root_face_min;
   if (root.value < kRootFaceCut)
     out.push_back({WarningCode::root_face_cut, "optimise/hold",
-                   number_text(-root.value) + " mm deep at omega " + degrees_text(root.omega)});
+                   brief(-root.value) + " mm deep at omega " + degrees_text(root.omega)});
   const auto outside = [&](const MillPosition& p) { return p.after.largest >= spec.check.qualify; };
   const auto count = std::count_if(path.positions.begin(), path.positions.end(), outside);
   if (count > 0) {

@@ -9,11 +9,11 @@
 #include "core/groove/mill_limits.hpp"
 #include "core/groove/mill_path.hpp"
 #include "core/groove/surface.hpp"
+#include "core/math/rotation.hpp"
 
 namespace tubecut::groove {
 namespace {
 
-using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -217,14 +217,13 @@ class Verifier {
     const double dir = spec_.setup.direction;
     const Vector3d along = dir * (edge - root).normalized();
     const double kappa = spec_.mill.half_angle.rad();
-    const AngleAxisd lean(sg * dir * kappa, Vector3d::UnitY());
-    const Vector3d axis = lean * along,
-                   across = AngleAxisd(0.5 * sg * dir * kPi, Vector3d::UnitY()) * axis;
+    const Vector3d axis = math::turn_about_y(sg * dir * kappa) * along,
+                   across = math::turn_about_y(0.5 * sg * dir * kPi) * axis;
     const double before = dir > 0
                               ? spec_.setup.overrun
                               : spec_.mill.length / elementary::cos(kappa) - spec_.setup.overrun;
     Tool out{root - before * along + spec_.mill.tip_radius * across, axis};
-    const Vector3d turned = AngleAxisd(by.db, Vector3d::UnitY()) * axis;
+    const Vector3d turned = math::turn_about_y(by.db) * axis;
     if (spec_.optimise.hold == Hold::pivot) out.tip += spec_.setup.pivot_length * (axis - turned);
     out.tip.z() += by.dz;
     out.axis = turned;

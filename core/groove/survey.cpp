@@ -102,7 +102,7 @@ class Surveyor {
   [[nodiscard]] Issue issue() const {
     Issue out{.code = bad_->code, .member = "filler", .got = joint_.area, .unit = "mm2"};
     out.hint = "at omega " + degrees_text(bad_->section.omega) + " the groove height is " +
-               number_text(bad_->section.height) + " mm";
+               brief(bad_->section.height) + " mm";
     if (bad_->code == ErrorCode::p3_below_p1) out.limit = sums_.least_area;
     return out;
   }
@@ -120,8 +120,8 @@ class Surveyor {
     const double widest = joint_.branch_radius + std::abs(joint_.eccentricity);
     if (widest > joint_.chord_radius)
       out.push_back({WarningCode::branch_wider, "branch/outer_diameter",
-                     "branch radius plus eccentricity is " + number_text(widest) +
-                         " mm, the chord's radius " + number_text(joint_.chord_radius) + " mm"});
+                     "branch radius plus eccentricity is " + brief(widest) +
+                         " mm, the chord's radius " + brief(joint_.chord_radius) + " mm"});
     tell(angle_, WarningCode::groove_angle, "filler");
     return out;
   }

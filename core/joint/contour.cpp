@@ -47,13 +47,21 @@ Result<Contour> trace(std::span<const Cutter> cutters, double rho) {
                          " partners is met on the surface of radius " + brief(rho) + " mm"});
   auto division = divide(out.cutters, rho);
   if (!division.open.empty())
-    return fail({.code = ErrorCode::open_profile,
-                 .member = "cutters",
-                 .got = std::move(division.open),
-                 .limit = "a partner at every phi",
-                 .unit = "deg",
-                 .hint = "at these phi nothing is met on the surface of radius " + brief(rho) +
-                         " mm"});
+    return fail(
+        {.code = ErrorCode::open_profile,
+         .member = "cutters",
+         .got = std::move(division.open),
+         .limit = "a partner at every phi",
+         .unit = "deg",
+         .hint = "at these phi nothing is met on the surface of radius " + brief(rho) + " mm"});
+  if (division.hidden)
+    return fail(
+        {.code = ErrorCode::unsupported_combination,
+         .member = "cutters/" + std::to_string(division.hidden->cutter),
+         .got = division.hidden->phi * kDegPerRad,
+         .limit = "an elbow that does not hide itself",
+         .unit = "deg",
+         .hint = "the elbow's bend hides a lower part of the same elbow from the target here"});
   out.events = std::move(division.events);
   out.segments = std::move(division.segments);
   return out;

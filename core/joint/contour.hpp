@@ -23,7 +23,7 @@ struct Contour {
 ///
 /// Errors    wrong_count (no cutter), out_of_range, zero_length, parallel_axes (cutters/i...);
 ///           no_contact, open_profile (cutters; got = phi intervals in deg, one that crosses 0 ends
-///           above 360).
+///           above 360); unsupported_combination (an elbow that hides a part of itself; got = phi).
 /// Source    docs/theory/intersections-and-bevels.md, sections 1.2 and 3.
 [[nodiscard]] Result<Contour> trace(std::span<const Cutter> cutters, double rho);
 

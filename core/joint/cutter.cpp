@@ -6,12 +6,12 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/sheets.hpp"
 
 namespace tubecut::joint {
 namespace {
 
-constexpr double kTouch = 2.5e-13;  // relative; a quarter of what the answer's own proof allows
-constexpr double kCorner = 1e-9;    // relative width within which a tangency counts as a corner
+constexpr double kCorner = 1e-9;  // relative width within which a tangency counts as a corner
 
 /// The generator in the cutter's frame: u, v of the spec and the cutter's cross-section (X, S).
 struct Local {
@@ -116,6 +116,16 @@ Result<Prepared> prepare_plane(const PlaneCutter& plane, std::string_view member
   return PreparedPlane{plane.point.dot(n) / n.z(), -n.x() / n.z(), -n.y() / n.z(), n};
 }
 
+/// What each kind of partner does with a generator, one overload set.
+template <class Tube, class Plane, class Shape>
+auto by_kind(const Prepared& cutter, const Tube& tube, const Plane& plane, const Shape& shape) {
+  if (const auto* t = std::get_if<PreparedTube>(&cutter)) return tube(*t);
+  if (const auto* p = std::get_if<PreparedPlane>(&cutter)) return plane(*p);
+  if (const auto* b = std::get_if<PreparedBox>(&cutter)) return shape(*b);
+  if (const auto* c = std::get_if<PreparedCone>(&cutter)) return shape(*c);
+  return shape(std::get<PreparedElbow>(cutter));
+}
+
 }  // namespace
 
 Generator generator_at(double radius, double phi) {
@@ -125,50 +135,72 @@ Generator generator_at(double radius, double phi) {
 
 Result<Prepared> prepare(const Cutter& cutter, std::string_view member) {
   if (const auto* tube = std::get_if<TubeCutter>(&cutter)) return prepare_tube(*tube, member);
-  return prepare_plane(std::get<PlaneCutter>(cutter), member);
+  if (const auto* plane = std::get_if<PlaneCutter>(&cutter)) return prepare_plane(*plane, member);
+  if (const auto* box = std::get_if<BoxCutter>(&cutter)) return prepare_shape(*box, member);
+  if (const auto* cone = std::get_if<ConeCutter>(&cutter)) return prepare_shape(*cone, member);
+  return prepare_elbow(std::get<ElbowCutter>(cutter), member);
 }
 
 double sin_inclination(const Prepared& cutter) {
-  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) return tube->sin_inclination;
-  return std::get<PreparedPlane>(cutter).normal.z();
+  return by_kind(
+      cutter, [](const PreparedTube& t) { return t.sin_inclination; },
+      [](const PreparedPlane& p) { return p.normal.z(); },
+      [](const auto& shape) { return shape_sine(shape); });
 }
 
 std::optional<double> upper_sheet(const Prepared& cutter, const Generator& line) {
-  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) {
-    const auto p = local(*tube, line);
-    if (!touches(*tube, line, p)) return std::nullopt;
-    return sheet(*tube, p);
-  }
-  return level(std::get<PreparedPlane>(cutter), line);
+  using Top = std::optional<double>;
+  return by_kind(
+      cutter,
+      [&](const PreparedTube& t) {
+        const auto p = local(t, line);
+        return touches(t, line, p) ? Top(sheet(t, p)) : Top();
+      },
+      [&](const PreparedPlane& p) { return Top(level(p, line)); },
+      [&](const auto& shape) { return shape_top(shape, line); });
 }
 
 std::optional<Hit> hit(const Prepared& cutter, const Generator& line) {
-  if (const auto* tube = std::get_if<PreparedTube>(&cutter)) {
-    const auto p = local(*tube, line);
-    if (!touches(*tube, line, p)) return std::nullopt;
-    return tube_hit(*tube, p);
-  }
-  return plane_hit(std::get<PreparedPlane>(cutter), line);
+  using Found = std::optional<Hit>;
+  return by_kind(
+      cutter,
+      [&](const PreparedTube& t) {
+        const auto p = local(t, line);
+        return touches(t, line, p) ? Found(tube_hit(t, p)) : Found();
+      },
+      [&](const PreparedPlane& p) { return Found(plane_hit(p, line)); },
+      [&](const auto& shape) {
+        return shape_top(shape, line) ? Found(shape_hit(shape, line)) : Found();
+      });
 }
 
 double continued_sheet(const Prepared& cutter, const Generator& line) {
-  if (const auto* tube = std::get_if<PreparedTube>(&cutter))
-    return sheet(*tube, local(*tube, line));
-  return level(std::get<PreparedPlane>(cutter), line);
+  return by_kind(
+      cutter, [&](const PreparedTube& t) { return sheet(t, local(t, line)); },
+      [&](const PreparedPlane& p) { return level(p, line); },
+      [&](const auto& shape) {
+        const auto top = shape_top(shape, line);
+        return top ? *top : shape_touch(shape, line);
+      });
 }
 
 Hit continued_hit(const Prepared& cutter, const Generator& line) {
-  if (const auto* tube = std::get_if<PreparedTube>(&cutter))
-    return tube_hit(*tube, local(*tube, line));
-  return plane_hit(std::get<PreparedPlane>(cutter), line);
+  return by_kind(
+      cutter, [&](const PreparedTube& t) { return tube_hit(t, local(t, line)); },
+      [&](const PreparedPlane& p) { return plane_hit(p, line); },
+      [&](const auto& shape) { return shape_hit(shape, line); });
 }
 
 double silhouette_height(const Prepared& cutter, const Generator& line) {
-  const auto* tube = std::get_if<PreparedTube>(&cutter);
-  if (tube == nullptr) return level(std::get<PreparedPlane>(cutter), line);
-  auto p = local(*tube, line);
-  p.s = 0.0;
-  return sheet(*tube, p);
+  return by_kind(
+      cutter,
+      [&](const PreparedTube& t) {
+        auto p = local(t, line);
+        p.s = 0.0;
+        return sheet(t, p);
+      },
+      [&](const PreparedPlane& p) { return level(p, line); },
+      [&](const auto& shape) { return shape_touch(shape, line); });
 }
 
 // With d the distance in phi from the corner, S = sqrt(r rho) |d| and X = +-(r - rho d^2 / 2); the
@@ -193,7 +225,7 @@ Hit hit_at_corner(const Prepared& cutter, const Generator& line, Side side) {
 
 Eigen::Vector3d published_normal(const Prepared& cutter, const Generator& line) {
   const auto* tube = std::get_if<PreparedTube>(&cutter);
-  if (tube == nullptr) return plane_hit(std::get<PreparedPlane>(cutter), line).normal;
+  if (tube == nullptr) return continued_hit(cutter, line).normal;
   const auto p = local(*tube, line);
   const double cos_theta = clamped_cosine(*tube, p);
   auto n = normal(*tube, p, cos_theta, p.s / tube->radius);
@@ -206,8 +238,20 @@ bool is_tangent(const PreparedTube& tube, double rho) {
 }
 
 bool misses(const Prepared& cutter, double rho) {
-  const auto* tube = std::get_if<PreparedTube>(&cutter);
-  return tube != nullptr && std::abs(tube->offset) >= tube->radius + rho;
+  return by_kind(
+      cutter, [&](const PreparedTube& t) { return std::abs(t.offset) >= t.radius + rho; },
+      [](const PreparedPlane&) { return false; },
+      [&](const auto&) {
+        // Between two neighbouring silhouettes all generators hit or all miss.
+        auto phases = silhouettes(cutter, rho);
+        if (phases.empty()) return !upper_sheet(cutter, generator_at(rho, 0.5)).has_value();
+        std::ranges::sort(phases);
+        phases.push_back(phases.front() + kTwoPi);
+        for (std::size_t k = 0; k + 1 < phases.size(); ++k)
+          if (upper_sheet(cutter, generator_at(rho, 0.5 * (phases[k] + phases[k + 1]))))
+            return false;
+        return true;
+      });
 }
 
 std::optional<double> upper_sheet(const Cutter& cutter, double rho, Angle phi) {

@@ -7,11 +7,11 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
+#include "core/joint/elbow.hpp"
+#include "core/joint/generator.hpp"
+#include "core/joint/shape.hpp"
 
 namespace tubecut::joint {
-
-/// sin(inclination) below which a partner counts as parallel to the target: 5.73e-5 deg.
-inline constexpr double kParallel = 1e-6;
 
 /// A round partner of the target, an infinite cylinder. Lengths in mm.
 /// Frame: z along the target axis from the cut end into the kept member, phi from x towards y.
@@ -30,27 +30,7 @@ struct PlaneCutter {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // any length > 0; turned so that its z is > 0
 };
 
-using Cutter = std::variant<TubeCutter, PlaneCutter>;
-
-/// A straight line on the target, parallel to its axis, with the one sine and cosine all cutters
-/// share.
-struct Generator {
-  double radius = 0.0;  // rho > 0, of the target surface
-  double cos_phi = 1.0;
-  double sin_phi = 0.0;
-};
-[[nodiscard]] Generator generator_at(double radius, double phi);
-
-/// Where a generator of the target leaves a cutter upwards. `normal` is the cutter's outward unit
-/// normal as (radial, tangential, axial) of the target. At a silhouette its axial part is 0 and
-/// the derivatives are infinite.
-struct Hit {
-  double z = 0.0;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  double z_dphi = 0.0;   // dz/dphi at constant radius, mm/rad
-  double z_dphi2 = 0.0;  // d2z/dphi2, mm/rad^2
-  double axial = 0.0;    // w, along the cutter's axis from the common perpendicular (plane: 0)
-};
+using Cutter = std::variant<TubeCutter, PlaneCutter, BoxCutter, ConeCutter, ElbowCutter>;
 
 /// Cutters with the sines and cosines of their own angles taken once. Made by `prepare`.
 struct PreparedTube {
@@ -63,7 +43,8 @@ struct PreparedPlane {
   double slope_x, slope_y;  // z = height + slope_x x + slope_y y
   Eigen::Vector3d normal;   // unit, z > 0, in the target frame
 };
-using Prepared = std::variant<PreparedTube, PreparedPlane>;
+using Prepared =
+    std::variant<PreparedTube, PreparedPlane, PreparedBox, PreparedCone, PreparedElbow>;
 
 /// Checks one cutter and takes its angles' sines and cosines; `member` names it in errors.
 /// Errors    out_of_range (radius), zero_length (normal), parallel_axes (sine of the angle between

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/sheets.hpp"
 #include "core/joint/trig_roots.hpp"
+#include "core/math/search.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -14,36 +17,20 @@ constexpr double kSamePhase = 1e-11;  // rad; closer candidates are one
 constexpr double kSameCurve = 1e-13;  // relative; rounding of two descriptions of one curve
 constexpr double kContinuous = 1e-7;  // relative; noise of z at a silhouette is its square root
 constexpr std::array kBrackets = {1e-9, 1e-7, 1e-5, 1e-4, 1e-3};  // rad
+constexpr std::size_t kScan = 1440;
+constexpr double kLeap = 0.02;      // relative; a difference between scanned phases worth a look
+constexpr double kJump = 1e-4;      // relative; what a continuous curve cannot do within 1e-15 rad
+constexpr double kBeside = 1e-9;    // rad
 constexpr double kTouching = 1e-6;  // relative; kept without a sign change
 
-/// z = mid +- sqrt(square): both sheets of one cutter around the target. A plane has square 0.
-struct Sheets {
-  Trig<1> mid;
-  Trig<2> square;
-  double size;  // a length the rounding of z is proportional to
-  bool curved;
-};
-
-Sheets sheets(const Prepared& cutter, double rho) {
-  if (const auto* plane = std::get_if<PreparedPlane>(&cutter)) {
-    const double x = rho * plane->slope_x;
-    const double y = rho * plane->slope_y;
-    return {Trig<1>::first_order(plane->height, x, y), {}, rho + std::abs(x) + std::abs(y), false};
-  }
-  const auto& t = std::get<PreparedTube>(cutter);
-  const double tilt = rho * t.cos_inclination / t.sin_inclination;
-  const auto across = Trig<1>::first_order(t.offset, rho * t.cos_clocking, rho * t.sin_clocking);
-  const auto radius = Trig<1>::first_order(t.radius, 0.0, 0.0);
-  const double scale = 1.0 / (t.sin_inclination * t.sin_inclination);
-  return {Trig<1>::first_order(t.height, tilt * t.sin_clocking, -tilt * t.cos_clocking),
-          scale * ((radius - across) * (radius + across)), (t.radius + rho) / t.sin_inclination,
-          true};
-}
-
-bool same_curve(const Sheets& a, const Sheets& b) {
+bool same_piece(const Sheets& a, const Sheets& b) {
   const double size = std::max(a.size, b.size);
   return (a.mid - b.mid).bound() <= kSameCurve * size &&
          (a.square - b.square).bound() <= kSameCurve * size * size;
+}
+
+bool same_curve(const std::vector<Sheets>& a, const std::vector<Sheets>& b) {
+  return !a.empty() && std::ranges::equal(a, b, same_piece);
 }
 
 /// Phases near every solution of mid_i +- sqrt(square_i) = mid_j +- sqrt(square_j). In this form
@@ -82,7 +69,9 @@ class Divider {
       for (std::size_t b = a + 1; b < active_.size(); ++b) add_pair(active_[a], active_[b]);
     merge();
     label();
-    return assemble();
+    auto out = assemble();
+    out.hidden = hidden();
+    return out;
   }
 
  private:
@@ -99,7 +88,10 @@ class Divider {
 
   void add_own(std::size_t i) {
     const auto* tube = std::get_if<PreparedTube>(&cutters_[i]);
-    if (tube == nullptr) return;
+    if (tube == nullptr) {
+      for (const double phi : silhouettes(cutters_[i], rho_)) phases_.push_back(wrapped(phi));
+      return;
+    }
     const double beta = elementary::atan2(tube->sin_clocking, tube->cos_clocking);
     for (const double side : {tube->radius, -tube->radius}) {
       const double u = side - tube->offset;  // X = +-r
@@ -124,14 +116,87 @@ class Divider {
   }
 
   void add_pair(std::size_t i, std::size_t j) {
-    const double size = std::max(sheets_[i].size, sheets_[j].size);
-    for (const double near : crossings(sheets_[i], sheets_[j])) {
-      if (const auto phi = polish(i, j, near)) {
-        phases_.push_back(wrapped(*phi));
-      } else if (std::abs(apart(i, j, near)) < kTouching * size) {
-        phases_.push_back(wrapped(near));
-      }
+    if (sheets_[i].empty() || sheets_[j].empty()) return add_scanned_pair(i, j);
+    const double size = std::max(size_of(i), size_of(j));
+    for (const auto& a : sheets_[i])
+      for (const auto& b : sheets_[j])
+        for (const double near : crossings(a, b)) {
+          if (const auto phi = polish(i, j, near)) {
+            phases_.push_back(wrapped(*phi));
+          } else if (std::abs(apart(i, j, near)) < kTouching * size) {
+            phases_.push_back(wrapped(near));
+          }
+        }
+  }
+
+  /// A length the rounding of this cutter's z is proportional to.
+  double size_of(std::size_t i) const {
+    if (const auto* elbow = std::get_if<PreparedElbow>(&cutters_[i]))
+      return (elbow->radius + elbow->bend_radius + rho_) / elbow_sine(*elbow);
+    return std::ranges::max(sheets_[i], {}, &Sheets::size).size;
+  }
+
+  static double scanned(std::size_t k) { return kTwoPi * static_cast<double>(k) / kScan; }
+
+  /// Heights, continued beyond the silhouettes, at the scan's phases and one beyond.
+  const std::vector<double>& scan(std::size_t i) {
+    auto& heights = scans_[i];
+    for (std::size_t k = heights.size(); k <= kScan + 1; ++k)
+      heights.push_back(continued_sheet(cutters_[i], generator_at(rho_, scanned(k))));
+    return heights;
+  }
+
+  /// Sign changes of z_i - z_j between neighbouring phases, and on both sides of a near miss.
+  void add_scanned_pair(std::size_t i, std::size_t j) {
+    const auto& a = scan(i);
+    const auto& b = scan(j);
+    const auto g = [&](std::size_t k) { return a[k] - b[k]; };
+    const auto close = [&](double from, double gf, double to, double gt) {
+      if ((gf <= 0.0) != (gt <= 0.0))
+        phases_.push_back(wrapped(close_bracket(i, j, from, gf, to, gt)));
+    };
+    for (std::size_t k = 0; k < kScan; ++k) {
+      close(scanned(k), g(k), scanned(k + 1), g(k + 1));
+      const double side = g(k + 1) <= 0.0 ? -1.0 : 1.0;
+      const bool turns = side * g(k + 1) <= std::min(side * g(k), side * g(k + 2));
+      if (!turns || side * g(k) < 0.0 || side * g(k + 2) < 0.0) continue;
+      const auto nearest = math::golden_maximum(
+          [&](double phi) { return -side * apart(i, j, phi); }, scanned(k), scanned(k + 2));
+      close(scanned(k), g(k), nearest.at, -side * nearest.value);
+      close(nearest.at, -side * nearest.value, scanned(k + 2), g(k + 2));
     }
+  }
+
+  /// An elbow's highest sheet ends at a silhouette of its own while a lower one is met: z jumps
+  /// from the cutter to itself.
+  std::optional<double> hidden_at(std::size_t i) {
+    const auto& z = scan(i);
+    const double size = size_of(i);
+    for (std::size_t k = 0; k < kScan; ++k) {
+      if (!(std::abs(z[k + 1] - z[k]) > kLeap * size)) continue;
+      double from = scanned(k), to = scanned(k + 1), zf = z[k], zt = z[k + 1];
+      for (int step = 0; step < 45; ++step) {
+        const double mid = 0.5 * (from + to);
+        const double zm = continued_sheet(cutters_[i], generator_at(rho_, mid));
+        const bool left = std::abs(zm - zf) > std::abs(zt - zm);
+        (left ? to : from) = mid;
+        (left ? zt : zf) = zm;
+      }
+      const bool met = upper_sheet(cutters_[i], generator_at(rho_, from)) &&
+                       upper_sheet(cutters_[i], generator_at(rho_, to));
+      if (met && std::abs(zt - zf) > kJump * size) return wrapped(from);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Division::Hidden> hidden() {
+    for (const auto i : active_) {
+      if (!std::holds_alternative<PreparedElbow>(cutters_[i])) continue;
+      const auto phi = hidden_at(i);
+      if (phi && (label_at(*phi - kBeside) == i || label_at(*phi + kBeside) == i))
+        return Division::Hidden{i, *phi};
+    }
+    return std::nullopt;
   }
 
   /// The narrowest bracket around `near` in which z_i - z_j changes sign, closed.
@@ -211,7 +276,7 @@ class Divider {
                 .z_to = continued_sheet(cutters_[to], line),
                 .from = from,
                 .to = to};
-    const double noise = kContinuous * std::max(sheets_[from].size, sheets_[to].size);
+    const double noise = kContinuous * std::max(size_of(from), size_of(to));
     const bool jumps = std::abs(event.z_to - event.z_from) > noise;
     event.kind = from == to ? EventKind::kink : jumps ? EventKind::jump : EventKind::junction;
     if (event.kind == EventKind::junction) {
@@ -255,8 +320,9 @@ class Divider {
 
   std::span<const Prepared> cutters_;
   double rho_;
-  std::vector<Sheets> sheets_;
+  std::vector<std::vector<Sheets>> sheets_;  // of each cutter, its pieces
   std::vector<std::size_t> active_;  // hit somewhere, and no other description of an earlier one
+  std::map<std::size_t, std::vector<double>> scans_;
   std::vector<double> phases_;
   std::vector<Kink> kinks_;
   std::vector<Label> labels_;

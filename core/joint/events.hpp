@@ -49,6 +49,11 @@ struct Division {
   std::vector<Event> events;
   std::vector<Segment> segments;
   Intervals open;  // deg; no cutter is hit. One that crosses phi = 0 ends above 360
+  struct Hidden {
+    std::size_t cutter;
+    double phi;
+  };
+  std::optional<Hidden> hidden;  // an elbow's own bend hides a lower part of it: z would jump there
 };
 
 /// Exact events of the profile max_i z_i on a surface of radius rho, in closed form: silhouettes,
@@ -57,6 +62,8 @@ struct Division {
 /// events at their borders and no segment inside them.
 ///
 /// Cutters whose curves are the same to rounding count as one, the first.
+///
+/// An elbow's junctions are bracketed on a scan of 1440 phases and closed like the others.
 ///
 /// Accuracy  junction phi within 1e-12 rad; jump phi too, but its lost z only within 1e-5 mm (the
 ///           curve is vertical there).

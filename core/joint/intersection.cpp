@@ -103,19 +103,21 @@ Result<std::vector<Cutter>> resolve(std::span<const Partner> partners) {
   std::vector<Cutter> out;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i < partners.size(); ++i) {
-    if (const auto* tube = std::get_if<TubeCutter>(&partners[i])) {
-      out.emplace_back(*tube);
-    } else if (const auto* plane = std::get_if<PlaneCutter>(&partners[i])) {
-      out.emplace_back(*plane);
-    } else {
-      const auto& axis = std::get<AxisTube>(partners[i]);
-      const auto member = "cutters/" + std::to_string(i) + "/axis";
-      const auto placed = place(axis.axis, axis.radius, member);
-      if (placed)
-        out.emplace_back(placed->tube);
-      else
-        issues.insert(issues.end(), placed.error().issues.begin(), placed.error().issues.end());
-    }
+    std::visit(
+        [&]<class Kind>(const Kind& partner) {
+          if constexpr (std::is_same_v<Kind, AxisTube>) {
+            const auto member = "cutters/" + std::to_string(i) + "/axis";
+            const auto placed = place(partner.axis, partner.radius, member);
+            if (placed)
+              out.emplace_back(placed->tube);
+            else
+              issues.insert(issues.end(), placed.error().issues.begin(),
+                            placed.error().issues.end());
+          } else {
+            out.emplace_back(partner);
+          }
+        },
+        partners[i]);
   }
   if (!issues.empty()) return tl::unexpected(Error(std::move(issues)));
   return out;
@@ -151,8 +153,7 @@ Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_tok
     if (!contour) return tl::unexpected(contour.error());
     auto curve = profile(*contour, spec.sampling, outer, stop);
     if (!curve) return tl::unexpected(curve.error());
-    if (auto fits = check_length(spec.target, curve->z); !fits)
-      return tl::unexpected(fits.error());
+    if (auto fits = check_length(spec.target, curve->z); !fits) return tl::unexpected(fits.error());
     out.profiles.push_back(*std::move(curve));
     out.warnings = partner_warnings(*contour);  // of the outer surface when both are asked for
   }
@@ -170,8 +171,7 @@ std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answ
     for (const auto& e : p.events) proof.event(solids, p.radius, e);
   }
   std::vector<Check> out;
-  for (const auto* worst :
-       {&proof.on_cutter, &proof.none_above, &proof.event_gap, &proof.labels})
+  for (const auto* worst : {&proof.on_cutter, &proof.none_above, &proof.event_gap, &proof.labels})
     out.push_back(worst->check());
   return out;
 }

@@ -21,7 +21,7 @@ struct AxisTube {
 };
 
 /// A partner as a request describes it.
-using Partner = std::variant<TubeCutter, AxisTube, PlaneCutter>;
+using Partner = std::variant<TubeCutter, AxisTube, PlaneCutter, BoxCutter, ConeCutter, ElbowCutter>;
 
 /// Every partner as a cutter. Errors  zero_length, parallel_axes (cutters/i/axis).
 [[nodiscard]] Result<std::vector<Cutter>> resolve(std::span<const Partner> partners);
@@ -58,7 +58,8 @@ struct Intersection {
 [[nodiscard]] Result<Intersection> intersect(const IntersectionSpec& spec,
                                              const std::stop_token& stop = {});
 
-/// The answer proved in 3D: distances by cross product, heights by the quadratic of line and cylinder.
+/// The answer proved in 3D: distances by cross product, heights by the quadratic of line and
+/// cylinder.
 [[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer);
 
 /// Notes on partners that are never met or nearly parallel.

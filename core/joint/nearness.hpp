@@ -26,8 +26,8 @@ struct Nearness {
 
 /// The end of one stretch within the reach of another.
 struct Touch {
-  std::size_t end = 0;     // 2 i for the start of stretch i, 2 i + 1 for its finish
-  std::size_t other = 0;   // never i
+  std::size_t end = 0;    // 2 i for the start of stretch i, 2 i + 1 for its finish
+  std::size_t other = 0;  // never i
   Nearness near;
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEquallyNear = 1e-6;        // mm: two chords at the same distance
-constexpr std::size_t kScan = 180;           // generators looked at for ghosts and the highest z
+constexpr double kEquallyNear = 1e-6;  // mm: two chords at the same distance
+constexpr std::size_t kScan = 180;     // generators looked at for ghosts and the highest z
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
 
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
@@ -77,9 +77,9 @@ Result<Joined> joined_by(const NodeSpec& spec, const std::vector<Link>& links) {
     const auto end = 2 * link.member + (link.end == End::finish ? 1 : 0);
     for (const auto to : link.to)
       if (std::ranges::find(out[end], to, &Touch::other) == out[end].end())
-        out[end].push_back({end, to,
-                            nearness(spec.members[link.member].at(link.end),
-                                     stretch(spec.members[to], 0.0))});
+        out[end].push_back(
+            {end, to,
+             nearness(spec.members[link.member].at(link.end), stretch(spec.members[to], 0.0))});
     if (out[end].size() > kMostCutters)
       return fail({.code = ErrorCode::wrong_count,
                    .member = place_of(link.member, link.end),
@@ -150,9 +150,10 @@ std::vector<Touch> cutters_of(const NodeSpec& spec, std::size_t member, End end,
     const double sine = sine_between(spec.members[member], spec.members[touch.other]);
     if (!goes_before(spec, touch.other, member)) continue;
     if (sine < 2.0 * kParallel) {
-      warnings.push_back({.code = WarningCode::parallel_members,
-                          .member = place_of(member, end),
-                          .detail = called(spec, touch.other) + " is parallel and does not cut it"});
+      warnings.push_back(
+          {.code = WarningCode::parallel_members,
+           .member = place_of(member, end),
+           .detail = called(spec, touch.other) + " is parallel and does not cut it"});
       continue;
     }
     if (sine < kNearParallel)
@@ -161,9 +162,8 @@ std::vector<Touch> cutters_of(const NodeSpec& spec, std::size_t member, End end,
                           .detail = called(spec, touch.other) + " is within 5 deg of parallel"});
     out.push_back(touch);
   }
-  std::ranges::sort(out, [&](const Touch& a, const Touch& b) {
-    return goes_before(spec, a.other, b.other);
-  });
+  std::ranges::sort(
+      out, [&](const Touch& a, const Touch& b) { return goes_before(spec, a.other, b.other); });
   return out;
 }
 
@@ -248,15 +248,16 @@ void inspect(const NodeSpec& spec, MemberEnd& end) {
   }
 }
 
-void warn(const NodeSpec& spec, const MemberEnd& end, bool by_distance,
-          std::vector<Warning>& out) {
+void warn(const NodeSpec& spec, const MemberEnd& end, bool by_distance, std::vector<Warning>& out) {
   const auto at = place_of(end.member, end.end);
   if (end.free && by_distance)
-    out.push_back({.code = WarningCode::free_end, .member = at,
+    out.push_back({.code = WarningCode::free_end,
+                   .member = at,
                    .detail = called(spec, end.member) + " meets no member here"});
   for (const auto& cut : end.cut_by)
     if (cut.ghost)
-      out.push_back({.code = WarningCode::ghost_contact, .member = at,
+      out.push_back({.code = WarningCode::ghost_contact,
+                     .member = at,
                      .detail = "cut by " + called(spec, cut.member) + " beyond that member's end"});
   if (end.open) out.push_back({.code = WarningCode::end_open, .member = at});
   if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
@@ -350,8 +351,10 @@ Result<std::vector<std::optional<Intersection>>> profiles(const NodeSpec& spec, 
     const auto& end = nodes.ends[i];
     if (end.cut_by.empty() || end.open || end.consumed) continue;
     auto joint = joint_of(spec, end);
-    auto curves = intersect({.target = joint.target, .partners = std::move(joint.partners),
-                             .surfaces = Surfaces::both, .sampling = left},
+    auto curves = intersect({.target = joint.target,
+                             .partners = std::move(joint.partners),
+                             .surfaces = Surfaces::both,
+                             .sampling = left},
                             stop);
     if (!curves) {
       const auto code = curves.error().code();
@@ -363,7 +366,8 @@ Result<std::vector<std::optional<Intersection>>> profiles(const NodeSpec& spec, 
     std::size_t used = 0;
     for (const auto& profile : curves->profiles) used += profile.phi.size();
     if (used > left.max_nodes)
-      return fail({.code = ErrorCode::too_many_nodes, .member = "sampling",
+      return fail({.code = ErrorCode::too_many_nodes,
+                   .member = "sampling",
                    .got = static_cast<double>(sampling.max_nodes - left.max_nodes + used),
                    .limit = static_cast<double>(sampling.max_nodes)});
     left.max_nodes -= used;

@@ -25,7 +25,7 @@ struct Member {
   Eigen::Vector3d finish = Eigen::Vector3d::UnitX();
   double outer_radius = 0.0;
   double wall = 0.0;
-  int priority = 0;                       // a lower number cuts a higher one
+  int priority = 0;                        // a lower number cuts a higher one
   std::optional<Eigen::Vector3d> up = {};  // phi = 0 on this side at both ends; empty: the chord's
   std::string name = {};                   // for messages only
 

@@ -57,8 +57,8 @@ void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& wo
   const auto& member = spec.members[end.member];
   const auto& other = spec.members[cut.member];
   const auto& t = cut.placement.tube;
-  const Vector3d own = member.at(end.end == End::start ? End::finish : End::start) -
-                       member.at(end.end);
+  const Vector3d own =
+      member.at(end.end == End::start ? End::finish : End::start) - member.at(end.end);
   const Vector3d along = other.finish - other.start;
   const Vector3d common = own.cross(along);
   const double sine = common.norm() / (own.norm() * along.norm());
@@ -66,11 +66,11 @@ void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& wo
                        (other.finish - end.frame.origin).norm() + std::abs(t.height) +
                        std::abs(t.offset);
   const auto line = in_world(end.frame, t);
-  worst.axis = std::max({worst.axis, from_line(other.start, line) / scale,
-                         from_line(other.finish, line) / scale});
-  worst.angle = std::max(worst.angle, std::abs(between(own.normalized(), along.normalized()) -
-                                               t.inclination.rad()) *
-                                          kDegPerRad);
+  worst.axis = std::max(
+      {worst.axis, from_line(other.start, line) / scale, from_line(other.finish, line) / scale});
+  worst.angle = std::max(
+      worst.angle,
+      std::abs(between(own.normalized(), along.normalized()) - t.inclination.rad()) * kDegPerRad);
   const double apart =
       std::abs((other.start - end.frame.origin).dot(common)) / (own.norm() * along.norm());
   worst.eccentricity =

@@ -8,7 +8,8 @@ namespace tubecut::joint {
 struct Target {
   double outer_radius = 0.0;  // > wall
   double wall = 0.0;          // > 0
-  std::optional<double> length = {};  // from the frame's origin; empty: no cut counts as beyond the far end
+  std::optional<double> length =
+      {};  // from the frame's origin; empty: no cut counts as beyond the far end
 
   [[nodiscard]] double inner_radius() const { return outer_radius - wall; }
 };

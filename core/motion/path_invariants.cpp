@@ -18,7 +18,8 @@ using Group = Coordinate::Group;
 struct Allowance {
   double tip = 0.0;        // I10, mm
   double skipped = 0.0;    // I11, mm
-  double bevel = 0.0;      // I12 without half a pulse, rad
+  double bevel = 0.0;      // I12, rad
+  double place = 0.0;      // I12: where along the path B may come from, mm
   double speed = 0.0;      // t_q of the speed's trace, mm
   double thickness = 0.0;  // what an error of B moves the beam on the far wall, mm
 };
@@ -112,6 +113,8 @@ class Examination {
     }
     const double near = motion.eps_tip + std::sqrt(quanta) + followed_bevels;
     x_allow.tip = near + path.sag_tip;
+    // Smoothing is measured at the knots; a corner may lie half a spacing beside one.
+    x_allow.place = x_allow.tip + 0.5 * path.d;
     x_allow.skipped = near + 0.5 * fastest() * x_counted.period + 0.5 * path.d;
     x_allow.bevel = motion.eps_b.rad() + path.sag_b + bevel;
     for (const AxisFunction& f : x_job.course.tip) {
@@ -164,7 +167,7 @@ class Examination {
     for (std::size_t c = 0; c < x_job.program.x.size(); ++c) {
       const Coordinate& coordinate = x_job.program.coordinates[c];
       if (coordinate.group != Group::bevel || !x_torch.knows(c)) continue;
-      const auto [low, high] = follower.range(c, at, x_allow.tip);
+      const auto [low, high] = follower.range(c, at, x_allow.place);
       const double off = std::max({0.0, low - x[c], x[c] - high});
       x_bevel.see(off * coordinate.weight / kBevelWeight * kDegPerRad, x_allow.bevel * kDegPerRad);
     }

@@ -12,7 +12,8 @@ using Long = long double;
 /// interval, the way gone and its integral.
 class Unfiltered {
  public:
-  Unfiltered(const std::vector<double>& x, double d) : x_d(d), x_time(x.size(), 0.0L) {
+  Unfiltered(const std::vector<double>& x, double d)
+      : x_d(static_cast<Long>(d)), x_time(x.size(), 0.0L) {
     x_speed.reserve(x.size());
     for (const double square : x) x_speed.push_back(std::sqrt(static_cast<Long>(square)));
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
@@ -99,7 +100,7 @@ bool before(const Place& a, const Place& b) {
 
 std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods) {
   const Unfiltered u(timing.x, d);
-  Averaged average(u, d, timing.filter);
+  Averaged average(u, static_cast<Long>(d), static_cast<Long>(timing.filter));
   const Long total = u.end() + static_cast<Long>(timing.filter);
   std::vector<Place> places;
   places.reserve(static_cast<std::size_t>(periods) + 1);

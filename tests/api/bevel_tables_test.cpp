@@ -19,7 +19,8 @@ double largest_step(const std::vector<double>& b) {
   return worst;
 }
 
-// docs/theory/intersections-and-bevels.md, section 7: "What Table 1 gives with root inner, contact inner".
+// docs/theory/intersections-and-bevels.md, section 7: "What Table 1 gives with root inner, contact
+// inner".
 TEST(BevelTables, Table1GivesWhatTheTheoryLists) {
   const auto answer = post(kPath, table_1());
   ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 2000);
@@ -73,9 +74,9 @@ TEST(BevelTables, Table1WithoutRefinementHasTheListedArea) {
 }
 
 TEST(BevelTables, EveryExampleRuns) {
-  for (const char* name :
-       {"source-000-table-1", "source-000-table-1-as-published", "source-002-offset-pair",
-        "table-1-five-axis-at-600-mm-min", "mitre"}) {
+  for (const char* name : {"source-000-table-1", "source-000-table-1-as-published",
+                           "source-002-offset-pair", "table-1-five-axis-at-600-mm-min", "mitre",
+                           "k-joint-from-centre-lines", "zones", "table-1-torch-45-deg"}) {
     const auto answer = post(kPath, example("bevel-tables/" + std::string(name) + ".json"));
     EXPECT_FALSE(answer.outcome.error) << name << ": " << answer.outcome.body.substr(0, 1500);
   }
@@ -91,6 +92,36 @@ TEST(BevelTables, AsPublishedHasThePublishedJumps) {
     EXPECT_NEAR(raw[i + 1] - raw[i], jump[1], 5e-3);
   }
   EXPECT_EQ(text(answer.body, "result/b_sign"), "inward");
+}
+
+TEST(BevelTables, ATorchOf45DegreesIsReviewedAndAcceptMayReject) {
+  const auto request = example("bevel-tables/table-1-torch-45-deg.json");
+  const auto answer = post(kPath, request);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  const auto gap = numbers(answer.body, "result/points/gap_mm");
+  EXPECT_NEAR(*std::max_element(gap.begin(), gap.end()), 2.174, 5e-3);
+  EXPECT_EQ(text(answer.body, "verdict/status"), "review");
+  EXPECT_GT(number(answer.body, "result/torch_binds/0/root_gap_mm"), 0.0);
+  const auto accept = api::Json{api::Json::Object{{"max_root_gap_mm", 2.0}}};
+  EXPECT_EQ(text(post(kPath, with(request, "accept", accept)).body, "verdict/status"), "reject");
+}
+
+TEST(BevelTables, ZonesNameEveryPoint) {
+  const auto request = example("bevel-tables/zones.json");
+  const auto answer = post(kPath, request);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  const auto dihedral = numbers(answer.body, "result/points/dihedral_deg");
+  const auto& zone = *at(answer.body, "result/points/zone").as<api::Json::Array>();
+  ASSERT_EQ(zone.size(), dihedral.size());
+  for (std::size_t i = 0; i < zone.size(); ++i)
+    EXPECT_EQ(*zone[i].as<std::string>(), dihedral[i] > 135  ? "A"
+                                          : dihedral[i] > 75 ? "B"
+                                          : dihedral[i] > 40 ? "C"
+                                                             : "D");
+  EXPECT_EQ(numbers(answer.body, "result/points/z_face_mm").size(), zone.size());
+  const auto gap = post(kPath, with(request, "groove/zones/1/dihedral_deg/0", 80.0));
+  EXPECT_EQ(text(gap.body, "code"), "out_of_range");
+  EXPECT_EQ(text(gap.body, "errors/0/pointer"), "/groove/zones/1/dihedral_deg");
 }
 
 TEST(BevelTables, EchoedRequestGivesTheSameAnswer) {

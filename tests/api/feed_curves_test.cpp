@@ -10,9 +10,7 @@ namespace {
 
 constexpr const char* kPath = "/v1/feed-curves";
 
-api::Json example_of(const std::string& name) {
-  return example("feed-curves/" + name + ".json");
-}
+api::Json example_of(const std::string& name) { return example("feed-curves/" + name + ".json"); }
 
 /// Evaluates the assignment of a Horner expression "a + t_s * (b + t_s * (c))", nothing else.
 class Expression {
@@ -75,9 +73,9 @@ std::string between(const std::string& text, const std::string& from, const std:
 }
 
 TEST(FeedCurves, EveryExampleRuns) {
-  for (const char* name :
-       {"source-004-table-1-as-solved", "source-004-table-3-as-solved", "source-004-table-1-as-printed",
-        "source-004-table-3-as-printed", "cut-off-194-mm-whole-cycle", "calibrated-from-one-measurement"}) {
+  for (const char* name : {"source-004-table-1-as-solved", "source-004-table-3-as-solved",
+                           "source-004-table-1-as-printed", "source-004-table-3-as-printed",
+                           "cut-off-194-mm-whole-cycle", "calibrated-from-one-measurement"}) {
     const auto answer = post(kPath, example_of(name));
     EXPECT_FALSE(answer.outcome.error) << name << ": " << answer.outcome.body.substr(0, 1500);
   }
@@ -111,7 +109,8 @@ TEST(FeedCurves, StructuredTextFollowsTheTableInsideItsWindow) {
     const auto block = post(kPath, api::dump(body), "format=st").outcome;
     ASSERT_EQ(block.content_type, "text/x-iec61131-st");
     Expression speed(between(block.body, "THEN\n  cylinder_speed_mm_s := ", ";"));
-    const double end = std::strtod(between(block.body, "T_END_S : LREAL := ", ";").c_str(), nullptr);
+    const double end =
+        std::strtod(between(block.body, "T_END_S : LREAL := ", ";").c_str(), nullptr);
     EXPECT_EQ(end, number(json.body, "result/fit/duration_s"));
     EXPECT_NE(block.body.find("valid := (t_s >= 0.0) AND (t_s <= T_END_S);"), std::string::npos);
     EXPECT_NE(block.body.find("ELSE\n  cylinder_speed_mm_s := 0.0;"), std::string::npos);
@@ -133,7 +132,8 @@ TEST(FeedCurves, CsvHasEveryRowOfTheTableAndOfTheCycle) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
   };
   EXPECT_EQ(rows(post(kPath, api::dump(body), "format=csv").outcome.body), 200u);
-  EXPECT_EQ(static_cast<double>(rows(post(kPath, api::dump(body), "format=csv&view=samples").outcome.body)),
+  EXPECT_EQ(static_cast<double>(
+                rows(post(kPath, api::dump(body), "format=csv&view=samples").outcome.body)),
             number(json.body, "result/cycle/samples"));
 }
 
@@ -196,7 +196,8 @@ TEST(FeedCurves, EveryFieldIsRefusedByNameValueAndLimit) {
         if (text(issue, "pointer") != "/" + std::string(field.path)) continue;
         named = true;
         EXPECT_EQ(number(issue, "got"), bad);
-        EXPECT_NEAR(number(issue, "limit"), i % 2 == 0 ? field.low : field.high, 1e-9 * std::abs(field.high));
+        EXPECT_NEAR(number(issue, "limit"), i % 2 == 0 ? field.low : field.high,
+                    1e-9 * std::abs(field.high));
       }
       EXPECT_TRUE(named) << field.path << " " << bad << answer.outcome.body;
     }

@@ -6,7 +6,8 @@ namespace tubecut::api {
 namespace {
 
 TEST(Json, PrintsWhatItRead) {
-  for (const char* text : {"null", "true", "[1,2.5,-3e-07,\"a\\\"b\",{\"k\":[]}]", "{\"b\":1,\"a\":2}"}) {
+  for (const char* text :
+       {"null", "true", "[1,2.5,-3e-07,\"a\\\"b\",{\"k\":[]}]", "{\"b\":1,\"a\":2}"}) {
     const auto json = parse(text);
     ASSERT_TRUE(json) << text;
     EXPECT_EQ(dump(*json), text);
@@ -14,14 +15,23 @@ TEST(Json, PrintsWhatItRead) {
 }
 
 TEST(Json, RefusesWithTheByteOffset) {
-  struct Case { std::string text; const char* reason; };
+  struct Case {
+    std::string text;
+    const char* reason;
+  };
   const Case cases[] = {
-      {"{\"a\":1,\"a\":2}", "duplicate key"}, {"\xEF\xBB\xBF{}", "byte order mark"},
-      {std::string("{}\0", 3), "NUL byte"},   {"1e400", "number too large"},
-      {"1e-400", "number too small"},         {"9007199254740993", "integer beyond 2^53"},
-      {"99999999999999999999999", "integer beyond 2^53"}, {"[\"\\ud800\"]", "not valid JSON"},
-      {std::string(200'000, '['), "nested too deeply"},   {"", "not valid JSON"},
-      {"{\"a\":1} x", "not valid JSON"},      {"[NaN]", "not valid JSON"},
+      {"{\"a\":1,\"a\":2}", "duplicate key"},
+      {"\xEF\xBB\xBF{}", "byte order mark"},
+      {std::string("{}\0", 3), "NUL byte"},
+      {"1e400", "number too large"},
+      {"1e-400", "number too small"},
+      {"9007199254740993", "integer beyond 2^53"},
+      {"99999999999999999999999", "integer beyond 2^53"},
+      {"[\"\\ud800\"]", "not valid JSON"},
+      {std::string(200'000, '['), "nested too deeply"},
+      {"", "not valid JSON"},
+      {"{\"a\":1} x", "not valid JSON"},
+      {"[NaN]", "not valid JSON"},
   };
   for (const auto& c : cases) {
     const auto json = parse(c.text);
@@ -34,9 +44,15 @@ TEST(Json, RefusesWithTheByteOffset) {
 }
 
 TEST(Json, CborTypedArrayOfCounts) {
-  // RFC 8746: tag 77 = int16 little endian; hand case of the schedule's golden file: [1,-1] is d84d 44 0100ffff.
+  // RFC 8746: tag 77 = int16 little endian; hand case of the schedule's golden file: [1,-1] is d84d
+  // 44 0100ffff.
   const auto cbor = to_cbor(R"({"counts":{"C":[1,-1]}})");
-  EXPECT_EQ(cbor, std::string("\xa1\x66" "counts" "\xa1\x61" "C" "\xd8\x4d\x44\x01\x00\xff\xff", 18));
+  EXPECT_EQ(cbor, std::string("\xa1\x66"
+                              "counts"
+                              "\xa1\x61"
+                              "C"
+                              "\xd8\x4d\x44\x01\x00\xff\xff",
+                              18));
 }
 
 }  // namespace

@@ -112,8 +112,8 @@ TEST(Nodes, ErrorsNameTheMembers) {
   // Named, or ranked, it is an answer.
   EXPECT_EQ(code(post(kNodes, with(chords, "members/0/priority", 0.0))), "ambiguous_connection");
   EXPECT_EQ(code(post(kNodes, with(chords, "members/1/priority", 1.0))), "");
-  const auto link = Json{Json::Array{Json{Json::Object{
-      {"member", "B"}, {"end", "start"}, {"to", Json{Json::Array{"C1", "C2"}}}}}}};
+  const auto link = Json{Json::Array{Json{
+      Json::Object{{"member", "B"}, {"end", "start"}, {"to", Json{Json::Array{"C1", "C2"}}}}}}};
   const auto named = post(kNodes, with(chords, "connect", link));
   EXPECT_EQ(code(named), "") << named.outcome.body;
   EXPECT_EQ(cuts(named, 4), 2U);
@@ -128,15 +128,15 @@ TEST(Nodes, ErrorsNameTheMembers) {
   const auto nowhere = post(kNodes, with(chords, "members/2/end_mm", point(0, 0, 0)));
   EXPECT_EQ(code(nowhere), "zero_length");
   EXPECT_EQ(text(nowhere.body, "errors/0/pointer"), "/members/2");
-  const auto up = post(kNodes, with(with(chords, "members/1/priority", 1.0), "members/2/up",
-                                    point(0, 2, 0)));
+  const auto up =
+      post(kNodes, with(with(chords, "members/1/priority", 1.0), "members/2/up", point(0, 2, 0)));
   EXPECT_EQ(code(up), "bad_reference_direction");
   EXPECT_EQ(text(up.body, "errors/0/pointer"), "/members/2/up");
 }
 
 TEST(Nodes, AnEndThatIsNotCutHasNoTable) {
-  const auto request = with(example("bevel-tables/k-joint-from-centre-lines.json"), "node/member",
-                            "C1");
+  const auto request =
+      with(example("bevel-tables/k-joint-from-centre-lines.json"), "node/member", "C1");
   const auto answer = post(kTables, request);
   EXPECT_EQ(code(answer), "no_contact");
   EXPECT_EQ(text(answer.body, "errors/0/pointer"), "/node/members/0/start_mm");
@@ -144,14 +144,12 @@ TEST(Nodes, AnEndThatIsNotCutHasNoTable) {
 
 TEST(Nodes, GhostConsumedOpenAndParallel) {
   // The brace is cut by a stub that ends before the contact.
-  const auto ghost =
-      post(kNodes, node({member("stub", point(0, 0, 0), point(5, 0, 0), 120),
-                         member("B", point(0, 0, 0), point(600, 0, 600), 60)}));
+  const auto ghost = post(kNodes, node({member("stub", point(0, 0, 0), point(5, 0, 0), 120),
+                                        member("B", point(0, 0, 0), point(600, 0, 600), 60)}));
   ASSERT_EQ(code(ghost), "") << ghost.outcome.body;
   EXPECT_TRUE(warned(ghost, "ghost_contact", "/members/1/start_mm"));
-  const auto consumed =
-      post(kNodes, node({member("C", point(-900, 0, 0), point(900, 0, 0), 300),
-                         member("B", point(0, 0, 0), point(0, 0, 140), 60)}));
+  const auto consumed = post(kNodes, node({member("C", point(-900, 0, 0), point(900, 0, 0), 300),
+                                           member("B", point(0, 0, 0), point(0, 0, 140), 60)}));
   EXPECT_TRUE(warned(consumed, "end_consumed", "/members/1/start_mm"));
   EXPECT_TRUE(*at(end_of(consumed, 2), "consumed").as<bool>());
   const auto open = post(kNodes, node({member("C", point(-900, 0, 0), point(900, 0, 0), 60),
@@ -211,17 +209,18 @@ TEST(Sizes, NamesGiveTheNumbersOfTheStandards) {
   EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
 }
 
-// Masses per metre printed in the same standards, to three or four figures, tie diameter and wall together: 0.0246615 (D - t) t.
+// Masses per metre printed in the same standards, to three or four figures, tie diameter and wall
+// together: 0.0246615 (D - t) t.
 TEST(Sizes, MassesPerMetreAgree) {
   const struct {
     const char* size;
     double kg_per_m;
-  } kRows[] = {{"NPS 1/2 SCH 40", 1.27}, {"NPS 1 SCH 80", 3.24},    {"NPS 2 SCH 40", 5.44},
-               {"NPS 3 SCH 80", 15.27},  {"NPS 4 SCH 40", 16.08},   {"NPS 4 SCH 160", 33.54},
-               {"NPS 6 SCH 40", 28.26},  {"NPS 8 SCH 40", 42.55},   {"NPS 10 SCH 40", 60.29},
-               {"NPS 12 STD", 73.86},    {"NPS 16 STD", 93.27},     {"NPS 24 XS", 187.07},
-               {"CHS 60.3x4", 5.55},     {"CHS 88.9x5", 10.3},      {"CHS 114.3x6.3", 16.8},
-               {"CHS 168.3x10", 39.0},   {"CHS 219.1x12.5", 63.7},  {"CHS 323.9x16", 121.0},
+  } kRows[] = {{"NPS 1/2 SCH 40", 1.27}, {"NPS 1 SCH 80", 3.24},   {"NPS 2 SCH 40", 5.44},
+               {"NPS 3 SCH 80", 15.27},  {"NPS 4 SCH 40", 16.08},  {"NPS 4 SCH 160", 33.54},
+               {"NPS 6 SCH 40", 28.26},  {"NPS 8 SCH 40", 42.55},  {"NPS 10 SCH 40", 60.29},
+               {"NPS 12 STD", 73.86},    {"NPS 16 STD", 93.27},    {"NPS 24 XS", 187.07},
+               {"CHS 60.3x4", 5.55},     {"CHS 88.9x5", 10.3},     {"CHS 114.3x6.3", 16.8},
+               {"CHS 168.3x10", 39.0},   {"CHS 219.1x12.5", 63.7}, {"CHS 323.9x16", 121.0},
                {"CHS 508x20", 241.0}};
   for (const auto& row : kRows) {
     const auto* size = api::find_tube_size(row.size);

@@ -8,8 +8,8 @@
 #include "core/bevel/table.hpp"
 #include "core/joint/intersection.hpp"
 
-/// Does every check of an answer's own proof hold for good answers, and fail when one number of a good answer is off by ten
-/// times that check's limit?
+/// Does every check of an answer's own proof hold for good answers, and fail when one number of a
+/// good answer is off by ten times that check's limit?
 namespace tubecut {
 namespace {
 
@@ -31,10 +31,11 @@ struct Random {
 /// A chord that every generator meets, up to three braces, sometimes an end plane.
 std::vector<joint::Partner> partners(Random& random, double radius) {
   const double chord = radius * random.between(1.25, 2.5);
-  std::vector<joint::Partner> out{joint::TubeCutter{
-      .radius = chord, .inclination = Angle::deg(random.between(50, 130)),
-      .clocking = Angle::deg(random.between(0, 360)),
-      .offset = random.between(-0.9, 0.9) * (chord - radius)}};
+  std::vector<joint::Partner> out{
+      joint::TubeCutter{.radius = chord,
+                        .inclination = Angle::deg(random.between(50, 130)),
+                        .clocking = Angle::deg(random.between(0, 360)),
+                        .offset = random.between(-0.9, 0.9) * (chord - radius)}};
   for (int braces = random.upto(3); braces > 0; --braces)
     out.push_back(joint::TubeCutter{.radius = radius * random.between(0.6, 1.3),
                                     .inclination = Angle::deg(random.between(30, 150)),
@@ -75,8 +76,11 @@ constexpr Way kWays[] = {{RootSurface::inner, Contact::inner, Dihedral::weld_sid
                          {RootSurface::outer, Contact::none, Dihedral::as_published}};
 
 bevel::TableSpec table_spec(Random& random, const Way& way, int kind) {
-  bevel::TableSpec out{.target = target(random), .sampling = sampling(kind),
-                       .root_surface = way.root, .dihedral = way.dihedral, .contact = way.contact};
+  bevel::TableSpec out{.target = target(random),
+                       .sampling = sampling(kind),
+                       .root_surface = way.root,
+                       .dihedral = way.dihedral,
+                       .contact = way.contact};
   out.partners = partners(random, out.target.outer_radius);
   const int rule = random.upto(3);
   if (rule == 0) out.groove = bevel::HalfDihedral{};
@@ -125,10 +129,12 @@ TEST(Verification, GoodTablesPass) {
   Random random{std::mt19937_64(seed)};
   int answered = 0;
   for (int i = 0; i < kNodes; ++i) {
-    const auto spec = table_spec(random, kWays[static_cast<std::size_t>(i) % std::size(kWays)], i % 2);
+    const auto spec =
+        table_spec(random, kWays[static_cast<std::size_t>(i) % std::size(kWays)], i % 2);
     const auto table = bevel::table(spec);
     if (!table) {
-      EXPECT_EQ(table.error().code(), ErrorCode::torch_range) << i;  // a partner too steep to keep out
+      EXPECT_EQ(table.error().code(), ErrorCode::torch_range)
+          << i;  // a partner too steep to keep out
       continue;
     }
     ++answered;
@@ -139,19 +145,25 @@ TEST(Verification, GoodTablesPass) {
 
 // ---- corrupted ones do not
 
-/// The node of Table 1's kind that every corruption starts from: one seed, so that the places below exist.
+/// The node of Table 1's kind that every corruption starts from: one seed, so that the places below
+/// exist.
 joint::IntersectionSpec fixed_cut(int kind) {
-  joint::IntersectionSpec out{.target = {.outer_radius = 35, .wall = 5}, .sampling = sampling(kind)};
+  joint::IntersectionSpec out{.target = {.outer_radius = 35, .wall = 5},
+                              .sampling = sampling(kind)};
   const auto tube = [](double radius, double inclination, double clocking, double offset) {
-    return joint::TubeCutter{.radius = radius, .inclination = Angle::deg(inclination),
-                             .clocking = Angle::deg(clocking), .offset = offset};
+    return joint::TubeCutter{.radius = radius,
+                             .inclination = Angle::deg(inclination),
+                             .clocking = Angle::deg(clocking),
+                             .offset = offset};
   };
-  out.partners = {tube(55, 85, 0, 0), tube(35, 65, 90, 15), tube(35, 35, 245, -5), tube(20, 55, 320, 0)};
+  out.partners = {tube(55, 85, 0, 0), tube(35, 65, 90, 15), tube(35, 35, 245, -5),
+                  tube(20, 55, 320, 0)};
   return out;
 }
 
 /// Corrupts by ten times the limit and sees that check, and it alone if `alone`, fail.
-void expect_seen(const joint::IntersectionSpec& spec, const joint::Intersection& good, const std::string& name,
+void expect_seen(const joint::IntersectionSpec& spec, const joint::Intersection& good,
+                 const std::string& name,
                  const std::function<void(joint::Intersection&, double)>& corrupt) {
   const double limit = find(joint::verify(spec, good), name)->limit;
   auto bad = good;
@@ -168,10 +180,12 @@ TEST_P(Intersections, EveryCheckSeesItsCorruption) {
   const auto good = joint::intersect(spec);
   ASSERT_TRUE(good);
   expect_all_pass(joint::verify(spec, *good), "as it is");
-  // Away from silhouettes, where a step in z is a step in distance times sin of the angle to the surface.
+  // Away from silhouettes, where a step in z is a step in distance times sin of the angle to the
+  // surface.
   expect_seen(spec, *good, "on_cutter", [](auto& bad, double by) { bad.profiles[0].z[7] += by; });
   expect_seen(spec, *good, "labels", [](auto& bad, double by) { bad.profiles[1].z[7] += by; });
-  // Height of the junction's two partners differs by as much as phi is off times the difference of their slopes.
+  // Height of the junction's two partners differs by as much as phi is off times the difference of
+  // their slopes.
   expect_seen(spec, *good, "event_gap", [](auto& bad, double by) {
     for (auto& event : bad.profiles[0].events)
       if (event.kind == joint::EventKind::junction) event.phi += by / bad.profiles[0].radius;
@@ -202,14 +216,19 @@ struct Table {
 
 Table fixed_table(const Way& way, int kind) {
   const auto cut = fixed_cut(kind);
-  bevel::TableSpec spec{.target = cut.target, .partners = cut.partners, .sampling = cut.sampling,
-                        .root_surface = way.root, .dihedral = way.dihedral, .contact = way.contact};
+  bevel::TableSpec spec{.target = cut.target,
+                        .partners = cut.partners,
+                        .sampling = cut.sampling,
+                        .root_surface = way.root,
+                        .dihedral = way.dihedral,
+                        .contact = way.contact};
   spec.groove = bevel::HalfDihedral{};
   spec.smoothing = bevel::EnvelopeSmoothing{.limits = {.slope = 3 * kDeg, .curvature = 0.7 * kDeg}};
   return {spec, *bevel::table(spec)};
 }
 
-void expect_seen(const Table& t, const std::string& name, const std::function<void(bevel::Table&, double)>& corrupt) {
+void expect_seen(const Table& t, const std::string& name,
+                 const std::function<void(bevel::Table&, double)>& corrupt) {
   const auto* check = find(bevel::verify(t.spec, t.good), name);
   ASSERT_NE(check, nullptr) << name;
   auto bad = t.good;
@@ -240,7 +259,8 @@ TEST_P(Tables, EveryCheckSeesItsCorruption) {
     expect_seen(t, "bevel_plane", [&](auto& bad, double by) { bad.b_raw[some] += by; });
   }
   const auto input = [&](std::size_t i) {
-    return way.contact == Contact::inner ? std::max(t.good.b_raw[i], t.good.b_required[i]) : t.good.b_raw[i];
+    return way.contact == Contact::inner ? std::max(t.good.b_raw[i], t.good.b_required[i])
+                                         : t.good.b_raw[i];
   };
   const auto touching = peak(t.good, [&](std::size_t i) { return input(i) - t.good.b[i]; });
   expect_seen(t, "above_required", [&](auto& bad, double by) { bad.b[touching] -= by * kDeg; });
@@ -252,13 +272,16 @@ TEST_P(Tables, EveryCheckSeesItsCorruption) {
     const double before = bad.developed[some] - bad.developed[some - 1];
     bad.b[some] += by * kDeg * h * before / 2.0;
   });
-  expect_seen(t, "torch_range", [&](auto& bad, double by) { bad.b[some] = t.spec.torch.max.rad() + by * kDeg; });
+  expect_seen(t, "torch_range",
+              [&](auto& bad, double by) { bad.b[some] = t.spec.torch.max.rad() + by * kDeg; });
   if (way.contact == Contact::inner) {
     expect_seen(t, "penetration", [&](auto& bad, double by) { bad.z_inner[some] -= by; });
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, Tables, ::testing::Combine(::testing::Values(0u, 1u, 2u, 3u, 4u), ::testing::Values(0, 1)));
+INSTANTIATE_TEST_SUITE_P(Ways, Tables,
+                         ::testing::Combine(::testing::Values(0u, 1u, 2u, 3u, 4u),
+                                            ::testing::Values(0, 1)));
 
 }  // namespace
 }  // namespace tubecut

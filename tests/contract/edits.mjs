@@ -30,6 +30,7 @@ const words = (schema) => ('const' in schema ? [schema.const] : schema.enum);
 
 // Could one object be meant as either? Not when a member takes other words in each.
 function alike(a, b) {
+  if (!a.properties || !b.properties) return false;  // one of them is no object
   return Object.entries(a.properties).every(([name, p]) => {
     const q = b.properties[name];
     return !q || !words(p) || !words(q) || words(p).some((word) => words(q).includes(word));

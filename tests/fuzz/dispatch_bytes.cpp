@@ -30,8 +30,8 @@ bool costly(const api::Json& json) {
       const auto* number = value.as<double>();
       if (number != nullptr && (name == "uniform_points" || name == "points") && *number > 720.0)
         return true;
-      if (number != nullptr && (name == "tolerance_mm" || name == "step_mm" || name == "period_s") &&
-          *number < 1e-3)
+      if (number != nullptr &&
+          (name == "tolerance_mm" || name == "step_mm" || name == "period_s") && *number < 1e-3)
         return true;
       if (costly(value)) return true;
     }
@@ -59,8 +59,13 @@ void dispatch_bytes(std::span<const std::uint8_t> bytes) {
   const auto query = query_of(endpoint, bytes[0] >> 4u);
   const std::string body(bytes.begin() + 1, bytes.end());
   if (const auto parsed = api::parse(body); parsed && costly(*parsed)) return;
-  const api::Call call{.method = "POST", .path = endpoint.path, .query = query, .accept = {},
-                       .content_type = "application/json", .body = body, .job_id = {},
+  const api::Call call{.method = "POST",
+                       .path = endpoint.path,
+                       .query = query,
+                       .accept = {},
+                       .content_type = "application/json",
+                       .body = body,
+                       .job_id = {},
                        .request_id = "fuzz"};
   check(api::dispatch(call, {.stop = {}, .clock = {}, .status = [](ErrorKind) { return 400; }}));
 }

@@ -17,8 +17,13 @@ struct Posted {
 /// Posts a body through the api layer, as the server would.
 inline Posted post(std::string_view path, std::string_view body, std::string_view query = {},
                    std::string_view accept = {}) {
-  const api::Call call{.method = "POST", .path = path, .query = query, .accept = accept,
-                       .content_type = "application/json", .body = body, .job_id = {},
+  const api::Call call{.method = "POST",
+                       .path = path,
+                       .query = query,
+                       .accept = accept,
+                       .content_type = "application/json",
+                       .body = body,
+                       .job_id = {},
                        .request_id = "test"};
   const api::Context context{.stop = {}, .clock = {}, .status = [](ErrorKind kind) {
                                return 400 + static_cast<int>(kind);

@@ -8,10 +8,12 @@
 
 namespace tubecut::testing {
 
-/// The text of a file of the project, by its path from the top. Fails the program when it is missing or empty.
+/// The text of a file of the project, by its path from the top. Fails the program when it is
+/// missing or empty.
 [[nodiscard]] std::string read_project_file(std::string_view path);
 
-/// A file of tests/golden, parsed. Fails the program when it is missing: an absent corpus never passes.
+/// A file of tests/golden, parsed. Fails the program when it is missing: an absent corpus never
+/// passes.
 [[nodiscard]] api::Json golden(std::string_view file);
 
 /// json["a"]["b"][3] as at(json, "a/b/3"); throws std::out_of_range naming the path.

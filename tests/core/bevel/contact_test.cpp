@@ -20,7 +20,8 @@ using testing::numbers;
 
 std::vector<Partner> partners(const std::vector<joint::Cutter>& cutters) {
   std::vector<Partner> out;
-  for (const auto& cutter : cutters) std::visit([&](const auto& c) { out.emplace_back(c); }, cutter);
+  for (const auto& cutter : cutters)
+    std::visit([&](const auto& c) { out.emplace_back(c); }, cutter);
   return out;
 }
 
@@ -157,9 +158,9 @@ long double clearance(const std::vector<ray::Body>& bodies, double rho, double p
                      rho * std::sin(static_cast<long double>(phi)), z};
   long double least = 1e9L;
   for (const auto& body : bodies)
-    least = std::min(least, std::sqrt(std::max(0.0L, ray::outside(body, p) +
-                                                         body.radius * body.radius)) -
-                                body.radius);
+    least = std::min(
+        least,
+        std::sqrt(std::max(0.0L, ray::outside(body, p) + body.radius * body.radius)) - body.radius);
   return least;
 }
 
@@ -211,8 +212,8 @@ TEST(Contact, NoRandomJointIsEnteredAndAutoTouches) {
     if (n % 4 == 2) spec.groove = SquareCut{};
     if (n % 4 == 3) spec.torch = {Angle::deg(-45), Angle::deg(45)};
     if (n % 2 == 0)
-      spec.smoothing = EnvelopeSmoothing{.limits = {Angle::deg(5).rad(), Angle::deg(1).rad()},
-                                         .refine = false};
+      spec.smoothing =
+          EnvelopeSmoothing{.limits = {Angle::deg(5).rad(), Angle::deg(1).rad()}, .refine = false};
     const auto got = table(spec);
     if (!got) {
       EXPECT_EQ(got.error().code(), ErrorCode::torch_range) << n;
@@ -223,8 +224,8 @@ TEST(Contact, NoRandomJointIsEnteredAndAutoTouches) {
     scan(node, spec, *got, worst);
     ++cut;
   }
-  std::cout << cut << " joints, " << refused << " beyond the torch; penetration "
-            << worst.deepest << " mm, off where it touches " << worst.furthest << " mm\n";
+  std::cout << cut << " joints, " << refused << " beyond the torch; penetration " << worst.deepest
+            << " mm, off where it touches " << worst.furthest << " mm\n";
   EXPECT_GT(cut, joints * 3 / 4);
   EXPECT_LE(worst.deepest, 0.01L);
   EXPECT_LE(worst.furthest, 0.01L);
@@ -285,7 +286,8 @@ TEST(OffsetPair, EqualsTheSourcesOwnFormulas) {
                                               std::cos(omega) * std::cos(omega));
     }
   }
-  std::cout << "z " << worst_z << " mm, omega " << worst_omega << " rad, Z' " << worst_outer << '\n';
+  std::cout << "z " << worst_z << " mm, omega " << worst_omega << " rad, Z' " << worst_outer
+            << '\n';
   EXPECT_LT(worst_z, 1e-11);
   EXPECT_LT(worst_omega, 1e-12);
   EXPECT_LT(worst_outer, 1e-9);
@@ -431,8 +433,8 @@ TEST(Scaling, ByPowersOfTwoIsExactThroughTheWholeTable) {
           tube.height *= k;
         }
         if (out.sampling.tolerance) out.sampling.tolerance->value *= k;
-        out.smoothing = EnvelopeSmoothing{
-            .limits = {Angle::deg(5).rad() / k, Angle::deg(1).rad() / k / k}};
+        out.smoothing =
+            EnvelopeSmoothing{.limits = {Angle::deg(5).rad() / k, Angle::deg(1).rad() / k / k}};
         return out;
       };
       const auto one = table(with_limits(1.0));

@@ -18,7 +18,8 @@ struct Case {
   Surfaces surfaces = Surfaces::both;
 };
 
-Partner tube(double radius, double inclination_deg, double offset = 0.0, double clocking_deg = 0.0) {
+Partner tube(double radius, double inclination_deg, double offset = 0.0,
+             double clocking_deg = 0.0) {
   return TubeCutter{radius, Angle::deg(inclination_deg), Angle::deg(clocking_deg), offset, 0.0};
 }
 
@@ -34,7 +35,9 @@ std::vector<Case> cases() {
       {"internal tangency, other side", {tube(2 * r, 70, -r)}, {}},
       {"just beyond internal tangency", {tube(2 * r, 70, r * (1 + 1e-9))}, open_profile},
       {"external tangency", {tube(2 * r, 70, 3 * r)}, no_contact},
-      {"just inside external tangency", {tube(2 * r, 70, 3 * r * (1 - 1e-9))}, open_profile,
+      {"just inside external tangency",
+       {tube(2 * r, 70, 3 * r * (1 - 1e-9))},
+       open_profile,
        Surfaces::outer},
       {"inclination 1e-6 deg", {tube(2 * r, 1e-6)}, parallel_axes},
       {"inclination 1e-5 deg", {tube(2 * r, 1e-5)}, parallel_axes},

@@ -38,10 +38,14 @@ class Random {
 NodeSpec pair(Random& random, double size) {
   NodeSpec out;
   out.members.resize(2);
-  out.members[0] = {.start = random.in_box(size), .finish = random.in_box(size),
-                    .outer_radius = random.any(60, 200), .wall = 5};
-  out.members[1] = {.start = random.in_box(size), .finish = random.in_box(size),
-                    .outer_radius = random.any(20, 55), .wall = 4};
+  out.members[0] = {.start = random.in_box(size),
+                    .finish = random.in_box(size),
+                    .outer_radius = random.any(60, 200),
+                    .wall = 5};
+  out.members[1] = {.start = random.in_box(size),
+                    .finish = random.in_box(size),
+                    .outer_radius = random.any(20, 55),
+                    .wall = 4};
   if (random.any(0, 1) < 0.5) out.members[1].up = random.in_box(1.0);
   out.connect = std::vector<Link>{{.member = 1, .end = End::start, .to = {0}}};
   return out;
@@ -49,8 +53,8 @@ NodeSpec pair(Random& random, double size) {
 
 /// Distance of a world point to the cutter's axis, from the four numbers, in long double.
 long double off_axis(const MemberFrame& frame, const TubeCutter& tube, const Vector3d& world) {
-  const auto body = ray::tube(0, tube.inclination.rad(), tube.clocking.rad(), tube.offset,
-                              tube.height);
+  const auto body =
+      ray::tube(0, tube.inclination.rad(), tube.clocking.rad(), tube.offset, tube.height);
   ray::Point p{};
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
@@ -90,11 +94,16 @@ TEST(Node, GoldenNodeGivesItsParameters) {
   };
   NodeSpec spec;
   for (const std::string m : {"members/0", "members/1"})
-    spec.members.push_back({.start = vector(m + "/A"), .finish = vector(m + "/B"),
+    spec.members.push_back({.start = vector(m + "/A"),
+                            .finish = vector(m + "/B"),
                             .outer_radius = testing::number(golden, "node/" + m + "/r"),
                             .wall = 5});
-  spec.members.push_back({.start = vector("p_cut"), .finish = vector("p_far"), .outer_radius = 50,
-                          .wall = 5, .priority = 1, .up = vector("phase_ref")});
+  spec.members.push_back({.start = vector("p_cut"),
+                          .finish = vector("p_far"),
+                          .outer_radius = 50,
+                          .wall = 5,
+                          .priority = 1,
+                          .up = vector("phase_ref")});
   spec.connect = std::vector<Link>{{.member = 2, .end = End::start, .to = {1, 0}}};
   const auto nodes = solve(spec);
   ASSERT_TRUE(nodes);
@@ -108,8 +117,8 @@ TEST(Node, GoldenNodeGivesItsParameters) {
     EXPECT_NEAR(got.offset, testing::number(golden, want + "/s"), 1e-10);
     EXPECT_NEAR(got.height, testing::number(golden, want + "/h"), 1e-10);
   }
-  EXPECT_NEAR(end.cut_by[1].placement.point_axial,
-              testing::number(golden, "node/cutters/1/wmin"), 1e-10);
+  EXPECT_NEAR(end.cut_by[1].placement.point_axial, testing::number(golden, "node/cutters/1/wmin"),
+              1e-10);
   EXPECT_FALSE(end.cut_by[0].ghost);
 }
 
@@ -278,7 +287,8 @@ TEST(Nearness, ACrowdIsRefused) {
   for (int i = 0; i < 70; ++i)
     spec.members.push_back({.start = Vector3d::Zero(),
                             .finish = Vector3d(std::cos(i), std::sin(i), 0.1 * i) * 900,
-                            .outer_radius = 10, .wall = 1});
+                            .outer_radius = 10,
+                            .wall = 1});
   spec.connect = Within{5};
   const auto nodes = solve(spec);
   ASSERT_FALSE(nodes);

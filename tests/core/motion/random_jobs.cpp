@@ -6,12 +6,13 @@
 namespace tubecut::motion::testing {
 namespace {
 
+/// Harmonics that fall off with the square of their order, as those of a real joint do.
 void add_waves(Dice& dice, const std::vector<double>& phi, double size, std::vector<double>& out) {
   const int waves = 1 + dice.below(3);
   for (int w = 0; w < waves; ++w) {
-    const double amplitude = dice.uniform(0.1, 1.0) * size / waves;
-    const double shift = dice.uniform(0.0, kTwoPi);
     const int order = 1 + dice.below(4);
+    const double amplitude = dice.uniform(0.1, 1.0) * size / (order * order);
+    const double shift = dice.uniform(0.0, kTwoPi);
     for (std::size_t i = 0; i < phi.size(); ++i)
       out[i] += amplitude * std::cos(order * phi[i] + shift);
   }
@@ -113,7 +114,7 @@ ScheduleSpec random_job(std::uint64_t seed) {
   const Contour contour = random_contour(dice);
   spec.machine = random_machine(dice);
   // Cutting speeds, but no more than some ten thousand periods of the shortest.
-  const double least = length(contour) / (30000.0 * spec.machine.period);
+  const double least = length(contour) / (60000.0 * spec.machine.period);
   spec.motion.speed = std::max(dice.log_uniform(2.0, 25.0), least);
   spec.motion.speed_on = dice.below(2) == 0 ? Surface::outer : Surface::inner;
   spec.motion.eps_tip = dice.log_uniform(0.05, 0.3);

@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <cmath>
+
+#include "api/endpoint.hpp"
+#include "api/endpoints/all.hpp"
+#include "api/endpoints/joint_codec.hpp"
+#include "api/formats/hole_formats.hpp"
+#include "core/bevel/hole.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using bevel::JointKind;
+using bevel::Tilt;
+
+constexpr Range kGap{.min = 0.0, .max = 50.0};
+constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
+constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
+constexpr Range kComponent{.min = -1e6, .max = 1e6};
+
+Section decode_tube(Reader& in) {
+  in.optional_text("id");
+  return decode_section(in, true);
+}
+
+struct Branch {
+  bevel::BranchPlacement placement;
+  double wall = 0.0;
+};
+
+Branch decode_branch(Reader& in) {
+  const auto size = decode_tube(in);
+  const auto which = in.exactly_one({"inclination_deg", "axis"});
+  if (which == 1)
+    return {
+        .placement = joint::AxisTube{.radius = size.outer_radius,
+                                     .axis = in.object("axis",
+                                                       [](Reader& a) {
+                                                         return joint::AxisLine{
+                                                             a.vector3("point_mm", kOffset),
+                                                             a.vector3("direction", kComponent)};
+                                                       })},
+        .wall = size.wall};
+  joint::TubeCutter tube{.radius = size.outer_radius};
+  if (which) tube.inclination = in.angle("inclination_deg", kInclinationDeg);
+  tube.clocking = in.angle("clocking_deg", kAnyAngleDeg, Angle{});
+  tube.offset = in.number("offset_mm", kOffset, 0.0);
+  tube.height = in.number("height_mm", kOffset, 0.0);
+  return {.placement = tube, .wall = size.wall};
+}
+
+struct Joint {
+  JointKind kind = JointKind::set_on;
+  double gap = 0.0;
+  std::optional<double> depth = {};
+};
+
+Joint decode_joint(Reader& in, double chord_radius) {
+  static constexpr std::array kKinds{Option<JointKind>{"set_on", JointKind::set_on},
+                                     Option<JointKind>{"set_in", JointKind::set_in},
+                                     Option<JointKind>{"through", JointKind::through}};
+  Joint out;
+  const auto kind = in.tag("kind", kKinds);
+  out.kind = kind.value_or(JointKind::set_in);
+  out.gap = in.number("gap_mm", kGap, 0.0);
+  if (out.kind != JointKind::set_in && in.has("depth_mm"))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "depth_mm",
+              .hint = "only a set-in branch has a depth"},
+             in.find("depth_mm"));
+  out.depth = in.optional_number(
+      "depth_mm", {.min = 0.0, .max = chord_radius, .open_min = true, .open_max = true});
+  return out;
+}
+
+enum class RuleName { half_dihedral, fixed, none, square };
+
+bevel::GrooveRule decode_rule(Reader& in) {
+  static constexpr std::array kRules{Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
+                                     Option<RuleName>{"fixed", RuleName::fixed},
+                                     Option<RuleName>{"none", RuleName::none},
+                                     Option<RuleName>{"square", RuleName::square}};
+  const auto rule = in.tag("rule", kRules);
+  if (rule == RuleName::half_dihedral)
+    return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
+  if (rule == RuleName::fixed)
+    return bevel::FixedGroove{in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
+  if (rule == RuleName::square) return bevel::SquareCut{};
+  return bevel::NoGroove{};
+}
+
+bevel::TorchRange decode_range(Reader& in) {
+  bevel::TorchRange out;
+  out.min = in.angle("min_deg", kTorchDeg, Angle::deg(-80));
+  out.max = in.angle("max_deg", kTorchDeg, Angle::deg(80));
+  if (!(out.min < out.max))
+    in.issue({.code = ErrorCode::out_of_range,
+              .pointer = "max_deg",
+              .limit = Json{out.min.deg()},
+              .unit = "deg",
+              .hint = "must be greater than min_deg"},
+             in.find("max_deg"));
+  return out;
+}
+
+struct Holes {
+  using Spec = bevel::HoleSpec;
+  using Out = bevel::HoleCut;
+  static constexpr std::string_view kId = "holes";
+  static constexpr std::string_view kPath = "/v1/holes";
+  static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr std::array<std::string_view, 2> kAccepts{"max_root_gap_mm", "max_b_deg"};
+  static constexpr std::array<CheckLimit, 8> kChecks{{
+      {"on_branch", "1e-6", "mm"},
+      {"gap", "1e-6", "mm"},
+      {"fit_up", "1e-6", "mm"},
+      {"dihedral", "1e-6", "deg"},
+      {"groove", "1e-6", "deg"},
+      {"tilt", "1e-6", "deg"},
+      {"kerf", "1e-6", "mm"},
+      {"branch_end", "1e-6", "mm"},
+  }};
+
+  static Spec decode(Reader& in) {
+    static constexpr std::array kTilts{Option<Tilt>{"axial", Tilt::axial},
+                                       Option<Tilt>{"free", Tilt::free}};
+    Spec out;
+    const auto chord = in.object("chord", decode_tube);
+    out.chord = {.outer_radius = chord.outer_radius, .wall = chord.wall};
+    const auto branch = in.object("branch", decode_branch);
+    out.branch = branch.placement;
+    out.branch_wall = branch.wall;
+    const auto joint = in.object("joint", [&](Reader& j) {
+      return decode_joint(j, std::max(chord.outer_radius, kDiameter.min));
+    });
+    out.kind = joint.kind;
+    out.gap = joint.gap;
+    out.depth = joint.depth;
+    out.groove = in.object("groove", decode_rule);
+    out.tilt = in.choice("tilt", kTilts, Tilt::axial);
+    out.torch = in.defaulted_object("torch", decode_range);
+    out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
+    out.sampling = decode_sampling(in);
+    return out;
+  }
+
+  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
+    return bevel::hole(spec, stop);
+  }
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    return bevel::verify(spec, out);
+  }
+  static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
+
+  static std::vector<Measure> measure(const Spec&, const Out& out) {
+    double gap = 0.0, b = 0.0;
+    for (const auto& hole : out.holes) {
+      gap = std::max(gap, hole.fit.greatest_root_between);
+      for (const double one : hole.b) b = std::max(b, std::abs(one));
+    }
+    return {{"max_root_gap_mm", gap}, {"max_b_deg", b * kDegPerRad}};
+  }
+
+  static void encode(const Spec& spec, const Out& out, Writer& w) {
+    w.array("holes", out.holes, [&](Writer& each, const bevel::Hole& hole) {
+      each.object([&](Writer& o) { encode_hole(spec, hole, o); });
+    });
+    if (out.branch) w.object("branch", [&](Writer& o) { encode_branch(spec, *out.branch, o); });
+  }
+
+  static void encode_hole(const Spec& spec, const bevel::Hole& hole, Writer& o) {
+    o.field("side", hole.far ? "far" : "near");
+    o.object("points", [&](Writer& p) {
+      encode_phase("branch_phi_deg", hole.branch_phi, hole.far, spec, p);
+      p.column("length_mm", hole.length);
+      p.degrees_column("phi_deg", hole.phi);
+      p.column("z_mm", hole.z);
+      p.column("developed_mm", hole.developed);
+      p.degrees_column("phi_inner_deg", hole.phi_inner);
+      p.column("z_inner_mm", hole.z_inner);
+      p.degrees_column("dihedral_deg", hole.dihedral);
+      p.degrees_column("groove_deg", hole.groove);
+      p.degrees_column("b_deg", hole.b);
+      p.degrees_column("a_deg", hole.a);
+      p.column("beam_mm", hole.beam);
+      p.degrees_column("torch_phi_deg", hole.torch_phi);
+      p.column("torch_z_mm", hole.torch_z);
+      p.degrees_column("torch_phi_inner_deg", hole.torch_phi_inner);
+      p.column("torch_z_inner_mm", hole.torch_z_inner);
+    });
+    o.field("scrap", "inside");
+    o.field("turns", 0);
+    o.field("length_mm", hole.length_total);
+    o.object("fit_up", [&](Writer& f) {
+      f.column("root_mm", hole.fit.root);
+      f.column("face_mm", hole.fit.face);
+      f.column("least_mm", hole.fit.least);
+      f.field("least_between_nodes_mm", hole.fit.least_between);
+      f.field("greatest_root_between_nodes_mm", hole.fit.greatest_root_between);
+    });
+  }
+
+  /// The cutter goes unchanged into a bevel table of the branch.
+  static void encode_branch(const Spec& spec, const bevel::BranchEnd& end, Writer& o) {
+    o.object("cutter", [&](Writer& c) {
+      c.field("kind", "tube");
+      c.field("outer_diameter_mm", 2.0 * end.chord.radius);
+      c.degrees("inclination_deg", end.chord.inclination.rad());
+      c.degrees("clocking_deg", end.chord.clocking.rad());
+      c.field("offset_mm", end.chord.offset);
+      c.field("height_mm", end.chord.height);
+    });
+    o.object("points", [&](Writer& p) {
+      encode_phase("phi_deg", end.phi, false, spec, p);
+      p.column("z_inner_mm", end.z_inner);
+      p.column("z_outer_mm", end.z_outer);
+      p.degrees_column("b_deg", end.b);
+    });
+  }
+
+  static void encode_phase(std::string_view name, const std::vector<double>& phase, bool far,
+                           const Spec& spec, Writer& w) {
+    if (far || spec.sampling.tolerance) return w.degrees_column(name, phase);
+    std::vector<double> grid(phase.size());  // exactly 360 i / n
+    for (std::size_t i = 0; i < grid.size(); ++i)
+      grid[i] = 360.0 * static_cast<double>(i) / static_cast<double>(grid.size());
+    w.column(name, grid);
+  }
+
+  static const std::vector<Format<Spec, Out>>& formats() {
+    static const std::vector<Format<Spec, Out>> kFormats{{"csv", "text/csv", &hole_csv},
+                                                         {"svg", "image/svg+xml", &hole_svg}};
+    return kFormats;
+  }
+};
+
+}  // namespace
+
+Endpoint holes() { return endpoint<Holes>(); }
+
+}  // namespace tubecut::api

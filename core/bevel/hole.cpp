@@ -1,0 +1,263 @@
+#include "core/bevel/hole.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/bevel/hole_end.hpp"
+#include "core/bevel/hole_fit.hpp"
+#include "core/bevel/hole_wall.hpp"
+#include "core/joint/length.hpp"
+#include "core/joint/placement.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kCells = 36;  // before any deviation is measured: 10 deg
+constexpr int kProbes = 7;
+constexpr int kHalvings = 20;
+constexpr double kShallow = 1e-9 * kRadPerDeg;  // rad; what counts as a groove lost
+
+double wrapped(double phi) { return phi - kTwoPi * std::floor(phi / kTwoPi); }
+
+/// One node: its phase on the branch and its wall line.
+struct Node {
+  double phase = 0.0;
+  WallLine line;
+};
+
+/// Bisects the branch's phases until both edges are straight within the tolerance.
+class Refiner {
+ public:
+  Refiner(const HoleSpec& spec, const WallLines& walls, const std::stop_token& stop)
+      : spec_(spec), walls_(walls), stop_(stop) {}
+
+  std::vector<Node> uniform(std::size_t n) const {
+    std::vector<Node> out;
+    for (std::size_t i = 0; i < n && !stop_.stop_requested(); ++i)
+      out.push_back(at(kTwoPi * static_cast<double>(i) / static_cast<double>(n)));
+    return out;
+  }
+
+  std::vector<Node> adaptive() {
+    std::vector<Node> all{at(0.0)};
+    for (int k = 1; k <= kCells; ++k) {
+      const Node to = k == kCells ? closing(all.front()) : at(kTwoPi * k / kCells);
+      halve(Node(all.back()), to, kHalvings, all);
+      if (k < kCells) all.push_back(to);
+    }
+    return all;
+  }
+
+  /// The uniform phases that are not nodes already join them.
+  std::vector<Node> with(std::vector<Node> nodes, std::size_t n) const {
+    const auto old = nodes.size();
+    for (auto& node : uniform(n)) {
+      const auto next = std::lower_bound(
+          nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(old), node.phase - 1e-9,
+          [](const Node& a, double phase) { return a.phase < phase; });
+      const bool taken = next != nodes.begin() + static_cast<std::ptrdiff_t>(old) &&
+                         next->phase < node.phase + 1e-9;
+      if (!taken) nodes.push_back(std::move(node));
+    }
+    std::ranges::stable_sort(nodes, {}, &Node::phase);
+    return nodes;
+  }
+
+ private:
+  Node at(double phase) const { return {phase, walls_.at(phase)}; }
+  static Node closing(const Node& first) { return {kTwoPi, first.line}; }
+
+  [[nodiscard]] Vector3d placed(const Vector3d& p, double radius) const {
+    if (spec_.sampling.tolerance->metric == joint::Metric::chord) return p;
+    return {radius * walls_.phi(p), p.z(), 0.0};
+  }
+
+  [[nodiscard]] double deviation(const Vector3d& a, const Vector3d& b, const Vector3d& p) const {
+    const Vector3d along = (b - a).normalized();
+    const Vector3d to = p - a;
+    return (to - to.dot(along) * along).norm();
+  }
+
+  [[nodiscard]] bool straight(const Node& a, const Node& b) const {
+    const double ro = spec_.chord.outer_radius;
+    const double ri = spec_.chord.inner_radius();
+    for (int k = 1; k <= kProbes; ++k) {
+      const auto mid = walls_.at(a.phase + (b.phase - a.phase) * k / (kProbes + 1));
+      const double off = std::max(
+          deviation(placed(a.line.outer, ro), placed(b.line.outer, ro), placed(mid.outer, ro)),
+          deviation(placed(a.line.inner, ri), placed(b.line.inner, ri), placed(mid.inner, ri)));
+      if (off > spec_.sampling.tolerance->value) return false;
+    }
+    return true;
+  }
+
+  void halve(const Node& a, const Node& b, int halvings, std::vector<Node>& out) const {
+    if (halvings == 0 || out.size() > spec_.sampling.max_nodes || stop_.stop_requested() ||
+        straight(a, b))
+      return;
+    const Node mid = at(0.5 * (a.phase + b.phase));
+    halve(a, mid, halvings - 1, out);
+    out.push_back(mid);
+    halve(mid, b, halvings - 1, out);
+  }
+
+  const HoleSpec& spec_;
+  const WallLines& walls_;
+  const std::stop_token& stop_;
+};
+
+Result<std::vector<Node>> sample(const HoleSpec& spec, const WallLines& walls,
+                                 const std::stop_token& stop) {
+  const auto& s = spec.sampling;
+  if (s.tolerance ? !(s.tolerance->value > 0.0) : s.uniform_points == 0)
+    return fail({.code = ErrorCode::out_of_range, .member = "sampling"});
+  Refiner refiner(spec, walls, stop);
+  auto nodes = s.tolerance ? refiner.with(refiner.adaptive(), s.uniform_points)
+                           : refiner.uniform(s.uniform_points);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (nodes.size() > s.max_nodes)
+    return fail({.code = ErrorCode::too_many_nodes,
+                 .member = "sampling",
+                 .got = static_cast<double>(nodes.size()),
+                 .limit = static_cast<double>(s.max_nodes)});
+  return nodes;
+}
+
+/// Runs of nodes that satisfy `holds`, as intervals of the branch's phase in deg.
+template <class F>
+Intervals runs(const std::vector<Node>& nodes, F holds) {
+  Intervals out;
+  bool inside = false;
+  for (const auto& node : nodes) {
+    const bool now = holds(node.line);
+    const double phi = node.phase * kDegPerRad;
+    if (now && !inside) out.emplace_back(phi, phi);
+    if (now) out.back().second = phi;
+    inside = now;
+  }
+  return out;
+}
+
+Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
+  auto open = runs(nodes, [](const WallLine& w) { return w.misses_bore; });
+  if (!open.empty())
+    return fail({.code = ErrorCode::open_profile,
+                 .member = "branch",
+                 .got = std::move(open),
+                 .limit = "a wall that reaches the bore",
+                 .unit = "deg",
+                 .hint = "the hole's wall does not reach the chord's bore here"});
+  auto beyond = runs(nodes, [](const WallLine& w) { return w.beyond_torch; });
+  if (beyond.empty()) return {};
+  return fail({.code = ErrorCode::torch_range,
+               .member = "torch/max",
+               .got = std::move(beyond),
+               .limit = spec.torch.max.deg(),
+               .unit = "deg",
+               .hint = spec.tilt == Tilt::axial
+                           ? "a swing in the axial plane alone cannot keep the hole's wall off the "
+                             "branch here; tilt free can"
+                           : "the surfaces are too nearly tangent here"});
+}
+
+void note_lost(const std::vector<Node>& nodes, std::vector<Warning>& out) {
+  for (const auto& [from, to] : runs(nodes, [](const WallLine& w) { return w.lost > kShallow; })) {
+    double worst = 0.0;
+    for (const auto& node : nodes)
+      if (node.phase * kDegPerRad >= from && node.phase * kDegPerRad <= to)
+        worst = std::max(worst, node.line.lost);
+    out.push_back({.code = WarningCode::torch_range_binds,
+                   .member = "torch",
+                   .detail = "branch phase " + shown(from) + " to " + shown(to) + " deg, up to " +
+                             shown(worst * kDegPerRad) + " deg of groove lost"});
+  }
+}
+
+Hole tabulate(const HoleSpec& spec, const WallLines& walls, const joint::Contour& root,
+              const std::vector<Node>& nodes, bool far) {
+  Hole out;
+  out.far = far;
+  std::vector<double> phases;
+  for (const auto& [phase, w] : nodes) {
+    phases.push_back(phase);
+    // The far side's branch frame is mirrored: its phase runs the other way.
+    out.branch_phi.push_back(far ? wrapped(kPi - phase) : phase);
+    out.phi.push_back(walls.phi(w.outer));
+    out.z.push_back(w.outer.z());
+    out.developed.push_back(spec.chord.outer_radius * out.phi.back());
+    out.phi_inner.push_back(walls.phi(w.inner));
+    out.z_inner.push_back(w.inner.z());
+    out.dihedral.push_back(w.dihedral);
+    out.groove.push_back(w.groove);
+    out.b.push_back(w.b);
+    out.a.push_back(w.a);
+    out.beam.push_back((w.torch_outer - w.torch_inner).norm());
+    out.torch_phi.push_back(walls.phi(w.torch_outer));
+    out.torch_z.push_back(w.torch_outer.z());
+    out.torch_phi_inner.push_back(walls.phi(w.torch_inner));
+    out.torch_z_inner.push_back(w.torch_inner.z());
+  }
+  out.length = joint::lengths_along(root, phases);
+  out.length_total = out.length.back();
+  out.length.pop_back();
+  return out;
+}
+
+Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, bool far,
+                      std::vector<Warning>& warnings, const std::stop_token& stop) {
+  const bool on = spec.kind == JointKind::set_on;
+  const double rho = on ? branch.radius - spec.branch_wall : branch.radius + spec.gap;
+  if (!(0.5 * spec.kerf < rho))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "kerf",
+                 .got = spec.kerf,
+                 .limit = 2.0 * rho,
+                 .unit = "mm"});
+  const auto root =
+      joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho);
+  if (!root) return tl::unexpected(root.error());
+  const WallLines walls(spec, branch, rho, root->cutters.front());
+  const auto nodes = sample(spec, walls, stop);
+  if (!nodes) return tl::unexpected(nodes.error());
+  if (auto ok = check_lines(spec, *nodes); !ok) return tl::unexpected(ok.error());
+  if (!root->near_parallel.empty() && !far)
+    warnings.push_back({.code = WarningCode::near_parallel, .member = "branch"});
+  note_lost(*nodes, warnings);
+  return tabulate(spec, walls, *root, *nodes, far);
+}
+
+}  // namespace
+
+Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch) {
+  if (const auto* tube = std::get_if<joint::TubeCutter>(&branch)) return *tube;
+  const auto& axis = std::get<joint::AxisTube>(branch);
+  const auto placed = joint::place(axis.axis, axis.radius, "branch/axis");
+  if (!placed) return tl::unexpected(placed.error());
+  return placed->tube;
+}
+
+Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop) {
+  const auto branch = branch_tube(spec.branch);
+  if (!branch) return tl::unexpected(branch.error());
+  HoleCut out;
+  auto near = one_hole(spec, *branch, false, out.warnings, stop);
+  if (!near) return tl::unexpected(near.error());
+  out.holes.push_back(*std::move(near));
+  if (spec.kind == JointKind::through) {
+    auto far = one_hole(spec, reversed(*branch), true, out.warnings, stop);
+    if (!far) return tl::unexpected(far.error());
+    out.holes.push_back(*std::move(far));
+  } else {
+    auto end = branch_end(spec, *branch, out.holes.front().branch_phi);
+    if (!end) return tl::unexpected(end.error());
+    out.branch = *std::move(end);
+  }
+  for (auto& one : out.holes) one.fit = fit_up(spec, *branch, out, one);
+  return out;
+}
+
+}  // namespace tubecut::bevel

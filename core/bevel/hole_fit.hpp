@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/bevel/hole.hpp"
+
+namespace tubecut::bevel {
+
+/// The chord as the partner of the branch's end: clocking 0 by the choice of the branch's phase.
+[[nodiscard]] joint::TubeCutter chord_seen_from(const joint::TubeCutter& branch, double radius);
+
+/// The gap between the two cut surfaces, measured in 3D from the tables themselves: set-on, the
+/// branch's end to the chord's outer surface; else the hole's wall to the branch's outer surface.
+[[nodiscard]] FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch,
+                           const HoleCut& cut, const Hole& hole);
+
+}  // namespace tubecut::bevel

@@ -1,0 +1,151 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/bevel/hole.hpp"
+#include "core/joint/placement.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLength = 1e-6;  // mm
+constexpr double kAngle = 1e-6;   // deg
+constexpr int kAcross = 9;
+
+Vector3d placed(double radius, double phi, double z) {
+  const auto at = elementary::sincos(phi);
+  return {radius * at.cos, radius * at.sin, z};
+}
+
+/// A straight line through space with the distance to it by what is left beside the foot.
+struct Axis {
+  Vector3d point, direction;
+  [[nodiscard]] Vector3d beside(const Vector3d& p) const {
+    const Vector3d from = p - point;
+    return from - from.dot(direction) * direction;
+  }
+  [[nodiscard]] double distance(const Vector3d& p) const { return beside(p).norm(); }
+};
+
+double between(const Vector3d& a, const Vector3d& b) {
+  return 2.0 * elementary::atan2((a - b).norm(), (a + b).norm());
+}
+
+struct Proof {
+  double root = 0.0, gap = 0.0, fit = 0.0, dihedral = 0.0, groove = 0.0, tilt = 0.0, kerf = 0.0,
+         end = 0.0;
+};
+
+void see(double& worst, double value) {
+  // A number that is no number must fail.
+  worst = value > worst || value != value ? value : worst;
+}
+
+/// One node of a hole, rebuilt in space.
+struct Row {
+  Vector3d outer, inner, root, torch_outer, torch_inner;
+  Vector3d chord_normal, branch_normal;
+};
+
+Row row(const HoleSpec& spec, const Hole& h, const Axis& axis, std::size_t i) {
+  Row r;
+  const double ro = spec.chord.outer_radius, ri = spec.chord.inner_radius();
+  r.outer = placed(ro, h.phi[i], h.z[i]);
+  r.inner = placed(ri, h.phi_inner[i], h.z_inner[i]);
+  r.torch_outer = placed(ro, h.torch_phi[i], h.torch_z[i]);
+  r.torch_inner = placed(ri, h.torch_phi_inner[i], h.torch_z_inner[i]);
+  const bool on = spec.kind == JointKind::set_on;
+  r.root = on ? r.outer : r.inner;
+  r.chord_normal = placed(1.0, on ? h.phi[i] : h.phi_inner[i], 0.0);
+  r.branch_normal = axis.beside(r.root).normalized();
+  return r;
+}
+
+/// Groove, tilt and kerf of the wall's line.
+void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i, Proof& p) {
+  see(p.dihedral, std::abs(between(r.chord_normal, -r.branch_normal) - h.dihedral[i]) * kDegPerRad);
+  const Vector3d wall = (r.outer - r.inner).normalized();
+  const Vector3d along = r.chord_normal.cross(r.branch_normal).normalized();
+  Vector3d cut = along.cross(wall).normalized();
+  if (cut.dot(r.branch_normal) < 0.0) cut = -cut;
+  const double side = wall.dot(r.branch_normal) < 0.0 ? -1.0 : 1.0;
+  see(p.groove, std::abs(side * between(cut, r.branch_normal) - h.groove[i]) * kDegPerRad);
+  see(p.kerf, std::abs((r.outer - r.torch_outer).dot(cut) - 0.5 * spec.kerf));
+  see(p.kerf, std::abs((r.inner - r.torch_inner).dot(cut) - 0.5 * spec.kerf));
+  const Vector3d torch = r.torch_outer - r.torch_inner;
+  const auto at = elementary::sincos(h.torch_phi[i]);
+  const double height = torch.x() * at.cos + torch.y() * at.sin;
+  const double across = torch.y() * at.cos - torch.x() * at.sin;
+  see(p.tilt, std::abs(elementary::atan2(torch.z(), height) - h.b[i]) * kDegPerRad);
+  see(p.tilt, std::abs(elementary::atan2(across, height) - h.a[i]) * kDegPerRad);
+}
+
+/// The hole's wall against the branch.
+void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Axis& axis,
+                     double branch_radius, std::size_t i, Proof& p) {
+  see(p.gap, std::abs(axis.distance(r.root) - branch_radius - spec.gap));
+  for (int k = 0; k < kAcross; ++k) {
+    const double t = static_cast<double>(k) / (kAcross - 1);
+    see(p.gap, spec.gap + branch_radius - axis.distance((1.0 - t) * r.inner + t * r.outer));
+  }
+  see(p.fit, std::abs(axis.distance(r.inner) - branch_radius - h.fit.root[i]));
+  see(p.fit, std::abs(axis.distance(r.outer) - branch_radius - h.fit.face[i]));
+}
+
+/// The branch's end against the chord, in the branch's own frame.
+void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const BranchEnd& end,
+               const FitUp& fit, Proof& p) {
+  const auto line = joint::axis_of(end.chord);
+  const Axis axis{line.point, line.direction};
+  const double outer = branch.radius, inner = branch.radius - spec.branch_wall;
+  const bool on = spec.kind == JointKind::set_on;
+  const double seat = on ? spec.chord.outer_radius + spec.gap
+                         : spec.chord.outer_radius - spec.depth.value_or(spec.chord.wall);
+  for (std::size_t i = 0; i < end.phi.size(); ++i) {
+    const Vector3d root = placed(inner, end.phi[i], end.z_inner[i]);
+    const Vector3d face = placed(outer, end.phi[i], end.z_outer[i]);
+    see(p.end, std::abs(axis.distance(root) - seat));
+    see(p.tilt,
+        std::abs(elementary::atan2(end.z_outer[i] - end.z_inner[i], spec.branch_wall) - end.b[i]) *
+            kDegPerRad);
+    if (!on) {
+      see(p.end, std::abs(axis.distance(face) - seat));
+      continue;
+    }
+    for (int k = 0; k < kAcross; ++k) {
+      const double t = static_cast<double>(k) / (kAcross - 1);
+      see(p.gap, seat - axis.distance((1.0 - t) * root + t * face));
+    }
+    see(p.fit, std::abs(axis.distance(root) - spec.chord.outer_radius - fit.root[i]));
+    see(p.fit, std::abs(axis.distance(face) - spec.chord.outer_radius - fit.face[i]));
+  }
+}
+
+}  // namespace
+
+std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut) {
+  const auto branch = branch_tube(spec.branch);
+  if (!branch) return {};
+  const auto line = joint::axis_of(*branch);
+  const Axis axis{line.point, line.direction};
+  const bool on = spec.kind == JointKind::set_on;
+  const double rho = on ? branch->radius - spec.branch_wall : branch->radius + spec.gap;
+  Proof p;
+  for (const auto& h : cut.holes)
+    for (std::size_t i = 0; i < h.phi.size(); ++i) {
+      const auto r = row(spec, h, axis, i);
+      see(p.root, std::abs(axis.distance(r.root) - rho));
+      prove_wall(spec, h, r, i, p);
+      if (!on) prove_clearance(spec, h, r, axis, branch->radius, i, p);
+    }
+  if (cut.branch) prove_end(spec, *branch, *cut.branch, cut.holes.front().fit, p);
+  return {{"on_branch", p.root, kLength, "mm"}, {"gap", p.gap, kLength, "mm"},
+          {"fit_up", p.fit, kLength, "mm"},     {"dihedral", p.dihedral, kAngle, "deg"},
+          {"groove", p.groove, kAngle, "deg"},  {"tilt", p.tilt, kAngle, "deg"},
+          {"kerf", p.kerf, kLength, "mm"},      {"branch_end", p.end, kLength, "mm"}};
+}
+
+}  // namespace tubecut::bevel

@@ -1,0 +1,180 @@
+#include "core/bevel/hole_wall.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+using Eigen::Vector3d;
+
+// Each round brings the torch's own axial plane nearer by half the kerf over the radius, < 1/5.
+constexpr int kKerfRounds = 24;
+constexpr double kSettled = 1e-14;  // of the chord's radius
+
+Vector3d radial_at(const Vector3d& p) {
+  return Vector3d(p.x(), p.y(), 0.0) / elementary::hypot(p.x(), p.y());
+}
+
+/// The first point, outwards or inwards, of a line that leaves the axis on the cylinder `radius`.
+/// Empty where the line passes by.
+std::optional<Vector3d> on_cylinder(const Vector3d& p, const Vector3d& along, double radius) {
+  const double a = along.x() * along.x() + along.y() * along.y();
+  const double b = p.x() * along.x() + p.y() * along.y();
+  const double size = elementary::hypot(p.x(), p.y());
+  const double c = (size - radius) * (size + radius);
+  const double square = b * b - a * c;
+  if (!(square >= 0.0)) return std::nullopt;
+  return p - along * (c / (b + std::sqrt(square)));
+}
+
+}  // namespace
+
+BranchFrame branch_frame(const joint::TubeCutter& branch) {
+  const auto a = elementary::sincos(branch.inclination.rad());
+  const auto b = elementary::sincos(branch.clocking.rad());
+  BranchFrame f;
+  f.side = {b.sin, -b.cos, 0.0};
+  f.across = {b.cos, b.sin, 0.0};
+  f.foot = -branch.offset * f.across + Vector3d(0.0, 0.0, branch.height);
+  f.axis = a.sin * f.side + Vector3d(0.0, 0.0, a.cos);
+  f.x = -f.across;
+  f.y = a.cos * f.side - Vector3d(0.0, 0.0, a.sin);
+  const double phi = branch.clocking.rad() - 0.5 * kPi;
+  f.side_phi = phi - kTwoPi * std::floor(phi / kTwoPi);
+  return f;
+}
+
+joint::TubeCutter reversed(const joint::TubeCutter& branch) {
+  auto out = branch;
+  out.inclination = Angle::rad(kPi) - branch.inclination;
+  out.clocking = branch.clocking + Angle::rad(kPi);
+  out.offset = -branch.offset;
+  return out;
+}
+
+/// The chord's surface and the branch's at the root: outward normals, and the branch's direction
+/// across the weld, `rise`, away from the chord's axis.
+struct WallLines::Corner {
+  Vector3d chord, branch, rise;
+  double dihedral;  // weld side
+  double sine;      // of the dihedral
+};
+
+WallLines::WallLines(const HoleSpec& spec, const joint::TubeCutter& branch, double radius,
+                     const joint::Prepared& chord)
+    : spec_(spec),
+      frame_(branch_frame(branch)),
+      radius_(radius),
+      chord_(chord),
+      root_outside_(spec.kind == JointKind::set_on) {}
+
+double WallLines::phi(const Vector3d& point) const {
+  return frame_.side_phi + elementary::atan2(point.dot(frame_.across), point.dot(frame_.side));
+}
+
+/// Of the wall against the branch's surface, in the section across the weld, >= 0. A set-on hole
+/// is the branch's bore: flush.
+double WallLines::asked_groove(double dihedral) const {
+  if (root_outside_) return 0.0;
+  if (const auto* half = std::get_if<HalfDihedral>(&spec_.groove))
+    return std::min(0.5 * dihedral, half->cap.rad());
+  if (const auto* fixed = std::get_if<FixedGroove>(&spec_.groove)) return fixed->angle.rad();
+  if (std::holds_alternative<SquareCut>(spec_.groove)) return std::max(0.0, dihedral - 0.5 * kPi);
+  return 0.0;
+}
+
+// In the section across the weld the line stands `dihedral - groove` above the chord's surface.
+WallLines::Direction WallLines::free_direction(const Corner& c) const {
+  const double asked = asked_groove(c.dihedral);
+  const double lowest = c.dihedral - 0.5 * kPi - spec_.torch.max.rad();
+  const double highest = c.dihedral - 0.5 * kPi + spec_.torch.max.rad();
+  const double groove = std::clamp(asked, lowest, highest);
+  const auto at = elementary::sincos(groove);
+  return {.unit = at.cos * c.rise + at.sin * c.branch,
+          .b = 0.0,
+          .beyond = !root_outside_ && groove < 0.0};
+}
+
+// Where the curve runs along the chord, a swing in the axial plane leaves the bevel as it is: the
+// groove fades out towards the sides instead of driving B to 90 deg. Never less than flush.
+WallLines::Direction WallLines::axial_direction(const Corner& c, const Vector3d& radial) const {
+  const Vector3d tangential(-radial.y(), radial.x(), 0.0);
+  const double up = c.branch.z();
+  const double round = c.branch.dot(tangential);
+  const double flat = elementary::hypot(up, round);
+  double b = elementary::atan2(frame_.axis.z(), frame_.axis.dot(radial));
+  if (std::holds_alternative<SquareCut>(spec_.groove) && !root_outside_) {
+    b = 0.0;
+  } else if (flat > 0.0) {
+    b += asked_groove(c.dihedral) * up / flat;
+  }
+  b = std::clamp(b, spec_.torch.min.rad(), spec_.torch.max.rad());
+  Direction out;
+  if (!root_outside_) {
+    const double out_of_branch = c.branch.dot(radial);
+    if (up > 0.0) b = std::max(b, elementary::atan2(-out_of_branch, up));
+    if (up < 0.0) b = std::min(b, -elementary::atan2(-out_of_branch, -up));
+    out.beyond = b > spec_.torch.max.rad() || b < spec_.torch.min.rad() ||
+                 (up == 0.0 && out_of_branch < 0.0);
+    b = std::clamp(b, spec_.torch.min.rad(), spec_.torch.max.rad());
+  }
+  const auto at = elementary::sincos(b);
+  out.unit = at.cos * radial + Vector3d(0.0, 0.0, at.sin);
+  out.b = b;
+  return out;
+}
+
+WallLine WallLines::at(double phase) const {
+  const auto line = joint::generator_at(radius_, phase);
+  Corner c;
+  c.branch = line.cos_phi * frame_.x + line.sin_phi * frame_.y;
+  WallLine out;
+  out.root = frame_.foot + radius_ * c.branch + joint::continued_sheet(chord_, line) * frame_.axis;
+  c.chord = radial_at(out.root);
+  const double facing = c.chord.dot(c.branch);
+  c.sine = c.chord.cross(c.branch).norm();
+  c.dihedral = elementary::atan2(c.sine, -facing);
+  c.rise = (c.chord - facing * c.branch) / c.sine;
+  out.dihedral = c.dihedral;
+
+  // The torch line runs half a kerf inside the wall; its own axial plane is the one that counts.
+  Vector3d base = out.root;
+  Direction d;
+  for (int round = 0; round < kKerfRounds; ++round) {
+    d = spec_.tilt == Tilt::free ? free_direction(c) : axial_direction(c, radial_at(base));
+    const double up = d.unit.dot(c.rise);
+    const double off = d.unit.dot(c.branch);
+    const Vector3d normal = (up * c.branch - off * c.rise) / elementary::hypot(up, off);
+    out.groove = elementary::atan2(off, up);
+    const Vector3d next = out.root - 0.5 * spec_.kerf * normal;
+    const bool settled = (next - base).norm() <= kSettled * spec_.chord.outer_radius;
+    base = next;
+    if (settled || spec_.tilt == Tilt::free) break;
+  }
+  out.beyond_torch = d.beyond || !(d.unit.dot(c.rise) > 0.0);
+  const bool measured = !root_outside_ && !std::holds_alternative<SquareCut>(spec_.groove);
+  out.lost = measured ? std::max(0.0, asked_groove(c.dihedral) - out.groove) : 0.0;
+
+  const double inside = spec_.chord.inner_radius();
+  const double outside = spec_.chord.outer_radius;
+  const auto other = on_cylinder(out.root, d.unit, root_outside_ ? inside : outside);
+  const auto torch_outer = on_cylinder(base, d.unit, outside);
+  const auto torch_inner = on_cylinder(base, d.unit, inside);
+  out.misses_bore = !other || !torch_outer || !torch_inner;
+  out.outer = root_outside_ ? out.root : other.value_or(out.root);
+  out.inner = root_outside_ ? other.value_or(out.root) : out.root;
+  out.torch_outer = torch_outer.value_or(base);
+  out.torch_inner = torch_inner.value_or(base);
+  const Vector3d radial = radial_at(out.torch_outer);
+  const double height = d.unit.dot(radial);
+  const bool free = spec_.tilt == Tilt::free;
+  out.b = free ? elementary::atan2(d.unit.z(), height) : d.b;
+  out.a = free ? elementary::atan2(d.unit.y() * radial.x() - d.unit.x() * radial.y(), height) : 0.0;
+  return out;
+}
+
+}  // namespace tubecut::bevel

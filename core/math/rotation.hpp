@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::math {
+
+/// Right-handed turns by an angle in rad, with the reproducible sine and cosine (Eigen's own would
+/// call the C library's).
+[[nodiscard]] inline Eigen::Matrix3d turn_about_y(double angle) {
+  const auto t = elementary::sincos(angle);
+  Eigen::Matrix3d out;
+  out << t.cos, 0.0, t.sin, 0.0, 1.0, 0.0, -t.sin, 0.0, t.cos;
+  return out;
+}
+
+[[nodiscard]] inline Eigen::Matrix3d turn_about_z(double angle) {
+  const auto t = elementary::sincos(angle);
+  Eigen::Matrix3d out;
+  out << t.cos, -t.sin, 0.0, t.sin, t.cos, 0.0, 0.0, 0.0, 1.0;
+  return out;
+}
+
+}  // namespace tubecut::math

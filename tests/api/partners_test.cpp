@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/call.hpp"
+
+namespace tubecut::testing {
+namespace {
+
+constexpr const char* kPath = "/v1/bevel-tables";
+
+api::Json mixed() { return example("bevel-tables/tube-on-rectangular-tube-and-reducer.json"); }
+api::Json elbow() { return example("bevel-tables/tube-on-elbow.json"); }
+
+TEST(Partners, RectangularTubeConeAndElbowAreCutAndProved) {
+  for (const auto& request : {mixed(), elbow()}) {
+    for (const char* path : {kPath, "/v1/intersections"}) {
+      auto body = request;
+      if (path != std::string_view(kPath))
+        for (const char* field : {"groove", "root_surface", "kerf_mm", "smoothing"})
+          body = without(body, field);
+      const auto answer = post(path, body);
+      ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+      EXPECT_EQ(at(answer.body, "verification/passed"), api::Json{true});
+    }
+    const auto gap = numbers(post(kPath, request).body, "result/points/gap_mm");
+    EXPECT_GT(gap.size(), 30u);
+  }
+  const auto cutter = numbers(post(kPath, mixed()).body, "result/points/cutter");
+  EXPECT_NE(std::ranges::min(cutter), std::ranges::max(cutter));  // both cut
+}
+
+std::string refusal(const api::Json& request, std::string_view pointer) {
+  const auto answer = post(kPath, request);
+  if (!answer.outcome.error) return "no error";
+  const auto& errors = *at(answer.body, "errors").as<api::Json::Array>();
+  for (const auto& one : errors)
+    if (text(one, "pointer") == pointer) return text(one, "code");
+  return answer.outcome.body;
+}
+
+TEST(Partners, EveryFieldIsChecked) {
+  const auto box = [](std::string_view field, api::Json value) {
+    return with(mixed(), "cutters/0/" + std::string(field), std::move(value));
+  };
+  EXPECT_EQ(refusal(box("corner_radius_mm", 0.0), "/cutters/0/corner_radius_mm"), "out_of_range");
+  EXPECT_EQ(refusal(box("corner_radius_mm", 51.0), "/cutters/0/corner_radius_mm"), "out_of_range");
+  EXPECT_EQ(refusal(box("width_mm", 4.0), "/cutters/0/width_mm"), "out_of_range");
+  EXPECT_EQ(refusal(box("depth_mm", 4.0), "/cutters/0/depth_mm"), "unknown_field");
+  EXPECT_EQ(refusal(without(mixed(), "cutters/0/up"), "/cutters/0/up"), "missing_field");
+  EXPECT_EQ(refusal(box("up", at(mixed(), "cutters/0/axis/direction")), "/cutters/0/up"),
+            "bad_reference_direction");
+  const auto cone = [](std::string_view field, double value) {
+    return with(mixed(), "cutters/1/" + std::string(field), value);
+  };
+  EXPECT_EQ(refusal(cone("half_angle_deg", 81.0), "/cutters/1/half_angle_deg"), "out_of_range");
+  EXPECT_EQ(refusal(cone("half_angle_deg", 79.0), "/cutters/1"), "parallel_axes");
+  const auto bend = [](std::string_view field, double value) {
+    return with(elbow(), "cutters/0/" + std::string(field), value);
+  };
+  EXPECT_EQ(refusal(bend("bend_radius_mm", 57.0), "/cutters/0/bend_radius_mm"), "out_of_range");
+  EXPECT_EQ(refusal(bend("bend_deg", 181.0), "/cutters/0/bend_deg"), "out_of_range");
+}
+
+}  // namespace
+}  // namespace tubecut::testing
