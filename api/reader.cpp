@@ -128,6 +128,9 @@ void Reader::issue(FieldIssue issue, const Json* value) {
 
 void Reader::record(FieldIssue issue, const Json* value) {
   if (silent_ || issues_->size() >= kIssuesNamed) return;
+  // What a field is already refused for is enough: more would follow from it.
+  for (const auto& known : *issues_)
+    if (known.pointer == issue.pointer) return;
   if (value != nullptr) issue.got = shown(*value);
   issues_->push_back(std::move(issue));
 }

@@ -258,16 +258,23 @@ TEST(Problems, FieldsNameThemselves) {
 }
 
 TEST(Problems, MissingFieldsPointToThemselves) {
-  for (const auto* path : {"target", "cutters", "root_surface", "groove", "kerf_mm", "smoothing",
-                           "target/wall_mm", "smoothing/limits", "cutters/0/outer_diameter_mm"}) {
+  for (const auto* path : {"cutters", "root_surface", "groove", "kerf_mm", "smoothing",
+                           "target/wall_mm", "smoothing/limits", "cutters/0/kind"}) {
     SCOPED_TRACE(path);
     const auto answer = post(kBevel, without(table_1(), path));
     expect_problem(answer, {"missing_field", "/" + std::string(path), false, false});
     EXPECT_EQ(at(answer.body, "errors").as<Array>()->size(), 1u);
   }
-  const auto neither = post(kBevel, without(table_1(), "cutters/0/inclination_deg"));
-  expect_problem(neither, {"missing_field", "/cutters/0/inclination_deg", false, false});
-  EXPECT_EQ(text(neither.body, "errors/1/pointer"), "/cutters/0/axis");
+  // Of fields of which exactly one is needed, each is named.
+  const std::pair<const char*, const char*> kEither[] = {
+      {"target", "/node"},
+      {"cutters/0/inclination_deg", "/cutters/0/axis"},
+      {"cutters/0/outer_diameter_mm", "/cutters/0/size"}};
+  for (const auto& [path, other] : kEither) {
+    const auto answer = post(kBevel, without(table_1(), path));
+    expect_problem(answer, {"missing_field", "/" + std::string(path), false, false});
+    EXPECT_EQ(text(answer.body, "errors/1/pointer"), other);
+  }
 }
 
 TEST(Problems, EveryIssueInOneReply) {

@@ -7,16 +7,20 @@ const copy = (value) => JSON.parse(JSON.stringify(value));
 const OTHERS = [null, true, false, 'text', '12', 7, [], [1, 2], {}, {value: 1}];
 const NAMES = ['tolerence_mm', 'wall', 'Kind', 'x', 'a/b', 'm~n', 'größe', '', 'constructor', 'offset_in', 'a'.repeat(200)];
 
+const ANY = ['null', 'array', 'boolean', 'number', 'string', 'object'];
+const LONG = 4;  // elements of an array that are edited
+
 function types(contract, schema) {
+  if (schema === true) return ANY;
   if ('const' in schema) return [typeOf(schema.const)];
   if (schema.enum) return [...new Set(schema.enum.map(typeOf))];
   if (schema.oneOf) return schema.oneOf.flatMap((branch) => types(contract, contract.resolve(branch)));
-  return [schema.type === 'integer' ? 'number' : schema.type];
+  return [schema.type].flat().map((type) => (type === 'integer' ? 'number' : type));
 }
 
 // The branch of a oneOf that holds the value; of objects the one whose constants and required members are there.
 export function branchOf(contract, schema, value) {
-  if (!schema.oneOf) return schema;
+  if (schema === true || !schema.oneOf) return schema;
   const fits = (branch) => {
     if (branch.oneOf) return true;
     if (branch.type !== 'object') return types(contract, branch).includes(typeOf(value));
@@ -31,7 +35,7 @@ const words = (schema) => ('const' in schema ? [schema.const] : schema.enum);
 // Could one object be meant as either? Not when a member takes other words in each.
 function alike(a, b) {
   if (!a.properties || !b.properties) return false;  // one of them is no object
-  return Object.entries(a.properties).every(([name, p]) => {
+  return a.type === b.type && Object.entries(a.properties ?? {}).every(([name, p]) => {
     const q = b.properties[name];
     return !q || !words(p) || !words(q) || words(p).some((word) => words(q).includes(word));
   });
@@ -66,7 +70,7 @@ function badNumbers({minimum, maximum, exclusiveMinimum, exclusiveMaximum, type}
   if (maximum !== undefined) out.push(maximum + Math.max(1e-6, Math.abs(maximum) * 1e-12), maximum + 1, 1e300);
   if (exclusiveMinimum !== undefined) out.push(exclusiveMinimum, exclusiveMinimum - 1e-9, -1e300);
   if (exclusiveMaximum !== undefined) out.push(exclusiveMaximum, exclusiveMaximum + 1e-9, 1e300);
-  if (type === 'integer') out.push(12.5, 40.000001);
+  if ([type].flat().includes('integer')) out.push(12.5, 40.000001);
   return out;
 }
 
@@ -87,6 +91,7 @@ export function edits(contract, requestSchema, body) {
   const walk = (given, value, path, pointer) => {
     const whole = contract.resolve(given);
     const schema = branchOf(contract, whole, value);
+    if (schema === true) return;
     const allowed = types(contract, whole);
     if (path.length) for (const other of OTHERS) if (!allowed.includes(typeOf(other))) put('type', path, pointer, other);
     if (typeof value === 'number') for (const bad of badNumbers(schema)) put('range', path, pointer, bad);
@@ -97,7 +102,7 @@ export function edits(contract, requestSchema, body) {
       const counts = [...Array(schema.minItems ?? 0).keys()];
       if (schema.maxItems) counts.push(schema.maxItems + 1);
       for (const n of counts) put('count', path, pointer, Array.from({length: n}, (_, i) => value[i % value.length]));
-      value.forEach((item, i) => walk(schema.items, item, [...path, i], `${pointer}/${i}`));
+      value.slice(0, LONG).forEach((item, i) => walk(schema.items, item, [...path, i], `${pointer}/${i}`));
     }
     if (typeOf(value) === 'object') walkObject(whole, schema, value, path, pointer);
   };
@@ -109,13 +114,13 @@ export function edits(contract, requestSchema, body) {
     for (const name of Object.keys(value)) {
       add('missing', [...path, name], (parent, key) => { delete parent[key]; }, at(name), ...group(name));
     }
-    const known = Object.keys(schema.properties);
+    const known = Object.keys(schema.properties ?? {});
     const strange = known.map((name) => `${name.slice(0, -1)}${name.endsWith('x') ? 'y' : 'x'}`);
-    for (const name of [...NAMES, ...strange, ...either]) {
+    for (const name of schema.additionalProperties === false ? [...NAMES, ...strange, ...either] : []) {
       if (Object.hasOwn(value, name) || known.includes(name)) continue;
       add(either.includes(name) ? 'exclusive' : 'unknown', [...path, name], (parent, key) => { parent[key] = 1; }, at(name), ...group(name));
     }
-    for (const [name, item] of Object.entries(value)) walk(schema.properties[name], item, [...path, name], at(name));
+    for (const [name, item] of Object.entries(value)) walk(schema.properties?.[name] ?? schema.additionalProperties, item, [...path, name], at(name));
   };
 
   walk(requestSchema, body, [], '');

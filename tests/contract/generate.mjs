@@ -29,7 +29,7 @@ const printable = (min, max) =>
 // Of each group of which an object has exactly one member, one is kept.
 function object(contract, schema) {
   const either = groups(schema);
-  const members = Object.entries(schema.properties).map(([name, property]) => [name, fromSchema(contract, property)]);
+  const members = Object.entries(schema.properties ?? {}).map(([name, property]) => [name, fromSchema(contract, property)]);
   const all = fc.record(Object.fromEntries(members), {requiredKeys: [...(schema.required ?? []), ...either.flat()]});
   return fc.tuple(all, ...either.map((group) => fc.constantFrom(...group))).map(([value, ...kept]) => {
     const dropped = either.flat().filter((name) => !kept.includes(name));
@@ -39,11 +39,14 @@ function object(contract, schema) {
 
 // An arbitrary of the values a schema of the contract describes; `contract.validator` decides what it cannot say.
 export function fromSchema(contract, given) {
+  if (given === true) return fc.constant(0);
   const schema = contract.resolve(given);
   if ('const' in schema) return fc.constant(schema.const);
   if (schema.enum) return fc.constantFrom(...schema.enum);
   if (schema.oneOf) return fc.oneof(...schema.oneOf.map((branch) => fromSchema(contract, branch)));
+  if (Array.isArray(schema.type)) return fc.oneof(...schema.type.map((type) => fromSchema(contract, {...schema, type})));
   switch (schema.type) {
+    case 'null': return fc.constant(null);
     case 'object': return object(contract, schema);
     case 'array':
       return fc.array(fromSchema(contract, schema.items), {minLength: schema.minItems ?? 0,
@@ -123,10 +126,11 @@ const accept = fc.record({max_root_gap_mm: between(0, 2), max_extra_bevel_deg: b
 // The endpoint's examples with every number that is no count moved by up to a thousandth.
 function nearExamples(contract, endpoint) {
   const move = (given, value, turns) => {
+    if (given === true || value === null) return value;
     const schema = branchOf(contract, contract.resolve(given), value);
     if (Array.isArray(value)) return value.map((item) => move(schema.items, item, turns));
     if (value !== null && typeof value === 'object') {
-      return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, move(schema.properties[name], item, turns)]));
+      return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, move(schema.properties?.[name] ?? schema.additionalProperties, item, turns)]));
     }
     return schema.type === 'number' ? value * (1 + turns() / 1e6) : value;
   };
