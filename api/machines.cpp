@@ -190,6 +190,7 @@ std::string machine_sha256(const motion::Machine& machine) {
 motion::Machine decode_machine_choice(Reader& in, std::string_view name) {
   if (!in.is<std::string>(name)) return in.object(name, decode_machine);
   const auto wanted = in.text(name);
+  if (wanted.empty()) return machines().front().machine;  // refused already
   if (const auto* found = find_machine(wanted)) return found->machine;
   std::string list;
   for (const auto& m : machines()) list += (list.empty() ? "" : "|") + m.machine.name;

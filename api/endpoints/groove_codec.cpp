@@ -25,6 +25,7 @@ groove::RootFace decode_root_face(Reader& in) {
 
 groove::Filler decode_filler(Reader& in) {
   const auto which = in.exactly_one({"area_mm2", "height_mm"});
+  if (!which) in.silence();
   if (which != 1) {
     groove::FillerArea out;
     if (which) out.area = in.number("area_mm2", kArea);

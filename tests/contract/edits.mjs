@@ -21,7 +21,7 @@ export function branchOf(contract, schema, value) {
     if (branch.oneOf) return true;
     if (branch.type !== 'object') return types(contract, branch).includes(typeOf(value));
     return (branch.required ?? []).every((name) => name in value) &&
-      Object.entries(branch.properties).every(([name, p]) => !words(p) || !(name in value) || words(p).includes(value[name]));
+      Object.entries(branch.properties ?? {}).every(([name, p]) => !words(p) || !(name in value) || words(p).includes(value[name]));
   };
   return branchOf(contract, schema.oneOf.map((b) => contract.resolve(b)).find(fits), value);
 }
@@ -85,6 +85,7 @@ export function edits(contract, requestSchema, body) {
   const put = (kind, path, pointer, value) => add(kind, path, (parent, name) => { parent[name] = copy(value); }, pointer);
 
   const walk = (given, value, path, pointer) => {
+    if (given === true) return;
     const whole = contract.resolve(given);
     const schema = branchOf(contract, whole, value);
     const allowed = types(contract, whole);
@@ -109,13 +110,13 @@ export function edits(contract, requestSchema, body) {
     for (const name of Object.keys(value)) {
       add('missing', [...path, name], (parent, key) => { delete parent[key]; }, at(name), ...group(name));
     }
-    const known = Object.keys(schema.properties);
+    const known = Object.keys(schema.properties ?? {});
     const strange = known.map((name) => `${name.slice(0, -1)}${name.endsWith('x') ? 'y' : 'x'}`);
     for (const name of [...NAMES, ...strange, ...either]) {
       if (Object.hasOwn(value, name) || known.includes(name)) continue;
       add(either.includes(name) ? 'exclusive' : 'unknown', [...path, name], (parent, key) => { parent[key] = 1; }, at(name), ...group(name));
     }
-    for (const [name, item] of Object.entries(value)) walk(schema.properties[name], item, [...path, name], at(name));
+    for (const [name, item] of Object.entries(value)) walk(schema.properties?.[name] ?? schema.additionalProperties, item, [...path, name], at(name));
   };
 
   walk(requestSchema, body, [], '');

@@ -29,7 +29,7 @@ const printable = (min, max) =>
 // Of each group of which an object has exactly one member, one is kept.
 function object(contract, schema) {
   const either = groups(schema);
-  const members = Object.entries(schema.properties).map(([name, property]) => [name, fromSchema(contract, property)]);
+  const members = Object.entries(schema.properties ?? {}).map(([name, property]) => [name, fromSchema(contract, property)]);
   const all = fc.record(Object.fromEntries(members), {requiredKeys: [...(schema.required ?? []), ...either.flat()]});
   return fc.tuple(all, ...either.map((group) => fc.constantFrom(...group))).map(([value, ...kept]) => {
     const dropped = either.flat().filter((name) => !kept.includes(name));
@@ -39,6 +39,7 @@ function object(contract, schema) {
 
 // An arbitrary of the values a schema of the contract describes; `contract.validator` decides what it cannot say.
 export function fromSchema(contract, given) {
+  if (given === true) return fc.constantFrom(null, 1, 'text', [1, 2]);
   const schema = contract.resolve(given);
   if ('const' in schema) return fc.constant(schema.const);
   if (schema.enum) return fc.constantFrom(...schema.enum);
@@ -51,6 +52,7 @@ export function fromSchema(contract, given) {
     case 'integer': return integer(schema);
     case 'number': return number(schema);
     case 'boolean': return fc.boolean();
+    case 'null': return fc.constant(null);
     case 'string': return printable(schema.minLength, schema.maxLength);
     default: throw new Error(`no generator for ${JSON.stringify(schema)}`);
   }
@@ -123,10 +125,11 @@ const accept = fc.record({max_root_gap_mm: between(0, 2), max_extra_bevel_deg: b
 // The endpoint's examples with every number that is no count moved by up to a thousandth.
 function nearExamples(contract, endpoint) {
   const move = (given, value, turns) => {
+    if (given === true) return value;
     const schema = branchOf(contract, contract.resolve(given), value);
     if (Array.isArray(value)) return value.map((item) => move(schema.items, item, turns));
     if (value !== null && typeof value === 'object') {
-      return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, move(schema.properties[name], item, turns)]));
+      return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, move(schema.properties?.[name] ?? schema.additionalProperties, item, turns)]));
     }
     return schema.type === 'number' ? value * (1 + turns() / 1e6) : value;
   };
@@ -134,6 +137,9 @@ function nearExamples(contract, endpoint) {
     .map(([{body}, stream]) => move(endpoint.request, body, () => stream.next().value))
     .filter((body) => endpoint.validRequest(body));
 }
+
+// Seconds a suite may spend on an endpoint's answers: of those with a generator of their own it asks a given number instead.
+export const seconds = (endpoint) => (own[endpoint.id] ? Infinity : 2);
 
 // Requests that should be answered with 200. An endpoint without a generator of its own starts from its examples.
 export function sound(contract, endpoint) {

@@ -9,6 +9,8 @@ import {Contract} from './schemas.mjs';
 import {Service} from './service.mjs';
 
 const SUITES = {valid, edits: editsRefused, http, answers, mutants};
+// Objects named by a machine's axes are open maps, and columns run to thousands of counts: these suites edit member by member.
+const LEFT = {valid: ['pulse-schedules', 'replays'], edits: ['pulse-schedules', 'replays'], mutants: ['pulse-schedules', 'replays']};
 const SHOWN = 10;
 
 class Report {
@@ -35,7 +37,7 @@ console.log(`suite ${suite}, seed ${seed}`);
 const service = await Service.start(values.server);
 const report = new Report();
 try {
-  const contract = await new Contract(values.contract).learn(service, values.endpoint);
+  const contract = await new Contract(values.contract).learn(service, values.endpoint, LEFT[suite]);
   const facts = await SUITES[suite]({service, contract, report, seed});
   for (const fact of facts) console.log(fact);
   report.expect(service.alive, 'service', 'it ended');

@@ -15,9 +15,9 @@ export class Contract {
   }
 
   // What this service has: its endpoints (or the one to look at), and requests that run.
-  async learn(service, only) {
+  async learn(service, only, left = []) {
     const {endpoints} = JSON.parse((await service.ask('/v1/version', {method: 'GET'})).text);
-    this.served = endpoints.filter(({id}) => !only || id === only).map(({path}) => path);
+    this.served = endpoints.filter(({id}) => (!only || id === only) && !left.includes(id)).map(({path}) => path);
     this.examples = JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text).examples;
     return this;
   }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fc from 'fast-check';
 import {decode} from '../cbor.mjs';
 import {answerFaults} from '../check.mjs';
-import {sound} from '../generate.mjs';
+import {seconds, sound} from '../generate.mjs';
 import {member, parseRaw, print} from '../raw.mjs';
 import {each} from '../service.mjs';
 
@@ -73,7 +73,7 @@ export async function answers(context) {
     const bodies = fc.sample(sound(context.contract, endpoint), {seed: context.seed, numRuns: SOUND});
     await each(bodies, async (body, i) => {
       if ((await context.service.post(endpoint.path, body)).status === 200) await answerPromises(context, endpoint, `sound ${i}`, body);
-    });
+    }, seconds(endpoint));
   }
   return [`${examples.length} examples, ${SOUND} sound requests for each of ${endpoints.length} endpoints`];
 }

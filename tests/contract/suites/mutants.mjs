@@ -1,7 +1,7 @@
 // Would the check see a server that answers otherwise? Every object of real answers loses, renames and gains a member.
 import fc from 'fast-check';
 import {answerFaults} from '../check.mjs';
-import {sound} from '../generate.mjs';
+import {seconds, sound} from '../generate.mjs';
 import {objects, parseRaw, print} from '../raw.mjs';
 
 const BODIES = 40;
@@ -38,7 +38,9 @@ export async function mutants({service, contract, report, seed}) {
   const counts = {drop: 0, rename: 0, add: 0, bySchema: 0};
   for (const endpoint of contract.posts()) {
     const done = new Set();
+    const end = Date.now() + 1000 * seconds(endpoint);
     for (const body of fc.sample(sound(contract, endpoint), {seed, numRuns: BODIES})) {
+      if (Date.now() > end) break;
       const reply = await service.post(endpoint.path, body);
       if (reply.status !== 200) continue;
       const tree = parseRaw(reply.text);
