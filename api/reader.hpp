@@ -222,7 +222,6 @@ class Reader {
   std::vector<FieldIssue>* issues_;
   std::vector<std::string> known_;
   Json::Object echo_;
-  bool ignore_rest_ = false;
   bool binary_ = false;
   bool silent_ = false;
 };
