@@ -102,7 +102,7 @@ class Job {
  public:
   Job(const Call& call, const Context& context) : call_(call), context_(context) { lap(); }
 
-  Outcome refuse(Problem problem, std::string allow = {}) {
+  Outcome refuse(const Problem& problem, std::string allow = {}) {
     const auto kind = info(problem.code).kind;
     out_.error = kind;
     out_.content_type = kProblemMedia;

@@ -51,6 +51,7 @@ motion::Kinematics decode_kinematics(Reader& in, Type type) {
       motion::Crawler out;
       out.wheel_offset = in.number("wheel_offset_mm", kArm);
       out.swing_center = in.choice("swing_center", kCenters);
+      if (!in.understood("swing_center")) in.silence();
       if (out.swing_center == SwingCenter::pivot)
         out.pivot_length = in.number("pivot_length_mm", kArm);
       out.standoff_max = in.nullable_number("standoff_max_mm", kArm);
@@ -161,10 +162,10 @@ motion::Machine decode_machine(Reader& in) {
       Option<BPositive>{"outer_edge_to_waste", BPositive::outer_edge_to_waste}};
   motion::Machine out;
   if (auto name = in.optional_text("name", 64)) out.name = *name;
-  const auto type = in.choice("type", kTypes);
+  const auto type = in.tag("type", kTypes);
   out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
   out.b_positive = in.choice("b_positive", kSigns);
-  if (in.is<std::string>("type")) out.kinematics = decode_kinematics(in, type);
+  if (type) out.kinematics = decode_kinematics(in, *type);
   out.axes = in.array("axes", {.min = 1, .max = 8}, decode_axis);
   return out;
 }
@@ -190,6 +191,7 @@ std::string machine_sha256(const motion::Machine& machine) {
 motion::Machine decode_machine_choice(Reader& in, std::string_view name) {
   if (!in.is<std::string>(name)) return in.object(name, decode_machine);
   const auto wanted = in.text(name);
+  if (wanted.empty()) return machines().front().machine;  // refused already
   if (const auto* found = find_machine(wanted)) return found->machine;
   std::string list;
   for (const auto& m : machines()) list += (list.empty() ? "" : "|") + m.machine.name;

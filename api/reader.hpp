@@ -66,6 +66,8 @@ class Reader {
     return field != nullptr && field->as<T>() != nullptr;
   }
 
+  /// Is anything wrong with the request so far?
+  [[nodiscard]] bool refused() const { return !issues_->empty(); }
   /// Has the field been read, or its default taken, without an issue of its own?
   [[nodiscard]] bool understood(std::string_view name) const;
 

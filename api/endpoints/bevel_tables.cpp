@@ -68,6 +68,7 @@ bevel::SwingLimits decode_swing(Reader& in) {
   const auto machine = decode_machine_choice(in, "machine");
   const double speed = in.number("speed_mm_min", {.min = 1.0, .max = 60'000.0}) / 60.0;
   const double use = in.number("use", {.min = 0.01, .max = 1.0}, 0.8);
+  if (!in.understood("machine")) return {};
   for (const auto& axis : machine.axes) {
     if (axis.name != "B") continue;
     const auto limits =

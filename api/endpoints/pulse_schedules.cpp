@@ -8,8 +8,6 @@
 namespace tubecut::api {
 namespace {
 
-using motion::AxisPulses;
-
 void encode_uses(const std::vector<motion::Use>& uses, Writer& w) {
   w.object("max_use", [&](Writer& o) {
     for (const auto& use : uses)

@@ -16,6 +16,7 @@ struct Schedule {
 };
 
 Schedule decode_schedule(Reader& in, const motion::Machine& machine) {
+  if (in.refused()) in.silence();  // its members follow from the machine's axes
   for (const auto* other :
        {"machine_sha256", "periods", "axes", "idle", "total", "events", "report", "comparison"})
     in.note(other);
@@ -51,8 +52,8 @@ struct Replays {
   static constexpr std::string_view kPath = "/v1/replays";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 1> kChecks{
-      {{"nested cut", "the checks of its own endpoint", ""}}};
+  static constexpr std::array<CheckLimit, 2> kChecks{
+      {{"path_points", "0", ""}, {"nested cut", "the checks of its own endpoint", ""}}};
 
   static Spec decode(Reader& in) {
     Spec out;
@@ -81,7 +82,15 @@ struct Replays {
     return out;
   }
 
-  static std::vector<Check> verify(const Spec&, const Out& out) { return out.checks; }
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    auto checks = out.checks;
+    std::size_t periods = 0;
+    for (const auto& counts : spec.schedule.counts) periods = std::max(periods, counts.size());
+    const auto points = out.replay.phi.empty() ? periods + 1 : out.replay.phi.size();
+    const auto wanted = static_cast<double>(periods + 1);
+    checks.push_back({"path_points", std::abs(static_cast<double>(points) - wanted), 0.0, ""});
+    return checks;
+  }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 

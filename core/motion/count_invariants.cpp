@@ -97,13 +97,13 @@ void see_reversals(const AxisCounts& a, Worst& worst) {
 
 void Worst::see(double value, double limit) {
   // value / limit compared without dividing: a limit may be zero
-  const bool worse = !x_any || value * x_limit > x_value * limit ||
-                     (limit == 0.0 && x_limit == 0.0 && value > x_value) || std::isnan(value);
-  if (worse && !std::isnan(x_value)) {
-    x_value = value;
-    x_limit = limit;
+  const bool worse = !any_ || value * limit_ > value_ * limit ||
+                     (limit == 0.0 && limit_ == 0.0 && value > value_) || std::isnan(value);
+  if (worse && !std::isnan(value_)) {
+    value_ = value;
+    limit_ = limit;
   }
-  x_any = true;
+  any_ = true;
 }
 
 std::vector<Check> count_invariants(const Prepared& job, const Counted& counted, bool jerk) {

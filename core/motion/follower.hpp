@@ -32,7 +32,7 @@ class Follower {
   [[nodiscard]] std::pair<double, double> range(std::size_t c, double at, double reach) const;
   /// Largest distance of a polyline point to the path followed, mm.
   [[nodiscard]] double farthest_missed() const;
-  [[nodiscard]] double tip_length(std::size_t point) const { return x_at[point]; }
+  [[nodiscard]] double tip_length(std::size_t point) const { return at_[point]; }
   /// Tip coordinates, mm, out of program coordinates.
   [[nodiscard]] TipPoint tip_of(const Coordinates& x) const;
 
@@ -40,17 +40,17 @@ class Follower {
   void reach_points(const TipPoint& from, const TipPoint& to, double at);
   [[nodiscard]] Found nearest_on(std::size_t segment, const TipPoint& tip) const;
 
-  const Program& x_program;
-  std::vector<std::size_t> x_tip_coordinates = {};
-  std::vector<TipPoint> x_points = {};
-  std::vector<double> x_at = {};      // tip length up to each point
-  std::vector<double> x_missed = {};  // distance of each point to the path so far
-  double x_window;
-  std::size_t x_low = 0;   // first segment within the window
-  std::size_t x_near = 0;  // first point within the window
-  double x_last_at = 0.0;
-  bool x_started = false;
-  TipPoint x_last = {};
+  const Program& program_;
+  std::vector<std::size_t> tip_coordinates_ = {};
+  std::vector<TipPoint> points_ = {};
+  std::vector<double> at_ = {};      // tip length up to each point
+  std::vector<double> missed_ = {};  // distance of each point to the path so far
+  double window_;
+  std::size_t low_ = 0;   // first segment within the window
+  std::size_t near_ = 0;  // first point within the window
+  double last_at_ = 0.0;
+  bool started_ = false;
+  TipPoint last_ = {};
 };
 
 }  // namespace tubecut::motion

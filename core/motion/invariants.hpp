@@ -21,15 +21,15 @@ struct Counted {
 class Worst {
  public:
   void see(double value, double limit);
-  [[nodiscard]] bool any() const { return x_any; }
+  [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] Check check(std::string name, std::string unit) const {
-    return {std::move(name), x_value, x_limit, std::move(unit)};
+    return {std::move(name), value_, limit_, std::move(unit)};
   }
 
  private:
-  double x_value = 0.0;
-  double x_limit = 0.0;
-  bool x_any = false;
+  double value_ = 0.0;
+  double limit_ = 0.0;
+  bool any_ = false;
 };
 
 /// I2 to I9: sums, closure, limits per period, travel, reversals. `jerk`: the schedule claims a

@@ -25,10 +25,10 @@ class SpeedAlong {
  private:
   [[nodiscard]] double extreme(double from, double to, bool least) const;
   [[nodiscard]] double of_beam(double beam) const;
-  double x_number = 0.0;
-  std::vector<std::pair<double, double>> x_pairs = {};
-  std::vector<double> x_lengths = {};
-  std::vector<double> x_beam = {};
+  double number_ = 0.0;
+  std::vector<std::pair<double, double>> pairs_ = {};
+  std::vector<double> lengths_ = {};
+  std::vector<double> beam_ = {};
 };
 
 /// Bounds of an axis' derivatives over every interval: |q'|, |q''|, |q'''| per mm, mm2, mm3 of u.
@@ -91,7 +91,7 @@ struct Conditions {
 };
 [[nodiscard]] Conditions without_jerk(const Limits& limits);
 
-/// Time over a profile: sum of 2 d / (sqrt x_i + sqrt x_(i+1)), s.
+/// Time over a profile: sum of 2 d / (sqrt i_ + sqrt x_(i+1)), s.
 [[nodiscard]] double duration(const std::vector<double>& x, double d);
 
 }  // namespace tubecut::motion

@@ -27,12 +27,12 @@ class Findings {
  public:
   void add(ErrorCode code, std::string member, Shown got = {}, Shown limit = {},
            std::string hint = {}) {
-    x_issues.push_back({code,
-                        "machine/" + std::move(member),
-                        std::move(got),
-                        std::move(limit),
-                        {},
-                        std::move(hint)});
+    issues_.push_back({code,
+                       "machine/" + std::move(member),
+                       std::move(got),
+                       std::move(limit),
+                       {},
+                       std::move(hint)});
   }
   void positive(const std::string& member, double value) {
     if (!std::isfinite(value)) return add(ErrorCode::bad_number, member);
@@ -45,12 +45,12 @@ class Findings {
     if (value > most) add(ErrorCode::out_of_range, member, value, most);
   }
   [[nodiscard]] Result<void> result() {
-    if (x_issues.empty()) return {};
-    return tl::unexpected<Error>(Error{std::move(x_issues)});
+    if (issues_.empty()) return {};
+    return tl::unexpected<Error>(Error{std::move(issues_)});
   }
 
  private:
-  std::vector<Issue> x_issues;
+  std::vector<Issue> issues_;
 };
 
 constexpr double kMostLength = 1e6;  // mm; anything longer is a unit mistake

@@ -137,21 +137,21 @@ Coordinates Path::at(std::size_t i, double offset) const {
 }
 
 Pose PathCursor::at(std::size_t i, double w) {
-  const std::size_t n = x_path.control.size();
-  if (i != x_interval) {
+  const std::size_t n = path_.control.size();
+  if (i != interval_) {
     for (std::size_t c = 0; c < n; ++c) {
-      const auto [x, first, second, third] = cubic(x_path.control[c], i, x_path.d);
-      x_cubic[c] = {x, first, 0.5 * second, third / 6.0};
+      const auto [x, first, second, third] = cubic(path_.control[c], i, path_.d);
+      cubic_[c] = {x, first, 0.5 * second, third / 6.0};
     }
-    x_interval = i;
+    interval_ = i;
   }
-  const bool end = i + 1 == x_path.intervals() && w >= x_path.d;
+  const bool end = i + 1 == path_.intervals() && w >= path_.d;
   Pose out;
   for (std::size_t c = 0; c < n; ++c) {
-    const Cubic& q = x_cubic[c];
-    out.x[c] = end ? x_path.control[c].back() : q.x + w * (q.first + w * (q.second + w * q.third));
+    const Cubic& q = cubic_[c];
+    out.x[c] = end ? path_.control[c].back() : q.x + w * (q.first + w * (q.second + w * q.third));
   }
-  if (x_bends) {
+  if (bends_) {
     const auto [sin, cos] = elementary::sincos(out.x[2]);
     out.sin_b = sin;
     out.cos_b = cos;

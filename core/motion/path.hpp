@@ -33,7 +33,7 @@ struct Path {
 class PathCursor {
  public:
   /// `bends`: sin B and cos B are wanted.
-  PathCursor(const Path& path, bool bends) : x_path(path), x_bends(bends) {}
+  PathCursor(const Path& path, bool bends) : path_(path), bends_(bends) {}
   /// Bit-equal to `Path::at`.
   [[nodiscard]] Pose at(std::size_t interval, double offset);
 
@@ -41,10 +41,10 @@ class PathCursor {
   struct Cubic {
     double x = 0.0, first = 0.0, second = 0.0, third = 0.0;
   };
-  const Path& x_path;
-  bool x_bends;
-  std::size_t x_interval = static_cast<std::size_t>(-1);
-  std::array<Cubic, kMostCoordinates> x_cubic = {};
+  const Path& path_;
+  bool bends_;
+  std::size_t interval_ = static_cast<std::size_t>(-1);
+  std::array<Cubic, kMostCoordinates> cubic_ = {};
 };
 
 /// Samples of the Hermite curve through a polyline at equal steps.

@@ -19,16 +19,13 @@ class Search {
  public:
   Search(const Course& course, const PlanOptions& options, const std::vector<double>& without_jerk,
          std::stop_token stop)
-      : x_course(course),
-        x_options(options),
-        x_without_jerk(without_jerk),
-        x_stop(std::move(stop)) {}
+      : course_(course), options_(options), without_jerk_(without_jerk), stop_(std::move(stop)) {}
 
   /// The fastest timing found that is faster than `bound` seconds; empty x where none is.
   Timing best(double optimism, double bound) {
     Timing found{{}, 0.0, bound};
     for (const double filter : filters(optimism)) {
-      if (x_stop.stop_requested()) break;
+      if (stop_.stop_requested()) break;
       Timing next = repaired(filter, optimism, found.time);
       if (next.time < found.time) found = std::move(next);
     }
@@ -36,18 +33,18 @@ class Search {
   }
 
  private:
-  [[nodiscard]] double period() const { return x_course.machine.period; }
+  [[nodiscard]] double period() const { return course_.machine.period; }
 
   [[nodiscard]] Timing profile(double filter, const Optimism& optimism, int rounds) const {
-    return filtered_profile(x_course.limits, x_without_jerk, filter, optimism, rounds);
+    return filtered_profile(course_.limits, without_jerk_, filter, optimism, rounds);
   }
 
   /// Scouts every octave with one round, then offers the best and its neighbours.
   std::vector<double> filters(double optimism) const {
-    if (x_options.filter) return {*x_options.filter};
-    const Optimism level(x_course.limits.intervals(), optimism);
+    if (options_.filter) return {*options_.filter};
+    const Optimism level(course_.limits.intervals(), optimism);
     double longest = 0.0;
-    for (const AxisBounds& axis : x_course.limits.axes) {
+    for (const AxisBounds& axis : course_.limits.axes) {
       if (axis.j_max > 0.0) longest = std::max(longest, 2.0 * axis.a_max / axis.j_max);
     }
     double best_count = 1.0, best_time = 1e300;
@@ -58,7 +55,7 @@ class Search {
         best_time = time;
         best_count = count;
       }
-      if (count <= 1.0 || x_stop.stop_requested()) break;
+      if (count <= 1.0 || stop_.stop_requested()) break;
     }
     return neighbours(best_count);
   }
@@ -75,14 +72,14 @@ class Search {
   /// Lowers the optimism where a sample breaks its jerk limit, until none does. Every pass lowers
   /// some of it and the proven level breaks nothing, so this ends.
   Timing repaired(double filter, double level, double bound) const {
-    Optimism optimism(x_course.limits.intervals(), level);
+    Optimism optimism(course_.limits.intervals(), level);
     for (int pass = 1;; ++pass) {
       Timing timing = profile(filter, optimism, kFullRounds);
       const bool proven = std::ranges::all_of(optimism, [](double o) { return o <= 1.0; });
-      if (timing.time >= bound || proven || x_stop.stop_requested()) return timing;
+      if (timing.time >= bound || proven || stop_.stop_requested()) return timing;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
-      const std::vector<Place> places = sampled(timing, x_course.limits.d, count);
-      const std::vector<double> ratio = jerk_ratios(x_course, places);
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count);
+      const std::vector<double> ratio = jerk_ratios(course_, places);
       if (*std::ranges::max_element(ratio) <= kAccepted) return timing;
       if (pass >= kMostPasses) {
         std::ranges::fill(optimism, 1.0);
@@ -108,10 +105,10 @@ class Search {
     }
   }
 
-  const Course& x_course;
-  const PlanOptions& x_options;
-  const std::vector<double>& x_without_jerk;
-  std::stop_token x_stop;
+  const Course& course_;
+  const PlanOptions& options_;
+  const std::vector<double>& without_jerk_;
+  std::stop_token stop_;
 };
 
 bool any_jerk(const Limits& limits) {

@@ -23,11 +23,11 @@ struct Course {
 /// Evaluates a course at its places, one after another.
 class CourseCursor {
  public:
-  explicit CourseCursor(const Course& course) : x_path(course.path, course.bends()) {}
-  [[nodiscard]] Pose at(const Place& place) { return x_path.at(place.interval, place.offset); }
+  explicit CourseCursor(const Course& course) : path_(course.path, course.bends()) {}
+  [[nodiscard]] Pose at(const Place& place) { return path_.at(place.interval, place.offset); }
 
  private:
-  PathCursor x_path;
+  PathCursor path_;
 };
 
 /// Way of the tip between two poses, mm.

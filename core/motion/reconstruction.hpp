@@ -17,7 +17,7 @@ class Reconstruction {
 
   /// Coordinates that the axes determine; the others stay 0.
   [[nodiscard]] Coordinates at(const std::vector<double>& axes) const;
-  [[nodiscard]] bool knows(std::size_t coordinate) const { return x_known[coordinate]; }
+  [[nodiscard]] bool knows(std::size_t coordinate) const { return known_[coordinate]; }
   /// Height of pivot less the height the torch's angle asks for, mm; machines with a height axis.
   [[nodiscard]] std::optional<double> standoff_error(const std::vector<double>& axes) const;
 
@@ -35,17 +35,17 @@ class Reconstruction {
   [[nodiscard]] double half_pulse(std::size_t axis) const;  // in the axis' unit
 
   enum class Kind : std::uint8_t { five_axis, crawler, generic, columns };
-  Kind x_kind = Kind::columns;
-  std::vector<Axis> x_axes;
-  Roles x_roles = {};
-  double x_sigma = 1.0;
-  double x_pivot = 0.0;  // L: pivot to the wall along the beam
-  double x_past = 0.0;   // e: radially from the contour's surface to the outer one
-  double x_outer = 0.0;
-  double x_wheel = 0.0;                     // radius of a crawler's wheel path
-  std::vector<Coordinates> x_inverse = {};  // generic: what a unit of each axis moves
-  Coordinates x_origin{};
-  std::array<bool, kMostCoordinates> x_known{};
+  Kind kind_ = Kind::columns;
+  std::vector<Axis> axes_;
+  Roles roles_ = {};
+  double sigma_ = 1.0;
+  double pivot_ = 0.0;  // L: pivot to the wall along the beam
+  double past_ = 0.0;   // e: radially from the contour's surface to the outer one
+  double outer_ = 0.0;
+  double wheel_ = 0.0;                     // radius of a crawler's wheel path
+  std::vector<Coordinates> inverse_ = {};  // generic: what a unit of each axis moves
+  Coordinates origin_{};
+  std::array<bool, kMostCoordinates> known_{};
 };
 
 }  // namespace tubecut::motion

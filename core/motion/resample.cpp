@@ -27,54 +27,54 @@ Weights hermite(double h) {
 class Curve {
  public:
   Curve(const std::vector<double>& x, const std::vector<double>& lengths)
-      : x_values(x),
-        x_lengths(lengths),
-        x_start(lengths.size()),
-        x_end(lengths.size()),
-        x_factor(x.size(), 1.0),
-        x_halvings(x.size(), 0) {}
+      : values_(x),
+        lengths_(lengths),
+        start_(lengths.size()),
+        end_(lengths.size()),
+        factor_(x.size(), 1.0),
+        halvings_(x.size(), 0) {}
 
   void set_tangents(const std::vector<bool>& corner) {
-    for (std::size_t i = 0; i < x_lengths.size(); ++i) {
+    for (std::size_t i = 0; i < lengths_.size(); ++i) {
       const bool free_start = corner[i], free_end = corner[i + 1];
       const double chord = slope(i);
       const double start = free_start ? 0.0 : node_tangent(i);
       const double end = free_end ? 0.0 : node_tangent(i + 1);
-      x_start[i] = !free_start ? start : free_end ? chord : 0.5 * (3.0 * chord - end);
-      x_end[i] = !free_end ? end : free_start ? chord : 0.5 * (3.0 * chord - start);
+      start_[i] = !free_start ? start : free_end ? chord : 0.5 * (3.0 * chord - end);
+      end_[i] = !free_end ? end : free_start ? chord : 0.5 * (3.0 * chord - start);
     }
   }
 
   /// Halves the factors at both ends of every segment that leaves the range of its ends by more
   /// than `over`, until none does. Each node is halved at most nine times, so this ends.
   void limit(double over) {
-    std::vector<bool> dirty(x_lengths.size(), true);
+    std::vector<bool> dirty(lengths_.size(), true);
     for (bool changed = true; changed;) changed = halve(over, dirty);
   }
 
   [[nodiscard]] double at(std::size_t i, double h) const {
     const Weights w = hermite(h);
-    const double l = x_lengths[i];
-    return w.x0 * x_values[i] + w.x1 * x_values[i + 1] +
-           l * (w.m0 * x_factor[i] * x_start[i] + w.m1 * x_factor[i + 1] * x_end[i]);
+    const double l = lengths_[i];
+    return w.x0 * values_[i] + w.x1 * values_[i + 1] +
+           l * (w.m0 * factor_[i] * start_[i] + w.m1 * factor_[i + 1] * end_[i]);
   }
 
   /// Distance to the chord at the same parameter.
   [[nodiscard]] double sag(std::size_t i, double h) const {
-    return at(i, h) - (x_values[i] + h * (x_values[i + 1] - x_values[i]));
+    return at(i, h) - (values_[i] + h * (values_[i + 1] - values_[i]));
   }
 
  private:
   [[nodiscard]] double slope(std::size_t i) const {
-    return (x_values[i + 1] - x_values[i]) / x_lengths[i];
+    return (values_[i + 1] - values_[i]) / lengths_[i];
   }
   [[nodiscard]] double node_tangent(std::size_t i) const {
-    const double before = x_lengths[i - 1], after = x_lengths[i];
+    const double before = lengths_[i - 1], after = lengths_[i];
     return (after * slope(i - 1) + before * slope(i)) / (before + after);
   }
   [[nodiscard]] bool leaves(std::size_t i, double over) const {
-    const double low = std::min(x_values[i], x_values[i + 1]) - over;
-    const double high = std::max(x_values[i], x_values[i + 1]) + over;
+    const double low = std::min(values_[i], values_[i + 1]) - over;
+    const double high = std::max(values_[i], values_[i + 1]) + over;
     for (int j = 1; j <= kInner; ++j) {
       const double value = at(i, static_cast<double>(j) / (kInner + 1));
       if (value < low || value > high) return true;
@@ -82,17 +82,17 @@ class Curve {
     return false;
   }
   void halve(std::size_t node) {
-    x_factor[node] = x_halvings[node]++ < kMostHalvings ? 0.5 * x_factor[node] : 0.0;
+    factor_[node] = halvings_[node]++ < kMostHalvings ? 0.5 * factor_[node] : 0.0;
   }
   bool halve(double over, std::vector<bool>& dirty) {
-    std::vector<bool> hit(x_values.size(), false);
+    std::vector<bool> hit(values_.size(), false);
     for (std::size_t i = 0; i < dirty.size(); ++i) {
       if (dirty[i] && leaves(i, over)) hit[i] = hit[i + 1] = true;
     }
     std::fill(dirty.begin(), dirty.end(), false);
     bool changed = false;
     for (std::size_t node = 0; node < hit.size(); ++node) {
-      if (!hit[node] || x_factor[node] == 0.0) continue;
+      if (!hit[node] || factor_[node] == 0.0) continue;
       halve(node);
       changed = true;
       if (node > 0) dirty[node - 1] = true;
@@ -101,11 +101,11 @@ class Curve {
     return changed;
   }
 
-  const std::vector<double>& x_values;
-  const std::vector<double>& x_lengths;
-  std::vector<double> x_start, x_end;  // tangents of each segment
-  std::vector<double> x_factor;
-  std::vector<int> x_halvings;
+  const std::vector<double>& values_;
+  const std::vector<double>& lengths_;
+  std::vector<double> start_, end_;  // tangents of each segment
+  std::vector<double> factor_;
+  std::vector<int> halvings_;
 };
 
 /// Flagged points, both ends, and points where the generalised direction turns by more than 20 deg.

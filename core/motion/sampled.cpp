@@ -13,39 +13,39 @@ using Long = long double;
 class Unfiltered {
  public:
   Unfiltered(const std::vector<double>& x, double d)
-      : x_d(static_cast<Long>(d)), x_time(x.size(), 0.0L) {
-    x_speed.reserve(x.size());
-    for (const double square : x) x_speed.push_back(std::sqrt(static_cast<Long>(square)));
+      : d_(static_cast<Long>(d)), time_(x.size(), 0.0L) {
+    speed_.reserve(x.size());
+    for (const double square : x) speed_.push_back(std::sqrt(static_cast<Long>(square)));
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-      x_time[i + 1] = x_time[i] + 2.0L * x_d / (x_speed[i] + x_speed[i + 1]);
+      time_[i + 1] = time_[i] + 2.0L * d_ / (speed_[i] + speed_[i + 1]);
     }
   }
 
-  [[nodiscard]] Long end() const { return x_time.back(); }
-  [[nodiscard]] std::size_t intervals() const { return x_time.size() - 1; }
-  [[nodiscard]] Long time(std::size_t knot) const { return x_time[knot]; }
+  [[nodiscard]] Long end() const { return time_.back(); }
+  [[nodiscard]] std::size_t intervals() const { return time_.size() - 1; }
+  [[nodiscard]] Long time(std::size_t knot) const { return time_[knot]; }
   /// Moves `i` on to the interval that holds `t`.
   void advance(std::size_t& i, Long t) const {
-    while (i + 1 < intervals() && x_time[i + 1] <= t) ++i;
+    while (i + 1 < intervals() && time_[i + 1] <= t) ++i;
   }
   /// Integral over t of the way gone since knot `i`, from that knot's time.
   [[nodiscard]] Long integral(std::size_t i, Long t) const {
-    const Long since = t - x_time[i];
-    return since * since * (0.5L * x_speed[i] + since * acceleration(i) / 6.0L);
+    const Long since = t - time_[i];
+    return since * since * (0.5L * speed_[i] + since * acceleration(i) / 6.0L);
   }
   [[nodiscard]] Long way(std::size_t i, Long t) const {
-    const Long since = t - x_time[i];
-    return since * (x_speed[i] + 0.5L * since * acceleration(i));
+    const Long since = t - time_[i];
+    return since * (speed_[i] + 0.5L * since * acceleration(i));
   }
 
  private:
   [[nodiscard]] Long acceleration(std::size_t i) const {
-    const Long step = x_time[i + 1] - x_time[i];
-    return (x_speed[i + 1] - x_speed[i]) / step;
+    const Long step = time_[i + 1] - time_[i];
+    return (speed_[i + 1] - speed_[i]) / step;
   }
-  Long x_d;
-  std::vector<Long> x_time;
-  std::vector<Long> x_speed;
+  Long d_;
+  std::vector<Long> time_;
+  std::vector<Long> speed_;
 };
 
 /// Splits the way since knot `i` into interval and offset.
@@ -60,36 +60,36 @@ Place place(std::size_t i, Long way, Long d, std::size_t intervals) {
 /// first knot.
 class Averaged {
  public:
-  Averaged(const Unfiltered& u, Long d, Long filter) : x_u(u), x_d(d), x_filter(filter) {}
+  Averaged(const Unfiltered& u, Long d, Long filter) : u_(u), d_(d), filter_(filter) {}
 
   Place at(Long t) {
-    if (x_filter <= 0.0L) {
-      x_u.advance(x_first, t);
-      return place(x_first, x_u.way(x_first, std::min(t, x_u.end())), x_d, x_u.intervals());
+    if (filter_ <= 0.0L) {
+      u_.advance(first_, t);
+      return place(first_, u_.way(first_, std::min(t, u_.end())), d_, u_.intervals());
     }
-    const Long from = t - x_filter;
-    const Long start = std::clamp(from, 0.0L, x_u.end());
-    const Long stop = std::min(t, x_u.end());
-    x_u.advance(x_first, start);
-    x_u.advance(x_last, stop);
-    Long sum = -x_u.integral(x_first, start);
-    for (std::size_t i = x_first; i < x_last; ++i) sum += piece(i, x_u.time(i + 1));
-    sum += piece(x_last, stop);
-    sum += (t - stop) * x_d * static_cast<Long>(x_u.intervals() - x_first);
+    const Long from = t - filter_;
+    const Long start = std::clamp(from, 0.0L, u_.end());
+    const Long stop = std::min(t, u_.end());
+    u_.advance(first_, start);
+    u_.advance(last_, stop);
+    Long sum = -u_.integral(first_, start);
+    for (std::size_t i = first_; i < last_; ++i) sum += piece(i, u_.time(i + 1));
+    sum += piece(last_, stop);
+    sum += (t - stop) * d_ * static_cast<Long>(u_.intervals() - first_);
     // Before the start u is 0, which is the window's first knot as well: nothing to add.
-    return place(x_first, sum / x_filter, x_d, x_u.intervals());
+    return place(first_, sum / filter_, d_, u_.intervals());
   }
 
  private:
   /// Integral over interval `i` up to `t` of u less u at the window's first knot.
   [[nodiscard]] Long piece(std::size_t i, Long t) const {
-    return x_u.integral(i, t) + (t - x_u.time(i)) * x_d * static_cast<Long>(i - x_first);
+    return u_.integral(i, t) + (t - u_.time(i)) * d_ * static_cast<Long>(i - first_);
   }
-  const Unfiltered& x_u;
-  Long x_d;
-  Long x_filter;
-  std::size_t x_first = 0;
-  std::size_t x_last = 0;
+  const Unfiltered& u_;
+  Long d_;
+  Long filter_;
+  std::size_t first_ = 0;
+  std::size_t last_ = 0;
 };
 
 bool before(const Place& a, const Place& b) {

@@ -53,51 +53,51 @@ Result<SpeedAlong> SpeedAlong::of(const Motion& motion, const Program& program) 
     if (auto ok = check_speed(*number, "motion/speed"); !ok) {
       return tl::unexpected<Error>(ok.error());
     }
-    out.x_number = *number;
+    out.number_ = *number;
     return out;
   }
   const auto& table = std::get<SpeedTable>(motion.speed);
   if (auto ok = check_table(table); !ok) return tl::unexpected<Error>(ok.error());
   if (auto ok = check_covered(table, program); !ok) return tl::unexpected<Error>(ok.error());
-  out.x_pairs = table.pairs;
-  out.x_lengths = program.lengths();
-  out.x_beam = program.beam;
+  out.pairs_ = table.pairs;
+  out.lengths_ = program.lengths();
+  out.beam_ = program.beam;
   return out;
 }
 
 double SpeedAlong::of_beam(double beam) const {
-  const auto after = std::ranges::lower_bound(x_pairs, beam, {}, &std::pair<double, double>::first);
-  if (after == x_pairs.begin()) return x_pairs.front().second;
-  if (after == x_pairs.end()) return x_pairs.back().second;
+  const auto after = std::ranges::lower_bound(pairs_, beam, {}, &std::pair<double, double>::first);
+  if (after == pairs_.begin()) return pairs_.front().second;
+  if (after == pairs_.end()) return pairs_.back().second;
   const auto before = after - 1;
   const double share = (beam - before->first) / (after->first - before->first);
   return before->second + share * (after->second - before->second);
 }
 
 double SpeedAlong::at_point(std::size_t i) const {
-  return x_pairs.empty() ? x_number : of_beam(x_beam[i]);
+  return pairs_.empty() ? number_ : of_beam(beam_[i]);
 }
 
 double SpeedAlong::extreme(double from, double to, bool least) const {
-  if (x_pairs.empty()) return x_number;
+  if (pairs_.empty()) return number_;
   const auto beam_at = [this](double s) {
-    const auto after = std::ranges::upper_bound(x_lengths, s);
-    if (after == x_lengths.begin()) return x_beam.front();
-    if (after == x_lengths.end()) return x_beam.back();
-    const auto i = static_cast<std::size_t>(after - x_lengths.begin());
-    const double share = (s - x_lengths[i - 1]) / (x_lengths[i] - x_lengths[i - 1]);
-    return x_beam[i - 1] + share * (x_beam[i] - x_beam[i - 1]);
+    const auto after = std::ranges::upper_bound(lengths_, s);
+    if (after == lengths_.begin()) return beam_.front();
+    if (after == lengths_.end()) return beam_.back();
+    const auto i = static_cast<std::size_t>(after - lengths_.begin());
+    const double share = (s - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);
+    return beam_[i - 1] + share * (beam_[i] - beam_[i - 1]);
   };
   double thin = std::min(beam_at(from), beam_at(to));
   double thick = std::max(beam_at(from), beam_at(to));
-  for (auto s = std::ranges::upper_bound(x_lengths, from); s != x_lengths.end() && *s < to; ++s) {
-    const double beam = x_beam[static_cast<std::size_t>(s - x_lengths.begin())];
+  for (auto s = std::ranges::upper_bound(lengths_, from); s != lengths_.end() && *s < to; ++s) {
+    const double beam = beam_[static_cast<std::size_t>(s - lengths_.begin())];
     thin = std::min(thin, beam);
     thick = std::max(thick, beam);
   }
   const auto pick = [least](double a, double b) { return least ? std::min(a, b) : std::max(a, b); };
   double found = pick(of_beam(thin), of_beam(thick));
-  for (const auto& [beam, speed] : x_pairs) {
+  for (const auto& [beam, speed] : pairs_) {
     if (beam > thin && beam < thick) found = pick(found, speed);
   }
   return found;

@@ -14,16 +14,16 @@ constexpr std::size_t kRest = 3;    // resting samples before and after
 /// First, second and third difference of a value that is given sample by sample.
 class Differences {
  public:
-  explicit Differences(double start) : x_last{start, start, start, start} {}
-  void push(double value) { x_last = {x_last[1], x_last[2], x_last[3], value}; }
-  [[nodiscard]] double first() const { return x_last[3] - x_last[2]; }
-  [[nodiscard]] double second() const { return (x_last[3] - x_last[2]) - (x_last[2] - x_last[1]); }
+  explicit Differences(double start) : last_{start, start, start, start} {}
+  void push(double value) { last_ = {last_[1], last_[2], last_[3], value}; }
+  [[nodiscard]] double first() const { return last_[3] - last_[2]; }
+  [[nodiscard]] double second() const { return (last_[3] - last_[2]) - (last_[2] - last_[1]); }
   [[nodiscard]] double third() const {
-    return second() - ((x_last[2] - x_last[1]) - (x_last[1] - x_last[0]));
+    return second() - ((last_[2] - last_[1]) - (last_[1] - last_[0]));
   }
 
  private:
-  std::array<double, 4> x_last;
+  std::array<double, 4> last_;
 };
 
 /// Rounding of one axis value: a few units in the last place of its largest part.

@@ -263,7 +263,8 @@ TEST(Problems, MissingFieldsPointToThemselves) {
     SCOPED_TRACE(path);
     const auto answer = post(kBevel, without(table_1(), path));
     expect_problem(answer, {"missing_field", "/" + std::string(path), false, false});
-    EXPECT_EQ(at(answer.body, "errors").as<Array>()->size(), 1u);
+    EXPECT_LE(at(answer.body, "errors").as<Array>()->size(),
+              2u);  // the second names the alternative
   }
   // Of fields of which exactly one is needed, each is named.
   const std::pair<const char*, const char*> kEither[] = {

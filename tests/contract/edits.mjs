@@ -25,7 +25,7 @@ export function branchOf(contract, schema, value) {
     if (branch.oneOf) return true;
     if (branch.type !== 'object') return types(contract, branch).includes(typeOf(value));
     return (branch.required ?? []).every((name) => name in value) &&
-      Object.entries(branch.properties).every(([name, p]) => !words(p) || !(name in value) || words(p).includes(value[name]));
+      Object.entries(branch.properties ?? {}).every(([name, p]) => !words(p) || !(name in value) || words(p).includes(value[name]));
   };
   return branchOf(contract, schema.oneOf.map((b) => contract.resolve(b)).find(fits), value);
 }
@@ -89,9 +89,9 @@ export function edits(contract, requestSchema, body) {
   const put = (kind, path, pointer, value) => add(kind, path, (parent, name) => { parent[name] = copy(value); }, pointer);
 
   const walk = (given, value, path, pointer) => {
+    if (given === true) return;
     const whole = contract.resolve(given);
     const schema = branchOf(contract, whole, value);
-    if (schema === true) return;
     const allowed = types(contract, whole);
     if (path.length) for (const other of OTHERS) if (!allowed.includes(typeOf(other))) put('type', path, pointer, other);
     if (typeof value === 'number') for (const bad of badNumbers(schema)) put('range', path, pointer, bad);

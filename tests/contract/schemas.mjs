@@ -19,18 +19,7 @@ export class Contract {
     const {endpoints} = JSON.parse((await service.ask('/v1/version', {method: 'GET'})).text);
     this.served = endpoints.filter(({id}) => !only || id === only).map(({path}) => path);
     this.examples = JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text).examples;
-    await this.chain(service, 'pulse-schedules', 'replays', (body, {result: {period_us, counts, start}}) =>
-      ({...body, schedule: {period_us, counts, start}}));
     return this;
-  }
-
-  // Where `to` has no examples, requests made of the answers of `from`.
-  async chain(service, from, to, make) {
-    if (this.examples.some(({endpoint}) => endpoint === to)) return;
-    for (const {name, body} of this.examples.filter(({endpoint}) => endpoint === from)) {
-      const reply = await service.post(`/v1/${from}`, body);
-      if (reply.status === 200) this.examples.push({endpoint: to, name, body: make(body, JSON.parse(reply.text))});
-    }
   }
 
   // The schema a reference names, else the schema itself.

@@ -15,7 +15,6 @@ namespace {
 
 using joint::kGolden;
 using joint::Partner;
-using testing::number;
 using testing::numbers;
 
 std::vector<Partner> partners(const std::vector<joint::Cutter>& cutters) {

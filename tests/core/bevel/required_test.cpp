@@ -13,7 +13,6 @@
 namespace tubecut::bevel {
 namespace {
 
-using testing::number;
 using testing::numbers;
 
 struct Inner {

@@ -15,13 +15,13 @@ namespace {
 class LargestVector {
  public:
   LargestVector(const Conditions& conditions, double d)
-      : x_lp(glp_create_prob()), x_n(static_cast<int>(conditions.caps.size())) {
-    glp_set_obj_dir(x_lp, GLP_MAX);
-    glp_add_cols(x_lp, x_n);
-    for (int j = 0; j < x_n; ++j) {
+      : lp_(glp_create_prob()), n_(static_cast<int>(conditions.caps.size())) {
+    glp_set_obj_dir(lp_, GLP_MAX);
+    glp_add_cols(lp_, n_);
+    for (int j = 0; j < n_; ++j) {
       const double cap = conditions.caps[static_cast<std::size_t>(j)];
-      glp_set_col_bnds(x_lp, j + 1, cap > 0 ? GLP_DB : GLP_FX, 0.0, cap);
-      glp_set_obj_coef(x_lp, j + 1, 1.0);
+      glp_set_col_bnds(lp_, j + 1, cap > 0 ? GLP_DB : GLP_FX, 0.0, cap);
+      glp_set_obj_coef(lp_, j + 1, 1.0);
     }
     for (std::size_t i = 0; i + 1 < conditions.rows.first.size(); ++i) {
       for (std::size_t r = conditions.rows.first[i]; r < conditions.rows.first[i + 1]; ++r) {
@@ -31,7 +31,7 @@ class LargestVector {
   }
   LargestVector(const LargestVector&) = delete;
   LargestVector& operator=(const LargestVector&) = delete;
-  ~LargestVector() { glp_delete_prob(x_lp); }
+  ~LargestVector() { glp_delete_prob(lp_); }
 
   std::vector<double> solve() {
     glp_smcp options;
@@ -39,15 +39,15 @@ class LargestVector {
     options.msg_lev = GLP_MSG_ERR;
     options.tol_bnd = 1e-10;
     options.tol_dj = 1e-10;
-    EXPECT_EQ(glp_simplex(x_lp, &options), 0);
-    EXPECT_EQ(glp_get_status(x_lp), GLP_OPT);
+    EXPECT_EQ(glp_simplex(lp_, &options), 0);
+    EXPECT_EQ(glp_get_status(lp_), GLP_OPT);
     std::vector<double> x;
-    for (int j = 1; j <= x_n; ++j) x.push_back(glp_get_col_prim(x_lp, j));
+    for (int j = 1; j <= n_; ++j) x.push_back(glp_get_col_prim(lp_, j));
     return x;
   }
 
  private:
-  /// alpha |x_b - x_a| / 2d + beta x <= c at both knots, each sign a row of its own.
+  /// alpha |b_ - a_| / 2d + beta x <= c at both knots, each sign a row of its own.
   void add(int knot, const Row& row, double d) {
     if (row.alpha == 0.0 && row.beta == 0.0) return;
     const double k = row.alpha / (2.0 * d);
@@ -58,14 +58,14 @@ class LargestVector {
   }
   void add(int knot, double a, double b, double c) {
     const double size = std::max(std::abs(a), std::abs(b));
-    const int row = glp_add_rows(x_lp, 1);
-    glp_set_row_bnds(x_lp, row, GLP_UP, 0.0, c / size);
+    const int row = glp_add_rows(lp_, 1);
+    glp_set_row_bnds(lp_, row, GLP_UP, 0.0, c / size);
     const std::array<int, 3> columns{0, knot, knot + 1};
     const std::array<double, 3> values{0.0, a / size, b / size};
-    glp_set_mat_row(x_lp, row, 2, columns.data(), values.data());
+    glp_set_mat_row(lp_, row, 2, columns.data(), values.data());
   }
-  glp_prob* x_lp;
-  int x_n;
+  glp_prob* lp_;
+  int n_;
 };
 
 /// A short open cut with the random job's machine: few knots, all kinds of spoilt contour.

@@ -10,15 +10,15 @@ namespace tubecut::motion::testing {
 /// Numbers that do not depend on the standard library's distributions.
 class Dice {
  public:
-  explicit Dice(std::uint64_t seed) : x_engine(seed) {}
+  explicit Dice(std::uint64_t seed) : engine_(seed) {}
   double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(x_engine() >> 11) * 0x1p-53;
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
   double log_uniform(double low, double high);
-  int below(int count) { return static_cast<int>(x_engine() % static_cast<std::uint64_t>(count)); }
+  int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
 
  private:
-  std::mt19937_64 x_engine;
+  std::mt19937_64 engine_;
 };
 
 /// A hostile job: jumps and square waves of B, steps and kinks of z, limits scaled 0.1 to 5,
