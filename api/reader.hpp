@@ -205,6 +205,7 @@ class Reader {
   [[nodiscard]] Reader nested(const Json& body, const std::string& step) const {
     Reader child(body, pointer_ + "/" + step, issues_);
     child.binary_ = binary_;
+    child.silent_ = silent_;
     return child;
   }
   void adopt(std::string_view name, Reader& child);

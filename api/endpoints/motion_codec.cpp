@@ -52,7 +52,7 @@ motion::Contour decode_contour(Reader& in) {
   const Range wall{.min = kWall.min,
                    .max = std::min(kWall.max, out.outer_radius),
                    .open_max = out.outer_radius <= kWall.max};
-  out.wall = in.number("wall_mm", in.is<double>("outer_diameter_mm") ? wall : kWall);
+  out.wall = in.number("wall_mm", in.understood("outer_diameter_mm") ? wall : kWall);
   out.closed = in.flag("closed");
   in.note("scrap");
   if (in.exactly_one({"phi_deg", "points"}) == 1) {
@@ -77,6 +77,7 @@ motion::Contour decode_contour(Reader& in) {
 
 motion::AxisColumns decode_axes(Reader& in, const motion::Machine& machine) {
   motion::AxisColumns out;
+  if (in.refused()) in.silence();  // its members are the machine's axes
   out.length = in.column("s_mm", kPoints, kOffset);
   for (const auto& axis : machine.axes)
     out.columns.push_back(in.column(axis.name, kPoints, kOffset));
@@ -298,7 +299,7 @@ JobRequest decode_job(Reader& in) {
   out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
   const auto* contour = std::get_if<motion::Contour>(&out.cut);
   const auto* body = in.find("contour");
-  if (contour != nullptr && body != nullptr && out.motion.lead && body->find("scrap") == nullptr &&
+  if (contour != nullptr && in.understood("contour") && out.motion.lead && body->find("scrap") == nullptr &&
       body->find("points") == nullptr)
     in.issue({.code = ErrorCode::missing_field,
               .pointer = "contour/scrap",

@@ -139,6 +139,15 @@ function nearExamples(contract, endpoint) {
     .filter((body) => endpoint.validRequest(body));
 }
 
+const BATCH = 20;  // made at a time: bodies of a schedule are large
+
+// So many values of an arbitrary, made as they are asked for.
+export function* drawn(arbitrary, seed, count) {
+  for (let done = 0; done < count; done += BATCH) {
+    yield* fc.sample(arbitrary, {seed: seed + done, numRuns: Math.min(BATCH, count - done)});
+  }
+}
+
 // Seconds a suite may spend on an endpoint's answers: of those with a generator of their own it asks a given number instead.
 export const seconds = (endpoint) => (own[endpoint.id] ? Infinity : 2);
 

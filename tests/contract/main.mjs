@@ -9,7 +9,7 @@ import {Contract} from './schemas.mjs';
 import {Service} from './service.mjs';
 
 const SUITES = {valid, edits: editsRefused, http, answers, mutants};
-const SHOWN = 20;
+const SHOWN = 12;
 
 class Report {
   faults = [];

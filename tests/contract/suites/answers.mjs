@@ -1,9 +1,8 @@
 // The examples, the catalogues, and what one answer promises of another: the echoed request, CBOR, validate_only.
 import assert from 'node:assert/strict';
-import fc from 'fast-check';
 import {decode} from '../cbor.mjs';
 import {answerFaults} from '../check.mjs';
-import {seconds, sound} from '../generate.mjs';
+import {drawn, seconds, sound} from '../generate.mjs';
 import {member, parseRaw, print} from '../raw.mjs';
 import {each} from '../service.mjs';
 
@@ -70,8 +69,7 @@ export async function answers(context) {
       context.report.fault(`example ${name}`, context.contract.faults(endpoint.validRequest, body));
       await answerPromises(context, endpoint, name, body);
     }
-    const bodies = fc.sample(sound(context.contract, endpoint), {seed: context.seed, numRuns: SOUND});
-    await each(bodies, async (body, i) => {
+    await each(drawn(sound(context.contract, endpoint), context.seed, SOUND), async (body, i) => {
       if ((await context.service.post(endpoint.path, body)).status === 200) await answerPromises(context, endpoint, `sound ${i}`, body);
     }, seconds(endpoint));
   }
