@@ -299,8 +299,8 @@ JobRequest decode_job(Reader& in) {
   out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
   const auto* contour = std::get_if<motion::Contour>(&out.cut);
   const auto* body = in.find("contour");
-  if (contour != nullptr && in.understood("contour") && out.motion.lead && body->find("scrap") == nullptr &&
-      body->find("points") == nullptr)
+  if (contour != nullptr && in.understood("contour") && out.motion.lead &&
+      body->find("scrap") == nullptr && body->find("points") == nullptr)
     in.issue({.code = ErrorCode::missing_field,
               .pointer = "contour/scrap",
               .limit = Json{"-z|+z|inside"},

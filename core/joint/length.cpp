@@ -93,6 +93,18 @@ class Walk {
   std::optional<double> asked_;
 };
 
+/// dz/dphi of the sheet. A tangent tube whose offset is rounding is missed by a hair beside its
+/// corner: there the silhouette's own slope counts, not an infinite one.
+double slope_at(const Prepared& cutter, const Generator& line) {
+  const double slope = continued_hit(cutter, line).z_dphi;
+  if (std::isfinite(slope)) return slope;
+  const auto* tube = std::get_if<PreparedTube>(&cutter);
+  if (tube == nullptr) return 0.0;
+  const double u =
+      line.radius * (line.cos_phi * tube->cos_clocking + line.sin_phi * tube->sin_clocking);
+  return -u * tube->cos_inclination / tube->sin_inclination;
+}
+
 }  // namespace
 
 // At a segment's own ends z' may be infinite as the inverse root of the distance; there the
@@ -100,8 +112,7 @@ class Walk {
 double arc_length(const Contour& contour, const Segment& segment, double from, double to) {
   const auto& cutter = contour.cutters[segment.cutter];
   const auto speed = [&](double phi) {
-    const auto hit = continued_hit(cutter, generator_at(contour.radius, phi));
-    return elementary::hypot(contour.radius, hit.z_dphi);
+    return elementary::hypot(contour.radius, slope_at(cutter, generator_at(contour.radius, phi)));
   };
   const double negligible = kNegligible * contour.radius;
   if (from > segment.from && to < segment.to)

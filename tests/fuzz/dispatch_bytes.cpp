@@ -1,9 +1,12 @@
 #include "tests/fuzz/dispatch_bytes.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "api/api.hpp"
 #include "api/endpoint.hpp"
@@ -11,6 +14,17 @@
 
 namespace tubecut::fuzz {
 namespace {
+
+/// Places in the corpus stand for these; a new endpoint goes behind them.
+constexpr std::string_view kIds[] = {"intersections", "bevel-tables",    "feed-curves",
+                                     "nodes",         "holes",           "grooves",
+                                     "mill-paths",    "pulse-schedules", "replays"};
+
+const api::Endpoint* endpoint_at(std::size_t place) {
+  for (const auto& endpoint : api::endpoints())
+    if (endpoint.id == kIds[place % std::size(kIds)]) return &endpoint;
+  return nullptr;
+}
 
 std::string query_of(const api::Endpoint& endpoint, unsigned way) {
   if (way == 4) return {};
@@ -20,23 +34,31 @@ std::string query_of(const api::Endpoint& endpoint, unsigned way) {
   return "format=" + std::string(endpoint.formats[way % endpoint.formats.size()].name);
 }
 
-/// Numbers that ask for more work than one input of a fuzzer may cost.
+/// A number that asks for more work than one input of a fuzzer may cost.
+bool beyond(std::string_view name, const api::Json& value) {
+  using Bound = std::pair<std::string_view, double>;
+  static constexpr Bound kMost[] = {
+      {"uniform_points", 720.0}, {"points", 720.0}, {"sections", 48.0}, {"positions", 8.0}};
+  static constexpr Bound kLeast[] = {{"tolerance_mm", 1e-3}, {"step_mm", 0.1}, {"period_s", 1e-3},
+                                     {"period_us", 2e3},     {"mm_min", 1e2},  {"pitch_deg", 0.5}};
+  const auto* number = value.as<double>();
+  if (number == nullptr) return false;
+  const auto named = [&](const Bound& bound) { return bound.first == name; };
+  const auto* most = std::ranges::find_if(kMost, named);
+  const auto* least = std::ranges::find_if(kLeast, named);
+  return (most != std::end(kMost) && *number > most->second) ||
+         (least != std::end(kLeast) && *number < least->second);
+}
+
 bool costly(const api::Json& json) {
-  if (const auto* array = json.as<api::Json::Array>()) {
-    for (const auto& item : *array)
-      if (costly(item)) return true;
-  } else if (const auto* object = json.as<api::Json::Object>()) {
-    for (const auto& [name, value] : *object) {
-      const auto* number = value.as<double>();
-      if (number != nullptr && (name == "uniform_points" || name == "points") && *number > 720.0)
-        return true;
-      if (number != nullptr &&
-          (name == "tolerance_mm" || name == "step_mm" || name == "period_s") && *number < 1e-3)
-        return true;
-      if (costly(value)) return true;
-    }
-  }
-  return false;
+  if (const auto* array = json.as<api::Json::Array>()) return std::ranges::any_of(*array, costly);
+  const auto* object = json.as<api::Json::Object>();
+  if (object == nullptr) return false;
+  const auto* mill = json.find("mill");  // whose positions are many by default
+  return (mill != nullptr && json.find("positions") == nullptr) ||
+         std::ranges::any_of(*object, [](const api::Json::Member& member) {
+           return beyond(member.first, member.second) || costly(member.second);
+         });
 }
 
 [[noreturn]] void broken(const char* promise, const std::string& body) {
@@ -53,14 +75,19 @@ void check(const api::Outcome& outcome) {
 
 }  // namespace
 
+bool reaches(std::string_view endpoint) {
+  return std::ranges::find(kIds, endpoint) != std::end(kIds);
+}
+
 void dispatch_bytes(std::span<const std::uint8_t> bytes) {
   if (bytes.empty() || bytes.size() > kLongest) return;
-  const auto& endpoint = api::endpoints()[(bytes[0] & 15u) % api::endpoints().size()];
-  const auto query = query_of(endpoint, bytes[0] >> 4u);
+  const auto* endpoint = endpoint_at(bytes[0] & 15u);
+  if (endpoint == nullptr) return;
+  const auto query = query_of(*endpoint, bytes[0] >> 4u);
   const std::string body(bytes.begin() + 1, bytes.end());
   if (const auto parsed = api::parse(body); parsed && costly(*parsed)) return;
   const api::Call call{.method = "POST",
-                       .path = endpoint.path,
+                       .path = endpoint->path,
                        .query = query,
                        .accept = {},
                        .content_type = "application/json",

@@ -2,17 +2,21 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace tubecut::fuzz {
 
 /// Longer inputs are passed over: an answer's cost grows with the request.
 inline constexpr std::size_t kLongest = 8192;
 
-/// Dispatches bytes as a request: the first picks endpoint (low half) and format or query (high
-/// half: '@' to 'O' JSON, 'P' to
+/// Dispatches bytes as a request: the first picks endpoint (low half, its place in a list that only
+/// grows) and format or query (high half: '@' to 'O' JSON, 'P' to
 /// '_' CBOR, '`' to 'o' validate_only, others a text format), the rest is the body. Aborts when a
 /// promise is broken: no exception, no failure of ours, an answer or a problem that reads back as
 /// JSON.
 void dispatch_bytes(std::span<const std::uint8_t> bytes);
+
+/// Has the endpoint of that id a place in the list?
+[[nodiscard]] bool reaches(std::string_view endpoint);
 
 }  // namespace tubecut::fuzz

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <vector>
 
+#include "api/endpoint.hpp"
 #include "tests/fuzz/dispatch_bytes.hpp"
 
 int main(int argc, char** argv) {
@@ -23,5 +25,11 @@ int main(int argc, char** argv) {
     tubecut::fuzz::dispatch_bytes(bytes);
   }
   std::printf("%zu inputs\n", files.size());
-  return files.empty() ? 1 : 0;
+  bool all = !files.empty();
+  for (const auto& endpoint : tubecut::api::endpoints()) {
+    if (tubecut::fuzz::reaches(endpoint.id)) continue;
+    std::printf("no input can reach %s\n", std::string(endpoint.id).c_str());
+    all = false;
+  }
+  return all ? 0 : 1;
 }

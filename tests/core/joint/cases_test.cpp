@@ -121,6 +121,15 @@ TEST(Cases, BranchLargerThanChordIsOpenOnBothSides) {
   EXPECT_EQ(open_of(trace_one(tube_deg(30, 75, 20, 0), 35)).size(), 2U);
 }
 
+TEST(Cases, TangentByAHairHasTheLengthOfTheTangentCut) {
+  const auto length = [](double offset) {
+    const auto contour = trace_one(tube_deg(2.5, 55, 151.2, offset), 2.5);
+    return contour ? true_length(*contour) : 0.0;
+  };
+  for (const double offset : {1e-13, -1e-13, 1e-12, -1e-12})
+    EXPECT_NEAR(length(offset), length(0.0), 1e-5) << offset;
+}
+
 TEST(Cases, ParallelAxes) {
   for (const double inclination : {0.0, 5e-5, 180 - 5e-5, -3.0, 180.0}) {
     const auto result = trace_one(tube_deg(50, inclination, 0, 0), 35);
