@@ -22,6 +22,7 @@ constexpr double kLeap = 0.02;      // relative; a difference between scanned ph
 constexpr double kJump = 1e-4;      // relative; what a continuous curve cannot do within 1e-15 rad
 constexpr double kBeside = 1e-9;    // rad
 constexpr double kTouching = 1e-6;  // relative; kept without a sign change
+constexpr double kHair = 1e-9;       // relative; an offset that is rounding, as in is_tangent
 
 bool same_piece(const Sheets& a, const Sheets& b) {
   const double size = std::max(a.size, b.size);
@@ -101,8 +102,9 @@ class Divider {
       phases_.push_back(wrapped(beta - delta));
     }
     if (!is_tangent(*tube, rho_)) return;
-    if (tube->offset >= 0.0) add_kink(beta, i);
-    if (tube->offset <= 0.0) add_kink(beta + kPi, i);
+    const double hair = kHair * tube->radius;  // tubes of one radius are tangent on both sides
+    if (tube->offset >= -hair) add_kink(beta, i);
+    if (tube->offset <= hair) add_kink(beta + kPi, i);
   }
 
   void add_kink(double phi, std::size_t i) {
