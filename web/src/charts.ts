@@ -101,7 +101,7 @@ class Plot {
       patch.style.background = colour(tone);
       return el('span', {'class': 'key'}, patch, text);
     });
-    this.caption.replaceChildren(el('b', {}, chart.title), el('span', {'class': 'keys'}, ...keys, ...others));
+    this.caption.replaceChildren(el('b', {}, chart.title, el('small', {}, ` over ${chart.x.name}`)), el('span', {'class': 'keys'}, ...keys, ...others));
   }
 
   private options(): uPlot.Options {
@@ -190,6 +190,8 @@ class Plot {
       area(from, Math.min(to + 1, x.length - 1), bottom, partnerColour(partner), 0.3);
     }
     ctx.globalAlpha = 1;
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'alphabetic';
     ctx.strokeStyle = colour('ink-soft');
     ctx.fillStyle = colour('ink-soft');
     ctx.font = `${11 * devicePixelRatio}px Inter, system-ui, sans-serif`;
@@ -209,6 +211,8 @@ class Plot {
     const {ctx, bbox} = u;
     const scale = devicePixelRatio;
     ctx.save();
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'alphabetic';
     for (const mark of this.chart.marks ?? []) {
       const at = u.valToPos(mark.x, 'x', true);
       ctx.strokeStyle = ctx.fillStyle = colour(mark.tone);
@@ -236,7 +240,7 @@ class Plot {
       ctx.moveTo(bbox.left, y);
       ctx.lineTo(bbox.left + bbox.width, y);
       ctx.stroke();
-      ctx.fillText(limit.text, bbox.left + 4 * scale, y - 4 * scale);
+      ctx.fillText(limit.text, bbox.left + 4 * scale, y + (y - bbox.top < 16 * scale ? 12 : -4) * scale);
     }
     ctx.setLineDash([]);
     if (this.chart.partners && !this.chart.wrap) this.ribbon(u);

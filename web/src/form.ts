@@ -8,6 +8,7 @@ import type {Issue} from './service';
 export interface Choices {machines: string[]; sizes: string[]}
 
 const aside = new Set(['log', 'numerics']);  // belong to programs
+const folded = new Set(['sampling', 'reference', 'accept', 'expert', 'check', 'table']);  // closed until opened
 const inlineList = 6;  // longer lists of numbers get a text area
 
 /** The request as a form, drawn from the contract's schema. Values are never checked here: the service is
@@ -17,7 +18,7 @@ export class Form {
   private echo: Row = {};
   private schema: Schema = {};
   private inputs = new Map<string, HTMLElement>();
-  private opened = new Set<string>();
+  private folds = new Map<string, boolean>();  // what was opened or closed by hand, by pointer
 
   constructor(private readonly root: HTMLElement, private readonly contract: Contract,
               private readonly choices: Choices, private readonly changed: () => void) {
@@ -135,7 +136,7 @@ export class Form {
       const member = this.contract.resolve(inner);
       if ('const' in member) continue;
       const required = schema.required?.includes(key) ?? false;
-      if (this.simple(member)) small.push(this.leaf(member, value[key], to, label(key), required));
+      if (this.simple(member) || this.short(member)) small.push(this.leaf(member, value[key], to, label(key), required));
       else if (key in value || required) large.push(this.group(key, member, value[key], to, required));
       else absent.push(this.offer(key, member, to));
     }
@@ -149,6 +150,12 @@ export class Form {
     return out;
   }
 
+  /** Points, directions, pairs: a field like a number is. */
+  private short(schema: Schema): boolean {
+    const item = schema.items && this.contract.resolve(schema.items);
+    return schema.type === 'array' && item !== undefined && !item.properties && !item.oneOf && (schema.maxItems ?? 99) <= inlineList;
+  }
+
   private simple(schema: Schema): boolean {
     if (schema.oneOf) return this.contract.branches(schema).every((branch) => this.simple(branch));
     return schema.enum !== undefined || 'const' in schema || ['number', 'integer', 'string', 'boolean', 'null'].includes(schema.type ?? '');
@@ -157,7 +164,7 @@ export class Form {
   private offer(key: string, schema: Schema, pointer: string): HTMLElement {
     return el('button', {type: 'button', title: schema.description, onclick: () => {
       put(this.body, pointer, this.contract.make(schema, undefined, key));
-      this.opened.add(pointer);
+      this.folds.set(pointer, true);
       this.redraw();
     }}, `+ ${label(key)}`);
   }
@@ -170,7 +177,7 @@ export class Form {
       this.redraw();
     }}, '×');
     const title = el('summary', {title: schema.description}, sentence(label(key)), remove);
-    const node = el('details', {'class': 'group', open: true}, title, ...inner);
+    const node: HTMLDetailsElement = el('details', {'class': 'group', 'open': this.folds.get(pointer) ?? !folded.has(key), 'ontoggle': () => this.folds.set(pointer, node.open)}, title, ...inner);
     if (!this.inputs.has(pointer)) this.inputs.set(pointer, title);
     return node;
   }
@@ -296,7 +303,7 @@ export class Form {
         return typedText;
       }
     };
-    if (plain && (value as number[]).length <= inlineList) {
+    if ((plain && (value as number[]).length <= inlineList) || value === undefined) {
       const node = el('input', {type: 'text', value: text, oninput: () => this.write(pointer, read(node.value))});
       return node;
     }

@@ -35,17 +35,17 @@ class Console {
   private unlisten: (() => void) | null = null;
 
   constructor(private readonly contract: Contract, private readonly examples: Example[], private readonly endpoints: Endpoint[],
-              machines: string[], tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[]) {
+              machines: {name: string; machine: Row}[], tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[]) {
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     const known = new Map<string, Promise<Answer | undefined>>();
-    this.context = {sizes, ask: (endpoint, body) => {
+    this.context = {sizes, machines: new Map(machines.map((m) => [m.name, m.machine])), ask: (endpoint, body) => {
       const key = endpoint + JSON.stringify(body);
       if (known.size > 20) known.clear();
       const found = known.get(key) ?? ask(endpoint, body).then((reply) => reply.answer);
       known.set(key, found);
       return found;
     }};
-    this.form = new Form(byId('form'), contract, {machines, sizes: [...sizes.keys()]}, () => this.edited());
+    this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
     byId('share').addEventListener('click', () => void this.share());
@@ -264,7 +264,7 @@ class Console {
     const reply = await ask('pulse-schedules', body as never);
     if (this.motion.of !== key) return;
     this.motion.root.querySelectorAll('.extra').forEach((node) => node.remove());
-    this.motion.board.show(reply.answer ? scheduleCharts(reply.answer.result) : []);
+    this.motion.board.show(reply.answer ? scheduleCharts(reply.answer.result, this.context.machines.get(body.machine)) : []);
     const extra = el('div', {'class': 'extra'});
     if (reply.answer) {
       const facts = motionFacts(reply.answer.result);
@@ -341,10 +341,10 @@ async function begin(): Promise<void> {
   try {
     const [contract, examples, version, machines, tubes] = await Promise.all([
       fetched<ConstructorParameters<typeof Contract>[0]>('/openapi.json'), fetched<{examples: Example[]}>('/v1/examples'),
-      fetched<{endpoints: Endpoint[]}>('/v1/version'), fetched<{machines: {name: string}[]}>('/v1/machines'),
+      fetched<{endpoints: Endpoint[]}>('/v1/version'), fetched<{machines: {name: string; machine: Row}[]}>('/v1/machines'),
       fetched<{tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[]}>('/v1/tubes'),
     ]);
-    page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines.map((m) => m.name), tubes.tubes);
+    page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes.tubes);
     await page.arrive();
   } catch (failure) {
     byId('verdict').replaceChildren(el('div', {'class': 'verdict bad'}, el('p', {}, `The console could not start: ${String(failure)}`)));

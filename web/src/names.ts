@@ -39,7 +39,7 @@ export const endpointName = (id: string) => endpointNames[id] ?? sentence(id.rep
 export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
 const kept: [RegExp, string][] = [
-  [/^source (\d+) /, 'Source $1: '], [/(\d+) mm min/g, '$1 mm/min'], [/(\d+) deg\b/g, '$1°'], [/as printed|as published/, '($&)'],
+  [/^case ([a-z]) /, 'case $1: '],  [/^source (\d+) /, 'Source $1: '], [/(\d+) mm min/g, '$1 mm/min'], [/(\d+) deg\b/g, '$1°'], [/(as printed|as published|as solved)/, '($1)'],
 ];
 export function exampleName(name: string): string {
   return sentence(kept.reduce((text, [from, to]) => text.replace(from, to), name.replace(/-/g, ' ')));

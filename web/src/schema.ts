@@ -98,15 +98,17 @@ export class Contract {
     if (!branch.properties) return branch.type === 'null' ? 'none' : branch.type ?? 'value';
     const kind = this.kind(branch);
     const like = branches.filter((other) => other.properties && this.kind(other) === kind);
+    const alike = like.length === branches.length;
     const own = (branch.required ?? []).filter((key) => !like.every((other) => other.required?.includes(key)));
     const choice = own.slice(0, 2).map(label).join(', ');
     if (like.length === 1 && kind) return kind;
-    return [kind, choice].filter(Boolean).join(' · ') || 'object';
+    return [alike ? '' : kind, choice].filter(Boolean).join(' · ') || 'object';
   }
 
   kind(branch: Schema): string {
-    for (const inner of Object.values(branch.properties ?? {})) {
+    for (const [key, inner] of Object.entries(branch.properties ?? {})) {
       const schema = this.resolve(inner);
+      if (!branch.required?.includes(key) && !['kind', 'method', 'rule'].includes(key)) continue;
       if ('const' in schema && typeof schema.const === 'string') return schema.const.replace(/_/g, ' ');
     }
     for (const [key, inner] of Object.entries(branch.properties ?? {})) {

@@ -42,11 +42,11 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
   const along = (angle: number) => whole * angle / 360;
   const torch = isRow(request['torch']) ? request['torch'] : {};
   const z = (name: string) => column(points[name]);
-  const events = ((result['events'] ?? []) as Row[]);
+  const events = onRoot(request, result);
   const shared = {link, partners, partnerNames: given.names};
   const charts: Chart[] = [
     {
-      ...shared, id: 'bevel', title: 'Cutting angle B', unit: '°', x: {name: 'developed length', unit: 'mm', values: developed}, height: 230,
+      ...shared, id: 'bevel', title: 'Cutting angle B', unit: '°', x: {name: 'developed length', unit: 'mm', values: developed}, height: 205,
       series: [
         {name: 'before', values: raw, tone: 'before', dash: [5, 4]},
         {name: 'least that clears', values: required, tone: 'floor', width: 1},
@@ -56,7 +56,7 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
       limits: [{y: Number(torch['min_deg'] ?? NaN), text: 'torch'}, {y: Number(torch['max_deg'] ?? NaN), text: 'torch'}].filter((l) => Number.isFinite(l.y)),
     },
     {
-      ...shared, id: 'height', title: 'z over φ', unit: 'mm', x: {name: 'phi', unit: '°', values: phi},
+      ...shared, id: 'height', title: 'Height z of the cut', unit: 'mm', x: {name: 'φ', unit: '°', values: phi}, height: 150,
       series: [{name: 'outer edge', values: z('z_outer_mm'), tone: 'outer', width: 2}, {name: 'inner edge', values: z('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]}],
       marks: events.map((event) => ({x: Number(event['phi_deg']), tone: 'mark', text: 'junction'})),
     },
@@ -64,7 +64,7 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
   ];
   return {
     solid: solidOf(cut, given, sizes, link), charts, beforeAfter: true,
-    figures: figuresOf(result, b, raw), tables: tablesOf(result, given.names),
+    figures: figuresOf(result, events.length, b, raw), tables: tablesOf(result, given.names),
     readout: (i) => readout(points, given.names, i),
   };
 }
@@ -72,8 +72,8 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
 export function wrapChart(phi: number[], outer: number[], inner: number[], partners: number[], radius: number, link: string, names: string[]): Chart {
   const scale = radius * radians;
   return {
-    id: 'wrap', title: 'Wrap, 1:1 along both axes', link, unit: 'mm', partners, partnerNames: names,
-    x: {name: 'around the outside', unit: 'mm', values: phi.map((p) => p * scale)},
+    id: 'wrap', title: 'Wrap', link, unit: 'mm', partners, partnerNames: names,
+    x: {name: 'the outside, mm for mm', unit: 'mm', values: phi.map((p) => p * scale)},
     series: [{name: 'outside', values: outer, tone: 'outer', width: 2}, {name: 'inside', values: inner, tone: 'inner', width: 1, dash: [4, 3]}],
     wrap: {lines: [0, 90, 180, 270, 360].map((p) => ({x: p * scale, text: p === 360 ? '' : p === 0 ? 'φ 0° seam' : `${p}°`}))},
   };
@@ -95,22 +95,26 @@ function cutOf(request: Row, result: Row, given: Joint): CutTube {
       zOuter: atInner ? zOuter.map((z, i) => z - (shift[i] as number)) : zOuter,
     },
     far: farEnd(zInner, zOuter, given.outer), tone: 'target',
-    marks: ((result['events'] ?? []) as Row[]).map((event) => ({
+    marks: onRoot(request, result).map((event) => ({
       phi: Number(event['phi_deg']), z: Number(event['z_from_mm']), radius: event['surface'] === 'inner' ? given.outer / 2 - given.wall : given.outer / 2,
     })),
   };
 }
 
-export const farEnd = (zInner: number[], zOuter: number[], diameter: number) => bounds([...zInner, ...zOuter])[1] + 1.3 * diameter;
+/** The other wall's junctions lie on its own curve, which the bevel may leave behind. */
+const onRoot = (request: Row, result: Row) =>
+  ((result['events'] ?? []) as Row[]).filter((event) => event['surface'] === request['root_surface']);
+
+export const farEnd = (zInner: number[], zOuter: number[], diameter: number) => bounds([...zInner, ...zOuter])[1] + 0.9 * diameter;
 
 export function solidOf(cut: CutTube, given: Joint, sizes: Sizes, link: string): Solid {
   const [low, high] = bounds([...cut.zInner, ...cut.zOuter]);
   const middle = (low + high) / 2;
-  const reach = Math.max(2.2 * given.outer, high - low);
+  const reach = Math.max(1.3 * given.outer, high - low);
   return {
     link, tubes: [cut], partners: given.cutters.map((row, i) => partner(row, i, [0, 0, middle], reach, sizes)),
-    centre: [0, 0, middle + 0.35 * given.outer], size: Math.max(1.55 * given.outer, 0.9 * (high - low + given.outer)),
-    eye: [0.95, -0.75, -0.85], up: [0, 0, -1],
+    centre: [0, 0, middle + 0.2 * given.outer], size: Math.max(1.35 * given.outer, 0.8 * (high - low + given.outer)),
+    eye: [0.95, -0.75, -0.95], up: [0, 0, -1],
   };
 }
 
@@ -118,7 +122,8 @@ function bandsOf(result: Row, along: (phi: number) => number): Band[] {
   const bands: Band[] = [];
   const span = (row: Row, tone: string, text: string) => {
     const from = along(Number(row['from_phi_deg'])), to = along(Number(row['to_phi_deg']));
-    if (from <= to) bands.push({from, to, tone, text});
+    if (to > along(360)) bands.push({from, to: along(360), tone, text}, {from: 0, to: to - along(360), tone, text});
+    else if (from <= to) bands.push({from, to, tone, text});
     else bands.push({from, to: along(360), tone, text}, {from: 0, to, tone, text});  // across the seam
   };
   for (const row of (result['windows'] ?? []) as Row[]) span(row, 'window', 'smoothed window');
@@ -134,14 +139,14 @@ function mutationsOf(result: Row, along: (phi: number) => number, phi: number[],
   });
 }
 
-function figuresOf(result: Row, b: number[], raw: number[]): Picture['figures'] {
+function figuresOf(result: Row, junctions: number, b: number[], raw: number[]): Picture['figures'] {
   const [low, high] = bounds(b);
   const extra = b.reduce((most, angle, i) => Math.max(most, Math.abs(angle - (raw[i] as number))), 0);
   return [
     {name: 'B from', value: short4(low), unit: '°'}, {name: 'to', value: short4(high), unit: '°'},
     {name: 'smoothing moved B by at most', value: short4(extra), unit: '°'},
     {name: 'mutations', value: String(((result['mutations'] ?? []) as Row[]).length)},
-    {name: 'junctions', value: String(((result['events'] ?? []) as Row[]).filter((e) => e['kind'] === 'junction').length)},
+    {name: 'junctions', value: String(junctions)},
     {name: 'cut length', value: short4(Number(result['length_mm'])), unit: 'mm'},
   ];
 }
@@ -189,7 +194,7 @@ export async function intersection(_: Row, answer: Answer, context: Context): Pr
   return {
     solid: solidOf(cut, given, context.sizes, 'cut'),
     charts: [
-      {id: 'height', title: 'z over φ', link: 'cut', unit: 'mm', x: {name: 'phi', unit: '°', values: phi}, partners, partnerNames: given.names, height: 240,
+      {id: 'height', title: 'Height z of the cut', link: 'cut', unit: 'mm', x: {name: 'φ', unit: '°', values: phi}, partners, partnerNames: given.names, height: 240,
         series: [{name: 'outside', values: zOuter, tone: 'outer', width: 2}, {name: 'inside', values: zInner, tone: 'inner', dash: [5, 4]}],
         marks: events.map((e) => ({x: Number(e['phi_deg']), tone: 'mark', text: 'junction'}))},
       wrapChart(phi, zOuter, zInner, partners, given.outer / 2, 'cut', given.names),

@@ -35,7 +35,7 @@ export function partner(row: Row, tone: number, near: Vector, reach: number, siz
   if (row['kind'] === 'plane') return {kind: 'plane', point: nearestOnPlane(row, near), normal: unitVector(vector(row['normal'])), half: reach * 0.7, tone};
   const given = isRow(row['axis']) ? {point: vector(row['axis']['point_mm']), direction: unitVector(vector(row['axis']['direction']))} : axisByAngles(row);
   const {outer} = tube(row, sizes);
-  const half = reach * 0.8 + outer * 0.4;
+  const half = reach * 0.7 + outer * 0.35;
   if (row['kind'] === 'elbow') {
     return {kind: 'elbow', ...given, inwards: vector(row['inwards']), radius: outer / 2, bend: Number(row['bend_radius_mm']), angle: Number(row['bend_deg']) * radians, half: reach * 0.5, tone};
   }

@@ -6,17 +6,19 @@ import {facts} from './machine';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
 
+const round = 180;  // sections of the picture, whatever number was asked for
+
 export async function groove(_: Row, answer: Answer, context: Context): Promise<Picture> {
   const {request, result} = answer;
   const sections = result['sections'] as Row;
   const omega = column(sections['omega_deg']);
-  const x = {name: 'omega', unit: '°', values: omega};
+  const x = {name: 'ω', unit: '°', values: omega};
   const chart = (id: string, title: string, names: [string, string][], more: Partial<Chart> = {}): Chart => ({
     id, title, link: 'groove', unit: unit(names[0]?.[0] ?? ''), x, ...more,
     series: names.filter(([name]) => name in sections).map(([name, tone]) => ({name: label(name), values: column(sections[name]), tone, width: 2})),
   });
   return {
-    solid: solid(request, result, context),
+    solid: await solid(request, result, context),
     charts: [
       chart('height', 'Height of the groove', [['height_mm', 'after']], {zero: true}),
       chart('area', 'Areas of the section', [['area_a_mm2', 'series-0'], ['area_b_mm2', 'series-1'], ['area_c_mm2', 'series-2'], ['area_d_mm2', 'series-3'], ['area_e_mm2', 'series-4']], {zero: true}),
@@ -29,8 +31,9 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
   };
 }
 
-function solid(request: Row, result: Row, context: Context): Picture['solid'] {
-  const curves = result['curves'] as Row;
+async function solid(request: Row, result: Row, context: Context): Promise<Picture['solid']> {
+  const finer = await context.ask('grooves', {...without(request), sections: round});
+  const curves = (finer?.result ?? result)['curves'] as Row;
   const points = (name: string): Vector[] => {
     const curve = curves[name] as Row;
     const [xs, ys, zs] = [column(curve['x_mm']), column(curve['y_mm']), column(curve['z_mm'])];
@@ -47,7 +50,7 @@ function solid(request: Row, result: Row, context: Context): Picture['solid'] {
     link: 'groove', tubes: [], ribbons,
     lines: [c1, c2, c3, c4].map((line, i) => ({points: line, tone: i === 3 ? 'after' : 'ink'})),
     partners: [partner({kind: 'tube', outer_diameter_mm: branch.outer, axis: {point_mm: [0, 0, 0], direction: [0, 0, 1]}}, 0, [0, 0, high + 0.2 * branch.outer], 0.4 * branch.outer, context.sizes),
-      partner({kind: 'tube', outer_diameter_mm: chord.outer, inclination_deg: inclination, clocking_deg: 0, offset_mm: eccentricity}, 1, [0, 0, 0], 0.9 * branch.outer, context.sizes)],
+      partner({kind: 'tube', outer_diameter_mm: chord.outer, inclination_deg: inclination, clocking_deg: 180, offset_mm: eccentricity}, 1, middle, 0.9 * branch.outer, context.sizes)],
     centre: middle, size: 1.1 * branch.outer, eye: [0.7, -0.9, 0.75], up: [0, 0, 1],
   };
 }
@@ -58,7 +61,7 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
   const inner = request['groove'] as Row;
   const cut = await context.ask('grooves', without(inner));
   const shape = cut ? await groove(inner, cut, context) : undefined;
-  const x = {name: 'omega', unit: '°', values: column(p['omega_deg'])};
+  const x = {name: 'ω', unit: '°', values: column(p['omega_deg'])};
   const chart = (id: string, title: string, names: [string, string, boolean?][], more: Partial<Chart> = {}): Chart => ({
     id, title, link: 'mill', unit: unit(names[0]?.[0] ?? ''), x, ...more,
     series: names.filter(([name]) => name in p).map(([name, tone, dashed]) => ({name: label(name), values: column(p[name]), tone, ...(dashed ? {dash: [5, 4]} : {}), width: dashed ? 1.5 : 2})),

@@ -47,7 +47,7 @@ export async function hole(_: Row, answer: Answer, context: Context): Promise<Pi
 function holeCharts(each: Row, i: number, count: number, radius: number): Chart[] {
   const p = each['points'] as Row;
   const which = count > 1 ? `, ${String(each['side'])}` : '';
-  const x = {name: 'branch phi', unit: '°', values: column(p['branch_phi_deg'])};
+  const x = {name: 'branch φ', unit: '°', values: column(p['branch_phi_deg'])};
   const link = `hole-${i}`;
   const fit = each['fit_up'] as Row | undefined;
   const scale = radius * radians;

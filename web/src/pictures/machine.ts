@@ -11,7 +11,8 @@ const most = 3000;  // points that a chart is drawn with; a schedule may have 40
 
 export async function schedule(body: Row, answer: Answer, context: Context): Promise<Picture> {
   const picture = await source(body, context);
-  const charts = scheduleCharts(answer.result);
+  const machine = answer.request['machine'];
+  const charts = scheduleCharts(answer.result, isRow(machine) ? machine : context.machines.get(String(machine)));
   return {...(picture?.solid ? {solid: picture.solid} : {}), charts, ...motionFacts(answer.result)};
 }
 
@@ -27,7 +28,7 @@ async function source(body: Row, context: Context): Promise<Picture | undefined>
   return undefined;
 }
 
-export function scheduleCharts(result: Row): Chart[] {
+export function scheduleCharts(result: Row, machine: Row | undefined): Chart[] {
   const counts = result['counts'] as Row;
   const period = Number(result['period_us']) * 1e-6;
   const axes = Object.keys(counts);
@@ -35,7 +36,7 @@ export function scheduleCharts(result: Row): Chart[] {
   const every = Math.max(1, Math.ceil(total / most));
   const indices = Array.from({length: Math.ceil(total / every)}, (_, i) => i * every);
   const seconds = {name: 'time', unit: 's', values: indices.map((i) => i * period)};
-  const events = ((result['events'] ?? []) as Row[]).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: 'event'}));
+  const events = ((result['events'] ?? []) as Row[]).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: String(e['what']).replace(/_/g, ' ')}));
   const each = (make: (pulses: number[]) => (number | null)[]): Series[] =>
     axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: make(column(counts[axis]))}));
   const mean = (pulses: number[]) => indices.map((i) => {
@@ -54,10 +55,17 @@ export function scheduleCharts(result: Row): Chart[] {
   const shared = {link: 'motion', x: seconds, unit: ''};
   return [
     {...shared, id: 'pulses', title: every > 1 ? `Pulses per period, mean of ${every}` : 'Pulses per period', series: each(mean), marks: events, height: 230, zero: true},
-    {...shared, id: 'positions', title: 'Pulses since the start', series: each(position), marks: events, zero: true},
-    {...shared, id: 'change', title: 'Change of pulses per period', height: 170, zero: true,
-      series: each((pulses) => mean(pulses).map((v, i, all) => i === 0 ? 0 : v - (all[i - 1] as number)))},
+    ...(machine ? [{...shared, id: 'speed', title: 'Speed, share of each axis’s limit', unit: '%', marks: events, zero: true,
+      series: axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: shares(mean(column(counts[axis])), machine, axis, period)}))}] : []),
+    {...shared, id: 'positions', title: 'Pulses since the start', series: each(position), marks: events, zero: true, height: 150},
   ];
+}
+
+/** Pulses per period as speed in per cent of what the axis may do. */
+function shares(pulses: number[], machine: Row, axis: string, period: number): number[] {
+  const given = ((machine['axes'] ?? []) as Row[]).find((each) => each['name'] === axis) ?? {};
+  const perUnit = Number(given['pulses_per_unit'] ?? Number(given['pulses_per_turn']) / 360);
+  return pulses.map((count) => 100 * Math.abs(count) / perUnit / period / Number(given['v_max']));
 }
 
 export function motionFacts(result: Row): Pick<Picture, 'figures' | 'tables' | 'readout'> {

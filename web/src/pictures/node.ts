@@ -19,7 +19,7 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   const tubes = ends.map((end) => endTube(end, members, context, 3.2 * biggest));
   const centre = middle(cut.length ? cut : ends);
   return {
-    solid: {link: 'node', tubes, partners: [], centre, size: 2.3 * biggest, eye: [0.5, -1, 0.55], up: [0, 0, 1]},
+    solid: {link: 'node', tubes, partners: [], centre, size: 3.4 * biggest, eye: [0.5, -1, 0.55], up: [0, 0, 1]},
     charts: [],
     figures: [{name: 'members', value: String(members.length)}, {name: 'cut ends', value: String(cut.length)},
       {name: 'free ends', value: String(ends.filter((e) => e['free']).length)}],

@@ -38,7 +38,7 @@ function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], V
   const count = closed ? a.length : a.length - 1;
   for (let i = 0; i < count; ++i) {
     const j = (i + 1) % a.length;
-    index.push(2 * i, 2 * i + 1, 2 * j, 2 * j, 2 * i + 1, 2 * j + 1);
+    index.push(2 * i, 2 * j, 2 * i + 1, 2 * j, 2 * j + 1, 2 * i + 1);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
@@ -68,14 +68,15 @@ export function cutTube(tube: CutTube, before: boolean): Group {
   const wall = tube.tone === 'target' ? steel('steel') : steel('steel', {color: partnerColour(tube.tone)});
   const outside = new Mesh(strip(outerEdge, outerFar, true, [out, out]), wall);
   outside.name = 'wall';
-  group.add(outside, new Mesh(strip(innerEdge, innerFar, true, [into, into]), steel('bore')));
+  group.add(outside, new Mesh(strip(innerFar, innerEdge, true, [into, into]), steel('bore')));
   const b = before && tube.before ? tube.before.b : tube.b;
   const tint = b ? (i: number) => ramp(b[i] as number, new Color()) : undefined;
   const face = new Mesh(strip(innerEdge, outerEdge, true, undefined, tint),
     new MeshStandardMaterial({color: tint ? 0xffffff : colour('bevel-mid'), vertexColors: Boolean(tint), roughness: 0.5, metalness: 0.1, side: DoubleSide, flatShading: true}));
   face.name = 'wall';
   group.add(face, new Mesh(strip(innerFar, outerFar, true), steel('bore')));
-  group.add(outline(innerEdge, 'edge'), outline(outerEdge, 'edge'), outline(outerFar, 'edge'));
+  group.add(outline(innerEdge, 'edge'), outline(outerEdge, 'edge'));
+  if (tube.tone === 'target') group.add(outline(outerFar, 'edge'));
   const ball = new SphereGeometry(tube.outer * 0.035, 16, 12);
   for (const mark of tube.marks) {
     const dot = new Mesh(ball, new MeshBasicMaterial({color: colour('mark')}));
@@ -157,7 +158,7 @@ function glass(tone: number): ShaderMaterial {
     vertexShader: `varying vec3 n; varying vec3 eye;
       void main() { vec4 p = modelViewMatrix * vec4(position, 1.0); n = normalMatrix * normal; eye = -p.xyz; gl_Position = projectionMatrix * p; }`,
     fragmentShader: `uniform vec3 tint; varying vec3 n; varying vec3 eye;
-      void main() { float rim = 1.0 - abs(dot(normalize(n), normalize(eye))); gl_FragColor = vec4(tint, 0.09 + 0.5 * rim * rim * rim);
+      void main() { float rim = 1.0 - abs(dot(normalize(n), normalize(eye))); gl_FragColor = vec4(tint, 0.05 + 0.42 * rim * rim * rim);
       #include <colorspace_fragment>
       }`,
   });
