@@ -26,8 +26,14 @@ export async function open(browser, origin, hash = '', {width = 1280, height = 8
 
 /** Waits for `count` answers, drawn in 3D too. */
 export async function answered(page, count = 1) {
-  await page.waitForFunction((n) => Number(document.body.dataset.answers ?? 0) >= n, count, {timeout: 20000});
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  // No waitForFunction: it evaluates text, which the page's Content-Security-Policy forbids.
+  const arrived = await page.evaluate(async (n) => {
+    const end = Date.now() + 20000;
+    while (Number(document.body.dataset.answers ?? 0) < n && Date.now() < end) await new Promise((done) => setTimeout(done, 5));
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    return Number(document.body.dataset.answers ?? 0) >= n;
+  }, count);
+  if (!arrived) throw new Error(`no answer ${count} in 20 s`);
 }
 
 export const answers = (page) => page.evaluate(() => Number(document.body.dataset.answers ?? 0));

@@ -130,7 +130,7 @@ export class Form {
 
   private members(schema: Schema, value: Row, pointer: string): HTMLElement[] {
     const small: HTMLElement[] = [], large: HTMLElement[] = [], absent: HTMLElement[] = [];
-    const offered = Object.entries(schema.properties ?? {}).filter(([key]) => !aside.has(key) || key in value);
+    const offered = Object.entries(schema.properties ?? {}).filter(([key, inner]) => key in value || (!aside.has(key) && typeof inner !== 'boolean'));
     for (const [key, inner] of offered) {
       const to = join(pointer, key);
       const member = this.contract.resolve(inner);
@@ -176,10 +176,10 @@ export class Form {
       put(this.body, pointer, undefined);
       this.redraw();
     }}, '×');
-    const title = el('summary', {title: schema.description}, sentence(label(key)), remove);
-    const node: HTMLDetailsElement = el('details', {'class': 'group', 'open': this.folds.get(pointer) ?? !folded.has(key), 'ontoggle': () => this.folds.set(pointer, node.open)}, title, ...inner);
+    const title = el('summary', {title: schema.description}, sentence(label(key)));
+    const node: HTMLDetailsElement = el('details', {'open': this.folds.get(pointer) ?? !folded.has(key), 'ontoggle': () => this.folds.set(pointer, node.open)}, title, ...inner);
     if (!this.inputs.has(pointer)) this.inputs.set(pointer, title);
-    return node;
+    return el('div', {'class': 'group'}, node, remove);
   }
 
   private list(schema: Schema, value: Json, pointer: string): HTMLElement[] {

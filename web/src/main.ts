@@ -49,11 +49,12 @@ class Console {
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
     byId('share').addEventListener('click', () => void this.share());
-    addEventListener('hashchange', () => location.hash !== this.written && void this.arrive());
+    addEventListener('hashchange', (event) => new URL(event.newURL).hash !== this.written && void this.arrive());
     this.drawNavigation();
   }
 
   async arrive(): Promise<void> {
+    clearTimeout(this.writing);
     const place = await address.read(location.hash);
     const endpoint = this.endpoints.some((e) => e.id === place?.endpoint) ? place?.endpoint as string : firstJob.endpoint;
     this.state.view = place?.view['view'] === 'before' ? 'before' : 'after';
@@ -284,7 +285,9 @@ class Console {
   private async writeHash(): Promise<void> {
     const {endpoint, example, edited, body, view, partners, tab} = this.state;
     const shown = {...(view === 'before' ? {view} : {}), ...(partners ? {} : {partners: 'off'}), ...(tab === 'proof' ? {} : {tab})};
+    const was = location.hash;
     const hash = await address.written({endpoint, view: shown, ...(edited || !example ? {body} : {example})});
+    if (location.hash !== was) return;  // somebody went elsewhere meanwhile
     this.written = hash;
     if (location.hash === hash) return;
     const before = location.hash.split(/[~?]/)[0], now = hash.split(/[~?]/)[0];

@@ -48,7 +48,8 @@ export class Contract {
     return parameters.find((each) => each.name === 'view')?.schema?.enum ?? [];
   }
 
-  resolve(schema: Schema): Schema {
+  resolve(schema: Schema | boolean): Schema {
+    if (typeof schema === 'boolean') return {};  // anything
     if (!schema.$ref) return schema;
     const {$ref, ...beside} = schema;
     return {...this.resolve(this.document.components.schemas[$ref.split('/').pop() as string] ?? {}), ...beside};

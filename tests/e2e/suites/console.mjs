@@ -123,6 +123,7 @@ export const checks = {
     assert.equal(at.length, 3);
     assert.ok(at.every((x) => Math.abs(x - at[0]) < 2), `cursors at ${at}`);
     await page.locator('.canvas canvas').focus();
+    await page.keyboard.press('Home');
     const still = await pixels(page);
     await page.keyboard.press('ArrowLeft');
     assert.notEqual((await pixels(page)).sum, still.sum, 'the arrow keys turn the solid');
@@ -153,7 +154,6 @@ export const checks = {
     await page.locator('.motion #chart-pulses').waitFor();
     await page.locator('.motion #chart-speed').waitFor();
     await then(page, () => page.locator('#open-pulses').click());
-    assert.match(page.url(), /./);
     assert.equal(await page.locator('#endpoints [aria-current]').getAttribute('data-endpoint'), 'pulse-schedules');
     assert.notEqual(await pill(page), 'refused');
     clean(page);

@@ -27,6 +27,7 @@ async function downloads({browser, origin, service}, endpoint, name) {
 
 const jobs = {
   'bevel-tables': 'source-000-table-1', 'holes': 'set-in-branch', 'pulse-schedules': 'square-cut-from-a-bare-contour',
-  'feed-curves': 'cut-off-194-mm-whole-cycle', 'grooves': 'case-a-right-angle', 'mill-paths': 'case-a-end-up',
+  'feed-curves': 'cut-off-194-mm-whole-cycle', 'grooves': 'case-a-right-angle',
 };
 export const checks = Object.fromEntries(Object.entries(jobs).map(([endpoint, name]) => [endpoint, (given) => downloads(given, endpoint, name)]));
+

@@ -21,6 +21,7 @@ export class Stage {
   private seen = '';
   private forget: (() => void) | null = null;
   private waiting = false;
+  private turned = false;  // by hand; until then the view fits the frame
 
   constructor(private readonly root: HTMLElement) {
     // Kept, so that the picture can be read back (copied, tested) after it was shown.
@@ -46,6 +47,7 @@ export class Stage {
   private control(): OrbitControls {
     const controls = new OrbitControls(this.camera, this.renderer.domElement);
     controls.addEventListener('change', () => this.draw());
+    controls.addEventListener('start', () => { this.turned = true; });
     return controls;
   }
 
@@ -65,13 +67,19 @@ export class Stage {
     this.scene.add(this.content);
     const view = JSON.stringify([solid.link, solid.eye, solid.up]);
     if (view !== this.seen) this.reset();
-    else this.controls.target.lerp(new Vector3(...solid.centre), 1);
+    else this.move(new Vector3(...solid.centre));
     this.seen = view;
     this.forget?.();
     this.forget = listen(solid.link, (index) => this.follow(index));
     this.follow(pointed(solid.link));
     this.controls.update();
     this.draw();
+  }
+
+  /** Looks at another point from the same side, as far away. */
+  private move(centre: Vector3): void {
+    this.camera.position.add(centre.clone().sub(this.controls.target));
+    this.controls.target.copy(centre);
   }
 
   partnersShown(shown: boolean): void {
@@ -81,6 +89,7 @@ export class Stage {
 
   reset(): void {
     if (!this.solid) return;
+    this.turned = false;
     const {centre, size, eye = [1, -1, 0.7], up = [0, 0, 1]} = this.solid;
     this.camera.up.set(...up);
     // The controls take what is up when they are made.
@@ -113,6 +122,7 @@ export class Stage {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (!this.turned) this.reset();
     this.renderer.render(this.scene, this.camera);
   }
 
@@ -151,6 +161,7 @@ export class Stage {
     else if (event.key === 'Home') return this.reset();
     else return;
     event.preventDefault();
+    this.turned = true;
     this.camera.position.copy(offset.add(this.controls.target));
     this.controls.update();
     this.draw();
