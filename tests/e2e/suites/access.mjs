@@ -21,7 +21,7 @@ export const checks = Object.fromEntries(cases.map(([width, height, theme]) => [
   await answered(page);
   await page.locator('#view-before').waitFor();
   await sound(page, 'answer');
-  for (const tab of theme === 'light' ? ['json', 'downloads', 'table'] : ['json']) {
+  for (const tab of theme === 'light' ? ['json', 'downloads'] : []) {
     await page.locator(`#tab-${tab}`).click();
     await sound(page, tab);
   }
@@ -30,6 +30,11 @@ export const checks = Object.fromEntries(cases.map(([width, height, theme]) => [
   for (const hash of width > 1000 && theme === 'light' ? ['nodes', 'holes', 'feed-curves'] : []) {
     await then(page, () => page.locator(`#endpoints [data-endpoint="${hash}"]`).click());
     await sound(page, hash);
+  }
+  if (width > 1000) {  // a short table: axe takes a minute for one of 368 rows
+    await then(page, () => page.locator('#endpoints [data-endpoint="grooves"]').click());
+    await page.locator('#tab-table').click();
+    await sound(page, 'table');
   }
   await page.context().close();
 }]));
