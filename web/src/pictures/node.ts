@@ -16,10 +16,10 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   }
   const cut = ends.filter((end) => (end['cut_by'] as Row[]).length > 0);
   const biggest = Math.max(...members.map((member) => tube(member, context.sizes).outer));
-  const tubes = ends.map((end) => endTube(end, members, context, 3.2 * biggest));
+  const tubes = ends.map((end) => endTube(end, members, context));
   const centre = middle(cut.length ? cut : ends);
   return {
-    solid: {link: 'node', tubes, partners: [], centre, size: 3.4 * biggest, eye: [0.5, -1, 0.55], up: [0, 0, 1]},
+    solid: {link: 'node', tubes, partners: [], centre, size: 2.7 * biggest, eye: [0.3, -1, 0.4], up: [0, 0, 1]},
     charts: [],
     figures: [{name: 'members', value: String(members.length)}, {name: 'cut ends', value: String(cut.length)},
       {name: 'free ends', value: String(ends.filter((e) => e['free']).length)}],
@@ -33,7 +33,7 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   };
 }
 
-function endTube(end: Row, members: Row[], context: Context, longest: number): CutTube {
+function endTube(end: Row, members: Row[], context: Context): CutTube {
   const index = members.findIndex((member) => member['id'] === end['member']);
   const member = members[index] as Row;
   const {outer, wall} = tube(member, context.sizes);
@@ -41,9 +41,8 @@ function endTube(end: Row, members: Row[], context: Context, longest: number): C
   const to = frame(end['frame']);
   const profiles = (end['profiles'] ?? []) as Row[];
   const outside = profiles.find((p) => p['surface'] === 'outer'), inside = profiles.find((p) => p['surface'] === 'inner');
-  // Half a member belongs to each of its ends; a long one is shown as far as the node is of interest.
-  const far = Math.min(length / 2, longest + (end['free'] ? length : 0));
-  if (!outside || !inside) return plainTube(outer, wall, length / 2, index, to);
+  const far = length / 2;  // half a member belongs to each of its ends
+  if (!outside || !inside) return plainTube(outer, wall, far, index, to);
   const points = outside['points'] as Row;
   const phi = column(points['phi_deg']), zOuter = column(points['z_mm']), zInner = atPhi(inside['points'] as Row, phi);
   return {...(to ? {frame: to} : {}), outer: outer / 2, inner: outer / 2 - wall, phi, zOuter, zInner,
