@@ -12,7 +12,7 @@ export class Board {
   private shown: Plot[] = [];
 
   constructor(private readonly root: HTMLElement) {
-    new ResizeObserver(() => this.shown.forEach((plot) => plot.fit())).observe(root);
+    new ResizeObserver(() => this.shown.forEach((plot) => plot.measured())).observe(root);
   }
 
   show(charts: Chart[]): void {
@@ -40,12 +40,14 @@ class Plot {
   private readonly caption: HTMLElement;
   private readonly plot: uPlot;
   private readonly forget: () => void;
+  private width = 0;
 
   constructor(root: HTMLElement, public chart: Chart) {
     this.frame = el('div', {'class': 'plot', 'tabindex': '0', 'role': 'img'});
     this.caption = el('figcaption');
     this.figure = el('figure', {'id': `chart-${chart.id}`, 'class': 'chart'}, this.caption, this.frame);
     root.append(this.figure);
+    this.width = this.frame.clientWidth;
     this.plot = new uPlot(this.options(), this.data(), this.frame);
     this.describe();
     this.forget = listen(chart.link, (index) => this.follow(index));
@@ -64,7 +66,13 @@ class Plot {
     this.describe();
   }
 
-  fit(): void {
+  /** The width is read when it changes and not with each answer: reading it lays the whole page out. */
+  measured(): void {
+    this.width = this.frame.clientWidth;
+    this.fit();
+  }
+
+  private fit(): void {
     const size = this.size();
     if (size.width !== this.plot.width || size.height !== this.plot.height) this.plot.setSize(size);
   }
@@ -80,7 +88,7 @@ class Plot {
   }
 
   private size(): {width: number; height: number} {
-    const width = Math.max(240, this.frame.clientWidth);
+    const width = Math.max(240, this.width);
     if (!this.chart.wrap) return {width, height: this.chart.height ?? 190};
     const [low, high] = extent(this.chart);
     const scale = (width - left - right) / span(this.chart);

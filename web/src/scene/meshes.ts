@@ -1,7 +1,7 @@
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, CylinderGeometry, DoubleSide, ExtrudeGeometry, Float32BufferAttribute,
   Group, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Quaternion,
-  ShaderMaterial, Shape, SphereGeometry, TubeGeometry, Vector3,
+  ShaderMaterial, Shape, SphereGeometry, TubeGeometry, Vector3, type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
 import type {CutTube, Frame, HoledTube, Partner, Ribbon, Vector} from '../picture';
@@ -9,10 +9,17 @@ import type {CutTube, Frame, HoledTube, Partner, Ribbon, Vector} from '../pictur
 const radians = Math.PI / 180;
 const toVector = (v: Vector) => new Vector3(...v);
 
+let stops: Color[] = [];
+let rampOf: string | null = null;
+
 /** Colour of a bevel of so many degrees: flat cuts cool, steep ones warm. */
 export function ramp(degrees: number, into: Color): Color {
   const t = Math.min(1, Math.max(0, (degrees + 30) / 90));
-  const stops = ['bevel-low', 'bevel-mid', 'bevel-high'].map((name) => new Color(colour(name)));
+  const theme = document.documentElement.dataset['theme'] ?? '';
+  if (theme !== rampOf) {
+    stops = ['bevel-low', 'bevel-mid', 'bevel-high'].map((name) => new Color(colour(name)));
+    rampOf = theme;
+  }
   return t < 0.5 ? into.lerpColors(stops[0] as Color, stops[1] as Color, 2 * t) : into.lerpColors(stops[1] as Color, stops[2] as Color, 2 * t - 1);
 }
 
@@ -49,11 +56,27 @@ function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], V
   return geometry;
 }
 
-const steel = (tone: string, more = {}) => new MeshStandardMaterial({color: colour(tone), roughness: 0.62, metalness: 0.15, side: DoubleSide, ...more});
+// Materials are kept: a shader that is let go with the last material using it is compiled anew for the next picture.
+const materials = new Map<string, Material>();
+function kept<M extends Material>(name: string, make: () => M): M {
+  const key = `${name} ${document.documentElement.dataset['theme']}`;
+  const found = materials.get(key) ?? make();
+  materials.set(key, found);
+  return found as M;
+}
+
+const metal = (name: string, hue: string) =>
+  kept(name, () => new MeshStandardMaterial({color: hue, roughness: 0.62, metalness: 0.15, side: DoubleSide}));
+const steel = (tone: string) => metal(tone, colour(tone));
+const face = (tinted: boolean) => kept(`face ${tinted}`, () => new MeshStandardMaterial(
+  {color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, roughness: 0.5, metalness: 0.1, side: DoubleSide, flatShading: true}));
+const ink = (tone: string) => kept(`line ${tone}`, () => new LineBasicMaterial({color: colour(tone)}));
+/** Seen through everything: the cursor. */
+const signal = () => kept('signal', () => new MeshBasicMaterial({color: colour('mark'), depthTest: false, transparent: true}));
 
 function outline(points: Vector[], tone: string, closed = true): Line {
   const all = closed ? [...points, points[0] as Vector] : points;
-  return new Line(new BufferGeometry().setFromPoints(all.map(toVector)), new LineBasicMaterial({color: colour(tone)}));
+  return new Line(new BufferGeometry().setFromPoints(all.map(toVector)), ink(tone));
 }
 
 /** Walls, bevel surface, far end, edges and junctions of one cut end. */
@@ -65,21 +88,20 @@ export function cutTube(tube: CutTube, before: boolean): Group {
   const outerEdge = phi.map((p, i) => around(tube.outer, p, chosen.zOuter[i] as number));
   const innerFar = phi.map((p) => around(tube.inner, p, tube.far)), outerFar = phi.map((p) => around(tube.outer, p, tube.far));
   const out = phi.map((p) => around(1, p, 0)), into = phi.map((p) => around(-1, p, 0));
-  const wall = tube.tone === 'target' ? steel('steel') : steel('steel', {color: partnerColour(tube.tone)});
+  const wall = tube.tone === 'target' ? steel('steel') : metal(`member ${tube.tone}`, partnerColour(tube.tone));
   const outside = new Mesh(strip(outerEdge, outerFar, true, [out, out]), wall);
   outside.name = 'wall';
   group.add(outside, new Mesh(strip(innerFar, innerEdge, true, [into, into]), steel('bore')));
   const b = before && tube.before ? tube.before.b : tube.b;
   const tint = b ? (i: number) => ramp(b[i] as number, new Color()) : undefined;
-  const face = new Mesh(strip(innerEdge, outerEdge, true, undefined, tint),
-    new MeshStandardMaterial({color: tint ? 0xffffff : colour('bevel-mid'), vertexColors: Boolean(tint), roughness: 0.5, metalness: 0.1, side: DoubleSide, flatShading: true}));
-  face.name = 'wall';
-  group.add(face, new Mesh(strip(innerFar, outerFar, true), steel('bore')));
+  const bevel = new Mesh(strip(innerEdge, outerEdge, true, undefined, tint), face(Boolean(tint)));
+  bevel.name = 'wall';
+  group.add(bevel, new Mesh(strip(innerFar, outerFar, true), steel('bore')));
   group.add(outline(innerEdge, 'edge'), outline(outerEdge, 'edge'));
   if (tube.tone === 'target') group.add(outline(outerFar, 'edge'));
   const ball = new SphereGeometry(tube.outer * 0.035, 16, 12);
   for (const mark of tube.marks) {
-    const dot = new Mesh(ball, new MeshBasicMaterial({color: colour('mark')}));
+    const dot = new Mesh(ball, kept('mark', () => new MeshBasicMaterial({color: colour('mark')})));
     dot.position.set(...around(mark.radius, mark.phi, mark.z));
     group.add(dot);
   }
@@ -96,9 +118,8 @@ export function holedTube(tube: HoledTube): Group {
   for (const hole of tube.holes) {
     const inside = hole.inner.phi.map((p, i) => around(tube.inner, p, hole.inner.z[i] as number));
     const outside = hole.outer.phi.map((p, i) => around(tube.outer, p, hole.outer.z[i] as number));
-    const face = new Mesh(strip(inside, outside, true, undefined, (i) => ramp(hole.b[i] as number, new Color())),
-      new MeshStandardMaterial({vertexColors: true, roughness: 0.5, side: DoubleSide, flatShading: true}));
-    group.add(face, outline(inside, 'edge'), outline(outside, 'edge'));
+    const bevel = new Mesh(strip(inside, outside, true, undefined, (i) => ramp(hole.b[i] as number, new Color())), face(true));
+    group.add(bevel, outline(inside, 'edge'), outline(outside, 'edge'));
   }
   for (const z of [tube.from, tube.to]) {
     const ring = Array.from({length: 96}, (_, i) => i * 3.75);
@@ -168,8 +189,8 @@ const turned = (direction: Vector) => new Quaternion().setFromUnitVectors(new Ve
 
 export function partnerMesh(partner: Partner): Group {
   const group = new Group();
-  const material = glass(partner.tone);
-  const line = new LineBasicMaterial({color: partnerColour(partner.tone)});
+  const material = kept(`glass ${partner.tone}`, () => glass(partner.tone));
+  const line = kept(`partner line ${partner.tone}`, () => new LineBasicMaterial({color: partnerColour(partner.tone)}));
   const mesh = shapeOf(partner, material, line);
   group.add(...mesh);
   if (partner.kind !== 'elbow') group.position.set(...partner.point);
@@ -178,7 +199,7 @@ export function partnerMesh(partner: Partner): Group {
 
 function shapeOf(partner: Partner, material: ShaderMaterial, line: LineBasicMaterial): (Mesh | Line | LineSegments)[] {
   if (partner.kind === 'plane') {
-    const plane = new Mesh(new PlaneGeometry(2 * partner.half, 2 * partner.half), new MeshBasicMaterial({color: partnerColour(partner.tone), transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false}));
+    const plane = new Mesh(new PlaneGeometry(2 * partner.half, 2 * partner.half), kept(`plane ${partner.tone}`, () => new MeshBasicMaterial({color: partnerColour(partner.tone), transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false})));
     const edge = outlineOf([[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [Number(x) * partner.half, Number(y) * partner.half, 0]), line);
     const q = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), toVector(partner.normal).normalize());
     for (const each of [plane, edge]) each.quaternion.copy(q);
@@ -237,11 +258,14 @@ export const drawnLine = (points: Vector[], tone: string) => outline(points, ton
 /** The torch's line at one point: through both edges, and out to where the torch would be. */
 export class Beam extends LineSegments {
   constructor() {
-    super(new BufferGeometry(), new LineBasicMaterial({color: colour('mark')}));
+    super(new BufferGeometry(), kept('beam', () => new LineBasicMaterial({color: colour('mark'), depthTest: false, transparent: true})));
+    this.renderOrder = 1;
     this.geometry.setAttribute('position', new BufferAttribute(new Float32Array(6), 3));
     this.visible = false;
     this.frustumCulled = false;
-    this.add(new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({color: colour('mark')})));
+    const head = new Mesh(new BoxGeometry(1, 1, 1), signal());
+    head.renderOrder = 1;
+    this.add(head);
   }
 
   put(tube: CutTube, before: boolean, i: number): void {

@@ -1,6 +1,6 @@
 import {
   AmbientLight, DirectionalLight, Group, HemisphereLight, Mesh, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
-  type BufferGeometry, type Material, type Object3D,
+  type BufferGeometry, type Object3D,
 } from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {listen, point, pointed} from '../links';
@@ -177,12 +177,11 @@ function nearest(phi: number[], angle: number): number {
   return best;
 }
 
-/** Frees what the graphics card holds of a group. */
+/** Frees what the graphics card holds of a group; its materials are kept for the next. */
 function release(group: Group): void {
   group.traverse((node) => {
-    const {geometry, material} = node as Mesh as {geometry?: BufferGeometry; material?: Material};
+    const {geometry} = node as Mesh as {geometry?: BufferGeometry};
     geometry?.dispose();
-    material?.dispose();
   });
 }
 
