@@ -28,8 +28,13 @@ function set(node: Element, attributes: Attributes, children: Child[]): void {
 export const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
 /** A colour of the style sheet, as it is now (light or dark). */
-export const colour = (name: string) =>
-  getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+export function colour(name: string): string {
+  const key = `${name} ${document.documentElement.dataset['theme']}`;
+  const found = colours.get(key) ?? getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  colours.set(key, found);  // a chart asks for hundreds, and each question is a computation of styles
+  return found;
+}
+const colours = new Map<string, string>();
 
 /** Partners keep their colour in every view. */
 export const partnerColour = (index: number) => colour(`partner-${index % 6}`);
