@@ -18,12 +18,7 @@ Result<void> check(const TableSpec& spec) {
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = "root_face",
                  .hint = "a root face goes with contact inner"});
-  const auto* zoned = std::get_if<ZonedGroove>(&spec.groove);
-  if (zoned == nullptr) return {};
-  auto ok = check_zones(*zoned);
-  if (!ok)
-    for (auto& issue : ok.error().issues) issue.member = "groove/" + issue.member;
-  return ok;
+  return check_groove(spec.groove);
 }
 
 /// What the smoother starts from.
@@ -126,6 +121,15 @@ Intervals degrees(std::vector<std::pair<double, double>> intervals) {
 }  // namespace tubecut::bevel::detail
 
 namespace tubecut::bevel {
+
+Result<void> check_groove(const GrooveRule& groove) {
+  const auto* zoned = std::get_if<ZonedGroove>(&groove);
+  if (zoned == nullptr) return {};
+  auto ok = check_zones(*zoned);
+  if (!ok)
+    for (auto& issue : ok.error().issues) issue.member = "groove/" + issue.member;
+  return ok;
+}
 
 Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
   auto cutters = joint::resolve(spec.partners);

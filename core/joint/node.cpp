@@ -18,9 +18,6 @@ constexpr std::size_t kScan = 180;     // generators looked at for ghosts and th
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
 
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
-std::string place_of(std::size_t member, End end) {
-  return place_of(member) + (end == End::start ? "/start" : "/end");
-}
 std::string called(const NodeSpec& spec, std::size_t member) {
   const auto& name = spec.members[member].name;
   return name.empty() ? "member " + std::to_string(member) : name;
@@ -289,6 +286,10 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index,
 }
 
 }  // namespace
+
+std::string place_of(std::size_t member, End end) {
+  return place_of(member) + (end == End::start ? "/start" : "/end");
+}
 
 Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
   if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());
