@@ -62,7 +62,7 @@ std::vector<Band> zone_bands(const bevel::ZonedGroove& zoned, const bevel::Table
       out.push_back({table.developed[i], table.developed[i], zoned.zones[table.zone[i]].id,
                      kColors[out.size() % 2]});
   }
-  if (!out.empty()) out.back().to = table.developed_total;
+  if (!out.empty()) out.back().to = table.developed.back();
   return out;
 }
 
