@@ -196,7 +196,7 @@ TEST(Nodes, TablesGoWithTheirName) {
                                            {"id", "A"},
                                            {"dihedral_deg", Json{Json::Array{90.0, 30.0}}},
                                            {"groove_deg", Json{Json::Array{30.0, 30.0}}}}}}}}}}));
-  EXPECT_EQ(text(zones.body, "errors/0/pointer"), "/tables/groove/zones/0")
+  EXPECT_EQ(text(zones.body, "errors/0/pointer"), "/tables/groove/zones/0/dihedral_deg")
       << zones.outcome.body.substr(0, 600);
 }
 
