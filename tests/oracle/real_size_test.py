@@ -4,10 +4,10 @@ Source 002's scale: a tube of 2 000 x 50 mm on a chord of 2 400 mm at 300 mm/min
 
 import http.client
 import json
+import os
 import re
 import subprocess
 import sys
-import time
 import unittest
 
 import cbor2
@@ -50,12 +50,18 @@ class Service:
 
     def post(self, body, accept):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=120)
-        begin = time.monotonic()
+        begin = self.cpu_ms()
         connection.request("POST", "/v1/pulse-schedules", json.dumps(body), {"Content-Type": "application/json", "Accept": accept})
         reply = connection.getresponse()
         data = reply.read()
         connection.close()
-        return reply.status, data, 1e3 * (time.monotonic() - begin), reply.getheader("Server-Timing")
+        return reply.status, data, self.cpu_ms() - begin, reply.getheader("Server-Timing")
+
+    def cpu_ms(self):
+        """Of the service: what the job costs whatever else the machine does."""
+        with open(f"/proc/{self.child.pid}/stat", encoding="ascii") as file:
+            user, system = file.read().rsplit(")", 1)[1].split()[11:13]
+        return 1e3 * (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
     def peak_mib(self):
         with open(f"/proc/{self.child.pid}/status", encoding="ascii") as file:
@@ -66,7 +72,7 @@ class Service:
 class RealSize(unittest.TestCase):
     def show(self, what, status, data, ms, timing, peak):
         self.assertEqual(status, 200, data[:500])
-        print(f"{what}: {len(data)} bytes, {ms:.0f} ms ({timing}), peak {peak:.0f} MiB")
+        print(f"{what}: {len(data)} bytes, {ms:.0f} ms of CPU ({timing}), peak {peak:.0f} MiB")
 
     def test_at_4_ms_in_json_and_cbor_alike(self):
         with Service() as service:
