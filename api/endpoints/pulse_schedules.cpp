@@ -143,7 +143,7 @@ struct PulseSchedules {
   }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{{"csv", "text/csv", &csv},
-                                                         {"svg", "image/svg+xml", &svg}};
+                                                         {"svg", "image/svg+xml", &svg, {"chart"}}};
     return kFormats;
   }
 };
