@@ -1,5 +1,6 @@
 #include "api/formats/cut_solid.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -48,7 +48,9 @@ Development developed(const bevel::TableSpec& spec, const bevel::Table& t) {
                       .outer = round_the_tube(outer, t.phi, t.z_outer),
                       .inner = round_the_tube(inner, t.phi, t.z_inner),
                       .torch = round_the_tube(outer, t.phi, t.torch_outer)});
-  for (const auto& event : t.outer_events) out.junctions.push_back(event.phi);
+  const bool outer_root = spec.root_surface == bevel::RootSurface::outer;
+  for (const auto& event : outer_root ? t.outer_events : t.inner_events)
+    out.junctions.push_back(event.phi);
   return out;
 }
 

@@ -32,7 +32,7 @@ struct Development {
   double wall = 0.0;
   bool around = true;  // the cuts go round the tube; else they are holes
   std::vector<CutOutline> cuts;
-  std::vector<double> junctions;  // phi, rad, on the outer wall
+  std::vector<double> junctions;  // phi, rad, on the surface that holds the root
 };
 
 [[nodiscard]] Development developed(const bevel::TableSpec& spec, const bevel::Table& table);

@@ -32,8 +32,8 @@ class Joints {
     return words(path_.phi[i], path_.z[i], path_.b[i]);
   }
   [[nodiscard]] std::string describe() const {
-    return std::string("A turns the tube (deg, phi from x towards y), ") + along_ +
-           " along it (mm, from the cut into the part)";
+    return std::string("A turns the tube: phi in deg, from x towards y. ") + along_ +
+           " goes along it: mm, from the cut into the part";
   }
 
  private:
@@ -57,10 +57,10 @@ std::string header(const TorchPath& path, const Joints& joints, const Caption& c
       comment("B swings the torch in the axial plane, positive: outer edge further into the part");
   out += o.pivot_length
              ? comment("linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +
-                       " mm from the tip; the one across is its height over the tube axis")
+                       " mm from the tip, the one across is its height over the tube axis")
              : comment("linear axes are the torch tip on the outer wall: the control must know it");
   out += comment(o.torch ? "THIS PROGRAM LIGHTS THE TORCH"
-                         : "dry run: the torch stays off; ask with torch=on");
+                         : "dry run: the torch stays off, ask with torch=on");
   return out;
 }
 

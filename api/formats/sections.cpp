@@ -43,7 +43,8 @@ WallSection based(WallSection s) {
 void draw_section(Canvas& canvas, const Cell& room, const WallSection& s, double wall, double scale,
                   double height) {
   const double x = room.low.x + (room.high.x - room.low.x - scale * wall) / 2.0;
-  const double y = room.low.y + 6.0, top = y + scale * height + 10.0;
+  const double y = (room.low.y + room.high.y - scale * height) / 2.0 - 8.0;
+  const double top = y + scale * height + 10.0;
   std::vector<DrawingPoint> metal, cut;
   for (const auto& p : s.cut) cut.push_back({x + scale * p.x, y + scale * p.y});
   metal = cut;
@@ -111,12 +112,11 @@ SectionSet sections_of(const joint::IntersectionSpec& spec, const joint::Interse
 
 SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
   const double wall = spec.chord.wall, radius = spec.chord.outer_radius;
-  SectionSet out{
-      .title = "Sections of the hole's edge",
-      .wall = wall,
-      .along = "square to the edge, on the developed surface, from the hole into the wall",
-      .facts = {{"chord", diameter(radius, wall)}},
-      .sections = {}};
+  SectionSet out{.title = "Sections of the hole's edge",
+                 .wall = wall,
+                 .along = "square to the edge, from the hole into the wall",
+                 .facts = {{"chord", diameter(radius, wall)}},
+                 .sections = {}};
   const auto& hole = cut.holes.front();
   const auto n = hole.phi.size();
   for (const auto i : spread(hole.branch_phi)) {

@@ -24,8 +24,11 @@ Sheet::Sheet(std::string title, const SheetFacts& facts, const Caption& caption)
   const auto column = [&](double x, std::string_view head, const SheetFacts& rows) {
     double y = low_ - kLine;
     canvas_.text({x, y}, head, {.height = 3.6, .bold = true});
-    for (const auto& [name, text] : rows)
-      canvas_.text({x, y -= kLine}, name + ": " + text, {.height = 2.6});
+    for (const auto& [name, value] : rows) {
+      const auto line = name + ": " + value;
+      const double fits = (half - 2.0 * kPad) / (0.64 * static_cast<double>(line.size()));
+      canvas_.text({x, y -= kLine}, line, {.height = std::min(2.6, fits)});
+    }
   };
   column(kBorder + kPad, title_, facts);
   auto job = caption.reference;

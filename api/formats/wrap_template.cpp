@@ -49,7 +49,7 @@ std::vector<std::string> header(const Development& d, const Field& field, const 
   std::vector<std::string> lines{
       "Tube " + fixed(2.0 * d.outer_radius) + " x " + fixed(d.wall) + " mm, " +
           (d.around ? "circumference " : "full circumference ") + fixed(kTwoPi * d.outer_radius) +
-          " mm; 1:1, wrap round the outside, kept side up",
+          " mm; 1:1, wrap round the outside, " + (d.around ? "kept side up" : "z upwards"),
       c.options.mirror ? "MIRRORED: print side towards the tube" : "print side out",
       "blue: outer edge; green dashed: inner edge, at its phi; red: torch line on the outer wall",
       "datum z = " + fixed(field.z_datum) + " mm from the frame's origin"};
@@ -140,7 +140,9 @@ class Template {
     std::string mark = "KEEP";
     for (const auto& [name, text] : caption_.reference)
       if (name == "part") mark = text + "  " + mark;
-    canvas_.text({corner.x + 3.0, corner.y - 5.5}, mark, {.height = 4.0, .bold = true});
+    const double fits = (field_.width() - 6.0) / (0.7 * static_cast<double>(mark.size()));
+    canvas_.text({corner.x + 3.0, corner.y - 5.5}, mark,
+                 {.height = std::min(4.0, fits), .bold = true});
   }
 
   const Development& d_;
