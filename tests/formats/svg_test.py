@@ -16,12 +16,12 @@ SVG = "{http://www.w3.org/2000/svg}"
 BLUE = (0x1f, 0x5f, 0xbf)
 
 
-def longest_run(line):
-    best = run = 0
-    for dark in line:
-        run = run + 1 if dark else 0
-        best = max(best, run)
-    return best
+def first_to_last(line):
+    """Pixels from the middle of the first run of dark ones to the middle of the last."""
+    dark = [i for i, d in enumerate(line) if d]
+    starts = [i for i in dark if i - 1 not in dark]
+    ends = [i for i in dark if i + 1 not in dark]
+    return (starts[-1] + ends[-1] - starts[0] - ends[0]) / 2
 
 
 class Drawing:
@@ -68,9 +68,11 @@ class Svg(FormatTest):
                 self.assertAlmostEqual(d.height, d.height_mm * DPI / 25.4, delta=1)
                 across, up = d.element("ruler-x"), d.element("ruler-y")
                 y, x = (round(float(e.get(a)) * DPI / 25.4) for e, a in ((across, "y1"), (up, "x1")))
-                for got in (longest_run(d.dark(i, y) for i in range(d.width)), longest_run(d.dark(x, i) for i in range(d.height))):
-                    print(f"{endpoint}: a ruler of {got * 25.4 / DPI:.2f} mm")
-                    self.assertAlmostEqual(got * 25.4 / DPI, 100.0, delta=0.11)  # a pixel, its ticks half a line wide
+                # One millimetre off the line only its ticks are met, the first and the last at its ends.
+                for pixels in (first_to_last(d.dark(i, y - 10) for i in range(d.width)),
+                               first_to_last(d.dark(x + 10, i) for i in range(d.height))):
+                    print(f"{endpoint}: a ruler of {pixels * 25.4 / DPI:.2f} mm")
+                    self.assertAlmostEqual(pixels * 25.4 / DPI, 100.0, delta=0.051)
 
     def test_the_outer_edge_is_where_the_table_has_it(self):
         body = examples("bevel-tables")["source-000-table-1"]
