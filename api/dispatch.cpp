@@ -29,7 +29,8 @@ struct Query {
   std::string_view format;
   std::string_view view;
   FormatOptions options;
-  std::string bad;  // the first parameter not known
+  std::string_view option;  // the first of them that was given
+  std::string bad;          // the first parameter not known
 };
 
 /// One of the parameters that only drawings and machine files read; false where it is none of them
@@ -74,7 +75,9 @@ Query parse_query(std::string_view text) {
       out.format = value;
     } else if (name == "view" && !value.empty()) {
       out.view = value;
-    } else if (!item.empty() && !parse_option(name, value, out.options) && out.bad.empty()) {
+    } else if (parse_option(name, value, out.options)) {
+      if (out.option.empty()) out.option = name;
+    } else if (!item.empty() && out.bad.empty()) {
       out.bad = item;
     }
   }
@@ -225,6 +228,9 @@ Outcome Job::compute(const Endpoint& endpoint) {
                   "got \"" + media + "\", accepted: application/json");
   const auto choice = choose(query, call_.accept, endpoint);
   if (!choice) return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
+  if (choice->format == nullptr && !query.option.empty())
+    return refuse(ErrorCode::bad_request,
+                  std::string(query.option) + " is for drawings and machine files");
   if (choice->format != nullptr)
     if (auto problem = format_problem(query, *choice->format)) return refuse(*std::move(problem));
   if (call_.body.size() > endpoint.max_body)
