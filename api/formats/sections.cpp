@@ -150,7 +150,8 @@ std::string print_sections(const SectionSet& set, const Caption& caption) {
   facts.emplace_back("scale", scale.name);
   facts.emplace_back("up", set.along);
   Sheet sheet(set.title, facts, caption);
-  std::vector<std::vector<std::string>> rows{{"section", "B deg", "inner edge", "outer edge"}};
+  std::vector<std::vector<std::string>> rows{
+      {"section", "B, deg", "inner edge, mm", "outer edge, mm"}};
   for (std::size_t i = 0; i < set.sections.size(); ++i) {
     draw_section(sheet.canvas(), cell(sheet, kColumns, kRows, static_cast<int>(i)),
                  based_set.sections[i], set.wall, scale.factor, tallest);

@@ -71,7 +71,10 @@ class Template {
                     kLine * (static_cast<double>(header_.size()) + 1.0)) {}
 
   std::string print() {
-    if (d_.around) seam_and_quarters();
+    if (d_.around)
+      seam_and_quarters();
+    else
+      generator_zero();
     datum();
     scale();
     for (std::size_t i = 0; i < d_.cuts.size(); ++i) outline(d_.cuts[i], i);
@@ -97,6 +100,12 @@ class Template {
     for (int i = 1; i < 4; ++i) upright(0.25 * i * kTwoPi, kQuarter);
     for (const double phi : d_.junctions)
       upright(phi, {.color = "#b9770e", .width = 0.15, .dashes = "1 2"});
+  }
+  void generator_zero() {
+    for (const double phi : {-kTwoPi, 0.0, kTwoPi}) {
+      const double x = d_.outer_radius * phi;
+      if (x >= field_.x_from && x <= field_.x_to) upright(phi, kQuarter, "seam-0");
+    }
   }
   void datum() {
     canvas_.line(at(field_.x_from, field_.z_datum), at(field_.x_to, field_.z_datum), kSeam,
