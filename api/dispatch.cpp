@@ -29,8 +29,8 @@ struct Query {
   std::string_view format;
   std::string_view view;
   FormatOptions options;
-  std::string_view option;  // the first of them that was given
-  std::string bad;          // the first parameter not known
+  std::vector<std::string_view> given;  // their names
+  std::string bad;                      // the first parameter not known
 };
 
 /// One of the parameters that only drawings and machine files read; false where it is none of them
@@ -76,7 +76,7 @@ Query parse_query(std::string_view text) {
     } else if (name == "view" && !value.empty()) {
       out.view = value;
     } else if (parse_option(name, value, out.options)) {
-      if (out.option.empty()) out.option = name;
+      out.given.push_back(name);
     } else if (!item.empty() && out.bad.empty()) {
       out.bad = item;
     }
@@ -128,23 +128,36 @@ std::string list_formats(const Endpoint& endpoint) {
   return out;
 }
 
-/// Why the format cannot be printed as asked; nothing when it can.
-std::optional<Problem> format_problem(const Query& query, const FormatName& format) {
-  const auto& views = format.views;
-  if (!query.view.empty() && std::ranges::find(views, query.view) == views.end()) {
-    std::string offered = "none";
-    for (const auto view : views)
-      offered = (view == views.front() ? "" : offered + ", ") + std::string(view);
+std::string listed(const std::vector<std::string_view>& names) {
+  std::string out;
+  for (const auto name : names) out += (out.empty() ? "" : ", ") + std::string(name);
+  return out.empty() ? "none" : out;
+}
+
+/// Why the answer cannot be printed as asked; nothing when it can. JSON and CBOR have no options.
+std::optional<Problem> format_problem(const Query& query, const FormatName* format) {
+  const auto has = [](const std::vector<std::string_view>& all, std::string_view one) {
+    return std::ranges::find(all, one) != all.end();
+  };
+  const std::string name(format != nullptr ? format->name : "json");
+  const auto options = format != nullptr ? format->options : std::vector<std::string_view>{};
+  for (const auto option : query.given)
+    if (!has(options, option))
+      return Problem{.code = ErrorCode::bad_request,
+                     .detail = std::string(option) + " is no option of format " + name +
+                               "; its options: " + listed(options),
+                     .issues = {}};
+  if (format == nullptr) return std::nullopt;
+  if (!query.view.empty() && !has(format->views, query.view))
     return Problem{.code = ErrorCode::not_acceptable,
-                   .detail = "view \"" + std::string(query.view) + "\" of " +
-                             std::string(format.name) + "; offered: " + offered,
+                   .detail = "view \"" + std::string(query.view) + "\" of " + name +
+                             "; offered: " + listed(format->views),
                    .issues = {}};
-  }
-  if (format.needs_speed && !query.options.speed)
+  if (format->needs_speed && !query.options.speed)
     return Problem{.code = ErrorCode::bad_request,
-                   .detail = std::string(format.name) +
-                             " needs the query parameter speed_mm_min, the torch's speed on the "
-                             "outer wall",
+                   .detail = name +
+                             " needs the query parameter speed_mm_min, the torch's speed "
+                             "on the outer wall",
                    .issues = {}};
   return std::nullopt;
 }
@@ -228,11 +241,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
                   "got \"" + media + "\", accepted: application/json");
   const auto choice = choose(query, call_.accept, endpoint);
   if (!choice) return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
-  if (choice->format == nullptr && !query.option.empty())
-    return refuse(ErrorCode::bad_request,
-                  std::string(query.option) + " is for drawings and machine files");
-  if (choice->format != nullptr)
-    if (auto problem = format_problem(query, *choice->format)) return refuse(*std::move(problem));
+  if (auto problem = format_problem(query, choice->format)) return refuse(*std::move(problem));
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
                   "the limit is " + std::to_string(endpoint.max_body) + " bytes");

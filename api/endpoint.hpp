@@ -61,14 +61,16 @@ struct Format {
   std::string_view name;   // ?format=
   std::string_view media;  // Accept
   std::string (*print)(const Spec&, const Out&, const Caption&);
-  std::vector<std::string_view> views = {};  // ?view=, the default first
-  bool needs_speed = false;                  // ?speed_mm_min= has no default
+  std::vector<std::string_view> views = {};    // ?view=, the default first
+  std::vector<std::string_view> options = {};  // query parameters it reads
+  bool needs_speed = false;                    // speed_mm_min has no default
 };
 
 struct FormatName {
   std::string_view name;
   std::string_view media;
   std::vector<std::string_view> views = {};
+  std::vector<std::string_view> options = {};
   bool needs_speed = false;
 };
 
@@ -150,7 +152,7 @@ Endpoint endpoint() {
   static const auto names = [] {
     std::vector<FormatName> list;
     for (const auto& format : E::formats())
-      list.push_back({format.name, format.media, format.views, format.needs_speed});
+      list.push_back({format.name, format.media, format.views, format.options, format.needs_speed});
     return list;
   }();
   return {E::kId, E::kPath, E::kMaxBody, &run<E>, names, E::kAccepts, E::kChecks};

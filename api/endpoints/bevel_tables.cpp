@@ -346,14 +346,20 @@ struct BevelTables {
     return Print(spec, out, caption);
   }
   static const std::vector<Format<Spec, Out>>& formats() {
+    static const std::vector<std::string_view> kGcodeOptions{
+        "speed_mm_min", "dialect", "torch", "axial", "lead_mm", "pivot_length_mm"};
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &print<bevel_table_csv>},
-        {"svg", "image/svg+xml", &print<bevel_table_svg>, {"chart", "template", "section"}},
+        {"svg",
+         "image/svg+xml",
+         &print<bevel_table_svg>,
+         {"chart", "template", "section"},
+         {"mirror"}},
         {"dxf", "image/vnd.dxf", &print<bevel_table_dxf>, {"template", "tube"}},
         {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
         {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},
         {"nc1", "application/x-dstv", &print<bevel_table_dstv>},
-        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, true}};
+        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, kGcodeOptions, true}};
     return kFormats;
   }
 };

@@ -230,7 +230,7 @@ struct Holes {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &hole_csv},
-        {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}},
+        {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror"}},
         {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}}};
     return kFormats;
   }

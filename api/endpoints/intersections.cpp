@@ -73,7 +73,11 @@ struct Intersections {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &print<intersection_csv>},
-        {"svg", "image/svg+xml", &print<intersection_svg>, {"chart", "template", "section"}},
+        {"svg",
+         "image/svg+xml",
+         &print<intersection_svg>,
+         {"chart", "template", "section"},
+         {"mirror"}},
         {"dxf", "image/vnd.dxf", &print<intersection_dxf>, {"template", "tube"}}};
     return kFormats;
   }

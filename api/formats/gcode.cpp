@@ -10,6 +10,7 @@
 namespace tubecut::api {
 namespace {
 
+constexpr const char* kModes = "G21 G40 G49 G90 G94 G17\nG64 P0.01\n";
 constexpr double kSlow = 1e-3;  // mm, least length a node's time is taken from
 
 /// Joint values of one place of the torch.
@@ -42,32 +43,28 @@ class Joints {
   char along_, across_;
 };
 
-std::string comment(const std::string& text) { return "(" + machine_text(text) + ")\n"; }
-
 std::string header(const TorchPath& path, const Joints& joints, const Caption& caption) {
   const auto& o = caption.options;
-  std::string out = comment("tubecut " + std::string(version())) +
-                    comment("input sha256 " + caption.input_sha256);
-  for (const auto& [name, text] : caption.reference)
-    out += comment(std::string(name) + ": " + machine_text(text));
-  out +=
-      comment("tube " + fixed(2.0 * path.outer_radius, 3) + " x " + fixed(path.wall, 3) + " mm") +
-      comment("tool: torch, kerf " + fixed(path.kerf, 3) + " mm, applied to the path") +
-      comment("units mm, deg, mm/min") + comment(joints.describe()) +
-      comment("B swings the torch in the axial plane, positive: outer edge further into the part");
+  std::string out = gcode_job(caption);
+  out += gcode_comment("tube " + fixed(2.0 * path.outer_radius, 3) + " x " + fixed(path.wall, 3) +
+                       " mm") +
+         gcode_comment("tool: torch, kerf " + fixed(path.kerf, 3) + " mm, applied to the path") +
+         gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
+         gcode_comment(
+             "B swings the torch in the axial plane, positive: outer edge further into the part");
   out += o.pivot_length
-             ? comment("linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +
-                       " mm from the tip, the one across is its height over the tube axis")
-             : comment("linear axes are the torch tip on the outer wall: the control must know it");
-  out += comment(o.torch ? "THIS PROGRAM LIGHTS THE TORCH"
-                         : "dry run: the torch stays off, ask with torch=on");
+             ? gcode_comment("linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +
+                             " mm from the tip, the one across is its height over the tube axis")
+             : gcode_comment(
+                   "linear axes are the torch tip on the outer wall: the control must know it");
+  out += gcode_comment(o.torch ? "THIS PROGRAM LIGHTS THE TORCH"
+                               : "dry run: the torch stays off, ask with torch=on");
   return out;
 }
 
 std::string modes(const Caption& caption) {
-  const bool plasma = caption.options.dialect == Dialect::qtplasmac;
-  return "#<speed_mm_min> = " + fixed(*caption.options.speed, 3) + "\n" +
-         (plasma ? "T0 M6\nG43 H0\nM52 P1\n" : "") + "G21 G40 G49 G90 G94 G17\nG64 P0.01\n";
+  return "#<speed_mm_min> = " + fixed(*caption.options.speed, 3) + "\n" + kModes +
+         torch_words(caption.options.dialect).prepare;
 }
 
 /// A move at the surface speed; G93's F is one over its minutes.
@@ -83,6 +80,22 @@ double step(const TorchPath& p, std::size_t i) {
 }
 
 }  // namespace
+
+std::string gcode_comment(const std::string& text) { return "(" + machine_text(text) + ")\n"; }
+
+std::string gcode_job(const Caption& caption) {
+  std::string out = gcode_comment("tubecut " + std::string(version())) +
+                    gcode_comment("input sha256 " + caption.input_sha256);
+  for (const auto& [name, text] : caption.reference)
+    out += gcode_comment(std::string(name) + ": " + text);
+  return out;
+}
+
+TorchWords torch_words(Dialect dialect) {
+  if (dialect == Dialect::qtplasmac)
+    return {.prepare = "T0 M6\nG43 H0\nM52 P1\n", .on = "M3 $0 S1\n", .off = "M5 $0\n"};
+  return {.prepare = "", .on = "M3 S1\n", .off = "M5\n"};
+}
 
 TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table) {
   auto torch = developed(spec, table).cuts.front().torch;
@@ -101,17 +114,16 @@ TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table) {
 std::string print_gcode(const TorchPath& path, const Caption& caption) {
   const auto& o = caption.options;
   const Joints joints(path, o);
-  const bool plasma = o.dialect == Dialect::qtplasmac;
+  const auto torch = torch_words(o.dialect);
   const auto run_in = joints.words(path.phi.front(), path.z.front() - o.lead, path.b.front());
   const auto run_out = joints.words(path.phi.back(), path.z.back() - o.lead, path.b.back());
   std::string out = "%\n" + header(path, joints, caption) + modes(caption) + "G0 " + run_in + "\n";
-  if (o.torch) out += plasma ? "M3 $0 S1\n" : "M3 S1\n";
+  if (o.torch) out += torch.on;
   out += "G93\n";
   if (o.lead > 0.0) out += timed(joints.words(0), o.lead);
   for (std::size_t i = 1; i < path.phi.size(); ++i) out += timed(joints.words(i), step(path, i));
   if (o.lead > 0.0) out += timed(run_out, o.lead);
-  out += std::string("G94\n") + (plasma ? "M5 $0\n" : "M5\n");
-  return out + "M2\n%\n";
+  return out + "G94\n" + torch.off + "M2\n%\n";
 }
 
 }  // namespace tubecut::api

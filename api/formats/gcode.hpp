@@ -18,6 +18,16 @@ struct TorchPath {
 };
 [[nodiscard]] TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table);
 
+/// A comment line of a program.
+[[nodiscard]] std::string gcode_comment(const std::string& text);
+/// The comment lines every program begins with: engine, input hash, reference.
+[[nodiscard]] std::string gcode_job(const Caption& caption);
+/// The lines that light the torch and put it out.
+struct TorchWords {
+  std::string prepare, on, off;
+};
+[[nodiscard]] TorchWords torch_words(Dialect dialect);
+
 /// The cut as RS-274 for LinuxCNC: A turns the tube by phi, X (or Z) goes along it, B swings the
 /// torch; one G1 a node, in inverse time (G93) so that the torch keeps its speed on the outer wall
 /// through every mix of axes. Speed is one parameter at the top.

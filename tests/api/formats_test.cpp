@@ -73,7 +73,8 @@ TEST(Formats, OptionsAreReadStrictlyAndOnlyByDrawings) {
         "format=gcode&speed_mm_min=600x", "format=gcode&speed_mm_min=nan",
         "format=gcode&speed_mm_min=600&torch=true", "format=gcode&speed_mm_min=600&axial=y",
         "format=gcode&speed_mm_min=600&dialect=fanuc", "format=gcode&speed_mm_min=600&lead_mm=-1",
-        "format=gcode&speed_mm_min=600&pivot_length_mm=1e9", "format=gcode", "mirror=true"})
+        "format=gcode&speed_mm_min=600&pivot_length_mm=1e9", "format=gcode", "mirror=true",
+        "format=csv&mirror=true", "format=svg&torch=on", "format=cbor&axial=x"})
     EXPECT_EQ(text(post(kPath, table_1(), query).body, "code"), "bad_request") << query;
 }
 
