@@ -1,5 +1,7 @@
 """The G-code by a reader of its own: where each block ends, at what speed, and that nothing lights the torch unasked."""
 
+import itertools
+import json
 import math
 import re
 
@@ -90,6 +92,57 @@ class Gcode(FormatTest):
         status, _, content = self.service.ask("bevel-tables", examples("bevel-tables")["source-000-table-1"], "format=gcode")
         self.assertEqual(status, 400)
         self.assertIn(b"speed_mm_min", content)
+
+
+class ScheduleGcode(FormatTest):
+    """Straight moves, uniform in time, against the integer pulses of the JSON answer."""
+
+    LETTER = re.compile(r"^\(([A-Z]) = axis (\w+), (deg|mm)\)$", re.M)
+
+    def axes_of(self, body, result):
+        machines = {m["machine"]["name"]: m["machine"] for m in json.loads(self.service.get("/v1/machines"))["machines"]}
+        machine = machines[body["machine"]] if isinstance(body["machine"], str) else body["machine"]
+        per_unit = {a["name"]: a.get("pulses_per_unit") or a["pulses_per_turn"] / 360 for a in machine["axes"]}
+        return {name: (result["start"][name], per_unit[name], result["counts"].get(name)) for name in result["start"]}
+
+    def test_every_period_within_a_pulse(self):
+        for name, body in examples("pulse-schedules").items():
+            with self.subTest(name):
+                result = self.service.answer("pulse-schedules", body)["result"]
+                program = self.service.text("pulse-schedules", body, "format=gcode").decode("ascii")
+                letters = {axis: letter for letter, axis, _ in self.LETTER.findall(program)}
+                self.assertEqual(len(set(letters.values())), len(result["start"]))
+                blocks = [line for line in program.splitlines() if line.startswith(("G0 ", "G1 "))]
+                ends, period = [0], result["period_us"] * 1e-6
+                for line in blocks[1:]:
+                    minutes = 1 / float(re.search(r"F([\d.]+)$", line)[1])
+                    took = minutes * 60 / period
+                    self.assertAlmostEqual(took, round(took), delta=0.02 * max(1, took / 100))
+                    ends.append(ends[-1] + round(took))
+                self.assertEqual(ends[-1], result["periods"])
+                self.assertLessEqual({e["period"] for e in result["events"]}, set(ends))
+                for axis, (start, per_unit, counts) in self.axes_of(body, result).items():
+                    sums = [0, *itertools.accumulate(counts)] if counts else [0] * (result["periods"] + 1)
+                    at = [float(re.search(letters[axis] + r"(-?[\d.]+)", line)[1]) for line in blocks]
+                    for value, end in zip(at, ends):
+                        self.assertAlmostEqual(value, start + sums[end] / per_unit, delta=1e-6)
+                    worst = 0.0
+                    for a, b in zip(ends, ends[1:]):
+                        for p in range(a, b):
+                            worst = max(worst, abs(sums[a] + (sums[b] - sums[a]) * (p - a) / (b - a) - sums[p]))
+                    self.assertLessEqual(worst, 1.0 + 1e-9, axis)
+                print(f"{name}: {result['periods']} periods in {len(blocks) - 1} moves")
+
+    def test_the_torch_is_lit_at_its_event_and_only_when_asked(self):
+        body = examples("pulse-schedules")["table-1-on-the-five-axis-cutter"]
+        dark = self.service.text("pulse-schedules", body, "format=gcode").decode()
+        self.assertNotRegex(dark, r"(?m)^M[34]\b")
+        lit = self.service.text("pulse-schedules", body, "format=gcode&torch=on").decode().splitlines()
+        self.assertEqual(lit.count("M3 S1"), 1)
+        self.assertLess(lit.index("M3 S1"), next(i for i, line in enumerate(lit) if line.startswith("G1")))
+        self.assertGreater(lit.index("M5"), max(i for i, line in enumerate(lit) if line.startswith("G1")))
+        mill = examples("pulse-schedules")["source-001-mill-path"]
+        self.assertNotRegex(self.service.text("pulse-schedules", mill, "format=gcode&torch=on").decode(), r"(?m)^M[345]\b")
 
 
 if __name__ == "__main__":

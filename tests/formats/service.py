@@ -43,6 +43,10 @@ class Service:
             with refused:
                 return refused.code, refused.headers["Content-Type"], refused.read()
 
+    def get(self, path):
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=60) as reply:
+            return reply.read()
+
     def text(self, endpoint, body, query):
         status, _, content = self.ask(endpoint, body, query)
         if status != 200:
