@@ -241,7 +241,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
                   "got \"" + media + "\", accepted: application/json");
   const auto choice = choose(query, call_.accept, endpoint);
   if (!choice) return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
-  if (auto problem = format_problem(query, choice->format)) return refuse(*std::move(problem));
+  if (auto problem = format_problem(query, choice->format)) return refuse(*problem);
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
                   "the limit is " + std::to_string(endpoint.max_body) + " bytes");
@@ -274,7 +274,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
   auto reply = endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {
     if (problem->code == ErrorCode::cancelled) problem->code = ErrorCode::over_budget;
-    return refuse(std::move(*problem));
+    return refuse(*problem);
   }
   return answer(endpoint, common, std::move(std::get<Answer>(reply)), *choice, query);
 }
