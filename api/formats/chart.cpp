@@ -1,9 +1,10 @@
 #include "api/formats/chart.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "api/formats/text.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -11,36 +12,6 @@ namespace {
 constexpr double kWidth = 960.0, kHeight = 360.0;  // px, of one chart
 constexpr double kLeft = 78.0, kRight = 24.0, kTop = 56.0, kBottom = 56.0;
 constexpr double kLegendLine = 18.0;
-
-std::string fixed(double v, int digits = 2) {
-  char text[64];
-  return {text, std::to_chars(text, text + sizeof text, v == 0.0 ? 0.0 : v,
-                              std::chars_format::fixed, digits)
-                    .ptr};
-}
-
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// Round ticks that cover [low, high]: steps of 1, 2 or 5 times a power of ten.
 struct Scale {
@@ -104,7 +75,7 @@ Frame frame(const Chart& chart, double top) {
 }
 
 void text(std::string& out, double x, double y, const std::string& what, const char* extra = "") {
-  out += "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" " + extra + ">" + xml(what) +
+  out += "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" " + extra + ">" + xml_text(what) +
          "</text>\n";
 }
 
@@ -131,7 +102,7 @@ void axes(std::string& out, const Chart& chart, const Frame& f) {
   text(out, (kLeft + right) / 2, bottom + 36, chart.x_label, "text-anchor=\"middle\"");
   const double middle = (f.top + bottom) / 2;
   out += "<text transform=\"translate(18," + fixed(middle) +
-         ") rotate(-90)\" text-anchor=\"middle\">" + xml(chart.y_label) + "</text>\n";
+         ") rotate(-90)\" text-anchor=\"middle\">" + xml_text(chart.y_label) + "</text>\n";
   text(out, kLeft, f.top - 34, chart.title, "font-size=\"15\" font-weight=\"600\"");
 }
 
