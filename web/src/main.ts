@@ -248,7 +248,7 @@ class Console {
 
   private offers(name: string): HTMLElement {
     const {endpoint, body} = this.state;
-    return panels.downloads(endpoint, name, body, this.contract.formats(path(endpoint)), this.contract.views(path(endpoint)));
+    return panels.downloads(endpoint, name, body, this.contract.formats(path(endpoint)));
   }
 
   /** The pulses of this cut on a machine, at a speed: the next job in line, shown without leaving this one. */

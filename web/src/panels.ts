@@ -2,6 +2,7 @@ import {el, save} from './dom';
 import {isRow, type Json, type Row} from './json';
 import {endpointName, label, sentence, short4, spelled, unit} from './names';
 import type {Picture, Table} from './picture';
+import type {Format} from './schema';
 import {path, type Answer, type Problem} from './service';
 import {said} from './form';
 
@@ -140,13 +141,19 @@ const endings: Record<string, [string, string]> = {
 };
 const known = (media: string): [string, string] => endings[media] ?? (/dstv|nc1/.test(media) ? ['DSTV', 'nc1'] : [media, 'txt']);
 
-/** A button for every format that the contract offers here. The file is what the service answers. */
-export function downloads(endpoint: string, name: string, body: Row, formats: string[], views: string[]): HTMLElement {
+/** A button for every format that the contract offers here, and a field for what a format asks. The file is what the service answers. */
+export function downloads(endpoint: string, name: string, body: Row, formats: Format[]): HTMLElement {
   const status = el('p', {'class': 'soft', 'role': 'status'});
-  const fetchFile = async (media: string, view?: string) => {
+  const given = new Map<string, HTMLInputElement | HTMLSelectElement>();
+  const fetchFile = async ({media, options}: Format, view?: string) => {
     status.textContent = '';
-    const query = view ? `?view=${view}` : '';
-    const reply = await fetch(path(endpoint) + query, {method: 'POST', body: JSON.stringify(body), headers: {'Content-Type': 'application/json', 'Accept': media}});
+    const query = new URLSearchParams(view ? {view} : {});
+    for (const option of options) {
+      const value = given.get(option.name)?.value;
+      if (value) query.set(option.name, value);
+    }
+    const reply = await fetch(`${path(endpoint)}${query.size ? `?${query}` : ''}`,
+      {method: 'POST', body: JSON.stringify(body), headers: {'Content-Type': 'application/json', 'Accept': media}});
     if (!reply.ok) {
       const problem = await reply.json().catch(() => ({title: `status ${reply.status}`})) as Problem;
       status.textContent = `${known(media)[0]}: ${problem.title} ${problem.detail ?? ''}`;
@@ -154,8 +161,22 @@ export function downloads(endpoint: string, name: string, body: Row, formats: st
     }
     save(`${name}${view ? `-${view}` : ''}.${known(media)[1]}`, await reply.blob());
   };
-  const button = (media: string, view?: string) => el('button', {'type': 'button', 'data-media': media, 'data-view': view, 'onclick': () => void fetchFile(media, view)},
-    view ? `${known(media)[0]} ${view}` : known(media)[0]);
-  const buttons = formats.flatMap((media) => media === 'image/svg+xml' && views.length ? views.map((view) => button(media, view)) : [button(media)]);
-  return el('section', {'class': 'block'}, el('h3', {}, `Download: ${endpointName(endpoint)}`), el('div', {'class': 'offers'}, ...buttons), status);
+  const button = (format: Format, view?: string) => el('button', {'type': 'button', 'data-media': format.media, 'data-view': view, 'onclick': () => void fetchFile(format, view)},
+    view ? `${known(format.media)[0]} ${view}` : known(format.media)[0]);
+  const buttons = formats.flatMap((format) => format.views.length ? format.views.map((view) => button(format, view)) : [button(format)]);
+  const options = new Map(formats.flatMap((format) => format.options).map((option) => [option.name, option]));
+  const fields = [...options.values()].map((option) => {
+    const users = formats.filter((format) => format.options.some((each) => each.name === option.name)).map(({media}) => known(media)[0]).join(', ');
+    const choices = option.schema.enum ?? (option.schema.type === 'boolean' ? ['false', 'true'] : undefined);
+    const input = choices ? el('select', {}, el('option', {value: ''}, `${String(option.schema.default ?? '')} (default)`), ...choices.map((c) => el('option', {value: c}, String(c))))
+      // A speed has no default; one to begin with spares a refusal.
+      : el('input', {type: 'text', inputmode: 'decimal', value: option.name === 'speed_mm_min' ? '600' : '', placeholder: option.schema.default ?? ''});
+    input.setAttribute('aria-label', `${label(option.name)}, for ${users}`);
+    input.dataset['option'] = option.name;
+    given.set(option.name, input);
+    return el('label', {'class': 'field', 'title': option.description}, el('span', {'class': 'name'}, `${label(option.name)} (${users})`),
+      el('span', {'class': 'box'}, input, unit(option.name) ? el('span', {'class': 'unit'}, unit(option.name)) : null));
+  });
+  return el('section', {'class': 'block'}, el('h3', {}, `Download: ${endpointName(endpoint)}`), fields.length ? el('div', {'class': 'options'}, ...fields) : null,
+    el('div', {'class': 'offers'}, ...buttons), status);
 }

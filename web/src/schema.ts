@@ -1,6 +1,9 @@
 import {isRow, type Json, type Row} from './json';
 import {label} from './names';
 
+/** A format of an answer, its drawings (the first is the default) and the query parameters it reads. */
+export interface Format {media: string; views: string[]; options: {name: string; description: string; schema: Schema}[]}
+
 export interface Schema {
   $ref?: string; type?: string; const?: Json; enum?: Json[]; default?: Json; description?: string; title?: string;
   minimum?: number; maximum?: number; exclusiveMinimum?: number; exclusiveMaximum?: number;
@@ -12,9 +15,10 @@ interface Document {
   paths: Record<string, {post?: {
     summary: string; description?: string;
     requestBody: {content: Record<string, {schema: Schema}>};
-    responses: Record<string, {content: Record<string, unknown>}>;
+    parameters?: {$ref: string}[];
+    responses: Record<string, {content: Record<string, {'x-views'?: string[]; 'x-options'?: string[]}>}>;
   }}>;
-  components: {schemas: Record<string, Schema>};
+  components: {schemas: Record<string, Schema>; parameters: Record<string, {name: string; description?: string; schema: Schema}>};
 }
 
 // What a new field starts with, where the contract leaves it open: a joint that can be computed.
@@ -37,15 +41,15 @@ export class Contract {
   summary(path: string): string {
     return this.document.paths[path]?.post?.summary ?? '';
   }
-  /** Media types of the answer, as the contract lists them. */
-  formats(path: string): string[] {
-    return Object.keys(this.document.paths[path]?.post?.responses['200']?.content ?? {});
-  }
-
-  /** Drawings that an SVG can be asked for, where the contract names them. */
-  views(path: string): string[] {
-    const parameters = (this.document.paths[path]?.post as {parameters?: {name?: string; schema?: {enum?: string[]}}[]} | undefined)?.parameters ?? [];
-    return parameters.find((each) => each.name === 'view')?.schema?.enum ?? [];
+  formats(path: string): Format[] {
+    const post = this.document.paths[path]?.post;
+    return Object.entries(post?.responses['200']?.content ?? {}).map(([media, about]) => ({
+      media, views: about['x-views'] ?? [],
+      options: (about['x-options'] ?? []).flatMap((name) => {
+        const found = this.document.components.parameters[name];
+        return found ? [{name: found.name, description: found.description ?? '', schema: this.resolve(found.schema)}] : [];
+      }),
+    }));
   }
 
   resolve(schema: Schema | boolean): Schema {
