@@ -14,7 +14,9 @@ async function downloads({browser, origin, service}, endpoint, name) {
   assert.deepEqual([...new Set(media)].sort(), offered.sort());
   for (const [i, button] of buttons.entries()) {
     const view = await button.getAttribute('data-view');
-    const [download] = await Promise.all([page.waitForEvent('download'), button.click()]);
+    await page.waitForTimeout(150);  // Chromium drops downloads beyond a burst of ten a second
+    const [download] = await Promise.all([page.waitForEvent('download', {timeout: 15000}), button.click()])
+      .catch(async () => assert.fail(`no download of ${media[i]} ${view}: ${await page.locator('#panel [role=status]').innerText()}`));
     const saved = await readFile(await download.path());
     const query = new URLSearchParams(view ? {view} : {});
     if (contract.paths[`/v1/${endpoint}`].post.responses['200'].content[media[i]]['x-options']?.includes('speed_mm_min')) query.set('speed_mm_min', '600');
