@@ -2,7 +2,8 @@ import SwaggerUI from 'swagger-ui-dist/swagger-ui-es-bundle.js';
 import type {Example} from '../src/service';
 
 interface Operation {requestBody?: {content: Record<string, {examples?: Record<string, {value: unknown}>}>}}
-interface Document {servers: {url: string; description: string}[]; paths: Record<string, Record<string, Operation>>}
+interface Parameter {description?: string; schema: {default?: unknown}}
+interface Document {components: {parameters: Record<string, Parameter>}; servers: {url: string; description: string}[]; paths: Record<string, Record<string, Operation>>}
 
 const load = async <T>(address: string): Promise<T> => await (await fetch(address)).json() as T;
 
@@ -13,6 +14,12 @@ async function begin(): Promise<void> {
   for (const {endpoint, name, body} of listed.examples) {
     const content = contract.paths[`/v1/${endpoint}`]?.['post']?.requestBody?.content['application/json'];
     if (content) (content.examples ??= {})[name] = {value: body};
+  }
+  // Swagger UI would send every default, and options of a drawing are refused beside JSON.
+  for (const parameter of Object.values(contract.components.parameters)) {
+    if (parameter.schema.default === undefined) continue;
+    parameter.description = `${parameter.description ?? ''} Default: ${String(parameter.schema.default)}.`;
+    delete parameter.schema.default;
   }
   SwaggerUI({spec: contract, dom_id: '#reference', deepLinking: true, tryItOutEnabled: true, defaultModelsExpandDepth: 0, validatorUrl: null,
     syntaxHighlight: {activated: false}, docExpansion: 'list'});
