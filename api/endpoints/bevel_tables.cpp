@@ -63,12 +63,25 @@ struct BevelTables {
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
   }
 
+  template <auto Print>
+  static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
+    return Print(spec, out, caption);
+  }
   static const std::vector<Format<Spec, Out>>& formats() {
+    static const std::vector<std::string_view> kGcodeOptions{
+        "speed_mm_min", "dialect", "torch", "axial", "lead_mm", "pivot_length_mm"};
     static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv",
-         [](const Spec& s, const Out& o, const Caption& c) { return bevel_table_csv(s, o, c); }},
-        {"svg", "image/svg+xml",
-         [](const Spec& s, const Out& o, const Caption& c) { return bevel_table_svg(s, o, c); }}};
+        {"csv", "text/csv", &print<bevel_table_csv>},
+        {"svg",
+         "image/svg+xml",
+         &print<bevel_table_svg>,
+         {"chart", "template", "section"},
+         {"mirror"}},
+        {"dxf", "image/vnd.dxf", &print<bevel_table_dxf>, {"template", "tube"}},
+        {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
+        {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},
+        {"nc1", "application/x-dstv", &print<bevel_table_dstv>},
+        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, kGcodeOptions, true}};
     return kFormats;
   }
 };

@@ -227,8 +227,10 @@ struct Holes {
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kFormats{{"csv", "text/csv", &hole_csv},
-                                                         {"svg", "image/svg+xml", &hole_svg}};
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &hole_csv},
+        {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror"}},
+        {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}}};
     return kFormats;
   }
 };

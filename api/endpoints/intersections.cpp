@@ -2,6 +2,7 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/formats/intersection_formats.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::api {
@@ -60,9 +61,20 @@ struct Intersections {
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
   }
 
+  template <auto Print>
+  static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
+    return Print(spec, out, caption);
+  }
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kNone;
-    return kNone;
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &print<intersection_csv>},
+        {"svg",
+         "image/svg+xml",
+         &print<intersection_svg>,
+         {"chart", "template", "section"},
+         {"mirror"}},
+        {"dxf", "image/vnd.dxf", &print<intersection_dxf>, {"template", "tube"}}};
+    return kFormats;
   }
 };
 

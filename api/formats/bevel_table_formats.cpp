@@ -4,6 +4,13 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/cut_solid.hpp"
+#include "api/formats/development.hpp"
+#include "api/formats/dstv.hpp"
+#include "api/formats/dxf.hpp"
+#include "api/formats/gcode.hpp"
+#include "api/formats/sections.hpp"
+#include "api/formats/wrap_template.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -117,10 +124,37 @@ std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& ta
 
 std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
                             const Caption& caption) {
+  if (caption.view == "template") return print_wrap_template(developed(spec, table), caption);
+  if (caption.view == "section") return print_sections(sections_of(spec, table), caption);
   std::vector<Chart> charts{bevel_chart(spec, table), edge_chart(table)};
   if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
     charts.push_back(zone_chart(*zoned, table));
   return print_charts(charts, job_line(caption));
+}
+
+std::string bevel_table_dxf(const bevel::TableSpec& spec, const bevel::Table& table,
+                            const Caption& caption) {
+  return print_dxf(developed(spec, table), caption);
+}
+
+std::string bevel_table_gltf(const bevel::TableSpec& spec, const bevel::Table& table,
+                             const Caption& caption) {
+  return print_cut_gltf(spec, table, caption);
+}
+
+std::string bevel_table_stl(const bevel::TableSpec& spec, const bevel::Table& table,
+                            const Caption& caption) {
+  return print_cut_stl(spec, table, caption);
+}
+
+std::string bevel_table_dstv(const bevel::TableSpec& spec, const bevel::Table& table,
+                             const Caption& caption) {
+  return print_dstv(spec, table, caption);
+}
+
+std::string bevel_table_gcode(const bevel::TableSpec& spec, const bevel::Table& table,
+                              const Caption& caption) {
+  return print_gcode(torch_path(spec, table), caption);
 }
 
 }  // namespace tubecut::api

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/bevel/swing_rows.hpp"
 #include "core/bevel/table_parts.hpp"
 
 namespace tubecut::bevel {
@@ -88,6 +89,12 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   std::vector<double> also;
   for (const auto& event : g.other_events) also.push_back(event.phi);
   auto out = build(g, also, stop);
+  for (int round = 0; out && round < kRounds; ++round) {
+    const auto more = swing_rows(spec, *out);
+    if (more.empty()) break;
+    also.insert(also.end(), more.begin(), more.end());
+    out = build(g, also, stop);
+  }
   const bool held = spec.contact == Contact::inner || spec.contact == Contact::automatic;
   if (!held || !spec.sampling.tolerance || spec.root_face > 0.0) return out;
   // On the inner wall the sampling itself uses the whole tolerance.
