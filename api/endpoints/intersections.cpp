@@ -19,12 +19,7 @@ struct Intersections {
   static constexpr std::string_view kPath = "/v1/intersections";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 4> kChecks{{
-      {"on_cutter", "1e-12 max(radius + rho, |z|)", "mm"},
-      {"none_above", "1e-9 max(radius + rho, |z|)", "mm"},
-      {"event_gap", "1e-8 (radius + rho)", "mm"},
-      {"labels", "1e-7 max(radius + rho, |z|)", "mm"},
-  }};
+  static constexpr auto kChecks = kProfileChecks;
 
   static Spec decode(Reader& in) {
     using joint::Surfaces;

@@ -129,6 +129,24 @@ void curve(std::string& out, const Series& s, const Frame& f) {
   out += "\"/>\n";
 }
 
+/// Labels that would lie on each other go one above the other; near the right edge they end at
+/// their line.
+void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bottom) {
+  constexpr double kLabel = 80.0, kLine = 13.0;  // px
+  double before = -kLabel, y = bottom - 5.0;
+  for (const auto& mark : chart.marks) {
+    const double x = f.px(mark.x);
+    line(out, x, f.top, x, bottom,
+         "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
+    y = x - before < kLabel ? y - kLine : bottom - 5.0;
+    before = x;
+    const bool last = x > kWidth - kRight - kLabel;
+    text(out, last ? x - 3.0 : x + 3.0, y, mark.label,
+         last ? "font-size=\"11\" fill=\"#56626e\" text-anchor=\"end\""
+              : "font-size=\"11\" fill=\"#56626e\"");
+  }
+}
+
 void plot(std::string& out, const Chart& chart, double top) {
   const auto f = frame(chart, top + kTop);
   const double bottom = f.py(f.y.low);
@@ -139,11 +157,7 @@ void plot(std::string& out, const Chart& chart, double top) {
     text(out, f.px(band.from) + 3, f.top + 12, band.label, "font-size=\"11\"");
   }
   axes(out, chart, f);
-  for (const auto& mark : chart.marks) {
-    line(out, f.px(mark.x), f.top, f.px(mark.x), bottom,
-         "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
-    text(out, f.px(mark.x) + 3, bottom - 5, mark.label, "font-size=\"11\" fill=\"#56626e\"");
-  }
+  draw_marks(out, chart, f, bottom);
   for (const auto& s : chart.series) curve(out, s, f);
   legend(out, chart, f);
 }
