@@ -114,7 +114,9 @@ api::Outcome App::answer(const Request& request, const Identity& id) const {
     return refuse(
         {ErrorCode::body_too_large, fmt::format("The body is larger than {} bytes.", limit)}, id);
   }
-  api::Outcome outcome = x_.dispatch(call_of(request, id), context());
+  api::Context with = context();
+  if (request.stop.stop_possible()) with.stop = request.stop;
+  api::Outcome outcome = x_.dispatch(call_of(request, id), with);
   // A job cut off by our own stop is not the job's fault: the same request succeeds elsewhere, or
   // here a second later.
   if (outcome.error == ErrorKind::timeout && x_.stop.stop_requested()) {

@@ -43,6 +43,7 @@ TransportOptions admin_port(const Config& c) {
   return {.host = c.admin_host,
           .port = c.admin_port,
           .connections = kAdminConnections,
+          .slots = 1,
           .idle = 2s,
           .head = 2s,
           .body = 2s,
@@ -98,6 +99,7 @@ void stop_work(Transport& work, const std::future<bool>& served, std::stop_sourc
   work.drain(ms(c.drain_s));
   if (finished(served, ms(c.drain_s))) return;
   jobs.request_stop();
+  work.cancel_jobs();
   if (!finished(served, 1s)) std::_Exit(fail("a job did not stop within its time"));
 }
 
