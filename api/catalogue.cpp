@@ -1,5 +1,6 @@
 #include "api/catalogue.hpp"
 
+#include "api/api.hpp"
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
@@ -87,21 +88,14 @@ std::string tubes_page() {
   return out.take();
 }
 
-/// examples/<endpoint>/<name>.json, each {"title", "body"}.
 std::string examples_page() {
   Writer out;
   out.object([](Writer& w) {
-    std::vector<Embedded> examples;
-    for (const auto& file : embedded_files())
-      if (file.name.starts_with("examples/") && file.name.ends_with(".json"))
-        examples.push_back(file);
-    w.array("examples", examples, [](Writer& each, const Embedded& file) {
-      const auto inner = file.name.substr(9);
-      const auto slash = inner.find('/');
+    w.array("examples", examples(), [](Writer& each, const Example& example) {
       each.object([&](Writer& o) {
-        o.field("endpoint", inner.substr(0, slash));
-        o.field("name", inner.substr(slash + 1, inner.size() - slash - 6));
-        o.raw("body", file.text);
+        o.field("endpoint", example.endpoint);
+        o.field("name", example.name);
+        o.raw("body", example.body);
       });
     });
   });
@@ -109,6 +103,19 @@ std::string examples_page() {
 }
 
 }  // namespace
+
+/// examples/<endpoint>/<name>.json
+std::vector<Example> examples() {
+  std::vector<Example> out;
+  for (const auto& file : embedded_files()) {
+    if (!file.name.starts_with("examples/") || !file.name.ends_with(".json")) continue;
+    const auto inner = file.name.substr(9);
+    const auto slash = inner.find('/');
+    out.push_back(
+        {inner.substr(0, slash), inner.substr(slash + 1, inner.size() - slash - 6), file.text});
+  }
+  return out;
+}
 
 std::optional<Page> catalogue(std::string_view path) {
   static const struct {
