@@ -107,8 +107,8 @@ def proxied(*behaviours, ready=True):
         count = restarts.REPLICAS - len(stubs)
         proxy = restarts.Proxy(pathlib.Path(folder), stubs + [absent] * count, [s.admin_port for s in stubs] + [1] * count)
         try:
-            up = "UP" if ready else "DOWN"
-            restarts.until(lambda: statuses(proxy, len(stubs)) == [up] * len(stubs), 10, "the stubs' state")
+            checked = "L7OK" if ready else "L7STS"
+            restarts.until(lambda: checks(proxy, len(stubs)) == [checked] * len(stubs), 10, "the stubs' state")
             yield f"https://127.0.0.1:{proxy.port}", stubs
         finally:
             proxy.end()
@@ -116,10 +116,10 @@ def proxied(*behaviours, ready=True):
                 s.end()
 
 
-def statuses(proxy, count):
+def checks(proxy, count):
     with contextlib.suppress(OSError):
         rows = proxy.rows()
-        return [rows[f"replica-{i + 1}"]["status"].split(" ")[0] for i in range(count)]
+        return [rows[f"replica-{i + 1}"]["check_status"] for i in range(count)]
     return []
 
 
