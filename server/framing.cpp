@@ -96,7 +96,8 @@ bool lists_token(const Headers& headers, std::string_view name, std::string_view
 }
 
 std::string origin_form(std::string_view target, std::string_view method) {
-  if (target.find('#') != std::string_view::npos) return {};
+  const auto visible = [](char c) { return c > ' ' && c < 0x7f && c != '#'; };
+  if (!std::ranges::all_of(target, visible)) return {};
   if (target.starts_with('/')) return std::string(target);
   if (target == "*" && method == "OPTIONS") return "*";
   for (const std::string_view scheme : {"http://", "https://"}) {
