@@ -62,8 +62,8 @@ std::string_view framing_fault(const Headers& headers, int minor) {
   return {};
 }
 
-std::string_view byte_fault(std::string_view head, std::size_t from) {
-  for (std::size_t i = from; i < head.size(); ++i) {
+std::string_view byte_fault(std::string_view head, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < to; ++i) {
     const auto c = static_cast<unsigned char>(head[i]);
     const char next = i + 1 < head.size() ? head[i + 1] : '\0';
     if (c == '\r' && next == '\n') continue;
