@@ -28,7 +28,7 @@ constexpr auto kHangUpGrace = 250ms;
 /// A job waits for a slot no longer than this part of its budget: one begun with little time left
 /// would be cut off, and its slot wasted.
 constexpr int kWaitShare = 2;
-constexpr double kLikely = 0.8;   // of that wait, as the mean time of the last jobs foretells
+constexpr double kLikely = 0.5;   // of that wait, as the mean time of the last jobs foretells
 constexpr double kForget = 0.05;  // weight of the last job in that mean
 /// Memory of a job: measured 41 bytes per byte of a body of short numbers, and 12 MiB for the
 /// largest answer of a small body.
