@@ -65,8 +65,10 @@ tl::expected<ApiKey, std::string> parse_key(const std::string& line) {
   ApiKey key;
   words >> key.identity >> hash;
   const auto bytes = from_hex(hash);
-  if (!sound_identity(key.identity)) return tl::unexpected(std::string("an identity is letters, digits, . _ -"));
-  if (!bytes) return tl::unexpected(std::string("a key is given as its SHA-256 in 64 lower-case hex digits"));
+  if (!sound_identity(key.identity))
+    return tl::unexpected(std::string("an identity is letters, digits, . _ -"));
+  if (!bytes)
+    return tl::unexpected(std::string("a key is given as its SHA-256 in 64 lower-case hex digits"));
   key.sha256 = *bytes;
   if (!(words >> std::ws).eof() && !(words >> key.per_second && key.per_second > 0.0)) {
     return tl::unexpected(std::string("a rate is a number of requests per second above 0"));

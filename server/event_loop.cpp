@@ -25,6 +25,11 @@ constexpr std::size_t kLingerBytes = 1u << 20;
 /// A client that has closed its side only half still reads a quick answer; one that hung up cannot
 /// be told apart until this has passed.
 constexpr auto kHangUpGrace = 250ms;
+/// A job waits for a slot no longer than this part of its budget: one begun with little time left
+/// would be cut off, and its slot wasted.
+constexpr int kWaitShare = 2;
+constexpr double kLikely = 0.5;   // of that wait, as the mean time of the last jobs foretells
+constexpr double kForget = 0.05;  // weight of the last job in that mean
 /// Memory of a job: measured 41 bytes per byte of a body of short numbers, and 12 MiB for the
 /// largest answer of a small body.
 constexpr std::size_t kJobBytesPerByte = 48;
@@ -311,6 +316,14 @@ void EventLoop::on_head(Connection& c, bool more_there) {
   if (c.reader.expects_continue() && !more_there) c.send_now("HTTP/1.1 100 Continue\r\n\r\n");
 }
 
+/// Whether a slot is likely free before the job's wait is over: a refusal now serves the client
+/// better than one after the wait.
+bool EventLoop::in_time(const Job& job) const {
+  if (job.end == Clock::time_point::max()) return true;
+  const double wait = static_cast<double>(slots_->waiting()) * mean_s_ / slots_->count();
+  return wait <= kLikely * (seconds(job.end) - job.request.times.read) / kWaitShare;
+}
+
 /// Sets the job's memory aside and queues it; or tells why not.
 std::optional<Refusal> EventLoop::offer(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = memory_of(job->request.body.size());
@@ -325,7 +338,7 @@ std::optional<Refusal> EventLoop::offer(Connection& c, const std::shared_ptr<Job
   c.job = job;
   job->memory = memory;
   counters_.memory += memory;
-  if (slots_->offer(job)) return std::nullopt;
+  if (in_time(*job) && slots_->offer(job)) return std::nullopt;
   ++counters_.queue;
   c.job = nullptr;
   release(*job);
@@ -345,8 +358,12 @@ void EventLoop::on_whole(Connection& c) {
   request.reports_sending = true;
   job->close = c.closing;
   job->owner = &c;
-  const auto budget = service_.budget ? service_.budget(request) : 0ms;
-  set_deadline(c, budget > 0ms ? Clock::now() + budget : Clock::time_point::max());
+  if (const auto budget = service_.budget ? service_.budget(request) : 0ms; budget > 0ms) {
+    job->end = Clock::now() + budget;
+    set_deadline(c, budget / kWaitShare);
+  } else {
+    set_deadline(c, Clock::time_point::max());
+  }
   if (auto refusal = offer(c, job)) {
     job->request.refusal = std::move(refusal);
     write(c, print_(job->request, job->close));
@@ -383,6 +400,7 @@ void EventLoop::release(Job& job) { counters_.memory -= std::exchange(job.memory
 
 void EventLoop::finish(Job& job) {
   release(job);
+  mean_s_ += kForget * (seconds(Clock::now()) - job.request.times.started - mean_s_);
   auto* const c = static_cast<Connection*>(job.owner);
   if (c == nullptr) {
     if (job.sent) job.sent(false);
@@ -474,13 +492,17 @@ void EventLoop::expire(Connection& c) {
     ++counters_.hung_up;
     return close(c);
   }
-  c.deadline = Clock::time_point::max();
-  c.job->stop.request_stop();
-  if (!slots_->withdraw(c.job)) return;
+  if (!slots_->withdraw(c.job)) {
+    if (Clock::now() < c.job->end) return set_deadline(c, c.job->end);
+    c.deadline = Clock::time_point::max();
+    c.job->stop.request_stop();
+    return;
+  }
   ++counters_.wait;
   release(*c.job);
   const auto job = std::exchange(c.job, nullptr);
-  job->request.refusal = {ErrorCode::overloaded, "No slot was free within the job's budget."};
+  job->request.refusal = {ErrorCode::overloaded,
+                          "No slot was free within half of the job's budget."};
   write(c, print_(job->request, job->close));
   if (connections_.contains(&c)) pump(c);
 }

@@ -65,6 +65,7 @@ class EventLoop {
   void on_whole(Connection& c);
   void on_end(Connection& c);
   [[nodiscard]] std::optional<Refusal> head_refusal(Connection& c) const;
+  [[nodiscard]] bool in_time(const Job& job) const;
   [[nodiscard]] std::optional<Refusal> offer(Connection& c, const std::shared_ptr<Job>& job);
 
   void refuse(Connection& c, Refusal refusal);
@@ -96,6 +97,7 @@ class EventLoop {
   std::vector<std::unique_ptr<Connection>> buried_;  // ended in this round of events
   std::vector<Connection*> again_;                   // have more bytes than one turn
   Clock::time_point soonest_ = Clock::time_point::max();
+  double mean_s_ = 0.0;  // of a job in its slot
   bool draining_ = false;
   bool ending_ = false;
   Clock::time_point drained_by_ = Clock::time_point::max();

@@ -62,8 +62,8 @@ std::string_view framing_fault(const Headers& headers, int minor) {
   return {};
 }
 
-std::string_view byte_fault(std::string_view head, std::size_t from) {
-  for (std::size_t i = from; i < head.size(); ++i) {
+std::string_view byte_fault(std::string_view head, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < to; ++i) {
     const auto c = static_cast<unsigned char>(head[i]);
     const char next = i + 1 < head.size() ? head[i + 1] : '\0';
     if (c == '\r' && next == '\n') continue;
@@ -96,7 +96,8 @@ bool lists_token(const Headers& headers, std::string_view name, std::string_view
 }
 
 std::string origin_form(std::string_view target, std::string_view method) {
-  if (target.find('#') != std::string_view::npos) return {};
+  const auto visible = [](char c) { return c > ' ' && c < 0x7f && c != '#'; };
+  if (!std::ranges::all_of(target, visible)) return {};
   if (target.starts_with('/')) return std::string(target);
   if (target == "*" && method == "OPTIONS") return "*";
   for (const std::string_view scheme : {"http://", "https://"}) {

@@ -15,8 +15,8 @@ namespace tubecut::server {
 [[nodiscard]] std::string_view framing_fault(const Headers& headers, int minor);
 
 /// What is wrong with a head's bytes before any parser sees them: folded lines, bare CR or LF, NUL
-/// and other controls. Empty when nothing is. Judges the bytes from `from` on.
-[[nodiscard]] std::string_view byte_fault(std::string_view head, std::size_t from = 0);
+/// and other controls. Empty when nothing is. Judges the bytes of [from, to) by their neighbours.
+[[nodiscard]] std::string_view byte_fault(std::string_view head, std::size_t from, std::size_t to);
 
 /// Its Content-Length; 0 without one.
 [[nodiscard]] std::uint64_t announced_length(const Headers& headers);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -23,6 +24,8 @@ struct Job {
   std::atomic<bool> close = false;  // the connection ends after the answer
   std::size_t memory = 0;           // bytes set aside for it
   void* owner = nullptr;            // the connection it came from; nullptr once that is gone
+  std::chrono::steady_clock::time_point end =
+      std::chrono::steady_clock::time_point::max();  // of its budget
   std::string answer = {};
   std::function<void(bool)> sent = {};
 };

@@ -51,7 +51,7 @@ struct TransportStats {
   std::uint64_t slots = 0;
   std::uint64_t memory = 0;          // bytes set aside now
   std::uint64_t refused_queue = 0;   // the queue was full
-  std::uint64_t refused_wait = 0;    // no slot within the budget
+  std::uint64_t refused_wait = 0;    // no slot within half the budget
   std::uint64_t refused_memory = 0;  // the bound on memory
   std::uint64_t refused_connections = 0;
   std::uint64_t hung_up = 0;    // clients that left before their answer
