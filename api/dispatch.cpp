@@ -350,6 +350,7 @@ Outcome Job::answer(const Endpoint& endpoint, const Common& common, Answer answe
   job.verdict = verdict.status;
   for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
   const auto result_sha256 = sha256(answer.result);
+  job.result_sha256 = result_sha256;
   if (choice.body == Body::text && !query.validate_only) {
     out_.content_type = choice.format->media;
     out_.body = std::move(answer.text);

@@ -16,11 +16,13 @@ namespace {
 struct Service {
   Program program;
   std::string ready;
+  std::string capacity;
   int port = 0;
   int admin_port = 0;
 
   explicit Service(std::vector<std::string> more = {}) : program(words(std::move(more))) {
     ready = program.line();
+    capacity = program.line();
     const auto json = api::parse(ready);
     if (!json) return;
     port = static_cast<int>(*json->find("port")->as<double>());
