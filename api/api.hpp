@@ -78,7 +78,7 @@ struct Outcome {
 /// An example the service carries: a request's body that runs.
 struct Example {
   std::string_view endpoint;  // id
-  std::string_view name;
+  std::string name;           // with its theme before a slash, if it has one
   std::string_view body;
 };
 [[nodiscard]] std::vector<Example> examples();

@@ -104,15 +104,18 @@ std::string examples_page() {
 
 }  // namespace
 
-/// examples/<endpoint>/<name>.json
+/// examples/[<theme>/]<endpoint>/<name>.json: requests that run.
 std::vector<Example> examples() {
   std::vector<Example> out;
   for (const auto& file : embedded_files()) {
     if (!file.name.starts_with("examples/") || !file.name.ends_with(".json")) continue;
-    const auto inner = file.name.substr(9);
-    const auto slash = inner.find('/');
-    out.push_back(
-        {inner.substr(0, slash), inner.substr(slash + 1, inner.size() - slash - 6), file.text});
+    const auto inner = file.name.substr(9, file.name.size() - 14);
+    const auto slash = inner.rfind('/');
+    const auto theme = inner.rfind('/', slash - 1);
+    const auto endpoint = theme == std::string_view::npos ? 0 : theme + 1;
+    out.push_back({inner.substr(endpoint, slash - endpoint),
+                   std::string(inner.substr(0, endpoint)) + std::string(inner.substr(slash + 1)),
+                   file.text});
   }
   return out;
 }
