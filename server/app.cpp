@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "server/identity.hpp"
+#include "server/static_files.hpp"
 #include "server/status.hpp"
 
 namespace tubecut::server {
@@ -203,6 +204,7 @@ api::Outcome App::answer_guarded(const Request& request, const Identity& id,
 }
 
 Response App::handle(const Request& request) const {
+  if (auto page = static_answer(request, static_files())) return *std::move(page);  // no job
   const double start = steady_seconds();
   if (auto response = preflight(request)) return *std::move(response);
   x_.started();

@@ -1,0 +1,91 @@
+#include "server/static_files.hpp"
+
+#include <algorithm>
+
+namespace tubecut::server {
+namespace {
+
+constexpr std::string_view kHtml = "text/html; charset=utf-8";
+
+/// Nothing from elsewhere, nothing inline, no frames. The API reference sets styles on its
+/// elements and carries its icons as data.
+constexpr std::string_view kPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+constexpr std::string_view kDocsPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+constexpr StaticFile kNoConsole = {
+    .path = "/",
+    .content_type = kHtml,
+    .etag = "\"no-console\"",
+    .body =
+        "<!doctype html><html lang=\"en\"><title>tubecut</title><h1>tubecut</h1>"
+        "<p>This binary was built without the console (./dev build makes it where Node.js is)."
+        "</p><p>The API is here: <a href=\"/openapi.yaml\">openapi.yaml</a>, "
+        "<a href=\"/v1/examples\">examples</a>.</p></html>\n",
+    .gzip = {}};
+
+/// A folder's page also answers with a slash at the end.
+std::string_view named(std::string_view path) {
+  return path.size() > 1 && path.ends_with('/') ? path.substr(0, path.size() - 1) : path;
+}
+
+const StaticFile* find(std::string_view path, std::span<const StaticFile> files) {
+  const auto found = std::ranges::find(files, path, &StaticFile::path);
+  if (found != files.end()) return &*found;
+  return files.empty() && (path == "/" || path == "/docs") ? &kNoConsole : nullptr;
+}
+
+/// Whether a list such as `gzip;q=0.8, *` holds `word`, not refused by q=0.
+bool lists(std::string_view list, std::string_view word) {
+  while (!list.empty()) {
+    const auto end = list.find(',');
+    auto item = list.substr(0, end);
+    list = end == list.npos ? std::string_view{} : list.substr(end + 1);
+    while (item.starts_with(' ')) item.remove_prefix(1);
+    if (!item.starts_with(word)) continue;
+    const auto rest = item.substr(word.size());
+    if (rest.empty() || rest == " ") return true;
+    if (rest.front() == ';') return rest.find_first_of("123456789", rest.find('=')) != rest.npos;
+  }
+  return false;
+}
+
+Headers headers_of(const StaticFile& file, bool packed) {
+  Headers headers{
+      {"ETag", std::string(file.etag)},
+      {"Cache-Control", file.immutable ? "public, max-age=31536000, immutable" : "no-cache"},
+      {"Vary", "Accept-Encoding"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Referrer-Policy", "no-referrer"}};
+  if (packed) headers.emplace_back("Content-Encoding", "gzip");
+  if (file.content_type == kHtml) {
+    headers.emplace_back("Content-Security-Policy", file.path == "/docs" ? kDocsPolicy : kPolicy);
+  }
+  return headers;
+}
+
+}  // namespace
+
+std::optional<Response> static_answer(const Request& request, std::span<const StaticFile> files) {
+  if (request.refusal || (request.method != "GET" && request.method != "HEAD")) return std::nullopt;
+  const StaticFile* file = find(named(path_of(request.target)), files);
+  if (file == nullptr) return std::nullopt;
+  const bool packed =
+      !file->gzip.empty() && lists(header(request.headers, "Accept-Encoding"), "gzip");
+  Response response{.status = 200,
+                    .content_type = std::string(file->content_type),
+                    .headers = headers_of(*file, packed),
+                    .body = {}};
+  if (header(request.headers, "If-None-Match") == file->etag) {
+    response.status = 304;
+    return response;
+  }
+  response.body = packed ? file->gzip : file->body;
+  return response;
+}
+
+}  // namespace tubecut::server

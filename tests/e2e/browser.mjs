@@ -1,0 +1,67 @@
+// Chromium with software WebGL, and pages that keep account of what they said and whom they asked.
+import {chromium} from 'playwright-core';
+
+const flags = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
+export const launch = (executablePath) => chromium.launch({executablePath, args: flags});
+
+export async function open(browser, origin, hash = '', {width = 1280, height = 800, theme = 'light', at = '/'} = {}) {
+  const context = await browser.newContext({viewport: {width, height}, colorScheme: theme, acceptDownloads: true, reducedMotion: 'reduce'});
+  const page = await context.newPage();
+  page.faults = [];
+  page.strangers = [];
+  // A refused request (422) is part of the game; the browser logs it as an error of its own.
+  page.on('console', (message) => {
+    const refused = /status of 422/.test(message.text());
+    if (message.type() === 'error' && !refused) page.faults.push(message.text());
+  });
+  page.on('pageerror', (error) => page.faults.push(error.message));
+  page.on('request', (request) => {
+    const {protocol} = new URL(request.url());
+    if (!request.url().startsWith(origin) && protocol !== 'blob:' && protocol !== 'data:') page.strangers.push(request.url());
+  });
+  await page.goto(origin + at + hash);
+  return page;
+}
+
+/** Waits for `count` answers, drawn in 3D too. */
+export async function answered(page, count = 1) {
+  // No waitForFunction: it evaluates text, which the page's Content-Security-Policy forbids.
+  const arrived = await page.evaluate(async (n) => {
+    const end = Date.now() + 20000;
+    while (Number(document.body.dataset.answers ?? 0) < n && Date.now() < end) await new Promise((done) => setTimeout(done, 5));
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    return Number(document.body.dataset.answers ?? 0) >= n;
+  }, count);
+  if (!arrived) throw new Error(`no answer ${count} in 20 s`);
+}
+
+export const answers = (page) => page.evaluate(() => Number(document.body.dataset.answers ?? 0));
+
+/** Does something and waits for the answer to it. */
+export async function then(page, act) {
+  const before = await answers(page);
+  await act();
+  await answered(page, before + 1);
+}
+
+/** Share of the canvas that something solid covers, and a sum that changes with the picture. */
+export async function pixels(page) {
+  await page.waitForSelector('.canvas canvas');
+  return page.evaluate(async () => {
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    const canvas = document.querySelector('.canvas canvas');
+    const copy = document.createElement('canvas');
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const pen = copy.getContext('2d');
+    pen.drawImage(canvas, 0, 0);
+    const {data} = pen.getImageData(0, 0, copy.width, copy.height);
+    let covered = 0, sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] > 200) ++covered;
+      sum = (sum * 31 + data[i] + 7 * data[i + 1] + 13 * data[i + 2]) % 1000000007;
+    }
+    return {share: covered / (data.length / 4), sum};
+  });
+}

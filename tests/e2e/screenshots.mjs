@@ -1,0 +1,32 @@
+// The pictures of the console in docs/. usage: screenshots.mjs --server BINARY --out DIR [--chromium BINARY]
+import {parseArgs} from 'node:util';
+import {Service} from '../contract/service.mjs';
+import {answered, launch, open, pixels} from './browser.mjs';
+
+const {values} = parseArgs({options: {server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium'}, out: {type: 'string'}}});
+const service = await Service.start(values.server);
+const browser = await launch(values.chromium);
+const origin = `http://127.0.0.1:${service.port}`;
+
+async function shoot(name, hash, size, after = async () => {}) {
+  const page = await open(browser, origin, hash, size);
+  await answered(page);
+  await pixels(page);
+  await after(page);
+  await pixels(page);
+  await page.screenshot({path: `${values.out}/${name}.png`});
+  await page.context().close();
+}
+
+const pointAt = (chart, share) => async (page) => {
+  const box = await page.locator(`#chart-${chart} .plot`).boundingBox();
+  await page.mouse.move(box.x + 56 + share * (box.width - 68), box.y + box.height / 2);
+};
+await shoot('console', '#/bevel-tables/source-000-table-1', {width: 1280, height: 900}, pointAt('bevel', 0.3));
+await shoot('console-refused-dark', '#/bevel-tables/table-1-torch-45-deg?view=before', {width: 1280, height: 900, theme: 'dark'}, async (page) => {
+  await page.locator('[data-pointer="/cutters/1/inclination_deg"]').fill('0');
+  await answered(page, 2);
+});
+await shoot('console-phone', '#/holes/set-in-branch', {width: 390, height: 844}, pointAt('bevel-0', 0.7));
+await browser.close();
+await service.stop();

@@ -1,0 +1,23 @@
+import {strict as assert} from 'node:assert';
+import {open} from '../browser.mjs';
+
+export const checks = {
+  'every operation is listed and an example runs': async ({browser, origin, service}) => {
+    const {paths} = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
+    const operations = Object.values(paths).reduce((sum, path) => sum + Object.keys(path).length, 0);
+    const page = await open(browser, origin, '', {at: '/docs'});
+    await page.locator('.opblock').first().waitFor({timeout: 20000});
+    assert.equal(await page.locator('.opblock').count(), operations);
+    const block = page.locator('#operations-cuts-bevelTables');
+    await block.locator('.opblock-summary-control').click();
+    const examples = block.locator('.examples-select select, select.examples-select-element');
+    await examples.first().waitFor();
+    assert.ok((await examples.first().locator('option').count()) > 3, 'the examples of the service');
+    await block.getByRole('button', {name: 'Execute'}).click();
+    await block.locator('.live-responses-table .response-col_status').first().waitFor({timeout: 20000});
+    assert.match(await block.locator('.live-responses-table tbody .response-col_status').first().innerText(), /200/);
+    assert.deepEqual(page.faults, []);
+    assert.deepEqual(page.strangers, []);
+    await page.context().close();
+  },
+};

@@ -1,0 +1,35 @@
+import {strict as assert} from 'node:assert';
+import {readFile} from 'node:fs/promises';
+import {answered, open} from '../browser.mjs';
+
+/** Every format that the contract lists for an endpoint, saved from the page: the bytes the service answers. */
+async function downloads({browser, origin, service}, endpoint, name) {
+  const contract = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
+  const offered = Object.keys(contract.paths[`/v1/${endpoint}`].post.responses['200'].content);
+  const body = await readFile(new URL(`../../../examples/${endpoint}/${name}.json`, import.meta.url));
+  const page = await open(browser, origin, `#/${endpoint}/${name}?tab=downloads`);
+  await answered(page);
+  const buttons = await page.locator('#panel [data-media]').all();
+  const media = await Promise.all(buttons.map((button) => button.getAttribute('data-media')));
+  assert.deepEqual([...new Set(media)].sort(), offered.sort());
+  for (const [i, button] of buttons.entries()) {
+    const view = await button.getAttribute('data-view');
+    const [download] = await Promise.all([page.waitForEvent('download'), button.click()]);
+    const saved = await readFile(await download.path());
+    const query = new URLSearchParams(view ? {view} : {});
+    if (contract.paths[`/v1/${endpoint}`].post.responses['200'].content[media[i]]['x-options']?.includes('speed_mm_min')) query.set('speed_mm_min', '600');
+    const {status, body: bytes} = await service.ask(`/v1/${endpoint}?${query}`, {body, headers: {Accept: media[i]}});
+    assert.equal(status, 200, `${media[i]} ${view}`);
+    assert.ok(saved.length > 100 && saved.equals(bytes), `${media[i]} ${view}: ${saved.length} bytes saved, ${bytes.length} answered`);
+    assert.match(download.suggestedFilename(), /\.[a-z0-9]{2,4}$/);
+  }
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+}
+
+const jobs = {
+  'bevel-tables': 'source-000-table-1', 'holes': 'set-in-branch', 'pulse-schedules': 'square-cut-from-a-bare-contour',
+  'feed-curves': 'cut-off-194-mm-whole-cycle', 'grooves': 'case-a-right-angle',
+};
+export const checks = Object.fromEntries(Object.entries(jobs).map(([endpoint, name]) => [endpoint, (given) => downloads(given, endpoint, name)]));
+

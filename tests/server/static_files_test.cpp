@@ -1,0 +1,100 @@
+#include "server/static_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include "server/app.hpp"
+
+namespace tubecut::server {
+namespace {
+
+constexpr StaticFile kFiles[] = {{.path = "/",
+                                  .content_type = "text/html; charset=utf-8",
+                                  .etag = "\"page\"",
+                                  .body = "plain",
+                                  .gzip = "packed"},
+                                 {.path = "/docs",
+                                  .content_type = "text/html; charset=utf-8",
+                                  .etag = "\"docs\"",
+                                  .body = "reference",
+                                  .gzip = "r"},
+                                 {.path = "/assets/a-1.js",
+                                  .content_type = "text/javascript; charset=utf-8",
+                                  .etag = "\"script\"",
+                                  .immutable = true,
+                                  .body = "script",
+                                  .gzip = "s"}};
+
+Request get(std::string target, Headers headers = {}) {
+  return {.method = "GET", .target = std::move(target), .headers = std::move(headers), .body = {}};
+}
+
+TEST(StaticFiles, ArePackedForThoseWhoTakeIt) {
+  const auto plain = static_answer(get("/"), kFiles);
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->body, "plain");
+  EXPECT_EQ(header(plain->headers, "Content-Encoding"), "");
+  EXPECT_EQ(header(plain->headers, "Vary"), "Accept-Encoding");
+  for (const char* accepted : {"gzip", "br, gzip;q=0.5", "gzip, deflate"}) {
+    const auto packed = static_answer(get("/", {{"Accept-Encoding", accepted}}), kFiles);
+    ASSERT_TRUE(packed);
+    EXPECT_EQ(packed->body, "packed") << accepted;
+    EXPECT_EQ(header(packed->headers, "Content-Encoding"), "gzip");
+  }
+  for (const char* refused : {"gzip;q=0", "identity", "gzipped"}) {
+    EXPECT_EQ(static_answer(get("/", {{"Accept-Encoding", refused}}), kFiles)->body, "plain")
+        << refused;
+  }
+}
+
+TEST(StaticFiles, PagesAllowNothingFromElsewhereAndNothingInline) {
+  const auto page = static_answer(get("/"), kFiles);
+  const auto policy = header(page->headers, "Content-Security-Policy");
+  EXPECT_NE(policy.find("default-src 'none'"), policy.npos);
+  EXPECT_EQ(policy.find("unsafe"), policy.npos);
+  const auto docs = static_answer(get("/docs/"), kFiles);
+  ASSERT_TRUE(docs);
+  EXPECT_EQ(docs->body, "reference");
+  EXPECT_EQ(header(docs->headers, "Content-Security-Policy").find("unsafe-eval"),
+            std::string_view::npos);
+}
+
+TEST(StaticFiles, AreKeptByName) {
+  EXPECT_EQ(header(static_answer(get("/"), kFiles)->headers, "Cache-Control"), "no-cache");
+  EXPECT_NE(header(static_answer(get("/assets/a-1.js"), kFiles)->headers, "Cache-Control")
+                .find("immutable"),
+            std::string_view::npos);
+  const auto known = static_answer(get("/", {{"If-None-Match", "\"page\""}}), kFiles);
+  EXPECT_EQ(known->status, 304);
+  EXPECT_EQ(known->body, "");
+  EXPECT_EQ(static_answer(get("/", {{"If-None-Match", "\"old\""}}), kFiles)->status, 200);
+}
+
+TEST(StaticFiles, LeaveEverythingElseToTheApi) {
+  EXPECT_FALSE(static_answer(get("/v1/version"), kFiles));
+  EXPECT_FALSE(static_answer(get("/assets/"), kFiles));
+  auto post = get("/");
+  post.method = "POST";
+  EXPECT_FALSE(static_answer(post, kFiles));
+  EXPECT_TRUE(static_answer(get("/?any=query"), kFiles));
+}
+
+TEST(StaticFiles, WithoutAConsoleThePageSaysSo) {
+  for (const char* path : {"/", "/docs"}) {
+    const auto page = static_answer(get(path), {});
+    ASSERT_TRUE(page);
+    EXPECT_NE(page->body.find("without the console"), std::string::npos);
+  }
+  EXPECT_FALSE(static_answer(get("/assets/a-1.js"), {}));
+}
+
+TEST(StaticFiles, AreNoJobs) {
+  int jobs = 0;
+  AppOptions options;
+  options.started = [&] { ++jobs; };
+  const App app(std::move(options));
+  EXPECT_EQ(app.handle(get("/")).status, 200);
+  EXPECT_EQ(jobs, 0);
+}
+
+}  // namespace
+}  // namespace tubecut::server

@@ -1,0 +1,308 @@
+import uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import {colour, el, partnerColour} from './dom';
+import {listen, point, pointed} from './links';
+import {short4} from './names';
+import type {Chart} from './picture';
+
+const left = 56, right = 12, ribbon = 7;
+
+/** A column of charts; one whose kind did not change is given new data instead of being made anew. */
+export class Board {
+  private shown: Plot[] = [];
+
+  constructor(private readonly root: HTMLElement) {
+    new ResizeObserver(() => this.shown.forEach((plot) => plot.measured())).observe(root);
+  }
+
+  show(charts: Chart[]): void {
+    const same = charts.length === this.shown.length && charts.every((chart, i) => this.shown[i]?.takes(chart));
+    if (same) {
+      charts.forEach((chart, i) => this.shown[i]?.update(chart));
+      return;
+    }
+    this.shown.forEach((plot) => plot.end());
+    this.root.replaceChildren();
+    this.shown = charts.map((chart) => new Plot(this.root, chart));
+  }
+
+  recolour(): void {
+    const charts = this.shown.map((plot) => plot.chart);
+    this.shown.forEach((plot) => plot.end());
+    this.root.replaceChildren();
+    this.shown = charts.map((chart) => new Plot(this.root, chart));
+  }
+}
+
+class Plot {
+  private readonly figure: HTMLElement;
+  private readonly frame: HTMLElement;
+  private readonly caption: HTMLElement;
+  private readonly plot: uPlot;
+  private readonly forget: () => void;
+  private width = 0;
+
+  constructor(root: HTMLElement, public chart: Chart) {
+    this.frame = el('div', {'class': 'plot', 'tabindex': '0', 'role': 'img'});
+    this.caption = el('figcaption');
+    this.figure = el('figure', {'id': `chart-${chart.id}`, 'class': 'chart'}, this.caption, this.frame);
+    root.append(this.figure);
+    this.width = this.frame.clientWidth;
+    this.plot = new uPlot(this.options(), this.data(), this.frame);
+    this.describe();
+    this.forget = listen(chart.link, (index) => this.follow(index));
+    this.frame.addEventListener('keydown', (event) => this.walk(event));
+  }
+
+  takes(chart: Chart): boolean {
+    return chart.id === this.chart.id && chart.link === this.chart.link
+      && chart.series.map((s) => s.name + s.tone).join() === this.chart.series.map((s) => s.name + s.tone).join();
+  }
+
+  update(chart: Chart): void {
+    this.chart = chart;
+    this.fit();
+    this.plot.setData(this.data());
+    this.describe();
+  }
+
+  /** The width is read when it changes and not with each answer: reading it lays the whole page out. */
+  measured(): void {
+    this.width = this.frame.clientWidth;
+    this.fit();
+  }
+
+  private fit(): void {
+    const size = this.size();
+    if (size.width !== this.plot.width || size.height !== this.plot.height) this.plot.setSize(size);
+  }
+
+  end(): void {
+    this.forget();
+    this.plot.destroy();
+    this.figure.remove();
+  }
+
+  private data(): uPlot.AlignedData {
+    return [this.chart.x.values, ...this.chart.series.map((s) => s.values)] as uPlot.AlignedData;
+  }
+
+  private size(): {width: number; height: number} {
+    const width = Math.max(240, this.width);
+    if (!this.chart.wrap) return {width, height: this.chart.height ?? 190};
+    const [low, high] = extent(this.chart);
+    const scale = (width - left - right) / span(this.chart);
+    return {width, height: Math.round(Math.min(420, Math.max(90, (high - low) * scale)) + 34)};
+  }
+
+  private describe(): void {
+    const {chart} = this;
+    this.frame.dataset['points'] = String(chart.x.values.length);
+    this.frame.setAttribute('aria-label', `${chart.title}: ${chart.series.map((s) => s.name).join(', ')} over ${chart.x.name}; ${chart.x.values.length} points. Left and right move the cursor.`);
+    const keys = chart.series.map((s) => {
+      const line = el('i', {'class': s.dash ? 'dashed' : ''});
+      line.style.borderColor = colour(s.tone);
+      return el('span', {'class': 'key'}, line, s.name);
+    });
+    const others = [...new Map([...(chart.bands ?? []), ...(chart.marks ?? [])].map((b) => [b.text, b.tone])).entries()].map(([text, tone]) => {
+      const patch = el('i', {'class': 'patch'});
+      patch.style.background = colour(tone);
+      return el('span', {'class': 'key'}, patch, text);
+    });
+    this.caption.replaceChildren(el('b', {}, chart.title, el('small', {}, ` over ${chart.x.name}`)), el('span', {'class': 'keys'}, ...keys, ...others));
+  }
+
+  private options(): uPlot.Options {
+    const {chart} = this;
+    const axis = {stroke: () => colour('ink-soft'), grid: {stroke: () => colour('grid'), width: 1}, ticks: {show: false},
+      font: '11px Inter, system-ui, sans-serif'};
+    const numbers = (_: uPlot, values: number[]) => values.map(short4);
+    return {
+      ...this.size(),
+      padding: [8, right, 0, 0],
+      legend: {show: false},
+      cursor: {y: false, drag: {x: false, y: false}, points: {size: 7}},
+      scales: {
+        x: {time: false, range: () => this.across()},
+        y: {range: (_, low, high) => this.room(low, high)},
+      },
+      axes: [{...axis, size: 26, gap: 3, values: (u, v) => numbers(u, v).map((t, i) => i === v.length - 1 ? `${t} ${chart.x.unit}` : t)},
+        {...axis, size: left, gap: 4, values: (u, v) => numbers(u, v).map((t, i) => i === v.length - 1 ? `${t} ${chart.unit}` : t)}],
+      series: [{}, ...chart.series.map((s) => ({
+        stroke: () => colour(s.tone), width: s.width ?? 1.5, points: {show: s.dots ?? false, size: 4}, ...(s.dash ? {dash: s.dash} : {}),
+      }))],
+      hooks: {
+        drawClear: [(u) => this.under(u)],
+        draw: [(u) => this.over(u)],
+        setCursor: [(u) => {
+          if (u.cursor.left !== undefined && u.cursor.left >= 0 && u.cursor.idx !== null && u.cursor.idx !== undefined) point(this.chart.link, u.cursor.idx);
+          else if (u.cursor.left !== undefined && u.cursor.left < 0) point(this.chart.link, null);
+        }],
+      },
+    };
+  }
+
+  private across(): [number, number] {
+    const values = this.chart.x.values;
+    const first = values[0] ?? 0;
+    const end = first + span(this.chart);
+    return end > first ? [first, end] : [first - 1, first + 1];
+  }
+
+  private room(low: number, high: number): [number, number] {
+    if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [-1, 1];
+    if (this.chart.wrap) {
+      const [from] = extent(this.chart);
+      const scale = span(this.chart) / Math.max(1, this.size().width - left - right);
+      return [from, from + (this.size().height - 34) * scale];
+    }
+    if (this.chart.zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
+    const space = Math.max((high - low) * 0.08, Math.abs(high) * 1e-6, 1e-9);
+    return [low - space * (this.chart.partners ? 1.8 : 1), high + space];
+  }
+
+  private under(u: uPlot): void {
+    const {ctx, bbox} = u;
+    ctx.save();
+    if (this.chart.wrap) this.wrapped(u);
+    for (const band of this.chart.bands ?? []) {
+      const from = u.valToPos(band.from, 'x', true), to = u.valToPos(band.to, 'x', true);
+      ctx.globalAlpha = 0.2;
+      ctx.fillStyle = colour(band.tone);
+      ctx.fillRect(from, bbox.top, Math.max(to - from, 1), bbox.height);
+    }
+    ctx.restore();
+  }
+
+  /** The kept side, and below the cut what each partner takes away. */
+  private wrapped(u: uPlot): void {
+    const {ctx, bbox} = u;
+    const z = this.chart.series[0]?.values as number[];
+    const x = this.chart.x.values.map((value) => u.valToPos(value, 'x', true));
+    const y = z.map((value) => u.valToPos(value, 'y', true));
+    const end = bbox.left + bbox.width;
+    const bottom = bbox.top + bbox.height;
+    x.push(end);
+    y.push(y[0] as number);
+    const area = (from: number, to: number, edge: number, fill: string, alpha: number) => {
+      ctx.beginPath();
+      ctx.moveTo(x[from] as number, edge);
+      for (let i = from; i <= to; ++i) ctx.lineTo(x[i] as number, y[i] as number);
+      ctx.lineTo(x[to] as number, edge);
+      ctx.globalAlpha = alpha;
+      ctx.fillStyle = fill;
+      ctx.fill();
+    };
+    area(0, x.length - 1, bbox.top, colour('steel'), 0.28);
+    for (const [from, to, partner] of runs(this.chart.partners ?? [])) {
+      area(from, Math.min(to + 1, x.length - 1), bottom, partnerColour(partner), 0.3);
+    }
+    ctx.globalAlpha = 1;
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'alphabetic';
+    ctx.strokeStyle = colour('ink-soft');
+    ctx.fillStyle = colour('ink-soft');
+    ctx.font = `${11 * devicePixelRatio}px Inter, system-ui, sans-serif`;
+    ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
+    for (const line of this.chart.wrap?.lines ?? []) {
+      const at = u.valToPos(line.x, 'x', true);
+      ctx.beginPath();
+      ctx.moveTo(at, bbox.top);
+      ctx.lineTo(at, bottom);
+      ctx.stroke();
+      ctx.fillText(line.text, at + 4 * devicePixelRatio, bbox.top + 12 * devicePixelRatio);
+    }
+    ctx.setLineDash([]);
+  }
+
+  private over(u: uPlot): void {
+    const {ctx, bbox} = u;
+    const scale = devicePixelRatio;
+    ctx.save();
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'alphabetic';
+    for (const mark of this.chart.marks ?? []) {
+      const at = u.valToPos(mark.x, 'x', true);
+      ctx.strokeStyle = ctx.fillStyle = colour(mark.tone);
+      if (mark.y === undefined) {
+        ctx.setLineDash([2 * scale, 4 * scale]);
+        ctx.lineWidth = scale;
+        ctx.beginPath();
+        ctx.moveTo(at, bbox.top);
+        ctx.lineTo(at, bbox.top + bbox.height);
+        ctx.stroke();
+      } else {
+        ctx.beginPath();
+        ctx.arc(at, u.valToPos(mark.y, 'y', true), 3.5 * scale, 0, 2 * Math.PI);
+        ctx.fill();
+      }
+    }
+    ctx.setLineDash([6 * scale, 4 * scale]);
+    ctx.font = `${11 * scale}px Inter, system-ui, sans-serif`;
+    for (const limit of this.chart.limits ?? []) {
+      const y = u.valToPos(limit.y, 'y', true);
+      if (y < bbox.top || y > bbox.top + bbox.height) continue;
+      ctx.strokeStyle = ctx.fillStyle = colour('bad');
+      ctx.lineWidth = scale;
+      ctx.beginPath();
+      ctx.moveTo(bbox.left, y);
+      ctx.lineTo(bbox.left + bbox.width, y);
+      ctx.stroke();
+      ctx.fillText(limit.text, bbox.left + 4 * scale, y + (y - bbox.top < 16 * scale ? 12 : -4) * scale);
+    }
+    ctx.setLineDash([]);
+    if (this.chart.partners && !this.chart.wrap) this.ribbon(u);
+    ctx.restore();
+  }
+
+  private ribbon(u: uPlot): void {
+    const {ctx, bbox} = u;
+    const height = ribbon * devicePixelRatio;
+    const x = [...this.chart.x.values.map((value) => u.valToPos(value, 'x', true)), bbox.left + bbox.width];
+    for (const [from, to, partner] of runs(this.chart.partners ?? [])) {
+      ctx.fillStyle = partnerColour(partner);
+      const start = x[from] as number;
+      ctx.fillRect(start, bbox.top + bbox.height - height, (x[Math.min(to + 1, x.length - 1)] as number) - start, height);
+    }
+  }
+
+  private follow(index: number | null): void {
+    const value = index === null ? undefined : this.chart.x.values[index];
+    this.plot.setCursor(value === undefined ? {left: -10, top: -10} : {left: this.plot.valToPos(value, 'x'), top: 4});
+  }
+
+  private walk(event: KeyboardEvent): void {
+    const count = this.chart.x.values.length;
+    const now = pointed(this.chart.link);
+    const by = event.shiftKey ? 10 : 1;
+    if (event.key === 'ArrowRight') point(this.chart.link, now === null ? 0 : Math.min(count - 1, now + by));
+    else if (event.key === 'ArrowLeft') point(this.chart.link, now === null ? count - 1 : Math.max(0, now - by));
+    else if (event.key === 'Escape') point(this.chart.link, null);
+    else return;
+    event.preventDefault();
+  }
+}
+
+function extent(chart: Chart): [number, number] {
+  const all = chart.series.flatMap((s) => s.values).filter((v): v is number => v !== null);
+  const low = all.reduce((a, b) => Math.min(a, b), Infinity), high = all.reduce((a, b) => Math.max(a, b), -Infinity);
+  const space = Math.max((high - low) * 0.15, 0.02 * span(chart));
+  return [low - space, high + space];
+}
+
+function span(chart: Chart): number {
+  const {values} = chart.x;
+  const last = chart.wrap?.lines.length ? Math.max(...chart.wrap.lines.map((line) => line.x)) : values[values.length - 1] ?? 1;
+  return Math.max(last, values[values.length - 1] ?? 0) - (values[0] ?? 0);
+}
+
+/** Stretches of one partner: first and last point, partner. */
+function runs(partners: number[]): [number, number, number][] {
+  const out: [number, number, number][] = [];
+  partners.forEach((partner, index) => {
+    const run = out[out.length - 1];
+    if (run && run[2] === partner) run[1] = index;
+    else out.push([index, index, partner]);
+  });
+  return out;
+}

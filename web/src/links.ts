@@ -1,0 +1,22 @@
+/** The one cursor of each group of views: an index into their common points, or nothing. */
+type Listener = (index: number | null) => void;
+const groups = new Map<string, Set<Listener>>();
+const last = new Map<string, number | null>();
+let quiet = false;
+
+export function listen(link: string, listener: Listener): () => void {
+  const group = groups.get(link) ?? new Set();
+  groups.set(link, group.add(listener));
+  return () => group.delete(listener);
+}
+
+/** Views move their own cursor while told; what they say meanwhile is an echo. */
+export function point(link: string, index: number | null): void {
+  if (quiet || last.get(link) === index) return;
+  last.set(link, index);
+  quiet = true;
+  groups.get(link)?.forEach((listener) => listener(index));
+  quiet = false;
+}
+
+export const pointed = (link: string) => last.get(link) ?? null;

@@ -1,0 +1,95 @@
+import type {Json} from './json';
+
+/** What there is to see of an answer, as data: the pictures of one endpoint are a function from request and answer to this. */
+export interface Picture {
+  solid?: Solid;
+  charts: Chart[];
+  figures: Figure[];
+  tables?: Table[];
+  /** What the cursor reads at a point, for the strip under the solid. */
+  readout?: (index: number) => [string, string][];
+  /** There is a before and an after to switch between. */
+  beforeAfter?: boolean;
+}
+
+export interface Figure {name: string; value: string; unit?: string}
+export interface Table {title: string; head: string[]; rows: string[][]; id?: string}
+
+export interface Series {
+  name: string;
+  values: (number | null)[];
+  tone: string;  // a colour of the style sheet
+  dash?: number[];
+  width?: number;
+  dots?: boolean;
+}
+export interface Band {from: number; to: number; tone: string; text: string}
+export interface Mark {x: number; y?: number; tone: string; text: string}
+
+/** Charts of one `link` share their points: the cursor is an index into them. */
+export interface Chart {
+  id: string;
+  title: string;
+  link: string;
+  x: {name: string; unit: string; values: number[]};
+  unit: string;
+  series: Series[];
+  height?: number;
+  bands?: Band[];
+  marks?: Mark[];
+  limits?: {y: number; text: string}[];
+  /** Partner index per point: the strip under the curve. */
+  partners?: number[];
+  partnerNames?: string[];
+  /** Millimetre for millimetre, kept side filled: the wrap. */
+  wrap?: {lines: {x: number; text: string}[]};
+  zero?: boolean;  // the axis shows zero
+}
+
+export type Vector = [number, number, number];
+export interface Frame {origin: Vector; x: Vector; y: Vector; z: Vector}
+
+/** One cut end, in its own frame: z along the axis into the kept member, phi from x towards y. Degrees, mm. */
+export interface CutTube {
+  frame?: Frame;
+  outer: number;  // radii
+  inner: number;
+  phi: number[];
+  zInner: number[];
+  zOuter: number[];
+  before?: {zInner: number[]; zOuter: number[]; b: number[]};
+  b?: number[];
+  far: number;
+  marks: {phi: number; z: number; radius: number}[];
+  tone: number | 'target';
+}
+export interface HoledTube {
+  outer: number;
+  inner: number;
+  from: number;
+  to: number;
+  holes: {outer: {phi: number[]; z: number[]}; inner: {phi: number[]; z: number[]}; b: number[]}[];
+}
+export type Partner =
+  | {kind: 'tube'; point: Vector; direction: Vector; radius: number; half: number; tone: number}
+  | {kind: 'cone'; point: Vector; direction: Vector; radius: number; slope: number; half: number; tone: number}
+  | {kind: 'box'; point: Vector; direction: Vector; up: Vector; width: number; height: number; corner: number; half: number; tone: number}
+  | {kind: 'elbow'; point: Vector; direction: Vector; inwards: Vector; radius: number; bend: number; angle: number; half: number; tone: number}
+  | {kind: 'plane'; point: Vector; normal: Vector; half: number; tone: number};
+export interface Ribbon {a: Vector[]; b: Vector[]; tone: string}
+export interface Solid {
+  link: string;
+  tubes: CutTube[];
+  holed?: HoledTube[];
+  partners: Partner[];
+  ribbons?: Ribbon[];
+  lines?: {points: Vector[]; tone: string}[];
+  /** Seen from here unless turned: the direction to the eye, and what is up. */
+  eye?: Vector;
+  up?: Vector;
+  centre: Vector;
+  size: number;
+}
+
+/** Columns of the answer as numbers. */
+export const column = (value: Json | undefined): number[] => (Array.isArray(value) ? value as number[] : []);

@@ -1,0 +1,78 @@
+import {isRow, type Json, type Row} from '../json';
+import type {CutTube, Frame, Partner, Vector} from '../picture';
+
+export const radians = Math.PI / 180;
+export const vector = (value: Json | undefined): Vector =>
+  (Array.isArray(value) && value.length === 3 ? value.map(Number) : [0, 0, 1]) as Vector;
+export const add = (a: Vector, b: Vector, s = 1): Vector => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+export const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const unitVector = (a: Vector): Vector => {
+  const length = Math.hypot(...a) || 1;
+  return [a[0] / length, a[1] / length, a[2] / length];
+};
+
+export type Sizes = Map<string, {outer: number; wall: number}>;
+
+/** Outer diameter and wall, also of a tube given by the name of its size. */
+export function tube(given: Json | undefined, sizes: Sizes): {outer: number; wall: number} {
+  const row = isRow(given) ? given : {};
+  const named = typeof row['size'] === 'string' ? sizes.get(row['size']) : undefined;
+  return {outer: Number(row['outer_diameter_mm'] ?? named?.outer ?? 50), wall: Number(row['wall_mm'] ?? named?.wall ?? 3)};
+}
+
+/** The axis line of a tube given by angles: docs/theory/intersections-and-bevels.md, section 1. */
+export function axisByAngles(row: Row): {point: Vector; direction: Vector} {
+  const a = Number(row['inclination_deg'] ?? 90) * radians, b = Number(row['clocking_deg'] ?? 0) * radians;
+  const s = Number(row['offset_mm'] ?? 0), h = Number(row['height_mm'] ?? 0);
+  return {
+    point: [-s * Math.cos(b), -s * Math.sin(b), h],
+    direction: [Math.sin(a) * Math.sin(b), -Math.sin(a) * Math.cos(b), Math.cos(a)],
+  };
+}
+
+/** What a cutter looks like, drawn as long as `half` either way of the point nearest to `near`. */
+export function partner(row: Row, tone: number, near: Vector, reach: number, sizes: Sizes): Partner {
+  if (row['kind'] === 'plane') return {kind: 'plane', point: nearestOnPlane(row, near), normal: unitVector(vector(row['normal'])), half: reach * 0.7, tone};
+  const given = isRow(row['axis']) ? {point: vector(row['axis']['point_mm']), direction: unitVector(vector(row['axis']['direction']))} : axisByAngles(row);
+  const {outer} = tube(row, sizes);
+  const half = reach * 0.7 + outer * 0.35;
+  if (row['kind'] === 'elbow') {
+    return {kind: 'elbow', ...given, inwards: vector(row['inwards']), radius: outer / 2, bend: Number(row['bend_radius_mm']), angle: Number(row['bend_deg']) * radians, half: reach * 0.5, tone};
+  }
+  const along = dot(add(near, given.point, -1), given.direction);
+  const point = add(given.point, given.direction, along);
+  if (row['kind'] === 'cone') {
+    const slope = Math.tan(Number(row['half_angle_deg']) * radians);
+    return {kind: 'cone', point, direction: given.direction, radius: outer / 2 + slope * along, slope, half, tone};
+  }
+  if (row['kind'] === 'rectangular_tube') {
+    return {kind: 'box', point, direction: given.direction, up: vector(row['up']), width: Number(row['width_mm']), height: Number(row['height_mm']), corner: Number(row['corner_radius_mm']), half, tone};
+  }
+  return {kind: 'tube', point, direction: given.direction, radius: outer / 2, half, tone};
+}
+
+function nearestOnPlane(row: Row, near: Vector): Vector {
+  const normal = unitVector(vector(row['normal']));
+  return add(near, normal, -dot(add(near, vector(row['point_mm']), -1), normal));
+}
+
+export function frame(value: Json | undefined): Frame | undefined {
+  return isRow(value) ? {origin: vector(value['origin_mm']), x: vector(value['x']), y: vector(value['y']), z: vector(value['z'])} : undefined;
+}
+
+export const placed = (to: Frame | undefined, p: Vector): Vector =>
+  to ? add(add(add(to.origin, to.x, p[0]), to.y, p[1]), to.z, p[2]) : p;
+
+export const onTube = (radius: number, phi: number, z: number): Vector =>
+  [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
+
+export function bounds(values: number[]): [number, number] {
+  return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
+}
+
+/** A tube cut square at the origin of its frame. */
+export function plainTube(outer: number, wall: number, far: number, tone: CutTube['tone'], to?: Frame): CutTube {
+  const phi = Array.from({length: 72}, (_, i) => 5 * i);
+  const zero = phi.map(() => 0);
+  return {...(to ? {frame: to} : {}), outer: outer / 2, inner: outer / 2 - wall, phi, zInner: zero, zOuter: zero, far, marks: [], tone};
+}

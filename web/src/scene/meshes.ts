@@ -1,0 +1,291 @@
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, CylinderGeometry, DoubleSide, ExtrudeGeometry, Float32BufferAttribute,
+  Group, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Quaternion,
+  ShaderMaterial, Shape, SphereGeometry, TubeGeometry, Vector3, type Material,
+} from 'three';
+import {colour, partnerColour} from '../dom';
+import type {CutTube, Frame, HoledTube, Partner, Ribbon, Vector} from '../picture';
+
+const radians = Math.PI / 180;
+const toVector = (v: Vector) => new Vector3(...v);
+
+let stops: Color[] = [];
+let rampOf: string | null = null;
+
+/** Colour of a bevel of so many degrees: flat cuts cool, steep ones warm. */
+export function ramp(degrees: number, into: Color): Color {
+  const t = Math.min(1, Math.max(0, (degrees + 30) / 90));
+  const theme = document.documentElement.dataset['theme'] ?? '';
+  if (theme !== rampOf) {
+    stops = ['bevel-low', 'bevel-mid', 'bevel-high'].map((name) => new Color(colour(name)));
+    rampOf = theme;
+  }
+  return t < 0.5 ? into.lerpColors(stops[0] as Color, stops[1] as Color, 2 * t) : into.lerpColors(stops[1] as Color, stops[2] as Color, 2 * t - 1);
+}
+
+export function matrix(frame: Frame | undefined): Matrix4 {
+  const m = new Matrix4();
+  if (!frame) return m;
+  return m.makeBasis(toVector(frame.x), toVector(frame.y), toVector(frame.z)).setPosition(...frame.origin);
+}
+
+const around = (radius: number, phi: number, z: number): Vector => [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
+
+/** Quads between two rows of points, closed round; normals as given or from the faces. */
+function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], Vector[]], tint?: (i: number) => Color): BufferGeometry {
+  const positions: number[] = [], directions: number[] = [], colours: number[] = [], index: number[] = [];
+  a.forEach((p, i) => {
+    positions.push(...p, ...(b[i] as Vector));
+    if (normals) directions.push(...(normals[0][i] as Vector), ...(normals[1][i] as Vector));
+    if (tint) {
+      const c = tint(i);
+      colours.push(c.r, c.g, c.b, c.r, c.g, c.b);
+    }
+  });
+  const count = closed ? a.length : a.length - 1;
+  for (let i = 0; i < count; ++i) {
+    const j = (i + 1) % a.length;
+    index.push(2 * i, 2 * j, 2 * i + 1, 2 * j, 2 * j + 1, 2 * i + 1);
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
+  if (tint) geometry.setAttribute('color', new Float32BufferAttribute(colours, 3));
+  geometry.setIndex(index);
+  if (normals) geometry.setAttribute('normal', new Float32BufferAttribute(directions, 3));
+  else geometry.computeVertexNormals();
+  return geometry;
+}
+
+// Materials are kept: a shader that is let go with the last material using it is compiled anew for the next picture.
+const materials = new Map<string, Material>();
+function kept<M extends Material>(name: string, make: () => M): M {
+  const key = `${name} ${document.documentElement.dataset['theme']}`;
+  const found = materials.get(key) ?? make();
+  materials.set(key, found);
+  return found as M;
+}
+
+const metal = (name: string, hue: string) =>
+  kept(name, () => new MeshStandardMaterial({color: hue, roughness: 0.62, metalness: 0.15, side: DoubleSide}));
+const steel = (tone: string) => metal(tone, colour(tone));
+const face = (tinted: boolean) => kept(`face ${tinted}`, () => new MeshStandardMaterial(
+  {color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, roughness: 0.5, metalness: 0.1, side: DoubleSide, flatShading: true}));
+const ink = (tone: string) => kept(`line ${tone}`, () => new LineBasicMaterial({color: colour(tone)}));
+/** Seen through everything: the cursor. */
+const signal = () => kept('signal', () => new MeshBasicMaterial({color: colour('mark'), depthTest: false, transparent: true}));
+
+function outline(points: Vector[], tone: string, closed = true): Line {
+  const all = closed ? [...points, points[0] as Vector] : points;
+  return new Line(new BufferGeometry().setFromPoints(all.map(toVector)), ink(tone));
+}
+
+/** Walls, bevel surface, far end, edges and junctions of one cut end. */
+export function cutTube(tube: CutTube, before: boolean): Group {
+  const group = new Group();
+  const {phi} = tube;
+  const chosen = before && tube.before ? tube.before : tube;
+  const innerEdge = phi.map((p, i) => around(tube.inner, p, chosen.zInner[i] as number));
+  const outerEdge = phi.map((p, i) => around(tube.outer, p, chosen.zOuter[i] as number));
+  const innerFar = phi.map((p) => around(tube.inner, p, tube.far)), outerFar = phi.map((p) => around(tube.outer, p, tube.far));
+  const out = phi.map((p) => around(1, p, 0)), into = phi.map((p) => around(-1, p, 0));
+  const wall = tube.tone === 'target' ? steel('steel') : metal(`member ${tube.tone}`, partnerColour(tube.tone));
+  const outside = new Mesh(strip(outerEdge, outerFar, true, [out, out]), wall);
+  outside.name = 'wall';
+  group.add(outside, new Mesh(strip(innerFar, innerEdge, true, [into, into]), steel('bore')));
+  const b = before && tube.before ? tube.before.b : tube.b;
+  const tint = b ? (i: number) => ramp(b[i] as number, new Color()) : undefined;
+  const bevel = new Mesh(strip(innerEdge, outerEdge, true, undefined, tint), face(Boolean(tint)));
+  bevel.name = 'wall';
+  group.add(bevel, new Mesh(strip(innerFar, outerFar, true), steel('bore')));
+  group.add(outline(innerEdge, 'edge'), outline(outerEdge, 'edge'));
+  if (tube.tone === 'target') group.add(outline(outerFar, 'edge'));
+  const ball = new SphereGeometry(tube.outer * 0.035, 16, 12);
+  for (const mark of tube.marks) {
+    const dot = new Mesh(ball, kept('mark', () => new MeshBasicMaterial({color: colour('mark')})));
+    dot.position.set(...around(mark.radius, mark.phi, mark.z));
+    group.add(dot);
+  }
+  group.applyMatrix4(matrix(tube.frame));
+  return group;
+}
+
+/** A chord with its holes: each wall in columns of constant phi, each column open where a hole is. */
+export function holedTube(tube: HoledTube): Group {
+  const group = new Group();
+  for (const [side, radius, tone] of [['outer', tube.outer, 'steel'], ['inner', tube.inner, 'bore']] as const) {
+    group.add(new Mesh(openWall(radius, tube.from, tube.to, tube.holes.map((hole) => hole[side])), steel(tone)));
+  }
+  for (const hole of tube.holes) {
+    const inside = hole.inner.phi.map((p, i) => around(tube.inner, p, hole.inner.z[i] as number));
+    const outside = hole.outer.phi.map((p, i) => around(tube.outer, p, hole.outer.z[i] as number));
+    const bevel = new Mesh(strip(inside, outside, true, undefined, (i) => ramp(hole.b[i] as number, new Color())), face(true));
+    group.add(bevel, outline(inside, 'edge'), outline(outside, 'edge'));
+  }
+  for (const z of [tube.from, tube.to]) {
+    const ring = Array.from({length: 96}, (_, i) => i * 3.75);
+    group.add(new Mesh(strip(ring.map((p) => around(tube.inner, p, z)), ring.map((p) => around(tube.outer, p, z)), true), steel('bore')));
+    group.add(outline(ring.map((p) => around(tube.outer, p, z)), 'edge'));
+  }
+  return group;
+}
+
+function openWall(radius: number, from: number, to: number, holes: {phi: number[]; z: number[]}[]): BufferGeometry {
+  const turn = (p: number) => ((p % 360) + 360) % 360;
+  const stops = new Set(Array.from({length: 181}, (_, i) => 2 * i));
+  for (const hole of holes) for (const p of hole.phi) stops.add(turn(p));
+  const columns = [...stops].sort((a, b) => a - b);
+  const positions: number[] = [], normals: number[] = [];
+  const quad = (p: number, q: number, low: [number, number], high: [number, number]) => {
+    const corners = [around(radius, p, low[0]), around(radius, q, low[1]), around(radius, q, high[1]), around(radius, p, low[0]), around(radius, q, high[1]), around(radius, p, high[0])];
+    for (const corner of corners) positions.push(...corner);
+    for (const angle of [p, q, q, p, q, p]) normals.push(...around(1, angle, 0));
+  };
+  for (let i = 0; i + 1 < columns.length; ++i) {
+    const p = columns[i] as number, q = columns[i + 1] as number;
+    let low: [number, number] = [from, from];
+    const gaps = holes.map((hole) => openings(hole, (p + q) / 2)).filter((gap): gap is [number, number] => gap !== null).sort((a, b) => a[0] - b[0]);
+    for (const gap of gaps) {
+      quad(p, q, low, [gap[0], gap[0]]);
+      low = [gap[1], gap[1]];
+    }
+    quad(p, q, low, [to, to]);
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
+  geometry.setAttribute('normal', new Float32BufferAttribute(normals, 3));
+  return geometry;
+}
+
+/** From where to where a hole is open along the generator at phi. */
+function openings(hole: {phi: number[]; z: number[]}, phi: number): [number, number] | null {
+  const hits: number[] = [];
+  hole.phi.forEach((a, i) => {
+    const j = (i + 1) % hole.phi.length;
+    for (const turn of [-360, 0, 360]) {
+      const p = phi + turn, b = hole.phi[j] as number;
+      if ((a <= p) === (b <= p)) continue;
+      const t = (p - a) / (b - a);
+      hits.push((hole.z[i] as number) * (1 - t) + (hole.z[j] as number) * t);
+    }
+  });
+  return hits.length < 2 ? null : [Math.min(...hits), Math.max(...hits)];
+}
+
+/** Seen through where one looks straight at it, solid where it turns away: a partner that hides nothing. */
+function glass(tone: number): ShaderMaterial {
+  return new ShaderMaterial({
+    transparent: true, depthWrite: false, side: DoubleSide,
+    uniforms: {tint: {value: new Color(partnerColour(tone))}},
+    vertexShader: `varying vec3 n; varying vec3 eye;
+      void main() { vec4 p = modelViewMatrix * vec4(position, 1.0); n = normalMatrix * normal; eye = -p.xyz; gl_Position = projectionMatrix * p; }`,
+    fragmentShader: `uniform vec3 tint; varying vec3 n; varying vec3 eye;
+      void main() { float rim = 1.0 - abs(dot(normalize(n), normalize(eye))); gl_FragColor = vec4(tint, 0.05 + 0.42 * rim * rim * rim);
+      #include <colorspace_fragment>
+      }`,
+  });
+}
+
+const turned = (direction: Vector) => new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), toVector(direction).normalize());
+
+export function partnerMesh(partner: Partner): Group {
+  const group = new Group();
+  const material = kept(`glass ${partner.tone}`, () => glass(partner.tone));
+  const line = kept(`partner line ${partner.tone}`, () => new LineBasicMaterial({color: partnerColour(partner.tone)}));
+  const mesh = shapeOf(partner, material, line);
+  group.add(...mesh);
+  if (partner.kind !== 'elbow') group.position.set(...partner.point);
+  return group;
+}
+
+function shapeOf(partner: Partner, material: ShaderMaterial, line: LineBasicMaterial): (Mesh | Line | LineSegments)[] {
+  if (partner.kind === 'plane') {
+    const plane = new Mesh(new PlaneGeometry(2 * partner.half, 2 * partner.half), kept(`plane ${partner.tone}`, () => new MeshBasicMaterial({color: partnerColour(partner.tone), transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false})));
+    const edge = outlineOf([[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [Number(x) * partner.half, Number(y) * partner.half, 0]), line);
+    const q = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), toVector(partner.normal).normalize());
+    for (const each of [plane, edge]) each.quaternion.copy(q);
+    return [plane, edge];
+  }
+  if (partner.kind === 'box') return box(partner, material, line);
+  if (partner.kind === 'elbow') return elbow(partner, material);
+  const slope = partner.kind === 'cone' ? partner.slope : 0;
+  const top = Math.max(0, partner.radius + slope * partner.half), bottom = Math.max(0, partner.radius - slope * partner.half);
+  const body = new Mesh(new CylinderGeometry(top, bottom, 2 * partner.half, 96, 1, true), material);
+  const rings = [[top, partner.half], [bottom, -partner.half]].map(([r, y]) =>
+    outlineOf(Array.from({length: 96}, (_, i) => [Number(r) * Math.cos(i * Math.PI / 48), Number(y), Number(r) * Math.sin(i * Math.PI / 48)]), line));
+  const all = [body, ...rings];
+  for (const each of all) each.quaternion.copy(turned(partner.direction));
+  return all;
+}
+
+function box(partner: Extract<Partner, {kind: 'box'}>, material: ShaderMaterial, line: LineBasicMaterial): (Mesh | Line)[] {
+  const w = partner.width / 2, h = partner.height / 2, r = partner.corner;
+  const section = new Shape().moveTo(-w + r, -h).lineTo(w - r, -h).absarc(w - r, -h + r, r, -Math.PI / 2, 0, false).lineTo(w, h - r)
+    .absarc(w - r, h - r, r, 0, Math.PI / 2, false).lineTo(-w + r, h).absarc(-w + r, h - r, r, Math.PI / 2, Math.PI, false)
+    .lineTo(-w, -h + r).absarc(-w + r, -h + r, r, Math.PI, 1.5 * Math.PI, false);
+  const body = new Mesh(new ExtrudeGeometry(section, {depth: 2 * partner.half, bevelEnabled: false, curveSegments: 8}).translate(0, 0, -partner.half), material);
+  const z = toVector(partner.direction).normalize();
+  const y = toVector(partner.up);
+  y.addScaledVector(z, -y.dot(z)).normalize();
+  const q = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(new Vector3().crossVectors(y, z), y, z));
+  const ends = [-partner.half, partner.half].map((at) => outlineOf(section.getPoints(8).map((p): Vector => [p.x, p.y, at]), line));
+  const all = [body, ...ends];
+  for (const each of all) each.quaternion.copy(q);
+  return all;
+}
+
+function elbow(partner: Extract<Partner, {kind: 'elbow'}>, material: ShaderMaterial): Mesh[] {
+  const along = toVector(partner.direction).normalize(), start = toVector(partner.point);
+  const inwards = toVector(partner.inwards);
+  inwards.addScaledVector(along, -inwards.dot(along)).normalize();
+  const onArc = (t: number) => start.clone().addScaledVector(inwards, partner.bend * (1 - Math.cos(t))).addScaledVector(along, partner.bend * Math.sin(t));
+  const arc = Array.from({length: 49}, (_, i) => onArc(partner.angle * i / 48));
+  const out = along.clone().multiplyScalar(Math.cos(partner.angle)).addScaledVector(inwards, Math.sin(partner.angle));
+  const leg = Array.from({length: 8}, (_, i) => (i + 1) * partner.half / 8);
+  const path = [...leg.map((s) => start.clone().addScaledVector(along, -s)).reverse(), ...arc, ...leg.map((s) => (arc[48] as Vector3).clone().addScaledVector(out, s))];
+  return [new Mesh(new TubeGeometry(new CatmullRomCurve3(path), 160, partner.radius, 64, false), material)];
+}
+
+const outlineOf = (points: number[][], line: LineBasicMaterial) =>
+  new Line(new BufferGeometry().setFromPoints([...points, points[0] as number[]].map((p) => new Vector3(p[0], p[1], p[2]))), line);
+
+export function ribbon(given: Ribbon): Mesh {
+  const tone = given.tone === 'bevel' ? 'bevel-mid' : given.tone;
+  return new Mesh(strip(given.a, given.b, true), steel(tone));
+}
+
+export const drawnLine = (points: Vector[], tone: string) => outline(points, tone);
+
+/** The torch's line at one point: through both edges, and out to where the torch would be. */
+export class Beam extends LineSegments {
+  constructor() {
+    super(new BufferGeometry(), kept('beam', () => new LineBasicMaterial({color: colour('mark'), depthTest: false, transparent: true})));
+    this.renderOrder = 1;
+    this.geometry.setAttribute('position', new BufferAttribute(new Float32Array(6), 3));
+    this.visible = false;
+    this.frustumCulled = false;
+    const head = new Mesh(new BoxGeometry(1, 1, 1), signal());
+    head.renderOrder = 1;
+    this.add(head);
+  }
+
+  put(tube: CutTube, before: boolean, i: number): void {
+    const chosen = before && tube.before ? tube.before : tube;
+    const phi = tube.phi[i] as number;
+    const a = toVector(around(tube.inner, phi, chosen.zInner[i] as number)), b = toVector(around(tube.outer, phi, chosen.zOuter[i] as number));
+    const out = b.clone().sub(a).normalize();
+    const tip = b.clone().addScaledVector(out, tube.outer * 0.75);
+    const back = a.clone().addScaledVector(out, -tube.outer * 0.08);
+    const m = matrix(tube.frame);
+    const p = this.geometry.getAttribute('position') as BufferAttribute;
+    [back, tip].forEach((v, k) => {
+      v.applyMatrix4(m);
+      p.setXYZ(k, v.x, v.y, v.z);
+    });
+    p.needsUpdate = true;
+    const head = this.children[0] as Mesh;
+    head.position.copy(tip);
+    head.scale.set(tube.outer * 0.09, tube.outer * 0.34, tube.outer * 0.09);
+    head.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), tip.clone().sub(back).normalize());
+    this.visible = true;
+  }
+}

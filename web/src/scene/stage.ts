@@ -1,0 +1,187 @@
+import {
+  AmbientLight, DirectionalLight, Group, HemisphereLight, Mesh, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+  type BufferGeometry, type Object3D,
+} from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+import {listen, point, pointed} from '../links';
+import type {Solid} from '../picture';
+import {Beam, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
+
+/** The joint in 3D. Draws only when something changed. */
+export class Stage {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(28, 1, 1, 100000);
+  private controls: OrbitControls;
+  private content = new Group();
+  private partners = new Group();
+  private beam = new Beam();
+  private solid: Solid | null = null;
+  private before = false;
+  private seen = '';
+  private forget: (() => void) | null = null;
+  private waiting = false;
+  private turned = false;  // by hand; until then the view fits the frame
+
+  constructor(private readonly root: HTMLElement) {
+    // Kept, so that the picture can be read back (copied, tested) after it was shown.
+    this.renderer = new WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const {domElement} = this.renderer;
+    domElement.tabIndex = 0;
+    domElement.setAttribute('role', 'img');
+    root.append(domElement);
+    const key = new DirectionalLight(0xffffff, 1.7), fill = new DirectionalLight(0xffffff, 0.55);
+    key.position.set(0.6, 0.9, 1);
+    fill.position.set(-1, -0.3, 0.4);
+    this.camera.add(key, fill);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8899aa, 0.7));
+    this.controls = this.control();
+    domElement.addEventListener('pointermove', (event) => this.hover(event));
+    domElement.addEventListener('pointerleave', () => this.solid && point(this.solid.link, null));
+    domElement.addEventListener('keydown', (event) => this.turn(event));
+    new ResizeObserver(() => this.fit()).observe(root);
+    this.fit();
+  }
+
+  private control(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.renderer.domElement);
+    controls.addEventListener('change', () => this.draw());
+    controls.addEventListener('start', () => { this.turned = true; });
+    return controls;
+  }
+
+  show(solid: Solid, before: boolean, label: string): void {
+    this.solid = solid;
+    this.before = before;
+    this.renderer.domElement.setAttribute('aria-label', `${label}. Arrow keys turn it, plus and minus zoom, Home resets.`);
+    release(this.content);
+    this.scene.remove(this.content);
+    this.content = new Group();
+    this.partners = new Group();
+    this.content.add(...solid.tubes.map((tube) => cutTube(tube, before)), ...(solid.holed ?? []).map(holedTube),
+      ...(solid.ribbons ?? []).map(ribbon), ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)), this.partners);
+    if (solid.partners.length) this.partners.add(...solid.partners.map(partnerMesh));
+    this.beam = new Beam();
+    this.content.add(this.beam);
+    this.scene.add(this.content);
+    const view = JSON.stringify([solid.link, solid.eye, solid.up]);
+    if (view !== this.seen) this.reset();
+    else this.move(new Vector3(...solid.centre));
+    this.seen = view;
+    this.forget?.();
+    this.forget = listen(solid.link, (index) => this.follow(index));
+    this.follow(pointed(solid.link));
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Looks at another point from the same side, as far away. */
+  private move(centre: Vector3): void {
+    this.camera.position.add(centre.clone().sub(this.controls.target));
+    this.controls.target.copy(centre);
+  }
+
+  partnersShown(shown: boolean): void {
+    this.partners.visible = shown;
+    this.draw();
+  }
+
+  reset(): void {
+    if (!this.solid) return;
+    this.turned = false;
+    const {centre, size, eye = [1, -1, 0.7], up = [0, 0, 1]} = this.solid;
+    this.camera.up.set(...up);
+    // The controls take what is up when they are made.
+    this.controls.dispose();
+    this.controls = this.control();
+    this.controls.target.set(...centre);
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = size / Math.tan(this.camera.fov * Math.PI / 360) / narrow * 0.72;
+    this.camera.position.copy(new Vector3(...eye).normalize().multiplyScalar(distance).add(this.controls.target));
+    this.camera.near = distance / 50;
+    this.camera.far = distance * 50;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  /** At the next frame, however often asked. */
+  draw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+
+  private fit(): void {
+    const {clientWidth: width, clientHeight: height} = this.root;
+    if (!width || !height) return;
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (!this.turned) this.reset();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private follow(index: number | null): void {
+    const tube = this.solid?.tubes[0];
+    if (index === null || !tube || this.solid?.tubes.length !== 1 || index >= tube.phi.length) this.beam.visible = false;
+    else this.beam.put(tube, this.before, index);
+    this.draw();
+  }
+
+  private hover(event: PointerEvent): void {
+    const tube = this.solid?.tubes[0];
+    if (!tube || !this.solid || this.solid.tubes.length !== 1 || event.buttons !== 0) return;
+    const box = this.renderer.domElement.getBoundingClientRect();
+    const at = new Vector2(2 * (event.clientX - box.left) / box.width - 1, 1 - 2 * (event.clientY - box.top) / box.height);
+    const ray = new Raycaster();
+    ray.setFromCamera(at, this.camera);
+    const walls: Object3D[] = [];
+    this.content.traverse((node) => node.name === 'wall' && walls.push(node));
+    const hit = ray.intersectObjects(walls)[0];
+    if (!hit) return point(this.solid.link, null);
+    const local = hit.point.applyMatrix4(matrix(tube.frame).invert());
+    point(this.solid.link, nearest(tube.phi, Math.atan2(local.y, local.x) * 180 / Math.PI));
+  }
+
+  private turn(event: KeyboardEvent): void {
+    const step = 0.12;
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    if (event.key === 'ArrowLeft') offset.applyAxisAngle(this.camera.up, -step);
+    else if (event.key === 'ArrowRight') offset.applyAxisAngle(this.camera.up, step);
+    else if (event.key === 'ArrowUp') offset.applyAxisAngle(side, -step);
+    else if (event.key === 'ArrowDown') offset.applyAxisAngle(side, step);
+    else if (event.key === '+' || event.key === '=') offset.multiplyScalar(0.9);
+    else if (event.key === '-') offset.multiplyScalar(1.1);
+    else if (event.key === 'Home') return this.reset();
+    else return;
+    event.preventDefault();
+    this.turned = true;
+    this.camera.position.copy(offset.add(this.controls.target));
+    this.controls.update();
+    this.draw();
+  }
+}
+
+function nearest(phi: number[], angle: number): number {
+  const turn = (a: number) => Math.abs(((a - angle + 180) % 360 + 360) % 360 - 180);
+  let best = 0;
+  phi.forEach((p, i) => {
+    if (turn(p) < turn(phi[best] as number)) best = i;
+  });
+  return best;
+}
+
+/** Frees what the graphics card holds of a group; its materials are kept for the next. */
+function release(group: Group): void {
+  group.traverse((node) => {
+    const {geometry} = node as Mesh as {geometry?: BufferGeometry};
+    geometry?.dispose();
+  });
+}
+

@@ -1,0 +1,153 @@
+import {isRow, type Json, type Row} from './json';
+import {label} from './names';
+
+/** A format of an answer, its drawings (the first is the default) and the query parameters it reads. */
+export interface Format {media: string; views: string[]; options: {name: string; description: string; schema: Schema}[]}
+
+export interface Schema {
+  $ref?: string; type?: string; const?: Json; enum?: Json[]; default?: Json; description?: string; title?: string;
+  minimum?: number; maximum?: number; exclusiveMinimum?: number; exclusiveMaximum?: number;
+  minItems?: number; maxItems?: number; items?: Schema; oneOf?: Schema[]; required?: string[];
+  properties?: Record<string, Schema>; additionalProperties?: boolean | Schema;
+}
+interface Document {
+  info: {version: string};
+  paths: Record<string, {post?: {
+    summary: string; description?: string;
+    requestBody: {content: Record<string, {schema: Schema}>};
+    parameters?: {$ref: string}[];
+    responses: Record<string, {content: Record<string, {'x-views'?: string[]; 'x-options'?: string[]}>}>;
+  }}>;
+  components: {schemas: Record<string, Schema>; parameters: Record<string, {name: string; description?: string; schema: Schema}>};
+}
+
+// What a new field starts with, where the contract leaves it open: a joint that can be computed.
+const beginnings: Record<string, Json> = {
+  outer_diameter_mm: 60, wall_mm: 4, inclination_deg: 60, size: 'CHS 60.3x4', point_mm: [0, 0, 0], direction: [1, 0, 0],
+  normal: [0, 0, 1], up: [0, 1, 0], inwards: [0, 1, 0], width_mm: 80, height_mm: 80, corner_radius_mm: 8, half_angle_deg: 15,
+  bend_radius_mm: 120, bend_deg: 90, start_mm: [0, 0, 0], end_mm: [0, 0, 1000], within_mm: 50, kerf_mm: 1.5, angle_deg: 30,
+  max_slope_deg_per_mm: 5, max_curvature_deg_per_mm2: 1, speed_mm_min: 600, mm_min: 600, machine: 'five_axis_cutter',
+  uniform_points: 360, tolerance_mm: 0.05, min_deg: -80, max_deg: 80, transition_points: 15, gap_mm: 2, bevel_deg: 45, area_mm2: 120,
+  dihedral_deg: [90, 180], groove_deg: [45, 45], degree: 2, period_s: 0.002, id: 'new',
+};
+
+/** The service's own description of itself: forms and downloads are drawn from it, not from a list here. */
+export class Contract {
+  constructor(readonly document: Document) {}
+
+  request(path: string): Schema | undefined {
+    return this.document.paths[path]?.post?.requestBody.content['application/json']?.schema;
+  }
+  summary(path: string): string {
+    return this.document.paths[path]?.post?.summary ?? '';
+  }
+  formats(path: string): Format[] {
+    const post = this.document.paths[path]?.post;
+    return Object.entries(post?.responses['200']?.content ?? {}).map(([media, about]) => ({
+      media, views: about['x-views'] ?? [],
+      options: (about['x-options'] ?? []).flatMap((name) => {
+        const found = this.document.components.parameters[name];
+        return found ? [{name: found.name, description: found.description ?? '', schema: this.resolve(found.schema)}] : [];
+      }),
+    }));
+  }
+
+  resolve(schema: Schema | boolean): Schema {
+    if (typeof schema === 'boolean') return {};  // anything
+    if (!schema.$ref) return schema;
+    const {$ref, ...beside} = schema;
+    return {...this.resolve(this.document.components.schemas[$ref.split('/').pop() as string] ?? {}), ...beside};
+  }
+
+  branches(schema: Schema): Schema[] {
+    return (this.resolve(schema).oneOf ?? []).flatMap((inner) => {
+      const branch = this.resolve(inner);
+      return branch.oneOf ? this.branches(branch) : [branch];
+    });
+  }
+
+  /** The branch that a value is written in, or the first. */
+  branchOf(branches: Schema[], value: Json | undefined): number {
+    const scores = branches.map((branch) => this.score(branch, value));
+    return Math.max(0, scores.indexOf(Math.max(...scores)));
+  }
+
+  private score(branch: Schema, value: Json | undefined): number {
+    if ('const' in branch) return branch.const === value ? 100 : -100;
+    if (branch.enum) return branch.enum.includes(value as Json) ? 100 : -100;
+    if (branch.type === 'array') return Array.isArray(value) ? 50 : -100;
+    if (branch.type === 'null') return value === null ? 50 : -100;
+    if (!branch.properties) {
+      const type = branch.type === 'integer' ? 'number' : branch.type;
+      return typeof value === type ? 50 : -100;
+    }
+    if (!isRow(value)) return -100;
+    let score = 0;
+    for (const [key, inner] of Object.entries(branch.properties)) {
+      const choices = this.resolve(inner);
+      if (!(key in value)) continue;
+      if ('const' in choices) score += choices.const === value[key] ? 20 : -40;
+      else if (choices.enum) score += choices.enum.includes(value[key] as Json) ? 10 : -10;
+      else score += 1;
+    }
+    for (const key of branch.required ?? []) if (key in value) score += 2;
+    for (const key of Object.keys(value)) if (!(key in branch.properties)) score -= 5;
+    return score;
+  }
+
+  /** "tube · outer Ø, axis": what tells a branch from its neighbours. */
+  branchName(branches: Schema[], branch: Schema): string {
+    if (branch.title) return branch.title;
+    if ('const' in branch) return String(branch.const);
+    if (branch.enum) return branch.enum.join(' / ');
+    if (!branch.properties) return branch.type === 'null' ? 'none' : branch.type ?? 'value';
+    const kind = this.kind(branch);
+    const like = branches.filter((other) => other.properties && this.kind(other) === kind);
+    const alike = like.length === branches.length;
+    const own = (branch.required ?? []).filter((key) => !like.every((other) => other.required?.includes(key)));
+    const choice = own.slice(0, 2).map(label).join(', ');
+    if (like.length === 1 && kind) return kind;
+    return [alike ? '' : kind, choice].filter(Boolean).join(' · ') || 'object';
+  }
+
+  kind(branch: Schema): string {
+    for (const [key, inner] of Object.entries(branch.properties ?? {})) {
+      const schema = this.resolve(inner);
+      if (!branch.required?.includes(key) && !['kind', 'method', 'rule'].includes(key)) continue;
+      if ('const' in schema && typeof schema.const === 'string') return schema.const.replace(/_/g, ' ');
+    }
+    for (const [key, inner] of Object.entries(branch.properties ?? {})) {
+      const schema = this.resolve(inner);
+      if (schema.enum && ['rule', 'method', 'kind'].includes(key)) return schema.enum.join(' / ').replace(/_/g, ' ');
+    }
+    return '';
+  }
+
+  /** A value to start with; what `old` has under the same names is kept. */
+  make(given: Schema, old?: Json, name = ''): Json {
+    const schema = this.resolve(given);
+    if ('const' in schema) return schema.const as Json;
+    const branches = this.branches(schema);
+    if (branches.length > 0 && !schema.properties) return this.make(branches[0] as Schema, old, name);
+    if (schema.enum) return (old !== undefined && schema.enum.includes(old) ? old : schema.default ?? schema.enum[0]) as Json;
+    if (schema.properties) return this.makeRow(schema, isRow(old) ? old : {});
+    if (old !== undefined && typeof old === (schema.type === 'integer' ? 'number' : schema.type)) return old;
+    if (name in beginnings) return beginnings[name] as Json;
+    if (schema.type === 'array') {
+      return Array.from({length: schema.minItems ?? 0}, () => this.make(schema.items ?? {}, undefined));
+    }
+    if (schema.default !== undefined) return schema.default;
+    if (schema.type === 'null') return null;
+    if (schema.type === 'boolean') return false;
+    return schema.type === 'string' ? '' : schema.minimum ?? 1;
+  }
+
+  private makeRow(schema: Schema, old: Row): Row {
+    const made: Row = {};
+    for (const [key, inner] of Object.entries(schema.properties ?? {})) {
+      if (schema.required?.includes(key) || 'const' in this.resolve(inner)) made[key] = this.make(inner, old[key], key);
+      else if (key in old) made[key] = old[key] as Json;
+    }
+    return made;
+  }
+}
