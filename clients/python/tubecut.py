@@ -262,7 +262,7 @@ class _Down(Exception):
 @dataclasses.dataclass
 class _Reply:
     status: int
-    headers: Mapping[str, str]
+    headers: http.client.HTTPMessage
     body: bytes
 
 
@@ -530,7 +530,8 @@ class Client:
     def _connect(self, url: str) -> http.client.HTTPConnection:
         parts = urllib.parse.urlsplit(url)
         kind = http.client.HTTPSConnection if parts.scheme == "https" else http.client.HTTPConnection
-        return kind(parts.hostname or "", parts.port, timeout=self._timeout_s)
+        connection: http.client.HTTPConnection = kind(parts.hostname or "", parts.port, timeout=self._timeout_s)
+        return connection
 
     def _exchange(self, url: str, method: str, path: str, body: Optional[bytes], headers: Mapping[str, str]) -> _Reply:
         """One exchange with one replica, over this thread's connection; anew where the kept one was closed meanwhile."""
@@ -637,7 +638,7 @@ def _run_batch(client: Client, path: str) -> int:
     try:
         for one in client.batch(items, progress=bar):
             refused += one.problem is not None
-            body = one.answer.text if one.answer else json.dumps(dataclasses.asdict(one.problem))  # type: ignore[arg-type]
+            body = one.answer.text if one.answer else json.dumps(one.problem and dataclasses.asdict(one.problem))
             print(f'{{"id":{json.dumps(one.id)},"status":{one.status},"body":{body}}}', flush=True)
     finally:
         bar.close()
