@@ -21,7 +21,7 @@ import tubecut  # noqa: E402
 
 COAXIAL_MM = 1e-6
 MARGIN = 0.1  # of the wall: how far the tool stands beyond both walls
-SAMPLING = {"uniform_points": 1440, "tolerance_mm": 0.01}
+SAMPLING = {"uniform_points": 2880, "tolerance_mm": 0.01}
 
 
 class CutError(Exception):

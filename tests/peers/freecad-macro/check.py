@@ -150,7 +150,9 @@ def rays(bevel, points, seed=9):
         face, point = max(hits, key=lambda hit: hit[1].z)
         expected = linear(phi, b, at)
         angles.append(abs(bevel_of(face, point) - expected))
-        heights.append(abs(point.z - linear(phi, z_in, at) - (radius - INNER) * math.tan(math.radians(expected))))
+        run, slope = radius - INNER, math.radians(expected)
+        allowed = SECTION_MM + run * math.radians(ANGLE_DEG) / math.cos(slope) ** 2
+        heights.append(abs(point.z - linear(phi, z_in, at) - run * math.tan(slope)) / allowed)
     return met, angles, heights
 
 
@@ -175,7 +177,7 @@ def bevelled_cut(document, target, partners, client, own):
     met, angles, heights = rays(bevel, points)
     expect(f"rays that meet the bevel: {met}", met == RAYS)
     hold("rays: bevel angle less B", max(angles, default=math.inf), ANGLE_DEG, "deg")
-    hold("rays: height of the bevel", max(heights, default=math.inf), SECTION_MM, "mm")
+    hold("rays: height, of what both limits make there", max(heights, default=math.inf), 1.0, "")
     figures["B of the table"] = f"{min(points['b_deg']):.2f} to {max(points['b_deg']):.2f} deg, {len(points['b_deg'])} nodes"
     return made
 
