@@ -7,11 +7,17 @@ import ts from 'typescript';
 
 export const ROOT = dirname(dirname(fileURLToPath(import.meta.url)));
 const WRONG = join(ROOT, 'test/wrong.ts');
+const README = join(ROOT, 'test/readme.ts');  // in memory: the page's first example
 const DIRECTIVE = /^\s*\/\/ @ts-expect-error (\d+) (.+)$/;
+
+function readmeExample() {
+  const example = /^```ts\n(.*?)^```/ms.exec(readFileSync(join(ROOT, 'README.md'), 'utf8'))[1];
+  return example.replace("'tubecut-client'", "'../src/index.js'");
+}
 
 function settings() {
   const path = join(ROOT, 'tsconfig.json');
-  return ts.parseJsonConfigFileContent(ts.readConfigFile(path, ts.sys.readFile).config, ts.sys, ROOT).options;
+  return ts.parseJsonConfigFileContent(ts.readConfigFile(path, ts.sys.readFile).config, ts.sys, ROOT, {}, path).options;
 }
 
 const message = (found) => ts.flattenDiagnosticMessageText(found.messageText, '\n');
@@ -23,7 +29,7 @@ const parsed = new Map();
 function sharingHost(options, edit = (name, text) => text) {
   const host = ts.createCompilerHost(options);
   host.getSourceFile = (name, version) => {
-    const text = edit(name, ts.sys.readFile(name) ?? '');
+    const text = name === README ? readmeExample() : edit(name, ts.sys.readFile(name) ?? '');
     const key = `${name}\n${name === WRONG ? text : ''}`;
     if (!parsed.has(key)) parsed.set(key, ts.createSourceFile(name, text, version));
     return parsed.get(key);
@@ -37,9 +43,10 @@ const withoutDirectives = (name, text) => name === WRONG ? text.replace(/@ts-exp
 const errorsOf = (program) => ts.getPreEmitDiagnostics(program).filter(({category}) => category === ts.DiagnosticCategory.Error);
 
 function typeFaults(options) {
-  const files = [join(ROOT, 'test/right.ts'), WRONG];
+  const files = [join(ROOT, 'test/right.ts'), README, WRONG];
   const relaxed = {...options, noEmit: true, rootDir: ROOT, declaration: false};
-  const faults = errorsOf(ts.createProgram(files, relaxed, sharingHost(relaxed))).map((found) => `${place(found)} ${message(found)}`);
+  const program = ts.createProgram(files, relaxed, sharingHost(relaxed));
+  const faults = errorsOf(program).map((found) => `${place(found)} ${message(found)}`);
 
   const behind = errorsOf(ts.createProgram(files, relaxed, sharingHost(relaxed, withoutDirectives)));
   const lines = readFileSync(WRONG, 'utf8').split('\n');
@@ -51,7 +58,8 @@ function typeFaults(options) {
     const [, code, words] = directive;
     const here = behind.filter((found) => place(found) === `${WRONG}:${i + 2}`);
     if (here.length === 1 && String(here[0].code) === code && message(here[0]).includes(words)) return;
-    faults.push(`${WRONG}:${i + 2} should be only TS${code} with "${words}", is ${here.map((f) => `TS${f.code} ${message(f)}`).join('; ') || 'accepted'}`);
+    const is = here.map((found) => `TS${found.code} ${message(found)}`).join('; ') || 'accepted';
+    faults.push(`${WRONG}:${i + 2} should be only TS${code} with "${words}", is ${is}`);
   });
   if (expected < 10) faults.push(`only ${expected} wrong calls`);
   if (behind.length !== expected) faults.push(`${behind.length} errors for ${expected} wrong calls`);

@@ -13,7 +13,7 @@ if (!values.server) throw new Error('usage: node test/main.mjs --server BINARY')
 
 const {faults, expected} = compile();
 assert.deepEqual(faults, [], faults.join('\n'));
-console.log(`right.ts compiles; ${expected} wrong calls do not`);
+console.log(`right.ts and the README compile; ${expected} wrong calls do not`);
 
 const {answered, post, ProblemError, retryingFetch, tubecut} = await import('../dist/index.js');
 
