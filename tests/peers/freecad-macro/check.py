@@ -58,12 +58,14 @@ def tube(document, label, outer, inner, length, placement):
 
 def scene(document):
     target = tube(document, "Brace", OUTER, INNER, LENGTH, PLACE)
+    turned = App.Placement(App.Vector(0, 0, LENGTH), App.Rotation(App.Vector(1, 0, 0), 180))
+    reversed_target = tube(document, "Brace from its far end", OUTER, INNER, LENGTH, PLACE.multiply(turned))
     partners = []
     for i, (diameter, *angles) in enumerate(PARTNERS):
         point, direction = axis_of(*angles)
         local = App.Placement(point - direction * 300, App.Rotation(App.Vector(0, 0, 1), direction))
         partners.append(tube(document, f"Partner {i}", diameter / 2, diameter / 2 - 4, 600, PLACE.multiply(local)))
-    return target, partners
+    return target, reversed_target, partners
 
 
 def own_boolean():
@@ -105,7 +107,12 @@ def in_frame(made, shape):
     return local
 
 
+def tubes_of(target, partners):
+    return cut_tube.tube_of(target), [cut_tube.tube_of(partner) for partner in partners]
+
+
 def plain_cut(document, target, partners, client, own):
+    expect("plain: at the tube's finish", cut_tube.cut_end(*tubes_of(target, partners)) == "finish")
     made = cut_tube.cut(document, target, partners, client, cut_tube.Settings(bevel=False))
     solid = in_frame(made, made.solid.Shape)
     expect("plain: valid, one solid", solid.isValid() and len(solid.Solids) == 1)
@@ -182,6 +189,30 @@ def bevelled_cut(document, target, partners, client, own):
     return made
 
 
+def refusals(document, target, partners, client):
+    """What the macro does not build, it says."""
+    solid = document.addObject("Part::Cylinder", "Bar")
+    box = document.addObject("Part::Box", "Box")
+    document.recompute()
+    for name, tube_, others, word in (("solid target", solid, partners, "bore"), ("no tube", target, [box], "cylindrical"),
+                                      ("no partner", target, [], "partners")):
+        before = len(document.Objects)
+        try:
+            cut_tube.cut(document, tube_, others, client)
+            expect(f"refuses: {name}", False)
+        except cut_tube.CutError as error:
+            expect(f"refuses: {name}", word in str(error) and len(document.Objects) == before)
+    try:
+        # The small one stands on the large one and is narrower than the tube: at its sides the cut falls to the large one.
+        across = App.Rotation(App.Vector(0, 1, 0), 90)
+        small, large = (tube(document, name, radius, radius - 2, 600, PLACE.multiply(App.Placement(App.Vector(-300, 0, z), across)))
+                        for name, radius, z in (("Small", 20, 60), ("Large", 60, 0)))
+        cut_tube.cut(document, target, [small, large], client, cut_tube.Settings(bevel=False))
+        expect("refuses: a cut with jumps", False)
+    except cut_tube.CutError as error:
+        expect("refuses: a cut with jumps", "jumps by" in str(error))
+
+
 def as_macro(document, target, partners):
     """run() with a selection, as from the menu; then without partners."""
     selection = [target, *partners]
@@ -190,7 +221,7 @@ def as_macro(document, target, partners):
     before = len(document.Objects)
     cut_tube.run()
     added = document.Objects[before:]
-    expect("macro: adds profile and solid", [item.Label for item in added] == ["Brace cut profile002", "Brace cut002"])
+    expect("macro: adds profile and solid", [item.Label for item in added] == ["Brace cut profile001", "Brace cut001"])
     expect("macro: names verdict and hash", all(item.Verdict == "ok" and len(item.ResultSha256) == 64 for item in added))
     del selection[1:]
     cut_tube.run()
@@ -200,12 +231,13 @@ def as_macro(document, target, partners):
 def main():
     document = App.newDocument()
     document.UndoMode = 1
-    target, partners = scene(document)
+    target, reversed_target, partners = scene(document)
     client = tubecut.Client(os.environ["TUBECUT_URL"])
     own = own_boolean()
-    plain_cut(document, target, partners, client, own)
+    plain_cut(document, reversed_target, partners, client, own)
     made = bevelled_cut(document, target, partners, client, own)
     as_macro(document, target, partners)
+    refusals(document, target, partners, client)
     if os.environ.get("TUBECUT_STL"):
         made.solid.Shape.exportStl(os.environ["TUBECUT_STL"])
 
