@@ -179,6 +179,116 @@ void check_combination(const bevel::TableSpec& s, Reader& in) {
            in.find("contact"));
 }
 
+}  // namespace
+
+void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out) {
+  out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
+  out.torch = in.defaulted_object("torch", decode_torch);
+}
+
+void decode_cut(Reader& in, bool whole, bevel::TableSpec& out) {
+  static constexpr std::array kRoots{Option<RootSurface>{"inner", RootSurface::inner},
+                                     Option<RootSurface>{"outer", RootSurface::outer}};
+  static constexpr std::array kDihedrals{Option<Dihedral>{"weld_side", Dihedral::weld_side},
+                                         Option<Dihedral>{"inside", Dihedral::inside},
+                                         Option<Dihedral>{"as_published", Dihedral::as_published}};
+  static constexpr std::array kContacts{
+      Option<Contact>{"inner", Contact::inner}, Option<Contact>{"outer", Contact::outer},
+      Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
+  out.root_surface = in.choice("root_surface", kRoots);
+  out.groove = in.object("groove", decode_groove);
+  if (whole) out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
+  out.contact = in.choice("contact", kContacts, Contact::inner);
+  const bool known = in.understood("root_surface") && (!whole || in.understood("dihedral")) &&
+                     in.understood("contact");
+  if (known) check_combination(out, in);
+  out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
+  if (known && out.root_face > 0.0 && out.contact != Contact::inner)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "root_face_mm",
+              .hint = "a root face goes with contact inner"},
+             in.find("root_face_mm"));
+  out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
+  out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
+  if (whole) decode_torch_and_kerf(in, out);
+  const auto smoothing = in.object("smoothing", decode_smoothing);
+  out.smoothing = smoothing.method;
+  out.mutation_limit = smoothing.mutation_limit;
+}
+
+void encode_bevel_points(const bevel::TableSpec& spec, const bevel::Table& out, Writer& p) {
+  encode_phi(out.phi, spec.sampling, p);
+  p.column("developed_mm", out.developed);
+  p.column("length_mm", out.length);
+  p.column("cutter", out.cutter);
+  p.column("z_inner_mm", out.z_inner);
+  p.column("z_outer_mm", out.z_outer);
+  p.degrees_column("dihedral_deg", out.dihedral);
+  p.degrees_column("groove_deg", out.groove);
+  p.degrees_column("tau_deg", out.tau);
+  p.degrees_column("gamma_deg", out.gamma);
+  p.degrees_column("flush_deg", out.flush);
+  p.degrees_column("b_raw_deg", out.b_raw);
+  p.degrees_column("b_required_deg", out.b_required);
+  p.degrees_column("b_deg", out.b);
+  p.column("gap_mm", out.gap);
+  p.column("beam_mm", out.beam);
+  p.column("torch_inner_mm", out.torch_inner);
+  p.column("torch_outer_mm", out.torch_outer);
+  if (spec.root_face > 0.0) {
+    p.column("z_face_mm", out.z_face);
+    p.degrees_column("b_face_deg", out.b_face);
+  }
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove)) {
+    std::vector<std::string> zone;
+    for (const auto i : out.zone) zone.push_back(zoned->zones[i].id);
+    p.column("zone", zone);
+  }
+}
+
+void encode_bevel_lists(const bevel::Table& out, Writer& w) {
+  struct Placed {
+    const joint::Event* event;
+    bool outer;
+  };
+  std::vector<Placed> events;
+  for (const auto& event : out.inner_events) events.push_back({&event, false});
+  for (const auto& event : out.outer_events) events.push_back({&event, true});
+  w.array("events", events, [](Writer& each, const Placed& placed) {
+    encode_event(*placed.event, placed.outer, each);
+  });
+  w.array("mutations", out.mutations, [](Writer& each, const bevel::Table::Step& m) {
+    each.object([&](Writer& o) {
+      o.degrees("phi_deg", m.phi);
+      o.degrees("step_deg", m.step);
+    });
+  });
+  w.array("windows", out.windows, [](Writer& each, const bevel::Table::Window& v) {
+    each.object([&](Writer& o) {
+      o.degrees("phi_deg", v.phi);
+      o.degrees("step_deg", v.step);
+      o.field("kept", v.kept_before ? "before" : "after");
+      o.degrees("from_phi_deg", v.from);
+      o.degrees("to_phi_deg", v.to);
+      o.degrees("slope_start_deg_per_mm", v.slope_start);
+      o.degrees("slope_end_deg_per_mm", v.slope_end);
+    });
+  });
+}
+
+void encode_torch_binds(const bevel::Table& out, Writer& w) {
+  w.array("torch_binds", out.torch_binds, [](Writer& each, const bevel::Table::Binding& v) {
+    each.object([&](Writer& o) {
+      o.degrees("from_phi_deg", v.from);
+      o.degrees("to_phi_deg", v.to);
+      o.degrees("groove_lost_deg", v.groove_lost);
+      o.field("root_gap_mm", v.root_gap);
+    });
+  });
+}
+
+namespace {
+
 struct BevelTables {
   using Spec = BevelTableRequest;
   using Out = bevel::Table;
@@ -199,38 +309,10 @@ struct BevelTables {
   }};
 
   static Spec decode(Reader& in) {
-    static constexpr std::array kRoots{Option<RootSurface>{"inner", RootSurface::inner},
-                                       Option<RootSurface>{"outer", RootSurface::outer}};
-    static constexpr std::array kDihedrals{
-        Option<Dihedral>{"weld_side", Dihedral::weld_side},
-        Option<Dihedral>{"inside", Dihedral::inside},
-        Option<Dihedral>{"as_published", Dihedral::as_published}};
-    static constexpr std::array kContacts{
-        Option<Contact>{"inner", Contact::inner}, Option<Contact>{"outer", Contact::outer},
-        Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
     Spec out;
     out.source = decode_joint(in);
     out.sampling = decode_sampling(in);
-    out.root_surface = in.choice("root_surface", kRoots);
-    out.groove = in.object("groove", decode_groove);
-    out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
-    out.contact = in.choice("contact", kContacts, Contact::inner);
-    const bool known =
-        in.understood("root_surface") && in.understood("dihedral") && in.understood("contact");
-    if (known) check_combination(out, in);
-    out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
-    if (known && out.root_face > 0.0 && out.contact != Contact::inner)
-      in.issue({.code = ErrorCode::unsupported_combination,
-                .pointer = "root_face_mm",
-                .hint = "a root face goes with contact inner"},
-               in.find("root_face_mm"));
-    out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
-    out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
-    out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
-    out.torch = in.defaulted_object("torch", decode_torch);
-    const auto smoothing = in.object("smoothing", decode_smoothing);
-    out.smoothing = smoothing.method;
-    out.mutation_limit = smoothing.mutation_limit;
+    decode_cut(in, true, out);
     return out;
   }
 
@@ -262,35 +344,9 @@ struct BevelTables {
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
-    w.object("points", [&](Writer& p) { encode_points(spec, out, p); });
+    w.object("points", [&](Writer& p) { encode_bevel_points(spec, out, p); });
     w.field("b_sign", out.inward ? "inward" : "outer_edge_into_part");
-    struct Placed {
-      const joint::Event* event;
-      bool outer;
-    };
-    std::vector<Placed> events;
-    for (const auto& event : out.inner_events) events.push_back({&event, false});
-    for (const auto& event : out.outer_events) events.push_back({&event, true});
-    w.array("events", events, [](Writer& each, const Placed& placed) {
-      encode_event(*placed.event, placed.outer, each);
-    });
-    w.array("mutations", out.mutations, [](Writer& each, const Out::Step& m) {
-      each.object([&](Writer& o) {
-        o.degrees("phi_deg", m.phi);
-        o.degrees("step_deg", m.step);
-      });
-    });
-    w.array("windows", out.windows, [](Writer& each, const Out::Window& v) {
-      each.object([&](Writer& o) {
-        o.degrees("phi_deg", v.phi);
-        o.degrees("step_deg", v.step);
-        o.field("kept", v.kept_before ? "before" : "after");
-        o.degrees("from_phi_deg", v.from);
-        o.degrees("to_phi_deg", v.to);
-        o.degrees("slope_start_deg_per_mm", v.slope_start);
-        o.degrees("slope_end_deg_per_mm", v.slope_end);
-      });
-    });
+    encode_bevel_lists(out, w);
     w.object("limits", [&](Writer& o) {
       o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
       if (const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing)) {
@@ -298,47 +354,10 @@ struct BevelTables {
         o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
       }
     });
-    w.array("torch_binds", out.torch_binds, [](Writer& each, const Out::Binding& v) {
-      each.object([&](Writer& o) {
-        o.degrees("from_phi_deg", v.from);
-        o.degrees("to_phi_deg", v.to);
-        o.degrees("groove_lost_deg", v.groove_lost);
-        o.field("root_gap_mm", v.root_gap);
-      });
-    });
+    encode_torch_binds(out, w);
     w.field("length_mm", out.length_total);
     w.field("developed_length_mm", out.developed_total);
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
-  }
-
-  static void encode_points(const Spec& spec, const Out& out, Writer& p) {
-    encode_phi(out.phi, spec.sampling, p);
-    p.column("developed_mm", out.developed);
-    p.column("length_mm", out.length);
-    p.column("cutter", out.cutter);
-    p.column("z_inner_mm", out.z_inner);
-    p.column("z_outer_mm", out.z_outer);
-    p.degrees_column("dihedral_deg", out.dihedral);
-    p.degrees_column("groove_deg", out.groove);
-    p.degrees_column("tau_deg", out.tau);
-    p.degrees_column("gamma_deg", out.gamma);
-    p.degrees_column("flush_deg", out.flush);
-    p.degrees_column("b_raw_deg", out.b_raw);
-    p.degrees_column("b_required_deg", out.b_required);
-    p.degrees_column("b_deg", out.b);
-    p.column("gap_mm", out.gap);
-    p.column("beam_mm", out.beam);
-    p.column("torch_inner_mm", out.torch_inner);
-    p.column("torch_outer_mm", out.torch_outer);
-    if (spec.root_face > 0.0) {
-      p.column("z_face_mm", out.z_face);
-      p.degrees_column("b_face_deg", out.b_face);
-    }
-    if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove)) {
-      std::vector<std::string> zone;
-      for (const auto i : out.zone) zone.push_back(zoned->zones[i].id);
-      p.column("zone", zone);
-    }
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {

@@ -204,6 +204,7 @@
   X(end_consumed, cut, "The cut at this end reaches beyond the member's other end.")               \
   X(parallel_members, cut, "Two members that join are parallel; neither cuts the other.")          \
   X(root_opens, cut, "The root is opened so that the cut can be made.")                            \
+  X(hole_meets_end, cut, "A hole of the part reaches into the cut at one of its ends.")            \
   X(unit_suspicion, cut, "The value looks as if it were given in another unit.")                   \
   X(tube_outside_range, note, "The tube is outside the range the source's machine was built for.") \
   X(polynomial_window, note, "The polynomial is valid only within its time window.")               \
