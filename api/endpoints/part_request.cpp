@@ -215,7 +215,7 @@ PartRequest decode_part_request(Reader& in) {
   PartRequest out;
   const auto which = in.exactly_one({"members", "target"});
   if (!which) {
-    in.silence();
+    if (in.refused()) in.silence();  // what else there is depends on which of the two it is
     return out;
   }
   if (which == 0)

@@ -235,7 +235,9 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   for (const bool finish : {false, true}) {
     auto end = cut_end(spec, finish, stop);
     if (!end) return tl::unexpected(end.error());
-    carry(end->own.warnings, finish ? "finish" : "start", out.warnings);
+    // A plane square to the axis has nothing to warn of.
+    if ((finish ? spec.finish : spec.start).welded)
+      carry(end->own.warnings, finish ? "finish" : "start", out.warnings);
     (finish ? out.finish : out.start) = *std::move(end);
   }
   if (auto ok = cut_holes(spec, out, stop); !ok) return tl::unexpected(ok.error());
