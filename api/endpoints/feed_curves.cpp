@@ -9,11 +9,12 @@ namespace {
 
 using cutoff::FitMethod;
 
-constexpr Range kLinkageLength{.min = 1.0, .max = 100'000.0};
+constexpr Range kLinkageLength{.min = 1.0, .max = 10'000.0};
 constexpr Range kFeed{.min = -10'000.0, .max = 10'000.0};
-constexpr Range kFeedSpeed{.min = 0.0, .max = 10'000.0, .open_min = true};
+constexpr Range kFeedSpeed{.min = 1e-3, .max = 10'000.0};
 constexpr Range kDistance{.min = 0.0, .max = 10'000.0};
-constexpr Range kAxisLimit{.min = 0.0, .max = 1e9, .open_min = true};
+constexpr Range kAxisLimit{.min = 1e-3, .max = 1e6};
+constexpr Range kJerkLimit{.min = 1e-3, .max = 1e9};
 constexpr Range kTime{.min = 0.0, .max = 86'400.0};
 
 constexpr std::array kMethods{Option<FitMethod>{"minimax", FitMethod::minimax},
@@ -28,11 +29,9 @@ cutoff::Linkage decode_linkage(Reader& in) {
   out.pivot_offset = in.number("pivot_offset_mm", kLinkageLength);
   out.rest_angle =
       in.angle_either("rest_angle", {.min = -kPi, .max = kPi, .open_min = true, .open_max = true});
-  out.slot_angle =
-      in.angle_either("slot_angle", {.min = 0.0, .max = kPi, .open_min = true, .open_max = true});
+  out.slot_angle = in.angle_either("slot_angle", {.min = kPi / 180.0, .max = kPi * 179.0 / 180.0});
   const auto which = in.exactly_one({"rad_per_mm", "calibrate"});
-  if (which == 0)
-    out.rad_per_mm = in.number("rad_per_mm", {.min = 0.0, .max = 10.0, .open_min = true});
+  if (which == 0) out.rad_per_mm = in.number("rad_per_mm", {.min = 1e-9, .max = 10.0});
   if (which == 1)
     out.calibrate = in.object("calibrate", [](Reader& c) {
       cutoff::MeasuredPair pair;
@@ -80,7 +79,7 @@ cutoff::FitSpec decode_fit(Reader& in) {
   if (!in.understood("method")) in.silence();
   switch (out.method) {
     case FitMethod::automatic:
-      out.tolerance = in.number("tolerance_ratio", {.min = 1e-12, .max = 1.0}, 0.005);
+      out.tolerance = in.number("tolerance_ratio", {.min = 1e-9, .max = 1.0}, 0.005);
       break;
     case FitMethod::three_point:
       out.degree = in.integer("degree", 2, 2, 2);
@@ -111,20 +110,20 @@ cutoff::CycleSpec decode_cycle(Reader& in) {
   out.period = in.number("period_s", {.min = 1e-5, .max = 1.0}, 0.002);
   out.max_cylinder_speed = in.number("max_cylinder_speed_mm_s", kAxisLimit);
   out.max_cylinder_acceleration = in.number("max_cylinder_acceleration_mm_s2", kAxisLimit);
-  out.max_cylinder_jerk = in.number("max_cylinder_jerk_mm_s3", kAxisLimit);
+  out.max_cylinder_jerk = in.number("max_cylinder_jerk_mm_s3", kJerkLimit);
   out.max_feed = in.optional_number("max_feed_mm", kAxisLimit);
   out.dwell = in.number("dwell_s", kTime, 0.0);
   out.handling = in.number("handling_s", kTime, 0.0);
-  out.target = in.optional_number("target_per_hour", {.min = 0.0, .max = 1e6, .open_min = true});
+  out.target = in.optional_number("target_per_hour", {.min = 0.01, .max = 1e6});
   return out;
 }
 
 cutoff::ToolSpec decode_tool(Reader& in) {
   cutoff::ToolSpec out;
-  out.disc = in.number("disc_rev_min", {.min = 0.0, .max = 1e5, .open_min = true});
+  out.disc = in.number("disc_rev_min", {.min = 0.01, .max = 1e5});
   out.blades = in.integer("blades", 1, 100);
-  out.corner_radius = in.number("corner_radius_mm", {.min = 0.0, .max = 100.0, .open_min = true});
-  out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0, .open_min = true});
+  out.corner_radius = in.number("corner_radius_mm", {.min = 1e-3, .max = 100.0});
+  out.kerf = in.number("kerf_mm", {.min = 0.01, .max = 50.0});
   return out;
 }
 

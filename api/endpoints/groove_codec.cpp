@@ -6,7 +6,7 @@ namespace tubecut::api {
 namespace {
 
 constexpr Range kSmallLength{.min = 0.0, .max = 1'000.0};
-constexpr Range kArea{.min = 0.0, .max = 1e6, .open_min = true};
+constexpr Range kArea{.min = 0.01, .max = 1e6};
 constexpr Range kTravelMm{.min = -limit::offset_max_mm, .max = limit::offset_max_mm};
 
 groove::Pipe decode_pipe(Reader& in) {
@@ -19,7 +19,7 @@ groove::Pipe decode_pipe(Reader& in) {
 groove::RootFace decode_root_face(Reader& in) {
   groove::RootFace out;
   out.height = in.number("height_mm", kSmallLength);
-  out.width = in.number("width_mm", {.min = 0.0, .max = limit::wall_max_mm, .open_min = true});
+  out.width = in.number("width_mm", {.min = 1e-3, .max = limit::wall_max_mm});
   return out;
 }
 
@@ -32,7 +32,7 @@ groove::Filler decode_filler(Reader& in) {
     return out;
   }
   groove::FillerHeight out;
-  out.height = in.number("height_mm", {.min = 0.0, .max = 1'000.0, .open_min = true});
+  out.height = in.number("height_mm", {.min = 1e-3, .max = 1'000.0});
   out.at = in.angle("at_deg", kAnyAngleDeg, Angle{});
   return out;
 }
@@ -40,14 +40,14 @@ groove::Filler decode_filler(Reader& in) {
 groove::FixedBevel decode_compare(Reader& in) {
   static constexpr std::array kRules{Option<int>{"fixed", 0}};
   in.choice("rule", kRules);
-  return {.bevel = in.angle("bevel_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
+  return {.bevel = in.angle("bevel_deg", {.min = 0.0, .max = 80.0})};
 }
 
 groove::Mill decode_mill(Reader& in) {
   groove::Mill out;
   out.half_angle = in.angle("half_angle_deg", {.min = 0.0, .max = 90.0, .open_max = true});
-  out.tip_radius = in.number("tip_radius_mm", kSmallLength);
-  out.length = in.number("length_mm", {.min = 0.0, .max = 1'000.0, .open_min = true});
+  out.tip_radius = in.number("tip_radius_mm", {.min = 0.1, .max = 1'000.0});
+  out.length = in.number("length_mm", {.min = 0.01, .max = 1'000.0});
   return out;
 }
 
@@ -111,9 +111,9 @@ groove::Optimise decode_optimise(Reader& in) {
 groove::GapCheck decode_check(Reader& in) {
   groove::GapCheck out;
   out.points = in.integer("points", 3, groove::kMaxPoints, 11);
-  out.window = in.angle("window_deg", {.min = 0.0, .max = 90.0, .open_min = true}, Angle::deg(40));
+  out.window = in.angle("window_deg", {.min = 0.05, .max = 90.0}, Angle::deg(40));
   out.pitch = in.angle("pitch_deg", {.min = 0.05, .max = 90.0}, Angle::deg(1));
-  out.qualify = in.number("qualify_mm", {.min = 0.0, .max = 100.0, .open_min = true}, 0.5);
+  out.qualify = in.number("qualify_mm", {.min = 1e-6, .max = 100.0}, 0.5);
   return out;
 }
 
@@ -127,7 +127,7 @@ groove::GrooveSpec decode_groove_request(Reader& in) {
   out.chord = in.object("chord", decode_pipe);
   out.branch = in.object("branch", decode_pipe);
   out.root_face = in.object("root_face", decode_root_face);
-  out.inclination = in.angle("inclination_deg", {.min = 0.0, .max = 90.0, .open_min = true});
+  out.inclination = in.angle("inclination_deg", {.min = 5.0, .max = 90.0});
   out.eccentricity = in.number("eccentricity_mm", {.min = -5'000.0, .max = 5'000.0}, 0.0);
   out.filler = in.object("filler", decode_filler);
   out.area_in = in.choice("area_in", kSections, AreaIn::axial);

@@ -8,6 +8,8 @@
 namespace tubecut::api {
 namespace {
 
+constexpr double kBendRadiusMax = 50'000.0;  // mm; longer bends are rolled, not elbows
+
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kTolerance{.min = limit::tolerance_min_mm, .max = limit::tolerance_max_mm};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
@@ -64,7 +66,7 @@ joint::Partner decode_elbow(Reader& in) {
   joint::ElbowCutter out{.radius = in.number("outer_diameter_mm", kDiameter) / 2.0};
   const double least = in.understood("outer_diameter_mm") ? out.radius : kDiameter.min / 2.0;
   out.bend_radius =
-      in.number("bend_radius_mm", {.min = least, .max = limit::offset_max_mm, .open_min = true});
+      in.number("bend_radius_mm", {.min = least, .max = kBendRadiusMax, .open_min = true});
   out.bend = in.angle("bend_deg", {.min = 0.0, .max = 180.0, .open_min = true});
   const auto axis = in.object("axis", decode_axis);
   out.point = axis.point;

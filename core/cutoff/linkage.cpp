@@ -28,6 +28,9 @@ double reduced(double angle) {  // to (-pi, pi]
   return angle - kTwoPi * std::ceil((angle - kPi) / kTwoPi);
 }
 
+constexpr double kLeastPair = 1e-3;                  // mm; a shorter feed calibrates nothing
+constexpr double kLeastRate = 1e-9, kMostRate = 10;  // rad/mm
+
 std::optional<Error> check(const Linkage& l) {
   Preconditions on("linkage/");
   on.positive("arm", l.arm, "mm");
@@ -40,7 +43,7 @@ std::optional<Error> check(const Linkage& l) {
   if (!l.calibrate) on.positive("rad_per_mm", l.rad_per_mm, "rad_per_mm");
   if (l.calibrate) {
     const auto [feed, stroke] = *l.calibrate;
-    on.require(feed != 0.0, "calibrate/feed", feed, "not 0", "mm");
+    on.require(std::abs(feed) >= kLeastPair, "calibrate/feed", feed, "at least 0.001 from 0", "mm");
     on.require(feed * stroke > 0.0, "calibrate/stroke", stroke, "not 0, of the feed's sign", "mm");
   }
   return on.error();
@@ -150,6 +153,13 @@ std::optional<Error> Mechanism::set_rate(const Linkage& l) {
                     .got = feed,
                     .unit = "mm"}};
     k_ = arm_turn(slot_turn(feed)) / stroke;
+    if (!(k_ >= kLeastRate && k_ <= kMostRate))
+      return Error{{.code = ErrorCode::out_of_range,
+                    .member = "linkage/calibrate",
+                    .got = k_,
+                    .limit = Intervals{{kLeastRate, kMostRate}},
+                    .unit = "rad_per_mm",
+                    .hint = "the arm's turn per stroke that this pair gives"}};
   }
   geometry_.rad_per_mm = k_;
   geometry_.stroke_low = low_.turn / k_;

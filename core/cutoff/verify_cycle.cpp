@@ -60,11 +60,13 @@ void push_feeds(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip&
   double feed = std::abs(deepest.feed - c.stop_feed) +
                 std::abs(c.stop_feed - curve.work.end_feed - c.overshoot);
   double speed = 0.0;
-  double fastest = 0.0;
+  double fastest = curve.work.feed;  // at least: a coarse period may miss every motion
   for (std::size_t i = 0; i < s.time.size(); ++i) {
     const TipFeed here = tip.at(s.stroke[i]);
     feed = std::max(feed, std::abs(here.feed - s.feed[i]));
-    speed = std::max(speed, std::abs(here.first * s.speed[i] - s.feed_speed[i]));
+    // Towards the tangent's pole the derivative loses digits as 1/cos psi.
+    speed = std::max(speed,
+                     here.elevation_cosine * std::abs(here.first * s.speed[i] - s.feed_speed[i]));
     fastest = std::max(fastest, std::abs(here.first * s.speed[i]));
   }
   checks.push_back(

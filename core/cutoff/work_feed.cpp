@@ -11,12 +11,16 @@ namespace tubecut::cutoff {
 namespace {
 
 constexpr std::size_t kGridPoints = 1601;
+constexpr double kShortest = 1e-3;  // mm of work feed
+// Largest to smallest cylinder speed of a work feed. Beyond it the window runs against an end of
+// the linkage, where a grid no longer tells the extremes; machines stay below 3.
+constexpr double kMostUneven = 100.0;
 
 std::optional<Error> check(const FeedWindow& window) {
   Preconditions on("cut/");
   on.require(true, "start_feed", window.start_feed, {}, "mm");
-  on.require(window.end_feed > window.start_feed, "end_feed", window.end_feed, "> start_feed_mm",
-             "mm");
+  on.require(window.end_feed - window.start_feed >= kShortest, "end_feed", window.end_feed,
+             "at least 0.001 above start_feed_mm", "mm");
   return on.error();
 }
 
@@ -81,6 +85,14 @@ Result<WorkFeed> WorkFeed::make(const Mechanism& mechanism, const Cut& cut) {
     return fail(
         {.code = ErrorCode::out_of_range, .member = "cut/feed", .got = cut.feed, .unit = "mm_s"});
   out.find_extremes();
+  const double uneven = out.work_.max_cylinder_speed / out.work_.min_cylinder_speed;
+  if (!(uneven <= kMostUneven))
+    return fail({.code = ErrorCode::dead_point,
+                 .member = by_ends ? "cut/end_feed" : "cut/overcut",
+                 .got = uneven,
+                 .limit = kMostUneven,
+                 .hint = "largest to smallest cylinder speed of the work feed: it comes too near "
+                         "the linkage's end"});
   return out;
 }
 

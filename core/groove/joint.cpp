@@ -95,13 +95,15 @@ void check_wall(const Pipe& pipe, const char* member, std::vector<Issue>& issues
                     .unit = "mm"});
 }
 
+constexpr double kLeastWeldWidth = 0.01;  // mm of wall beside the root face
+
 /// What two fields together can tell.
 std::vector<Issue> shape_issues(const GrooveSpec& spec) {
   std::vector<Issue> issues;
   check_wall(spec.chord, "chord/wall", issues);
   check_wall(spec.branch, "branch/wall", issues);
   if (!issues.empty()) return issues;
-  if (spec.root_face.width >= spec.branch.wall) {
+  if (spec.branch.wall - spec.root_face.width < kLeastWeldWidth) {
     issues.push_back({.code = ErrorCode::root_width,
                       .member = "root_face/width",
                       .got = spec.root_face.width,

@@ -4,6 +4,7 @@ import http from 'node:http';
 import {createInterface} from 'node:readline';
 
 const CONNECTIONS = 4;
+const SECONDS = 60;  // to an answer: hung, not slow
 
 export class Service {
   static async start(binary) {
@@ -52,7 +53,7 @@ export class Service {
           resolve({status: reply.statusCode, headers: reply.headers, body: all, text: all.toString('utf8')});
         });
       });
-      call.setTimeout(5000, () => call.destroy(new Error(`no answer to ${method} ${path} in 5 s`)));
+      call.setTimeout(1000 * SECONDS, () => call.destroy(new Error(`no answer to ${method} ${path} in ${SECONDS} s`)));
       call.on('error', fail);
       if (bytes) call.write(bytes);
       call.end();
