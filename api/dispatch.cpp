@@ -207,7 +207,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
   auto reply = endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {
     if (problem->code == ErrorCode::cancelled) problem->code = ErrorCode::over_budget;
-    return refuse(std::move(*problem));
+    return refuse(*problem);
   }
   return answer(endpoint, common, std::move(std::get<Answer>(reply)), *choice, query);
 }

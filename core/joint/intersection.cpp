@@ -49,6 +49,7 @@ class Worst {
 
 constexpr double kOnCutter = 1e-12;  // of the larger of radius + rho and |z|
 constexpr double kAbove = 1e-9;      // likewise
+constexpr double kTouch = 1e-12;     // likewise
 constexpr double kLabel = 1e-7;      // likewise: the curve is vertical at a silhouette
 
 struct Proof {
@@ -66,7 +67,12 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
   const double scale = std::max(own.radius() + p.radius, std::abs(p.z[i]));
   on_cutter.see(std::abs(own.distance(at)), kOnCutter * scale);
   const auto top = own.top(at.x(), at.y());
-  labels.see(top ? std::abs(*top - p.z[i]) : scale, kLabel * scale);
+  // A silhouette may be missed by rounding: there the generator touches instead.
+  const bool touches = !top && std::abs(own.clearance(at.x(), at.y())) <= kTouch * scale;
+  labels.see(top       ? std::abs(*top - p.z[i])
+             : touches ? std::abs(own.distance(at))
+                       : scale,
+             kLabel * scale);
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (k == p.cutter[i]) continue;  // `labels` holds its own height
     // A partner lost or found here stands above on one side only.

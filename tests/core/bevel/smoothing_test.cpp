@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "core/base/angle.hpp"
 #include "tests/support/golden.hpp"
@@ -50,6 +51,8 @@ struct Row {
   std::string b;
   double rho = 0.0;
 };
+
+void PrintTo(const Row& row, std::ostream* out) { *out << row.block << " " << row.kind; }
 
 std::vector<Row> rows() {
   std::vector<Row> all;

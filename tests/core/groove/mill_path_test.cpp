@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <chrono>
+#include <ostream>
 
 #include "core/groove/periodic_spline.hpp"
 #include "tests/core/groove/path_cases.hpp"
@@ -18,6 +19,10 @@ struct PathCase {
   Hold hold;
   double limit;  // |E| of 8.6, mm
 };
+void PrintTo(const PathCase& c, std::ostream* out) {
+  *out << c.name << (c.hold == Hold::tip ? ", tip held" : ", pivot held");
+}
+
 constexpr PathCase kPaths[] = {{"A_source_like", Hold::pivot, 0.0022},
                                {"B_near_equal", Hold::tip, 0.0037},
                                {"C_oblique_offset", Hold::pivot, 0.0145},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "core/motion/course.hpp"
 #include "core/motion/pulses.hpp"
@@ -204,6 +205,8 @@ struct Published {
   std::int64_t segments;
   double no_jerk_s, proven_s, time_s, least_mm_min, slow_s;
 };
+
+void PrintTo(const Published& p, std::ostream* out) { *out << p.points << " transition points"; }
 
 class Claim : public ::testing::TestWithParam<Published> {};
 
