@@ -256,8 +256,8 @@ TEST(Part, FrameStartsAtTheLongPoint) {
   }
 }
 
-part::PartSpec direct(std::vector<joint::Partner> start, std::vector<joint::Partner> finish,
-                      double length) {
+part::PartSpec direct(const std::vector<joint::Partner>& start,
+                      const std::vector<joint::Partner>& finish, double length) {
   part::PartSpec out;
   out.target = {.outer_radius = 50, .wall = 6, .length = length};
   bevel::TableSpec cut{.target = out.target};
@@ -265,7 +265,7 @@ part::PartSpec direct(std::vector<joint::Partner> start, std::vector<joint::Part
   cut.smoothing = bevel::NoSmoothing{};
   cut.groove = bevel::NoGroove{};
   for (const bool end : {false, true}) {
-    auto& partners = end ? finish : start;
+    const auto& partners = end ? finish : start;
     auto& e = end ? out.finish : out.start;
     e = partners.empty() ? part::square_end(cut, 0.0) : part::EndSpec{.cut = cut};
     if (!partners.empty()) e.cut.partners = partners;

@@ -18,21 +18,26 @@ def point(radius, phi, z):
     return FreeCAD.Vector(radius * math.cos(phi), radius * math.sin(phi), z)
 
 
-def triangle(a, b, c):
-    return Part.Face(Part.makePolygon([a, b, c, a]))
+def volume(shape, sag):
+    """By its triangles: FreeCAD's own figure is an integral over trimmed faces, and off by parts in a thousand here."""
+    points, triangles = shape.tessellate(sag)
+    total = 0.0
+    for a, b, c in triangles:
+        total += points[a].dot(points[b].cross(points[c]))
+    return abs(total) / 6.0
 
 
-def patch(a, b, c, d):
-    """Four triangles about the middle: a ruled patch bends, its middle lies where it should."""
-    middle = (a + b + c + d) * 0.25
-    return [triangle(a, b, middle), triangle(b, c, middle), triangle(c, d, middle), triangle(d, a, middle)]
+def curve(points, angles, whole):
+    """A smooth edge through the points, one angle each; through the first again when it is a whole turn.
 
-
-def closed(faces):
-    solid = Part.Solid(Part.makeShell(faces))
-    if solid.Volume < 0:
-        solid.reverse()
-    return solid
+    Edges of one surface share their angles, so that it is ruled along the rows."""
+    steps = [(b - a) % 360.0 for a, b in zip(angles, angles[1:] + (angles[:1] if whole else []))]
+    parameters = [0.0]
+    for step in steps:
+        parameters.append(parameters[-1] + step)
+    spline = Part.BSplineCurve()
+    spline.interpolate(Points=points, PeriodicFlag=whole, Parameters=parameters)
+    return spline.toShape()
 
 
 def beyond(inner, outer, wall):
@@ -41,8 +46,20 @@ def beyond(inner, outer, wall):
     return inner - MARGIN * slope, outer + MARGIN * slope
 
 
-def end_tool(end, target, floor):
-    """All that falls away at an end: below (or above) the ruled surface through its two edges."""
+def stretches(rows, breaks):
+    """The rows from corner to corner of the curve; [all of them] when there is none."""
+    n = len(rows)
+    corners = sorted(i for i, row in enumerate(rows) if any(abs(row[0] - phi) < 1e-9 for phi in breaks))
+    if not corners:
+        return [(rows, True)]
+    out = []
+    for i, j in zip(corners, corners[1:] + [corners[0] + n]):
+        out.append(([rows[k % n] for k in range(i, j + 1)], False))
+    return out
+
+
+def end_tool(end, target, away):
+    """What falls away at an end: the ruled surface through its two edges, swept off along the tube."""
     r_out = target["outer_diameter_mm"] / 2
     wall = target["wall_mm"]
     p = end["points"]
@@ -50,39 +67,34 @@ def end_tool(end, target, floor):
     for phi, low, high in zip(p["phi_deg"], p["z_inner_mm"], p["z_outer_mm"]):
         a, b = beyond(low, high, wall)
         turn = math.radians(phi)
-        rows.append((point(r_out - wall - MARGIN, turn, a), point(r_out + MARGIN, turn, b),
-                     point(r_out + MARGIN, turn, floor), point(r_out - wall - MARGIN, turn, floor)))
+        rows.append((phi, point(r_out - wall - MARGIN, turn, a), point(r_out + MARGIN, turn, b)))
     faces = []
-    for here, there in zip(rows, rows[1:] + rows[:1]):
-        for k in range(4):
-            a, b = here[k], here[(k + 1) % 4]
-            c, d = there[(k + 1) % 4], there[k]
-            if k == 0:
-                faces += patch(a, b, c, d)
-            else:
-                faces.append(Part.Face(Part.makePolygon([a, b, c, d, a])))
-    return closed(faces)
+    for part, whole in stretches(rows, [event["phi_deg"] for event in end["events"]]):
+        angles = [row[0] for row in part]
+        faces.append(Part.makeRuledSurface(*(curve([row[column] for row in part], angles, whole) for column in (1, 2))))
+    surface = faces[0] if len(faces) == 1 else Part.makeShell(faces)
+    return surface.extrude(FreeCAD.Vector(0, 0, away))
 
 
 def hole_tool(hole, target):
+    """The ruled wall of a hole, continued on both sides and closed by two planes square to it."""
     r_out = target["outer_diameter_mm"] / 2
     wall = target["wall_mm"]
     p = hole["points"]
     low, high = [], []
     for phi, z, phi_in, z_in in zip(p["phi_deg"], p["z_mm"], p["phi_inner_deg"], p["z_inner_mm"]):
         outer, inner = point(r_out, math.radians(phi), z), point(r_out - wall, math.radians(phi_in), z_in)
-        along = (outer - inner) * (3.0 / wall)
+        along = (outer - inner) * (MARGIN / wall)
         low.append(inner - along)
         high.append(outer + along)
-    faces = []
-    n = len(low)
-    for i in range(n):
-        j = (i + 1) % n
-        faces += patch(low[i], low[j], high[j], high[i])
-    for ring in (low, high):
-        middle = sum(ring, FreeCAD.Vector()) * (1.0 / n)
-        faces += [triangle(ring[i], ring[(i + 1) % n], middle) for i in range(n)]
-    return closed(faces)
+    out = sum((b - a for a, b in zip(low, high)), FreeCAD.Vector()).normalize()
+    top = max(v.dot(out) for v in high) + MARGIN
+    bottom = min(v.dot(out) for v in low) - MARGIN
+    lid = [v + out * (top - v.dot(out)) for v in high]
+    floor = [v + out * (bottom - v.dot(out)) for v in low]
+    angles = p["branch_phi_deg"] if hole["side"] == "near" else [-phi for phi in p["branch_phi_deg"]]
+    rings = [curve(ring, angles, True) for ring in (floor, low, high, lid)]
+    return Part.makeLoft([Part.Wire([ring]) for ring in rings], True, True)
 
 
 def cut(body):
@@ -92,8 +104,8 @@ def cut(body):
     groups = by_place(result["holes"])
     borders = [-40.0] + [(a[1] + b[0]) / 2 for a, b in zip(groups, groups[1:])] + [length + 40.0]
     pieces = [tube(r_out, wall, low, high) for low, high in zip(borders, borders[1:])]
-    pieces[-1] = pieces[-1].cut(end_tool(result["ends"]["finish"], target, length + 60))
-    pieces[0] = pieces[0].cut(end_tool(result["ends"]["start"], target, -60))
+    pieces[-1] = pieces[-1].cut(end_tool(result["ends"]["finish"], target, 400))
+    pieces[0] = pieces[0].cut(end_tool(result["ends"]["start"], target, -400))
     for i, (_, _, holes) in enumerate(groups):
         for hole in holes:
             pieces[i] = pieces[i].cut(hole_tool(hole, target))
@@ -131,18 +143,18 @@ def main():
     for name, body in bodies.items():
         begin = time.time()
         own = cut(body)
-        volume = sum(piece.Volume for piece in own)
-        report["volumes"][name] = [volume, body["result"]["lengths"]["volume_mm3"]]
+        cut_volume = sum(volume(piece, 0.002) for piece in own)
+        report["volumes"][name] = [cut_volume, body["result"]["lengths"]["volume_mm3"]]
         if not all(piece.isValid() and len(piece.Solids) == 1 for piece in own):
             report["invalid"].append(f"{name}: not one valid solid")
         solids[name] = [placed(piece, body["result"]["frame"]) for piece in own]
-        print(f"{name}: {volume:.0f} mm^3, answered {body['result']['lengths']['volume_mm3']:.0f}, {time.time() - begin:.1f} s", flush=True)
+        print(f"{name}: {cut_volume:.0f} mm^3, answered {body['result']['lengths']['volume_mm3']:.0f}, {time.time() - begin:.1f} s", flush=True)
     names = list(solids)
     for i, a in enumerate(names):
         for b in names[i + 1:]:
             near = [(p, q) for p in solids[a] for q in solids[b] if p.BoundBox.intersect(q.BoundBox)]
             if near:
-                report["common"].append([a, b, sum(p.common(q).Volume for p, q in near)])
+                report["common"].append([a, b, sum(volume(p.common(q), 0.005) for p, q in near)])
                 print(f"{a} and {b} share {report['common'][-1][2]:.3f} mm^3", flush=True)
     json.dump(report, open(os.environ["REPORT"], "w", encoding="utf-8"))
 

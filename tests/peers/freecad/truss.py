@@ -7,7 +7,7 @@ TABLE = {
     "groove": {"rule": "half_dihedral"},
     "kerf_mm": 1.5,
     "torch": {"min_deg": -85, "max_deg": 85},
-    "sampling": {"tolerance_mm": 0.02, "uniform_points": 72},
+    "sampling": {"tolerance_mm": 0.01},
     "smoothing": {"method": "envelope", "limits": {"max_slope_deg_per_mm": 5, "max_curvature_deg_per_mm2": 1}, "refine": False},
 }
 
