@@ -12,6 +12,7 @@ import FreeCAD
 import Part
 
 MARGIN = 1.0  # mm by which a tool reaches beyond the wall
+SAG = 0.01    # mm between a surface and the triangles a volume is taken of
 
 
 def point(radius, phi, z):
@@ -143,7 +144,7 @@ def main():
     for name, body in bodies.items():
         begin = time.time()
         own = cut(body)
-        cut_volume = sum(volume(piece, 0.002) for piece in own)
+        cut_volume = sum(volume(piece, SAG) for piece in own)
         report["volumes"][name] = [cut_volume, body["result"]["lengths"]["volume_mm3"]]
         if not all(piece.isValid() and len(piece.Solids) == 1 for piece in own):
             report["invalid"].append(f"{name}: not one valid solid")
@@ -154,7 +155,7 @@ def main():
         for b in names[i + 1:]:
             near = [(p, q) for p in solids[a] for q in solids[b] if p.BoundBox.intersect(q.BoundBox)]
             if near:
-                report["common"].append([a, b, sum(volume(p.common(q), 0.005) for p, q in near)])
+                report["common"].append([a, b, sum(volume(p.common(q), SAG) for p, q in near)])
                 print(f"{a} and {b} share {report['common'][-1][2]:.3f} mm^3", flush=True)
     json.dump(report, open(os.environ["REPORT"], "w", encoding="utf-8"))
 
