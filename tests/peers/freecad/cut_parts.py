@@ -91,11 +91,14 @@ def hole_tool(hole, target):
     out = sum((b - a for a, b in zip(low, high)), FreeCAD.Vector()).normalize()
     top = max(v.dot(out) for v in high) + MARGIN
     bottom = min(v.dot(out) for v in low) - MARGIN
-    lid = [v + out * (top - v.dot(out)) for v in high]
+    lid = [v + out * (top + r_out - v.dot(out)) for v in high]  # above the wall that bulges inside the ring
     floor = [v + out * (bottom - v.dot(out)) for v in low]
     angles = p["branch_phi_deg"] if hole["side"] == "near" else [-phi for phi in p["branch_phi_deg"]]
     rings = [curve(ring, angles, True) for ring in (floor, low, high, lid)]
-    return Part.makeLoft([Part.Wire([ring]) for ring in rings], True, True)
+    tool = Part.makeLoft([Part.Wire([ring]) for ring in rings], True, True)
+    if tool.Volume < 0:  # inside out
+        tool.reverse()
+    return tool
 
 
 def cut(body):
@@ -138,26 +141,63 @@ def placed(solid, frame):
     return solid.transformed(matrix)
 
 
+def shared_out(work, do):
+    """do(item) for every item, by as many processes as there are processors; what each returned, in any order."""
+    jobs = int(os.environ.get("JOBS", 0)) or os.cpu_count() or 1
+    folder = os.path.dirname(os.environ["REPORT"])
+    children = []
+    for job in range(jobs):
+        child = os.fork()
+        if child == 0:
+            out = [do(item) for item in work[job::jobs]]
+            with open(f"{folder}/job-{job}", "w", encoding="utf-8") as file:
+                json.dump(out, file)
+            os._exit(0)
+        children.append(child)
+    for child in children:
+        if os.waitpid(child, 0)[1] != 0:
+            os._exit(1)
+    out = []
+    for job in range(jobs):
+        with open(f"{folder}/job-{job}", encoding="utf-8") as file:
+            out += json.load(file)
+    return out
+
+
 def main():
-    bodies = json.load(open(os.environ["PARTS"], encoding="utf-8"))
-    solids, report = {}, {"volumes": {}, "common": [], "invalid": []}
-    for name, body in bodies.items():
+    with open(os.environ["PARTS"], encoding="utf-8") as file:
+        bodies = json.load(file)
+    folder = os.path.dirname(os.environ["REPORT"])
+    names = list(bodies)
+
+    def make(i):
+        name, body = names[i], bodies[names[i]]
         begin = time.time()
         own = cut(body)
-        cut_volume = sum(volume(piece, SAG) for piece in own)
-        report["volumes"][name] = [cut_volume, body["result"]["lengths"]["volume_mm3"]]
-        if not all(piece.isValid() and len(piece.Solids) == 1 for piece in own):
-            report["invalid"].append(f"{name}: not one valid solid")
-        solids[name] = [placed(piece, body["result"]["frame"]) for piece in own]
-        print(f"{name}: {cut_volume:.0f} mm^3, answered {body['result']['lengths']['volume_mm3']:.0f}, {time.time() - begin:.1f} s", flush=True)
-    names = list(solids)
-    for i, a in enumerate(names):
-        for b in names[i + 1:]:
-            near = [(p, q) for p in solids[a] for q in solids[b] if p.BoundBox.intersect(q.BoundBox)]
-            if near:
-                report["common"].append([a, b, sum(volume(p.common(q), SAG) for p, q in near)])
-                print(f"{a} and {b} share {report['common'][-1][2]:.3f} mm^3", flush=True)
-    json.dump(report, open(os.environ["REPORT"], "w", encoding="utf-8"))
+        told = body["result"]["lengths"]["volume_mm3"]
+        taken = sum(volume(piece, SAG) for piece in own)
+        whole = all(piece.isValid() and len(piece.Solids) == 1 for piece in own)
+        for k, piece in enumerate(own):
+            placed(piece, body["result"]["frame"]).exportBrep(f"{folder}/{i}-{k}.brep")
+        print(f"{name}: {taken:.0f} mm^3, answered {told:.0f}, {time.time() - begin:.1f} s", flush=True)
+        return [name, taken, told, whole, len(own)]
+
+    made = shared_out(list(range(len(names))), make)
+    pieces = {name: [Part.read(f"{folder}/{names.index(name)}-{k}.brep") for k in range(count)] for name, _, _, _, count in made}
+
+    def compare(pair):
+        a, b, k, m = pair
+        both = volume(pieces[a][k].common(pieces[b][m]), SAG)
+        print(f"{a} and {b} share {both:.3f} mm^3", flush=True)
+        return [a, b, both]
+
+    near = [(a, b, k, m) for i, a in enumerate(names) for b in names[i + 1:] for k, p in enumerate(pieces[a])
+            for m, q in enumerate(pieces[b]) if p.BoundBox.intersect(q.BoundBox)]
+    report = {"volumes": {name: [taken, told] for name, taken, told, _, _ in made},
+              "invalid": [f"{name}: not one valid solid" for name, _, _, whole, _ in made if not whole],
+              "common": shared_out(near, compare)}
+    with open(os.environ["REPORT"], "w", encoding="utf-8") as file:
+        json.dump(report, file)
 
 
 main()
