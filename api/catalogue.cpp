@@ -87,7 +87,7 @@ std::string tubes_page() {
   return out.take();
 }
 
-/// examples/<endpoint>/<name>.json, each {"title", "body"}.
+/// examples/[<theme>/]<endpoint>/<name>.json: requests that run.
 std::string examples_page() {
   Writer out;
   out.object([](Writer& w) {
@@ -96,11 +96,14 @@ std::string examples_page() {
       if (file.name.starts_with("examples/") && file.name.ends_with(".json"))
         examples.push_back(file);
     w.array("examples", examples, [](Writer& each, const Embedded& file) {
-      const auto inner = file.name.substr(9);
-      const auto slash = inner.find('/');
+      const auto inner = file.name.substr(9, file.name.size() - 14);
+      const auto slash = inner.rfind('/');
+      const auto theme = inner.rfind('/', slash - 1);
+      const auto endpoint = theme == std::string_view::npos ? 0 : theme + 1;
       each.object([&](Writer& o) {
-        o.field("endpoint", inner.substr(0, slash));
-        o.field("name", inner.substr(slash + 1, inner.size() - slash - 6));
+        o.field("endpoint", inner.substr(endpoint, slash - endpoint));
+        o.field("name",
+                std::string(inner.substr(0, endpoint)) + std::string(inner.substr(slash + 1)));
         o.raw("body", file.text);
       });
     });

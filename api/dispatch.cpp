@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 
 #include "api/api.hpp"
 #include "api/catalogue.hpp"
@@ -27,8 +28,36 @@ struct Query {
   bool validate_only = false;
   std::string_view format;
   std::string_view view;
-  std::string bad;  // the first parameter not known
+  FormatOptions options;
+  std::vector<std::string_view> given;  // their names
+  std::string bad;                      // the first parameter not known
 };
+
+/// One of the parameters that only drawings and machine files read; false where it is none of them
+/// or says nothing that can be meant.
+bool parse_option(std::string_view name, std::string_view value, FormatOptions& out) {
+  const auto flag = [&](bool& into, std::string_view yes, std::string_view no) {
+    into = value == yes;
+    return value == yes || value == no;
+  };
+  const auto number = [&](auto& into, double least, double most) {
+    double v = 0.0;
+    const auto* end = value.data() + value.size();
+    const auto read = std::from_chars(value.data(), end, v);
+    into = v;
+    return read.ec == std::errc{} && read.ptr == end && v >= least && v <= most;
+  };
+  bool qtplasmac = false;
+  if (name == "mirror") return flag(out.mirror, "true", "false");
+  if (name == "torch") return flag(out.torch, "on", "off");
+  if (name == "axial") return flag(out.axial_z, "z", "x");
+  if (name == "speed_mm_min") return number(out.speed, 1.0, 60'000.0);
+  if (name == "lead_mm") return number(out.lead, 0.0, 1'000.0);
+  if (name == "pivot_length_mm") return number(out.pivot_length, 0.0, 10'000.0);
+  if (name != "dialect" || !flag(qtplasmac, "qtplasmac", "linuxcnc")) return false;
+  out.dialect = qtplasmac ? Dialect::qtplasmac : Dialect::linuxcnc;
+  return true;
+}
 
 Query parse_query(std::string_view text) {
   Query out;
@@ -46,6 +75,8 @@ Query parse_query(std::string_view text) {
       out.format = value;
     } else if (name == "view" && !value.empty()) {
       out.view = value;
+    } else if (parse_option(name, value, out.options)) {
+      out.given.push_back(name);
     } else if (!item.empty() && out.bad.empty()) {
       out.bad = item;
     }
@@ -95,6 +126,40 @@ std::string list_formats(const Endpoint& endpoint) {
   for (const auto& format : endpoint.formats)
     out += ", " + std::string(format.media) + " (" + std::string(format.name) + ")";
   return out;
+}
+
+std::string listed(const std::vector<std::string_view>& names) {
+  std::string out;
+  for (const auto name : names) out += (out.empty() ? "" : ", ") + std::string(name);
+  return out.empty() ? "none" : out;
+}
+
+/// Why the answer cannot be printed as asked; nothing when it can. JSON and CBOR have no options.
+std::optional<Problem> format_problem(const Query& query, const FormatName* format) {
+  const auto has = [](const std::vector<std::string_view>& all, std::string_view one) {
+    return std::ranges::find(all, one) != all.end();
+  };
+  const std::string name(format != nullptr ? format->name : "json");
+  const auto options = format != nullptr ? format->options : std::vector<std::string_view>{};
+  for (const auto option : query.given)
+    if (!has(options, option))
+      return Problem{.code = ErrorCode::bad_request,
+                     .detail = std::string(option) + " is no option of format " + name +
+                               "; its options: " + listed(options),
+                     .issues = {}};
+  if (format == nullptr) return std::nullopt;
+  if (!query.view.empty() && !has(format->views, query.view))
+    return Problem{.code = ErrorCode::not_acceptable,
+                   .detail = "view \"" + std::string(query.view) + "\" of " + name +
+                             "; offered: " + listed(format->views),
+                   .issues = {}};
+  if (format->needs_speed && !query.options.speed)
+    return Problem{.code = ErrorCode::bad_request,
+                   .detail = name +
+                             " needs the query parameter speed_mm_min, the torch's speed "
+                             "on the outer wall",
+                   .issues = {}};
+  return std::nullopt;
 }
 
 /// One answer or problem, with what is needed to print it.
@@ -176,6 +241,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
                   "got \"" + media + "\", accepted: application/json");
   const auto choice = choose(query, call_.accept, endpoint);
   if (!choice) return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
+  if (auto problem = format_problem(query, choice->format)) return refuse(*problem);
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
                   "the limit is " + std::to_string(endpoint.max_body) + " bytes");
@@ -202,7 +268,8 @@ Outcome Job::compute(const Endpoint& endpoint) {
           .caption = {.reference = common.reference,
                       .input_sha256 = {},
                       .result_sha256 = {},
-                      .view = std::string(query.view)},
+                      .view = std::string(query.view),
+                      .options = query.options},
           .stage = [this](std::string_view stage) { lap(stage); }};
   auto reply = endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {

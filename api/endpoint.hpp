@@ -29,12 +29,27 @@ struct CheckLimit {
   std::string_view unit;
 };
 
+/// The dialect of a G-code program.
+enum class Dialect { linuxcnc, qtplasmac };
+
+/// What the query says of a drawing or a machine file. Lengths in mm.
+struct FormatOptions {
+  bool mirror = false;  // drawn for the print side to lie on the tube
+  bool torch = false;   // the program lights the torch; else it only moves
+  Dialect dialect = Dialect::linuxcnc;
+  bool axial_z = false;                     // the axis along the tube is Z, not X
+  std::optional<double> speed = {};         // mm/min, of the torch on the outer wall
+  double lead = 0.0;                        // straight run-in and run-out on the scrap side
+  std::optional<double> pivot_length = {};  // torch pivot to tip; empty: the control knows the tip
+};
+
 /// What a drawing or a machine file prints beside the result.
 struct Caption {
   std::vector<std::pair<std::string, std::string>> reference;
   std::string input_sha256;
   std::string result_sha256;
   std::string view;  // ?view=, empty: the format's default
+  FormatOptions options = {};
 };
 
 /// One line that names the job on a drawing: engine, input hash, the caller's reference.
@@ -46,11 +61,17 @@ struct Format {
   std::string_view name;   // ?format=
   std::string_view media;  // Accept
   std::string (*print)(const Spec&, const Out&, const Caption&);
+  std::vector<std::string_view> views = {};    // ?view=, the default first
+  std::vector<std::string_view> options = {};  // query parameters it reads
+  bool needs_speed = false;                    // speed_mm_min has no default
 };
 
 struct FormatName {
   std::string_view name;
   std::string_view media;
+  std::vector<std::string_view> views = {};
+  std::vector<std::string_view> options = {};
+  bool needs_speed = false;
 };
 
 /// A request as understood and its answer; or why there is none.
@@ -130,7 +151,8 @@ template <class E>
 Endpoint endpoint() {
   static const auto names = [] {
     std::vector<FormatName> list;
-    for (const auto& format : E::formats()) list.push_back({format.name, format.media});
+    for (const auto& format : E::formats())
+      list.push_back({format.name, format.media, format.views, format.options, format.needs_speed});
     return list;
   }();
   return {E::kId, E::kPath, E::kMaxBody, &run<E>, names, E::kAccepts, E::kChecks};

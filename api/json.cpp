@@ -8,6 +8,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
+
+#include "api/cbor.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -95,7 +98,8 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     error_ = {static_cast<std::size_t>(*progress_ - begin_), reason};
     return false;
   }
-  bool put(Json v) {
+  // Inlined, g++ 12 takes the other members of the variant for uninitialised.
+  [[gnu::noinline]] bool put(Json v) {
     if (stack_.empty()) {
       root_ = std::move(v);
     } else if (auto* array = stack_.back().as<Json::Array>()) {
@@ -189,43 +193,26 @@ void append(std::string& out, const Json& json) {
   }
 }
 
-using Ordered = nlohmann::ordered_json;
+/// SAX events of the parser as calls of the CBOR writer.
+struct CborEvents {
+  CborWriter& out;
 
-/// RFC 8746 typed array of a column of integers; the column itself when it is not one.
-Ordered typed(const Ordered& column) {
-  if (!column.is_array()) return column;
-  bool small = true;
-  for (const auto& v : column) {
-    if (!v.is_number_integer()) return column;
-    const auto n = v.get<std::int64_t>();
-    if (n < std::numeric_limits<std::int32_t>::min() ||
-        n > std::numeric_limits<std::int32_t>::max())
-      return column;
-    small = small && n >= std::numeric_limits<std::int16_t>::min() &&
-            n <= std::numeric_limits<std::int16_t>::max();
+  bool null() { return out.null(); }
+  bool boolean(bool v) { return out.boolean(v); }
+  bool number_integer(std::int64_t v) { return out.integer(v); }
+  bool number_unsigned(std::uint64_t v) { return out.integer(static_cast<std::int64_t>(v)); }
+  bool number_float(double v, const std::string&) { return out.number(v); }
+  bool string(const std::string& v) { return out.text(v); }
+  bool binary(const nlohmann::json::binary_t&) { return false; }
+  bool key(const std::string& name) { return out.key(name); }
+  bool start_object(std::size_t) { return out.open(true); }
+  bool start_array(std::size_t) { return out.open(false); }
+  bool end_object() { return out.close(); }
+  bool end_array() { return out.close(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
+    throw std::logic_error(error.what());  // our own text
   }
-  const int width = small ? 2 : 4;
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(column.size() * static_cast<std::size_t>(width));
-  for (const auto& v : column) {
-    const auto bits = static_cast<std::uint32_t>(v.get<std::int64_t>());
-    for (int i = 0; i < width; ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
-  }
-  constexpr std::uint8_t kInt16LittleEndian = 77;
-  constexpr std::uint8_t kInt32LittleEndian = 78;
-  return Ordered::binary(std::move(bytes), small ? kInt16LittleEndian : kInt32LittleEndian);
-}
-
-void type_counts(Ordered& node) {
-  if (!node.is_structured()) return;
-  for (auto it = node.begin(); it != node.end(); ++it) {
-    if (node.is_object() && it.key() == "counts" && it->is_object()) {
-      for (auto& column : *it) column = typed(column);
-    } else {
-      type_counts(*it);
-    }
-  }
-}
+};
 
 }  // namespace
 
@@ -260,11 +247,10 @@ std::string dump(const Json& json) {
 }
 
 std::string to_cbor(std::string_view json_text) {
-  auto document = Ordered::parse(json_text);
-  type_counts(document);
-  std::string out;
-  Ordered::to_cbor(document, nlohmann::detail::output_adapter<char>(out));
-  return out;
+  CborWriter out;
+  CborEvents events{out};
+  nlohmann::json::sax_parse(json_text.begin(), json_text.end(), &events);
+  return out.take();
 }
 
 }  // namespace tubecut::api

@@ -1,14 +1,68 @@
 // Trusses of 10 to 10 000 members: core alone, and the whole request through the api. Time and
-// memory are linear in the members: compare time / members between the rows.
+// memory are linear in the members: the fitted order, and the most bytes in use per member.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <new>
 #include <string>
 
 #include "api/api.hpp"
 #include "core/joint/node.hpp"
 
+namespace {
+
+/// Bytes in use now and at most, of everything allocated by `new`. One thread.
+struct Heap {
+  std::size_t live = 0, most = 0;
+};
+Heap heap;
+
+void* take(void* block) {
+  if (block == nullptr) throw std::bad_alloc();
+  heap.live += malloc_usable_size(block);
+  heap.most = std::max(heap.most, heap.live);
+  return block;
+}
+void give(void* block) {
+  if (block != nullptr) heap.live -= malloc_usable_size(block);
+  std::free(block);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return take(std::malloc(size)); }
+void* operator new(std::size_t size, std::align_val_t align) {
+  const auto unit = static_cast<std::size_t>(align);
+  return take(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
+}
+void operator delete(void* block) noexcept { give(block); }
+void operator delete(void* block, std::size_t) noexcept { give(block); }
+void operator delete(void* block, std::align_val_t) noexcept { give(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { give(block); }
+
 namespace tubecut {
 namespace {
+
+/// The most bytes a run had in use beyond what was there before, over its members.
+class PeakPerMember {
+ public:
+  explicit PeakPerMember(benchmark::State& state) : state_(state), before_(heap.live) {
+    heap.most = heap.live;
+  }
+  ~PeakPerMember() {
+    const auto peak = static_cast<double>(heap.most - before_);
+    state_.counters["peak_bytes"] = peak;
+    state_.counters["peak_bytes_per_member"] = peak / static_cast<double>(state_.range(0));
+  }
+  PeakPerMember(const PeakPerMember&) = delete;
+  PeakPerMember& operator=(const PeakPerMember&) = delete;
+
+ private:
+  benchmark::State& state_;
+  std::size_t before_;
+};
 
 constexpr double kPanel = 2000.0;
 constexpr double kHeight = 1800.0;
@@ -56,6 +110,7 @@ std::string body(const joint::NodeSpec& spec) {
 
 void solve_truss(benchmark::State& state) {
   const auto spec = truss(state.range(0));
+  const PeakPerMember peak(state);
   for (auto _ : state) benchmark::DoNotOptimize(joint::solve(spec));
   state.SetComplexityN(state.range(0));
 }
@@ -75,6 +130,7 @@ void post_truss(benchmark::State& state) {
                        .body = text,
                        .job_id = {},
                        .request_id = "bench"};
+  const PeakPerMember peak(state);
   for (auto _ : state) {
     const auto out = api::dispatch(call, {});
     if (out.error) state.SkipWithError(out.body.substr(0, 200).c_str());

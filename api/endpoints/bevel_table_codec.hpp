@@ -1,10 +1,32 @@
 #pragma once
 
+#include <array>
+
+#include "api/endpoint.hpp"
+#include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/writer.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
+
+/// What a table is asked for beside its joint and its sampling: groove, contact, kerf, torch,
+/// smoothing.
+void decode_table_options(Reader& in, bevel::TableSpec& out);
+
+/// The members of a table's `result`.
+void encode_table(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
+
+inline constexpr std::array<CheckLimit, 8> kTableChecks{{
+    {"dihedral", "1e-9", "deg"},
+    {"bevel_plane", "1e-9", ""},
+    {"above_required", "1e-9", "deg"},
+    {"slope", "max_slope_deg_per_mm (1 + 1e-9)", "deg_per_mm"},
+    {"second_difference", "max_curvature_deg_per_mm2 (1 + 1e-6) + rounding", "deg_per_mm2"},
+    {"torch_range", "1e-9", "deg"},
+    {"penetration", "1e-6", "mm"},
+    {"touch", "1e-6", "mm"},
+}};
 
 /// A bevel table asked for by its joint, given directly or as an end of a node; `resolve` fills in
 /// target and partners.

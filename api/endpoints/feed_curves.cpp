@@ -313,8 +313,8 @@ struct FeedCurves {
 
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv", &feed_curve_csv},
-        {"svg", "image/svg+xml", &feed_curve_svg},
+        {"csv", "text/csv", &feed_curve_csv, {"table", "samples"}},
+        {"svg", "image/svg+xml", &feed_curve_svg, {"chart"}},
         {"st", "text/x-iec61131-st", &feed_curve_structured_text}};
     return kFormats;
   }

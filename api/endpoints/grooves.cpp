@@ -107,7 +107,7 @@ struct Grooves {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &groove_csv},
-        {"svg", "image/svg+xml", &groove_svg},
+        {"svg", "image/svg+xml", &groove_svg, {"chart", "section"}},
         {"glb", "model/gltf-binary", &groove_gltf}};
     return kFormats;
   }

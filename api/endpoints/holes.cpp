@@ -55,7 +55,7 @@ struct Joint {
   std::optional<double> depth = {};
 };
 
-Joint decode_joint(Reader& in, double chord_radius) {
+Joint decode_joint(Reader& in, double deepest) {
   static constexpr std::array kKinds{Option<JointKind>{"set_on", JointKind::set_on},
                                      Option<JointKind>{"set_in", JointKind::set_in},
                                      Option<JointKind>{"through", JointKind::through}};
@@ -68,8 +68,8 @@ Joint decode_joint(Reader& in, double chord_radius) {
               .pointer = "depth_mm",
               .hint = "only a set-in branch has a depth"},
              in.find("depth_mm"));
-  out.depth = in.optional_number(
-      "depth_mm", {.min = 0.0, .max = chord_radius, .open_min = true, .open_max = true});
+  out.depth = in.optional_number("depth_mm",
+                                 {.min = 0.0, .max = deepest, .open_min = true, .open_max = true});
   return out;
 }
 
@@ -186,10 +186,11 @@ struct Holes {
     Spec out;
     const auto chord = in.object("chord", decode_tube);
     out.chord = {.outer_radius = chord.outer_radius, .wall = chord.wall};
+    const double deepest = in.refused() ? kDiameter.max / 2.0 : chord.outer_radius;
     const auto branch = in.object("branch", decode_hole_branch);
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
-    decode_hole_cut(in, chord.outer_radius, out);
+    decode_hole_cut(in, deepest, out);
     out.torch = in.defaulted_object("torch", decode_range);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
     out.sampling = decode_sampling(in);
@@ -239,8 +240,10 @@ struct Holes {
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kFormats{{"csv", "text/csv", &hole_csv},
-                                                         {"svg", "image/svg+xml", &hole_svg}};
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &hole_csv},
+        {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror"}},
+        {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}}};
     return kFormats;
   }
 };

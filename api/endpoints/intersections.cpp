@@ -2,6 +2,7 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/formats/intersection_formats.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::api {
@@ -18,12 +19,7 @@ struct Intersections {
   static constexpr std::string_view kPath = "/v1/intersections";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 4> kChecks{{
-      {"on_cutter", "1e-12 max(radius + rho, |z|)", "mm"},
-      {"none_above", "1e-9 max(radius + rho, |z|)", "mm"},
-      {"event_gap", "1e-8 (radius + rho)", "mm"},
-      {"labels", "1e-7 max(radius + rho, |z|)", "mm"},
-  }};
+  static constexpr auto kChecks = kProfileChecks;
 
   static Spec decode(Reader& in) {
     using joint::Surfaces;
@@ -65,9 +61,20 @@ struct Intersections {
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
   }
 
+  template <auto Print>
+  static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
+    return Print(spec, out, caption);
+  }
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kNone;
-    return kNone;
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &print<intersection_csv>},
+        {"svg",
+         "image/svg+xml",
+         &print<intersection_svg>,
+         {"chart", "template", "section"},
+         {"mirror"}},
+        {"dxf", "image/vnd.dxf", &print<intersection_dxf>, {"template", "tube"}}};
+    return kFormats;
   }
 };
 

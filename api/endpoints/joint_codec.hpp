@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "api/endpoint.hpp"
 #include "api/reader.hpp"
 #include "api/writer.hpp"
 #include "core/joint/intersection.hpp"
@@ -20,6 +22,14 @@ struct Section {
 [[nodiscard]] joint::Target decode_target(Reader& in);
 [[nodiscard]] std::vector<joint::Partner> decode_cutters(Reader& in);
 [[nodiscard]] joint::Sampling decode_sampling(Reader& in);
+
+/// What proves a curve.
+inline constexpr std::array<CheckLimit, 4> kProfileChecks{{
+    {"on_cutter", "1e-12 max(radius + rho, |z|)", "mm"},
+    {"none_above", "1e-9 max(radius + rho, |z|)", "mm"},
+    {"event_gap", "1e-8 (radius + rho)", "mm"},
+    {"labels", "1e-7 max(radius + rho, |z|)", "mm"},
+}};
 
 /// One event as an object; `outer` names the wall it is on.
 void encode_event(const joint::Event& event, bool outer, Writer& w);

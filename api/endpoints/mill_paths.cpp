@@ -95,7 +95,7 @@ struct MillPaths {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &mill_path_csv},
-        {"svg", "image/svg+xml", &mill_path_svg},
+        {"svg", "image/svg+xml", &mill_path_svg, {"chart"}},
         {"glb", "model/gltf-binary", &mill_path_gltf}};
     return kFormats;
   }

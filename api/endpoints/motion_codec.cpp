@@ -158,8 +158,8 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut) {
   const bool has_contour = contour != nullptr || std::holds_alternative<BevelTableRequest>(cut);
   out.speed = in.object("speed", decode_speed);
   if (has_contour) out.speed_on = in.choice("speed_on", kSurfaces, Surface::outer);
-  out.eps_tip = in.number("eps_tip_mm", {.min = 1e-4, .max = 10.0}, 0.1);
-  out.eps_b = in.angle("eps_b_deg", {.min = 1e-4, .max = 10.0}, Angle::deg(0.5));
+  out.eps_tip = in.number("eps_tip_mm", {.min = 1e-3, .max = 10.0}, 0.1);
+  out.eps_b = in.angle("eps_b_deg", {.min = 0.01, .max = 10.0}, Angle::deg(0.5));
   out.jerk = in.flag("jerk", true);
   out.compare = in.flag("compare", false);
   const bool closed = contour == nullptr || contour->closed;

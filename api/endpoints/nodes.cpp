@@ -1,7 +1,11 @@
+#include <algorithm>
+
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "core/bevel/end_tables.hpp"
 #include "core/joint/node.hpp"
 
 namespace tubecut::api {
@@ -11,23 +15,74 @@ struct NodesRequest {
   joint::NodeSpec node;
   bool profiles = false;
   joint::Sampling sampling;
+  std::optional<bevel::TableSpec> tables;  // how, if asked for
 };
 struct NodesAnswer {
   joint::Nodes nodes;
-  std::vector<std::optional<joint::Intersection>> profiles;  // of each end, if asked for
+  // Of each end, if asked for; else there are none.
+  std::vector<std::optional<joint::Intersection>> profiles;
+  std::vector<std::optional<bevel::EndTable>> tables;
 };
 
-bool decode_include(Reader& in) {
+struct Include {
+  bool profiles = false, tables = false;
+  bool understood = true;
+};
+
+Include decode_include(Reader& in) {
+  Include out;
   in.note("include");
-  if (!in.has("include")) return false;
-  const auto parts = in.text_column("include", {.min = 1, .max = 1});
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (!parts[i].empty() && parts[i] != "profiles")
-      in.issue({.code = ErrorCode::bad_choice,
-                .pointer = "include/" + std::to_string(i),
-                .got = Json{parts[i]},
-                .limit = Json{"profiles"}});
-  return !parts.empty();
+  if (!in.has("include")) return out;
+  const auto parts = in.text_column("include", {.min = 1, .max = 2});
+  out.understood = !parts.empty();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    bool* part = parts[i] == "profiles" ? &out.profiles
+                 : parts[i] == "tables" ? &out.tables
+                                        : nullptr;
+    if (part == nullptr || *part) {
+      out.understood = false;
+      if (!parts[i].empty())
+        in.issue({.code = ErrorCode::bad_choice,
+                  .pointer = "include/" + std::to_string(i),
+                  .got = Json{parts[i]},
+                  .limit = Json{"profiles|tables"},
+                  .hint = part == nullptr ? "" : "named twice"});
+    } else {
+      *part = true;
+    }
+  }
+  return out;
+}
+
+/// `tables` tells how the tables are made: it goes with their name in `include`.
+std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include,
+                                              const joint::Sampling& sampling) {
+  in.note("tables");
+  if (!include.understood) return std::nullopt;
+  if (include.tables)
+    return in.object("tables", [&](Reader& t) {
+      bevel::TableSpec out;
+      out.sampling = sampling;
+      decode_table_options(t, out);
+      return out;
+    });
+  if (in.has("tables"))
+    in.issue({.code = ErrorCode::missing_field,
+              .pointer = in.has("include") ? "include/1" : "include",
+              .limit = Json{"tables"},
+              .hint = "tables are made when include names them"});
+  return std::nullopt;
+}
+
+/// Checks of many tables as one of each name, the one that uses most of its limit.
+void keep_worst(std::vector<Check>& worst, const std::vector<Check>& checks) {
+  for (const auto& check : checks) {
+    const auto known = std::ranges::find(worst, check.name, &Check::name);
+    if (known == worst.end())
+      worst.push_back(check);
+    else if (!(check.value * known->limit <= known->value * check.limit))
+      *known = check;
+  }
 }
 
 std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -60,37 +115,93 @@ struct Nodes {
   static constexpr std::string_view kPath = "/v1/nodes";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 6> kChecks{{
+  static constexpr std::array<CheckLimit, 18> kChecks{{
       {"axis_in_world", "1e-12, of the lengths involved", ""},
       {"inclination", "1e-9", "deg"},
       {"eccentricity", "1e-12, of the lengths involved", ""},
       {"gap", "1e-12, of the lengths involved", ""},
       {"frame", "1e-12", ""},
       {"one_cuts_the_other", "0", ""},
+      kProfileChecks[0],
+      kProfileChecks[1],
+      kProfileChecks[2],
+      kProfileChecks[3],
+      kTableChecks[0],
+      kTableChecks[1],
+      kTableChecks[2],
+      kTableChecks[3],
+      kTableChecks[4],
+      kTableChecks[5],
+      kTableChecks[6],
+      kTableChecks[7],
   }};
 
   static Spec decode(Reader& in) {
     Spec out;
     out.node = decode_node(in);
-    out.profiles = decode_include(in);
+    const auto include = decode_include(in);
+    out.profiles = include.profiles;
     out.sampling = decode_sampling(in);
+    out.tables = decode_tables(in, include, out.sampling);
     return out;
   }
 
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto nodes = joint::solve(spec.node, stop);
     if (!nodes) return tl::unexpected(nodes.error());
-    Out out{.nodes = *std::move(nodes), .profiles = {}};
-    if (!spec.profiles) return out;
-    auto profiles = joint::profiles(spec.node, out.nodes, spec.sampling, stop);
-    if (!profiles) return tl::unexpected(profiles.error());
-    out.profiles = *std::move(profiles);
+    Out out{.nodes = *std::move(nodes), .profiles = {}, .tables = {}};
+    if (spec.profiles) {
+      auto profiles = joint::profiles(spec.node, out.nodes, spec.sampling, stop);
+      if (!profiles) return tl::unexpected(profiles.error());
+      out.profiles = *std::move(profiles);
+    }
+    if (!spec.tables) return out;
+    auto tables = bevel::end_tables(spec.node, out.nodes, *spec.tables, stop);
+    if (!tables) return tl::unexpected(in_tables(tables.error()));
+    out.tables = *std::move(tables);
     return out;
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out) {
-    return joint::verify(spec.node, out.nodes);
+
+  /// What is wrong with how the tables are made stands in `tables`.
+  static Error in_tables(Error error) {
+    for (auto& issue : error.issues)
+      if (issue.member.starts_with("groove")) issue.member = "tables/" + issue.member;
+    return error;
   }
-  static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.nodes.warnings; }
+
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    auto checks = joint::verify(spec.node, out.nodes);
+    for (std::size_t i = 0; i < out.profiles.size(); ++i)
+      if (out.profiles[i]) {
+        const auto joint = joint::joint_of(spec.node, out.nodes.ends[i]);
+        keep_worst(checks, joint::verify(joint::IntersectionSpec{.target = joint.target,
+                                                                 .partners = joint.partners,
+                                                                 .surfaces = joint::Surfaces::both,
+                                                                 .sampling = spec.sampling},
+                                         *out.profiles[i]));
+      }
+    for (const auto& end : out.tables)
+      if (end && end->table) keep_worst(checks, bevel::verify(end->spec, *end->table));
+    return checks;
+  }
+
+  static std::vector<Warning> warnings(const Spec&, const Out& out) {
+    auto all = out.nodes.warnings;
+    for (std::size_t i = 0; i < out.tables.size(); ++i) {
+      if (!out.tables[i]) continue;
+      const auto at = joint::place_of(out.nodes.ends[i].member, out.nodes.ends[i].end);
+      if (const auto& why = out.tables[i]->refused)
+        all.push_back({.code = WarningCode::no_table,
+                       .member = at,
+                       .detail = std::string(info(why->code).code) +
+                                 (why->hint.empty() ? "" : ": " + why->hint)});
+      else
+        for (const auto& warning : out.tables[i]->table->warnings)
+          if (warning.code != WarningCode::near_parallel)  // the node says it too
+            all.push_back({.code = warning.code, .member = at, .detail = warning.detail});
+    }
+    return all;
+  }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
   static void encode_end(const Spec& spec, const Out& out, const joint::MemberEnd& end, Writer& w) {
@@ -111,6 +222,9 @@ struct Nodes {
             [&](Writer& each, const joint::Profile& profile) {
               each.object([&](Writer& o) { encode_profile(profile, spec.sampling, o); });
             });
+    if (index >= out.tables.size() || !out.tables[index] || !out.tables[index]->table) return;
+    const auto& made = *out.tables[index];
+    w.object("table", [&](Writer& o) { encode_table(made.spec, *made.table, o); });
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {

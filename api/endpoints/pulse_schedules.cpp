@@ -2,6 +2,7 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
 #include "api/formats/schedule_formats.hpp"
+#include "api/formats/schedule_gcode.hpp"
 #include "api/machines.hpp"
 #include "core/motion/replay.hpp"
 
@@ -141,9 +142,14 @@ struct PulseSchedules {
   static std::string svg(const Spec&, const Out& out, const Caption& caption) {
     return schedule_svg(out.job.spec, out.schedule, caption);
   }
+  static std::string gcode(const Spec& spec, const Out& out, const Caption& caption) {
+    return print_schedule_gcode(spec.machine, out.job.spec, out.schedule, caption);
+  }
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kFormats{{"csv", "text/csv", &csv},
-                                                         {"svg", "image/svg+xml", &svg}};
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &csv},
+        {"svg", "image/svg+xml", &svg, {"chart"}},
+        {"gcode", "text/x-gcode", &gcode, {}, {"dialect", "torch"}}};
     return kFormats;
   }
 };

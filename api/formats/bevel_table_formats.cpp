@@ -4,6 +4,13 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/cut_solid.hpp"
+#include "api/formats/development.hpp"
+#include "api/formats/dstv.hpp"
+#include "api/formats/dxf.hpp"
+#include "api/formats/gcode.hpp"
+#include "api/formats/sections.hpp"
+#include "api/formats/wrap_template.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -52,11 +59,45 @@ Chart edge_chart(const bevel::Table& table) {
                      {.name = "outer edge", .x = phi, .y = table.z_outer}}};
 }
 
+/// Stretches of one zone after another, with their names.
+std::vector<Band> zone_bands(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
+  static constexpr const char* kColors[] = {"#2471a3", "#b9770e"};
+  std::vector<Band> out;
+  for (std::size_t i = 0; i < table.zone.size(); ++i) {
+    if (i > 0) out.back().to = table.developed[i];
+    if (i == 0 || table.zone[i] != table.zone[i - 1])
+      out.push_back({table.developed[i], table.developed[i], zoned.zones[table.zone[i]].id,
+                     kColors[out.size() % 2]});
+  }
+  if (!out.empty()) out.back().to = table.developed.back();
+  return out;
+}
+
+Chart zone_chart(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
+  Chart out{.title = "Zones: dihedral and groove angle",
+            .x_label = "developed length, mm",
+            .y_label = "deg",
+            .series = {{.name = "dihedral", .x = table.developed, .y = degrees(table.dihedral)},
+                       {.name = "groove",
+                        .x = table.developed,
+                        .y = degrees(table.groove),
+                        .color = "#1e8449"}}};
+  out.bands = zone_bands(zoned, table);
+  return out;
+}
+
+std::vector<std::string> zone_names(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
+  std::vector<std::string> out;
+  for (const auto i : table.zone) out.push_back(zoned.zones[i].id);
+  return out;
+}
+
 }  // namespace
 
-std::string bevel_table_csv(const bevel::TableSpec&, const bevel::Table& table, const Caption&) {
-  return Csv()
-      .degrees("phi_deg", table.phi)
+std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& table,
+                            const Caption&) {
+  Csv out;
+  out.degrees("phi_deg", table.phi)
       .column("developed_mm", table.developed)
       .column("length_mm", table.length)
       .integers("cutter", table.cutter)
@@ -73,13 +114,47 @@ std::string bevel_table_csv(const bevel::TableSpec&, const bevel::Table& table, 
       .column("gap_mm", table.gap)
       .column("beam_mm", table.beam)
       .column("torch_inner_mm", table.torch_inner)
-      .column("torch_outer_mm", table.torch_outer)
-      .print();
+      .column("torch_outer_mm", table.torch_outer);
+  if (!table.z_face.empty())
+    out.column("z_face_mm", table.z_face).degrees("b_face_deg", table.b_face);
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
+    out.cells_column("zone", zone_names(*zoned, table));
+  return out.print();
 }
 
 std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
                             const Caption& caption) {
-  return print_charts({bevel_chart(spec, table), edge_chart(table)}, job_line(caption));
+  if (caption.view == "template") return print_wrap_template(developed(spec, table), caption);
+  if (caption.view == "section") return print_sections(sections_of(spec, table), caption);
+  std::vector<Chart> charts{bevel_chart(spec, table), edge_chart(table)};
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
+    charts.push_back(zone_chart(*zoned, table));
+  return print_charts(charts, job_line(caption));
+}
+
+std::string bevel_table_dxf(const bevel::TableSpec& spec, const bevel::Table& table,
+                            const Caption& caption) {
+  return print_dxf(developed(spec, table), caption);
+}
+
+std::string bevel_table_gltf(const bevel::TableSpec& spec, const bevel::Table& table,
+                             const Caption& caption) {
+  return print_cut_gltf(spec, table, caption);
+}
+
+std::string bevel_table_stl(const bevel::TableSpec& spec, const bevel::Table& table,
+                            const Caption& caption) {
+  return print_cut_stl(spec, table, caption);
+}
+
+std::string bevel_table_dstv(const bevel::TableSpec& spec, const bevel::Table& table,
+                             const Caption& caption) {
+  return print_dstv(spec, table, caption);
+}
+
+std::string bevel_table_gcode(const bevel::TableSpec& spec, const bevel::Table& table,
+                              const Caption& caption) {
+  return print_gcode(torch_path(spec, table), caption);
 }
 
 }  // namespace tubecut::api

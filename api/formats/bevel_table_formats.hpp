@@ -12,8 +12,23 @@ namespace tubecut::api {
                                           const Caption& caption);
 
 /// B before and after smoothing over the developed length, with the junctions, the mutations and
-/// the stretches where the torch's range binds; below it the finished edges over phi.
+/// the stretches where the torch's range binds; below it the finished edges over phi. The views
+/// `template` and `section`: see wrap_template.hpp and sections.hpp.
 [[nodiscard]] std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
                                           const Caption& caption);
+
+/// The developed cut; view `tube`: on the tube in space.
+[[nodiscard]] std::string bevel_table_dxf(const bevel::TableSpec& spec, const bevel::Table& table,
+                                          const Caption& caption);
+/// The cut end as a solid: nodes `before` and `after` smoothing.
+[[nodiscard]] std::string bevel_table_gltf(const bevel::TableSpec& spec, const bevel::Table& table,
+                                           const Caption& caption);
+/// The cut end as a solid, after smoothing (view `before`: before it).
+[[nodiscard]] std::string bevel_table_stl(const bevel::TableSpec& spec, const bevel::Table& table,
+                                          const Caption& caption);
+[[nodiscard]] std::string bevel_table_dstv(const bevel::TableSpec& spec, const bevel::Table& table,
+                                           const Caption& caption);
+[[nodiscard]] std::string bevel_table_gcode(const bevel::TableSpec& spec, const bevel::Table& table,
+                                            const Caption& caption);
 
 }  // namespace tubecut::api

@@ -1,9 +1,10 @@
 #include "api/formats/chart.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "api/formats/text.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -11,36 +12,6 @@ namespace {
 constexpr double kWidth = 960.0, kHeight = 360.0;  // px, of one chart
 constexpr double kLeft = 78.0, kRight = 24.0, kTop = 56.0, kBottom = 56.0;
 constexpr double kLegendLine = 18.0;
-
-std::string fixed(double v, int digits = 2) {
-  char text[64];
-  return {text, std::to_chars(text, text + sizeof text, v == 0.0 ? 0.0 : v,
-                              std::chars_format::fixed, digits)
-                    .ptr};
-}
-
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// Round ticks that cover [low, high]: steps of 1, 2 or 5 times a power of ten.
 struct Scale {
@@ -104,7 +75,7 @@ Frame frame(const Chart& chart, double top) {
 }
 
 void text(std::string& out, double x, double y, const std::string& what, const char* extra = "") {
-  out += "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" " + extra + ">" + xml(what) +
+  out += "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" " + extra + ">" + xml_text(what) +
          "</text>\n";
 }
 
@@ -131,7 +102,7 @@ void axes(std::string& out, const Chart& chart, const Frame& f) {
   text(out, (kLeft + right) / 2, bottom + 36, chart.x_label, "text-anchor=\"middle\"");
   const double middle = (f.top + bottom) / 2;
   out += "<text transform=\"translate(18," + fixed(middle) +
-         ") rotate(-90)\" text-anchor=\"middle\">" + xml(chart.y_label) + "</text>\n";
+         ") rotate(-90)\" text-anchor=\"middle\">" + xml_text(chart.y_label) + "</text>\n";
   text(out, kLeft, f.top - 34, chart.title, "font-size=\"15\" font-weight=\"600\"");
 }
 
@@ -158,6 +129,24 @@ void curve(std::string& out, const Series& s, const Frame& f) {
   out += "\"/>\n";
 }
 
+/// Labels that would lie on each other go one above the other; near the right edge they end at
+/// their line.
+void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bottom) {
+  constexpr double kLabel = 80.0, kLine = 13.0;  // px
+  double before = -kLabel, y = bottom - 5.0;
+  for (const auto& mark : chart.marks) {
+    const double x = f.px(mark.x);
+    line(out, x, f.top, x, bottom,
+         "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
+    y = x - before < kLabel ? y - kLine : bottom - 5.0;
+    before = x;
+    const bool last = x > kWidth - kRight - kLabel;
+    text(out, last ? x - 3.0 : x + 3.0, y, mark.label,
+         last ? "font-size=\"11\" fill=\"#56626e\" text-anchor=\"end\""
+              : "font-size=\"11\" fill=\"#56626e\"");
+  }
+}
+
 void plot(std::string& out, const Chart& chart, double top) {
   const auto f = frame(chart, top + kTop);
   const double bottom = f.py(f.y.low);
@@ -168,11 +157,7 @@ void plot(std::string& out, const Chart& chart, double top) {
     text(out, f.px(band.from) + 3, f.top + 12, band.label, "font-size=\"11\"");
   }
   axes(out, chart, f);
-  for (const auto& mark : chart.marks) {
-    line(out, f.px(mark.x), f.top, f.px(mark.x), bottom,
-         "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
-    text(out, f.px(mark.x) + 3, bottom - 5, mark.label, "font-size=\"11\" fill=\"#56626e\"");
-  }
+  draw_marks(out, chart, f, bottom);
   for (const auto& s : chart.series) curve(out, s, f);
   legend(out, chart, f);
 }

@@ -4,6 +4,10 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/development.hpp"
+#include "api/formats/dxf.hpp"
+#include "api/formats/sections.hpp"
+#include "api/formats/wrap_template.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -92,12 +96,19 @@ std::string hole_csv(const bevel::HoleSpec&, const bevel::HoleCut& cut, const Ca
 
 std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
                      const Caption& caption) {
+  if (caption.view == "template") return print_wrap_template(developed(spec, cut), caption);
+  if (caption.view == "section") return print_sections(sections_of(spec, cut), caption);
   std::vector<Chart> charts;
   for (const auto& hole : cut.holes) {
     charts.push_back(edge_chart(spec, hole));
     charts.push_back(gap_chart(hole));
   }
   return print_charts(charts, job_line(caption));
+}
+
+std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                     const Caption& caption) {
+  return print_dxf(developed(spec, cut), caption);
 }
 
 }  // namespace tubecut::api

@@ -12,8 +12,13 @@ namespace tubecut::api {
                                    const Caption& caption);
 
 /// The holes on the chord's developed outer surface, finished edges and torch line, and the gap
-/// over the branch's phase.
+/// over the branch's phase. The views `template` and `section`: see wrap_template.hpp,
+/// sections.hpp.
 [[nodiscard]] std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                                   const Caption& caption);
+
+/// The holes on the developed chord; view `tube`: on the chord in space.
+[[nodiscard]] std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
                                    const Caption& caption);
 
 }  // namespace tubecut::api

@@ -5,6 +5,7 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "core/base/elementary.hpp"
 #include "core/motion/replay.hpp"
 
 namespace tubecut::api {
@@ -29,6 +30,7 @@ Series thinned(std::string name, const std::vector<double>& y, double dt, const 
   return out;
 }
 
+/// On the surface where the speed is asked for, mm/min.
 std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s) {
   motion::ReplaySpec again{.job = spec, .period = s.period, .counts = {}, .start = {}};
   for (const auto& axis : s.axes) {
@@ -38,11 +40,15 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
   const auto path = motion::replay(again);
   std::vector<double> out;
   if (!path) return out;
-  const double radius = std::get<motion::Contour>(spec.cut).radius();
+  const auto& contour = std::get<motion::Contour>(spec.cut);
+  const bool outer = spec.motion.speed_on == motion::Surface::outer;
+  const double radius = outer ? contour.outer_radius : contour.inner_radius();
+  const double rise = spec.machine.sigma() * (radius - contour.radius());
+  const auto along = [&](std::size_t i) { return path->z[i] - rise * elementary::tan(path->b[i]); };
   constexpr std::size_t kMean = 25;  // periods, over which the rounding of pulses averages out
   for (std::size_t i = kMean; i < path->phi.size(); ++i) {
     const double length =
-        std::hypot(radius * (path->phi[i] - path->phi[i - kMean]), path->z[i] - path->z[i - kMean]);
+        std::hypot(radius * (path->phi[i] - path->phi[i - kMean]), along(i) - along(i - kMean));
     out.push_back(60.0 * length / (static_cast<double>(kMean) * s.period));
   }
   return out;
@@ -77,7 +83,9 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
         {s.period * static_cast<double>(event.period), std::string(motion::name_of(event.what))});
   std::vector<Chart> charts{std::move(pulses)};
   if (std::holds_alternative<motion::Contour>(spec.cut)) {
-    Chart speed{.title = "Speed of the tip along the cut, mean of 25 periods",
+    Chart speed{.title = std::string("Speed of the cut on the ") +
+                         (spec.motion.speed_on == motion::Surface::outer ? "outer" : "inner") +
+                         " surface, mean of 25 periods",
                 .x_label = "time, s",
                 .y_label = "mm/min",
                 .series = {thinned("tip", tip_speed(spec, s), s.period, kColors[0])},

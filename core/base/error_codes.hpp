@@ -202,6 +202,7 @@
   X(free_end, cut, "This end meets no member.")                                                    \
   X(end_open, cut, "Some generators of this end meet no cutter, so the cut is not closed.")        \
   X(end_consumed, cut, "The cut at this end reaches beyond the member's other end.")               \
+  X(no_table, cut, "This end has no bevel table: it cannot be cut as asked, for this reason.")     \
   X(parallel_members, cut, "Two members that join are parallel; neither cuts the other.")          \
   X(root_opens, cut, "The root is opened so that the cut can be made.")                            \
   X(hole_meets_end, cut, "A hole of the part reaches into the cut at one of its ends.")            \

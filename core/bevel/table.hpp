@@ -112,6 +112,9 @@ struct Table {
 /// Source  docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
 [[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
 
+/// Errors  wrong_count, out_of_range (groove/zones/i).
+[[nodiscard]] Result<void> check_groove(const GrooveRule& groove);
+
 /// The partners as the cut must see them: grown by coating and root gap.
 [[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
 

@@ -24,6 +24,7 @@ struct Row {
   Vector3d radial, axial{0.0, 0.0, 1.0};
   Vector3d normal;      // of the partner at the root point, outwards
   double axial_normal;  // its z part
+  double noise;         // of the normal, from the rounding of z
 };
 
 Row row(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
@@ -36,6 +37,7 @@ Row row(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& 
   const double z = outer ? t.z_outer[i] : t.z_inner[i] - t.gap[i];
   out.normal = solids.at(t.cutter[i]).normal(rho * out.radial + z * out.axial);
   out.axial_normal = out.normal.z();
+  out.noise = 16.0 * std::numeric_limits<double>::epsilon() * (rho + std::abs(z)) / rho;
   return out;
 }
 
@@ -47,12 +49,15 @@ double between(const Vector3d& a, const Vector3d& b) {
 double dihedral_error(const TableSpec& spec, const Table& t, const Row& r, std::size_t i) {
   const bool weld = spec.dihedral == Dihedral::weld_side;
   const double angle = weld ? between(r.radial, -r.normal) : between(r.radial, r.normal);
-  return std::abs(angle - t.dihedral[i]) * kDegPerRad;
+  return std::max(0.0, std::abs(angle - t.dihedral[i]) - r.noise) * kDegPerRad;
 }
 
-/// Sine of the angle by which the torch line of b_raw leaves the plane of tangent and bevel line.
+/// Sine of the angle by which the torch line of b_raw leaves the plane of tangent and bevel line,
+/// beyond rounding: where both surfaces have one tangent plane the curve's tangent loses its
+/// digits.
 double plane_error(const TableSpec& spec, const Table& t, const Row& r, std::size_t i) {
-  const Vector3d tangent = r.radial.cross(r.normal).normalized();
+  const Vector3d along = r.radial.cross(r.normal);
+  const Vector3d tangent = along.normalized();
   Vector3d across = tangent.cross(r.radial);  // in the target's tangent plane, across the curve
   if (across.z() < 0.0) across = -across;
   const bool inward = spec.dihedral != Dihedral::weld_side;
@@ -61,7 +66,8 @@ double plane_error(const TableSpec& spec, const Table& t, const Row& r, std::siz
   const Vector3d out = inward ? Vector3d(-r.radial) : r.radial;
   const Vector3d bevel = tau.cos * out + tau.sin * across;
   const Vector3d torch = b.cos * out + b.sin * r.axial;
-  return std::abs(torch.dot(tangent.cross(bevel).normalized()));
+  return std::max(0.0,
+                  std::abs(torch.dot(tangent.cross(bevel).normalized())) - r.noise / along.norm());
 }
 
 /// Slopes and second differences of b along the path that was smoothed, nodes of one jump as one.

@@ -7,20 +7,17 @@
 
 #include "core/base/elementary.hpp"
 #include "core/joint/nearness.hpp"
+#include "core/joint/node_parts.hpp"
 
 namespace tubecut::joint {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEquallyNear = 1e-6;  // mm: two chords at the same distance
-constexpr std::size_t kScan = 180;     // generators looked at for ghosts and the highest z
+constexpr double kEquallyNear = 1e-6;                  // mm: two chords at the same distance
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
 
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
-std::string place_of(std::size_t member, End end) {
-  return place_of(member) + (end == End::start ? "/start" : "/end");
-}
 std::string called(const NodeSpec& spec, std::size_t member) {
   const auto& name = spec.members[member].name;
   return name.empty() ? "member " + std::to_string(member) : name;
@@ -185,69 +182,6 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Member& mem
   return out;
 }
 
-std::vector<Prepared> prepared(const MemberEnd& end) {
-  std::vector<Prepared> out;
-  for (const auto& cut : end.cut_by)
-    if (auto one = prepare(Cutter{cut.placement.tube}, "")) out.push_back(*one);
-  return out;
-}
-
-/// Every generator of radius rho meets some cutter.
-bool closed(const MemberEnd& end, std::span<const Prepared> cutters, double rho) {
-  for (const auto& cut : end.cut_by)
-    if (std::abs(cut.placement.tube.offset) + rho <= cut.placement.tube.radius) return true;
-  return divide(cutters, rho).open.empty();
-}
-
-/// Cheap bounds of a cutter's sheet on radius rho: the highest z, and the reach along its own axis.
-struct Bounds {
-  double z, axial;
-};
-Bounds bounds(const TubeCutter& t, double rho) {
-  const auto turn = elementary::sincos(t.inclination.rad());
-  return {t.height + (t.radius + rho * std::abs(turn.cos)) / turn.sin,
-          (t.radius * std::abs(turn.cos) + rho) / turn.sin};
-}
-
-/// Is w, along the axis of the cutter from the common perpendicular, beyond the member's ends?
-bool beyond(const Member& m, const CutBy& cut, double w) {
-  const double from = cut.placement.point_axial;
-  const double length = (m.finish - m.start).norm();
-  const double slack = 1e-9 * (length + std::abs(from));
-  return w < from - slack || w > from + length + slack;
-}
-
-/// Ghosts and the highest z, read on the generators of one surface.
-void scan(const NodeSpec& spec, std::span<const Prepared> cutters, double rho, double length,
-          MemberEnd& end) {
-  for (std::size_t k = 0; k < kScan; ++k) {
-    const auto line =
-        generator_at(rho, kTwoPi * static_cast<double>(k) / static_cast<double>(kScan));
-    const auto top = highest(cutters, line);
-    if (!top) continue;
-    end.consumed = end.consumed || top->z > length;
-    auto& cut = end.cut_by[top->cutter];
-    if (const auto at = hit(cutters[top->cutter], line))
-      cut.ghost = cut.ghost || beyond(spec.members[cut.member], cut, at->axial);
-  }
-}
-
-/// Flags of one end; the scan is left out where bounds already say that there is nothing to find.
-void inspect(const NodeSpec& spec, MemberEnd& end) {
-  const auto& m = spec.members[end.member];
-  const double length = (m.finish - m.start).norm();
-  const auto cutters = prepared(end);
-  for (const double rho : {m.outer_radius - m.wall, m.outer_radius}) {
-    end.open = end.open || !closed(end, cutters, rho);
-    const bool nothing = std::ranges::all_of(end.cut_by, [&](const CutBy& cut) {
-      const auto most = bounds(cut.placement.tube, rho);
-      return most.z < length && !beyond(spec.members[cut.member], cut, most.axial) &&
-             !beyond(spec.members[cut.member], cut, -most.axial);
-    });
-    if (!nothing) scan(spec, cutters, rho, length, end);
-  }
-}
-
 void warn(const NodeSpec& spec, const MemberEnd& end, bool by_distance, std::vector<Warning>& out) {
   const auto at = place_of(end.member, end.end);
   if (end.free && by_distance)
@@ -283,12 +217,16 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index,
   auto placed = place_cutters(spec, spec.members[out.member], out.frame, cutters);
   if (!placed) return tl::unexpected(placed.error());
   out.cut_by = *std::move(placed);
-  if (!out.cut_by.empty()) inspect(spec, out);
+  if (!out.cut_by.empty()) detail::inspect(spec, out);
   warn(spec, out, within != nullptr, warnings);
   return out;
 }
 
 }  // namespace
+
+std::string place_of(std::size_t member, End end) {
+  return place_of(member) + (end == End::start ? "/start" : "/end");
+}
 
 Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
   if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());

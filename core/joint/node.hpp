@@ -102,6 +102,9 @@ struct EndJoint {
   std::vector<Warning> warnings;  // those of `solve` about this end
 };
 
+/// What issues and warnings call an end: "members/3/start".
+[[nodiscard]] std::string place_of(std::size_t member, End end);
+
 /// Errors  as `solve`; no_contact (members/i: nothing cuts this end).
 [[nodiscard]] Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
                                         const std::stop_token& stop = {});

@@ -174,7 +174,7 @@ std::vector<AxisFunction> speed_functions(const ScheduleSpec& spec) {
     return {linear(rho, 0.0, 0.0), along};
   }
   const auto& columns = std::get<AxisColumns>(spec.cut);
-  if (std::holds_alternative<ConeMill>(spec.machine.kinematics)) {
+  if (std::holds_alternative<ConeMill>(spec.machine.kinematics) && columns.length.empty()) {
     return mill_tip(columns, spec.machine);
   }
   return {coordinate(spec.machine.axes.size())};

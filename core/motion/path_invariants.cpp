@@ -92,8 +92,8 @@ class Examination {
   }
   /// Plain axes have no tip to go by: there every axis is followed, in generalised length.
   [[nodiscard]] bool plain() const {
-    return std::holds_alternative<AxisColumns>(spec_.cut) &&
-           std::holds_alternative<Generic>(spec_.machine.kinematics);
+    const auto* const columns = std::get_if<AxisColumns>(&spec_.cut);
+    return columns != nullptr && !columns->length.empty();
   }
   [[nodiscard]] bool takes_part(std::size_t c) const {
     return torch_.knows(c) && (plain() || is_tip(c));

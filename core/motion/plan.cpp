@@ -13,13 +13,18 @@ constexpr int kMostPasses = 40;  // then every interval does
 constexpr double kAccepted = 1.0 + 1e-9;
 constexpr double kRelief = 0.97;
 constexpr double kLastCheck = 1.0 + 1e-8;
+constexpr double kNothingToGain = 1.0 + 1e-4;  // over the optimum without jerk limits
 
 /// One search over the ladder of filters for one optimism.
 class Search {
  public:
   Search(const Course& course, const PlanOptions& options, const std::vector<double>& without_jerk,
          std::stop_token stop)
-      : course_(course), options_(options), without_jerk_(without_jerk), stop_(std::move(stop)) {}
+      : course_(course),
+        options_(options),
+        without_jerk_(without_jerk),
+        least_(duration(without_jerk, course.limits.d)),
+        stop_(std::move(stop)) {}
 
   /// The fastest timing found that is faster than `bound` seconds; empty x where none is.
   Timing best(double optimism, double bound) {
@@ -28,8 +33,14 @@ class Search {
       if (stop_.stop_requested()) break;
       Timing next = repaired(filter, optimism, found.time);
       if (next.time < found.time) found = std::move(next);
+      if (good_enough(found)) break;
     }
     return found;
+  }
+
+  /// No other filter or optimism could save more than a part in ten thousand.
+  [[nodiscard]] bool good_enough(const Timing& timing) const {
+    return timing.time <= kNothingToGain * least_;
   }
 
  private:
@@ -108,6 +119,7 @@ class Search {
   const Course& course_;
   const PlanOptions& options_;
   const std::vector<double>& without_jerk_;
+  double least_;
   std::stop_token stop_;
 };
 
@@ -158,7 +170,7 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
     out.proven = out.timing.time;
     const double bound = std::min(
         out.proven, course.machine.period * (static_cast<double>(options.max_periods) + 1.0));
-    if (options.optimism > 1.0) {
+    if (options.optimism > 1.0 && !search.good_enough(out.timing)) {
       if (Timing faster = search.best(options.optimism, bound); !faster.x.empty()) {
         out.timing = std::move(faster);
       }

@@ -81,19 +81,24 @@ Coordinate coordinate_of(const Axis& axis, const AxisColumns& columns, bool turn
   return {1.0, Coordinate::Group::tip};
 }
 
+/// A mill path gives no length: its speed is the tip's.
+bool follows_tip(const AxisColumns& cut, const Machine& machine) {
+  return std::holds_alternative<ConeMill>(machine.kinematics) && cut.length.empty();
+}
+
 Result<void> check_sizes(const AxisColumns& cut, const Machine& machine) {
-  const auto wrong = [](const char* member) {
+  const auto wrong = [](const std::string& member) {
     return fail({.code = ErrorCode::wrong_count, .member = member});
   };
-  if (cut.columns.size() != machine.axes.size()) return wrong("axes/columns");
+  if (cut.columns.size() != machine.axes.size()) return wrong("axes");
   const std::size_t n = cut.columns.front().size();
-  if (n < 3) return wrong("axes/columns/0");
-  for (const auto& column : cut.columns) {
-    if (column.size() != n) return wrong("axes/columns");
+  if (n < 3) return wrong("axes/" + machine.axes.front().name);
+  for (std::size_t a = 0; a < cut.columns.size(); ++a) {
+    if (cut.columns[a].size() != n) return wrong("axes/" + machine.axes[a].name);
   }
   if (!cut.corner.empty() && cut.corner.size() != n) return wrong("axes/corner");
-  const bool mill = std::holds_alternative<ConeMill>(machine.kinematics);
-  if (mill ? !cut.length.empty() : cut.length.size() != n) return wrong("axes/length");
+  const bool mill = follows_tip(cut, machine);
+  if (!mill && cut.length.size() != n) return wrong("axes/s");
   if (mill && !(cut.tip_radius > 0.0 && cut.tip_radius < 1e6)) {
     return fail({.code = ErrorCode::bad_number, .member = "axes/tip_radius"});
   }
@@ -120,20 +125,20 @@ Result<void> check_motion_of_columns(const Motion& motion) {
   return {};
 }
 
-Result<void> check_values(const Program& p) {
+Result<void> check_values(const Program& p, const Machine& machine) {
   for (std::size_t c = 0; c < p.x.size(); ++c) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (!(std::abs(p.x[c][i]) <= 1e6)) {
-        return fail({.code = ErrorCode::bad_number,
-                     .member = "axes/columns/" + std::to_string(c) + "/" + std::to_string(i)});
+        const std::string column = c < machine.axes.size() ? machine.axes[c].name : "s";
+        return fail(
+            {.code = ErrorCode::bad_number, .member = "axes/" + column + "/" + std::to_string(i)});
       }
     }
   }
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (p.step(i - 1, i) == 0.0) {
-      return fail({.code = ErrorCode::duplicate_point,
-                   .member = "axes/columns",
-                   .got = static_cast<double>(i)});
+      return fail(
+          {.code = ErrorCode::duplicate_point, .member = "axes", .got = static_cast<double>(i)});
     }
   }
   return {};
@@ -147,7 +152,7 @@ Result<void> check_closed(const AxisColumns& cut, const Machine& machine) {
     const double open = rotary ? gap - 360.0 * std::floor(gap / 360.0 + 0.5) : gap;
     if (!(std::abs(open) <= 1e-6)) {
       return fail({ErrorCode::not_closed,
-                   "axes/columns/" + std::to_string(a),
+                   "axes/" + machine.axes[a].name,
                    open,
                    1e-6,
                    std::string(name_of(machine.axes[a].unit)),
@@ -161,7 +166,7 @@ Result<Program> of_columns(const AxisColumns& cut, const ScheduleSpec& spec) {
   const Machine& machine = spec.machine;
   if (auto ok = check_sizes(cut, machine); !ok) return tl::unexpected<Error>(ok.error());
   if (auto ok = check_motion_of_columns(spec.motion); !ok) return tl::unexpected<Error>(ok.error());
-  const bool mill = std::holds_alternative<ConeMill>(machine.kinematics);
+  const bool mill = follows_tip(cut, machine);
   Program out;
   for (std::size_t a = 0; a < cut.columns.size(); ++a) {
     const bool turns_tip = mill && machine.axes[a].name == "C";
@@ -175,7 +180,7 @@ Result<Program> of_columns(const AxisColumns& cut, const ScheduleSpec& spec) {
   out.corner = cut.corner.empty() ? std::vector<bool>(out.size(), false) : cut.corner;
   out.cut_last = out.size() - 1;
   out.closed = cut.closed;
-  if (auto ok = check_values(out); !ok) return tl::unexpected<Error>(ok.error());
+  if (auto ok = check_values(out, machine); !ok) return tl::unexpected<Error>(ok.error());
   if (cut.closed) {
     if (auto ok = check_closed(cut, machine); !ok) return tl::unexpected<Error>(ok.error());
   }

@@ -50,7 +50,7 @@ class Unfiltered {
 
 /// Splits the way since knot `i` into interval and offset.
 Place place(std::size_t i, Long way, Long d, std::size_t intervals) {
-  const auto whole = static_cast<std::size_t>(std::max(0.0L, std::floor(way / d)));
+  const auto whole = static_cast<std::size_t>(std::max(0.0L, way / d));
   const std::size_t at = std::min(i + whole, intervals - 1);
   const Long offset = std::clamp(way - d * static_cast<Long>(at - i), 0.0L, d);
   return {static_cast<std::uint32_t>(at), static_cast<double>(offset)};

@@ -119,6 +119,12 @@ TEST(BevelTables, ZonesNameEveryPoint) {
                                           : dihedral[i] > 40 ? "C"
                                                              : "D");
   EXPECT_EQ(numbers(answer.body, "result/points/z_face_mm").size(), zone.size());
+  const auto csv = post(kPath, api::dump(request), "format=csv").outcome.body;
+  EXPECT_NE(csv.find(",z_face_mm,b_face_deg,zone\r\n"), std::string::npos);
+  EXPECT_EQ(csv.substr(csv.size() - 4), "," + *zone.back().as<std::string>() + "\r\n");
+  const auto svg = post(kPath, api::dump(request), "format=svg").outcome.body;
+  EXPECT_NE(svg.find(">Zones: dihedral and groove angle<"), std::string::npos);
+  EXPECT_NE(svg.find(">C</text>"), std::string::npos);
   const auto gap = post(kPath, with(request, "groove/zones/1/dihedral_deg/0", 80.0));
   EXPECT_EQ(text(gap.body, "code"), "out_of_range");
   EXPECT_EQ(text(gap.body, "errors/0/pointer"), "/groove/zones/1/dihedral_deg");

@@ -55,5 +55,41 @@ TEST(Json, CborTypedArrayOfCounts) {
                               18));
 }
 
+TEST(Json, CborOfEveryKind) {
+  // RFC 8949, appendix A.
+  const auto cbor = [](std::string_view json) { return to_cbor(json); };
+  EXPECT_EQ(cbor("[0,23,24,255,256,65536,4294967296]"),
+            std::string("\x87\x00\x17\x18\x18\x18\xff\x19\x01\x00\x1a\x00\x01\x00\x00"
+                        "\x1b\x00\x00\x00\x01\x00\x00\x00\x00",
+                        24));
+  EXPECT_EQ(cbor("[-1,-24,-25,-256,-257]"),
+            "\x85\x20\x37\x38\x18\x38\xff\x39\x01" + std::string(1, '\0'));
+  EXPECT_EQ(
+      cbor("[0.5,0.1,null,true,false]"),
+      std::string("\x85\xfa\x3f\x00\x00\x00\xfb\x3f\xb9\x99\x99\x99\x99\x99\x9a\xf6\xf5\xf4", 18));
+  EXPECT_EQ(cbor(R"({"a":"","counts":{"C":[]},"counts2":{"B":[1]}})"),
+            std::string("\xa3\x61"
+                        "a"
+                        "\x60\x66"
+                        "counts"
+                        "\xa1\x61"
+                        "C"
+                        "\xd8\x4d\x40\x67"
+                        "counts2"
+                        "\xa1\x61"
+                        "B"
+                        "\x81\x01"));
+  // A column that is not all integers, or does not fit 32 bits, is a plain array.
+  EXPECT_EQ(cbor(R"({"counts":{"C":[1,0.5]}})"), std::string("\xa1\x66"
+                                                             "counts"
+                                                             "\xa1\x61"
+                                                             "C"
+                                                             "\x82\x01\xfa\x3f\x00\x00\x00",
+                                                             18));
+  EXPECT_EQ(cbor(R"({"counts":{"C":[4294967296]}})").substr(11, 2), "\x81\x1b");
+  EXPECT_EQ(cbor(R"({"counts":{"C":[70000]}})").substr(11, 3), "\xd8\x4e\x44");
+  EXPECT_EQ(cbor(R"({"counts":[1]})").substr(8), "\x81\x01");
+}
+
 }  // namespace
 }  // namespace tubecut::api

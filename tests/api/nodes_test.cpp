@@ -50,7 +50,8 @@ bool warned(const Posted& answer, const std::string& warning, const std::string&
 }
 
 TEST(Nodes, EveryExampleRuns) {
-  for (const char* name : {"k-joint-from-centre-lines", "source-002-offset-pair", "mitre"}) {
+  for (const char* name :
+       {"k-joint-from-centre-lines", "k-joint-with-tables", "source-002-offset-pair", "mitre"}) {
     const auto answer = post(kNodes, example("nodes/" + std::string(name) + ".json"));
     EXPECT_FALSE(answer.outcome.error) << name << ": " << answer.outcome.body.substr(0, 1500);
   }
@@ -134,6 +135,71 @@ TEST(Nodes, ErrorsNameTheMembers) {
   EXPECT_EQ(text(up.body, "errors/0/pointer"), "/members/2/up");
 }
 
+/// The request with the K joint's options for tables.
+Json with_tables(const Json& request) {
+  const auto options = without(example("bevel-tables/k-joint-from-centre-lines.json"), "node");
+  return with(with(request, "include", Json{Json::Array{"tables"}}), "tables", options);
+}
+
+// The table inside a node's answer is the one the same end gets alone.
+TEST(Nodes, TablesOfEveryEnd) {
+  const auto one = example("bevel-tables/k-joint-from-centre-lines.json");
+  const auto alone = post(kTables, one);
+  ASSERT_FALSE(alone.outcome.error) << alone.outcome.body.substr(0, 900);
+  const auto request = with_tables(without(without(at(one, "node"), "member"), "end"));
+  const auto answer = post(kNodes, request);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  EXPECT_EQ(api::dump(at(end_of(answer, 4), "table/points")),
+            api::dump(at(alone.body, "result/points")));
+  EXPECT_EQ(api::dump(at(end_of(answer, 4), "table/events")),
+            api::dump(at(alone.body, "result/events")));
+  EXPECT_NE(end_of(answer, 2).find("table"), nullptr);
+  EXPECT_EQ(end_of(answer, 0).find("table"), nullptr);  // the chord is not cut
+  EXPECT_EQ(at(end_of(answer, 4), "profiles").as<Json::Array>()->size(), 0U);
+  bool proved = false;
+  for (const auto& check : *at(answer.body, "verification/checks").as<Json::Array>())
+    proved = proved || text(check, "name") == "penetration";
+  EXPECT_TRUE(proved);
+}
+
+TEST(Nodes, AnEndThatCannotBeCutAsAskedDoesNotSpoilTheOthers) {
+  const auto request =
+      with(with_tables(node({member("C", point(-900, 0, 0), point(900, 0, 0), 120),
+                             member("steep", point(0, 0, 0), point(0, 0, 900), 60),
+                             member("flat", point(0, 0, 0), point(900, 0, 420), 60)})),
+           "tables/torch", Json{Json::Object{{"min_deg", -60.0}, {"max_deg", 60.0}}});
+  const auto answer = post(kNodes, request);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  EXPECT_NE(end_of(answer, 2).find("table"), nullptr);
+  EXPECT_EQ(end_of(answer, 4).find("table"), nullptr);
+  EXPECT_TRUE(warned(answer, "no_table", "/members/2/start_mm"));
+  EXPECT_EQ(text(answer.body, "verdict/status"), "review");
+}
+
+TEST(Nodes, TablesGoWithTheirName) {
+  const auto request = with_tables(example("nodes/mitre.json"));
+  EXPECT_EQ(code(post(kNodes, request)), "");
+  const auto unnamed = post(kNodes, without(request, "include"));
+  EXPECT_EQ(text(unnamed.body, "errors/0/pointer"), "/include");
+  const auto unasked = post(kNodes, without(request, "tables"));
+  EXPECT_EQ(text(unasked.body, "errors/0/pointer"), "/tables");
+  EXPECT_EQ(text(unasked.body, "errors/0/code"), "missing_field");
+  const auto twice = post(kNodes, with(request, "include", Json{Json::Array{"tables", "tables"}}));
+  EXPECT_EQ(text(twice.body, "errors/0/pointer"), "/include/1");
+  const auto inside = post(kNodes, without(request, "tables/kerf_mm"));
+  EXPECT_EQ(text(inside.body, "errors/0/pointer"), "/tables/kerf_mm");
+  const auto zones = post(
+      kNodes,
+      with(request, "tables/groove",
+           Json{Json::Object{{"rule", "zones"},
+                             {"zones", Json{Json::Array{Json{Json::Object{
+                                           {"id", "A"},
+                                           {"dihedral_deg", Json{Json::Array{90.0, 30.0}}},
+                                           {"groove_deg", Json{Json::Array{30.0, 30.0}}}}}}}}}}));
+  EXPECT_EQ(text(zones.body, "errors/0/pointer"), "/tables/groove/zones/0/dihedral_deg")
+      << zones.outcome.body.substr(0, 600);
+}
+
 TEST(Nodes, AnEndThatIsNotCutHasNoTable) {
   const auto request =
       with(example("bevel-tables/k-joint-from-centre-lines.json"), "node/member", "C1");
@@ -203,6 +269,8 @@ TEST(Sizes, NamesGiveTheNumbersOfTheStandards) {
   for (const auto& size : api::tube_sizes()) {
     EXPECT_GT(size.wall, 0.0);
     EXPECT_LT(size.wall, size.outer_diameter / 2.0) << size.name;
+    const bool nps = size.name.starts_with("NPS ");
+    EXPECT_EQ(size.standard, nps ? "ASME B36.10M-2018" : "EN 10210-2:2006") << size.name;
     names.push_back(size.name);
   }
   std::ranges::sort(names);
@@ -221,7 +289,11 @@ TEST(Sizes, MassesPerMetreAgree) {
                {"NPS 12 STD", 73.86},    {"NPS 16 STD", 93.27},    {"NPS 24 XS", 187.07},
                {"CHS 60.3x4", 5.55},     {"CHS 88.9x5", 10.3},     {"CHS 114.3x6.3", 16.8},
                {"CHS 168.3x10", 39.0},   {"CHS 219.1x12.5", 63.7}, {"CHS 323.9x16", 121.0},
-               {"CHS 508x20", 241.0}};
+               {"CHS 508x20", 241.0},    {"CHS 21.3x2.3", 1.08},   {"CHS 26.9x3.2", 1.87},
+               {"CHS 48.3x5", 5.34},     {"CHS 76.1x5", 8.77},     {"CHS 139.7x8", 26.0},
+               {"CHS 193.7x10", 45.3},   {"CHS 273x16", 101.0},    {"CHS 406.4x20", 191.0},
+               {"CHS 610x12.5", 184.0},  {"CHS 711x20", 341.0},    {"NPS 5 SCH 40", 21.77},
+               {"NPS 18 STD", 105.17},   {"NPS 14 SCH 40", 94.55}, {"NPS 20 SCH 40", 183.43}};
   for (const auto& row : kRows) {
     const auto* size = api::find_tube_size(row.size);
     ASSERT_NE(size, nullptr) << row.size;

@@ -123,6 +123,61 @@ const ways = fc.oneof(
 const torch = fc.record({min_deg: between(-89, -80), max_deg: between(80, 89)}, {requiredKeys: []});
 const accept = fc.record({max_root_gap_mm: between(0, 2), max_extra_bevel_deg: between(0, 20), max_b_deg: between(10, 80)}, {requiredKeys: []});
 
+// A chord and a branch that reaches it all round, beside the chord's bore too.
+const hole = fc.record({
+  radius: between(30, 300), wall: between(0.03, 0.15), size: between(0.2, 0.7), branchWall: between(0.06, 0.25), lean: between(45, 135),
+  turn: between(-360, 360), aside: between(-0.15, 0.15), along: between(-300, 300), byAxis: fc.boolean(), named: fc.boolean(),
+}).map((h) => {
+  const id = (text) => (h.named ? {id: text} : {});
+  const wall = Math.max(0.5, h.radius * h.wall);
+  const branch = (h.radius - wall) * h.size;
+  const lean = h.lean * Math.PI / 180;
+  const place = h.byAxis
+    ? {axis: {point_mm: [h.aside * branch, 0, h.along], direction: [0, -Math.sin(lean), Math.cos(lean)]}}
+    : {inclination_deg: h.lean, clocking_deg: h.turn, offset_mm: h.aside * branch, height_mm: h.along};
+  return {
+    chord: {...id('chord'), outer_diameter_mm: 2 * h.radius, wall_mm: wall},
+    branch: {...id('B1'), outer_diameter_mm: 2 * branch, wall_mm: Math.max(0.5, branch * h.branchWall), ...place},
+  };
+});
+const holeJoint = fc.oneof(
+  fc.record({kind: fc.constantFrom('set_on', 'through', 'set_in'), gap_mm: between(0, 2)}, {requiredKeys: ['kind']}),
+  fc.record({kind: fc.constant('set_in'), gap_mm: between(0, 2), depth_mm: between(2, 10)}));
+
+// A node from centre-lines: a chord that passes and braces on its sides, or two that end in a mitre.
+const pi = Math.PI;
+const passing = fc.record({
+  radius: between(50, 250), wall: between(0.03, 0.12), tilt: between(-0.5, 0.5), braces: fc.array(fc.record({
+    size: between(0.3, 0.85), wall: between(0.05, 0.2), lean: between(40, 140), around: between(0, 360), along: between(-0.4, 0.4),
+    aside: between(-0.1, 0.1)}), {minLength: 1, maxLength: 4}),
+}).map(({radius, wall, tilt, braces}) => {
+  const along = [Math.cos(tilt), Math.sin(tilt), 0];
+  const across = [-Math.sin(tilt), Math.cos(tilt), 0];
+  const sum = (...terms) => [0, 1, 2].map((k) => terms.reduce((total, [factor, vector]) => total + factor * vector[k], 0));
+  const up = [0, 0, 1];
+  const chord = {id: 'C', start_mm: sum([-20 * radius, along]), end_mm: sum([20 * radius, along]), outer_diameter_mm: 2 * radius,
+    wall_mm: Math.max(0.5, wall * radius)};
+  return [chord, ...braces.map((b, i) => {
+    // Each has a sector of its own around the chord, so that none lies along another.
+    const around = (b.around / 2 + 360 * i) / braces.length * pi / 180;
+    const side = sum([Math.cos(around), across], [Math.sin(around), up]);
+    const lean = b.lean * pi / 180;
+    const away = sum([Math.cos(lean), along], [Math.sin(lean), side]);
+    const start = sum([b.along * radius, along], [b.aside * radius, sum([-Math.sin(around), across], [Math.cos(around), up])]);
+    return {id: `B${i}`, start_mm: start, end_mm: sum([1, start], [18 * radius, away]), outer_diameter_mm: 2 * radius * b.size,
+      wall_mm: Math.max(0.5, b.wall * radius * b.size), priority: i + 1};
+  })];
+});
+const mitred = fc.record({radius: between(20, 150), wall: between(0.05, 0.2), angle: between(50, 130)}).map(({radius, wall, angle}) => {
+  const tube = (id, end) => ({id, start_mm: [0, 0, 0], end_mm: end, outer_diameter_mm: 2 * radius, wall_mm: Math.max(0.5, wall * radius)});
+  const turn = angle * pi / 180;
+  return [tube('leg', [12 * radius, 0, 0]), tube('rail', [12 * radius * Math.cos(turn), 0, 12 * radius * Math.sin(turn)])];
+});
+const members = fc.oneof({weight: 4, arbitrary: passing}, {weight: 1, arbitrary: mitred});
+const connected = fc.tuple(members, between(5, 40), fc.boolean()).map(([all, within, byName]) => ({members: all, connect: byName
+  ? all.slice(1).map(({id}, i) => ({member: id, end: 'start', to: all.slice(0, i + 1).map((other) => other.id)}))
+  : {within_mm: within}}));
+
 // The endpoint's examples with every number that is no count moved by up to a thousandth.
 function nearExamples(contract, endpoint) {
   const move = (given, value, turns) => {
@@ -156,7 +211,19 @@ export function sound(contract, endpoint) {
   return own[endpoint.id] ?? nearExamples(contract, endpoint);
 }
 
+const holeAccept = fc.record({max_root_gap_mm: between(0, 2), max_b_deg: between(10, 80)}, {requiredKeys: []});
+// hermite asks for a bare grid.
+const tables = fc.record({
+  include: fc.constantFrom(['tables'], ['tables', 'profiles']),
+  tables: joined(fc.record({groove, kerf_mm: between(0, 4)}), fc.oneof(
+    fc.record({root_surface: fc.constant('inner'), contact: fc.constantFrom('inner', 'auto', 'none'), smoothing: fc.oneof(envelope, untreated)}),
+    fc.record({root_surface: fc.constant('outer'), contact: fc.constantFrom('outer', 'none'), smoothing: fc.oneof(envelope, untreated)}))),
+});
+
 const own = {
   intersections: joined(joint, sampling, maybe('surfaces', fc.constantFrom('inner', 'outer', 'both')), common),
+  holes: joined(hole, fc.record({joint: holeJoint, groove, kerf_mm: between(0, 4)}), maybe('tilt', fc.constantFrom('axial', 'free')), sampling,
+    maybe('torch', torch), maybe('accept', holeAccept), common),
+  nodes: joined(connected, fc.oneof(fc.constant({}), fc.constant({include: ['profiles']}), tables), sampling, common),
   'bevel-tables': joined(joint, ways, fc.record({groove, kerf_mm: between(0, 4)}), maybe('torch', torch), maybe('accept', accept), common),
 };

@@ -4,9 +4,11 @@
 #include <cstdlib>
 #include <iostream>
 #include <random>
+#include <set>
 
 #include "core/bevel/required.hpp"
 #include "core/bevel/table.hpp"
+#include "tests/core/joint/degenerate_cases.hpp"
 #include "tests/core/joint/published.hpp"
 #include "tests/core/joint/random_nodes.hpp"
 
@@ -228,6 +230,40 @@ TEST(Contact, NoRandomJointIsEnteredAndAutoTouches) {
   EXPECT_GT(cut, joints * 3 / 4);
   EXPECT_LE(worst.deepest, 0.01L);
   EXPECT_LE(worst.furthest, 0.01L);
+}
+
+TEST(Contact, DegenerateJointsAreProvedOrNamed) {
+  using enum ErrorCode;
+  const std::set<ErrorCode> typed{open_profile, no_contact,  parallel_axes,
+                                  zero_length,  torch_range, cut_enters};
+  int answered = 0;
+  for (const auto& c : joint::degenerate::cases())
+    for (const auto contact : {Contact::inner, Contact::outer, Contact::automatic, Contact::none})
+      for (const bool uniform : {true, false}) {
+        TableSpec spec{.target = {.outer_radius = joint::degenerate::kRadius, .wall = 4.0},
+                       .partners = c.partners,
+                       .groove = HalfDihedral{},
+                       .contact = contact,
+                       .smoothing = NoSmoothing{}};
+        if (contact == Contact::outer) {
+          spec.root_surface = RootSurface::outer;
+          spec.groove = NoGroove{};
+        }
+        if (uniform)
+          spec.sampling.uniform_points = 90;
+        else
+          spec.sampling.tolerance = joint::Tolerance{};
+        const auto made = table(spec);
+        if (!made) {
+          EXPECT_TRUE(typed.contains(made.error().code()))
+              << c.name << ": " << info(made.error().code()).code;
+          continue;
+        }
+        ++answered;
+        for (const auto& check : verify(spec, *made))
+          EXPECT_TRUE(check.passed()) << c.name << ": " << check.name << ' ' << check.value;
+      }
+  EXPECT_GE(answered, 90);  // of 208
 }
 
 TEST(Contact, CorruptedNumbersAreSeen) {

@@ -1,0 +1,318 @@
+#include "api/endpoints/bevel_table_codec.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "api/limits.hpp"
+#include "api/machines.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using bevel::Contact;
+using bevel::Dihedral;
+using bevel::GrooveRule;
+using bevel::RootSurface;
+
+constexpr std::size_t kMostZones = 16;
+constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
+
+enum class RuleName { half_dihedral, fixed, none, square, zones };
+
+/// Two angles of an array [from, to], each within 0..180 or less than 90 deg.
+std::pair<Angle, Angle> decode_pair(Reader& in, std::string_view name, Range range) {
+  const auto values = in.angle_column(name, {.min = 2, .max = 2}, range);
+  if (values.size() != 2) return {};
+  return {Angle::rad(values[0]), Angle::rad(values[1])};
+}
+
+bevel::ZonedGroove decode_zones(Reader& in) {
+  bevel::ZonedGroove out;
+  in.optional_text("source");
+  out.zones = in.array("zones", {.min = 1, .max = kMostZones}, [](Reader& z) {
+    bevel::GrooveZone zone;
+    zone.id = z.text("id");
+    std::tie(zone.dihedral_from, zone.dihedral_to) =
+        decode_pair(z, "dihedral_deg", {.min = 0.0, .max = 180.0});
+    std::tie(zone.groove_from, zone.groove_to) =
+        decode_pair(z, "groove_deg", {.min = 0.0, .max = 90.0, .open_max = true});
+    return zone;
+  });
+  out.overlap = in.angle("overlap_deg", {.min = 0.0, .max = 90.0}, Angle{});
+  return out;
+}
+
+GrooveRule decode_groove(Reader& in) {
+  static constexpr std::array kRules{
+      Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
+      Option<RuleName>{"fixed", RuleName::fixed}, Option<RuleName>{"none", RuleName::none},
+      Option<RuleName>{"square", RuleName::square}, Option<RuleName>{"zones", RuleName::zones}};
+  const auto rule = in.tag("rule", kRules);
+  if (rule == RuleName::half_dihedral)
+    return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
+  if (rule == RuleName::fixed)
+    return bevel::FixedGroove{in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
+  if (rule == RuleName::square) return bevel::SquareCut{};
+  if (rule == RuleName::zones) return decode_zones(in);
+  return bevel::NoGroove{};
+}
+
+/// What the swing axis B of a machine follows at a cutting speed.
+bevel::SwingLimits decode_swing(Reader& in) {
+  const auto machine = decode_machine_choice(in, "machine");
+  const double speed = in.number("speed_mm_min", {.min = 1.0, .max = 60'000.0}) / 60.0;
+  const double use = in.number("use", {.min = 0.01, .max = 1.0}, 0.8);
+  if (!in.understood("machine")) return {};
+  for (const auto& axis : machine.axes) {
+    if (axis.name != "B") continue;
+    const auto limits =
+        bevel::swing_limits(axis.v_max * kRadPerDeg, axis.a_max * kRadPerDeg, speed, use);
+    if (limits) return *limits;
+  }
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "machine",
+            .limit = Json{"B"},
+            .hint = "limits need a machine with a swing axis named B"},
+           in.find("machine"));
+  return {};
+}
+
+struct Smoothing {
+  bevel::Smoothing method = bevel::NoSmoothing{};
+  Angle mutation_limit = Angle::deg(10);
+};
+
+bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
+  static constexpr std::array kAlong{Option<bevel::Along>{"developed", bevel::Along::developed},
+                                     Option<bevel::Along>{"length", bevel::Along::length}};
+  bevel::EnvelopeSmoothing out;
+  bool by_machine = false;
+  in.object("limits", [&](Reader& l) {
+    const auto which = l.exactly_one({"max_slope_deg_per_mm", "machine"});
+    by_machine = which == 1;
+    if (!which) {
+      l.silence();
+    } else if (by_machine) {
+      out.limits = decode_swing(l);
+    } else {
+      const Range limit{.min = 1e-6, .max = 1e6};
+      out.limits.slope = l.number("max_slope_deg_per_mm", limit) * kRadPerDeg;
+      out.limits.curvature = l.number("max_curvature_deg_per_mm2", limit) * kRadPerDeg;
+    }
+    return 0;
+  });
+  out.along =
+      in.choice("along", kAlong, by_machine ? bevel::Along::length : bevel::Along::developed);
+  if (by_machine && out.along != bevel::Along::length)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "along",
+              .limit = Json{"length"},
+              .hint = "limits from a machine and a speed hold along the true length"},
+             in.find("along"));
+  out.refine = in.flag("refine", true);
+  return out;
+}
+
+bevel::HermiteSmoothing decode_hermite(Reader& in) {
+  bevel::HermiteSmoothing out;
+  if (in.find("transition_points") != nullptr && *in.find("transition_points") == Json{"auto"}) {
+    in.note("transition_points");
+    in.put("transition_points", Json{"auto"});
+    out.transition_points.reset();
+  } else {
+    out.transition_points = in.integer("transition_points", 2, 5'000);
+  }
+  return out;
+}
+
+Smoothing decode_smoothing(Reader& in) {
+  static constexpr std::array kMethods{Option<int>{"envelope", 0}, Option<int>{"hermite", 1},
+                                       Option<int>{"none", 2}};
+  Smoothing out;
+  const auto method = in.tag("method", kMethods);
+  out.mutation_limit =
+      in.angle("mutation_limit_deg", {.min = 0.0, .max = 180.0, .open_min = true}, Angle::deg(10));
+  if (method == 0) out.method = decode_envelope(in);
+  if (method == 1) out.method = decode_hermite(in);
+  return out;
+}
+
+bevel::TorchRange decode_torch(Reader& in) {
+  bevel::TorchRange out;
+  out.min = in.angle("min_deg", kTorchDeg, Angle::deg(-80));
+  out.max = in.angle("max_deg", kTorchDeg, Angle::deg(80));
+  if (!(out.min < out.max))
+    in.issue({.code = ErrorCode::out_of_range,
+              .pointer = "max_deg",
+              .limit = Json{out.min.deg()},
+              .unit = "deg",
+              .hint = "must be greater than min_deg"},
+             in.find("max_deg"));
+  return out;
+}
+
+/// Refuses what is not offered: which surface holds the root, which one touches, which angle
+/// counts.
+void check_combination(const bevel::TableSpec& s, Reader& in) {
+  const bool outer = s.root_surface == RootSurface::outer;
+  const bool weld = s.dihedral == Dihedral::weld_side;
+  if (!weld && !(outer && s.contact == Contact::none))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "dihedral",
+              .limit = Json{"weld_side"},
+              .hint = "inside and as_published go with root_surface outer and contact none"},
+             in.find("dihedral"));
+  const bool goes = s.contact == Contact::none || (s.contact == Contact::outer) == outer;
+  if (goes) return;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "contact",
+            .got = Json{"inner"},
+            .limit = Json{outer ? "outer|none" : "inner|auto|none"},
+            .hint = outer ? "root_surface outer goes with contact outer or none"
+                          : "root_surface inner goes with contact inner, auto or none"},
+           in.find("contact"));
+}
+
+void encode_points(const bevel::TableSpec& spec, const bevel::Table& out, Writer& p) {
+  encode_phi(out.phi, spec.sampling, p);
+  p.column("developed_mm", out.developed);
+  p.column("length_mm", out.length);
+  p.column("cutter", out.cutter);
+  p.column("z_inner_mm", out.z_inner);
+  p.column("z_outer_mm", out.z_outer);
+  p.degrees_column("dihedral_deg", out.dihedral);
+  p.degrees_column("groove_deg", out.groove);
+  p.degrees_column("tau_deg", out.tau);
+  p.degrees_column("gamma_deg", out.gamma);
+  p.degrees_column("flush_deg", out.flush);
+  p.degrees_column("b_raw_deg", out.b_raw);
+  p.degrees_column("b_required_deg", out.b_required);
+  p.degrees_column("b_deg", out.b);
+  p.column("gap_mm", out.gap);
+  p.column("beam_mm", out.beam);
+  p.column("torch_inner_mm", out.torch_inner);
+  p.column("torch_outer_mm", out.torch_outer);
+  if (spec.root_face > 0.0) {
+    p.column("z_face_mm", out.z_face);
+    p.degrees_column("b_face_deg", out.b_face);
+  }
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove)) {
+    std::vector<std::string> zone;
+    for (const auto i : out.zone) zone.push_back(zoned->zones[i].id);
+    p.column("zone", zone);
+  }
+}
+
+void encode_events(const bevel::Table& out, Writer& w) {
+  struct Placed {
+    const joint::Event* event;
+    bool outer;
+  };
+  std::vector<Placed> events;
+  for (const auto& event : out.inner_events) events.push_back({&event, false});
+  for (const auto& event : out.outer_events) events.push_back({&event, true});
+  w.array("events", events, [](Writer& each, const Placed& placed) {
+    encode_event(*placed.event, placed.outer, each);
+  });
+}
+
+/// Steps of the smoother's input, and what the published method did about them.
+void encode_steps(const bevel::Table& out, Writer& w) {
+  w.array("mutations", out.mutations, [](Writer& each, const bevel::Table::Step& m) {
+    each.object([&](Writer& o) {
+      o.degrees("phi_deg", m.phi);
+      o.degrees("step_deg", m.step);
+    });
+  });
+  w.array("windows", out.windows, [](Writer& each, const bevel::Table::Window& v) {
+    each.object([&](Writer& o) {
+      o.degrees("phi_deg", v.phi);
+      o.degrees("step_deg", v.step);
+      o.field("kept", v.kept_before ? "before" : "after");
+      o.degrees("from_phi_deg", v.from);
+      o.degrees("to_phi_deg", v.to);
+      o.degrees("slope_start_deg_per_mm", v.slope_start);
+      o.degrees("slope_end_deg_per_mm", v.slope_end);
+    });
+  });
+}
+
+void encode_limits(const bevel::TableSpec& spec, Writer& o) {
+  o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
+  const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing);
+  if (envelope == nullptr) return;
+  o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
+  o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
+}
+
+}  // namespace
+
+void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out) {
+  out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
+  out.torch = in.defaulted_object("torch", decode_torch);
+}
+
+void decode_table_options(Reader& in, bevel::TableSpec& out) { decode_cut(in, true, out); }
+
+void decode_cut(Reader& in, bool whole, bevel::TableSpec& out) {
+  static constexpr std::array kRoots{Option<RootSurface>{"inner", RootSurface::inner},
+                                     Option<RootSurface>{"outer", RootSurface::outer}};
+  static constexpr std::array kDihedrals{Option<Dihedral>{"weld_side", Dihedral::weld_side},
+                                         Option<Dihedral>{"inside", Dihedral::inside},
+                                         Option<Dihedral>{"as_published", Dihedral::as_published}};
+  static constexpr std::array kContacts{
+      Option<Contact>{"inner", Contact::inner}, Option<Contact>{"outer", Contact::outer},
+      Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
+  out.root_surface = in.choice("root_surface", kRoots);
+  out.groove = in.object("groove", decode_groove);
+  if (whole) out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
+  out.contact = in.choice("contact", kContacts, Contact::inner);
+  const bool known = in.understood("root_surface") && (!whole || in.understood("dihedral")) &&
+                     in.understood("contact");
+  if (known) check_combination(out, in);
+  out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
+  if (known && out.root_face > 0.0 && out.contact != Contact::inner)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "root_face_mm",
+              .hint = "a root face goes with contact inner"},
+             in.find("root_face_mm"));
+  out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
+  out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
+  if (whole) decode_torch_and_kerf(in, out);
+  const auto smoothing = in.object("smoothing", decode_smoothing);
+  out.smoothing = smoothing.method;
+  out.mutation_limit = smoothing.mutation_limit;
+}
+
+void encode_table(const bevel::TableSpec& spec, const bevel::Table& out, Writer& w) {
+  w.object("points", [&](Writer& p) { encode_points(spec, out, p); });
+  w.field("b_sign", out.inward ? "inward" : "outer_edge_into_part");
+  encode_bevel_lists(out, w);
+  w.object("limits", [&](Writer& o) { encode_limits(spec, o); });
+  encode_torch_binds(out, w);
+  w.field("length_mm", out.length_total);
+  w.field("developed_length_mm", out.developed_total);
+}
+
+void encode_bevel_points(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w) {
+  encode_points(spec, table, w);
+}
+
+void encode_bevel_lists(const bevel::Table& table, Writer& w) {
+  encode_events(table, w);
+  encode_steps(table, w);
+}
+
+void encode_torch_binds(const bevel::Table& out, Writer& w) {
+  w.array("torch_binds", out.torch_binds, [](Writer& each, const bevel::Table::Binding& v) {
+    each.object([&](Writer& o) {
+      o.degrees("from_phi_deg", v.from);
+      o.degrees("to_phi_deg", v.to);
+      o.degrees("groove_lost_deg", v.groove_lost);
+      o.field("root_gap_mm", v.root_gap);
+    });
+  });
+}
+
+}  // namespace tubecut::api

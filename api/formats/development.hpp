@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/bevel/hole.hpp"
+#include "core/bevel/table.hpp"
+#include "core/joint/intersection.hpp"
+
+namespace tubecut::api {
+
+/// A closed curve on a cylinder. phi is continuous; on a curve round the tube it runs from 0 to
+/// 2 pi and ends at the height it began with, on a hole's the first point is not repeated.
+struct CylinderCurve {
+  double radius = 0.0;  // mm
+  std::vector<double> phi, z;
+
+  [[nodiscard]] bool empty() const { return phi.empty(); }
+  /// Length of the polyline on the developed surface.
+  [[nodiscard]] double developed_length(bool closing) const;
+};
+
+/// One cut as drawings show it: finished edges on both walls, the torch's line on the outer one.
+struct CutOutline {
+  std::string name;
+  CylinderCurve outer, inner, torch;  // any may be empty
+};
+
+/// A bent surface laid flat: x = radius * phi, y = z. Frame of the result it comes from.
+struct Development {
+  double outer_radius = 0.0;
+  double wall = 0.0;
+  bool around = true;  // the cuts go round the tube; else they are holes
+  std::vector<CutOutline> cuts;
+  std::vector<double> junctions;  // phi, rad, on the surface that holds the root
+};
+
+[[nodiscard]] Development developed(const bevel::TableSpec& spec, const bevel::Table& table);
+[[nodiscard]] Development developed(const joint::IntersectionSpec& spec,
+                                    const joint::Intersection& cut);
+[[nodiscard]] Development developed(const bevel::HoleSpec& spec, const bevel::HoleCut& cut);
+
+/// Bounds of all curves: phi and z.
+struct Extent {
+  double phi_from = 0.0, phi_to = 0.0, z_from = 0.0, z_to = 0.0;
+};
+[[nodiscard]] Extent extent(const Development& development);
+
+}  // namespace tubecut::api

@@ -1,0 +1,102 @@
+#include "api/formats/dxf.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/formats/dxf_writer.hpp"
+#include "api/formats/text.hpp"
+#include "core/base/elementary.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kChord = 0.01;  // mm, of a chord in space off the wall
+constexpr double kMargin = 20.0;
+
+std::vector<Eigen::Vector2d> flat(const CylinderCurve& c) {
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t i = 0; i < c.phi.size(); ++i) out.emplace_back(c.radius * c.phi[i], c.z[i]);
+  return out;
+}
+
+Eigen::Vector3d on_wall(double radius, double phi, double z) {
+  const auto [sin, cos] = elementary::sincos(phi);
+  return {radius * cos, radius * sin, z};
+}
+
+/// The closed curve in space; a curve round the tube gives its last point only once.
+std::vector<Eigen::Vector3d> in_space(const CylinderCurve& c, bool around) {
+  std::vector<Eigen::Vector3d> out;
+  const double step = 2.0 * elementary::acos(1.0 - std::min(1.0, kChord / c.radius));
+  const auto n = c.phi.size();
+  for (std::size_t i = 0; i + (around ? 1 : 0) < n; ++i) {
+    const auto next = (i + 1) % n;
+    const double dphi = c.phi[next] - c.phi[i], dz = c.z[next] - c.z[i];
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(dphi) / step)));
+    for (int k = 0; k < parts; ++k) {
+      const double share = static_cast<double>(k) / parts;
+      out.push_back(on_wall(c.radius, c.phi[i] + share * dphi, c.z[i] + share * dz));
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> captions(const Development& d, double datum, const Caption& caption) {
+  std::vector<std::string> out{
+      "tube " + fixed(2.0 * d.outer_radius, 3) + " x " + fixed(d.wall, 3) + " mm",
+      "CUT_OUTER on radius " + fixed(d.outer_radius, 3) + ", CUT_INNER on radius " +
+          fixed(d.outer_radius - d.wall, 3) + " mm",
+      "DATUM z = " + fixed(datum, 3) + " mm; SEAM phi = 0 and 360 deg; y = z, kept side up"};
+  for (const auto& [name, text] : caption.reference) out.push_back(name + ": " + text);
+  out.push_back(job_line(
+      {.reference = {}, .input_sha256 = caption.input_sha256, .result_sha256 = {}, .view = {}}));
+  return out;
+}
+
+void seams(DxfWriter& w, const Development& d, const Extent& e, double datum, bool space) {
+  if (space) {
+    std::vector<Eigen::Vector3d> circle =
+        in_space({.radius = d.outer_radius, .phi = {0.0, kTwoPi}, .z = {datum, datum}}, true);
+    w.polyline("DATUM", circle, true);
+    w.polyline("SEAM",
+               std::vector<Eigen::Vector3d>{on_wall(d.outer_radius, 0.0, e.z_from),
+                                            on_wall(d.outer_radius, 0.0, datum)},
+               false);
+    return;
+  }
+  const double from = d.around ? 0.0 : d.outer_radius * e.phi_from - kMargin;
+  const double to = d.outer_radius * (d.around ? kTwoPi : e.phi_to) + (d.around ? 0.0 : kMargin);
+  w.polyline("DATUM", std::vector<Eigen::Vector2d>{{from, datum}, {to, datum}}, false);
+  double foot = e.z_from;
+  if (d.around && !d.cuts.front().outer.empty()) foot = d.cuts.front().outer.z.front();
+  for (const double x : {0.0, kTwoPi * d.outer_radius})
+    if (x >= from && x <= to)
+      w.polyline("SEAM", std::vector<Eigen::Vector2d>{{x, foot}, {x, datum}}, false);
+}
+
+}  // namespace
+
+std::string print_dxf(const Development& d, const Caption& caption) {
+  const bool space = caption.view == "tube";
+  const auto e = extent(d);
+  const double datum = 10.0 * std::ceil((e.z_to + 15.0) / 10.0);
+  DxfWriter w({{"CUT_OUTER", 5}, {"CUT_INNER", 3}, {"SEAM", 1}, {"DATUM", 8}, {"TEXT", 7}});
+  for (const auto& cut : d.cuts) {
+    const auto draw = [&](std::string_view layer, const CylinderCurve& c) {
+      if (c.empty()) return;
+      if (space)
+        w.polyline(layer, in_space(c, d.around), true);
+      else
+        w.polyline(layer, flat(c), !d.around);
+    };
+    draw("CUT_OUTER", cut.outer);
+    draw("CUT_INNER", cut.inner);
+  }
+  seams(w, d, e, datum, space);
+  const double left = d.around || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
+  double y = datum;
+  for (const auto& line : captions(d, datum, caption)) w.text("TEXT", {left, y += 5.0}, 3.0, line);
+  return w.print();
+}
+
+}  // namespace tubecut::api

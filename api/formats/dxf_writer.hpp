@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tubecut::api {
+
+/// Entities of a DXF R2000 drawing in millimetres; lines, polylines and text only.
+class DxfWriter {
+ public:
+  struct Layer {
+    std::string_view name;
+    int color;  // AutoCAD colour index
+  };
+  explicit DxfWriter(std::vector<Layer> layers) : layers_(std::move(layers)) {}
+
+  /// Points (x, y); those equal to their predecessor are left out.
+  void polyline(std::string_view layer, const std::vector<Eigen::Vector2d>& points, bool closed);
+  void polyline(std::string_view layer, const std::vector<Eigen::Vector3d>& points, bool closed);
+  void text(std::string_view layer, const Eigen::Vector2d& at, double height,
+            std::string_view what);
+
+  [[nodiscard]] std::string print() const;
+
+ private:
+  void group(int code, std::string_view value);
+  void group(int code, double value);
+  void group(int code, int value);
+  void entity(std::string_view type, std::string_view layer, std::string_view subclass);
+  void see(const Eigen::Vector3d& p);
+
+  std::vector<Layer> layers_;
+  std::string entities_;
+  int handle_ = 0x100;  // those below belong to the tables
+  Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
+  bool any_ = false;
+};
+
+}  // namespace tubecut::api

@@ -1,0 +1,64 @@
+#include "api/formats/intersection_formats.hpp"
+
+#include "api/formats/chart.hpp"
+#include "api/formats/csv.hpp"
+#include "api/formats/development.hpp"
+#include "api/formats/dxf.hpp"
+#include "api/formats/sections.hpp"
+#include "api/formats/wrap_template.hpp"
+
+namespace tubecut::api {
+namespace {
+
+Chart profile_chart(const joint::Intersection& cut) {
+  Chart out{
+      .title = "The cut on both walls", .x_label = "phi, deg", .y_label = "z, mm", .series = {}};
+  for (const auto& p : cut.profiles) {
+    Series s{.name = p.outer ? "outer wall" : "inner wall",
+             .x = p.phi,
+             .y = p.z,
+             .color = p.outer ? "#1f5fbf" : "#1e8449"};
+    for (auto& phi : s.x) phi *= kDegPerRad;
+    out.series.push_back(std::move(s));
+    if (!p.outer) continue;
+    for (const auto& event : p.events)
+      out.marks.push_back(
+          {event.phi * kDegPerRad, std::to_string(event.from) + " > " + std::to_string(event.to)});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string intersection_csv(const joint::IntersectionSpec&, const joint::Intersection& cut,
+                             const Caption&) {
+  std::vector<std::string> surface;
+  std::vector<double> phi, z;
+  std::vector<std::size_t> cutter;
+  for (const auto& p : cut.profiles) {
+    surface.insert(surface.end(), p.phi.size(), p.outer ? "outer" : "inner");
+    phi.insert(phi.end(), p.phi.begin(), p.phi.end());
+    z.insert(z.end(), p.z.begin(), p.z.end());
+    cutter.insert(cutter.end(), p.cutter.begin(), p.cutter.end());
+  }
+  return Csv()
+      .cells_column("surface", std::move(surface))
+      .degrees("phi_deg", phi)
+      .column("z_mm", z)
+      .integers("cutter", cutter)
+      .print();
+}
+
+std::string intersection_svg(const joint::IntersectionSpec& spec, const joint::Intersection& cut,
+                             const Caption& caption) {
+  if (caption.view == "template") return print_wrap_template(developed(spec, cut), caption);
+  if (caption.view == "section") return print_sections(sections_of(spec, cut), caption);
+  return print_charts({profile_chart(cut)}, job_line(caption));
+}
+
+std::string intersection_dxf(const joint::IntersectionSpec& spec, const joint::Intersection& cut,
+                             const Caption& caption) {
+  return print_dxf(developed(spec, cut), caption);
+}
+
+}  // namespace tubecut::api

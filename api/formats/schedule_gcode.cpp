@@ -1,0 +1,171 @@
+#include "api/formats/schedule_gcode.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+#include "api/formats/gcode.hpp"
+#include "api/formats/text.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kTolerance = 1.0;  // pulses
+constexpr std::string_view kTurning = "ABC", kStraight = "XYZUVW";
+
+/// The slopes of a line from where a move began that pass all samples since within the tolerance.
+struct Cone {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool holds(double slope) const { return low <= slope && slope <= high; }
+  void narrow(double rise, double run, double tolerance) {
+    low = std::max(low, (rise - tolerance) / run);
+    high = std::min(high, (rise + tolerance) / run);
+  }
+};
+
+/// Pulses of every axis since the start, period by period.
+class Cursor {
+ public:
+  explicit Cursor(const motion::Schedule& s) : schedule_(s), sums_(s.axes.size(), 0) {}
+
+  void advance() {
+    for (std::size_t a = 0; a < sums_.size(); ++a)
+      if (!schedule_.axes[a].idle())
+        sums_[a] += schedule_.axes[a].counts[static_cast<std::size_t>(period_)];
+    ++period_;
+  }
+  void advance_to(std::int64_t period) {
+    while (period_ < period) advance();
+  }
+  [[nodiscard]] const std::vector<std::int64_t>& sums() const { return sums_; }
+
+ private:
+  const motion::Schedule& schedule_;
+  std::vector<std::int64_t> sums_;
+  std::int64_t period_ = 0;
+};
+
+/// One cone an axis.
+class Cones {
+ public:
+  Cones(const std::vector<std::int64_t>& from, std::int64_t period)
+      : from_(from), period_(period), all_(from.size()) {}
+
+  [[nodiscard]] bool hold(const std::vector<std::int64_t>& at, std::int64_t period) const {
+    for (std::size_t a = 0; a < all_.size(); ++a)
+      if (!all_[a].holds(rise(at, a) / run(period))) return false;
+    return true;
+  }
+  void narrow(const std::vector<std::int64_t>& at, std::int64_t period, double tolerance) {
+    for (std::size_t a = 0; a < all_.size(); ++a)
+      all_[a].narrow(rise(at, a), run(period), tolerance);
+  }
+
+ private:
+  [[nodiscard]] double rise(const std::vector<std::int64_t>& at, std::size_t a) const {
+    return static_cast<double>(at[a] - from_[a]);
+  }
+  [[nodiscard]] double run(std::int64_t period) const {
+    return static_cast<double>(period - period_);
+  }
+
+  std::vector<std::int64_t> from_;
+  std::int64_t period_;
+  std::vector<Cone> all_;
+};
+
+std::string words(const motion::Machine& machine, const motion::Schedule& s,
+                  const std::vector<char>& letters, const std::vector<std::int64_t>& sums) {
+  std::string out;
+  for (std::size_t a = 0; a < sums.size(); ++a) {
+    const double per_unit = machine.axes[a].pulses_per_axis_unit();
+    out += std::string(" ") + letters[a] +
+           fixed(s.axes[a].start + static_cast<double>(sums[a]) / per_unit, 6);
+  }
+  return out;
+}
+
+std::string header(const motion::Machine& machine, const motion::Schedule& s,
+                   const std::vector<char>& letters, bool contour, const Caption& caption) {
+  std::string out = gcode_job(caption);
+  out += gcode_comment("machine " + (machine.name.empty() ? "of the request" : machine.name));
+  for (std::size_t a = 0; a < letters.size(); ++a)
+    out += gcode_comment(std::string(1, letters[a]) + " = axis " + s.axes[a].name + ", " +
+                         std::string(motion::name_of(s.axes[a].unit)));
+  out += gcode_comment("units mm, deg; moves in inverse time, " + fixed(s.report.time, 3) +
+                       " s in all");
+  if (!contour) return out + gcode_comment("the tool is not switched here");
+  return out + gcode_comment(caption.options.torch
+                                 ? "THIS PROGRAM LIGHTS THE TORCH"
+                                 : "dry run: the torch stays off, ask with torch=on");
+}
+
+}  // namespace
+
+std::vector<char> axis_letters(const std::vector<motion::AxisPulses>& axes) {
+  std::vector<char> out(axes.size(), '\0');
+  const auto pool = [&](std::size_t a) {
+    return axes[a].unit == motion::AxisUnit::deg ? kTurning : kStraight;
+  };
+  const auto free = [&](char letter) { return std::ranges::find(out, letter) == out.end(); };
+  const auto take = [&](std::size_t a, std::string_view letters) {
+    for (const char letter : letters)
+      if (out[a] == '\0' && free(letter)) out[a] = letter;
+  };
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    if (!axes[a].name.empty() && pool(a).find(axes[a].name.front()) != std::string_view::npos)
+      take(a, std::string_view(axes[a].name).substr(0, 1));
+  for (std::size_t a = 0; a < axes.size(); ++a) take(a, pool(a));
+  for (std::size_t a = 0; a < axes.size(); ++a) take(a, "ABCXYZUVW");  // a fourth that turns
+  return out;
+}
+
+std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance) {
+  std::vector<std::int64_t> out{0};
+  Cursor at(s);
+  auto before = at.sums();
+  Cones cones(before, 0);
+  for (std::int64_t p = 1; p <= s.periods; ++p) {
+    at.advance();
+    if (!cones.hold(at.sums(), p)) {
+      out.push_back(p - 1);
+      cones = Cones(before, p - 1);
+    }
+    cones.narrow(at.sums(), p, tolerance);
+    before = at.sums();
+    const auto here = [&](const motion::Event& event) { return event.period == p; };
+    if (p != s.periods && std::ranges::none_of(s.events, here)) continue;
+    out.push_back(p);
+    cones = Cones(before, p);
+  }
+  return out;
+}
+
+std::string print_schedule_gcode(const motion::Machine& machine, const motion::ScheduleSpec& spec,
+                                 const motion::Schedule& s, const Caption& caption) {
+  const bool contour = std::holds_alternative<motion::Contour>(spec.cut);
+  const auto letters = axis_letters(s.axes);
+  const auto torch = torch_words(caption.options.dialect);
+  Cursor at(s);
+  std::string out = "%\n" + header(machine, s, letters, contour, caption) +
+                    "G21 G40 G49 G90 G94 G17\nG64 P0.01\n" + (contour ? torch.prepare : "") + "G0" +
+                    words(machine, s, letters, at.sums()) + "\nG93\n";
+  std::int64_t from = 0;
+  for (const auto end : move_ends(s, kTolerance)) {
+    at.advance_to(end);
+    if (end > from)
+      out += "G1" + words(machine, s, letters, at.sums()) + " F" +
+             fixed(60.0 / (s.period * static_cast<double>(end - from)), 6) + "\n";
+    from = end;
+    for (const auto& event : s.events) {
+      if (event.period != end || !contour) continue;
+      if (event.what == motion::EventKind::torch_on && caption.options.torch) out += torch.on;
+      if (event.what == motion::EventKind::torch_off) out += torch.off;
+    }
+  }
+  return out + "G94\nM2\n%\n";
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "api/formats/development.hpp"
+#include "api/formats/sheet.hpp"
+
+namespace tubecut::api {
+
+/// The cut wall in one plane: across from the bore (0) to the outer wall, along the tube (z).
+struct WallSection {
+  std::string name;
+  std::vector<DrawingPoint> cut;  // from the inner edge to the outer one; x across, y along
+  std::string angle;              // of the cut, for the table
+};
+
+/// The sections of one cut, evenly round it.
+struct SectionSet {
+  std::string title;
+  double wall = 0.0;
+  std::string along;  // what y is
+  SheetFacts facts;
+  std::vector<WallSection> sections;
+};
+
+[[nodiscard]] SectionSet sections_of(const bevel::TableSpec& spec, const bevel::Table& table);
+[[nodiscard]] SectionSet sections_of(const joint::IntersectionSpec& spec,
+                                     const joint::Intersection& cut);
+[[nodiscard]] SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut);
+
+/// Eight sections through the wall on A4, all at one usual scale, with a table of their figures.
+[[nodiscard]] std::string print_sections(const SectionSet& set, const Caption& caption);
+
+}  // namespace tubecut::api

@@ -1,0 +1,78 @@
+#include "api/formats/sheet.hpp"
+
+#include <algorithm>
+
+#include "api/formats/text.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kLine = 4.4, kPad = 2.0;
+constexpr Stroke kFrame{.width = 0.5};
+constexpr Stroke kRule{.color = "#7a8794", .width = 0.18};
+
+}  // namespace
+
+Sheet::Sheet(std::string title, const SheetFacts& facts, const Caption& caption)
+    : title_(std::move(title)), canvas_(kWidth, kHeight) {
+  const double half = (kWidth - 2.0 * kBorder) / 2.0;
+  const auto lines = static_cast<double>(std::max(facts.size(), caption.reference.size() + 3));
+  low_ = kBorder + kLine * (lines + 2.0) + kPad;
+  canvas_.rectangle({kBorder, kBorder}, {kWidth - kBorder, kHeight - kBorder}, kFrame);
+  canvas_.line({kBorder, low_}, {kWidth - kBorder, low_}, kFrame);
+  canvas_.line({kBorder + half, kBorder}, {kBorder + half, low_}, kRule);
+  const auto column = [&](double x, std::string_view head, const SheetFacts& rows) {
+    double y = low_ - kLine;
+    canvas_.text({x, y}, head, {.height = 3.6, .bold = true});
+    for (const auto& [name, value] : rows) {
+      const auto line = name + ": " + value;
+      const double fits = (half - 2.0 * kPad) / (0.64 * static_cast<double>(line.size()));
+      canvas_.text({x, y -= kLine}, line, {.height = std::min(2.6, fits)});
+    }
+  };
+  column(kBorder + kPad, title_, facts);
+  auto job = caption.reference;
+  job.emplace_back("engine", "tubecut " + std::string(version()));
+  job.emplace_back("input", caption.input_sha256.substr(0, 32));
+  job.emplace_back("result", caption.result_sha256.substr(0, 32));
+  column(kBorder + half + kPad, "Job", job);
+}
+
+Cell cell(const Sheet& sheet, int columns, int rows, int index) {
+  const auto low = sheet.low(), high = sheet.high();
+  const double w = (high.x - low.x) / columns, h = (high.y - low.y) / rows;
+  const int column = index % columns, row = index / columns;
+  return {{low.x + w * column, high.y - h * (row + 1)},
+          {low.x + w * (column + 1), high.y - h * row}};
+}
+
+DrawingScale drawing_scale(double size, double room) {
+  for (const double up : {50.0, 20.0, 10.0, 5.0, 2.0, 1.0})
+    if (size * up <= room) return {up, fixed(up, 0) + ":1"};
+  double decade = 1.0;
+  while (true) {
+    for (const double down : {2.0, 5.0, 10.0})
+      if (size <= room * down * decade || decade > 1e9)
+        return {1.0 / (down * decade), "1:" + fixed(down * decade, 0)};
+    decade *= 10.0;
+  }
+}
+
+double draw_table(Canvas& canvas, DrawingPoint at, const std::vector<double>& widths,
+                  const std::vector<std::vector<std::string>>& rows) {
+  double width = 0.0, y = at.y;
+  for (const double w : widths) width += w;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    double x = at.x;
+    y -= kLine;
+    for (std::size_t k = 0; k < rows[r].size() && k < widths.size(); ++k) {
+      canvas.text({x + widths[k] - 1.0, y + 1.2}, rows[r][k],
+                  {.height = 2.6, .anchor = Anchor::end, .bold = r == 0});
+      x += widths[k];
+    }
+    canvas.line({at.x, y}, {at.x + width, y}, kRule);
+  }
+  return y;
+}
+
+}  // namespace tubecut::api

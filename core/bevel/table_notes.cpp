@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/bevel/table_parts.hpp"
+
+namespace tubecut::bevel::detail {
+void note_torch_binds(const Ground& g, const Rows& rows, Table& out) {
+  const auto& samples = rows.samples;
+  const auto& points = rows.points;
+  const bool lifted = g.spec.contact == Contact::automatic;
+  const auto lost = [&](std::size_t i) {
+    const double rule = std::abs(points[i].angles.b - points[i].raw);
+    return lifted ? std::max(rule, points[i].required - g.spec.torch.max.rad()) : rule;
+  };
+  for (const auto& [from, to] :
+       runs(samples.nodes, [&](std::size_t i) { return lost(i) > kBelow; })) {
+    Table::Binding binding{.from = from, .to = to, .groove_lost = 0.0, .root_gap = 0.0};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double phi = samples.nodes[i].phi;
+      if (!((phi >= from && phi <= to) || phi + kTwoPi <= to)) continue;
+      binding.groove_lost = std::max(binding.groove_lost, lost(i));
+      binding.root_gap = std::max(binding.root_gap, out.gap[i]);
+    }
+    out.torch_binds.push_back(binding);
+    out.warnings.push_back(
+        {.code = WarningCode::torch_range_binds,
+         .member = "torch",
+         .detail = "phi " + brief(from * kDegPerRad) + " to " + brief(to * kDegPerRad) +
+                   " deg, up to " + brief(binding.groove_lost * kDegPerRad) +
+                   " deg of groove lost" +
+                   (lifted ? ", root open up to " + brief(binding.root_gap) + " mm" : "")});
+  }
+}
+
+void note_root_opens(const TableSpec& spec, Table& out) {
+  if (spec.contact != Contact::automatic && spec.contact != Contact::outer) return;
+  constexpr double kOpen = 1e-3;  // mm
+  const auto widest = std::ranges::max_element(out.gap);
+  if (widest == out.gap.end() || *widest <= kOpen) return;
+  const auto at = static_cast<std::size_t>(widest - out.gap.begin());
+  out.warnings.push_back({.code = WarningCode::root_opens,
+                          .member = "contact",
+                          .detail = "by up to " + shown(*widest) + " mm, at phi " +
+                                    shown(out.phi[at] * kDegPerRad) + " deg"});
+}
+
+void note_events_between(const Ground& g, Table& out) {
+  const auto n = out.phi.size();
+  const double step = kTwoPi / static_cast<double>(n);
+  double worst = 0.0, at = 0.0;
+  const auto see = [&](double phi, double input) {
+    const auto i = std::min(n - 1, static_cast<std::size_t>(phi / step));
+    const double t = phi / step - static_cast<double>(i);
+    const double line = (1.0 - t) * out.b[i] + t * out.b[(i + 1) % n];
+    if (input - line > worst) {
+      worst = input - line;
+      at = phi;
+    }
+  };
+  for (const auto& event : g.root.events)
+    for (const bool before : {true, false}) {
+      const auto cutter = before ? event.from : event.to;
+      const auto line = joint::generator_at(g.root.radius, event.phi);
+      const auto side = before ? joint::Side::before : joint::Side::after;
+      const auto hit = event.kind == joint::EventKind::kink
+                           ? joint::hit_at_corner(g.root.cutters[cutter], line, side)
+                           : joint::continued_hit(g.root.cutters[cutter], line);
+      see(event.phi, point(g, event.phi, hit, cutter, before ? event.z_from : event.z_to).input);
+    }
+  for (const auto& event : g.other_events) {
+    const auto contact = joint::contact_at(g.root, event.phi);
+    const auto line = joint::generator_at(g.root.radius, event.phi);
+    const auto hit = joint::continued_hit(g.root.cutters[contact.cutter], line);
+    see(event.phi, point(g, event.phi, hit, contact.cutter, contact.z).input);
+  }
+  out.warnings.push_back({.code = WarningCode::events_between_nodes,
+                          .member = "sampling/uniform_points",
+                          .detail = "largest shortfall of B between nodes " +
+                                    brief(worst * kDegPerRad) + " deg at phi " +
+                                    brief(at * kDegPerRad) + " deg"});
+}
+}  // namespace tubecut::bevel::detail

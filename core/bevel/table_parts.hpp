@@ -1,0 +1,99 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "core/bevel/required.hpp"
+#include "core/bevel/table.hpp"
+
+/// The parts of `table`, for its own sources only: what stands fixed, the rows before smoothing,
+/// the smoothing, the surfaces, and what is noted about them.
+namespace tubecut::bevel::detail {
+
+inline constexpr double kBelow = 1e-9 * kRadPerDeg;  // what counts as falling below, rad
+
+/// What is needed at every node, computed once.
+struct Ground {
+  const TableSpec& spec;
+  std::vector<joint::Cutter> cutters;
+  joint::Contour root;
+  std::optional<joint::Contour> inner;  // when the root is on the outer surface
+  std::vector<joint::Event> other_events;
+  Wall wall;
+  Rule rule;
+
+  [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
+};
+[[nodiscard]] Result<Ground> ground(const TableSpec& spec);
+
+/// One side of one node before smoothing. Angles in rad.
+struct Point {
+  std::size_t cutter = 0;
+  Angles angles;
+  double raw = 0.0;       // rule within the torch range
+  double required = 0.0;  // least B with which no partner enters the wall
+  double input = 0.0;     // of the smoother
+  double face = 0.0;      // elevation of the land
+};
+[[nodiscard]] Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutter,
+                          double root_z);
+
+/// The rows of a table before smoothing: a point of each node.
+struct Rows {
+  joint::Samples samples;
+  std::vector<Point> points;
+
+  /// Is node i the first of a jump's two?
+  [[nodiscard]] bool jump_pair(std::size_t i) const;
+};
+/// Errors  too_many_nodes, cancelled.
+[[nodiscard]] Result<Rows> rows(const Ground& g, const std::vector<double>& also,
+                                const std::stop_token& stop);
+
+/// Runs of nodes (cyclic) that satisfy `holds`, as phi intervals; one that crosses 0 ends above 2
+/// pi.
+template <class F>
+[[nodiscard]] std::vector<std::pair<double, double>> runs(const std::vector<joint::Node>& nodes,
+                                                          F holds) {
+  std::vector<std::pair<double, double>> out;
+  bool inside = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!holds(i)) {
+      inside = false;
+      continue;
+    }
+    if (!inside) out.emplace_back(nodes[i].phi, nodes[i].phi);
+    out.back().second = nodes[i].phi;
+    inside = true;
+  }
+  if (out.size() > 1 && holds(0) && holds(nodes.size() - 1)) {
+    out.back().second = out.front().second + kTwoPi;
+    out.erase(out.begin());
+  }
+  return out;
+}
+/// Radians to degrees.
+[[nodiscard]] Intervals degrees(std::vector<std::pair<double, double>> intervals);
+
+/// Mutations, windows and B of the table. Errors  those of the smoothing chosen.
+[[nodiscard]] Result<void> fill_smoothed(const Ground& g, const Rows& rows, Table& out,
+                                         const std::stop_token& stop);
+/// B required beyond the torch: an error, with the root gap that lifting the cut would open.
+[[nodiscard]] Result<void> check_torch(const Ground& g, const Rows& rows);
+
+/// Finished surface, root opening, metal in the beam and the torch's own line.
+void fill_surfaces(const Ground& g, const Rows& rows, Table& out);
+/// Contact outer: does the cut stay clear of every partner across the wall?
+[[nodiscard]] Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out);
+/// Phases between rows where the cut, straight from row to row, would enter a partner by more
+/// than `tolerance` normal to the cut: the contours of the walls do not tell where it curves.
+[[nodiscard]] std::vector<double> shortfalls(const Ground& g, const Table& t, double tolerance);
+
+void note_torch_binds(const Ground& g, const Rows& rows, Table& out);
+void note_root_opens(const TableSpec& spec, Table& out);
+/// On a bare grid events lie between nodes: by how much the straight line between them falls short.
+void note_events_between(const Ground& g, Table& out);
+
+}  // namespace tubecut::bevel::detail

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/joint/cutter.hpp"
+#include "core/joint/sheets.hpp"
+
+/// For `divide` only: the phases where its profile may have an event.
+namespace tubecut::joint::detail {
+
+inline constexpr double kSamePhase = 1e-11;  // rad; closer candidates are one
+
+/// Into [0, 2 pi).
+[[nodiscard]] double wrapped(double phi);
+/// The shorter way round.
+[[nodiscard]] double phase_distance(double a, double b);
+
+/// Silhouettes, corners and crossings of every cutter and pair. Some are no events: the profile
+/// lies elsewhere. None is missed.
+class EventPhases {
+ public:
+  struct Kink {
+    double phi;
+    std::size_t cutter;
+  };
+
+  EventPhases(std::span<const Prepared> cutters, double rho);
+
+  /// Hit somewhere, and no other description of an earlier one.
+  [[nodiscard]] const std::vector<std::size_t>& active() const { return active_; }
+  /// Ascending, [0, 2 pi), no two the same.
+  [[nodiscard]] const std::vector<double>& phases() const { return phases_; }
+  [[nodiscard]] const std::vector<Kink>& kinks() const { return kinks_; }
+  /// A length the rounding of this cutter's z is proportional to.
+  [[nodiscard]] double size_of(std::size_t i) const;
+  /// An elbow's highest sheet ends at a silhouette of its own while a lower one is met: z jumps
+  /// from the cutter to itself.
+  [[nodiscard]] std::optional<double> hidden_at(std::size_t i);
+
+ private:
+  [[nodiscard]] bool repeats_an_earlier(std::size_t i) const;
+  void add_own(std::size_t i);
+  void add_kink(double phi, std::size_t i);
+  void add_pair(std::size_t i, std::size_t j);
+  void add_scanned_pair(std::size_t i, std::size_t j);
+  void merge();
+  [[nodiscard]] double apart(std::size_t i, std::size_t j, double phi) const;
+  [[nodiscard]] const std::vector<double>& scan(std::size_t i);
+  [[nodiscard]] std::optional<double> polish(std::size_t i, std::size_t j, double near) const;
+  [[nodiscard]] double close_bracket(std::size_t i, std::size_t j, double a, double ga, double b,
+                                     double gb) const;
+
+  std::span<const Prepared> cutters_;
+  double rho_;
+  std::vector<std::vector<Sheets>> sheets_;  // of each cutter, its pieces
+  std::vector<std::size_t> active_;
+  std::map<std::size_t, std::vector<double>> scans_;
+  std::vector<double> phases_;
+  std::vector<Kink> kinks_;
+};
+
+}  // namespace tubecut::joint::detail

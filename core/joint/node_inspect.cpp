@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/joint/node_parts.hpp"
+
+namespace tubecut::joint::detail {
+namespace {
+
+constexpr std::size_t kScan = 180;  // generators looked at for ghosts and the highest z
+
+std::vector<Prepared> prepared(const MemberEnd& end) {
+  std::vector<Prepared> out;
+  for (const auto& cut : end.cut_by)
+    if (auto one = prepare(Cutter{cut.placement.tube}, "")) out.push_back(*one);
+  return out;
+}
+
+/// Every generator of radius rho meets some cutter.
+bool closed(const MemberEnd& end, std::span<const Prepared> cutters, double rho) {
+  for (const auto& cut : end.cut_by)
+    if (std::abs(cut.placement.tube.offset) + rho <= cut.placement.tube.radius) return true;
+  return divide(cutters, rho).open.empty();
+}
+
+/// Cheap bounds of a cutter's sheet on radius rho: the highest z, and the reach along its own axis.
+struct Bounds {
+  double z, axial;
+};
+Bounds bounds(const TubeCutter& t, double rho) {
+  const auto turn = elementary::sincos(t.inclination.rad());
+  return {t.height + (t.radius + rho * std::abs(turn.cos)) / turn.sin,
+          (t.radius * std::abs(turn.cos) + rho) / turn.sin};
+}
+
+/// Is w, along the axis of the cutter from the common perpendicular, beyond the member's ends?
+bool beyond(const Member& m, const CutBy& cut, double w) {
+  const double from = cut.placement.point_axial;
+  const double length = (m.finish - m.start).norm();
+  const double slack = 1e-9 * (length + std::abs(from));
+  return w < from - slack || w > from + length + slack;
+}
+
+/// Ghosts and the highest z, read on the generators of one surface.
+void scan(const NodeSpec& spec, std::span<const Prepared> cutters, double rho, double length,
+          MemberEnd& end) {
+  for (std::size_t k = 0; k < kScan; ++k) {
+    const auto line =
+        generator_at(rho, kTwoPi * static_cast<double>(k) / static_cast<double>(kScan));
+    const auto top = highest(cutters, line);
+    if (!top) continue;
+    end.consumed = end.consumed || top->z > length;
+    auto& cut = end.cut_by[top->cutter];
+    if (const auto at = hit(cutters[top->cutter], line))
+      cut.ghost = cut.ghost || beyond(spec.members[cut.member], cut, at->axial);
+  }
+}
+
+}  // namespace
+
+void inspect(const NodeSpec& spec, MemberEnd& end) {
+  const auto& m = spec.members[end.member];
+  const double length = (m.finish - m.start).norm();
+  const auto cutters = prepared(end);
+  for (const double rho : {m.outer_radius - m.wall, m.outer_radius}) {
+    end.open = end.open || !closed(end, cutters, rho);
+    const bool nothing = std::ranges::all_of(end.cut_by, [&](const CutBy& cut) {
+      const auto most = bounds(cut.placement.tube, rho);
+      return most.z < length && !beyond(spec.members[cut.member], cut, most.axial) &&
+             !beyond(spec.members[cut.member], cut, -most.axial);
+    });
+    if (!nothing) scan(spec, cutters, rho, length, end);
+  }
+}
+
+}  // namespace tubecut::joint::detail

@@ -1,0 +1,91 @@
+"""The DSTV file read by a parser of its own: header lines in the standard's order, contour points, bevel and B table."""
+
+import math
+import re
+
+from service import HOSTILE, FormatTest, examples, main, seam_row
+
+HEADER = ("order", "drawing", "phase", "piece", "grade", "quantity", "profile", "code", "length", "height", "flange_width",
+          "flange", "web", "radius", "weight", "paint", "web_start", "web_end", "flange_start", "flange_end",
+          "text1", "text2", "text3", "text4")
+NUMBER = r"-?\d+\.\d+"
+POINT = re.compile(rf"^  ([ vouh])\s+({NUMBER})([ous ]?)\s+({NUMBER})\s+({NUMBER})(?:\s+({NUMBER})\s+({NUMBER})\s+({NUMBER})\s+({NUMBER}))?$")
+
+
+def parse(text):
+    """{"comments", "header", "AK": [(x, y, bevel)]}; refuses what the standard does not have."""
+    lines = text.split("\r\n")
+    if lines[0] != "ST" or lines[-2:] != ["EN", ""]:
+        raise AssertionError("no ST ... EN")
+    comments = [line[3:] for line in lines if line.startswith("** ")]
+    plain = [line for line in lines[1:-2] if not line.startswith("**")]
+    header, rest = dict(zip(HEADER, plain[:len(HEADER)])), plain[len(HEADER):]
+    blocks, block = {}, None
+    for line in rest:
+        if re.fullmatch(r"[A-Z]{2}", line):
+            block = blocks.setdefault(line, [])
+            continue
+        found = POINT.match(line)
+        if not found or block is None:
+            raise AssertionError(f"no point: {line!r}")
+        block.append((float(found[2]), float(found[4]), float(found[6] or 0)))
+    return {"comments": comments, "header": {k: v.strip() for k, v in header.items()}, **blocks}
+
+
+class Dstv(FormatTest):
+    def file(self, body):
+        return parse(self.service.text("bevel-tables", body, "format=nc1").decode("ascii"))
+
+    def test_contour_lengths_and_table(self):
+        for name, body in examples("bevel-tables").items():
+            if "target" not in body:
+                continue
+            with self.subTest(name):
+                body = {**body, "target": {**body["target"], "length_mm": 5000}}
+                table, file = self.service.answer("bevel-tables", body)["result"]["points"], self.file(body)
+                radius = body["target"]["outer_diameter_mm"] / 2
+                low = min(table["z_inner_mm"] + table["z_outer_mm"])
+                header = file["header"]
+                self.assertEqual(header["code"], "RO")
+                self.assertAlmostEqual(float(header["height"]), 2 * radius, delta=1e-3)
+                self.assertAlmostEqual(float(header["web"]), body["target"]["wall_mm"], delta=1e-3)
+                over_all, saw = map(float, header["length"].split(","))
+                self.assertAlmostEqual(over_all, 5000 - low, delta=2e-3)
+                torch = min(table["torch_inner_mm"] + table["torch_outer_mm"])
+                self.assertAlmostEqual(saw, 5000 - min(low, torch), delta=2e-3)
+                contour = file["AK"]
+                self.assertEqual(contour[0][:2], contour[-1][:2])
+                wanted = [(z - low, radius * math.radians(p)) for p, z in seam_row(table["phi_deg"], table["z_outer_mm"])]
+                self.assertEqual(len(contour), len(wanted) + 3)
+                for got, want in zip(contour, wanted):
+                    self.assertLess(math.dist(got[:2], want), 2e-3)
+                rows = [list(map(float, c.split()[1:])) for c in file["comments"] if c.startswith("B ")]
+                self.assertEqual(len(rows), len(table["phi_deg"]))
+                sign = -1 if body.get("dihedral", "weld_side") != "weld_side" else 1
+                for row, phi, b in zip(rows, table["phi_deg"], table["b_deg"]):
+                    self.assertAlmostEqual(row[0], phi, delta=2e-6)
+                    self.assertAlmostEqual(row[5], sign * b, delta=2e-4)
+
+    def test_a_constant_bevel_stands_at_every_point_of_the_cut(self):
+        body = {"target": {"outer_diameter_mm": 114.3, "wall_mm": 6.3, "length_mm": 1000},
+                "cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}], "sampling": {"uniform_points": 36},
+                "root_surface": "inner", "groove": {"rule": "fixed", "angle_deg": 30}, "kerf_mm": 2, "smoothing": {"method": "none"}}
+        file = self.file(body)
+        self.assertEqual([b for _, _, b in file["AK"]], [30.0] * 37 + [0.0] * 3)
+        self.assertFalse([c for c in file["comments"] if "sidecar" in c])
+        over_all, saw = map(float, file["header"]["length"].split(","))
+        self.assertAlmostEqual(over_all, 1000.0, delta=1e-3)
+        self.assertAlmostEqual(saw - over_all, 1.0 / math.cos(math.radians(30)), delta=2e-3)  # half the kerf, along the axis
+
+    def test_a_varying_bevel_names_its_sidecar(self):
+        file = self.file(examples("bevel-tables")["source-000-table-1"])
+        self.assertTrue(any(re.search(r"sidecar [0-9a-f]{16}\.csv", c) for c in file["comments"]))
+        self.assertTrue(any("far end is assumed" in c for c in file["comments"]))
+
+    def test_open_text_stays_in_its_line(self):
+        file = self.file({**examples("bevel-tables")["source-000-table-1"], "reference": HOSTILE})
+        self.assertEqual(set(file) - {"comments", "header"}, {"AK"})
+
+
+if __name__ == "__main__":
+    main()

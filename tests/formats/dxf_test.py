@@ -1,0 +1,130 @@
+"""The DXF drawings read by ezdxf: its auditor, layers, units, lengths and texts."""
+
+import math
+import pathlib
+import tempfile
+
+import ezdxf
+from ezdxf.lldxf.encoding import decode_dxf_unicode
+
+from service import HOSTILE, FormatTest, examples, main, seam_row
+
+LAYERS = {"CUT_OUTER", "CUT_INNER", "SEAM", "DATUM", "TEXT"}
+
+
+def read(content):
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "cut.dxf")
+        file.write_bytes(content)
+        return ezdxf.readfile(file)
+
+
+def polylines(drawing, layer):
+    """[(points, closed)] in the order drawn."""
+    out = []
+    for entity in drawing.modelspace().query(f'LWPOLYLINE POLYLINE[layer=="{layer}"]'):
+        if entity.dxftype() == "LWPOLYLINE":
+            out.append(([(x, y) for x, y in entity.get_points("xy")], entity.closed))
+        else:
+            out.append(([tuple(v.dxf.location) for v in entity.vertices], entity.is_closed))
+    return out
+
+
+def length(points, closed):
+    return sum(math.dist(a, b) for a, b in zip(points, points[1:] + points[:1] if closed else points[1:]))
+
+
+def developed(phi_deg, z, radius):
+    points = [(radius * math.radians(phi), z) for phi, z in seam_row(phi_deg, z)]
+    return length(points, False)
+
+
+class Dxf(FormatTest):
+    def drawing(self, endpoint, body, view="template"):
+        drawing = read(self.service.text(endpoint, body, f"format=dxf&view={view}"))
+        audit = drawing.audit()
+        self.assertEqual([e.message for e in audit.errors], [])
+        self.assertEqual([e.message for e in audit.fixes], [])
+        self.assertEqual(drawing.dxfversion, "AC1015")
+        self.assertEqual(drawing.header["$INSUNITS"], 4)
+        self.assertLessEqual(LAYERS, {layer.dxf.name for layer in drawing.layers})
+        return drawing
+
+    def test_bevel_tables_lie_flat_with_the_lengths_of_the_table(self):
+        for name, body in examples("bevel-tables").items():
+            with self.subTest(name):
+                drawing = self.drawing("bevel-tables", body)
+                if "target" not in body:
+                    continue
+                table, target = self.service.answer("bevel-tables", body)["result"]["points"], body["target"]
+                radius = {"CUT_OUTER": target["outer_diameter_mm"] / 2,
+                          "CUT_INNER": target["outer_diameter_mm"] / 2 - target["wall_mm"]}
+                for layer, column in (("CUT_OUTER", "z_outer_mm"), ("CUT_INNER", "z_inner_mm")):
+                    [(points, closed)] = polylines(drawing, layer)
+                    self.assertFalse(closed)
+                    self.assertAlmostEqual(points[0][0], 0.0, delta=1e-6)
+                    self.assertAlmostEqual(points[-1][0], 2 * math.pi * radius[layer], delta=1e-6)
+                    self.assertAlmostEqual(points[0][1], points[-1][1], delta=1e-6)
+                    self.assertAlmostEqual(length(points, False), developed(table["phi_deg"], table[column], radius[layer]),
+                                           delta=1e-6 * len(points))
+
+    def test_the_outline_closes_with_seam_and_datum(self):
+        drawing = self.drawing("bevel-tables", examples("bevel-tables")["source-000-table-1"])
+        [(cut, _)] = polylines(drawing, "CUT_OUTER")
+        [(datum, _)] = polylines(drawing, "DATUM")
+        seams = polylines(drawing, "SEAM")
+        self.assertEqual(len(seams), 2)
+        for (seam, _), corner, end in zip(seams, (cut[0], cut[-1]), datum):
+            for got, wanted in zip(seam, (corner, end)):
+                self.assertLess(math.dist(got, wanted), 1e-5)
+
+    def test_true_lengths_of_an_intersection(self):
+        for name, body in examples("intersections").items():
+            with self.subTest(name):
+                body = {**body, "sampling": {"tolerance_mm": 0.001, "metric": "developed"}}
+                result = self.service.answer("intersections", body)["result"]
+                drawing = self.drawing("intersections", body)
+                for profile in result["profiles"]:
+                    [(points, _)] = polylines(drawing, f"CUT_{profile['surface'].upper()}")
+                    # A chord that sags by s over a length c is shorter by less than 4 s^2 / c.
+                    short = profile["length_mm"] - length(points, False)
+                    self.assertGreater(short, -1e-6)
+                    self.assertLess(short, 4 * 0.001**2 * len(points)**2 / profile["length_mm"])
+
+    def test_on_the_tube_curves_are_closed_and_stay_on_the_wall(self):
+        for endpoint in ("bevel-tables", "intersections", "holes"):
+            for name, body in examples(endpoint).items():
+                with self.subTest(f"{endpoint} {name}"):
+                    drawing = self.drawing(endpoint, body, "tube")
+                    drawn = polylines(drawing, "CUT_OUTER") + polylines(drawing, "CUT_INNER")
+                    self.assertTrue(drawn)
+                    for points, closed in drawn:
+                        self.assertTrue(closed)
+                        radius = math.hypot(*points[0][:2])
+                        for a, b in zip(points, points[1:] + points[:1]):
+                            self.assertAlmostEqual(math.hypot(*a[:2]), radius, delta=2e-6)
+                            middle = math.hypot((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+                            self.assertGreater(middle, radius - 0.0101)
+
+    def test_holes_are_closed(self):
+        for name, body in examples("holes").items():
+            with self.subTest(name):
+                holes = self.service.answer("holes", body)["result"]["holes"]
+                radius = body["chord"]["outer_diameter_mm"] / 2
+                drawn = polylines(self.drawing("holes", body), "CUT_OUTER")
+                self.assertEqual(len(drawn), len(holes))
+                for (points, closed), hole in zip(drawn, holes):
+                    self.assertTrue(closed)
+                    ours = [(radius * math.radians(p), z) for p, z in zip(hole["points"]["phi_deg"], hole["points"]["z_mm"])]
+                    self.assertAlmostEqual(length(points, True), length(ours, True), delta=1e-6 * len(ours))
+
+    def test_open_text_arrives_as_written(self):
+        body = {**examples("bevel-tables")["source-000-table-1"], "reference": HOSTILE}
+        drawing = self.drawing("bevel-tables", body)
+        texts = [decode_dxf_unicode(t.dxf.text).replace("%%%", "%").replace("^ ", "^") for t in drawing.modelspace().query("TEXT")]
+        for key, value in HOSTILE.items():
+            self.assertIn(f"{key}: {value}", texts)
+
+
+if __name__ == "__main__":
+    main()

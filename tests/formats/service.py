@@ -1,0 +1,95 @@
+"""The running service, asked for the formats of one request; examples and hostile references."""
+
+import json
+import pathlib
+import subprocess
+import sys
+import unittest
+import urllib.error
+import urllib.request
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Text that ends, opens or escapes something in XML, DXF, DSTV or RS-274; all that a reference may hold.
+HOSTILE = {
+    "part": "]]><script>alert(1)</script>&amp;<!--\"'",
+    "order": "x)(MSG,hello) M3 S1 G0 X0 %",
+    "drawing": "%%u50%%c \\U+0041 \\P ^J{\\H9;",
+    "revision": ";py,import os #1=2 [1/0] o1 call",
+    "heat": "** EN\\nAK  v 0.0u",
+    "customer_id": "".join(chr(c) for c in range(0x20, 0x7f))[:64],
+}
+
+
+class Service:
+    def __init__(self, binary):
+        self.child = subprocess.Popen([binary, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0"],
+                                      stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        self.port = json.loads(self.child.stdout.readline())["port"]
+
+    def stop(self):
+        self.child.terminate()
+        self.child.wait()
+        self.child.stdout.close()
+
+    def ask(self, endpoint, body, query=""):
+        """(status, content type, bytes)"""
+        url = f"http://127.0.0.1:{self.port}/v1/{endpoint}?{query}"
+        request = urllib.request.Request(url, json.dumps(body).encode(), {"Content-Type": "application/json"})
+        try:
+            with urllib.request.urlopen(request, timeout=60) as reply:
+                return reply.status, reply.headers["Content-Type"], reply.read()
+        except urllib.error.HTTPError as refused:
+            with refused:
+                return refused.code, refused.headers["Content-Type"], refused.read()
+
+    def get(self, path):
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=60) as reply:
+            return reply.read()
+
+    def text(self, endpoint, body, query):
+        status, _, content = self.ask(endpoint, body, query)
+        if status != 200:
+            raise AssertionError(f"{endpoint}?{query}: {status} {content[:400]!r}")
+        return content
+
+    def answer(self, endpoint, body):
+        return json.loads(self.text(endpoint, body, ""))
+
+
+def examples(endpoint):
+    """{name: request}, never empty."""
+    found = {file.stem: json.loads(file.read_text()) for file in sorted((ROOT / "examples" / endpoint).glob("*.json"))}
+    if not found:
+        raise AssertionError(f"no examples for {endpoint}")
+    return found
+
+
+class FormatTest(unittest.TestCase):
+    """One service for all tests of a class."""
+
+    binary = ""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.service = Service(FormatTest.binary)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.service.stop()
+
+
+def main():
+    FormatTest.binary = sys.argv.pop(1)
+    unittest.main()
+
+
+def seam_row(phi_deg, column):
+    """A closed column with its value at the seam: [(phi, value)], from 0 to 360 deg."""
+    rows = list(zip(phi_deg, column))
+    ahead = phi_deg[0] + 360.0 - phi_deg[-1]
+    share = phi_deg[0] / ahead if ahead else 0.0
+    seam = column[0] + share * (column[-1] - column[0])
+    if phi_deg[0] > 0.0:
+        rows.insert(0, (0.0, seam))
+    return rows + [(360.0, seam)]
