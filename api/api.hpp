@@ -44,6 +44,7 @@ struct JobFacts {
   std::string id;
   std::string endpoint;               // id in the endpoint table; empty when the path is not in it
   std::string input_sha256;           // empty when the request was not understood
+  std::string result_sha256;          // empty for errors
   std::string verdict;                // ok | review | reject; empty for errors
   std::string error_code;             // empty for answers
   std::vector<std::string> warnings;  // codes
@@ -73,6 +74,14 @@ struct Outcome {
 /// Adds a machine of one's own (a JSON object in the form of GET /v1/machines) to those a request
 /// can name. Only at start, before the first dispatch. Returns what is wrong with it, or nothing.
 [[nodiscard]] std::string add_machine(std::string_view json);
+
+/// An example the service carries: a request's body that runs.
+struct Example {
+  std::string_view endpoint;  // id
+  std::string name;           // with the theme it belongs to, "commissioning/4-saddle"
+  std::string_view body;
+};
+[[nodiscard]] std::vector<Example> examples();
 
 /// "0.1.0", and the integer raised with every change of a result bit.
 [[nodiscard]] std::string_view version();

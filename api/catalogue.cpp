@@ -1,5 +1,6 @@
 #include "api/catalogue.hpp"
 
+#include "api/api.hpp"
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
@@ -87,24 +88,14 @@ std::string tubes_page() {
   return out.take();
 }
 
-/// examples/[<theme>/]<endpoint>/<name>.json: requests that run.
 std::string examples_page() {
   Writer out;
   out.object([](Writer& w) {
-    std::vector<Embedded> examples;
-    for (const auto& file : embedded_files())
-      if (file.name.starts_with("examples/") && file.name.ends_with(".json"))
-        examples.push_back(file);
-    w.array("examples", examples, [](Writer& each, const Embedded& file) {
-      const auto inner = file.name.substr(9, file.name.size() - 14);
-      const auto slash = inner.rfind('/');
-      const auto theme = inner.rfind('/', slash - 1);
-      const auto endpoint = theme == std::string_view::npos ? 0 : theme + 1;
+    w.array("examples", examples(), [](Writer& each, const Example& example) {
       each.object([&](Writer& o) {
-        o.field("endpoint", inner.substr(endpoint, slash - endpoint));
-        o.field("name",
-                std::string(inner.substr(0, endpoint)) + std::string(inner.substr(slash + 1)));
-        o.raw("body", file.text);
+        o.field("endpoint", example.endpoint);
+        o.field("name", example.name);
+        o.raw("body", example.body);
       });
     });
   });
@@ -112,6 +103,22 @@ std::string examples_page() {
 }
 
 }  // namespace
+
+/// examples/[<theme>/]<endpoint>/<name>.json: requests that run.
+std::vector<Example> examples() {
+  std::vector<Example> out;
+  for (const auto& file : embedded_files()) {
+    if (!file.name.starts_with("examples/") || !file.name.ends_with(".json")) continue;
+    const auto inner = file.name.substr(9, file.name.size() - 14);
+    const auto slash = inner.rfind('/');
+    const auto theme = inner.rfind('/', slash - 1);
+    const auto endpoint = theme == std::string_view::npos ? 0 : theme + 1;
+    out.push_back({inner.substr(endpoint, slash - endpoint),
+                   std::string(inner.substr(0, endpoint)) + std::string(inner.substr(slash + 1)),
+                   file.text});
+  }
+  return out;
+}
 
 std::optional<Page> catalogue(std::string_view path) {
   static const struct {

@@ -7,7 +7,7 @@
 namespace tubecut::api {
 namespace {
 
-enum Major : std::uint8_t { kUnsigned, kNegative, kBytes, kText, kArray, kMap, kTag };
+enum class Major : std::uint8_t { natural, negative, bytes, text, array, map, tag };
 constexpr std::uint8_t kInt16LittleEndian = 77;
 constexpr std::uint8_t kInt32LittleEndian = 78;
 
@@ -33,7 +33,8 @@ void head(std::string& out, Major major, std::uint64_t n) {
 }
 
 void put_integer(std::string& out, std::int64_t v) {
-  head(out, v < 0 ? kNegative : kUnsigned, static_cast<std::uint64_t>(v < 0 ? -1 - v : v));
+  head(out, v < 0 ? Major::negative : Major::natural,
+       static_cast<std::uint64_t>(v < 0 ? -1 - v : v));
 }
 
 template <class Small>
@@ -50,8 +51,8 @@ std::string CborWriter::typed_array(const std::vector<std::int64_t>& values) {
   const std::size_t width = small ? 2 : 4;
   std::string out;
   out.reserve(values.size() * width + 16);
-  head(out, kTag, small ? kInt16LittleEndian : kInt32LittleEndian);
-  head(out, kBytes, values.size() * width);
+  head(out, Major::tag, small ? kInt16LittleEndian : kInt32LittleEndian);
+  head(out, Major::bytes, values.size() * width);
   for (const auto v : values)
     for (std::size_t i = 0; i < width; ++i)
       out += static_cast<char>((static_cast<std::uint64_t>(v) >> (8 * i)) & 0xFFU);
@@ -107,7 +108,7 @@ bool CborWriter::number(double v) {
 
 bool CborWriter::text(std::string_view v) {
   begin_item();
-  head(here(), kText, v.size());
+  head(here(), Major::text, v.size());
   here() += v;
   return true;
 }
@@ -115,7 +116,7 @@ bool CborWriter::text(std::string_view v) {
 bool CborWriter::key(std::string_view name) {
   auto& frame = frames_.back();
   ++frame.items;
-  head(frame.bytes, kText, name.size());
+  head(frame.bytes, Major::text, name.size());
   frame.bytes += name;
   key_ = name;
   return true;
@@ -140,7 +141,7 @@ bool CborWriter::close() {
     return true;
   }
   if (done.column) give_up_column(done);
-  head(here(), done.object ? kMap : kArray, done.items);
+  head(here(), done.object ? Major::map : Major::array, done.items);
   here() += done.bytes;
   return true;
 }

@@ -4,6 +4,7 @@
 #include "api/api.hpp"
 #include "api/catalogue.hpp"
 #include "api/endpoint.hpp"
+#include "api/suspicion.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -341,6 +342,9 @@ Outcome Job::answer(const Endpoint& endpoint, const Common& common, Answer answe
                                         .limit = Json{check.limit},
                                         .unit = check.unit,
                                         .hint = {}}}});
+  for (auto& warning : unit_suspicions(answer.request)) {
+    answer.warnings.push_back(std::move(warning));
+  }
   const auto request_text = dump(answer.request);
   auto& job = out_.job;
   job.input_sha256 = sha256(request_text);
@@ -350,6 +354,7 @@ Outcome Job::answer(const Endpoint& endpoint, const Common& common, Answer answe
   job.verdict = verdict.status;
   for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
   const auto result_sha256 = sha256(answer.result);
+  job.result_sha256 = result_sha256;
   if (choice.body == Body::text && !query.validate_only) {
     out_.content_type = choice.format->media;
     out_.body = std::move(answer.text);

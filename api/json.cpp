@@ -155,7 +155,12 @@ void append_text(std::string& out, std::string_view text) {
 void append_number(std::string& out, double value) {
   char buffer[32];
   value += 0.0;  // -0 is printed as 0: CBOR's integers have no other
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  // Beyond 2^53 with an exponent: digits alone would be an integer that our own reader refuses.
+  constexpr double kExact = 9007199254740992.0;
+  const auto end =
+      std::abs(value) > kExact
+          ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr
+          : std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
   out.append(buffer, end);
 }
 

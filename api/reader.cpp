@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/suspicion.hpp"
+
 namespace tubecut::api {
 namespace {
 
@@ -217,6 +219,7 @@ std::optional<double> Reader::checked(std::string_view name, const Json& value, 
   bad.hint = low ? (range.open_min ? "must be greater than " : "must be at least ")
                  : (range.open_max ? "must be less than " : "must be at most ");
   bad.hint += tubecut::shown(low ? range.min : range.max) + (unit.empty() ? "" : " " + unit);
+  if (unit == "mm") bad.hint += other_unit_hint(*d, range.min, range.max);
   issue(std::move(bad), &value);
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <exception>
 
@@ -13,8 +14,12 @@
 namespace tubecut::server {
 namespace {
 
-constexpr std::string_view kRetryAfterSeconds =
-    "1";  // a job takes milliseconds, a restart about a second
+constexpr std::string_view kExposed =
+    "X-Request-Id, Job-Id, Idempotency-Key, traceparent, Server-Timing, Retry-After, "
+    "Tubecut-Replica, Tubecut-Input-Sha256, Tubecut-Result-Sha256";
+constexpr std::string_view kAllowed =
+    "Content-Type, Authorization, X-Api-Key, Job-Id, Idempotency-Key, X-Request-Id, traceparent, "
+    "Tubecut-Budget-Ms";
 
 bool visible(char c) { return c > 0x20 && c < 0x7f; }
 
@@ -59,6 +64,23 @@ void add_if(Headers& headers, std::string_view name, const std::string& value) {
   if (!value.empty()) headers.emplace_back(name, value);
 }
 
+/// The time a client gives its job in ms; 0: it names none. Nothing when it names nonsense.
+std::optional<std::chrono::milliseconds> asked_budget(const Headers& headers) {
+  const auto values = header_values(headers, kBudgetHeader);
+  if (values.empty()) return std::chrono::milliseconds(0);
+  std::int64_t ms = 0;
+  const auto text = values.front();
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ms);
+  const bool sound = values.size() == 1 && error == std::errc{} &&
+                     end == text.data() + text.size() && ms >= 1 && ms <= 3'600'000;
+  return sound ? std::optional(std::chrono::milliseconds(ms)) : std::nullopt;
+}
+
+bool asks_preflight(const Request& request) {
+  return request.method == "OPTIONS" && !header(request.headers, "Origin").empty() &&
+         !header(request.headers, "Access-Control-Request-Method").empty();
+}
+
 Headers answer_headers(const api::Outcome& outcome, const Identity& id, int status) {
   Headers headers;
   for (const auto& [name, value] : outcome.headers) {
@@ -69,7 +91,7 @@ Headers answer_headers(const api::Outcome& outcome, const Identity& id, int stat
   add_if(headers, "Idempotency-Key", id.idempotency_key);
   add_if(headers, "traceparent", id.traceparent);
   headers.emplace_back("X-Content-Type-Options", "nosniff");
-  if (retryable(status)) headers.emplace_back("Retry-After", kRetryAfterSeconds);
+  if (status == 401) headers.emplace_back("WWW-Authenticate", "Bearer");
   return headers;
 }
 
@@ -98,7 +120,47 @@ std::optional<Refusal> App::screen(const Request& head) const {
     return Refusal{ErrorCode::unsupported_encoding,
                    "Content-Encoding is not accepted on requests."};
   }
-  return job_name_fault(head.headers);
+  if (!asked_budget(head.headers)) {
+    return Refusal{ErrorCode::bad_request,
+                   fmt::format("{} must be sent once and be a whole number from 1 to 3600000.",
+                               kBudgetHeader)};
+  }
+  if (auto fault = job_name_fault(head.headers)) return fault;
+  if (!x_.access || asks_preflight(head)) return std::nullopt;
+  const auto identity = x_.access->identify(head.headers);
+  return identity ? std::nullopt : std::optional(identity.error());
+}
+
+std::optional<Refusal> App::admit(const Request& request) const {
+  if (!x_.access || !x_.access->asks()) return std::nullopt;
+  const auto identity = x_.access->identify(request.headers);
+  return identity ? x_.access->take_turn(*identity, steady_seconds()) : std::nullopt;
+}
+
+std::chrono::milliseconds App::budget(const Request& request) const {
+  const auto asked = asked_budget(request.headers);
+  return asked && asked->count() > 0 ? std::min(*asked, x_.budget) : x_.budget;
+}
+
+/// The browser's question before a request from another origin (Fetch, 3.2.2).
+std::optional<Response> App::preflight(const Request& request) const {
+  if (!asks_preflight(request) || request.refusal || x_.cors_origins.empty()) return std::nullopt;
+  Response response{.status = 204};
+  allow_origin(request, response.headers);
+  if (header(response.headers, "Access-Control-Allow-Origin").empty()) return std::nullopt;
+  response.headers.emplace_back("Access-Control-Allow-Methods", "GET, POST");
+  response.headers.emplace_back("Access-Control-Allow-Headers", kAllowed);
+  response.headers.emplace_back("Access-Control-Max-Age", "7200");
+  return response;
+}
+
+void App::allow_origin(const Request& request, Headers& headers) const {
+  if (x_.cors_origins.empty()) return;
+  headers.emplace_back("Vary", "Origin");
+  const auto origin = header(request.headers, "Origin");
+  if (std::ranges::find(x_.cors_origins, origin) == x_.cors_origins.end()) return;
+  headers.emplace_back("Access-Control-Allow-Origin", origin);
+  headers.emplace_back("Access-Control-Expose-Headers", kExposed);
 }
 
 api::Context App::context() const {
@@ -115,7 +177,9 @@ api::Outcome App::answer(const Request& request, const Identity& id) const {
     return refuse(
         {ErrorCode::body_too_large, fmt::format("The body is larger than {} bytes.", limit)}, id);
   }
-  api::Outcome outcome = x_.dispatch(call_of(request, id), context());
+  api::Context with = context();
+  if (request.stop.stop_possible()) with.stop = request.stop;
+  api::Outcome outcome = x_.dispatch(call_of(request, id), with);
   // A job cut off by our own stop is not the job's fault: the same request succeeds elsewhere, or
   // here a second later.
   if (outcome.error == ErrorKind::timeout && x_.stop.stop_requested()) {
@@ -142,16 +206,27 @@ api::Outcome App::answer_guarded(const Request& request, const Identity& id,
 Response App::handle(const Request& request) const {
   if (auto page = static_answer(request, static_files())) return *std::move(page);  // no job
   const double start = steady_seconds();
+  if (auto response = preflight(request)) return *std::move(response);
   x_.started();
   const Identity id = identify(request.headers);
-  JobRecord record{
-      .method = request.method, .request_id = id.request_id, .traceparent = id.traceparent};
+  JobRecord record{.method = request.method,
+                   .request_id = id.request_id,
+                   .traceparent = id.traceparent,
+                   .client = client_of(request, x_.trusted_proxies),
+                   .bytes_in = request.body.size(),
+                   .times = request.times,
+                   .begun = start};
   api::Outcome outcome = answer_guarded(request, id, record.failure);
 
   Response response{.status = outcome.error ? status_of(*outcome.error) : 200,
                     .content_type = with_charset(std::move(outcome.content_type)),
                     .body = std::move(outcome.body)};
   response.headers = answer_headers(outcome, id, response.status);
+  if (retryable(response.status)) {
+    const int wait = request.refusal ? request.refusal->retry_after_s : 1;
+    response.headers.emplace_back("Retry-After", std::to_string(wait));
+  }
+  allow_origin(request, response.headers);
   add_if(response.headers, "Tubecut-Replica", x_.replica);
   record.seconds = steady_seconds() - start;
   response.headers.emplace_back("Server-Timing", server_timing(outcome.job.stages, record.seconds));
@@ -159,10 +234,21 @@ Response App::handle(const Request& request) const {
   record.facts = std::move(outcome.job);
   if (record.facts.id.empty()) record.facts.id = id.job_id;
   record.status = response.status;
-  record.bytes_in = request.body.size();
   record.bytes_out = response.body.size();
-  x_.finished(record);
+  if (x_.access && response.status != 401) {
+    record.identity = x_.access->identify(request.headers).value_or(std::string{});
+  }
+  tell(std::move(record), request, response);
   return response;
+}
+
+void App::tell(JobRecord record, const Request& request, Response& response) const {
+  x_.finished(record);
+  if (!request.reports_sending) return x_.sent(record);
+  response.sent = [this, record = std::move(record)](bool whole) mutable {
+    if (whole) record.sent = steady_seconds();
+    x_.sent(record);
+  };
 }
 
 }  // namespace tubecut::server

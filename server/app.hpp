@@ -1,10 +1,15 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "api/api.hpp"
+#include "server/access.hpp"
 #include "server/http.hpp"
 #include "server/identity.hpp"
 
@@ -16,22 +21,36 @@ struct JobRecord {
   std::string method = {};
   std::string request_id = {};
   std::string traceparent = {};
-  std::string failure = {};  // text of an unexpected exception; the caller never sees it
+  std::string client = {};    // address; a forwarded one only from a trusted proxy
+  std::string identity = {};  // whose key; empty without keys
+  std::string failure = {};   // text of an unexpected exception; the caller never sees it
   int status = 0;
-  double seconds = 0.0;
+  double seconds = 0.0;  // in `handle`
   std::size_t bytes_in = 0;
   std::size_t bytes_out = 0;
+  Times times = {};    // as the transport saw it, monotonic
+  double begun = 0.0;  // `handle` was called, monotonic seconds
+  double sent = 0.0;   // the last byte was handed to the kernel; 0: it never was
 };
 
 struct AppOptions {
   std::string replica = {};  // value of Tubecut-Replica
   std::size_t max_target_bytes = 2048;
-  std::size_t max_body_bytes = 8u << 20;  // lowers the endpoints' own limits, never raises them
-  std::stop_token stop = {};              // cancels every job
+  std::size_t max_body_bytes = 8u << 20;   // lowers the endpoints' own limits, never raises them
+  std::stop_token stop = {};               // cancels every job
+  std::chrono::milliseconds budget{2000};  // per job; a client may ask for less
+  std::vector<std::string> cors_origins = {};     // "https://plant.example"; empty: no CORS
+  std::vector<std::string> trusted_proxies = {};  // whose X-Forwarded-For is believed
+  std::shared_ptr<Access> access = {};            // empty: no keys
   std::function<api::Outcome(const api::Call&, const api::Context&)> dispatch = api::dispatch;
   std::function<void()> started = [] {};
   std::function<void(const JobRecord&)> finished = [](const JobRecord&) {};
+  /// The answer has left, or its client has.
+  std::function<void(const JobRecord&)> sent = [](const JobRecord&) {};
 };
+
+/// Milliseconds a client gives its job; lowers the service's own budget, never raises it.
+inline constexpr std::string_view kBudgetHeader = "Tubecut-Budget-Ms";
 
 /// The service without sockets: one whole request in, one whole answer out. Safe to call from many
 /// threads.
@@ -50,12 +69,21 @@ class App {
   /// Largest body taken by the target's path, in bytes.
   [[nodiscard]] std::size_t max_body(std::string_view target) const;
 
+  /// Whether a whole request may be worked on now: its key's rate.
+  [[nodiscard]] std::optional<Refusal> admit(const Request& request) const;
+
+  /// Time for the job.
+  [[nodiscard]] std::chrono::milliseconds budget(const Request& request) const;
+
  private:
   [[nodiscard]] api::Outcome answer(const Request& request, const Identity& id) const;
   [[nodiscard]] api::Outcome answer_guarded(const Request& request, const Identity& id,
                                             std::string& failure) const;
   [[nodiscard]] api::Outcome refuse(const Refusal& refusal, const Identity& id) const;
   [[nodiscard]] api::Context context() const;
+  [[nodiscard]] std::optional<Response> preflight(const Request& request) const;
+  void allow_origin(const Request& request, Headers& headers) const;
+  void tell(JobRecord record, const Request& request, Response& response) const;
 
   AppOptions x_;
 };

@@ -7,8 +7,11 @@
 #include <array>
 #include <cstdlib>
 #include <sstream>
+#include <tuple>
+#include <type_traits>
 
 #include "api/api.hpp"
+#include "server/access.hpp"
 
 namespace tubecut::server {
 namespace {
@@ -20,7 +23,9 @@ CLI::Option* option(CLI::App& app, const std::string& name, T& value, const std:
   for (char& c : variable) {
     c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   }
-  return app.add_option("--" + name, value, help)->envname(variable)->capture_default_str();
+  auto* const added = app.add_option("--" + name, value, help)->envname(variable);
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) return added;  // none to show
+  return added->capture_default_str();
 }
 
 void add_network(CLI::App& app, Config& c) {
@@ -30,14 +35,29 @@ void add_network(CLI::App& app, Config& c) {
   option(app, "admin-host", c.admin_host, "address of the admin port; empty: as --host");
   option(app, "admin-port", c.admin_port, "port of /livez, /readyz, /metrics; 0 takes a free one")
       ->check(port);
+  option(app, "keys", c.keys, "file of API keys, one \"identity sha256 [rate]\" a line");
+  std::ignore = app.add_flag("--open", c.open, "serve beyond this machine without keys")
+                    ->envname("TUBECUT_OPEN");
+  option(app, "cors-origin", c.cors_origins, "origins whose pages may call, such as https://a.b");
+  option(app, "trusted-proxy", c.trusted_proxies,
+         "addresses or networks whose X-Forwarded-For is believed");
   option(app, "machines", c.machines, "folder whose *.json files join GET /v1/machines");
   option(app, "replica", c.replica, "name sent as Tubecut-Replica; empty: the host's name");
 }
 
 void add_limits(CLI::App& app, Config& c) {
   const CLI::Range seconds(0.01, 3600.0);
-  option(app, "connections", c.connections, "connections served at a time; more wait")
-      ->check(CLI::Range(1, 1024));
+  option(app, "connections", c.connections, "connections open at a time; then idle ones end")
+      ->check(CLI::Range(1, 100000));
+  option(app, "slots", c.slots, "jobs computed at a time; 0: by cgroup, affinity, machine")
+      ->check(CLI::Range(0, 1024));
+  option(app, "queue", c.queue, "jobs that wait for a slot; more are 429")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{100000}));
+  option(app, "memory-bytes", c.memory_bytes,
+         "for bodies, jobs and answers; 0: 60 % of what there is")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1} << 40));
+  option(app, "budget-s", c.budget_s, "time for a job; Tubecut-Budget-Ms lowers it")
+      ->check(seconds);
   option(app, "max-body-bytes", c.max_body_bytes, "largest body; lowers the endpoints' own limits")
       ->check(CLI::Range(std::size_t{1}, std::size_t{8u << 20}));
   option(app, "max-target-bytes", c.max_target_bytes, "longest path with query")
@@ -53,6 +73,7 @@ void add_limits(CLI::App& app, Config& c) {
   option(app, "drain-s", c.drain_s, "on SIGTERM: time for accepted work")->check(seconds);
   option(app, "log-queue", c.log_queue, "log lines kept for a slow reader of stdout")
       ->check(CLI::Range(std::size_t{16}, std::size_t{1u << 20}));
+  option(app, "log-directory", c.log_directory, "folder for <day>/<job>.jsonl; empty: none");
 }
 
 /// The file of the environment must exist, as one named on the command line must.
@@ -72,6 +93,9 @@ std::string host_name() {
 /// What no single option can tell.
 std::string contradiction(const Config& c) {
   if (c.port != 0 && c.port == c.admin_port) return "--port and --admin-port must differ";
+  for (const auto& network : c.trusted_proxies) {
+    if (!is_network(network)) return "--trusted-proxy: no address or network: " + network;
+  }
   return {};
 }
 
@@ -93,7 +117,14 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   auto* run = app.add_subcommand("run", "answer one request from a file without a server");
   run->add_option("--endpoint", command.endpoint, "such as bevel-tables")->required();
   run->add_option("file", command.file, "the request's body; - for stdin")->required();
-  for (auto* sub : {health, run}) sub->configurable(false);
+  auto* selftest = app.add_subcommand("selftest", "answer known jobs and compare their hashes");
+  selftest->add_flag("--all", command.all, "print the hash of every example instead");
+  auto* new_key = app.add_subcommand("new-key", "print a new API key and its line for --keys");
+  new_key->add_option("identity", command.identity, "whose it is")->required();
+  for (auto* sub : {health, run, selftest, new_key}) {
+    sub->configurable(false);
+    for (auto* its : sub->get_options()) its->configurable(false);
+  }
   app.require_subcommand(0, 1);
 
   try {
@@ -104,12 +135,15 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
     const int code = app.exit(end, out, err);
     return tl::unexpected(Exit{code == 0 ? 0 : 2, out.str(), err.str()});
   }
+  for (auto* list : {&c.cors_origins, &c.trusted_proxies}) std::erase(*list, "");
   if (print) return tl::unexpected(Exit{0, app.config_to_str(true, false), {}});
   if (auto why = contradiction(c); !why.empty()) return tl::unexpected(Exit{2, {}, why + '\n'});
   if (c.admin_host.empty()) c.admin_host = c.host;
   if (c.replica.empty()) c.replica = host_name();
   if (health->parsed()) command.kind = Command::Kind::health;
   if (run->parsed()) command.kind = Command::Kind::run;
+  if (selftest->parsed()) command.kind = Command::Kind::selftest;
+  if (new_key->parsed()) command.kind = Command::Kind::new_key;
   return command;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <tl/expected.hpp>
+#include <vector>
 
 namespace tubecut::server {
 
@@ -14,26 +15,37 @@ struct Config {
   int admin_port = 9090;
   std::string machines;  // folder of machines of one's own; empty: none
   std::string replica;   // empty: the host's name
-  int connections = 64;
+  std::string keys;      // file of API keys; empty: none are asked for
+  bool open = false;     // serve beyond this machine without keys
+  std::vector<std::string> cors_origins;
+  std::vector<std::string> trusted_proxies;
+  int connections = 4096;
+  int slots = 0;  // 0: as many as there are CPUs for this process
+  std::size_t queue = 64;
+  std::size_t memory_bytes = 0;  // for bodies, jobs and answers; 0: a part of what there is
+  double budget_s = 2.0;
   std::size_t max_body_bytes = 8u << 20;
   std::size_t max_target_bytes = 2048;
   std::size_t max_head_bytes = 16384;
   double idle_s = 15.0;
-  double head_s = 10.0;
-  double body_s = 30.0;
-  double write_s = 30.0;
+  double head_s = 3.0;
+  double body_s = 10.0;
+  double write_s = 10.0;
   double drain_delay_s = 0.0;  // between "not ready" and the end of accepting
   double drain_s = 8.0;        // for accepted work, after that
   std::size_t log_queue = 4096;
+  std::string log_directory;  // one file per job below it; empty: none
 };
 
 /// What the command line asks for.
 struct Command {
-  enum class Kind { serve, health, run };
+  enum class Kind { serve, health, run, selftest, new_key };
   Kind kind = Kind::serve;
   Config config;
   std::string endpoint;  // of run: "bevel-tables"
   std::string file;      // of run: "-" for stdin
+  std::string identity;  // of new-key
+  bool all = false;      // of selftest: every example, its hash printed
 };
 
 /// An end before any work: help, version, the printed configuration, or a mistake in the options.

@@ -1,84 +1,81 @@
 #pragma once
 
-#include <sys/types.h>
-
-#include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
+
+#include "server/request_reader.hpp"
+#include "server/slots.hpp"
 
 namespace tubecut::server {
 
 using Clock = std::chrono::steady_clock;
 
-/// Tells every connection of a port that it shall end. One event descriptor wakes all who wait.
-class Drain {
- public:
-  Drain();
-  ~Drain();
-  Drain(const Drain&) = delete;
-  Drain& operator=(const Drain&) = delete;
-
-  void begin(std::chrono::milliseconds patience);
-  [[nodiscard]] bool begun() const { return begun_; }
-  /// When everything still unfinished is cut off; the end of time before `begin`.
-  [[nodiscard]] Clock::time_point deadline() const { return Clock::time_point{deadline_.load()}; }
-  /// Readable for ever once begun.
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-  std::atomic<bool> begun_ = false;
-  std::atomic<Clock::duration> deadline_ = Clock::duration::max();
-};
-
-/// One accepted socket: buffered reading under a byte budget and an absolute deadline, so that no
-/// client can hold a thread or memory for longer than configured, and one send per answer.
+/// One accepted socket as the port sees it: owned and touched by the port's thread alone.
 class Connection {
  public:
-  /// Owns the descriptor from now on.
-  Connection(int descriptor, const Drain& drain);
+  enum class State {
+    idle,      // between requests
+    head,      // a request's head is on its way
+    body,      // its body
+    working,   // a job waits for a slot or runs
+    writing,   // the answer is on its way
+    lingering  // nothing more is answered; lets the client read what was
+  };
+
+  /// Owns the descriptor from now on and makes it non-blocking.
+  Connection(int descriptor, const ReaderLimits& limits);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Waits for the first byte of a request. False when none comes, or the port drains and nothing
-  /// is on its way.
-  [[nodiscard]] bool wait(std::chrono::milliseconds patience);
+  [[nodiscard]] bool reading() const {
+    return state == State::idle || state == State::head || state == State::body;
+  }
 
-  /// From now on at most so many bytes, until so long from now.
-  void allow(std::size_t bytes, std::chrono::milliseconds time);
+  /// Bytes from the socket; 0 at its end, -1 when there are none now, -2 when it broke.
+  ssize_t receive(char* out, std::size_t size) const;
 
-  /// Bytes read, 0 at the end of the stream, -1 when the budget, the time or the socket is spent.
-  ssize_t read(char* out, std::size_t size);
-  [[nodiscard]] bool readable() const { return next_ < filled_; }
+  /// Sends what it can of `out`. True when nothing is left; nothing when the socket broke.
+  [[nodiscard]] std::optional<bool> send();
 
-  /// Collects bytes; `flush` sends them. A flush comes before any read that waits.
-  void write(std::string_view bytes) { out_.append(bytes); }
-  [[nodiscard]] bool flush();
-  void allow_write(std::chrono::milliseconds time) { write_time_ = time; }
+  /// Sends a few bytes that fit any socket's buffer.
+  void send_now(std::string_view bytes) const;
 
-  /// After an answer to a request that was not read to its end: lets the client read the answer
-  /// before the socket goes.
-  void linger();
+  /// Says that no more is sent.
+  void finish_sending() const;
 
-  [[nodiscard]] std::string peer() const;
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  /// Calls `sent`, once.
+  void report(bool whole) {
+    if (auto tell = std::exchange(sent, nullptr)) tell(whole);
+  }
 
- private:
-  [[nodiscard]] bool poll_for(short events, Clock::time_point until) const;
+  /// Back to waiting for a request.
+  void restart(const ReaderLimits& limits);
 
-  int descriptor_;
-  const Drain& drain_;
-  bool first_ = true;
-  std::vector<char> in_;
-  std::size_t next_ = 0;
-  std::size_t filled_ = 0;
-  std::string out_;
-  std::size_t budget_ = 0;
-  Clock::time_point deadline_ = Clock::time_point::max();
-  std::chrono::milliseconds write_time_{30000};
+  int descriptor;
+  std::string peer;  // numeric address
+  State state = State::idle;
+  bool fresh = true;     // no request yet
+  bool readable = true;  // the socket may hold bytes
+  bool half_closed = false;
+  bool closing = false;  // ends with the answer being made or sent
+  bool unread = false;   // bytes of the last request may still come
+  bool queued_again = false;
+  RequestReader reader;
+  std::string in;  // received, not yet taken by the reader
+  std::string out;
+  std::size_t out_at = 0;
+  std::size_t lingered = 0;
+  std::shared_ptr<Job> job;
+  std::function<void(bool)> sent;
+  Clock::time_point received;
+  Clock::time_point deadline = Clock::time_point::max();
 };
 
 }  // namespace tubecut::server

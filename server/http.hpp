@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +20,14 @@ using Headers = std::vector<std::pair<std::string, std::string>>;
 struct Refusal {
   ErrorCode code = ErrorCode::bad_request;
   std::string detail = {};
+  int retry_after_s = 1;  // a job takes milliseconds, a restart about a second
+};
+
+/// When a request passed the transport, in monotonic seconds; 0: not known.
+struct Times {
+  double received = 0.0;  // its first byte
+  double read = 0.0;      // its last byte
+  double started = 0.0;   // a slot was free
 };
 
 struct Request {
@@ -26,6 +37,9 @@ struct Request {
   std::string body = {};
   std::string peer = {};                // address of the socket, never of a header
   std::optional<Refusal> refusal = {};  // set by a transport that could not read the request
+  std::stop_token stop = {};            // ends the job: over its budget, or nobody waits for it
+  Times times = {};
+  bool reports_sending = false;  // the transport will call `Response::sent`
 };
 
 /// The body stays in the answer to a HEAD: its length is sent, the transport leaves the bytes out.
@@ -34,6 +48,8 @@ struct Response {
   std::string content_type = {};
   Headers headers = {};
   std::string body = {};
+  /// Called once: when the last byte is handed to the kernel (true), or never will be (false).
+  std::function<void(bool whole)> sent = {};
 };
 
 /// Every value sent under `name` (any case), in the order sent.

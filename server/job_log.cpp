@@ -144,6 +144,67 @@ std::string ready_line(int port, int admin_port, std::string_view version) {
       .done();
 }
 
+std::string capacity_line(const Capacity& capacity, std::size_t queue) {
+  return JsonLine{}
+      .text("event", "capacity")
+      .integer("slots", capacity.slots)
+      .text("slots_from", capacity.slots_from)
+      .integer("queue", static_cast<std::int64_t>(queue))
+      .integer("memory_bytes", static_cast<std::int64_t>(capacity.memory))
+      .text("memory_from", capacity.memory_from)
+      .done();
+}
+
+namespace {
+
+struct Event {
+  std::string_view name;
+  double at = 0.0;  // seconds since the first byte
+};
+
+/// What a stage's end is called among the events.
+std::string_view event_of(std::string_view stage) {
+  if (stage == "parse") return "decoded";
+  if (stage == "decode") return "validated";
+  if (stage == "compute") return "computed";
+  if (stage == "verify") return "verified";
+  return "encoded";
+}
+
+std::vector<Event> events_of(const JobRecord& job) {
+  const double zero = job.times.received > 0.0 ? job.times.received : job.begun;
+  std::vector<Event> events = {{"received", 0.0}};
+  if (job.times.read > 0.0) events.push_back({"read", job.times.read - zero});
+  if (job.times.started > 0.0) events.push_back({"started", job.times.started - zero});
+  double at = job.begun - zero;
+  for (const auto& stage : job.facts.stages) {
+    at += stage.seconds;
+    events.push_back({event_of(stage.name), at});
+  }
+  if (job.sent > 0.0) events.push_back({"sent", job.sent - zero});
+  return events;
+}
+
+}  // namespace
+
+std::string job_events(const JobRecord& job, std::chrono::system_clock::time_point now) {
+  const auto events = events_of(job);
+  std::string out;
+  for (const auto& event : events) {
+    const auto before = std::chrono::duration_cast<std::chrono::system_clock::duration>(
+        std::chrono::duration<double>(events.back().at - event.at));
+    out += JsonLine{}
+               .text("ts", utc(now - before))
+               .text("event", event.name)
+               .text("job", job.facts.id)
+               .text("request_id", job.request_id)
+               .milliseconds("at_ms", event.at)
+               .done();
+    out += '\n';
+  }
+  return out + job_line(job, now) + '\n';
+}
+
 std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point now) {
   JsonLine line;
   line.text("ts", utc(now)).text("level", level_of(job.status)).text("event", "job");
@@ -155,9 +216,13 @@ std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point
   for (const auto& code : job.facts.warnings) line.item(code);
   line.close(']').open("stages_ms", '{');
   for (const auto& stage : job.facts.stages) line.milliseconds(stage.name, stage.seconds);
+  line.close('}').open("at_ms", '{');
+  for (const auto& event : events_of(job)) line.milliseconds(event.name, event.at);
   line.close('}').milliseconds("total_ms", job.seconds);
   line.integer("bytes_in", static_cast<std::int64_t>(job.bytes_in));
   line.integer("bytes_out", static_cast<std::int64_t>(job.bytes_out));
+  if (!job.client.empty()) line.text("client", job.client);
+  if (!job.identity.empty()) line.text("identity", job.identity);
   if (!job.traceparent.empty()) line.text("traceparent", job.traceparent);
   line.open("reference", '{');
   for (const auto& [name, value] : job.facts.reference) line.text(name, value);

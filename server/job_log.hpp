@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "server/app.hpp"
+#include "server/capacity.hpp"
 
 namespace tubecut::server {
 
@@ -37,8 +38,16 @@ class JobLog {
 /// {"event":"ready",...}: the first line of every run.
 [[nodiscard]] std::string ready_line(int port, int admin_port, std::string_view version);
 
+/// {"event":"capacity",...}: what the process found it may use.
+[[nodiscard]] std::string capacity_line(const Capacity& capacity, std::size_t queue);
+
 /// The line of one job, at that UTC time.
 [[nodiscard]] std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point now);
+
+/// The events of one job for a file of its own: received, read, started, decoded, validated,
+/// computed, verified, encoded, sent; one line each, then the job's line.
+[[nodiscard]] std::string job_events(const JobRecord& job,
+                                     std::chrono::system_clock::time_point now);
 
 /// "2024-03-01T12:00:00.123Z"
 [[nodiscard]] std::string utc(std::chrono::system_clock::time_point time);

@@ -1,8 +1,10 @@
 #include <cstdio>
 #include <exception>
 
+#include "server/access.hpp"
 #include "server/config.hpp"
 #include "server/machine_files.hpp"
+#include "server/selftest.hpp"
 #include "server/serve.hpp"
 
 int main(int argc, char** argv) try {
@@ -22,6 +24,14 @@ int main(int argc, char** argv) try {
       return server::health(command->config);
     case server::Command::Kind::run:
       return server::run(*command);
+    case server::Command::Kind::selftest:
+      return server::selftest(command->all);
+    case server::Command::Kind::new_key: {
+      const auto made = server::make_key(command->identity);
+      std::printf("the key, shown this once:\n%s\nits line for --keys:\n%s\n", made.key.c_str(),
+                  made.line.c_str());
+      return 0;
+    }
     case server::Command::Kind::serve:
       return server::serve(command->config);
   }

@@ -7,9 +7,14 @@
 #include <prometheus/text_serializer.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <mutex>
 #include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "api/api.hpp"
 
@@ -21,9 +26,12 @@ using prometheus::Family;
 using prometheus::Gauge;
 using prometheus::Histogram;
 
-/// Seconds; from a table of one tube to the largest job.
+/// Seconds: OpenTelemetry's advice for http.server.request.duration, and three below it: most jobs
+/// take about a millisecond.
 const Histogram::BucketBoundaries kSeconds = {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
-                                              0.05,   0.1,   0.25,   0.5,   1.0,  2.5};
+                                              0.05,   0.075, 0.1,    0.25,  0.5,  0.75,
+                                              1.0,    2.5,   5.0,    7.5,   10.0};
+const Histogram::BucketBoundaries kBytes = {1e3, 1e4, 1e5, 1e6, 1e7};
 
 Family<Counter>& counter(prometheus::Registry& registry, const char* name, const char* help) {
   return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
@@ -31,6 +39,10 @@ Family<Counter>& counter(prometheus::Registry& registry, const char* name, const
 
 Family<Gauge>& gauge(prometheus::Registry& registry, const char* name, const char* help) {
   return prometheus::BuildGauge().Name(name).Help(help).Register(registry);
+}
+
+Family<Histogram>& histogram(prometheus::Registry& registry, const char* name, const char* help) {
+  return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
 }
 
 /// Bytes of memory resident now; 0 where /proc is not there.
@@ -42,76 +54,149 @@ double resident_bytes() {
   return statm ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0.0;
 }
 
+/// Clients may send any method; the label may not be any text.
+std::string method_label(std::string_view method) {
+  constexpr std::array<std::string_view, 8> kKnown = {"GET",    "HEAD",    "POST",  "PUT",
+                                                      "DELETE", "OPTIONS", "PATCH", "TRACE"};
+  const bool known = std::ranges::find(kKnown, method) != kKnown.end();
+  return known ? std::string(method) : "_OTHER";
+}
+
+void catch_up(Counter& counter, std::uint64_t total) {
+  const double behind = static_cast<double>(total) - counter.Value();
+  if (behind > 0.0) counter.Increment(behind);
+}
+
+std::string_view compiler() {
+#if defined(__clang__)
+  return "clang " __clang_version__;
+#else
+  return "gcc " __VERSION__;
+#endif
+}
+
 }  // namespace
 
 struct Metrics::Impl {
-  std::function<std::uint64_t()> drops;
-  std::function<bool()> is_ready;
+  MetricSources sources;
   std::mutex scrape;
   prometheus::Registry registry;
 
-  Family<Counter>& requests = counter(registry, "tubecut_http_requests_total",
-                                      "Requests answered, by endpoint and HTTP status.");
-  Family<Histogram>& seconds = prometheus::BuildHistogram()
-                                   .Name("tubecut_http_request_seconds")
-                                   .Help("Time from the whole request to the whole answer.")
-                                   .Register(registry);
+  Family<Histogram>& requests =
+      histogram(registry, "http_server_request_duration_seconds",
+                "Time in the application, from the whole request to the whole answer.");
+  Gauge& active =
+      gauge(registry, "http_server_active_requests", "Requests being answered.").Add({});
+  Family<Histogram>& bytes_in =
+      histogram(registry, "http_server_request_body_size_bytes", "Bytes of requests' bodies.");
+  Family<Histogram>& bytes_out =
+      histogram(registry, "http_server_response_body_size_bytes", "Bytes of answers' bodies.");
+  Family<Histogram>& stages =
+      histogram(registry, "tubecut_stage_duration_seconds", "Time in each stage of a job.");
+  Family<Counter>& jobs = counter(registry, "tubecut_jobs_total",
+                                  "Jobs by endpoint and verdict: ok, review, reject, or refused.");
   Family<Counter>& errors =
       counter(registry, "tubecut_errors_total", "Problems answered, by endpoint and error code.");
-  Family<Counter>& stages =
-      counter(registry, "tubecut_stage_seconds_total", "Seconds spent in each stage of a job.");
   Family<Counter>& unproven = counter(registry, "tubecut_verification_failures_total",
                                       "Answers withheld because a check failed: each is a bug.");
-  Counter& bytes_in =
-      counter(registry, "tubecut_request_body_bytes_total", "Bytes of request bodies.").Add({});
-  Counter& bytes_out =
-      counter(registry, "tubecut_response_body_bytes_total", "Bytes of answers' bodies.").Add({});
-  Counter& dropped = counter(registry, "tubecut_log_lines_dropped_total",
-                             "Log lines dropped because stdout was not read.")
-                         .Add({});
-  Gauge& in_flight = gauge(registry, "tubecut_in_flight", "Requests being answered now.").Add({});
+  Family<Counter>& refused = counter(registry, "tubecut_refused_total",
+                                     "Requests turned away for want of room, by reason.");
+  Counter& rate = refused.Add({{"reason", "rate"}});
+  Family<Counter>& lines = counter(registry, "tubecut_log_lines_dropped_total",
+                                   "Log lines dropped because stdout was not read.");
+  Counter& dropped = lines.Add({});
+  Counter& files =
+      counter(registry, "tubecut_log_files_dropped_total", "Jobs whose file could not be written.")
+          .Add({});
   Gauge& ready = gauge(registry, "tubecut_ready", "1 while /readyz says yes.").Add({});
   Gauge& resident = gauge(registry, "process_resident_memory_bytes", "Resident memory.").Add({});
+  std::vector<std::pair<Counter*, std::uint64_t TransportStats::*>> counts;
+  std::vector<std::pair<Gauge*, std::uint64_t TransportStats::*>> levels;
 
-  Impl(std::function<std::uint64_t()> log_drops, std::function<bool()> ready_now)
-      : drops(std::move(log_drops)), is_ready(std::move(ready_now)) {
-    gauge(registry, "tubecut_build_info", "Always 1; the labels name the engine.")
-        .Add({{"version", std::string(api::version())},
-              {"numerics", std::to_string(api::numerics())}})
+  explicit Impl(MetricSources of) : sources(std::move(of)) {
+    gauge(registry, "tubecut_build_info", "Always 1; the labels name the build.")
+        .Add({{"version", std::string(api::version())}, {"compiler", std::string(compiler())}})
         .Set(1.0);
-    unproven.Add({});  // there from the start: an alert on it needs a zero to rise from
+    gauge(registry, "tubecut_numerics_info",
+          "The integer raised with every change of a result bit.")
+        .Add({})
+        .Set(api::numerics());
+    unproven.Add({{"endpoint", "none"}});  // an alert on it needs a zero to rise from
+    count_refusals();
+    show_levels();
+  }
+
+  void count_refusals() {
+    using T = TransportStats;
+    const std::vector<std::pair<const char*, std::uint64_t T::*>> reasons = {
+        {"queue_full", &T::refused_queue},
+        {"no_slot_in_time", &T::refused_wait},
+        {"memory", &T::refused_memory},
+        {"connections", &T::refused_connections}};
+    for (const auto& [reason, field] : reasons) {
+      counts.emplace_back(&refused.Add({{"reason", reason}}), field);
+    }
+    counts.emplace_back(&counter(registry, "tubecut_clients_hung_up_total",
+                                 "Clients that left before their answer.")
+                             .Add({}),
+                        &T::hung_up);
+    counts.emplace_back(&counter(registry, "tubecut_clients_too_slow_total",
+                                 "Clients beyond their time to send or to take.")
+                             .Add({}),
+                        &T::over_time);
+  }
+
+  void show_levels() {
+    using T = TransportStats;
+    const auto level = [&](const char* name, const char* help, std::uint64_t T::*field) {
+      levels.emplace_back(&gauge(registry, name, help).Add({}), field);
+    };
+    level("tubecut_slots", "Jobs that can be computed at a time.", &T::slots);
+    level("tubecut_slots_busy", "Jobs being computed.", &T::busy);
+    level("tubecut_queue_depth", "Jobs that wait for a slot.", &T::waiting);
+    level("tubecut_connections", "Connections open.", &T::connections);
+    level("tubecut_memory_reserved_bytes", "Set aside for bodies, jobs and answers.", &T::memory);
   }
 };
 
-Metrics::Metrics(std::function<std::uint64_t()> log_drops, std::function<bool()> ready)
-    : x_(std::make_unique<Impl>(std::move(log_drops), std::move(ready))) {}
+Metrics::Metrics(MetricSources sources) : x_(std::make_unique<Impl>(std::move(sources))) {}
 Metrics::~Metrics() = default;
 
-void Metrics::started() { x_->in_flight.Increment(); }
+void Metrics::started() { x_->active.Increment(); }
 
 void Metrics::finished(const JobRecord& job) {
-  x_->in_flight.Decrement();
-  const std::string endpoint = job.facts.endpoint.empty() ? "none" : job.facts.endpoint;
-  const std::string status = std::to_string(job.status);
-  x_->requests.Add({{"endpoint", endpoint}, {"status", status}}).Increment();
-  x_->seconds.Add({{"endpoint", endpoint}, {"status", status}}, kSeconds).Observe(job.seconds);
+  x_->active.Decrement();
+  const bool known = !job.facts.endpoint.empty();
+  const std::string endpoint = known ? job.facts.endpoint : "none";
+  const std::string route = known ? "/v1/" + job.facts.endpoint : "other";
+  const prometheus::Labels http = {{"http_request_method", method_label(job.method)},
+                                   {"http_route", route},
+                                   {"http_response_status_code", std::to_string(job.status)}};
+  x_->requests.Add(http, kSeconds).Observe(job.seconds);
+  x_->bytes_in.Add({{"http_route", route}}, kBytes).Observe(static_cast<double>(job.bytes_in));
+  x_->bytes_out.Add({{"http_route", route}}, kBytes).Observe(static_cast<double>(job.bytes_out));
   for (const auto& stage : job.facts.stages) {
-    x_->stages.Add({{"endpoint", endpoint}, {"stage", std::string(stage.name)}})
-        .Increment(stage.seconds);
+    x_->stages.Add({{"endpoint", endpoint}, {"stage", std::string(stage.name)}}, kSeconds)
+        .Observe(stage.seconds);
   }
-  if (!job.facts.error_code.empty()) {
-    x_->errors.Add({{"endpoint", endpoint}, {"code", job.facts.error_code}}).Increment();
+  const std::string& code = job.facts.error_code;
+  if (known) {
+    const std::string verdict = code.empty() ? job.facts.verdict : "refused";
+    x_->jobs.Add({{"endpoint", endpoint}, {"verdict", verdict}}).Increment();
   }
-  if (job.facts.error_code == "verification_failed") x_->unproven.Add({}).Increment();
-  x_->bytes_in.Increment(static_cast<double>(job.bytes_in));
-  x_->bytes_out.Increment(static_cast<double>(job.bytes_out));
+  if (!code.empty()) x_->errors.Add({{"endpoint", endpoint}, {"code", code}}).Increment();
+  if (code == "verification_failed") x_->unproven.Add({{"endpoint", endpoint}}).Increment();
+  if (code == "rate_limited") x_->rate.Increment();
 }
 
 std::string Metrics::text() {
   const std::lock_guard one_scrape(x_->scrape);
-  const auto drops = static_cast<double>(x_->drops());
-  x_->dropped.Increment(drops - x_->dropped.Value());
-  x_->ready.Set(x_->is_ready() ? 1.0 : 0.0);
+  catch_up(x_->dropped, x_->sources.log_drops());
+  catch_up(x_->files, x_->sources.file_drops());
+  const auto stats = x_->sources.transport();
+  for (const auto& [counter, field] : x_->counts) catch_up(*counter, stats.*field);
+  for (const auto& [gauge, field] : x_->levels) gauge->Set(static_cast<double>(stats.*field));
+  x_->ready.Set(x_->sources.ready() ? 1.0 : 0.0);
   x_->resident.Set(resident_bytes());
   std::ostringstream out;
   prometheus::TextSerializer().Serialize(out, x_->registry.Collect());

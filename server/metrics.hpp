@@ -6,15 +6,24 @@
 #include <string>
 
 #include "server/app.hpp"
+#include "server/transport.hpp"
 
 namespace tubecut::server {
 
-/// Counters and histograms in Prometheus' terms. Labels come from closed sets only (endpoint ids,
-/// error codes, statuses), so the number of series is bounded whatever clients send.
+/// What is read at each scrape.
+struct MetricSources {
+  std::function<std::uint64_t()> log_drops = [] { return std::uint64_t{0}; };
+  std::function<std::uint64_t()> file_drops = [] { return std::uint64_t{0}; };
+  std::function<bool()> ready = [] { return false; };
+  std::function<TransportStats()> transport = [] { return TransportStats{}; };
+};
+
+/// Counters and histograms in Prometheus' terms, HTTP's under OpenTelemetry's names. Labels come
+/// from closed sets only (endpoint ids, error codes, statuses), so the number of series is bounded
+/// whatever clients send.
 class Metrics {
  public:
-  /// `log_drops` is read at each scrape, `ready` too.
-  Metrics(std::function<std::uint64_t()> log_drops, std::function<bool()> ready);
+  explicit Metrics(MetricSources sources);
   ~Metrics();
   Metrics(const Metrics&) = delete;
   Metrics& operator=(const Metrics&) = delete;

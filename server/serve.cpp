@@ -1,18 +1,25 @@
 #include "server/serve.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <future>
+#include <memory>
 #include <string>
 #include <thread>
 
+#include "server/access.hpp"
 #include "server/admin.hpp"
 #include "server/app.hpp"
+#include "server/capacity.hpp"
+#include "server/job_files.hpp"
 #include "server/job_log.hpp"
+#include "server/json_line.hpp"
 #include "server/metrics.hpp"
+#include "server/selftest.hpp"
 #include "server/signals.hpp"
 #include "server/transport.hpp"
 
@@ -21,17 +28,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kAdminConnections = 8;
+constexpr int kAdminConnections = 64;
 constexpr auto kLogPatience = 1s;  // for a line that should be read before going on
 
 std::chrono::milliseconds ms(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * seconds));
 }
 
-TransportOptions service_port(const Config& c) {
+TransportOptions service_port(const Config& c, const Capacity& can) {
   return {.host = c.host,
           .port = c.port,
           .connections = c.connections,
+          .slots = can.slots,
+          .queue = c.queue,
+          .memory = can.memory,
           .max_head_bytes = c.max_head_bytes,
           .idle = ms(c.idle_s),
           .head = ms(c.head_s),
@@ -43,6 +53,7 @@ TransportOptions admin_port(const Config& c) {
   return {.host = c.admin_host,
           .port = c.admin_port,
           .connections = kAdminConnections,
+          .slots = 1,
           .idle = 2s,
           .head = 2s,
           .body = 2s,
@@ -56,13 +67,36 @@ bool logged(const JobRecord& job) { return job.method == "POST" || job.status >=
 Service service_of(const App& app) {
   return {.handle = [&app](const Request& request) { return app.handle(request); },
           .screen = [&app](const Request& head) { return app.screen(head); },
-          .max_body = [&app](std::string_view target) { return app.max_body(target); }};
+          .max_body = [&app](std::string_view target) { return app.max_body(target); },
+          .admit = [&app](const Request& request) { return app.admit(request); },
+          .budget = [&app](const Request& request) { return app.budget(request); }};
 }
 
 Service service_of(const AdminSources& sources) {
   return {.handle = [sources](const Request& request) { return admin(request, sources); },
           .screen = [](const Request&) { return std::optional<Refusal>{}; },
           .max_body = [](std::string_view) { return std::size_t{0}; }};
+}
+
+Capacity capacity_of(const Config& c) {
+  Capacity can = capacity();
+  if (c.slots > 0) {
+    can.slots = c.slots;
+    can.slots_from = "option";
+  }
+  if (c.memory_bytes > 0) {
+    can.memory = c.memory_bytes;
+    can.memory_from = "option";
+  }
+  return can;
+}
+
+/// Every connection is a descriptor; the soft limit is often 1024 where the hard one is not.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 /// A port being served by a thread of its own. When serving breaks down the whole service is asked
@@ -85,9 +119,9 @@ bool finished(const std::future<bool>& served, std::chrono::milliseconds patienc
   return served.wait_for(patience) == std::future_status::ready;
 }
 
-int fail(std::string_view why) {
+int fail(std::string_view why, int code = 1) {
   fmt::print(stderr, "tubecut-server: {}\n", why);
-  return 1;
+  return code;
 }
 
 /// Lets accepted work end, then cancels what is left; a job that does not even obey that ends the
@@ -98,55 +132,113 @@ void stop_work(Transport& work, const std::future<bool>& served, std::stop_sourc
   work.drain(ms(c.drain_s));
   if (finished(served, ms(c.drain_s))) return;
   jobs.request_stop();
+  work.cancel_jobs();
   if (!finished(served, 1s)) std::_Exit(fail("a job did not stop within its time"));
 }
 
 /// What both ports need, for the length of one run.
 struct Run {
-  explicit Run(const Config& c) : log(c.log_queue), app(options(c)) {}
+  explicit Run(const Config& c) : access(std::make_shared<Access>(c.keys)), log(c.log_queue) {
+    if (!c.log_directory.empty()) files = std::make_unique<JobFiles>(c.log_directory);
+    app = std::make_unique<App>(options(c));
+  }
 
   AppOptions options(const Config& c) {
     return {.replica = c.replica,
             .max_target_bytes = c.max_target_bytes,
             .max_body_bytes = c.max_body_bytes,
             .stop = jobs.get_token(),
+            .budget = ms(c.budget_s),
+            .cors_origins = c.cors_origins,
+            .trusted_proxies = c.trusted_proxies,
+            .access = access,
             .started = [this] { metrics.started(); },
-            .finished = [this](const JobRecord& job) { record(job); }};
+            .finished = [this](const JobRecord& job) { metrics.finished(job); },
+            .sent = [this](const JobRecord& job) { record(job); }};
   }
   void record(const JobRecord& job) {
-    metrics.finished(job);
-    if (logged(job)) log.write(job_line(job, std::chrono::system_clock::now()));
+    if (!logged(job)) return;
+    const auto now = std::chrono::system_clock::now();
+    log.write(job_line(job, now));
+    if (files && !job.facts.id.empty()) {
+      files->write(utc(now).substr(0, 10), job.facts.id, job_events(job, now));
+    }
   }
   AdminSources admin_sources() {
     return {.ready = [this] { return ready.load(); }, .metrics = [this] { return metrics.text(); }};
   }
+  MetricSources metric_sources() {
+    return {.log_drops = [this] { return log.dropped(); },
+            .file_drops = [this] { return files ? files->dropped() : std::uint64_t{0}; },
+            .ready = [this] { return ready.load(); },
+            .transport = [this] { return work ? work->stats() : TransportStats{}; }};
+  }
+  /// New keys without a restart; a mistake in the file leaves the old ones.
+  void reload_keys() {
+    if (!access->asks()) return;
+    const auto wrong = access->load();
+    JsonLine line;
+    line.text("ts", utc(std::chrono::system_clock::now()));
+    line.text("level", wrong.empty() ? "info" : "error").text("event", "keys_reloaded");
+    if (!wrong.empty()) line.text("failure", wrong);
+    log.write(line.done());
+  }
 
+  std::shared_ptr<Access> access;
   JobLog log;
+  std::unique_ptr<JobFiles> files;
   std::atomic<bool> ready = false;
   std::stop_source jobs;
-  Metrics metrics{[this] { return log.dropped(); }, [this] { return ready.load(); }};
-  App app;
+  const Transport* work = nullptr;
+  Metrics metrics{metric_sources()};
+  std::unique_ptr<App> app;
 };
+
+constexpr int kRefusedToStart = 78;  // EX_CONFIG of sysexits.h
+
+/// Whoever reaches the port may use it: that has to be said, or keys given.
+int refuse_open(const Config& c) {
+  fmt::print(stderr,
+             "tubecut-server: {0} is reached from other machines and no keys are set. Either\n"
+             "  tubecut-server new-key NAME | tee /dev/stderr | tail -n 1 >> keys.txt\n"
+             "  tubecut-server --host {0} --keys keys.txt\n"
+             "or stay on this machine, behind a proxy:\n"
+             "  tubecut-server --host 127.0.0.1\n"
+             "or let everybody in who reaches the port (TUBECUT_OPEN=true does the same):\n"
+             "  tubecut-server --host {0} --open\n",
+             c.host);
+  return kRefusedToStart;
+}
 
 }  // namespace
 
 int serve(const Config& c) {
   const Signals signals;
+  raise_descriptor_limit();
+  if (!is_loopback(c.host) && c.keys.empty() && !c.open) return refuse_open(c);
   Run run(c);
-  auto work = Transport::open(service_port(c), service_of(run.app));
+  if (const auto wrong = run.access->load(); !wrong.empty()) return fail(wrong, kRefusedToStart);
+  const Capacity can = capacity_of(c);
+  auto work = Transport::open(service_port(c, can), service_of(*run.app));
   if (!work) return fail(work.error());
   auto probes = Transport::open(admin_port(c), service_of(run.admin_sources()));
   if (!probes) return fail(probes.error());
+  run.work = &*work;
 
-  run.log.write(ready_line(work->port(), probes->port(), api::version()));
-  run.log.flush(kLogPatience);  // first, before any request can queue a line
   auto probes_served = start(*probes);
-  auto work_served = start(*work);
   await_serving(*probes, probes_served);
+  if (const auto fault = selftest_fault(); !fault.empty()) {
+    probes->drain(500ms);
+    return fail(fault);
+  }
+  run.log.write(ready_line(work->port(), probes->port(), api::version()));
+  run.log.write(capacity_line(can, c.queue));
+  run.log.flush(kLogPatience);  // first, before any request can queue a line
+  auto work_served = start(*work);
   await_serving(*work, work_served);
   run.ready = true;
 
-  signals.wait();
+  signals.wait([&run] { run.reload_keys(); });
   run.ready = false;
   stop_work(*work, work_served, run.jobs, c);
   probes->drain(500ms);

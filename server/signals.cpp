@@ -13,6 +13,7 @@ sigset_t stop_signals() {
   sigemptyset(&set);
   sigaddset(&set, SIGTERM);
   sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGHUP);
   return set;
 }
 
@@ -28,11 +29,14 @@ Signals::Signals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-void Signals::wait() const {
+void Signals::wait(const std::function<void()>& hang_up) const {
   const sigset_t set = stop_signals();
   int signal = 0;
-  while (sigwait(&set, &signal) != 0) {
+  while (sigwait(&set, &signal) != 0 || signal == SIGHUP) {
+    if (signal == SIGHUP) hang_up();
+    signal = 0;
   }
+  std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGTERM, end_now);
   std::signal(SIGINT, end_now);
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);

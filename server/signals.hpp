@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 namespace tubecut::server {
 
 /// Ends of the service asked for from outside. Make it first in main: threads inherit what it
@@ -8,9 +10,9 @@ class Signals {
  public:
   Signals();
 
-  /// Waits for SIGTERM or SIGINT (or `raise_stop`). From then on a second one ends the process at
-  /// once.
-  void wait() const;
+  /// Waits for SIGTERM or SIGINT (or `raise_stop`), calling `hang_up` at each SIGHUP until then.
+  /// From then on a second one ends the process at once.
+  void wait(const std::function<void()>& hang_up) const;
 
   /// Wakes `wait` from inside.
   static void raise_stop();

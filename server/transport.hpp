@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,7 +12,8 @@
 
 namespace tubecut::server {
 
-/// What a transport asks of the application behind it. Called from many threads.
+/// What a transport asks of the application behind it. `handle` is called from the slots' threads
+/// and the port's own; the others from the port's own.
 struct Service {
   /// Answers one request: whole, or with the reason why it could not be read.
   std::function<Response(const Request&)> handle;
@@ -19,18 +21,41 @@ struct Service {
   std::function<std::optional<Refusal>(const Request& head)> screen;
   /// Largest body to read, in bytes.
   std::function<std::size_t(std::string_view target)> max_body;
+  /// Whether a whole request may queue for a slot; empty: always.
+  std::function<std::optional<Refusal>(const Request&)> admit = {};
+  /// Time for the job, from its last byte in to its answer; empty: no end.
+  std::function<std::chrono::milliseconds(const Request&)> budget = {};
 };
 
 struct TransportOptions {
   std::string host = "127.0.0.1";
-  int port = 0;          // 0: any free one
-  int connections = 64;  // served at a time, each by a thread; further ones wait
+  int port = 0;            // 0: any free one
+  int connections = 4096;  // open at a time; beyond, the longest idle one is closed
+  int slots = 1;           // jobs computed at a time, each by a thread
+  std::size_t queue = 64;  // jobs that wait for a slot
+  std::size_t memory = 0;  // bytes for bodies, jobs and answers together; 0: no bound
   std::size_t max_head_bytes = 16384;
+  std::size_t max_fields = 64;
   std::chrono::milliseconds idle =
       std::chrono::seconds(15);  // a kept-alive connection without a request
-  std::chrono::milliseconds head = std::chrono::seconds(10);   // from first byte to end of head
-  std::chrono::milliseconds body = std::chrono::seconds(30);   // from end of head to end of body
-  std::chrono::milliseconds write = std::chrono::seconds(30);  // the whole answer
+  std::chrono::milliseconds head = std::chrono::seconds(3);    // from first byte to end of head
+  std::chrono::milliseconds body = std::chrono::seconds(10);   // from end of head to end of body
+  std::chrono::milliseconds write = std::chrono::seconds(10);  // the whole answer
+};
+
+/// How a port is doing, for the metrics. Counters since the start.
+struct TransportStats {
+  std::uint64_t connections = 0;
+  std::uint64_t waiting = 0;
+  std::uint64_t busy = 0;
+  std::uint64_t slots = 0;
+  std::uint64_t memory = 0;          // bytes set aside now
+  std::uint64_t refused_queue = 0;   // the queue was full
+  std::uint64_t refused_wait = 0;    // no slot within half the budget
+  std::uint64_t refused_memory = 0;  // the bound on memory
+  std::uint64_t refused_connections = 0;
+  std::uint64_t hung_up = 0;    // clients that left before their answer
+  std::uint64_t over_time = 0;  // clients too slow to send or to take
 };
 
 /// A listening HTTP/1.1 port. The only thing the rest of the server knows of sockets; one source
@@ -53,9 +78,14 @@ class Transport {
   /// True once `serve` accepts connections.
   [[nodiscard]] bool serving() const;
 
+  [[nodiscard]] TransportStats stats() const;
+
   /// From any thread: takes no new connection, closes idle ones, lets requests already begun be
-  /// answered; those not finished within `patience` are cut off.
+  /// answered; those not read within `patience` are cut off.
   void drain(std::chrono::milliseconds patience);
+
+  /// From any thread: stops the jobs that still run or wait.
+  void cancel_jobs();
 
  private:
   struct Impl;

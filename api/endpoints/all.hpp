@@ -9,6 +9,7 @@ namespace tubecut::api {
 [[nodiscard]] Endpoint nodes();
 [[nodiscard]] Endpoint bevel_tables();
 [[nodiscard]] Endpoint holes();
+[[nodiscard]] Endpoint parts();
 [[nodiscard]] Endpoint pulse_schedules();
 [[nodiscard]] Endpoint replays();
 [[nodiscard]] Endpoint feed_curves();

@@ -248,7 +248,14 @@ void encode_limits(const bevel::TableSpec& spec, Writer& o) {
 
 }  // namespace
 
-void decode_table_options(Reader& in, bevel::TableSpec& out) {
+void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out) {
+  out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
+  out.torch = in.defaulted_object("torch", decode_torch);
+}
+
+void decode_table_options(Reader& in, bevel::TableSpec& out) { decode_cut(in, true, out); }
+
+void decode_cut(Reader& in, bool whole, bevel::TableSpec& out) {
   static constexpr std::array kRoots{Option<RootSurface>{"inner", RootSurface::inner},
                                      Option<RootSurface>{"outer", RootSurface::outer}};
   static constexpr std::array kDihedrals{Option<Dihedral>{"weld_side", Dihedral::weld_side},
@@ -259,10 +266,10 @@ void decode_table_options(Reader& in, bevel::TableSpec& out) {
       Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
   out.root_surface = in.choice("root_surface", kRoots);
   out.groove = in.object("groove", decode_groove);
-  out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
+  if (whole) out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
   out.contact = in.choice("contact", kContacts, Contact::inner);
-  const bool known =
-      in.understood("root_surface") && in.understood("dihedral") && in.understood("contact");
+  const bool known = in.understood("root_surface") && (!whole || in.understood("dihedral")) &&
+                     in.understood("contact");
   if (known) check_combination(out, in);
   out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
   if (known && out.root_face > 0.0 && out.contact != Contact::inner)
@@ -272,8 +279,7 @@ void decode_table_options(Reader& in, bevel::TableSpec& out) {
              in.find("root_face_mm"));
   out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
   out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
-  out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
-  out.torch = in.defaulted_object("torch", decode_torch);
+  if (whole) decode_torch_and_kerf(in, out);
   const auto smoothing = in.object("smoothing", decode_smoothing);
   out.smoothing = smoothing.method;
   out.mutation_limit = smoothing.mutation_limit;
@@ -282,9 +288,23 @@ void decode_table_options(Reader& in, bevel::TableSpec& out) {
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& out, Writer& w) {
   w.object("points", [&](Writer& p) { encode_points(spec, out, p); });
   w.field("b_sign", out.inward ? "inward" : "outer_edge_into_part");
-  encode_events(out, w);
-  encode_steps(out, w);
+  encode_bevel_lists(out, w);
   w.object("limits", [&](Writer& o) { encode_limits(spec, o); });
+  encode_torch_binds(out, w);
+  w.field("length_mm", out.length_total);
+  w.field("developed_length_mm", out.developed_total);
+}
+
+void encode_bevel_points(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w) {
+  encode_points(spec, table, w);
+}
+
+void encode_bevel_lists(const bevel::Table& table, Writer& w) {
+  encode_events(table, w);
+  encode_steps(table, w);
+}
+
+void encode_torch_binds(const bevel::Table& out, Writer& w) {
   w.array("torch_binds", out.torch_binds, [](Writer& each, const bevel::Table::Binding& v) {
     each.object([&](Writer& o) {
       o.degrees("from_phi_deg", v.from);
@@ -293,8 +313,6 @@ void encode_table(const bevel::TableSpec& spec, const bevel::Table& out, Writer&
       o.field("root_gap_mm", v.root_gap);
     });
   });
-  w.field("length_mm", out.length_total);
-  w.field("developed_length_mm", out.developed_total);
 }
 
 }  // namespace tubecut::api

@@ -3,6 +3,7 @@
 
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/formats/hole_formats.hpp"
 #include "core/bevel/hole.hpp"
@@ -23,31 +24,30 @@ Section decode_tube(Reader& in) {
   return decode_section(in, true);
 }
 
-struct Branch {
-  bevel::BranchPlacement placement;
-  double wall = 0.0;
-};
+}  // namespace
 
-Branch decode_branch(Reader& in) {
-  const auto size = decode_tube(in);
+HoleBranch decode_hole_branch(Reader& in) {
+  HoleBranch out{.name = in.optional_text("id").value_or("")};
+  const auto size = decode_section(in, true);
+  out.wall = size.wall;
   const auto which = in.exactly_one({"inclination_deg", "axis"});
-  if (which == 1)
-    return {
-        .placement = joint::AxisTube{.radius = size.outer_radius,
-                                     .axis = in.object("axis",
-                                                       [](Reader& a) {
-                                                         return joint::AxisLine{
-                                                             a.vector3("point_mm", kOffset),
-                                                             a.vector3("direction", kComponent)};
-                                                       })},
-        .wall = size.wall};
+  if (which == 1) {
+    const auto axis = in.object("axis", [](Reader& a) {
+      return joint::AxisLine{a.vector3("point_mm", kOffset), a.vector3("direction", kComponent)};
+    });
+    out.placement = joint::AxisTube{.radius = size.outer_radius, .axis = axis};
+    return out;
+  }
   joint::TubeCutter tube{.radius = size.outer_radius};
   if (which) tube.inclination = in.angle("inclination_deg", kInclinationDeg);
   tube.clocking = in.angle("clocking_deg", kAnyAngleDeg, Angle{});
   tube.offset = in.number("offset_mm", kOffset, 0.0);
   tube.height = in.number("height_mm", kOffset, 0.0);
-  return {.placement = tube, .wall = size.wall};
+  out.placement = tube;
+  return out;
 }
+
+namespace {
 
 struct Joint {
   JointKind kind = JointKind::set_on;
@@ -103,6 +103,67 @@ bevel::TorchRange decode_range(Reader& in) {
   return out;
 }
 
+}  // namespace
+
+void decode_hole_cut(Reader& in, double chord_radius, bevel::HoleSpec& out) {
+  static constexpr std::array kTilts{Option<Tilt>{"axial", Tilt::axial},
+                                     Option<Tilt>{"free", Tilt::free}};
+  const auto joint = in.object(
+      "joint", [&](Reader& j) { return decode_joint(j, std::max(chord_radius, kDiameter.min)); });
+  out.kind = joint.kind;
+  out.gap = joint.gap;
+  out.depth = joint.depth;
+  out.groove = in.object("groove", decode_rule);
+  out.tilt = in.choice("tilt", kTilts, Tilt::axial);
+}
+
+namespace {
+
+void encode_phase(std::string_view name, const std::vector<double>& phase, bool far,
+                  const bevel::HoleSpec& spec, Writer& w) {
+  if (far || spec.sampling.tolerance) return w.degrees_column(name, phase);
+  std::vector<double> grid(phase.size());  // exactly 360 i / n
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    grid[i] = 360.0 * static_cast<double>(i) / static_cast<double>(grid.size());
+  w.column(name, grid);
+}
+
+}  // namespace
+
+void encode_hole(const bevel::HoleSpec& spec, const bevel::Hole& hole, Writer& o) {
+  o.field("side", hole.far ? "far" : "near");
+  o.object("points", [&](Writer& p) {
+    encode_phase("branch_phi_deg", hole.branch_phi, hole.far, spec, p);
+    p.column("length_mm", hole.length);
+    p.degrees_column("phi_deg", hole.phi);
+    p.column("z_mm", hole.z);
+    p.column("developed_mm", hole.developed);
+    p.degrees_column("phi_inner_deg", hole.phi_inner);
+    p.column("z_inner_mm", hole.z_inner);
+    p.degrees_column("dihedral_deg", hole.dihedral);
+    p.degrees_column("groove_deg", hole.groove);
+    p.degrees_column("b_deg", hole.b);
+    p.degrees_column("a_deg", hole.a);
+    p.column("beam_mm", hole.beam);
+    p.degrees_column("torch_phi_deg", hole.torch_phi);
+    p.column("torch_z_mm", hole.torch_z);
+    p.degrees_column("torch_phi_inner_deg", hole.torch_phi_inner);
+    p.column("torch_z_inner_mm", hole.torch_z_inner);
+  });
+  o.field("scrap", "inside");
+  o.field("turns", 0);
+  o.field("length_mm", hole.length_total);
+  o.object("fit_up", [&](Writer& f) {
+    f.column("root_mm", hole.fit.root);
+    f.column("face_mm", hole.fit.face);
+    f.column("least_mm", hole.fit.least);
+    f.field("least_between_nodes_mm", hole.fit.least_between);
+    f.field("greatest_root_between_nodes_mm", hole.fit.greatest_root_between);
+  });
+}
+
+namespace {
+
 struct Holes {
   using Spec = bevel::HoleSpec;
   using Out = bevel::HoleCut;
@@ -122,21 +183,14 @@ struct Holes {
   }};
 
   static Spec decode(Reader& in) {
-    static constexpr std::array kTilts{Option<Tilt>{"axial", Tilt::axial},
-                                       Option<Tilt>{"free", Tilt::free}};
     Spec out;
     const auto chord = in.object("chord", decode_tube);
     out.chord = {.outer_radius = chord.outer_radius, .wall = chord.wall};
     const double deepest = in.refused() ? kDiameter.max / 2.0 : chord.outer_radius;
-    const auto branch = in.object("branch", decode_branch);
+    const auto branch = in.object("branch", decode_hole_branch);
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
-    const auto joint = in.object("joint", [&](Reader& j) { return decode_joint(j, deepest); });
-    out.kind = joint.kind;
-    out.gap = joint.gap;
-    out.depth = joint.depth;
-    out.groove = in.object("groove", decode_rule);
-    out.tilt = in.choice("tilt", kTilts, Tilt::axial);
+    decode_hole_cut(in, deepest, out);
     out.torch = in.defaulted_object("torch", decode_range);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
     out.sampling = decode_sampling(in);
@@ -167,38 +221,6 @@ struct Holes {
     if (out.branch) w.object("branch", [&](Writer& o) { encode_branch(spec, *out.branch, o); });
   }
 
-  static void encode_hole(const Spec& spec, const bevel::Hole& hole, Writer& o) {
-    o.field("side", hole.far ? "far" : "near");
-    o.object("points", [&](Writer& p) {
-      encode_phase("branch_phi_deg", hole.branch_phi, hole.far, spec, p);
-      p.column("length_mm", hole.length);
-      p.degrees_column("phi_deg", hole.phi);
-      p.column("z_mm", hole.z);
-      p.column("developed_mm", hole.developed);
-      p.degrees_column("phi_inner_deg", hole.phi_inner);
-      p.column("z_inner_mm", hole.z_inner);
-      p.degrees_column("dihedral_deg", hole.dihedral);
-      p.degrees_column("groove_deg", hole.groove);
-      p.degrees_column("b_deg", hole.b);
-      p.degrees_column("a_deg", hole.a);
-      p.column("beam_mm", hole.beam);
-      p.degrees_column("torch_phi_deg", hole.torch_phi);
-      p.column("torch_z_mm", hole.torch_z);
-      p.degrees_column("torch_phi_inner_deg", hole.torch_phi_inner);
-      p.column("torch_z_inner_mm", hole.torch_z_inner);
-    });
-    o.field("scrap", "inside");
-    o.field("turns", 0);
-    o.field("length_mm", hole.length_total);
-    o.object("fit_up", [&](Writer& f) {
-      f.column("root_mm", hole.fit.root);
-      f.column("face_mm", hole.fit.face);
-      f.column("least_mm", hole.fit.least);
-      f.field("least_between_nodes_mm", hole.fit.least_between);
-      f.field("greatest_root_between_nodes_mm", hole.fit.greatest_root_between);
-    });
-  }
-
   /// The cutter goes unchanged into a bevel table of the branch.
   static void encode_branch(const Spec& spec, const bevel::BranchEnd& end, Writer& o) {
     o.object("cutter", [&](Writer& c) {
@@ -215,15 +237,6 @@ struct Holes {
       p.column("z_outer_mm", end.z_outer);
       p.degrees_column("b_deg", end.b);
     });
-  }
-
-  static void encode_phase(std::string_view name, const std::vector<double>& phase, bool far,
-                           const Spec& spec, Writer& w) {
-    if (far || spec.sampling.tolerance) return w.degrees_column(name, phase);
-    std::vector<double> grid(phase.size());  // exactly 360 i / n
-    for (std::size_t i = 0; i < grid.size(); ++i)
-      grid[i] = 360.0 * static_cast<double>(i) / static_cast<double>(grid.size());
-    w.column(name, grid);
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {

@@ -44,8 +44,10 @@ void decode_table_points(Reader& in, Surface surface, motion::Contour& out) {
 }
 
 motion::Contour decode_contour(Reader& in) {
+  // A part's own sign: of a start it is the table's; a finish is seen from the other side already.
   static constexpr std::array kSigns{Option<bool>{"outer_edge_into_part", false},
-                                     Option<bool>{"inward", true}};
+                                     Option<bool>{"inward", true},
+                                     Option<bool>{"outer_edge_to_plus_z", false}};
   motion::Contour out;
   out.surface = in.choice("surface", kSurfaces);
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;

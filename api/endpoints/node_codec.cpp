@@ -1,7 +1,5 @@
 #include "api/endpoints/node_codec.hpp"
 
-#include <map>
-
 #include "api/endpoints/joint_codec.hpp"
 #include "api/limits.hpp"
 
@@ -30,14 +28,8 @@ joint::Member decode_member(Reader& in) {
   return out;
 }
 
-/// Places of the members by id.
-struct Ids {
-  std::map<std::string, std::size_t, std::less<>> places;
-  bool complete = true;  // every member has told its id: an unknown one is wrong
-};
-
-Ids decode_ids(Reader& in, const std::vector<joint::Member>& members) {
-  Ids out;
+MemberIds decode_ids(Reader& in, const std::vector<joint::Member>& members) {
+  MemberIds out;
   const auto* field = in.find("members");
   const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
   out.complete = items != nullptr && !items->empty() && items->size() == members.size();
@@ -50,30 +42,15 @@ Ids decode_ids(Reader& in, const std::vector<joint::Member>& members) {
   return out;
 }
 
-/// The member of this id; `pointer` names the field for an issue.
-std::size_t known(Reader& in, const Ids& ids, const std::string& id, const std::string& pointer) {
-  const auto found = ids.places.find(id);
-  if (found != ids.places.end()) return found->second;
-  if (id.empty() || !ids.complete) return 0;  // has its issue already
-  std::vector<std::string> names;
-  for (const auto& [name, place] : ids.places) names.push_back(name);
-  const auto near = nearest_name(id, names);
-  in.issue({.code = ErrorCode::bad_choice,
-            .pointer = pointer,
-            .got = Json{id},
-            .hint = near.empty() ? "no member has this id" : "did you mean " + near + "?"});
-  return 0;
-}
-
-joint::Link decode_link(Reader& in, const Ids& ids) {
+joint::Link decode_link(Reader& in, const MemberIds& ids) {
   joint::Link out;
   const auto own = in.text("member");
-  out.member = known(in, ids, own, "member");
+  out.member = known_member(in, ids, own, "member");
   out.end = in.choice("end", kEnds);
   const auto to = in.text_column("to", {.min = 1, .max = joint::kMostCutters});
   for (std::size_t i = 0; i < to.size(); ++i) {
     const auto pointer = "to/" + std::to_string(i);
-    const auto other = known(in, ids, to[i], pointer);
+    const auto other = known_member(in, ids, to[i], pointer);
     if (!own.empty() && to[i] == own)
       in.issue({.code = ErrorCode::bad_choice,
                 .pointer = pointer,
@@ -84,28 +61,10 @@ joint::Link decode_link(Reader& in, const Ids& ids) {
   return out;
 }
 
-struct Decoded {
-  joint::NodeSpec spec;
-  Ids ids;
-};
-
-Decoded decode(Reader& in) {
-  Decoded out;
-  out.spec.members = in.array("members", {.min = 1, .max = kMembers}, decode_member);
-  out.ids = decode_ids(in, out.spec.members);
-  if (in.is<Json::Array>("connect"))
-    out.spec.connect = in.array("connect", {.min = 1, .max = 2 * kMembers},
-                                [&](Reader& link) { return decode_link(link, out.ids); });
-  else
-    out.spec.connect = in.object(
-        "connect", [](Reader& c) { return joint::Within{c.number("within_mm", kDistance)}; });
-  return out;
-}
-
 NodeEnd decode_end(Reader& in) {
-  auto node = decode(in);
+  auto node = decode_named_node(in);
   NodeEnd out{.node = std::move(node.spec)};
-  out.member = known(in, node.ids, in.text("member"), "member");
+  out.member = known_member(in, node.ids, in.text("member"), "member");
   out.end = in.choice("end", kEnds);
   return out;
 }
@@ -127,7 +86,35 @@ std::string renamed(const JointSource& source, std::string_view member) {
 
 }  // namespace
 
-joint::NodeSpec decode_node(Reader& in) { return decode(in).spec; }
+std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id,
+                         const std::string& pointer) {
+  const auto found = ids.places.find(id);
+  if (found != ids.places.end()) return found->second;
+  if (id.empty() || !ids.complete) return 0;  // has its issue already
+  std::vector<std::string> names;
+  for (const auto& [name, place] : ids.places) names.push_back(name);
+  const auto near = nearest_name(id, names);
+  in.issue({.code = ErrorCode::bad_choice,
+            .pointer = pointer,
+            .got = Json{id},
+            .hint = near.empty() ? "no member has this id" : "did you mean " + near + "?"});
+  return 0;
+}
+
+NamedNode decode_named_node(Reader& in) {
+  NamedNode out;
+  out.spec.members = in.array("members", {.min = 1, .max = kMembers}, decode_member);
+  out.ids = decode_ids(in, out.spec.members);
+  if (in.is<Json::Array>("connect"))
+    out.spec.connect = in.array("connect", {.min = 1, .max = 2 * kMembers},
+                                [&](Reader& link) { return decode_link(link, out.ids); });
+  else
+    out.spec.connect = in.object(
+        "connect", [](Reader& c) { return joint::Within{c.number("within_mm", kDistance)}; });
+  return out;
+}
+
+joint::NodeSpec decode_node(Reader& in) { return decode_named_node(in).spec; }
 
 JointSource decode_joint(Reader& in) {
   JointSource out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,20 @@
 #include "core/joint/node.hpp"
 
 namespace tubecut::api {
+
+/// Places of a node's members by id.
+struct MemberIds {
+  std::map<std::string, std::size_t, std::less<>> places;
+  bool complete = true;  // every member has told its id: an unknown one is wrong
+};
+/// The member whose id is `id`; `pointer` names the field for an issue.
+std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id,
+                         const std::string& pointer);
+struct NamedNode {
+  joint::NodeSpec spec;
+  MemberIds ids;
+};
+[[nodiscard]] NamedNode decode_named_node(Reader& in);
 
 /// `members` and `connect`: what /v1/nodes asks, and what stands inside `node` elsewhere.
 [[nodiscard]] joint::NodeSpec decode_node(Reader& in);

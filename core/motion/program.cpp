@@ -130,16 +130,15 @@ Result<void> check_values(const Program& p, const Machine& machine) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (!(std::abs(p.x[c][i]) <= 1e6)) {
         const std::string column = c < machine.axes.size() ? machine.axes[c].name : "s";
-        return fail({.code = ErrorCode::bad_number,
-                     .member = "axes/" + column + "/" + std::to_string(i)});
+        return fail(
+            {.code = ErrorCode::bad_number, .member = "axes/" + column + "/" + std::to_string(i)});
       }
     }
   }
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (p.step(i - 1, i) == 0.0) {
-      return fail({.code = ErrorCode::duplicate_point,
-                   .member = "axes",
-                   .got = static_cast<double>(i)});
+      return fail(
+          {.code = ErrorCode::duplicate_point, .member = "axes", .got = static_cast<double>(i)});
     }
   }
   return {};

@@ -31,7 +31,11 @@ std::string query_of(const api::Endpoint& endpoint, unsigned way) {
   if (way == 5) return "format=cbor";
   if (way == 6) return "validate_only=true";
   if (endpoint.formats.empty()) return "view=chart";
-  return "format=" + std::string(endpoint.formats[way % endpoint.formats.size()].name);
+  const auto& format = endpoint.formats[way % endpoint.formats.size()];
+  auto query = "format=" + std::string(format.name);
+  if (!format.views.empty())
+    query += "&view=" + std::string(format.views[way / 7 % format.views.size()]);
+  return query + (format.needs_speed ? "&speed_mm_min=600" : "");
 }
 
 /// A number that asks for more work than one input of a fuzzer may cost.

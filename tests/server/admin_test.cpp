@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "server/metrics.hpp"
 
 namespace tubecut::server {
@@ -31,8 +33,16 @@ TEST(Admin, RefusesTheRestAsProblems) {
 
 TEST(Metrics, CountWhatHappened) {
   std::uint64_t drops = 0;
-  Metrics metrics([&] { return drops; }, [] { return true; });
+  Metrics metrics({.log_drops = [&] { return drops; },
+                   .ready = [] { return true; },
+                   .transport =
+                       [] {
+                         return TransportStats{
+                             .waiting = 7, .busy = 1, .slots = 2, .refused_queue = 9, .hung_up = 3};
+                       }});
   JobRecord job;
+  job.method = "POST";
+  job.facts.verdict = "ok";
   job.facts.endpoint = "bevel-tables";
   job.facts.stages = {{"compute", 0.25}};
   job.status = 200;
@@ -47,17 +57,41 @@ TEST(Metrics, CountWhatHappened) {
   drops = 4;
   const std::string text = metrics.text();
   for (const auto* line :
-       {"tubecut_http_requests_total{endpoint=\"bevel-tables\",status=\"200\"} 1\n",
-        "tubecut_http_requests_total{endpoint=\"bevel-tables\",status=\"500\"} 1\n",
-        "tubecut_http_request_seconds_bucket{endpoint=\"bevel-tables\",status=\"200\",le=\"0."
-        "0025\"} 0\n",
-        "tubecut_http_request_seconds_bucket{endpoint=\"bevel-tables\",status=\"200\",le=\"0.005\"}"
-        " 1\n",
-        "tubecut_stage_seconds_total{endpoint=\"bevel-tables\",stage=\"compute\"} 0.5\n",
-        "tubecut_verification_failures_total 1\n", "tubecut_in_flight 1\n", "tubecut_ready 1\n",
+       {"http_server_request_duration_seconds_count{http_request_method=\"POST\",http_response_"
+        "status_code=\"200\",http_route=\"/v1/bevel-tables\"} 1\n",
+        "http_route=\"/v1/bevel-tables\",le=\"0.0025\"} 0\n",
+        "http_route=\"/v1/bevel-tables\",le=\"0.005\"} 1\n",
+        "tubecut_stage_duration_seconds_sum{endpoint=\"bevel-tables\",stage=\"compute\"} 0.5\n",
+        "tubecut_jobs_total{endpoint=\"bevel-tables\",verdict=\"ok\"} 1\n",
+        "tubecut_jobs_total{endpoint=\"bevel-tables\",verdict=\"refused\"} 1\n",
+        "tubecut_verification_failures_total{endpoint=\"bevel-tables\"} 1\n",
+        "http_server_active_requests 1\n", "tubecut_ready 1\n", "tubecut_slots 2\n",
+        "tubecut_slots_busy 1\n", "tubecut_queue_depth 7\n", "tubecut_numerics_info 1\n",
+        "tubecut_refused_total{reason=\"queue_full\"} 9\n", "tubecut_clients_hung_up_total 3\n",
         "tubecut_log_lines_dropped_total 4\n", "tubecut_build_info{"}) {
     EXPECT_NE(text.find(line), text.npos) << line << text;
   }
+}
+
+TEST(Metrics, StayFewWhateverClientsSend) {
+  Metrics metrics({});
+  const auto series = [&] {
+    const auto text = metrics.text();
+    return std::ranges::count(text, '\n');
+  };
+  JobRecord job;
+  job.method = "BREW";
+  job.status = 405;
+  metrics.started();
+  metrics.finished(job);
+  const auto before = series();
+  for (int i = 0; i < 1000; ++i) {
+    job.method = "M" + std::to_string(i);
+    job.facts.id = job.request_id = job.client = job.identity = job.method;
+    metrics.started();
+    metrics.finished(job);
+  }
+  EXPECT_EQ(series(), before);
 }
 
 }  // namespace

@@ -228,5 +228,65 @@ TEST(App, AnswersTheRealApi) {
   EXPECT_EQ(member(unknown, "request_id"), header(unknown.headers, "X-Request-Id"));
 }
 
+TEST(App, LetsAClientLowerItsBudgetOnly) {
+  Fake fake;
+  AppOptions options;
+  options.budget = std::chrono::milliseconds(2000);
+  const App app = fake.app(options);
+  const auto budget = [&](const char* text) {
+    return app.budget(request({{"tubecut-budget-ms", text}})).count();
+  };
+  EXPECT_EQ(app.budget(request()).count(), 2000);
+  EXPECT_EQ(budget("1"), 1);
+  EXPECT_EQ(budget("250"), 250);
+  EXPECT_EQ(budget("2001"), 2000);
+  for (const auto* wrong : {"0", "-1", "1.5", "x", "", "+5", "5 ", "3600001", "1e3"}) {
+    EXPECT_EQ(app.handle(request({{"Tubecut-Budget-Ms", wrong}})).status, 400) << wrong;
+  }
+  EXPECT_EQ(
+      app.handle(request({{std::string(kBudgetHeader), "5"}, {"tubecut-budget-ms", "6"}})).status,
+      400);
+}
+
+TEST(App, AnswersOtherOriginsOnlyWhereAllowed) {
+  Fake fake;
+  AppOptions options;
+  options.cors_origins = {"https://plant.example"};
+  const App app = fake.app(options);
+  const auto from = [](const char* origin) { return request({{"Origin", origin}}); };
+  const auto good = app.handle(from("https://plant.example"));
+  EXPECT_EQ(header(good.headers, "Access-Control-Allow-Origin"), "https://plant.example");
+  EXPECT_EQ(header(good.headers, "Vary"), "Origin");
+  const auto evil = app.handle(from("https://evil.example"));
+  EXPECT_TRUE(header(evil.headers, "Access-Control-Allow-Origin").empty());
+  auto question = from("https://plant.example");
+  question.method = "OPTIONS";
+  question.headers.emplace_back("Access-Control-Request-Method", "POST");
+  const auto calls = fake.methods.size();
+  EXPECT_EQ(app.handle(question).status, 204);
+  EXPECT_EQ(fake.methods.size(), calls);
+  EXPECT_TRUE(header(fake.app().handle(from("https://plant.example")).headers,
+                     "Access-Control-Allow-Origin")
+                  .empty());
+}
+
+TEST(App, TellsOfAJobOnceItHasLeft) {
+  Fake fake;
+  std::vector<JobRecord> left;
+  AppOptions options;
+  options.sent = [&](const JobRecord& record) { left.push_back(record); };
+  const App app = fake.app(options);
+  auto asked = request();
+  asked.reports_sending = true;
+  const auto response = app.handle(asked);
+  EXPECT_EQ(fake.records.size(), 1U);
+  EXPECT_TRUE(left.empty());
+  response.sent(true);
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_GE(left[0].sent, left[0].begun);
+  app.handle(asked).sent(false);
+  EXPECT_EQ(left.back().sent, 0.0);
+}
+
 }  // namespace
 }  // namespace tubecut::server

@@ -2,7 +2,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <thread>
 
@@ -16,11 +19,13 @@ namespace {
 struct Service {
   Program program;
   std::string ready;
+  std::string capacity;
   int port = 0;
   int admin_port = 0;
 
   explicit Service(std::vector<std::string> more = {}) : program(words(std::move(more))) {
     ready = program.line();
+    capacity = program.line();
     const auto json = api::parse(ready);
     if (!json) return;
     port = static_cast<int>(*json->find("port")->as<double>());
@@ -157,6 +162,95 @@ TEST(Binary, RunsOneRequestWithoutAServer) {
   std::ofstream(file) << "{not json";
   Program program({TUBECUT_BINARY, "run", "--endpoint", "bevel-tables", file});
   EXPECT_EQ(program.exit_code(), 1);
+}
+
+TEST(Binary, SaysWhatItMayUse) {
+  const Service service({"--slots", "3", "--queue", "5"});
+  const auto json = api::parse(service.capacity);
+  ASSERT_TRUE(json) << service.capacity;
+  EXPECT_EQ(*json->find("slots"), api::Json(3.0));
+  EXPECT_EQ(*json->find("slots_from"), api::Json("option"));
+  EXPECT_GT(*json->find("memory_bytes")->as<double>(), 1e7);
+  await_ready(service);
+  const auto metrics = ask(service.admin_port, get("/metrics")).body;
+  EXPECT_NE(metrics.find("tubecut_slots 3\n"), std::string::npos);
+}
+
+TEST(Binary, IsNotOpenByAccident) {
+  Program shy({TUBECUT_BINARY, "--host", "0.0.0.0", "--port", "0", "--admin-port", "0"});
+  EXPECT_EQ(shy.exit_code(), 78);
+  const Service open({"--host", "0.0.0.0", "--open"});
+  EXPECT_NE(open.port, 0);
+  Program keyless({TUBECUT_BINARY, "--keys", "/nowhere/keys", "--port", "0", "--admin-port", "0"});
+  EXPECT_EQ(keyless.exit_code(), 78);
+}
+
+TEST(Binary, AsksForKeysAndReadsThemAgain) {
+  const auto made = [](const char* name) {
+    Program program({TUBECUT_BINARY, "new-key", name});
+    static_cast<void>(program.line());
+    const auto key = program.line();
+    static_cast<void>(program.line());
+    return std::pair(key, program.line());
+  };
+  const auto first = made("mes");
+  const auto second = made("cell");
+  const std::string file = ::testing::TempDir() + "tubecut_binary_keys";
+  std::ofstream(file) << first.second << "\n";
+  Service service({"--keys", file});
+  await_ready(service);
+  const auto status = [&](const std::string& key) {
+    return ask(service.port, get("/v1/version", "Authorization: Bearer " + key + "\r\n")).status;
+  };
+  EXPECT_EQ(ask(service.port, get("/v1/version")).status, 401);
+  EXPECT_EQ(status(first.first), 200);
+  EXPECT_EQ(status(second.first), 401);
+  const auto job =
+      ask(service.port, post("/v1/nowhere", "{}", "X-Api-Key: " + first.first + "\r\n"));
+  EXPECT_EQ(job.status, 404);
+  std::string line = service.program.line();
+  EXPECT_NE(line.find(R"("identity":"mes")"), std::string::npos) << line;
+  EXPECT_EQ(line.find(first.first), std::string::npos);
+  std::ofstream(file) << second.second << "\n";
+  service.program.signal(SIGHUP);
+  line = service.program.line();
+  EXPECT_NE(line.find("keys_reloaded"), std::string::npos) << line;
+  EXPECT_EQ(status(first.first), 401);
+  EXPECT_EQ(status(second.first), 200);
+}
+
+TEST(Binary, KeepsAFilePerJob) {
+  const std::string folder = ::testing::TempDir() + "tubecut_binary_jobs";
+  ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
+  Service service({"--log-directory", folder});
+  await_ready(service);
+  const std::string trace = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01";
+  EXPECT_EQ(ask(service.port,
+                post("/v1/feed-curves", "{}", "Job-Id: order-17\r\ntraceparent: " + trace + "\r\n"))
+                .status,
+            422);
+  service.program.signal(SIGTERM);
+  EXPECT_EQ(service.program.exit_code(), 0);
+  std::string text;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().filename() != "order-17.jsonl") continue;
+    std::ifstream in(entry.path());
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  for (const auto* event : {"received", "read", "started", "decoded", "sent", "job"}) {
+    EXPECT_NE(text.find("\"event\":\"" + std::string(event) + "\""), std::string::npos)
+        << event << text;
+  }
+  EXPECT_NE(text.find(trace), std::string::npos);
+  EXPECT_EQ(text.find("arm_mm"), std::string::npos);
+}
+
+TEST(Binary, KnowsItsAnswers) {
+  Program program({TUBECUT_BINARY, "selftest"});
+  std::string last;
+  for (std::string line = program.line(); !line.empty(); line = program.line()) last = line;
+  EXPECT_NE(last.find(" 0 differ"), std::string::npos) << last;
+  EXPECT_EQ(program.exit_code(), 0);
 }
 
 }  // namespace

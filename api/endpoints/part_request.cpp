@@ -1,0 +1,265 @@
+#include "api/endpoints/part_request.hpp"
+
+#include <utility>
+
+#include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/hole_codec.hpp"
+#include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/node_codec.hpp"
+#include "api/limits.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using part::Datum;
+
+constexpr Range kComponent{.min = -1e6, .max = 1e6};
+constexpr Range kAllowance{.min = 0.0, .max = 1e5};
+constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
+constexpr std::size_t kMostHoles = 64;
+
+struct Blank {
+  double clamping = 0.0, facing = 0.0;
+};
+
+Blank decode_blank(Reader& in) {
+  return in.defaulted_object("allowances", [](Reader& a) {
+    return Blank{a.number("clamping_mm", kAllowance, 0.0), a.number("facing_mm", kAllowance, 0.0)};
+  });
+}
+
+struct DatumChoice {
+  Datum datum = Datum::up;
+  Angle seam = {};
+};
+
+DatumChoice decode_datum(Reader& in, Datum fallback, bool has_up) {
+  static constexpr std::array kData{Option<Datum>{"up", Datum::up},
+                                    Option<Datum>{"seam", Datum::seam},
+                                    Option<Datum>{"first_cutter", Datum::first_cutter}};
+  DatumChoice out;
+  out.datum = in.choice("datum", kData, fallback);
+  in.note("seam_deg");
+  const bool known = in.understood("datum");
+  if (known && out.datum == Datum::seam) {
+    out.seam = in.angle("seam_deg", kAnyAngleDeg, Angle{});
+  } else if (in.has("seam_deg")) {
+    out.seam = in.angle("seam_deg", kAnyAngleDeg);
+    if (known)
+      in.issue({.code = ErrorCode::unsupported_combination,
+                .pointer = "seam_deg",
+                .hint = "goes with datum seam"},
+               in.find("seam_deg"));
+  }
+  if (known && out.datum == Datum::up && !has_up)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "datum",
+              .got = Json{"up"},
+              .hint = "needs an `up`, of the member or of the request"});
+  return out;
+}
+
+/// What a part has once: sampling, kerf and torch.
+void decode_once(Reader& in, bevel::TableSpec& out) {
+  out.sampling = decode_sampling(in);
+  decode_torch_and_kerf(in, out);
+}
+
+bevel::HoleSpec hole_options(const bevel::TableSpec& once) {
+  bevel::HoleSpec out;
+  out.kerf = once.kerf;
+  out.torch = once.torch;
+  out.sampling = once.sampling;
+  return out;
+}
+
+void decode_member(Reader& in, PartRequest& out) {
+  auto node = decode_named_node(in);
+  auto& m = out.member.emplace();
+  const auto id = in.text("member");
+  m.member = known_member(in, node.ids, id, "member");
+  m.node = std::move(node.spec);
+  in.note("up");
+  if (in.has("up")) m.up = in.vector3("up", kComponent);
+  const bool found = m.member < m.node.members.size();
+  const bool up = m.up || (found && m.node.members[m.member].up);
+  const auto datum = decode_datum(in, up ? Datum::up : Datum::first_cutter, up || !found);
+  m.datum = datum.datum;
+  m.seam = datum.seam;
+  decode_cut(in, false, m.cut);
+  decode_once(in, m.cut);
+  in.note("holes");
+  if (!in.has("holes")) return;
+  const double radius = found ? m.node.members[m.member].outer_radius : kDiameter.min;
+  in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {
+    auto hole = hole_options(m.cut);
+    const auto branch = h.text("member");
+    m.branches.push_back(known_member(h, node.ids, branch, "member"));
+    if (!branch.empty() && branch == id)
+      h.issue({.code = ErrorCode::bad_choice,
+               .pointer = "member",
+               .got = Json{branch},
+               .hint = "a member cannot stand on itself"});
+    decode_hole_cut(h, radius, hole);
+    m.holes.push_back(std::move(hole));
+    return 0;
+  });
+}
+
+part::EndSpec decode_end(Reader& in, const bevel::TableSpec& once) {
+  const auto which = in.exactly_one({"cutters", "square_at_mm"});
+  if (which == 1) return part::square_end(once, in.number("square_at_mm", kOffset));
+  if (!which) {
+    in.silence();
+    return {};
+  }
+  part::EndSpec out{.cut = once};
+  out.cut.partners = decode_cutters(in);
+  decode_cut(in, false, out.cut);
+  return out;
+}
+
+void decode_ends(Reader& in, const bevel::TableSpec& once, part::PartSpec& out) {
+  in.object("ends", [&](Reader& ends) {
+    out.start = ends.object("start", [&](Reader& e) { return decode_end(e, once); });
+    out.finish = ends.object("finish", [&](Reader& e) { return decode_end(e, once); });
+    return 0;
+  });
+}
+
+void decode_direct(Reader& in, PartRequest& out) {
+  auto& p = out.part;
+  p.target = decode_target(in);
+  if (in.is<Json::Object>("target")) {
+    const auto* target = in.find("target");
+    if (target->find("length_mm") == nullptr)
+      in.issue({.code = ErrorCode::missing_field,
+                .pointer = "target/length_mm",
+                .hint = "between the two work points"});
+    if (const auto* id = target->find("id"))
+      if (const auto* name = id->as<std::string>()) p.name = *name;
+  }
+  const auto datum = decode_datum(in, Datum::up, true);
+  out.datum = datum.datum;
+  out.seam = datum.seam;
+  bevel::TableSpec once;
+  once.target = p.target;
+  decode_once(in, once);
+  decode_ends(in, once, p);
+  in.note("holes");
+  if (!in.has("holes")) return;
+  in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {
+    auto hole = hole_options(once);
+    hole.chord = {.outer_radius = p.target.outer_radius, .wall = p.target.wall};
+    const auto branch = h.object("branch", decode_hole_branch);
+    hole.branch = branch.placement;
+    hole.branch_wall = branch.wall;
+    decode_hole_cut(h, p.target.outer_radius, hole);
+    p.holes.push_back({std::move(hole), branch.name, p.holes.size()});
+    return 0;
+  });
+}
+
+bool takes(std::string_view& path, std::string_view step) {
+  if (!path.starts_with(step)) return false;
+  path.remove_prefix(step.size());
+  return true;
+}
+
+std::size_t leading_number(std::string_view text) {
+  std::size_t out = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9') break;
+    out = out * 10 + static_cast<std::size_t>(c - '0');
+  }
+  return out;
+}
+
+bool of_the_whole(std::string_view path) {
+  return path.starts_with("torch") || path.starts_with("sampling") || path.starts_with("kerf");
+}
+
+/// A member of core's part as the request's.
+std::string renamed(const PartRequest& r, const std::string& member) {
+  std::string_view path = member;
+  const auto of = [](std::size_t i) { return "members/" + std::to_string(i); };
+  if (path.starts_with("target")) return r.member ? of(r.member->member) : member;
+  if (path.starts_with("holes/")) {
+    const auto rest = path.find('/', 6);
+    if (rest == std::string_view::npos) return member;
+    const auto tail = path.substr(rest + 1);
+    if (of_the_whole(tail)) return std::string(tail);
+    return r.member && tail.starts_with("branch") ? member.substr(0, rest) + "/member" : member;
+  }
+  const bool start = takes(path, "start/");
+  if (!start && !takes(path, "finish/")) return member;
+  if (of_the_whole(path)) return std::string(path);
+  if (path.starts_with("target")) return r.member ? of(r.member->member) : std::string(path);
+  if (!r.member) return (start ? "ends/start/" : "ends/finish/") + std::string(path);
+  if (path == "cutters") return of(r.member->member);
+  if (!takes(path, "cutters/")) return std::string(path);
+  const auto& cutters = start ? r.start_cutters : r.finish_cutters;
+  const auto index = leading_number(path);
+  return of(index < cutters.size() ? cutters[index] : r.member->member);
+}
+
+std::vector<std::string> names(const joint::NodeSpec& node, const std::vector<std::size_t>& of) {
+  std::vector<std::string> out;
+  for (const auto i : of) out.push_back(node.members[i].name);
+  return out;
+}
+
+}  // namespace
+
+PartRequest decode_part_request(Reader& in) {
+  PartRequest out;
+  const auto which = in.exactly_one({"members", "target"});
+  if (!which) {
+    if (in.refused()) in.silence();  // what else there is depends on which of the two it is
+    return out;
+  }
+  if (which == 0)
+    decode_member(in, out);
+  else
+    decode_direct(in, out);
+  const auto blank = decode_blank(in);
+  const double density = in.number("density_kg_m3", kDensity, 7850.0);
+  out.part.clamping = blank.clamping;
+  out.part.facing = blank.facing;
+  out.part.density = density;
+  return out;
+}
+
+Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
+  if (!r.member) {
+    const auto zero =
+        part::datum_angle(r.datum, r.seam, r.part.start.cut.partners, r.part.finish.cut.partners);
+    if (!zero) return tl::unexpected(zero.error());
+    r.part.zero = *zero;
+    return r;
+  }
+  r.member->clamping = r.part.clamping;
+  r.member->facing = r.part.facing;
+  r.member->density = r.part.density;
+  auto found = part::find_member(*r.member, stop);
+  if (!found) return tl::unexpected(found.error());
+  r.part = std::move(found->part);
+  r.start_cutters = std::move(found->start_cutters);
+  r.finish_cutters = std::move(found->finish_cutters);
+  r.start_ids = names(r.member->node, r.start_cutters);
+  r.finish_ids = names(r.member->node, r.finish_cutters);
+  r.warnings = std::move(found->warnings);
+  return r;
+}
+
+Error on_request(const PartRequest& request, Error error) {
+  for (auto& issue : error.issues) issue.member = renamed(request, issue.member);
+  return error;
+}
+
+std::vector<Warning> on_request(const PartRequest& request, std::vector<Warning> warnings) {
+  for (auto& warning : warnings) warning.member = renamed(request, warning.member);
+  return warnings;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/reader.hpp"
+#include "core/part/member.hpp"
+
+namespace tubecut::api {
+
+/// A part asked for as a member of a node, or by its two ends; `resolve` fills in `part`.
+struct PartRequest {
+  part::PartSpec part;
+  std::optional<part::MemberSpec> member = {};  // of a node
+  part::Datum datum = part::Datum::up;          // of a part given directly
+  Angle seam = {};
+  // Once resolved, of a node:
+  std::vector<std::size_t> start_cutters = {}, finish_cutters = {};
+  std::vector<std::string> start_ids = {}, finish_ids = {};
+  std::vector<Warning> warnings = {};
+};
+
+[[nodiscard]] PartRequest decode_part_request(Reader& in);
+
+/// Errors  those of part::find_member and part::datum_angle; members as in the request.
+[[nodiscard]] Result<PartRequest> resolve(PartRequest request, const std::stop_token& stop);
+
+/// The same issue or warning of core's part, naming the request's own members.
+[[nodiscard]] Error on_request(const PartRequest& request, Error error);
+[[nodiscard]] std::vector<Warning> on_request(const PartRequest& request,
+                                              std::vector<Warning> warnings);
+
+}  // namespace tubecut::api

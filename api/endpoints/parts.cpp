@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "api/endpoint.hpp"
+#include "api/endpoints/all.hpp"
+#include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/hole_codec.hpp"
+#include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/node_codec.hpp"
+#include "api/endpoints/part_request.hpp"
+#include "api/formats/part_formats.hpp"
+#include "core/part/member.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using part::Mark;
+using part::Step;
+
+std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+const char* name_of(Mark::Kind kind) {
+  return kind == Mark::Kind::datum_line ? "datum_line"
+         : kind == Mark::Kind::partner  ? "partner"
+                                        : "part_mark";
+}
+const char* name_of(Step::What what) {
+  return what == Step::What::mark     ? "mark"
+         : what == Step::What::hole   ? "hole"
+         : what == Step::What::finish ? "finish"
+                                      : "start";
+}
+
+struct Parts {
+  using Spec = PartRequest;
+  using Out = part::Part;
+  static constexpr std::string_view kId = "parts";
+  static constexpr std::string_view kPath = "/v1/parts";
+  static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
+  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
+                                                            "max_extra_bevel_deg", "max_b_deg"};
+  static constexpr std::array<CheckLimit, 19> kChecks{{
+      {"dihedral", "1e-9", "deg"},
+      {"bevel_plane", "1e-9", ""},
+      {"above_required", "1e-9", "deg"},
+      {"slope", "max_slope_deg_per_mm (1 + 1e-9)", "deg_per_mm"},
+      {"second_difference", "max_curvature_deg_per_mm2 (1 + 1e-6) + rounding", "deg_per_mm2"},
+      {"torch_range", "1e-9", "deg"},
+      {"penetration", "1e-6", "mm"},
+      {"touch", "1e-6", "mm"},
+      {"hole_on_branch", "1e-6", "mm"},
+      {"hole_gap", "1e-6", "mm"},
+      {"hole_fit_up", "1e-6", "mm"},
+      {"hole_dihedral", "1e-6", "deg"},
+      {"hole_groove", "1e-6", "deg"},
+      {"hole_tilt", "1e-6", "deg"},
+      {"hole_kerf", "1e-6", "mm"},
+      {"hole_branch_end", "1e-6", "mm"},
+      {"placed", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
+      {"volume", "1e-9, of itself", ""},
+      {"check_dimensions", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
+  }};
+
+  static Spec decode(Reader& in) { return decode_part_request(in); }
+  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
+    return api::resolve(std::move(spec), stop);
+  }
+  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
+    auto out = part::part(spec.part, stop);
+    if (!out) return tl::unexpected(on_request(spec, out.error()));
+    return out;
+  }
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    return part::verify(spec.part, out);
+  }
+  static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
+    auto all = on_request(spec, out.warnings);
+    all.insert(all.end(), spec.warnings.begin(), spec.warnings.end());
+    return all;
+  }
+
+  static std::vector<Measure> measure(const Spec&, const Out& out) {
+    double gap = 0.0, extra = 0.0, b = 0.0;
+    for (const auto* end : {&out.start, &out.finish}) {
+      const auto& t = end->own;
+      for (std::size_t i = 0; i < t.b.size(); ++i) {
+        gap = std::max(gap, t.gap[i]);
+        extra = std::max(extra, t.b[i] - t.b_raw[i]);
+        b = std::max(b, std::abs(t.b[i]));
+      }
+    }
+    for (const auto& placed : out.holes) {
+      gap = std::max(gap, placed.hole.fit.greatest_root_between);
+      for (const double one : placed.hole.b) b = std::max(b, std::abs(one));
+    }
+    return {{"max_root_gap_mm", gap},
+            {"max_extra_bevel_deg", extra * kDegPerRad},
+            {"max_b_deg", b * kDegPerRad}};
+  }
+
+  static void encode(const Spec& spec, const Out& out, Writer& w) {
+    w.object("frame", [&](Writer& o) {
+      o.column("origin_mm", components(out.frame.origin));
+      o.column("x", components(out.frame.rows.row(0)));
+      o.column("y", components(out.frame.rows.row(1)));
+      o.column("z", components(out.frame.rows.row(2)));
+      o.field("in", spec.member ? "world" : "start");
+    });
+    w.object("ends", [&](Writer& ends) {
+      ends.object("start", [&](Writer& o) { encode_end(spec, out, false, o); });
+      ends.object("finish", [&](Writer& o) { encode_end(spec, out, true, o); });
+    });
+    w.array("holes", out.holes, [&](Writer& each, const part::PlacedHole& placed) {
+      each.object([&](Writer& o) {
+        const auto& asked = spec.part.holes[placed.asked];
+        o.field("branch", asked.name);
+        encode_hole(asked.hole, placed.hole, o);
+      });
+    });
+    w.degrees("clocking_between_ends_deg", out.clocking);
+    w.object("lengths", [&](Writer& o) { encode_lengths(out.lengths, o); });
+    w.array("check_dimensions", out.check_dimensions, encode_dimension);
+    w.array("marks", out.marks, [&](Writer& each, const Mark& mark) {
+      each.object([&](Writer& o) {
+        o.field("kind", name_of(mark.kind));
+        o.field("text", mark.text);
+        o.degrees("phi_deg", mark.phi);
+        o.field("girth_mm", spec.part.target.outer_radius * mark.phi);
+        o.field("z_from_mm", mark.z_from);
+        o.field("z_to_mm", mark.z_to);
+      });
+    });
+    w.array("sequence", out.sequence, encode_step);
+  }
+
+  static void encode_end(const Spec& spec, const Out& out, bool finish, Writer& w) {
+    const auto& end = finish ? out.finish : out.start;
+    w.object("points", [&](Writer& p) { encode_bevel_points(end.spec, end.table, p); });
+    w.field("b_sign", "outer_edge_to_plus_z");
+    w.field("scrap", finish ? "+z" : "-z");
+    w.field("surface", end.spec.root_surface == bevel::RootSurface::outer ? "outer" : "inner");
+    encode_bevel_lists(end.table, w);
+    encode_torch_binds(end.table, w);
+    const auto point = [&](std::string_view name, const part::EdgePoint& p) {
+      w.object(name, [&](Writer& o) {
+        o.degrees("phi_deg", p.phi);
+        o.field("girth_mm", spec.part.target.outer_radius * p.phi);
+        o.field("z_mm", p.z);
+      });
+    };
+    point("long_point", end.longest);
+    point("short_point", end.shortest);
+    w.field("length_mm", end.table.length_total);
+    w.field("developed_length_mm", end.table.developed_total);
+    w.field("weld_mm", end.weld_length);
+    w.field("groove_mm3", end.groove_volume);
+    w.column("cutter_ids", finish ? spec.finish_ids : spec.start_ids);
+  }
+
+  static void encode_lengths(const part::Lengths& lengths, Writer& o) {
+    o.field("work_point_mm", lengths.work_point);
+    o.field("long_mm", lengths.longest);
+    o.field("short_mm", lengths.shortest);
+    o.field("blank_mm", lengths.blank);
+    o.field("weld_mm", lengths.weld);
+    o.field("volume_mm3", lengths.volume);
+    o.field("mass_kg", lengths.mass);
+  }
+
+  static void encode_dimension(Writer& each, const part::CheckDimension& d) {
+    each.object([&](Writer& o) {
+      std::vector<std::string> mistakes;
+      for (const auto m : d.changes_with) mistakes.emplace_back(name_of_mistake(m));
+      o.field("name", d.name);
+      o.field("value_mm", d.value);
+      o.field("tool", name_of_tool(d.tool));
+      o.field("measured_from", d.measured_from);
+      o.column("changes_with", mistakes);
+    });
+  }
+
+  static void encode_step(Writer& each, const Step& step) {
+    each.object([&](Writer& o) {
+      o.field("what", name_of(step.what));
+      o.field("index", step.index);
+      o.field("z_from_mm", step.z_from);
+      o.field("z_to_mm", step.z_to);
+    });
+  }
+
+  static const std::vector<Format<Spec, Out>>& formats() {
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv",
+         [](const Spec& s, const Out& o, const Caption& c) { return part_csv(s.part, o, c); }}};
+    return kFormats;
+  }
+};
+
+}  // namespace
+
+Endpoint parts() { return endpoint<Parts>(); }
+
+}  // namespace tubecut::api

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tubecut::api {
+
+/// The dialect of a G-code program.
+enum class Dialect { linuxcnc, qtplasmac };
+
+/// What the query says of a drawing or a machine file. Lengths in mm.
+struct FormatOptions {
+  bool mirror = false;  // drawn for the print side to lie on the tube
+  bool torch = false;   // the program lights the torch; else it only moves
+  Dialect dialect = Dialect::linuxcnc;
+  bool axial_z = false;                     // the axis along the tube is Z, not X
+  std::optional<double> speed = {};         // mm/min, of the torch on the outer wall
+  double lead = 0.0;                        // straight run-in and run-out on the scrap side
+  std::optional<double> pivot_length = {};  // torch pivot to tip; empty: the control knows the tip
+};
+
+/// What a drawing or a machine file prints beside the result.
+struct Caption {
+  std::vector<std::pair<std::string, std::string>> reference;
+  std::string input_sha256;
+  std::string result_sha256;
+  std::string view;  // ?view=, empty: the format's default
+  FormatOptions options = {};
+};
+
+/// One line that names the job on a drawing: engine, input hash, the caller's reference.
+[[nodiscard]] std::string job_line(const Caption& caption);
+
+/// One more way to print a result. `print` never sees JSON; core results in, text out.
+template <class Spec, class Out>
+struct Format {
+  std::string_view name;   // ?format=
+  std::string_view media;  // Accept
+  std::string (*print)(const Spec&, const Out&, const Caption&);
+  std::vector<std::string_view> views = {};    // ?view=, the default first
+  std::vector<std::string_view> options = {};  // query parameters it reads
+  bool needs_speed = false;                    // speed_mm_min has no default
+};
+
+struct FormatName {
+  std::string_view name;
+  std::string_view media;
+  std::vector<std::string_view> views = {};
+  std::vector<std::string_view> options = {};
+  bool needs_speed = false;
+};
+
+}  // namespace tubecut::api

@@ -1,0 +1,134 @@
+#include "api/suspicion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "api/tube_sizes.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kMmPerInch = 25.4;
+constexpr double kMmPerMetre = 1000.0;
+constexpr double kSameSize = 1e-3;     // relative: catalogues round inches to 0.1 mm
+constexpr double kSameAngle = 2e-3;    // relative: 1.57 and 1.5708 are 90 deg, as 1.5 is not
+constexpr double kRoundAngleDeg = 15;  // people mean multiples of it
+constexpr double kShortest = 0.05;     // of its diameter: a tube shorter than that is a ring
+
+/// For people: to the micrometre, or the thousandth of a degree.
+double brief(double value) { return std::floor(1e3 * value + 0.5) / 1e3; }
+
+/// A size sold in inches, of which the same number in mm is none.
+bool is_size_in_inches(double diameter) {
+  const auto sold = [](double mm) {
+    return std::ranges::any_of(tube_sizes(), [mm](const TubeSize& tube) {
+      return std::abs(tube.outer_diameter - mm) <= kSameSize * mm;
+    });
+  };
+  return sold(diameter * kMmPerInch) && !sold(diameter);
+}
+
+bool is_round_angle_in_radians(double value) {
+  const double degrees = std::abs(value) * 180.0 / std::numbers::pi;
+  const double nearest = kRoundAngleDeg * std::floor(degrees / kRoundAngleDeg + 0.5);
+  const bool round = nearest > 0.0 && std::abs(degrees - nearest) <= kSameAngle * nearest;
+  return round && degrees <= 360.0 && std::abs(value) != std::floor(std::abs(value));
+}
+
+const double* number(const Json& object, std::string_view name) {
+  const auto* member = object.find(name);
+  return member == nullptr ? nullptr : member->as<double>();
+}
+
+/// Length of a member given by its two ends; negative where there are none.
+double distance_of_ends(const Json& member) {
+  const auto* start = member.find("start_mm");
+  const auto* end = member.find("end_mm");
+  const auto* a = start == nullptr ? nullptr : start->as<Json::Array>();
+  const auto* b = end == nullptr ? nullptr : end->as<Json::Array>();
+  if (a == nullptr || b == nullptr || a->size() != b->size()) return -1.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a->size(); ++i) {
+    const auto* from = (*a)[i].as<double>();
+    const auto* to = (*b)[i].as<double>();
+    if (from != nullptr && to != nullptr) sum += (*to - *from) * (*to - *from);
+  }
+  return std::sqrt(sum);
+}
+
+class Walk {
+ public:
+  void object(const Json& json, const std::string& path) {
+    if (const auto* array = json.as<Json::Array>()) {
+      for (std::size_t i = 0; i < array->size(); ++i) {
+        object((*array)[i], path + std::to_string(i) + "/");
+      }
+      return;
+    }
+    const auto* members = json.as<Json::Object>();
+    if (members == nullptr) return;
+    tube(json, path);
+    for (const auto& [name, value] : *members) {
+      const auto* angle = value.as<double>();
+      const bool turns = name == "inclination_deg" || name == "clocking_deg";
+      if (turns && angle != nullptr && is_round_angle_in_radians(*angle)) {
+        const double degrees = *angle * 180.0 / std::numbers::pi;
+        suspect(path + name, *angle, "rad", std::floor(10.0 * degrees + 0.5) / 10.0, "deg");
+      }
+      object(value, path + name + "/");
+    }
+  }
+
+  std::vector<Warning> found;
+
+ private:
+  void tube(const Json& json, const std::string& path) {
+    const auto* diameter = number(json, "outer_diameter_mm");
+    if (diameter == nullptr) return;
+    if (is_size_in_inches(*diameter)) {
+      suspect(path + "outer_diameter_mm", *diameter, "inches", *diameter * kMmPerInch, "mm");
+    }
+    const auto* length = number(json, "length_mm");
+    if (length != nullptr && *length > 0.0 && *length < kShortest * *diameter) {
+      suspect(path + "length_mm", *length, "metres", *length * kMmPerMetre, "mm");
+    }
+    const double span = distance_of_ends(json);
+    if (span > 0.0 && span < kShortest * *diameter) {
+      suspect(path + "end_mm", span, "metres", span * kMmPerMetre, "mm between the ends");
+    }
+  }
+
+  void suspect(std::string member, double value, std::string_view unit, double meant,
+               std::string_view wire_unit) {
+    found.push_back({.code = WarningCode::unit_suspicion,
+                     .member = std::move(member),
+                     .detail = shown(value) + " looks like " + std::string(unit) + ": " +
+                               shown(brief(meant)) + " " + std::string(wire_unit)});
+  }
+};
+
+}  // namespace
+
+std::vector<Warning> unit_suspicions(const Json& request) {
+  Walk walk;
+  walk.object(request, {});
+  return std::move(walk.found);
+}
+
+std::string other_unit_hint(double value, double min, double max) {
+  const std::pair<double, std::string_view> units[] = {
+      {kMmPerInch, "inches"}, {kMmPerMetre, "metres"}, {1.0 / kMmPerMetre, "micrometres"}};
+  for (const auto& [factor, unit] : units) {
+    const double meant = value * factor;
+    if (value > 0.0 && std::isfinite(max) && min > 0.0 && meant >= min && meant <= max) {
+      return "; were it " + std::string(unit) + ": " + shown(brief(meant)) + " mm";
+    }
+  }
+  return {};
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "api/json.hpp"
+#include "core/base/error.hpp"
+
+namespace tubecut::api {
+
+/// Values of a request, as understood, that look as if they were given in another unit: a diameter
+/// that is a catalogue size in inches (25.4), a round angle in radians (57.3), a length or a
+/// member's ends in metres (1000). Each is a warning that names the field and what was meant.
+[[nodiscard]] std::vector<Warning> unit_suspicions(const Json& request);
+
+/// What an out-of-range value in mm would be were it inches, metres or micrometres, when that is
+/// within [min, max]; empty otherwise.
+[[nodiscard]] std::string other_unit_hint(double value, double min, double max);
+
+}  // namespace tubecut::api

@@ -1,0 +1,479 @@
+#!/usr/bin/env python3
+"""tubecut.py against the running service: test_tubecut.py --server BINARY [unittest options]"""
+
+import doctest
+import http.server
+import inspect
+import io
+import json
+import pathlib
+import socket
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+EXAMPLES = HERE.parents[1] / "examples"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(HERE))
+
+import tubecut
+from tubecut import Answer, BatchItem, Client, HashError, ProblemError, ProtocolError, UnreachableError
+
+BINARY = ""
+
+
+class Service:
+    def __init__(self):
+        self._child = subprocess.Popen([BINARY, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0"],
+                                       stdout=subprocess.PIPE, text=True)
+        ready = json.loads(self._child.stdout.readline())
+        assert ready["event"] == "ready", ready
+        self.url = f"http://127.0.0.1:{ready['port']}"
+        threading.Thread(target=self._child.stdout.read, daemon=True).start()
+
+    def kill(self):
+        self._child.kill()
+        self._child.wait()
+
+    def stop(self):
+        self._child.terminate()
+        return self._child.wait(timeout=30)
+
+
+def example(path):
+    return json.loads((EXAMPLES / path).read_text())
+
+
+def joint(inclination_deg):
+    """A small job: 8 points."""
+    return {"target": {"outer_diameter_mm": 70, "wall_mm": 5},
+            "cutters": [{"kind": "tube", "outer_diameter_mm": 110, "inclination_deg": inclination_deg}],
+            "sampling": {"uniform_points": 8}}
+
+
+def jobs(count):
+    return [BatchItem(f"job {i}", "intersections", joint(40 + 100 * i / count)) for i in range(count)]
+
+
+def unused_url():
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return f"http://127.0.0.1:{free.getsockname()[1]}"
+
+
+class OneByOne(Client):
+    """As if the service had no /v1/batches."""
+
+    def _has_batches(self, url):
+        return False
+
+
+class Batches(http.server.ThreadingHTTPServer):
+    """A stand-in for POST /v1/batches by its contract, which asks the real service; it can be made to fail."""
+
+    daemon_threads = True
+
+    def __init__(self, service_url):
+        super().__init__(("127.0.0.1", 0), BatchHandler)
+        self.url = f"http://127.0.0.1:{self.server_address[1]}"
+        self.engine = Client(service_url)
+        self.received = []           # ids of each batch
+        self.dies_after = None       # answers
+        self.full_batches = 0        # refused with 503
+        self.refused_once = set()    # ids answered with 503 the first time
+        self.answers_as = {}         # id -> other id
+        self.edit = lambda line: line
+        self.hung_up = threading.Event()
+        self.pause_s = 0.0
+        threading.Thread(target=self.serve_forever, args=(0.02,), daemon=True).start()
+
+    def handle_error(self, request, client_address):
+        pass
+
+    def close(self):
+        self.shutdown()
+        self.server_close()
+
+
+class BatchHandler(http.server.BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+    busy = {"type": "", "title": "", "status": 503, "code": "overloaded", "detail": "", "request_id": "", "retryable": True,
+            "action": "", "errors": []}
+
+    def log_message(self, *_):
+        pass
+
+    def do_POST(self):
+        try:
+            self.run_batch(int(self.headers["Content-Length"]))
+        except OSError:
+            self.server.hung_up.set()
+
+    def run_batch(self, length):
+        if length == 0:
+            return self.answer_whole(200, b'{"summary":{"items":0}}\n')
+        server = self.server
+        if server.full_batches:
+            server.full_batches -= 1
+            self.rfile.read(length)
+            return self.answer_whole(503, json.dumps(self.busy).encode())
+        self.send_response(200)
+        self.send_header("Transfer-Encoding", "chunked")
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.close_connection = True
+        ids, left = [], length
+        server.received.append(ids)
+        while left:
+            raw = self.rfile.readline()
+            left -= len(raw)
+            item = json.loads(raw)
+            ids.append(item["id"])
+            if server.dies_after is not None and len(ids) > server.dies_after:
+                return None  # no last chunk, no summary
+            time.sleep(server.pause_s)
+            self.chunk(server.edit(self.line(item)))
+        self.chunk(json.dumps({"summary": {"items": len(ids)}}) + "\n")
+        self.wfile.write(b"0\r\n\r\n")
+
+    def line(self, item):
+        server = self.server
+        status, body = 200, ""
+        if item["id"] in server.refused_once:
+            server.refused_once.discard(item["id"])
+            status, body = 503, json.dumps(self.busy)
+        else:
+            reply = server.engine._exchange(server.engine._urls[0], "POST", f"/v1/{item['endpoint']}",
+                                            json.dumps(item["body"]).encode(), {})
+            status, body = reply.status, reply.body.decode()
+        id_ = server.answers_as.get(item["id"], item["id"])
+        return f'{{"id":{json.dumps(id_)},"status":{status},"body":{body}}}\n'
+
+    def chunk(self, text):
+        data = text.encode()
+        self.wfile.write(f"{len(data):x}\r\n".encode() + data + b"\r\n")
+
+    def answer_whole(self, status, body):
+        self.send_response(status)
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.service = Service()
+        cls.client = Client(cls.service.url)
+
+    @classmethod
+    def tearDownClass(cls):
+        if cls.service.stop() != 0:
+            raise AssertionError("the service did not end with 0")
+
+    def stand_in(self):
+        batches = Batches(self.service.url)
+        self.addCleanup(batches.close)
+        return batches
+
+
+class Readme(Case):
+    def test_runs(self):
+        text = (HERE / "README.md").read_text()
+        self.assertIn("http://127.0.0.1:8080", text)
+        examples = doctest.DocTestParser().get_doctest(text.replace("http://127.0.0.1:8080", self.service.url), {}, "README", "README.md", 0)
+        self.assertGreater(len(examples.examples), 8)
+        output = io.StringIO()
+        result = doctest.DocTestRunner(verbose=False).run(examples, out=output.write)
+        self.assertEqual(result.failed, 0, output.getvalue())
+
+
+class SingleJobs(Case):
+    def test_every_endpoint_has_its_method(self):
+        endpoints = [e["id"] for e in self.client.version()["endpoints"] if e["id"] != "batches"]
+        self.assertGreater(len(endpoints), 5)
+        for endpoint in endpoints:
+            method = getattr(Client, endpoint.replace("-", "_"))
+            self.assertIn(f'"{endpoint}"', inspect.getsource(method))
+
+    def test_hashes_of_every_example(self):
+        examples = self.client.catalogue("examples")["examples"]
+        self.assertGreater(len(examples), 10)
+        for one in examples:
+            with self.subTest(endpoint=one["endpoint"], name=one["name"]):
+                method = getattr(self.client, one["endpoint"].replace("-", "_"))
+                answer = method(one["body"])
+                self.assertTrue(answer.verification["passed"])
+                self.assertTrue(answer.result)
+
+    def test_reference_and_log_are_outside_the_hash(self):
+        plain = self.client.intersections(joint(60))
+        dressed = self.client.intersections({"log": "inline", "reference": {"part": 'B1 "a" \\ {x}, ]'}, **joint(60)})
+        self.assertEqual(dressed.request["reference"]["part"], 'B1 "a" \\ {x}, ]')
+        self.assertTrue(dressed.log)
+        self.assertEqual(dressed.job["input_sha256"], plain.job["input_sha256"])
+        self.assertEqual(dressed.job["result_sha256"], plain.job["result_sha256"])
+
+    def test_a_changed_byte_is_seen(self):
+        text = self.client.intersections(joint(60)).text
+        Answer.of(text)
+        result = text.index('"result":')
+        for name, changed in {
+            "result": text[:result] + text[result:].replace("1", "2", 1),
+            "last digit": text.replace('"developed_length_mm":188.49555921538', '"developed_length_mm":188.49555921537', 1),
+            "request": text.replace('"inclination_deg":60', '"inclination_deg":61', 1),
+            "spacing": text.replace('"result":{', '"result":{ ', 1),
+            "number format": text.replace('"inclination_deg":60', '"inclination_deg":60.0', 1),
+            "hash": text.replace('"result_sha256":"', '"result_sha256":"0', 1),
+        }.items():
+            with self.subTest(name):
+                self.assertNotEqual(changed, text)
+                with self.assertRaises(HashError):
+                    Answer.of(changed)
+                Answer.of(changed, check_hashes=False)
+        for cut in (0, 1, len(text) // 3, len(text) // 2, len(text) - 1):
+            with self.assertRaises(ProtocolError):
+                Answer.of(text[:cut])
+
+    def test_decoy_members_inside_strings_and_objects(self):
+        """Text that looks like the members the client slices."""
+        decoy = '"result":{"x":1}}'
+        answer = self.client.intersections({**joint(60), "target": {"id": decoy, "outer_diameter_mm": 70, "wall_mm": 5}})
+        self.assertEqual(answer.request["target"]["id"], decoy)
+
+    def test_problem(self):
+        with self.assertRaises(ProblemError) as refused:
+            self.client.bevel_tables({"target": {"outer_diameter_mm": 70, "wall_mm": 0}, "cutters": []})
+        problem = refused.exception.problem
+        self.assertEqual((problem.status, problem.code, problem.retryable), (422, "invalid_request", False))
+        self.assertRegex(problem.request_id, "^[0-9a-f]{32}$")
+        wall = next(e for e in refused.exception.errors if e.pointer == "/target/wall_mm")
+        self.assertEqual((wall.code, wall.got, wall.limit, wall.unit), ("out_of_range", 0, 0.5, "mm"))
+
+    def test_other_formats_and_catalogues(self):
+        body = example("bevel-tables/source-000-table-1.json")
+        self.assertIn(b"<svg", self.client.document("bevel-tables", body, "svg"))
+        with self.assertRaises(ProblemError) as refused:
+            self.client.document("bevel-tables", body, "docx")
+        self.assertEqual(refused.exception.problem.status, 406)
+        for name in ("errors", "limits", "machines", "tubes"):
+            self.assertTrue(self.client.catalogue(name))
+
+    def test_the_next_replica_answers_for_a_dead_one(self):
+        self.assertEqual(Client(unused_url(), self.service.url).intersections(joint(60)).job["endpoint"], "intersections")
+
+    def test_nobody_answers(self):
+        with self.assertRaises(UnreachableError):
+            Client(unused_url(), unused_url(), patience_s=0.3).intersections(joint(60))
+
+    def test_a_full_replica_is_asked_again(self):
+        statuses = []
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1"
+
+            def log_message(self, *_):
+                pass
+
+            def do_POST(self):
+                self.rfile.read(int(self.headers["Content-Length"]))
+                statuses.append(429)
+                body = json.dumps({**BatchHandler.busy, "status": 429, "code": "rate_limited"}).encode()
+                self.send_response(429)
+                self.send_header("Retry-After", "0")
+                self.send_header("Content-Length", str(len(body)))
+                self.end_headers()
+                self.wfile.write(body)
+
+        with http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler) as full:
+            threading.Thread(target=full.serve_forever, args=(0.02,), daemon=True).start()
+            url = f"http://127.0.0.1:{full.server_address[1]}"
+            self.assertTrue(Client(url, self.service.url).intersections(joint(60)).result)
+            with self.assertRaises(ProblemError):
+                Client(url, patience_s=0.3).intersections(joint(60))
+            full.shutdown()
+        self.assertGreater(len(statuses), 2)
+
+    def test_connections_are_kept_and_replaced(self):
+        client = Client(self.service.url)
+        client.intersections(joint(60))
+        kept = client._connections.open[self.service.url]
+        client.intersections(joint(61))
+        self.assertIs(client._connections.open[self.service.url], kept)
+        kept.sock.shutdown(socket.SHUT_RDWR)  # as after the service's idle time
+        client.intersections(joint(62))
+        self.assertIsNot(client._connections.open[self.service.url], kept)
+
+
+class BatchesOfJobs(Case):
+    def whole(self, client, items, **options):
+        """Asserts that each id came once."""
+        results = list(client.batch(items, **options))
+        self.assertEqual(sorted(r.id for r in results), sorted(i.id for i in items))
+        return {r.id: r for r in results}
+
+    def assert_as_single(self, results, items):
+        for item in items:
+            single = self.client.post(item.endpoint, item.body, job_id=item.id)
+            got = results[item.id].unwrap()
+            self.assertEqual(got.job["result_sha256"], single.job["result_sha256"])
+            self.assertEqual(got.result, single.result)
+
+    def test_one_by_one(self):
+        items = jobs(40) + [BatchItem("bad", "intersections", joint(200)), BatchItem("größer than latin: ≥", "intersections", joint(50))]
+        results = self.whole(OneByOne(self.service.url), items)
+        self.assert_as_single(results, items[:3])
+        self.assertEqual((results["bad"].status, results["bad"].problem.errors[0].pointer), (422, "/cutters/0/inclination_deg"))
+        with self.assertRaises(ProblemError):
+            results["bad"].unwrap()
+
+    def test_the_service_as_it_is(self):
+        self.whole(self.client, jobs(40))
+
+    def test_streamed(self):
+        batches = self.stand_in()
+        items = jobs(60) + [BatchItem("bad", "intersections", joint(200))]
+        results = self.whole(Client(batches.url), items)
+        self.assertEqual(batches.received, [[i.id for i in items]])
+        self.assert_as_single(results, items[:3])
+        self.assertEqual(results["bad"].problem.errors[0].pointer, "/cutters/0/inclination_deg")
+
+    def test_a_second_replica_completes_what_the_first_left(self):
+        first, second = self.stand_in(), self.stand_in()
+        first.dies_after = 13
+        items = jobs(50)
+        self.whole(Client(first.url, second.url), items)
+        self.assertEqual(len(first.received[0]), 14)
+        self.assertEqual(sorted(second.received[0]), sorted(i.id for i in items[13:]))
+
+    def test_a_replica_killed_midway(self):
+        first, second = Service(), Service()
+        self.addCleanup(second.stop)
+        self.addCleanup(first.kill)
+        items = jobs(200)
+        seen = []
+        for one in Client(first.url, second.url).batch(items):
+            seen.append(one.id)
+            if len(seen) == 20:
+                first.kill()
+        self.assertEqual(sorted(seen), sorted(i.id for i in items))
+
+    def test_full_replicas_and_refused_items_are_asked_again(self):
+        batches = self.stand_in()
+        batches.full_batches = 2
+        batches.refused_once = {"job 3", "job 7"}
+        self.whole(Client(batches.url), jobs(10))
+        self.assertEqual([len(ids) for ids in batches.received], [10, 2])
+
+    def test_gives_up(self):
+        batches = self.stand_in()
+        batches.dies_after = 0
+        start = time.monotonic()
+        with self.assertRaises(UnreachableError):
+            list(Client(batches.url, patience_s=0.5).batch(jobs(3)))
+        self.assertLess(time.monotonic() - start, 10)
+
+    def test_an_answer_nobody_asked_for(self):
+        batches = self.stand_in()
+        batches.answers_as = {"job 1": "job 99"}
+        with self.assertRaises(ProtocolError):
+            list(Client(batches.url).batch(jobs(3)))
+
+    def test_a_changed_byte_in_a_line(self):
+        batches = self.stand_in()
+        batches.edit = lambda line: line.replace('"radius_mm":35', '"radius_mm":36')
+        with self.assertRaises(HashError):
+            list(Client(batches.url).batch(jobs(3)))
+
+    def test_a_caller_that_stops_hangs_up(self):
+        batches = self.stand_in()
+        batches.pause_s = 0.05
+        results = Client(batches.url).batch(jobs(200))
+        next(results)
+        results.close()
+        self.assertTrue(batches.hung_up.wait(10))
+        self.assertLess(len(batches.received[0]), 100)
+
+    def test_large_batches_go_in_parts_and_are_read_lazily(self):
+        batches = self.stand_in()
+        taken = []
+
+        def endless():
+            for item in jobs(10_000):
+                taken.append(item.id)
+                yield item
+
+        lines, tubecut._BATCH_LINES = tubecut._BATCH_LINES, 25
+        self.addCleanup(setattr, tubecut, "_BATCH_LINES", lines)
+        results = Client(batches.url).batch(endless())
+        got = [next(results).id for _ in range(60)]
+        results.close()
+        self.assertEqual(len(set(got)), 60)
+        self.assertEqual([len(ids) for ids in batches.received[:2]], [25, 25])
+        self.assertLess(len(taken), 100)
+
+    def test_an_id_that_comes_twice(self):
+        with self.assertRaises(ValueError):
+            list(self.client.batch([jobs(1)[0], jobs(1)[0]]))
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+class Progress(unittest.TestCase):
+    def test_bar(self):
+        now = [0.0]
+        terminal = Terminal()
+        bar = tubecut.ProgressBar(terminal, width=10, clock=lambda: now[0])
+        now[0] = 2.0
+        bar(500, 1000, 3)
+        bar(501, 1000, 3)  # too soon to be drawn
+        now[0] = 4.0
+        bar(1000, 1000, 3)
+        bar.close()
+        self.assertEqual(terminal.getvalue(),
+                         "\r\x1b[K[#####     ] 500/1000  3 refused  250/s  2 s left"
+                         "\r\x1b[K[##########] 1000/1000  3 refused  250/s\n")
+
+    def test_silent_elsewhere(self):
+        file = io.StringIO()
+        bar = tubecut.ProgressBar(file)
+        bar(1, 2, 0)
+        bar.close()
+        self.assertEqual(file.getvalue(), "")
+
+
+class Program(Case):
+    def run_program(self, *arguments, text=""):
+        command = [sys.executable, "-B", HERE / "tubecut.py", "--url", self.service.url, *arguments]
+        return subprocess.run(command, input=text, capture_output=True, text=True, timeout=60)
+
+    def test_post(self):
+        done = self.run_program("post", "bevel-tables", EXAMPLES / "bevel-tables/source-000-table-1.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        Answer.of(done.stdout)
+        done = self.run_program("post", "intersections", "-", text=json.dumps(joint(200)))
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("/cutters/0/inclination_deg", done.stderr)
+
+    def test_batch(self):
+        lines = [item.line().decode() for item in jobs(20)] + [BatchItem("bad", "intersections", joint(200)).line().decode()]
+        done = self.run_program("batch", "-", text="".join(lines))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        answers = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual(len({a["id"] for a in answers}), 21)
+        self.assertEqual([a["status"] for a in answers if a["id"] == "bad"], [422])
+
+
+if __name__ == "__main__":
+    if "--server" not in sys.argv:
+        sys.exit(__doc__)
+    at = sys.argv.index("--server")
+    BINARY = sys.argv[at + 1]
+    del sys.argv[at:at + 2]
+    unittest.main()

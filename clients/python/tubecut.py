@@ -1,0 +1,676 @@
+#!/usr/bin/env python3
+"""Client of the tubecut service: one file, standard library only, Python 3.9 or newer.
+
+    from tubecut import Client
+    answer = Client("http://127.0.0.1:8080").bevel_tables({...})
+
+Every call of tubecut is pure, so this client repeats a call wherever a replica refused, died or was full. Hashes are checked over
+the bytes the service sent. As a program: `tubecut.py --help`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections.abc
+import concurrent.futures
+import dataclasses
+import hashlib
+import http.client
+import json
+import socket
+import sys
+import threading
+import time
+import urllib.parse
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, TextIO, Tuple
+
+__all__ = ["Answer", "BatchItem", "BatchResult", "Client", "FieldError", "HashError", "Problem", "ProblemError", "ProgressBar",
+           "ProtocolError", "TubecutError", "UnreachableError"]
+
+Json = Dict[str, Any]
+_RETRYABLE = frozenset({429, 502, 503})
+_BATCH_BYTES = 4 << 20  # the service takes 8 MiB
+_BATCH_LINES = 2000
+_NDJSON = "application/x-ndjson"
+
+
+# ---- errors
+
+
+class TubecutError(Exception):
+    """Whatever this client raises."""
+
+
+class UnreachableError(TubecutError):
+    """No replica answered within the client's patience."""
+
+
+class ProtocolError(TubecutError):
+    """An answer that is not what the contract says."""
+
+
+class HashError(TubecutError):
+    """An answer whose bytes are not those the service hashed: changed on the way, or by a proxy."""
+
+
+@dataclasses.dataclass(frozen=True)
+class FieldError:
+    """One of a problem's errors: the field by JSON pointer, what it was, what its limit is."""
+
+    code: str
+    pointer: str
+    got: Any
+    limit: Any
+    unit: str
+    hint: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Problem:
+    """A problem document (RFC 9457) of the service."""
+
+    status: int
+    code: str
+    title: str
+    detail: str
+    request_id: str
+    retryable: bool
+    action: str
+    errors: Tuple[FieldError, ...]
+
+    @classmethod
+    def of(cls, document: Mapping[str, Any]) -> Problem:
+        try:
+            fields = {f.name: document[f.name] for f in dataclasses.fields(cls) if f.name != "errors"}
+            errors = tuple(FieldError(**{f.name: e[f.name] for f in dataclasses.fields(FieldError)}) for e in document["errors"])
+        except (KeyError, TypeError) as missing:
+            raise ProtocolError(f"not a problem document, {missing} is missing: {str(document)[:200]}") from None
+        return cls(errors=errors, **fields)
+
+
+class ProblemError(TubecutError):
+    """The service refused: `problem` says why, `errors` which fields."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(f"{problem.status} {problem.code}: {problem.detail}")
+        self.problem = problem
+
+    @property
+    def errors(self) -> Tuple[FieldError, ...]:
+        return self.problem.errors
+
+
+# ---- answers
+
+
+_BLANK = " \t\r\n"
+_decoder = json.JSONDecoder()
+
+
+def _skip(text: str, at: int) -> int:
+    while at < len(text) and text[at] in _BLANK:
+        at += 1
+    return at
+
+
+def _members(text: str, start: int = 0) -> Dict[str, Tuple[Any, int, int]]:
+    """The members of the object at `start`: name -> (value, begin, end), so that text[begin:end] is the value as it was sent."""
+    members: Dict[str, Tuple[Any, int, int]] = {}
+    at = _skip(text, start)
+    try:
+        if text[at] != "{":
+            raise ValueError("not an object")
+        at = _skip(text, at + 1)
+        while text[at] != "}":
+            name, at = _decoder.raw_decode(text, at)
+            at = _skip(text, at)
+            if not isinstance(name, str) or text[at] != ":" or name in members:
+                raise ValueError("a bad member")
+            begin = _skip(text, at + 1)
+            value, end = _decoder.raw_decode(text, begin)
+            members[name] = (value, begin, end)
+            at = _skip(text, end)
+            if text[at] == ",":
+                at = _skip(text, at + 1)
+            elif text[at] != "}":
+                raise ValueError("a bad separator")
+    except (IndexError, ValueError) as bad:
+        raise ProtocolError(f"unreadable answer: {bad}") from None
+    return members
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+def _without(text: str, at: int, names: Sequence[str]) -> str:
+    """The object at `at` as it was sent, but for the members `names`."""
+    kept = (f"{json.dumps(name, ensure_ascii=False)}:{text[begin:end]}"
+            for name, (_, begin, end) in _members(text, at).items() if name not in names)
+    return "{" + ",".join(kept) + "}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Answer:
+    """What the service answered. `text` is the JSON as it was sent, the rest is read from it."""
+
+    job: Json
+    request: Json
+    verification: Json
+    verdict: Json
+    warnings: List[Json]
+    result: Json  # empty with validate_only
+    log: List[Json]
+    text: str = dataclasses.field(repr=False)
+
+    @classmethod
+    def of(cls, text: str, check_hashes: bool = True) -> Answer:
+        members = _members(text)
+        for name in ("job", "request", "verification", "verdict", "warnings"):
+            if name not in members:
+                raise ProtocolError(f"an answer without {name}")
+        values = {name: value for name, (value, _, _) in members.items()}
+        answer = cls(job=values["job"], request=values["request"], verification=values["verification"],
+                     verdict=values["verdict"], warnings=values["warnings"], result=values.get("result", {}),
+                     log=values.get("log", []), text=text)
+        if check_hashes:
+            answer._check_hashes(members)
+        return answer
+
+    def _check_hashes(self, members: Mapping[str, Tuple[Any, int, int]]) -> None:
+        found = {"input_sha256": _sha256(_without(self.text, members["request"][1], ("reference", "log")))}
+        if "result" in members:
+            _, begin, end = members["result"]
+            found["result_sha256"] = _sha256(self.text[begin:end])
+        for name, digest in found.items():
+            if self.job.get(name) != digest:
+                raise HashError(f"{name} of job {self.job.get('id')} says {self.job.get(name)}, its bytes give {digest}")
+
+
+# ---- batches
+
+
+@dataclasses.dataclass(frozen=True)
+class BatchItem:
+    """One job of a batch. `id` is the caller's and must not come twice."""
+
+    id: str
+    endpoint: str  # such as bevel-tables
+    body: Mapping[str, Any]
+
+    def line(self) -> bytes:
+        return json.dumps({"id": self.id, "endpoint": self.endpoint, "body": self.body}, allow_nan=False).encode() + b"\n"
+
+
+@dataclasses.dataclass(frozen=True)
+class BatchResult:
+    """What became of one item: an answer or a problem."""
+
+    id: str
+    status: int
+    answer: Optional[Answer] = None
+    problem: Optional[Problem] = None
+
+    def unwrap(self) -> Answer:
+        if self.answer is None:
+            assert self.problem is not None
+            raise ProblemError(self.problem)
+        return self.answer
+
+
+Progress = Callable[[int, Optional[int], int], None]  # done, of how many (None: not known yet), refused among them
+
+
+class ProgressBar:
+    """Prints `[#####     ] 1200/6000  3 refused  410/s  12 s left` on a terminal, and nothing elsewhere."""
+
+    def __init__(self, stream: TextIO = sys.stderr, width: int = 30, clock: Callable[[], float] = time.monotonic) -> None:
+        self._stream, self._width, self._clock = stream, width, clock
+        self._shown = stream.isatty()
+        self._start = clock()
+        self._next = 0.0
+
+    def line(self, done: int, total: Optional[int], refused: int) -> str:
+        rate = done / max(self._clock() - self._start, 1e-9)
+        tail = f"  {refused} refused  {rate:.0f}/s"
+        if not total:
+            return f"{done}{tail}"
+        full = self._width * done // total
+        left = f"  {(total - done) / rate:.0f} s left" if 0 < done < total else ""
+        return f"[{'#' * full}{' ' * (self._width - full)}] {done}/{total}{tail}{left}"
+
+    def __call__(self, done: int, total: Optional[int], refused: int) -> None:
+        if not self._shown or (self._clock() < self._next and done != total):
+            return
+        self._next = self._clock() + 0.1
+        self._stream.write("\r\x1b[K" + self.line(done, total, refused))
+        self._stream.flush()
+
+    def close(self) -> None:
+        if self._shown:
+            self._stream.write("\n")
+            self._stream.flush()
+
+
+# ---- transport
+
+
+class _Down(Exception):
+    """This replica could not be reached, or broke off."""
+
+
+@dataclasses.dataclass
+class _Reply:
+    status: int
+    headers: http.client.HTTPMessage
+    body: bytes
+
+
+class _Open(Dict[str, http.client.HTTPConnection]):
+    """Kept-alive connections by replica; closed with their thread."""
+
+    def __del__(self) -> None:
+        for connection in self.values():
+            connection.close()
+
+
+class _Connections(threading.local):
+    def __init__(self) -> None:
+        self.open = _Open()
+
+
+class Client:
+    """The service at `urls`: several are replicas, taken in turn when one is down. Safe to share between threads.
+
+    timeout_s   for one read or write of a connection
+    patience_s  how long a call is repeated while no replica answers it
+    """
+
+    def __init__(self, *urls: str, timeout_s: float = 60.0, patience_s: float = 30.0, check_hashes: bool = True,
+                 headers: Optional[Mapping[str, str]] = None) -> None:
+        if not urls:
+            raise ValueError("no url of the service")
+        self._urls = [url.rstrip("/") for url in urls]
+        for url in self._urls:
+            if urllib.parse.urlsplit(url).scheme not in ("http", "https"):
+                raise ValueError(f"not an http url: {url}")
+        self._timeout_s, self._patience_s, self._check_hashes = timeout_s, patience_s, check_hashes
+        self._headers = dict(headers or {})
+        self._first = 0  # the replica that answered last
+        self._connections = _Connections()
+        self._batches: Dict[str, bool] = {}  # which replica has /v1/batches
+
+    # -- one job
+
+    def intersections(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """Exact points of the cut on both walls, junctions, lengths."""
+        return self.post("intersections", request, **options)
+
+    def nodes(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """From centre-lines to placements: who joins, who cuts whom."""
+        return self.post("nodes", request, **options)
+
+    def bevel_tables(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """The cutting angle B round the cut, before and after smoothing."""
+        return self.post("bevel-tables", request, **options)
+
+    def holes(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """The hole in a chord for a branch, and how the two fit."""
+        return self.post("holes", request, **options)
+
+    def parts(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """Both ends and the holes of one part in one frame."""
+        return self.post("parts", request, **options)
+
+    def pulse_schedules(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """Integer pulses per axis and control period."""
+        return self.post("pulse-schedules", request, **options)
+
+    def replays(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """The tool path a schedule makes."""
+        return self.post("replays", request, **options)
+
+    def feed_curves(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """The cylinder speed of a rotary cut-off machine."""
+        return self.post("feed-curves", request, **options)
+
+    def grooves(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """The weld groove of equal filler area."""
+        return self.post("grooves", request, **options)
+
+    def mill_paths(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """The path of a cone mill round that groove."""
+        return self.post("mill-paths", request, **options)
+
+    def post(self, endpoint: str, request: Mapping[str, Any], *, validate_only: bool = False,
+             job_id: Optional[str] = None) -> Answer:
+        """One job at `endpoint` ("bevel-tables"). Raises ProblemError when the service refuses it."""
+        query = "?validate_only=true" if validate_only else ""
+        reply = self._call("POST", f"/v1/{endpoint}{query}", self._encode(request), _job_headers(job_id))
+        return Answer.of(self._accepted(reply).decode("utf-8"), self._check_hashes)
+
+    def document(self, endpoint: str, request: Mapping[str, Any], format: str, *, view: Optional[str] = None,
+                 job_id: Optional[str] = None) -> bytes:
+        """The same answer as a drawing, table or machine file: `format` "csv", "svg" and what GET /v1/version lists."""
+        query = urllib.parse.urlencode({"format": format, **({"view": view} if view else {})})
+        return self._accepted(self._call("POST", f"/v1/{endpoint}?{query}", self._encode(request), _job_headers(job_id)))
+
+    # -- catalogues
+
+    def catalogue(self, name: str) -> Json:
+        """GET /v1/NAME: errors, limits, version, machines, tubes, examples."""
+        page = json.loads(self._accepted(self._call("GET", f"/v1/{name}", None, {})))
+        if not isinstance(page, dict):
+            raise ProtocolError(f"/v1/{name} is not an object")
+        return page
+
+    def version(self) -> Json:
+        return self.catalogue("version")
+
+    def limits(self) -> Json:
+        return self.catalogue("limits")
+
+    # -- batches
+
+    def batch(self, items: Iterable[BatchItem], *, total: Optional[int] = None, progress: Optional[Progress] = None,
+              workers: int = 4) -> Iterator[BatchResult]:
+        """Every item once, as they finish. What a dead or full replica left is sent again, to the next one.
+
+        `items` is read as it goes, a few thousand at a time. A service without /v1/batches is asked job by job, `workers` at a time.
+        """
+        if total is None and isinstance(items, collections.abc.Sized):
+            total = len(items)
+        done = refused = 0
+        for chunk in _chunks(items):
+            for one in self._chunk(chunk, workers):
+                done += 1
+                refused += one.problem is not None
+                if progress:
+                    progress(done, total, refused)
+                yield one
+
+    def _chunk(self, waiting: Dict[str, BatchItem], workers: int) -> Iterator[BatchResult]:
+        give_up = time.monotonic() + self._patience_s
+        turn = self._first
+        while waiting:
+            before = len(waiting)
+            index = turn % len(self._urls)
+            wait = 0.1
+            try:
+                run = self._streamed if self._has_batches(self._urls[index]) else self._one_by_one
+                for one in run(self._urls[index], list(waiting.values()), workers):
+                    if one.status in _RETRYABLE or waiting.pop(one.id, None) is None:
+                        continue  # sent again below, or known already
+                    yield one
+                self._first = index
+            except _Down:
+                turn += 1
+            except _Full as full:
+                turn, wait = turn + 1, full.wait_s
+            if len(waiting) < before:
+                give_up = time.monotonic() + self._patience_s
+            elif time.monotonic() + wait > give_up:
+                raise UnreachableError(f"{len(waiting)} jobs of the batch are unanswered; tried {', '.join(self._urls)}")
+            if waiting and len(waiting) == before:
+                time.sleep(wait)
+
+    def _has_batches(self, url: str) -> bool:
+        if url not in self._batches:
+            reply = self._exchange(url, "POST", "/v1/batches", b"", {"Content-Type": _NDJSON})
+            if reply.status in _RETRYABLE:
+                raise _refusal(reply)
+            self._batches[url] = reply.status not in (404, 405)
+        return self._batches[url]
+
+    def _streamed(self, url: str, items: Sequence[BatchItem], workers: int) -> Iterator[BatchResult]:
+        """The answers of one POST /v1/batches. Reads while it still sends, so neither side waits for the other."""
+        lines = [item.line() for item in items]
+        connection = self._connect(url)
+        wire: Optional[socket.socket] = None
+        sender: Optional[threading.Thread] = None
+        try:
+            connection.connect()
+            wire = connection.sock  # getresponse() forgets it when the answer says Connection: close
+            connection.putrequest("POST", urllib.parse.urlsplit(url).path + "/v1/batches")
+            headers = {**self._headers, "Content-Type": _NDJSON, "Accept": _NDJSON, "Content-Length": str(sum(map(len, lines)))}
+            for name, value in headers.items():
+                connection.putheader(name, value)
+            connection.endheaders()
+            sender = threading.Thread(target=_send_all, args=(wire, lines), daemon=True)
+            sender.start()
+            reply = connection.getresponse()
+            if reply.status != 200:
+                raise _refusal(_Reply(reply.status, reply.headers, reply.read()))
+            yield from self._answers(reply, {item.id for item in items})
+        except (OSError, http.client.HTTPException) as broken:
+            raise _Down(str(broken)) from None
+        finally:
+            _hang_up(wire)  # a caller that stops early cancels the rest by it
+            connection.close()
+            if sender:
+                sender.join(self._timeout_s)
+
+    def _answers(self, reply: http.client.HTTPResponse, ids: Iterable[str]) -> Iterator[BatchResult]:
+        known = set(ids)
+        while True:
+            line = reply.readline()
+            if not line.endswith(b"\n"):
+                raise _Down("the batch broke off before its summary")
+            if line.isspace():
+                continue
+            text = line.decode("utf-8")
+            members = _members(text)
+            if "summary" in members or "id" not in members:
+                return
+            id_ = members["id"][0]
+            if id_ not in known:
+                raise ProtocolError(f"an answer to {id_!r}, which was not asked")
+            yield self._result(text, members)
+
+    def _result(self, text: str, members: Mapping[str, Tuple[Any, int, int]]) -> BatchResult:
+        try:
+            id_, status = members["id"][0], members["status"][0]
+            document, begin, end = members["body"]
+        except KeyError as missing:
+            raise ProtocolError(f"a line of a batch without {missing}") from None
+        if status == 200:
+            return BatchResult(id_, status, answer=Answer.of(text[begin:end], self._check_hashes))
+        return BatchResult(id_, status, problem=Problem.of(document))
+
+    def _one_by_one(self, url: str, items: Sequence[BatchItem], workers: int) -> Iterator[BatchResult]:
+        """Without /v1/batches. Ends early, with some items unanswered, when the replica goes down."""
+        def run(item: BatchItem) -> BatchResult:
+            reply = self._exchange(url, "POST", f"/v1/{item.endpoint}", self._encode(item.body), _job_headers(item.id))
+            if reply.status == 200:
+                return BatchResult(item.id, 200, answer=Answer.of(reply.body.decode("utf-8"), self._check_hashes))
+            return BatchResult(item.id, reply.status, problem=_problem_of(reply))
+
+        pool = concurrent.futures.ThreadPoolExecutor(workers, thread_name_prefix="tubecut")
+        try:
+            for future in concurrent.futures.as_completed([pool.submit(run, item) for item in items]):
+                yield future.result()
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+    # -- transport
+
+    @staticmethod
+    def _encode(request: Mapping[str, Any]) -> bytes:
+        return json.dumps(request, allow_nan=False).encode()
+
+    @staticmethod
+    def _accepted(reply: _Reply) -> bytes:
+        if reply.status != 200:
+            raise ProblemError(_problem_of(reply))
+        return reply.body
+
+    def _call(self, method: str, path: str, body: Optional[bytes], headers: Mapping[str, str]) -> _Reply:
+        """One exchange, repeated at the replicas in turn while they are down or full."""
+        give_up = time.monotonic() + self._patience_s
+        attempt = 0
+        while True:
+            index = (self._first + attempt) % len(self._urls)
+            attempt += 1
+            reply: Optional[_Reply] = None
+            why = ""
+            try:
+                reply = self._exchange(self._urls[index], method, path, body, headers)
+                if reply.status not in _RETRYABLE:
+                    self._first = index
+                    return reply
+            except _Down as down:
+                why = str(down)
+            wait = 0.0 if attempt % len(self._urls) else max(_wait_s(reply), min(2.0, 0.05 * 2**attempt))
+            if time.monotonic() + wait > give_up:
+                if reply is not None:
+                    return reply
+                raise UnreachableError(f"{self._urls[index]}: {why}; tried {attempt} times")
+            time.sleep(wait)
+
+    def _connect(self, url: str) -> http.client.HTTPConnection:
+        parts = urllib.parse.urlsplit(url)
+        kind = http.client.HTTPSConnection if parts.scheme == "https" else http.client.HTTPConnection
+        connection: http.client.HTTPConnection = kind(parts.hostname or "", parts.port, timeout=self._timeout_s)
+        return connection
+
+    def _exchange(self, url: str, method: str, path: str, body: Optional[bytes], headers: Mapping[str, str]) -> _Reply:
+        """One exchange with one replica, over this thread's connection; anew where the kept one was closed meanwhile."""
+        kept = self._connections.open.pop(url, None)
+        for connection in ([kept] if kept else []) + [self._connect(url)]:
+            try:
+                connection.request(method, urllib.parse.urlsplit(url).path + path, body,
+                                   {"Content-Type": "application/json", **self._headers, **headers})
+                got = connection.getresponse()
+                reply = _Reply(got.status, got.headers, got.read())
+            except (OSError, http.client.HTTPException) as broken:
+                connection.close()
+                failure = broken
+                continue
+            if not got.will_close:
+                self._connections.open[url] = connection
+            return reply
+        raise _Down(f"{type(failure).__name__}: {failure}")
+
+
+def _job_headers(job_id: Optional[str]) -> Dict[str, str]:
+    """A header cannot carry every id; without it the service names the job by its hash."""
+    fits = job_id is not None and 0 < len(job_id) <= 128 and job_id.isascii() and job_id.isprintable() and job_id == job_id.strip()
+    return {"Job-Id": job_id} if job_id is not None and fits else {}
+
+
+class _Full(Exception):
+    def __init__(self, wait_s: float) -> None:
+        super().__init__()
+        self.wait_s = wait_s
+
+
+def _wait_s(reply: Optional[_Reply]) -> float:
+    asked = reply.headers.get("Retry-After", "") if reply else ""
+    return min(float(asked), 10.0) if asked.isdigit() else 0.0
+
+
+def _problem_of(reply: _Reply) -> Problem:
+    try:
+        return Problem.of(json.loads(reply.body))
+    except ValueError:
+        raise ProtocolError(f"{reply.status} without a problem document: {reply.body[:200]!r}") from None
+
+
+def _refusal(reply: _Reply) -> Exception:
+    """Of a whole batch."""
+    return _Full(max(0.1, _wait_s(reply))) if reply.status in _RETRYABLE else ProblemError(_problem_of(reply))
+
+
+def _send_all(wire: socket.socket, lines: Sequence[bytes]) -> None:
+    try:
+        for at in range(0, len(lines), 64):
+            wire.sendall(b"".join(lines[at:at + 64]))
+    except OSError:
+        pass  # the reader sees the same broken connection
+
+
+def _hang_up(wire: Optional[socket.socket]) -> None:
+    try:
+        if wire:
+            wire.shutdown(socket.SHUT_RDWR)
+    except OSError:
+        pass  # the other side was faster
+
+
+def _chunks(items: Iterable[BatchItem]) -> Iterator[Dict[str, BatchItem]]:
+    """Batches within the service's limit of bytes. An id that comes twice is refused: its answers could not be told apart."""
+    seen = set()
+    chunk: Dict[str, BatchItem] = {}
+    size = 0
+    for item in items:
+        if item.id in seen:
+            raise ValueError(f"the id {item.id!r} comes twice in the batch")
+        seen.add(item.id)
+        length = len(item.line())
+        if chunk and (size + length > _BATCH_BYTES or len(chunk) >= _BATCH_LINES):
+            yield chunk
+            chunk, size = {}, 0
+        chunk[item.id] = item
+        size += length
+    if chunk:
+        yield chunk
+
+
+# ---- as a program
+
+
+def _items(stream: TextIO) -> Iterator[BatchItem]:
+    for number, line in enumerate(stream, 1):
+        if not line.strip():
+            continue
+        try:
+            entry = json.loads(line)
+            yield BatchItem(str(entry["id"]), str(entry["endpoint"]), entry["body"])
+        except (ValueError, KeyError, TypeError) as bad:
+            raise SystemExit(f"line {number}: {type(bad).__name__} {bad}") from None
+
+
+def _run_batch(client: Client, path: str) -> int:
+    with (open(0, encoding="utf-8", closefd=False) if path == "-" else open(path, encoding="utf-8")) as stream:
+        items = list(_items(stream))
+    bar = ProgressBar()
+    refused = 0
+    try:
+        for one in client.batch(items, progress=bar):
+            refused += one.problem is not None
+            body = one.answer.text if one.answer else json.dumps(one.problem and dataclasses.asdict(one.problem))
+            print(f'{{"id":{json.dumps(one.id)},"status":{one.status},"body":{body}}}', flush=True)
+    finally:
+        bar.close()
+    return 1 if refused else 0
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    parser = argparse.ArgumentParser(description="Ask a tubecut service.")
+    parser.add_argument("--url", action="append", help="of a replica; may be given again (http://127.0.0.1:8080)")
+    commands = parser.add_subparsers(dest="command", required=True)
+    post = commands.add_parser("post", help="one request file; prints the answer")
+    post.add_argument("endpoint", help="such as bevel-tables")
+    post.add_argument("file", help="- for stdin")
+    batch = commands.add_parser("batch", help="NDJSON of {id, endpoint, body}; prints {id, status, body} as they finish")
+    batch.add_argument("file", help="- for stdin")
+    options = parser.parse_args(arguments)
+    client = Client(*(options.url or ["http://127.0.0.1:8080"]))
+    try:
+        if options.command == "batch":
+            return _run_batch(client, options.file)
+        text = sys.stdin.read() if options.file == "-" else open(options.file, encoding="utf-8").read()
+        print(client.post(options.endpoint, json.loads(text)).text)
+        return 0
+    except ProblemError as refused:
+        print(refused, file=sys.stderr)
+        for error in refused.errors:
+            print(f"  {error.pointer or '/'}: {error.code} {error.hint}", file=sys.stderr)
+        return 1
+    except (TubecutError, OSError, ValueError) as failed:
+        print(failed, file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,118 @@
+/** Typed client of the tubecut service. Paths, requests and answers are those of openapi.yaml. */
+import createFetchClient, {type Client, type ClientOptions} from 'openapi-fetch';
+import type {components, paths} from './schema.js';
+
+export type {components, operations, paths} from './schema.js';
+
+type Media = 'application/json' | 'application/problem+json';
+export type Schemas = components['schemas'];
+export type Problem = Schemas['Problem'];
+export type TubecutClient = Client<paths, Media>;
+
+/** A refusal or failure told by the service: which fields, what they were, what the limits are. */
+export class ProblemError extends Error {
+  constructor(readonly problem: Problem) {
+    super(`${problem.status} ${problem.code}: ${problem.detail}`);
+    this.name = 'ProblemError';
+  }
+}
+
+/** The answer's body is not what the contract says, or there is none. */
+export class ContractError extends Error {
+  override name = 'ContractError';
+}
+
+export interface RetryOptions {
+  /** How often one call is sent at most. */
+  attempts?: number;
+  /** Longest wait between two attempts, whatever `Retry-After` asks for. */
+  longestWaitMs?: number;
+  fetch?: (request: Request) => Promise<Response>;
+}
+
+const RETRYABLE = new Set([429, 502, 503]);
+
+const waitFor = (ms: number, signal: AbortSignal): Promise<void> => new Promise((resolve, reject) => {
+  const stop = () => {
+    clearTimeout(timer);
+    reject(signal.reason);
+  };
+  const timer = setTimeout(() => {
+    signal.removeEventListener('abort', stop);
+    resolve();
+  }, ms);
+  if (signal.aborted) stop();
+  else signal.addEventListener('abort', stop, {once: true});
+});
+
+const waitMs = (reply: Response | undefined, attempt: number, longest: number): number => {
+  const asked = Number(reply?.headers.get('Retry-After') ?? NaN);
+  return Math.min(longest, Number.isFinite(asked) ? 1000 * asked : 100 * 2 ** attempt);
+};
+
+/** A fetch that repeats what is safe to repeat. Every call of tubecut is pure, so each of them is. */
+export function retryingFetch(options: RetryOptions = {}): (request: Request) => Promise<Response> {
+  const {attempts = 4, longestWaitMs = 5000, fetch: send = fetch} = options;
+  return async (request) => {
+    for (let attempt = 1; ; ++attempt) {
+      let reply: Response | undefined;
+      try {
+        reply = await send(request.clone());
+        if (!RETRYABLE.has(reply.status) || attempt >= attempts) return reply;
+        await reply.body?.cancel();
+      } catch (error) {
+        if (request.signal.aborted || attempt >= attempts) throw error;
+      }
+      await waitFor(waitMs(reply, attempt, longestWaitMs), request.signal);
+    }
+  };
+}
+
+export type TubecutOptions = Omit<ClientOptions, 'baseUrl' | 'fetch'> & {retry?: RetryOptions};
+
+/** The client of one service: `POST` and `GET` take the contract's paths and check their arguments at compile time. */
+export function tubecut(baseUrl: string, {retry, ...rest}: TubecutOptions = {}): TubecutClient {
+  return createFetchClient<paths, Media>({...rest, baseUrl, fetch: retryingFetch(retry)});
+}
+
+interface Reply<Data> {
+  data?: Data;
+  error?: unknown;
+  response: Response;
+}
+
+const isProblem = (error: unknown): error is Problem =>
+  typeof error === 'object' && error !== null && 'code' in error && 'errors' in error;
+
+/** What a call was answered, or a thrown ProblemError. */
+export async function answered<Data>(call: Promise<Reply<Data>>): Promise<NonNullable<Data>> {
+  const {data, error, response} = await call;
+  if (response.ok && data !== undefined && data !== null) return data;
+  if (isProblem(error)) throw new ProblemError(error);
+  throw new ContractError(`${response.status} from ${response.url} without a problem document`);
+}
+
+export type PostPath = {[P in keyof paths]: paths[P] extends {post: unknown} ? P : never}[keyof paths];
+export type RequestBody<P extends PostPath> = paths[P]['post']['requestBody']['content']['application/json'];
+export type Answer<P extends PostPath> = paths[P]['post']['responses'][200]['content']['application/json'];
+export type Answered<P extends PostPath> = Answer<P> & {result: NonNullable<Answer<P>['result']>};
+
+export interface JobOptions {
+  /** Echoed as `job.id`. */
+  jobId?: string;
+  signal?: AbortSignal;
+}
+
+/**
+ * One job: its whole answer with `result`, or a thrown ProblemError. Stricter than `client.POST`, whose inference lets unknown
+ * fields of a literal through: here they do not compile.
+ */
+export async function post<P extends PostPath>(
+    client: TubecutClient, path: P, body: RequestBody<P>, {jobId, signal}: JobOptions = {}): Promise<Answered<P>> {
+  const send = client.POST as (path: P, init: object) => Promise<Reply<Answer<P>>>;
+  const data = await answered(send(path, {
+    body, ...(jobId === undefined ? {} : {headers: {'Job-Id': jobId}}), ...(signal === undefined ? {} : {signal}),
+  }));
+  if (data.result === undefined) throw new ContractError('an answer without result');
+  return data as Answered<P>;
+}

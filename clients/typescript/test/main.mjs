@@ -1,0 +1,96 @@
+// The types held by the compiler, then dist/ against the running service: node test/main.mjs --server BINARY
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {parseArgs} from 'node:util';
+import {Service} from '../../../tests/contract/service.mjs';
+import {compile, ROOT} from './compile.mjs';
+
+const example = (path) => JSON.parse(readFileSync(join(ROOT, '../../examples', path), 'utf8'));
+
+const {values} = parseArgs({options: {server: {type: 'string'}}});
+if (!values.server) throw new Error('usage: node test/main.mjs --server BINARY');
+
+const {faults, expected} = compile();
+assert.deepEqual(faults, [], faults.join('\n'));
+console.log(`right.ts and the README compile; ${expected} wrong calls do not`);
+
+const {answered, post, ProblemError, retryingFetch, tubecut} = await import('../dist/index.js');
+
+async function computesTableOne({client}) {
+  const {job, result, verification, verdict} =
+    await post(client, '/v1/bevel-tables', example('bevel-tables/source-000-table-1.json'), {jobId: 'B1 start'});
+  assert.equal(job.id, 'B1 start');
+  assert.equal(result.points.b_deg.length, 360);
+  assert.ok(Math.abs(result.developed_length_mm - 60 * Math.PI) < 1e-9);
+  const junctions = result.events.filter(({kind, surface}) => kind === 'junction' && surface === 'inner');
+  // tests/golden/intersections-and-bevels.json, r = 30
+  const golden = [8.15031871504, 96.77994016832, 222.07933889144, 258.49203232178, 327.60425740354];
+  assert.equal(junctions.length, golden.length);
+  junctions.forEach(({phi_deg}, i) => assert.ok(Math.abs(phi_deg - golden[i]) < 1e-9));
+  assert.ok(verification.passed && verification.checks.length > 0);
+  assert.equal(verdict.status, 'ok');
+}
+
+async function chainsTableToSchedule({client}) {
+  const body = example('pulse-schedules/table-1-on-the-five-axis-cutter.json');
+  const {result} = await post(client, '/v1/pulse-schedules', body);
+  for (const [axis, counts] of Object.entries(result.counts)) {
+    assert.equal(counts.length, result.periods);
+    assert.equal(counts.reduce((sum, n) => sum + n, 0), result.total[axis]);
+  }
+}
+
+async function tellsEveryWrongField({client}) {
+  const body = {target: {outer_diameter_mm: 70, wall_mm: 0}, cutters: [], kerf: 1};
+  await assert.rejects(post(client, '/v1/bevel-tables', body), (error) => {
+    assert.ok(error instanceof ProblemError);
+    assert.equal(error.problem.status, 422);
+    const pointers = error.problem.errors.map(({pointer}) => pointer);
+    for (const pointer of ['/target/wall_mm', '/cutters', '/kerf', '/groove']) assert.ok(pointers.includes(pointer), pointer);
+    return true;
+  });
+}
+
+async function reachesFormatsAndCatalogues({client}) {
+  const body = example('bevel-tables/source-000-table-1.json');
+  const {data} = await client.POST('/v1/bevel-tables', {body, params: {query: {format: 'csv'}}, parseAs: 'text'});
+  assert.ok(data.split('\n').length > 360);
+  const {endpoints} = await answered(client.GET('/v1/version'));
+  assert.ok(endpoints.some(({id}) => id === 'bevel-tables'));
+  const whole = await answered(client.POST('/v1/bevel-tables', {body, params: {query: {validate_only: true}}}));
+  assert.equal(whole.result, undefined);
+}
+
+async function repeatsWhatIsRetryable({base}) {
+  const statuses = [];
+  const flaky = async (request) => {
+    const reply = statuses.length < 2 ? new Response('', {status: 503, headers: {'Retry-After': '0'}}) : await fetch(request);
+    statuses.push(reply.status);
+    return reply;
+  };
+  const body = example('intersections/source-000-table-1.json');
+  await post(tubecut(base, {retry: {fetch: flaky}}), '/v1/intersections', body);
+  assert.deepEqual(statuses, [503, 503, 200]);
+
+  let sent = 0;
+  const dead = retryingFetch({attempts: 3, longestWaitMs: 1, fetch: async () => { ++sent; throw new TypeError('refused'); }});
+  await assert.rejects(dead(new Request(base)), /refused/);
+  assert.equal(sent, 3);
+
+  sent = 0;
+  await assert.rejects(post(tubecut(base, {retry: {fetch: (request) => { ++sent; return fetch(request); }}}),
+    '/v1/intersections', {}), ProblemError);
+  assert.equal(sent, 1, 'a 422 is not repeated');
+}
+
+const service = await Service.start(values.server);
+const base = `http://127.0.0.1:${service.port}`;
+try {
+  for (const test of [computesTableOne, chainsTableToSchedule, tellsEveryWrongField, reachesFormatsAndCatalogues, repeatsWhatIsRetryable]) {
+    await test({base, client: tubecut(base)});
+    console.log(`ok ${test.name}`);
+  }
+} finally {
+  assert.equal(await service.stop(), 0);
+}

@@ -1,0 +1,44 @@
+// What the client must accept. Compiled, never run.
+import {answered, post, tubecut, type Schemas} from '../src/index.js';
+
+const client = tubecut('http://127.0.0.1:8080');
+
+export const joint = {
+  target: {outer_diameter_mm: 70, wall_mm: 5},
+  cutters: [
+    {kind: 'tube', outer_diameter_mm: 110, inclination_deg: 85},
+    {kind: 'tube', outer_diameter_mm: 70, axis: {point_mm: [0, 0, 0], direction: [0, -1, 1]}},
+    {kind: 'plane', point_mm: [0, 0, 20], normal: [0, 0, 1]},
+  ],
+  root_surface: 'inner',
+  groove: {rule: 'half_dihedral'},
+  kerf_mm: 1.5,
+  smoothing: {method: 'envelope', limits: {max_slope_deg_per_mm: 5, max_curvature_deg_per_mm2: 1}},
+} satisfies Schemas['BevelTablesRequest'];
+
+export async function calls(): Promise<number> {
+  const {result: table, verification} = await post(client, '/v1/bevel-tables', joint, {jobId: 'B1 start'});
+  const passed: true = verification.passed;
+  const columns: number[] = table.points.b_deg;
+  const sign: string = table.b_sign;
+
+  const whole = await answered(client.POST('/v1/bevel-tables', {
+    body: joint,
+    params: {query: {validate_only: true}, header: {'Job-Id': 'B1 start'}},
+  }));
+  const status: 'ok' | 'review' | 'reject' = whole.verdict.status;
+
+  const csv = await client.POST('/v1/bevel-tables', {body: joint, params: {query: {format: 'csv'}}, parseAs: 'text'});
+  const text: string | undefined = csv.data;
+
+  const {result: schedule} = await post(client, '/v1/pulse-schedules',
+    {cut: joint, machine: 'five_axis_cutter', motion: {speed: {mm_min: 600}}});
+  const periods: number = schedule.periods;
+
+  const refused = await client.POST('/v1/intersections', {body: {target: {size: 'NPS 4 SCH 40'}, cutters: joint.cutters}});
+  const pointer: string | undefined = refused.error?.errors[0]?.pointer;
+
+  const limits = await answered(client.GET('/v1/limits'));
+  return Number(passed) + columns.length + sign.length + status.length + (text?.length ?? 0) + periods + (pointer?.length ?? 0) +
+    Object.keys(limits).length;
+}

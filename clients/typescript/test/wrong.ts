@@ -1,0 +1,58 @@
+// What the client must refuse. Each directive names the compiler's code and a word of its message; main.mjs holds both.
+import {post, tubecut} from '../src/index.js';
+import {joint} from './right.js';
+
+const client = tubecut('http://127.0.0.1:8080');
+const tube = {kind: 'tube', outer_diameter_mm: 110, inclination_deg: 85} as const;
+
+export async function calls(): Promise<void> {
+  // @ts-expect-error 2345 /v1/bevel-table
+  await client.POST('/v1/bevel-table', {body: joint});
+
+  // @ts-expect-error 2345 PathsWithMethod
+  await client.GET('/v1/bevel-tables', {});
+
+  // @ts-expect-error 2554 Expected 2 arguments
+  await client.POST('/v1/bevel-tables');
+
+  // @ts-expect-error 2322 wall_mm
+  await client.POST('/v1/intersections', {body: {target: {outer_diameter_mm: 70}, cutters: [tube]}});
+
+  // @ts-expect-error 2322 'string' is not assignable to type 'number'
+  await client.POST('/v1/intersections', {body: {target: {outer_diameter_mm: '70', wall_mm: 5}, cutters: [tube]}});
+
+  // @ts-expect-error 2561 surfaces
+  await post(client, '/v1/intersections', {target: {outer_diameter_mm: 70, wall_mm: 5}, cutters: [tube], surface: 'both'});
+
+  // @ts-expect-error 2353 outer_diameter
+  await post(client, '/v1/intersections', {target: {outer_diameter: 70, wall_mm: 5}, cutters: [tube]});
+
+  // @ts-expect-error 2345 machine, motion
+  await post(client, '/v1/pulse-schedules', {cut: joint});
+
+  // @ts-expect-error 2322 "outside"
+  await client.POST('/v1/bevel-tables', {body: {...joint, root_surface: 'outside'}});
+
+  // @ts-expect-error 2820 "half_dihedral"
+  await client.POST('/v1/bevel-tables', {body: {...joint, groove: {rule: 'half_dihedal'}}});
+
+  // @ts-expect-error 2322 '"sphere"' is not assignable
+  await client.POST('/v1/intersections', {body: {...joint, cutters: [{kind: 'sphere', outer_diameter_mm: 110}]}});
+
+  // @ts-expect-error 2322 'string' is not assignable to type 'boolean | undefined'
+  await client.POST('/v1/bevel-tables', {body: joint, params: {query: {validate_only: 'yes'}}});
+
+  const {result: table} = await post(client, '/v1/bevel-tables', joint);
+  // @ts-expect-error 2339 b_degrees
+  table.points.b_degrees;
+
+  // @ts-expect-error 2322 'number[]' is not assignable to type 'string[]'
+  const text: string[] = table.points.b_deg;
+
+  const whole = await client.POST('/v1/bevel-tables', {body: joint});
+  // @ts-expect-error 18048 possibly 'undefined'
+  whole.data.job;
+
+  // @ts-expect-error 2367 no overlap
+  if (whole.data?.verdict.status === 'fine') console.log(text);
+}

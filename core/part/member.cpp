@@ -1,0 +1,220 @@
+#include "core/part/member.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/part/edge.hpp"
+#include "core/part/place.hpp"
+
+namespace tubecut::part {
+namespace {
+
+using Eigen::Vector3d;
+using joint::AxisLine;
+using joint::End;
+using joint::MemberEnd;
+using joint::MemberFrame;
+
+Vector3d into(const joint::Member& m, End end) {
+  return m.at(end == End::start ? End::finish : End::start) - m.at(end);
+}
+
+/// The partners of an end, seen from `frame`.
+Result<std::vector<joint::Partner>> partners(const joint::NodeSpec& node, const MemberEnd& end,
+                                             const MemberFrame& frame) {
+  std::vector<joint::Partner> out;
+  const bool same = frame.rows == end.frame.rows;
+  for (const auto& cut : end.cut_by) {
+    const auto& m = node.members[cut.member];
+    const auto placed = same
+                            ? Result<joint::Placement>(cut.placement)
+                            : joint::place(frame.local(AxisLine{m.start, m.finish - m.start}),
+                                           m.outer_radius, "members/" + std::to_string(cut.member));
+    if (!placed) return tl::unexpected(placed.error());
+    out.emplace_back(placed->tube);
+  }
+  return out;
+}
+
+/// Start and finish frame with one x: that of `up`, of the start's chord, or of the finish's.
+Result<std::pair<MemberFrame, MemberFrame>> frames(const joint::Member& m, const MemberEnd& start,
+                                                   const MemberEnd& finish) {
+  const bool from_start = m.up.has_value() || !start.cut_by.empty();
+  const Vector3d x = (from_start ? start : finish).frame.rows.row(0);
+  auto first =
+      from_start ? Result<MemberFrame>(start.frame) : joint::member_frame(m.start, m.finish, x);
+  auto last = m.up.has_value() ? Result<MemberFrame>(finish.frame)
+                               : joint::member_frame(m.finish, m.start, x);
+  if (!first) return tl::unexpected(first.error());
+  if (!last) return tl::unexpected(last.error());
+  return std::pair{*first, *last};
+}
+
+/// Where the axis of a member that stands here leaves the outer surface; on the nearest side
+/// when it passes by.
+Mark mark_of(const joint::Member& branch, End end, const MemberFrame& frame, double radius) {
+  const AxisLine line = frame.local(AxisLine{branch.at(end), into(branch, end)});
+  const Vector3d d = line.direction / line.direction.norm();
+  const Vector3d& p = line.point;
+  const double flat = d.x() * d.x() + d.y() * d.y();
+  const double along = p.x() * d.x() + p.y() * d.y();
+  const double beside = p.x() * p.x() + p.y() * p.y() - radius * radius;
+  const double square = std::max(0.0, along * along - flat * beside);
+  const Vector3d out = p + (std::sqrt(square) - along) / flat * d;
+  return {Mark::Kind::partner, branch.name, whole_turn(elementary::atan2(out.y(), out.x())),
+          out.z(), out.z()};
+}
+
+bool cut_by(const MemberEnd& end, std::size_t member) {
+  return std::ranges::any_of(end.cut_by, [&](const auto& c) { return c.member == member; });
+}
+
+struct Standing {
+  std::size_t member;
+  End end;
+};
+
+/// Ends of other members that this one cuts.
+std::vector<Standing> standing_on(const joint::Nodes& nodes, std::size_t member) {
+  std::vector<Standing> out;
+  for (const auto& end : nodes.ends)
+    if (cut_by(end, member)) out.push_back({end.member, end.end});
+  return out;
+}
+
+bevel::HoleSpec hole_for(bevel::HoleSpec hole, const joint::Target& chord,
+                         const joint::Member& branch, End end, const MemberFrame& frame) {
+  hole.chord = chord;
+  hole.chord.length.reset();
+  hole.branch = joint::AxisTube{.radius = branch.outer_radius,
+                                .axis = frame.local(AxisLine{branch.at(end), into(branch, end)})};
+  hole.branch_wall = branch.wall;
+  return hole;
+}
+
+Result<std::vector<HoleSpec>> holes(const MemberSpec& spec, const joint::NodeSpec& node,
+                                    const std::vector<Standing>& standing,
+                                    const joint::Target& chord, const MemberFrame& frame) {
+  std::vector<HoleSpec> out;
+  for (std::size_t i = 0; i < spec.holes.size(); ++i) {
+    const auto member = spec.branches[i];
+    const auto& branch = node.members[member];
+    const bool through = spec.holes[i].kind == bevel::JointKind::through;
+    const auto before = out.size();
+    if (through && member != spec.member)
+      out.push_back({hole_for(spec.holes[i], chord, branch, End::start, frame), branch.name, i});
+    for (const auto& one : standing)
+      if (!through && one.member == member)
+        out.push_back({hole_for(spec.holes[i], chord, branch, one.end, frame), branch.name, i});
+    if (out.size() == before)
+      return fail({.code = ErrorCode::no_contact,
+                   .member = "holes/" + std::to_string(i) + "/member",
+                   .got = branch.name,
+                   .hint = "no end of this member is cut by the part"});
+  }
+  return out;
+}
+
+EndSpec end_spec(const MemberSpec& spec, const joint::Target& target,
+                 std::vector<joint::Partner> partners) {
+  auto cut = spec.cut;
+  cut.target = target;
+  if (partners.empty()) return square_end(cut, 0.0);
+  cut.partners = std::move(partners);
+  return {.cut = std::move(cut)};
+}
+
+std::vector<std::size_t> members_of(const MemberEnd& end) {
+  std::vector<std::size_t> out;
+  for (const auto& cut : end.cut_by) out.push_back(cut.member);
+  return out;
+}
+
+std::vector<Warning> about(const joint::Nodes& nodes, std::size_t member) {
+  std::vector<Warning> out;
+  const auto at = "members/" + std::to_string(member) + "/";
+  for (const auto& w : nodes.warnings)
+    if (w.member.starts_with(at) && w.code != WarningCode::near_parallel) out.push_back(w);
+  return out;
+}
+
+}  // namespace
+
+Result<Angle> datum_angle(Datum datum, Angle seam, const std::vector<joint::Partner>& start,
+                          const std::vector<joint::Partner>& finish) {
+  if (datum == Datum::up) return Angle{};
+  if (datum == Datum::seam) return seam;
+  if (!start.empty())
+    if (const auto side = bearing(start.front())) return Angle::rad(side->perpendicular);
+  if (!finish.empty())
+    if (const auto side = bearing(finish.front())) return Angle::rad(-side->perpendicular);
+  return fail({.code = ErrorCode::bad_reference_direction,
+               .member = "datum",
+               .got = "first_cutter",
+               .limit = "up|seam",
+               .unit = {},
+               .hint = "neither end has a partner that points anywhere"});
+}
+
+EndSpec square_end(const bevel::TableSpec& options, double height) {
+  EndSpec out{.cut = {.target = options.target, .sampling = options.sampling}, .welded = false};
+  out.cut.partners = {joint::PlaneCutter{.point = {0.0, 0.0, height}}};
+  out.cut.groove = bevel::SquareCut{};
+  out.cut.kerf = options.kerf;
+  out.cut.torch = options.torch;
+  out.cut.smoothing = bevel::NoSmoothing{};
+  return out;
+}
+
+Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& stop) {
+  auto node = spec.node;
+  auto& m = node.members.at(spec.member);
+  if (spec.up) m.up = spec.up;
+  const auto nodes = joint::solve(node, stop);
+  if (!nodes) {
+    auto error = nodes.error();
+    const auto own = "members/" + std::to_string(spec.member) + "/up";
+    for (auto& issue : error.issues)
+      if (spec.up && issue.member == own) issue.member = "up";
+    return tl::unexpected(std::move(error));
+  }
+  const auto& start = nodes->ends[2 * spec.member];
+  const auto& finish = nodes->ends[2 * spec.member + 1];
+  const auto both = frames(m, start, finish);
+  if (!both) return tl::unexpected(both.error());
+  auto at_start = partners(node, start, both->first);
+  auto at_finish = partners(node, finish, both->second);
+  if (!at_start) return tl::unexpected(at_start.error());
+  if (!at_finish) return tl::unexpected(at_finish.error());
+  auto zero = datum_angle(spec.datum, Angle{}, *at_start, *at_finish);
+  if (!zero) return tl::unexpected(zero.error());
+  if (spec.datum == Datum::seam) zero = *zero + spec.seam;
+  FoundMember out;
+  auto& part = out.part;
+  part.target = {
+      .outer_radius = m.outer_radius, .wall = m.wall, .length = (m.finish - m.start).norm()};
+  part.zero = *zero;
+  part.start_frame = both->first;
+  part.name = m.name;
+  part.start = end_spec(spec, part.target, *std::move(at_start));
+  part.finish = end_spec(spec, part.target, *std::move(at_finish));
+  const auto standing = standing_on(*nodes, spec.member);
+  for (const auto& one : standing)
+    part.partners.push_back(
+        mark_of(node.members[one.member], one.end, both->first, m.outer_radius));
+  auto cut = holes(spec, node, standing, part.target, both->first);
+  if (!cut) return tl::unexpected(cut.error());
+  part.holes = *std::move(cut);
+  part.clamping = spec.clamping;
+  part.facing = spec.facing;
+  part.density = spec.density;
+  out.start_cutters = members_of(start);
+  out.finish_cutters = members_of(finish);
+  out.warnings = about(*nodes, spec.member);
+  return out;
+}
+
+}  // namespace tubecut::part

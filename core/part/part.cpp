@@ -1,0 +1,254 @@
+#include "core/part/part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/math/rotation.hpp"
+#include "core/part/place.hpp"
+#include "core/part/volume.hpp"
+
+namespace tubecut::part {
+namespace {
+
+using bevel::Table;
+
+template <class T>
+tl::unexpected<Error> under(const Result<T>& result, const std::string& parent) {
+  auto error = result.error();
+  for (auto& issue : error.issues)
+    issue.member = parent + (issue.member.empty() ? "" : "/" + issue.member);
+  return tl::unexpected(std::move(error));
+}
+
+void carry(std::vector<Warning> warnings, const std::string& parent, std::vector<Warning>& out) {
+  for (auto& w : warnings) {
+    w.member = parent + (w.member.empty() ? "" : "/" + w.member);
+    out.push_back(std::move(w));
+  }
+}
+
+/// The end cut in its own frame, which is turned so that its phi = 0 is the part's.
+Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& stop) {
+  const auto& asked = finish ? spec.finish : spec.start;
+  End out{.spec = asked.cut};
+  const Angle by = finish ? spec.zero : -spec.zero;
+  for (auto& partner : out.spec.partners) partner = turned(partner, by);
+  auto table = bevel::table(out.spec, stop);
+  if (!table) return under(table, finish ? "finish" : "start");
+  out.own = *std::move(table);
+  if (!asked.welded) return out;
+  out.weld_length = out.own.length_total;
+  out.groove_volume = groove_volume(out.spec, out.own);
+  return out;
+}
+
+double lowest(const Table& t) {
+  return std::min(*std::ranges::min_element(t.z_inner), *std::ranges::min_element(t.z_outer));
+}
+double highest(const Table& t) {
+  return std::max(*std::ranges::max_element(t.z_inner), *std::ranges::max_element(t.z_outer));
+}
+
+Result<void> cut_holes(const PartSpec& spec, Part& out, const std::stop_token& stop) {
+  for (std::size_t i = 0; i < spec.holes.size(); ++i) {
+    auto asked = spec.holes[i].hole;
+    asked.branch = turned(asked.branch, -spec.zero);
+    auto cut = bevel::hole(asked, stop);
+    const auto at = "holes/" + std::to_string(spec.holes[i].asked);
+    if (!cut) return under(cut, at);
+    carry(cut->warnings, at, out.warnings);
+    out.hole_specs.push_back(std::move(asked));
+    out.hole_cuts.push_back(*std::move(cut));
+  }
+  return {};
+}
+
+Edge outer_edge(const Table& t) { return {t.phi, t.z_outer}; }
+Edge inner_edge(const Table& t) { return {t.phi, t.z_inner}; }
+
+/// The two cuts of a wall must not meet. Both are straight between their nodes.
+Result<void> check_left(const Part& p, double length) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const bool outer : {false, true}) {
+    const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
+    const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
+    for (const auto* nodes : {&a.phi, &b.phi})
+      for (const double phi : *nodes) least = std::min(least, b.at(phi).low - a.at(phi).high);
+  }
+  if (least > 0.0) return {};
+  return fail({.code = ErrorCode::member_consumed,
+               .member = "target/length",
+               .got = length,
+               .limit = length - least,
+               .unit = "mm",
+               .hint = "the cuts of both ends meet; the limit is where they just touch"});
+}
+
+/// How far beyond the finished edges the kerf reaches: a whole kerf.
+double lowest_kerf(const Table& t) {
+  double out = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+    const double drop = t.z_outer[i] - t.torch_outer[i];
+    out = std::min({out, t.torch_outer[i] - drop, t.torch_inner[i] - drop});
+  }
+  return out;
+}
+double highest_kerf(const Table& t) {
+  double out = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+    const double rise = t.torch_outer[i] - t.z_outer[i];
+    out = std::max({out, t.torch_outer[i] + rise, t.torch_inner[i] + rise});
+  }
+  return out;
+}
+
+Lengths lengths(const PartSpec& spec, const Part& p) {
+  Lengths out;
+  const auto& s = p.start.table;
+  const auto& f = p.finish.table;
+  out.work_point = *spec.target.length;
+  out.longest = highest(f) - lowest(s);
+  out.shortest = lowest(f) - highest(s);
+  out.blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing;
+  out.weld = p.start.weld_length + p.finish.weld_length;
+  out.volume = end_volume(p.finish.spec, f) - end_volume(p.start.spec, s);
+  for (const auto& placed : p.holes) out.volume -= hole_volume(spec.target, placed.hole);
+  out.mass = out.volume * 1e-9 * spec.density;
+  return out;
+}
+
+/// What lies on the finished part: the datum line, the part's mark, who stands where.
+std::vector<Mark> marks(const PartSpec& spec, const Part& p, double dz) {
+  const double from = outer_edge(p.start.table).at(0.0).high;
+  const double to = outer_edge(p.finish.table).at(0.0).low;
+  std::vector<Mark> out{{Mark::Kind::datum_line, "0", 0.0, from, to}};
+  if (!spec.name.empty()) {
+    const double middle = 0.5 * (from + to);
+    out.push_back({Mark::Kind::part_mark, spec.name, 0.0, middle, middle});
+  }
+  for (auto mark : spec.partners) {
+    mark.phi = whole_turn(mark.phi - spec.zero.rad());
+    mark.z_from += dz;
+    mark.z_to += dz;
+    out.push_back(std::move(mark));
+  }
+  return out;
+}
+
+std::pair<double, double> span_of(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto x = std::ranges::minmax(a);
+  const auto y = std::ranges::minmax(b);
+  return {std::min(x.min, y.min), std::max(x.max, y.max)};
+}
+
+/// Marks first, then holes from the free end towards the clamp, then the free end, then the end
+/// that parts the piece from what is clamped.
+std::vector<Step> sequence(const Part& p) {
+  std::vector<Step> out;
+  for (std::size_t i = 0; i < p.marks.size(); ++i)
+    out.push_back({Step::What::mark, i, p.marks[i].z_from, p.marks[i].z_to});
+  const auto first = out.size();
+  for (std::size_t i = 0; i < p.holes.size(); ++i) {
+    const auto& h = p.holes[i].hole;
+    const auto span = span_of(h.torch_z, h.torch_z_inner);
+    out.push_back({Step::What::hole, i, span.first, span.second});
+  }
+  std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                   [](const Step& a, const Step& b) { return a.z_to > b.z_to; });
+  for (const bool finish : {true, false}) {
+    const auto& t = finish ? p.finish.table : p.start.table;
+    const auto span = span_of(t.torch_inner, t.torch_outer);
+    out.push_back({finish ? Step::What::finish : Step::What::start, 0, span.first, span.second});
+  }
+  return out;
+}
+
+/// A hole whose edge leaves the wall between the two cuts.
+void warn_of_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
+  for (const auto& placed : p.holes) {
+    bool outside = false;
+    for (const bool outer : {false, true}) {
+      const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
+      const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
+      const auto& phi = outer ? placed.hole.phi : placed.hole.phi_inner;
+      const auto& z = outer ? placed.hole.z : placed.hole.z_inner;
+      for (std::size_t i = 0; i < phi.size(); ++i)
+        outside = outside || z[i] <= a.at(phi[i]).high || z[i] >= b.at(phi[i]).low;
+    }
+    if (outside)
+      out.push_back({.code = WarningCode::hole_meets_end,
+                     .member = "holes/" + std::to_string(spec.holes[placed.asked].asked),
+                     .detail = "its edge reaches into the cut at an end"});
+  }
+}
+
+EdgePoint edge_point(const Table& t, bool upwards) {
+  const auto edge = outer_edge(t);
+  const auto i = edge.extreme(upwards);
+  return {edge.phi[i], edge.z[i]};
+}
+
+Shape shape_of(const PartSpec& spec, const Part& p) {
+  const auto outer = [](const End& e) { return e.spec.root_surface == bevel::RootSurface::outer; };
+  return {.outer_radius = spec.target.outer_radius,
+          .wall = spec.target.wall,
+          .start_outer = outer_edge(p.start.table),
+          .start_inner = inner_edge(p.start.table),
+          .finish_outer = outer_edge(p.finish.table),
+          .finish_inner = inner_edge(p.finish.table),
+          .start_root_outer = outer(p.start),
+          .finish_root_outer = outer(p.finish)};
+}
+
+joint::MemberFrame part_frame(const PartSpec& spec, double dz) {
+  joint::MemberFrame out;
+  out.rows = math::turn_about_z(-spec.zero.rad()) * spec.start_frame.rows;
+  out.origin = spec.start_frame.origin - dz * spec.start_frame.rows.row(2).transpose();
+  return out;
+}
+
+/// Everything that follows from the two ends and the holes.
+void assemble(const PartSpec& spec, Part& out) {
+  const double length = *spec.target.length;
+  const double dz = -lowest(out.start.own);
+  out.frame = part_frame(spec, dz);
+  out.start.table = shifted(out.start.own, dz);
+  out.finish.table = shifted(seen_from_start(out.finish.own, length), dz);
+  out.start.longest = edge_point(out.start.table, false);
+  out.start.shortest = edge_point(out.start.table, true);
+  out.finish.longest = edge_point(out.finish.table, true);
+  out.finish.shortest = edge_point(out.finish.table, false);
+  for (std::size_t i = 0; i < out.hole_cuts.size(); ++i)
+    for (const auto& hole : out.hole_cuts[i].holes) out.holes.push_back({shifted(hole, dz), i});
+  out.marks = marks(spec, out, dz);
+}
+
+}  // namespace
+
+Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
+  if (!spec.target.length)
+    return fail({.code = ErrorCode::missing_field, .member = "target/length"});
+  Part out;
+  for (const bool finish : {false, true}) {
+    auto end = cut_end(spec, finish, stop);
+    if (!end) return tl::unexpected(end.error());
+    // A plane square to the axis has nothing to warn of.
+    if ((finish ? spec.finish : spec.start).welded)
+      carry(end->own.warnings, finish ? "finish" : "start", out.warnings);
+    (finish ? out.finish : out.start) = *std::move(end);
+  }
+  if (auto ok = cut_holes(spec, out, stop); !ok) return tl::unexpected(ok.error());
+  assemble(spec, out);
+  if (auto ok = check_left(out, *spec.target.length); !ok) return tl::unexpected(ok.error());
+  warn_of_holes(spec, out, out.warnings);
+  out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
+  out.lengths = lengths(spec, out);
+  out.check_dimensions = check_dimensions(shape_of(spec, out));
+  out.sequence = sequence(out);
+  return out;
+}
+
+}  // namespace tubecut::part

@@ -1,0 +1,232 @@
+#include "core/part/place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+#include "core/base/elementary.hpp"
+#include "core/math/rotation.hpp"
+#include "core/part/edge.hpp"
+
+namespace tubecut::part {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSquare = 1e-9;  // sine below which a partner stands at right angles
+
+struct Turn {
+  Eigen::Matrix3d by;
+  Angle angle;
+
+  void operator()(joint::TubeCutter& t) const { t.clocking = t.clocking + angle; }
+  void operator()(joint::AxisTube& t) const {
+    t.axis.point = by * t.axis.point;
+    t.axis.direction = by * t.axis.direction;
+  }
+  void operator()(joint::PlaneCutter& p) const {
+    p.point = by * p.point;
+    p.normal = by * p.normal;
+  }
+  void operator()(joint::BoxCutter& b) const {
+    b.point = by * b.point;
+    b.direction = by * b.direction;
+    b.up = by * b.up;
+  }
+  void operator()(joint::ConeCutter& c) const {
+    c.point = by * c.point;
+    c.direction = by * c.direction;
+  }
+  void operator()(joint::ElbowCutter& e) const {
+    e.point = by * e.point;
+    e.direction = by * e.direction;
+    e.inwards = by * e.inwards;
+  }
+};
+
+template <class T>
+T turned_any(T out, Angle by) {
+  if (by.rad() == 0.0) return out;
+  std::visit(Turn{math::turn_about_z(by.rad()), by}, out);
+  return out;
+}
+
+double other_way(double phi) { return phi == 0.0 ? 0.0 : kTwoPi - phi; }
+
+/// Rows in the order of falling phi, those at phi = 0 first.
+std::vector<std::size_t> reversed(const std::vector<double>& phi) {
+  const auto zeros = static_cast<std::size_t>(std::ranges::count(phi, 0.0));
+  std::vector<std::size_t> out;
+  for (std::size_t i = zeros; i-- > 0;) out.push_back(i);
+  for (std::size_t i = phi.size(); i-- > zeros;) out.push_back(i);
+  return out;
+}
+
+template <class T>
+std::vector<T> picked(const std::vector<T>& column, const std::vector<std::size_t>& order) {
+  std::vector<T> out;
+  if (column.empty()) return out;
+  for (const auto i : order) out.push_back(column[i]);
+  return out;
+}
+
+std::vector<double> mirrored(const std::vector<double>& column,
+                             const std::vector<std::size_t>& order, double about = 0.0) {
+  auto out = picked(column, order);
+  for (auto& v : out) v = about - v;
+  return out;
+}
+
+std::vector<joint::Event> mirrored(std::vector<joint::Event> events, double length) {
+  for (auto& e : events) {
+    e.phi = other_way(e.phi);
+    std::swap(e.from, e.to);
+    std::swap(e.z_from, e.z_to);
+    e.z_from = length - e.z_from;
+    e.z_to = length - e.z_to;
+  }
+  std::ranges::stable_sort(events, {}, &joint::Event::phi);
+  return events;
+}
+
+/// The phase after which a step comes when seen the other way: that of the next row.
+double next_phi(const std::vector<double>& phi, double at) {
+  const auto next = std::ranges::upper_bound(phi, at);
+  return next == phi.end() ? phi.front() : *next;
+}
+
+void mirror_lists(const bevel::Table& in, bevel::Table& out) {
+  for (const auto& m : in.mutations)
+    out.mutations.push_back({other_way(next_phi(in.phi, m.phi)), m.step});
+  std::ranges::stable_sort(out.mutations, {}, &bevel::Table::Step::phi);
+  for (const auto& w : in.windows)
+    out.windows.push_back({.phi = other_way(next_phi(in.phi, w.phi)),
+                           .step = w.step,
+                           .kept_before = !w.kept_before,
+                           .from = other_way(w.to),
+                           .to = other_way(w.from),
+                           .slope_start = w.slope_end,
+                           .slope_end = w.slope_start});
+  for (const auto& b : in.torch_binds) {
+    const double from = whole_turn(kTwoPi - b.to);
+    out.torch_binds.push_back({from, from + (b.to - b.from), b.groove_lost, b.root_gap});
+  }
+  std::ranges::stable_sort(out.torch_binds, {}, &bevel::Table::Binding::from);
+}
+
+Vector3d axis_of(const joint::AxisTube& t) { return t.axis.direction; }
+Vector3d axis_of(const joint::BoxCutter& b) { return b.direction; }
+Vector3d axis_of(const joint::ConeCutter& c) { return c.direction; }
+Vector3d axis_of(const joint::ElbowCutter& e) { return e.direction; }
+
+Bearing bearing_of_axis(Vector3d d) {
+  d /= d.norm();
+  Bearing out{whole_turn(elementary::atan2(d.x(), -d.y())), std::nullopt};
+  if (std::abs(d.z()) <= kSquare) return out;
+  if (d.z() < 0.0) d = -d;
+  out.lean = whole_turn(elementary::atan2(d.y(), d.x()));
+  return out;
+}
+
+struct BearingOf {
+  std::optional<Bearing> operator()(const joint::TubeCutter& t) const {
+    const double side = t.clocking.rad() - 0.5 * kPi;
+    const double rise = elementary::cos(t.inclination.rad());
+    Bearing out{whole_turn(t.clocking.rad()), std::nullopt};
+    if (std::abs(rise) > kSquare) out.lean = whole_turn(rise > 0.0 ? side : side + kPi);
+    return out;
+  }
+  std::optional<Bearing> operator()(const joint::PlaneCutter& p) const {
+    Vector3d n = p.normal / p.normal.norm();
+    if (n.z() < 0.0) n = -n;
+    if (elementary::hypot(n.x(), n.y()) <= kSquare) return std::nullopt;
+    const double lean = whole_turn(elementary::atan2(-n.y(), -n.x()));
+    return Bearing{whole_turn(lean + 0.5 * kPi), lean};
+  }
+  template <class T>
+  std::optional<Bearing> operator()(const T& other) const {
+    return bearing_of_axis(axis_of(other));
+  }
+};
+
+}  // namespace
+
+joint::Partner turned(joint::Partner partner, Angle by) {
+  return turned_any(std::move(partner), by);
+}
+bevel::BranchPlacement turned(bevel::BranchPlacement branch, Angle by) {
+  return turned_any(std::move(branch), by);
+}
+
+bevel::Table seen_from_start(const bevel::Table& in, double length) {
+  const auto order = reversed(in.phi);
+  bevel::Table out;
+  const double rho = in.developed_total / kTwoPi;
+  const auto zeros = static_cast<std::size_t>(std::ranges::count(in.phi, 0.0));
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto i = order[k];
+    out.phi.push_back(other_way(in.phi[i]));
+    out.developed.push_back(rho * out.phi.back());
+    out.length.push_back(k < zeros ? in.length[zeros - 1] - in.length[i]
+                                   : in.length_total + (zeros > 0 ? in.length[zeros - 1] : 0.0) -
+                                         in.length[i]);
+  }
+  out.cutter = picked(in.cutter, order);
+  out.zone = picked(in.zone, order);
+  for (auto column : {&bevel::Table::z_inner, &bevel::Table::z_outer, &bevel::Table::z_face,
+                      &bevel::Table::torch_inner, &bevel::Table::torch_outer})
+    out.*column = mirrored(in.*column, order, length);
+  for (auto column : {&bevel::Table::tau, &bevel::Table::flush, &bevel::Table::b_raw,
+                      &bevel::Table::b_required, &bevel::Table::b, &bevel::Table::b_face})
+    out.*column = mirrored(in.*column, order);
+  for (auto column : {&bevel::Table::dihedral, &bevel::Table::groove, &bevel::Table::gamma,
+                      &bevel::Table::gap, &bevel::Table::beam})
+    out.*column = picked(in.*column, order);
+  out.inner_events = mirrored(in.inner_events, length);
+  out.outer_events = mirrored(in.outer_events, length);
+  mirror_lists(in, out);
+  out.length_total = in.length_total;
+  out.developed_total = in.developed_total;
+  return out;
+}
+
+bevel::Table shifted(bevel::Table table, double dz) {
+  for (auto column : {&bevel::Table::z_inner, &bevel::Table::z_outer, &bevel::Table::z_face,
+                      &bevel::Table::torch_inner, &bevel::Table::torch_outer})
+    for (auto& z : table.*column) z += dz;
+  for (auto* events : {&table.inner_events, &table.outer_events})
+    for (auto& e : *events) {
+      e.z_from += dz;
+      e.z_to += dz;
+    }
+  return table;
+}
+
+bevel::Hole shifted(bevel::Hole hole, double dz) {
+  for (auto column :
+       {&bevel::Hole::z, &bevel::Hole::z_inner, &bevel::Hole::torch_z, &bevel::Hole::torch_z_inner})
+    for (auto& z : hole.*column) z += dz;
+  return hole;
+}
+
+std::optional<Bearing> bearing(const joint::Partner& partner) {
+  return std::visit(BearingOf{}, partner);
+}
+
+double clocking_between(const std::vector<joint::Partner>& start,
+                        const std::vector<joint::Partner>& finish) {
+  if (start.empty() || finish.empty()) return 0.0;
+  const auto a = bearing(start.front());
+  const auto b = bearing(finish.front());
+  if (!a || !b) return 0.0;
+  // The finish's own phi runs the other way.
+  const bool both = a->lean && b->lean;
+  const double turn = both ? -*b->lean - *a->lean : -b->perpendicular - a->perpendicular;
+  const double period = both ? kTwoPi : kPi;
+  const double from = turn - period * std::floor(turn / period);
+  return from > 0.5 * period ? from - period : from;
+}
+
+}  // namespace tubecut::part

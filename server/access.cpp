@@ -1,0 +1,234 @@
+#include "server/access.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <openssl/crypto.h>
+#include <openssl/sha.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "server/identity.hpp"
+
+namespace tubecut::server {
+namespace {
+
+using Digest = std::array<std::uint8_t, 32>;
+
+constexpr double kBurstSeconds = 1.0;  // of the rate, kept for use at once; at least one request
+
+Digest digest(std::string_view text) {
+  Digest out{};
+  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  SHA256(bytes.data(), bytes.size(), out.data());
+  return out;
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return -1;
+}
+
+std::optional<Digest> from_hex(std::string_view text) {
+  Digest out{};
+  if (text.size() != 2 * out.size()) return std::nullopt;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const int high = hex_digit(text[2 * i]);
+    const int low = hex_digit(text[2 * i + 1]);
+    if (high < 0 || low < 0) return std::nullopt;
+    out[i] = static_cast<std::uint8_t>(16 * high + low);
+  }
+  return out;
+}
+
+std::string to_hex(const Digest& bytes) {
+  std::string out;
+  for (const auto byte : bytes) fmt::format_to(std::back_inserter(out), "{:02x}", byte);
+  return out;
+}
+
+bool sound_identity(std::string_view name) {
+  return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '.';
+  });
+}
+
+tl::expected<ApiKey, std::string> parse_key(const std::string& line) {
+  std::istringstream words(line);
+  std::string hash;
+  std::string more;
+  ApiKey key;
+  words >> key.identity >> hash;
+  const auto bytes = from_hex(hash);
+  if (!sound_identity(key.identity))
+    return tl::unexpected(std::string("an identity is letters, digits, . _ -"));
+  if (!bytes)
+    return tl::unexpected(std::string("a key is given as its SHA-256 in 64 lower-case hex digits"));
+  key.sha256 = *bytes;
+  if (!(words >> std::ws).eof() && !(words >> key.per_second && key.per_second > 0.0)) {
+    return tl::unexpected(std::string("a rate is a number of requests per second above 0"));
+  }
+  words.clear();
+  if (words >> more) return tl::unexpected(std::string("there are more than three words"));
+  return key;
+}
+
+std::string sent_key(const Headers& headers) {
+  constexpr std::string_view kScheme = "Bearer ";
+  const auto authorization = header(headers, "Authorization");
+  if (equal_ignoring_case(authorization.substr(0, kScheme.size()), kScheme)) {
+    return std::string(authorization.substr(kScheme.size()));
+  }
+  return std::string(header(headers, "X-Api-Key"));
+}
+
+/// An address as 16 bytes, those of IPv4 mapped into IPv6; and how many bits of them are the
+/// network.
+struct Network {
+  std::array<std::uint8_t, 16> bytes = {};
+  int bits = 128;
+};
+
+std::optional<Network> parse_address(const std::string& text) {
+  Network out;
+  if (inet_pton(AF_INET6, text.c_str(), out.bytes.data()) == 1) return out;
+  out.bytes = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
+  if (inet_pton(AF_INET, text.c_str(), out.bytes.data() + 12) == 1) return out;
+  return std::nullopt;
+}
+
+std::optional<Network> parse_network(const std::string& text) {
+  const auto slash = text.find('/');
+  auto out = parse_address(text.substr(0, slash));
+  if (!out || slash == std::string::npos) return out;
+  const bool four = text.find(':') == std::string::npos;
+  int bits = -1;
+  std::istringstream(text.substr(slash + 1)) >> bits;
+  if (bits < 0 || bits > (four ? 32 : 128)) return std::nullopt;
+  out->bits = four ? 96 + bits : bits;
+  return out;
+}
+
+bool within(const Network& address, const Network& network) {
+  for (int bit = 0; bit < network.bits; ++bit) {
+    const auto byte = static_cast<std::size_t>(bit / 8);
+    const auto mask = static_cast<std::uint8_t>(0x80U >> (bit % 8));
+    if (((address.bytes[byte] ^ network.bytes[byte]) & mask) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+tl::expected<std::vector<ApiKey>, std::string> parse_keys(std::string_view text) {
+  std::vector<ApiKey> keys;
+  std::istringstream in{std::string(text)};
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    line = line.substr(0, line.find('#'));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    auto key = parse_key(line);
+    if (!key) return tl::unexpected(fmt::format("line {}: {}", number, key.error()));
+    keys.push_back(*std::move(key));
+  }
+  if (keys.empty()) return tl::unexpected(std::string("there is no key in it"));
+  return keys;
+}
+
+std::string Access::load() {
+  if (file_.empty()) return {};
+  std::ifstream in(file_, std::ios::binary);
+  if (!in) return fmt::format("cannot read the keys in {}", file_);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  auto keys = parse_keys(text);
+  if (!keys) return fmt::format("{}: {}", file_, keys.error());
+  const std::lock_guard lock(mutex_);
+  keys_ = *std::move(keys);
+  std::erase_if(buckets_, [this](const auto& bucket) {
+    return std::ranges::none_of(keys_,
+                                [&](const ApiKey& key) { return key.identity == bucket.first; });
+  });
+  return {};
+}
+
+tl::expected<std::string, Refusal> Access::identify(const Headers& headers) const {
+  if (file_.empty()) return std::string{};
+  const auto sent = digest(sent_key(headers));
+  const std::lock_guard lock(mutex_);
+  const ApiKey* found = nullptr;
+  for (const auto& key : keys_) {  // all of them, whichever matches
+    if (CRYPTO_memcmp(key.sha256.data(), sent.data(), sent.size()) == 0) found = &key;
+  }
+  if (found != nullptr) return found->identity;
+  return tl::unexpected(Refusal{ErrorCode::unauthorized,
+                                "Send a key as Authorization: Bearer KEY or X-Api-Key: KEY."});
+}
+
+std::optional<Refusal> Access::take_turn(const std::string& identity, double now) {
+  const std::lock_guard lock(mutex_);
+  const auto key =
+      std::ranges::find_if(keys_, [&](const ApiKey& k) { return k.identity == identity; });
+  if (key == keys_.end() || key->per_second == 0.0) return std::nullopt;
+  const double most = std::max(1.0, kBurstSeconds * key->per_second);
+  auto [at, fresh] = buckets_.try_emplace(identity, Bucket{.tokens = most, .filled_at = now});
+  Bucket& bucket = at->second;
+  bucket.tokens = std::min(most, bucket.tokens + (now - bucket.filled_at) * key->per_second);
+  bucket.filled_at = now;
+  if (bucket.tokens >= 1.0) {
+    bucket.tokens -= 1.0;
+    return std::nullopt;
+  }
+  const double wait = (1.0 - bucket.tokens) / key->per_second;
+  return Refusal{ErrorCode::rate_limited,
+                 fmt::format("This key may send {} requests per second.", key->per_second),
+                 std::max(1, static_cast<int>(std::ceil(wait)))};
+}
+
+NewKey make_key(const std::string& identity) {
+  NewKey out{.key = "tc_" + random_id() + random_id(), .line = {}};
+  out.line = identity + " " + to_hex(digest(out.key));
+  return out;
+}
+
+bool is_loopback(std::string_view host) {
+  if (host == "localhost") return true;
+  const std::string text = std::string(host);
+  return in_networks(text, {"127.0.0.0/8", "::1"});
+}
+
+bool is_network(const std::string& text) { return parse_network(text).has_value(); }
+
+bool in_networks(std::string_view peer, const std::vector<std::string>& networks) {
+  const auto address = parse_address(std::string(peer));
+  if (!address) return false;
+  return std::ranges::any_of(networks, [&](const std::string& text) {
+    const auto network = parse_network(text);
+    return network && within(*address, *network);
+  });
+}
+
+std::string client_of(const Request& request, const std::vector<std::string>& proxies) {
+  std::string client = request.peer;
+  std::string all;
+  for (const auto value : header_values(request.headers, "X-Forwarded-For")) {
+    all += all.empty() ? "" : ",";
+    all += value;
+  }
+  while (!all.empty() && in_networks(client, proxies)) {
+    const auto comma = all.rfind(',');
+    std::string last = comma == std::string::npos ? all : all.substr(comma + 1);
+    all = comma == std::string::npos ? std::string{} : all.substr(0, comma);
+    std::erase(last, ' ');
+    if (!parse_address(last)) break;  // what a proxy of ours did not write is not believed
+    client = std::move(last);
+  }
+  return client;
+}
+
+}  // namespace tubecut::server

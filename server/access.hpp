@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "server/http.hpp"
+
+namespace tubecut::server {
+
+/// One line of the file of API keys. The key itself is nowhere: 256 random bits need no slow hash.
+struct ApiKey {
+  std::string identity;  // for the log and the rate
+  std::array<std::uint8_t, 32> sha256 = {};
+  double per_second = 0.0;  // requests; 0: no limit
+};
+
+/// Reads lines "identity sha256-in-hex [requests-per-second]"; '#' begins a comment. An error names
+/// the line, never its content.
+[[nodiscard]] tl::expected<std::vector<ApiKey>, std::string> parse_keys(std::string_view text);
+
+/// Who may use the service. Without a file everybody may. Safe to call from many threads.
+class Access {
+ public:
+  /// Empty name: no keys are asked for.
+  explicit Access(std::string file) : file_(std::move(file)) {}
+
+  /// Reads the file again; what is wrong with it, or nothing. When something is, the keys stay as
+  /// they were.
+  [[nodiscard]] std::string load();
+
+  [[nodiscard]] bool asks() const { return !file_.empty(); }
+
+  /// Whose key the request carries (`Authorization: Bearer KEY` or `X-Api-Key: KEY`); empty
+  /// identity where no keys are asked for. The time taken does not tell how much of a key is right.
+  [[nodiscard]] tl::expected<std::string, Refusal> identify(const Headers& headers) const;
+
+  /// Takes one request off the identity's rate, at that monotonic time in seconds.
+  [[nodiscard]] std::optional<Refusal> take_turn(const std::string& identity, double now);
+
+ private:
+  struct Bucket {
+    double tokens = 0.0;
+    double filled_at = 0.0;
+  };
+
+  std::string file_;
+  mutable std::mutex mutex_;
+  std::vector<ApiKey> keys_;
+  std::map<std::string, Bucket> buckets_;  // one per identity of the file at most
+};
+
+/// A new key and the line that belongs in the file.
+struct NewKey {
+  std::string key;
+  std::string line;
+};
+[[nodiscard]] NewKey make_key(const std::string& identity);
+
+/// Whether an address to listen on is reached from this machine only.
+[[nodiscard]] bool is_loopback(std::string_view host);
+
+[[nodiscard]] bool is_network(const std::string& text);
+
+/// Whether `peer` lies in one of the addresses or networks ("10.0.0.0/8"). Wrong texts match
+/// nothing.
+[[nodiscard]] bool in_networks(std::string_view peer, const std::vector<std::string>& networks);
+
+/// The client a request came from: the peer, or where the peer is one of `proxies`, the last
+/// address of X-Forwarded-For that is not.
+[[nodiscard]] std::string client_of(const Request& request,
+                                    const std::vector<std::string>& proxies);
+
+}  // namespace tubecut::server

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "server/connection.hpp"
+#include "server/slots.hpp"
+#include "server/transport.hpp"
+
+namespace tubecut::server {
+
+/// An answer as bytes for the wire.
+struct Printed {
+  std::string bytes;
+  std::function<void(bool)> sent;
+};
+
+/// A port's one thread for sockets: parks every connection in epoll, collects whole requests under
+/// byte caps and absolute deadlines, hands them to the slots, and sends their answers. Nothing a
+/// client does, or leaves undone, holds more than its connection's memory.
+class EventLoop {
+ public:
+  /// Answers a request and prints the answer; `close`: the connection ends with it. From any
+  /// thread.
+  using Print = std::function<Printed(const Request&, const std::atomic<bool>& close)>;
+
+  EventLoop(const TransportOptions& options, const Service& service, Print print);
+  ~EventLoop();
+  EventLoop(const EventLoop&) = delete;
+  EventLoop& operator=(const EventLoop&) = delete;
+
+  /// Takes over an accepted socket. From any thread.
+  void adopt(int descriptor);
+
+  /// Runs until `end`, and then until nothing is left to answer.
+  void run();
+
+  void drain(std::chrono::milliseconds patience);
+  /// No more sockets will be adopted: `run` may end.
+  void end();
+  void cancel_jobs();
+  [[nodiscard]] TransportStats stats() const;
+
+ private:
+  struct Counters {
+    std::atomic<std::uint64_t> connections{0}, memory{0}, queue{0}, wait{0}, bytes{0}, full{0},
+        hung_up{0}, over_time{0};
+  };
+
+  void wake() const;
+  void take_messages();
+  void accept(int descriptor);
+  [[nodiscard]] bool make_room();
+  void on_event(Connection& c, unsigned events);
+
+  void pump(Connection& c);
+  std::size_t digest(Connection& c, std::string_view bytes);
+  void on_head(Connection& c, bool more_there);
+  void on_whole(Connection& c);
+  void on_end(Connection& c);
+  [[nodiscard]] std::optional<Refusal> head_refusal(Connection& c) const;
+  [[nodiscard]] bool in_time(const Job& job) const;
+  [[nodiscard]] std::optional<Refusal> offer(Connection& c, const std::shared_ptr<Job>& job);
+
+  void refuse(Connection& c, Refusal refusal);
+  void refuse_unread(Connection& c, Refusal refusal);
+  void finish(Job& job);
+  void release(Job& job);
+  void write(Connection& c, Printed answer);
+  void send(Connection& c);
+  void linger(Connection& c);
+  void close(Connection& c);
+
+  void set_deadline(Connection& c, Clock::time_point when);
+  void set_deadline(Connection& c, std::chrono::milliseconds from_now) {
+    set_deadline(c, Clock::now() + from_now);
+  }
+  void expire_all();
+  void expire(Connection& c);
+  void begin_drain();
+  [[nodiscard]] int wait_ms() const;
+
+  TransportOptions options_;
+  ReaderLimits limits_;
+  const Service& service_;
+  Print print_;
+  int epoll_;
+  int wake_;
+  std::string scratch_;
+  std::unordered_map<Connection*, std::unique_ptr<Connection>> connections_;
+  std::vector<std::unique_ptr<Connection>> buried_;  // ended in this round of events
+  std::vector<Connection*> again_;                   // have more bytes than one turn
+  Clock::time_point soonest_ = Clock::time_point::max();
+  double mean_s_ = 0.0;  // of a job in its slot
+  bool draining_ = false;
+  bool ending_ = false;
+  Clock::time_point drained_by_ = Clock::time_point::max();
+  mutable Counters counters_;
+
+  std::mutex mutex_;  // what other threads leave for this one
+  std::vector<int> adopted_;
+  std::vector<std::shared_ptr<Job>> finished_;
+  std::chrono::milliseconds patience_{0};
+  bool drain_asked_ = false;
+  bool end_asked_ = false;
+  bool cancel_asked_ = false;
+
+  std::unique_ptr<Slots> slots_;  // last: its threads use what is above
+};
+
+}  // namespace tubecut::server

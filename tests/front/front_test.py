@@ -1,0 +1,348 @@
+#!/usr/bin/env python3
+"""What stands in front of the service, docker/: the shipped HAProxy configuration before replicas that misbehave as told, and that
+the files say the same as one another and as the code.   front_test.py SERVER"""
+
+import contextlib
+import hashlib
+import http.server
+import importlib.machinery
+import importlib.util
+import json
+import os
+import pathlib
+import re
+import shutil
+import socket
+import ssl
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DOCKER = ROOT / "docker"
+SERVER = ""
+BUDGET_S = 2.0
+sys.dont_write_bytecode = True
+
+
+def load(path):
+    name = path.name.replace("-", "_")
+    loader = importlib.machinery.SourceFileLoader(name, str(path))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+restarts = load(ROOT / "bench/restarts")
+CONFIG = (DOCKER / "haproxy.cfg").read_text()
+
+
+def limit(name):
+    return int(re.search(rf"X\({name}, ([0-9']+)\)", (ROOT / "api/limits.hpp").read_text())[1].replace("'", ""))
+
+
+class Stub:
+    """A replica that does what it is told: one port for requests, one for /readyz."""
+
+    def __init__(self, behave, ready=True):
+        self.asked, stub = [], self
+
+        class Work(http.server.BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1"
+
+            def do_POST(self):
+                body = self.rfile.read(int(self.headers.get("Content-Length", 0)))
+                stub.asked.append((self.path, list(self.headers.items()), body))
+                behave(self)
+
+            do_GET = do_POST
+
+            def log_message(self, *_):
+                pass
+
+        class Ready(Work):
+            def do_GET(self):
+                reply(self, 200 if ready else 503)
+
+        self.servers = [http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) for handler in (Work, Ready)]
+        self.port, self.admin_port = (s.server_address[1] for s in self.servers)
+        for s in self.servers:
+            s.handle_error = lambda *_: None  # the proxy may leave early
+            threading.Thread(target=s.serve_forever, args=(0.05,), daemon=True).start()
+
+    def end(self):
+        for s in self.servers:
+            s.shutdown()
+            s.server_close()
+
+
+def reply(handler, status, body=b"{}", headers=()):
+    handler.send_response(status)
+    for name, value in (("Content-Length", str(len(body))), ("Content-Type", "application/json"), *headers):
+        handler.send_header(name, value)
+    handler.end_headers()
+    handler.wfile.write(body)
+
+
+def hang_up(handler, sent=b""):
+    handler.wfile.write(sent)
+    handler.wfile.flush()
+    handler.close_connection = True
+    handler.connection.shutdown(socket.SHUT_RDWR)
+
+
+@contextlib.contextmanager
+def proxied(*behaviours, ready=True):
+    """(url, stubs) of HAProxy before stubs of these behaviours; the others of the three replicas are not there."""
+    stubs = [Stub(b, ready) for b in behaviours]
+    absent = type("Absent", (), {"port": 1})
+    with tempfile.TemporaryDirectory() as folder:
+        count = restarts.REPLICAS - len(stubs)
+        proxy = restarts.Proxy(pathlib.Path(folder), stubs + [absent] * count, [s.admin_port for s in stubs] + [1] * count)
+        try:
+            checked = "L7OK" if ready else "L7STS"
+            restarts.until(lambda: checks(proxy, len(stubs)) == [checked] * len(stubs), 10, "the stubs' state")
+            yield f"https://127.0.0.1:{proxy.port}", stubs
+        finally:
+            proxy.end()
+            for s in stubs:
+                s.end()
+
+
+def checks(proxy, count):
+    with contextlib.suppress(OSError):
+        rows = proxy.rows()
+        return [rows[f"replica-{i + 1}"]["check_status"] for i in range(count)]
+    return []
+
+
+def ask(url, path="/v1/bevel-tables", body=b"{}", headers=()):
+    """(status, headers, body)"""
+    request = urllib.request.Request(url + path, body, {"Content-Type": "application/json", **dict(headers)})
+    try:
+        with urllib.request.urlopen(request, timeout=15, context=ssl._create_unverified_context()) as answer:
+            return answer.status, answer.headers, answer.read()
+    except urllib.error.HTTPError as problem:
+        return problem.code, problem.headers, problem.read()
+
+
+class Proxy(unittest.TestCase):
+    def problem(self, answer, status, code):
+        got, headers, body = answer
+        self.assertEqual(got, status)
+        self.assertEqual(headers["Content-Type"], "application/problem+json")
+        document = json.loads(body)
+        required = yaml.safe_load((ROOT / "openapi.yaml").read_text())["components"]["schemas"]["Problem"]["required"]
+        self.assertEqual(sorted(document), sorted(required))
+        self.assertEqual((document["status"], document["code"]), (status, code))
+        self.assertEqual(document["request_id"], headers["X-Request-Id"])
+        return document
+
+    def test_repeats_only_what_is_safe(self):
+        # What the first replica does, how often both are asked in all, and what the client gets.
+        cases = {
+            "503": (lambda h: reply(h, 503), 200, 2),
+            "closed without a byte": (hang_up, 200, 2),
+            "429": (lambda h: reply(h, 429), 429, 1),
+            "500": (lambda h: reply(h, 500), 500, 1),
+            "504": (lambda h: reply(h, 504), 504, 1),
+            "422": (lambda h: reply(h, 422), 422, 1),
+        }
+        next_ones = []  # what the next requests meet; then 200
+
+        def behave(handler):
+            (next_ones.pop() if next_ones else lambda h: reply(h, 200))(handler)
+
+        body = b" " * 1_000_000
+        with proxied(behave, behave) as (url, stubs):
+            for name, (bad, status, times) in cases.items():
+                with self.subTest(name):
+                    for stub in stubs:
+                        stub.asked.clear()
+                    next_ones.append(bad)
+                    self.assertEqual(ask(url, body=body)[0], status)
+                    asked = [request for stub in stubs for request in stub.asked]
+                    self.assertEqual(len(asked), times)
+                    self.assertEqual({hashlib.sha256(b).digest() for _, _, b in asked}, {hashlib.sha256(body).digest()})
+
+    def test_a_broken_answer_is_a_problem(self):
+        half = b"HTTP/1.1 200 OK\r\nContent-"
+        with proxied(lambda h: hang_up(h, half)) as (url, stubs):
+            document = self.problem(ask(url), 502, "unavailable")
+            self.assertTrue(document["retryable"])
+            self.assertGreaterEqual(len(stubs[0].asked), 1)
+
+    def test_no_replica_ready(self):
+        with proxied(lambda h: reply(h, 200), ready=False) as (url, stubs):
+            answer = ask(url, headers=[("X-Request-Id", 'job"7\\')])
+            self.assertTrue(self.problem(answer, 503, "unavailable")["retryable"])
+            self.assertEqual(answer[1]["Retry-After"], "1")
+            self.assertEqual(stubs[0].asked, [])
+
+    def test_bodies_beyond_the_limits_end_at_the_proxy(self):
+        small, large = limit("body_max_bytes"), limit("body_large_max_bytes")
+        with proxied(lambda h: reply(h, 200)) as (url, stubs):
+            for path, length in (("/v1/bevel-tables", small), ("/v1/replays", large)):
+                self.problem(announce(url, path, length + 1), 413, "body_too_large")
+                self.assertEqual(stubs[0].asked, [])
+            self.assertEqual(ask(url, body=b" " * small)[0], 200)
+
+    def test_headers(self):
+        with proxied(lambda h: reply(h, 200, headers=[("Tubecut-Replica", "a")])) as (url, stubs):
+            status, back, _ = ask(url, headers={"X-Forwarded-For": "9.9.9.9", "X-Forwarded-Host": "x", "Forwarded": "for=9.9.9.9",
+                                                "X-Real-IP": "9.9.9.9", "Via": "x", "Proxy": "x", "Content_Length": "1",
+                                                "X-Request-Id": "bad id", "Job-Id": "order-17", "Authorization": "Bearer k"}.items())
+            self.assertEqual(status, 200)
+            sent = {}
+            for name, value in stubs[0].asked[0][1]:
+                sent.setdefault(name.lower(), []).append(value)
+            for name in ("x-forwarded-host", "forwarded", "x-real-ip", "via", "proxy", "content_length"):
+                self.assertNotIn(name, sent)
+            self.assertEqual(sent["x-forwarded-for"], ["127.0.0.1"])
+            self.assertEqual(sent["x-forwarded-proto"], ["https"])
+            self.assertEqual((sent["job-id"], sent["authorization"]), (["order-17"], ["Bearer k"]))
+            self.assertRegex(sent["x-request-id"][0], r"^[0-9a-f-]{36}$")
+            self.assertEqual(back["Tubecut-Replica"], "a")
+            self.assertIn("max-age", back["Strict-Transport-Security"])
+
+    def test_the_service_behind_it_answers_the_same(self):
+        with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder)) as (replicas, proxy):
+            body = (ROOT / "examples/bevel-tables/source-000-table-1.json").read_bytes()
+            self.assertGreater(len(restarts.quiet_answer(replicas, proxy, body)), 100_000)
+            wrong = ask(f"https://127.0.0.1:{proxy.port}", body=b"{")
+            self.assertEqual((wrong[0], wrong[1]["Content-Type"]), (400, "application/problem+json"))
+
+
+def announce(url, path, length):
+    """As ask, but the body is only announced."""
+    host, port = url.removeprefix("https://").split(":")
+    with ssl._create_unverified_context().wrap_socket(socket.create_connection((host, int(port)), timeout=10)) as s:
+        s.sendall(f"POST {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: {length}\r\n\r\n".encode())
+        answer = b"".join(iter(lambda: s.recv(65536), b""))
+    head, _, body = answer.partition(b"\r\n\r\n")
+    status, *lines = head.decode().split("\r\n")
+    names = {n.lower(): v for n, v in (line.split(": ", 1) for line in lines)}
+    return int(status.split(" ")[1]), type("Headers", (), {"__getitem__": lambda _, n: names[n.lower()]})(), body
+
+
+class Agreement(unittest.TestCase):
+    """Files that must say the same."""
+
+    def number(self, pattern):
+        return int(re.search(pattern, CONFIG, re.M)[1])
+
+    def test_haproxy_buffers(self):
+        size = self.number(r"^  tune\.bufsize (\d+)$")
+        self.assertGreaterEqual(size, limit("body_max_bytes") + 16384 + self.number(r"^  tune\.maxrewrite (\d+)$"))
+        self.assertAlmostEqual(4 * size / 2**20, 4.25)  # the cost written beside it
+        self.assertAlmostEqual(4 * size * self.number(r"^  maxconn (\d+)$") / 2**30, 1.1, delta=0.05)
+
+    def test_haproxy_limits(self):
+        denied = [int(n) for n in re.findall(r"content-length\) gt (\d+)", CONFIG)]
+        self.assertEqual(denied, [limit("body_large_max_bytes"), limit("body_max_bytes")])
+        large = {"/v1/" + f.stem.replace("_", "-") for f in (ROOT / "api/endpoints").glob("*.cpp")
+                 if "body_large_max_bytes" in f.read_text()}
+        self.assertTrue(large)
+        self.assertEqual(set(re.search(r"acl large path (.*)", CONFIG)[1].split()), large)
+        self.assertGreater(self.number(r"^  timeout server (\d+)s$"), BUDGET_S)
+
+    def test_problems_of_the_proxy(self):
+        subprocess.run([DOCKER / "errors/make", "--check"], check=True)
+        named = set(re.findall(r"TUBECUT_ERRORS}/([\w.]+)", CONFIG))
+        self.assertEqual(named, {p.name for p in (DOCKER / "errors").iterdir() if p.suffix in (".http", ".json")})
+
+    def test_dockerfile_installs_what_dev_does(self):
+        listed = re.search(r"^for_build=\((.*?)\)$", (ROOT / "dev").read_text(), re.M | re.S)[1].split()
+        first = re.search(r"install -y --no-install-recommends \\\n(.*?)\nWORKDIR", (DOCKER / "Dockerfile").read_text(), re.S)[1]
+        self.assertEqual(sorted(first.replace("\\", " ").split()), sorted(entry.split("/")[0] for entry in listed))
+
+    def test_compose(self):
+        services = yaml.safe_load((DOCKER / "compose.yaml").read_text())["services"]
+        replicas = {name: s for name, s in services.items() if name.startswith("tubecut-")}
+        hosts = re.findall(r"presetenv TUBECUT_\d ([\w-]+):8080", CONFIG)
+        self.assertEqual(sorted(replicas), sorted(hosts))
+        for name, s in replicas.items():
+            with self.subTest(name):
+                self.assertTrue(s["read_only"])
+                self.assertEqual((s["cap_drop"], s["cpus"], s["mem_limit"], s["pids_limit"]), (["ALL"], 1, "256m", 64))
+                self.assertNotIn("ports", s)
+                self.assertEqual(s["networks"], ["inside"])
+                delay = float(s["environment"]["TUBECUT_DRAIN_DELAY_S"])
+                self.assertGreater(delay, 2 * 0.2)  # polls of the proxy
+                self.assertGreater(float(s["stop_grace_period"].rstrip("s")), delay + 8 + 5)
+                self.assertEqual(s["environment"]["TUBECUT_REPLICA"], name)
+        self.assertTrue(yaml.safe_load((DOCKER / "compose.yaml").read_text())["networks"]["inside"]["internal"])
+
+    def test_list_of_packages(self):
+        spdx = load(DOCKER / "spdx")
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "var/lib/dpkg").mkdir(parents=True)
+            (root / "usr/share/tubecut").mkdir(parents=True)
+            (root / "var/lib/dpkg/status").write_text(
+                "Package: libstdc++6\nStatus: install ok installed\nSource: gcc-12 (12.2.0-14)\nVersion: 12.2.0-14+deb12u1\n"
+                "Architecture: amd64\nDescription: x\n Package: not-this\n\n"
+                "Package: gone\nStatus: deinstall ok config-files\nVersion: 1\nArchitecture: all\n\n"
+                "Package: libc6\nStatus: install ok installed\nVersion: 2.36-9\nArchitecture: amd64\n")
+            (root / "usr/share/tubecut/compiled-in").write_text("eigen3 3.4.0-4\ncli11 2.3.2+ds-1\n")
+            d = spdx.document(root, "1.2.3", "abc", "2026-01-01T00:00:00Z")
+        ids = [p["SPDXID"] for p in d["packages"]]
+        self.assertEqual([p["name"] for p in d["packages"]], ["tubecut", "libc6", "libstdc++6", "cli11", "eigen3"])
+        self.assertEqual(len(set(ids)), len(ids))
+        for name in ids:
+            self.assertRegex(name, r"^SPDXRef-[A-Za-z0-9.-]+$")
+        for relation in d["relationships"]:
+            self.assertIn(relation["relatedSpdxElement"], ids)
+            self.assertIn(relation["spdxElementId"], [*ids, "SPDXRef-DOCUMENT"])
+        self.assertEqual(d["spdxVersion"], "SPDX-2.3")
+        self.assertEqual(d["packages"][2]["externalRefs"][0]["referenceLocator"],
+                         "pkg:deb/debian/libstdc%2B%2B6@12.2.0-14%2Bdeb12u1?arch=amd64&distro=bookworm")
+        for p in d["packages"]:
+            for key in ("versionInfo", "downloadLocation", "filesAnalyzed", "licenseConcluded", "licenseDeclared", "copyrightText"):
+                self.assertIn(key, p)
+
+
+class Alerts(unittest.TestCase):
+    RULES = DOCKER / "prometheus-rules.yml"
+
+    def promtool(self):
+        found = shutil.which("promtool", path=f"{os.environ['PATH']}:{ROOT / 'build'}")
+        self.assertIsNotNone(found, "no promtool: ./dev test fetches it")
+        return found
+
+    def test_promtool_reads_them(self):
+        subprocess.run([self.promtool(), "check", "rules", self.RULES], check=True, stdout=subprocess.DEVNULL)
+
+    def test_each_fires_and_is_silent(self):
+        subprocess.run([self.promtool(), "test", "rules", ROOT / "tests/front/prometheus-rules-test.yml"], check=True,
+                       stdout=subprocess.DEVNULL)
+        alerts = {r["alert"] for g in yaml.safe_load(self.RULES.read_text())["groups"] for r in g["rules"] if "alert" in r}
+        quiet, loud, _ = yaml.safe_load((ROOT / "tests/front/prometheus-rules-test.yml").read_text())["tests"]
+        self.assertEqual({t["alertname"] for t in quiet["alert_rule_test"]}, alerts)
+        fired = {re.search(r'"(\w+)"', s["labels"])[1] for s in loud["promql_expr_test"][1]["exp_samples"]}
+        self.assertEqual(fired, alerts)
+
+    def test_they_ask_for_metrics_there_are(self):
+        rules = [r for g in yaml.safe_load(self.RULES.read_text())["groups"] for r in g["rules"]]
+        asked = set(re.findall(r"\b(?<!:)((?:tubecut|http_server|process)_\w+)\b(?!:)", "\n".join(r["expr"] for r in rules)))
+        self.assertGreater(len(asked), 6)
+        with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder), running=1) as (replicas, proxy):
+            ask(f"https://127.0.0.1:{proxy.port}")
+            ready = [int(p) for p in re.findall(r"--admin-port (\d+)", " ".join(replicas[0].command))]
+            with urllib.request.urlopen(f"http://127.0.0.1:{ready[0]}/metrics") as answer:
+                served = set(re.findall(r"^(\w+)", answer.read().decode(), re.M))
+            with urllib.request.urlopen(f"http://127.0.0.1:{proxy.stats_port}/metrics") as answer:
+                served |= set(re.findall(r"^(\w+)", answer.read().decode(), re.M))
+        self.assertEqual(asked - served, set())
+
+
+if __name__ == "__main__":
+    SERVER = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main(verbosity=2)

@@ -1,0 +1,135 @@
+// The manifests against the Kubernetes schemas: types by those of npm's kubernetes-models, unknown keys because every object here is
+// closed (the API server drops them in silence). Then what one resource alone cannot say: names, probes, seconds that must fit.
+import assert from 'node:assert/strict';
+import {readFileSync, readdirSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {dirname, join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+import {parseAllDocuments} from 'yaml';
+
+const HERE = dirname(fileURLToPath(import.meta.url));
+const MANIFESTS = join(HERE, '../../docker/kubernetes');
+const require = createRequire(import.meta.url);
+const {ajv} = require(join(HERE, 'node_modules/@kubernetes-models/validate/dist/ajv.js'));
+
+// Schemas arrive as the package registers them, each referring to others by name. All of them are closed on their way in.
+function close(schema) {
+  if (Array.isArray(schema)) return schema.map(close);
+  if (schema === null || typeof schema !== 'object') return schema;
+  const out = Object.fromEntries(Object.entries(schema).map(([key, value]) => [key, close(value)]));
+  if (out.properties && out.additionalProperties === undefined) out.additionalProperties = false;
+  return out;
+}
+const plain = ajv.addSchema.bind(ajv);
+ajv.addSchema = (schema, id) => plain(close(schema), id);
+
+function schemaOf({apiVersion, kind}) {
+  const [group, version] = apiVersion.includes('/') ? apiVersion.split('/') : ['core', apiVersion];
+  const words = [group.replace(/\..*/, ''), version, kind].map((w) => w[0].toUpperCase() + w.slice(1));
+  require(join(HERE, `node_modules/kubernetes-models/_schemas/IoK8sApi${words.join('')}.js`)).addSchema();
+  return `io.k8s.api.${group.replace(/\..*/, '')}.${version}.${kind}`;
+}
+
+// Kustomize's own files have no schema there: their keys.
+const KUSTOMIZATION = ['apiVersion', 'kind', 'namespace', 'resources', 'images', 'patches'];
+
+export function faults(document) {
+  if (document.kind === 'Kustomization') return Object.keys(document).filter((key) => !KUSTOMIZATION.includes(key));
+  if (ajv.validate(schemaOf(document), document)) return [];
+  return ajv.errors.map((e) => `${e.instancePath} ${e.message} ${JSON.stringify(e.params)}`);
+}
+
+function documents(folder) {
+  return readdirSync(folder, {recursive: false, withFileTypes: true}).flatMap((entry) => {
+    const path = join(folder, entry.name);
+    if (entry.isDirectory()) return documents(path);
+    if (!entry.name.endsWith('.yaml')) return [];
+    return parseAllDocuments(readFileSync(path, 'utf8')).map((d) => {
+      assert.deepEqual(d.errors, [], path);
+      return {path, document: d.toJS()};
+    });
+  });
+}
+
+// As Kustomize does it for what our patches hold: objects by key, lists of named things by name.
+function patched(base, patch) {
+  if (Array.isArray(base)) return base.map((item) => patched(item, patch.find((p) => p.name === item.name) ?? {}));
+  if (patch === null || typeof patch !== 'object') return patch;
+  const merged = Object.entries(patch).map(([key, value]) => [key, base?.[key] === undefined ? value : patched(base[key], value)]);
+  return {...base, ...Object.fromEntries(merged)};
+}
+
+const files = documents(MANIFESTS);
+const patches = files.filter((f) => f.document.kind === 'Kustomization')
+  .flatMap((f) => (f.document.patches ?? []).map((p) => join(dirname(f.path), p.path)));
+const resource = ({kind, metadata}) => files.find((f) => f.document.kind === kind && f.document.metadata.name === metadata.name &&
+  !patches.includes(f.path)).document;
+const all = files.map((f) => (patches.includes(f.path) ? {...f, document: patched(resource(f.document), f.document)} : f));
+assert.ok(all.length >= 8 && patches.length >= 1, `only ${all.length} manifests`);
+for (const {path, document} of all) assert.deepEqual(faults(document), [], path);
+
+const of = (kind, part = 'base') => structuredClone(all.find((d) => d.document.kind === kind && d.path.includes(part)).document);
+
+// This check can fail: a key misspelt anywhere, a number as text, a text as number, a member left out.
+const spoilt = [
+  ['Deployment', (d) => { d.spec.template.spec.containers[0].readynessProbe = {}; }],
+  ['Deployment', (d) => { d.spec.template.spec.containers[0].resources.limit = {cpu: '1'}; }],
+  ['Deployment', (d) => { d.spec.template.spec.terminationGracePeriodSecond = 30; }],
+  ['Deployment', (d) => { d.spec.replicas = '3'; }],
+  ['Deployment', (d) => { d.spec.template.spec.containers[0].env[1].value = 5; }],
+  ['Deployment', (d) => { delete d.spec.selector; }],
+  ['Deployment', (d) => { d.spec.template.spec.containers[0].securityContext.readOnlyRootFileSystem = true; }],
+  ['HorizontalPodAutoscaler', (d) => { d.spec.behavior.scaleDown.stabilisationWindowSeconds = 1; }],
+  ['PodDisruptionBudget', (d) => { d.spec.maxUnavailabel = 1; }],
+  ['NetworkPolicy', (d) => { d.spec.ingress[0].from[0].nameSpaceSelector = {}; }],
+  ['Service', (d) => { d.spec.ports[0].targetport = 'http'; }],
+];
+for (const [kind, spoil] of spoilt) {
+  const document = of(kind);
+  assert.deepEqual(faults(document), []);
+  spoil(document);
+  assert.notDeepEqual(faults(document), [], `${kind}: ${spoil}`);
+}
+
+const {spec: deployment} = of('Deployment');
+const pod = deployment.template.spec;
+const [container] = pod.containers;
+const env = Object.fromEntries(container.env.map((e) => [e.name, e.value]));
+const ports = container.ports.map((p) => p.name);
+
+// What "restricted" of the pod security standards asks.
+assert.equal(pod.securityContext.runAsNonRoot, true);
+assert.equal(pod.securityContext.seccompProfile.type, 'RuntimeDefault');
+assert.equal(container.securityContext.allowPrivilegeEscalation, false);
+assert.equal(container.securityContext.readOnlyRootFilesystem, true);
+assert.deepEqual(container.securityContext.capabilities, {drop: ['ALL']});
+
+// drain delay + accepted work (at least the budget, 2 s) + 5 s before the kill; the delay longer than a readiness poll.
+const BUDGET_S = 2;
+assert.ok(Number(env.TUBECUT_DRAIN_S) >= BUDGET_S);
+assert.ok(pod.terminationGracePeriodSeconds > Number(env.TUBECUT_DRAIN_DELAY_S) + Number(env.TUBECUT_DRAIN_S) + 5);
+assert.ok(Number(env.TUBECUT_DRAIN_DELAY_S) > container.readinessProbe.periodSeconds);
+assert.equal(pod.enableServiceLinks, false);
+
+assert.deepEqual(container.startupProbe.exec.command, ['tubecut-server', 'selftest']);
+for (const probe of ['readinessProbe', 'livenessProbe']) assert.ok(ports.includes(container[probe].httpGet.port), probe);
+
+// Everything finds the pods by their labels, and one another by name.
+const labels = deployment.template.metadata.labels;
+const selected = [deployment.selector.matchLabels, of('Service').spec.selector, of('PodDisruptionBudget').spec.selector.matchLabels,
+  of('NetworkPolicy').spec.podSelector.matchLabels, ...pod.topologySpreadConstraints.map((c) => c.labelSelector.matchLabels)];
+for (const selector of selected) assert.deepEqual(selector, labels);
+assert.equal(of('HorizontalPodAutoscaler').spec.scaleTargetRef.name, of('Deployment').metadata.name);
+assert.ok(ports.includes(of('Service').spec.ports[0].targetPort));
+for (const rule of of('NetworkPolicy').spec.ingress) for (const p of rule.ports) assert.ok(ports.includes(p.port));
+assert.equal(of('Ingress', 'overlays').spec.rules[0].http.paths[0].backend.service.name, of('Service').metadata.name);
+assert.ok(env.TUBECUT_KEYS.startsWith(container.volumeMounts[0].mountPath));
+assert.equal(container.volumeMounts[0].name, pod.volumes[0].name);
+
+// Every file of the folder is used, and there.
+for (const {path, document} of all.filter((d) => d.document.kind === 'Kustomization')) {
+  const named = [...document.resources, ...(document.patches ?? []).map((p) => p.path)].filter((n) => n.endsWith('.yaml')).sort();
+  const there = readdirSync(dirname(path)).filter((n) => n.endsWith('.yaml') && n !== 'kustomization.yaml').sort();
+  assert.deepEqual(named, there, path);
+}
+console.log(`${all.length} manifests, ${spoilt.length} spoilt ones refused`);

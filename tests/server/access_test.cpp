@@ -1,0 +1,194 @@
+#include "server/access.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <thread>
+
+#include "server/app.hpp"
+#include "server/capacity.hpp"
+#include "server/job_files.hpp"
+
+namespace tubecut::server {
+namespace {
+
+std::string file_with(const std::string& name, const std::string& text) {
+  std::string path = ::testing::TempDir() + name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+Headers bearer(const std::string& key) { return {{"Authorization", "Bearer " + key}}; }
+
+TEST(Keys, AreReadByTheLineAndNeverShown) {
+  // SHA-256 of "abc", FIPS 180-2.
+  const std::string abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+  const auto keys = parse_keys("# cells\n\nmes " + abc + "\ncell-3 " + abc + " 2.5 # slow\n");
+  ASSERT_TRUE(keys) << keys.error();
+  ASSERT_EQ(keys->size(), 2U);
+  EXPECT_EQ((*keys)[0].identity, "mes");
+  EXPECT_EQ((*keys)[0].per_second, 0.0);
+  EXPECT_EQ((*keys)[1].per_second, 2.5);
+  EXPECT_EQ((*keys)[0].sha256[0], 0xba);
+  for (const std::string& wrong :
+       std::vector<std::string>{std::string(), "mes", "mes abc", "m/es " + abc, "mes " + abc + "00",
+                                "mes " + abc + " 0", "mes " + abc + " x", "mes " + abc + " 1 2"}) {
+    const auto refused = parse_keys("# first\n" + wrong + "\n");
+    ASSERT_FALSE(refused) << wrong;
+    EXPECT_EQ(refused.error().find("ba78"), std::string::npos) << refused.error();
+  }
+}
+
+TEST(Access, KnowsItsOwnByTheirKeys) {
+  const auto mes = make_key("mes");
+  const auto cell = make_key("cell");
+  EXPECT_NE(mes.key, cell.key);
+  EXPECT_EQ(mes.line.find(mes.key), std::string::npos);
+  const auto file = file_with("tubecut_keys", mes.line + "\n" + cell.line + "\n");
+  Access access(file);
+  ASSERT_EQ(access.load(), "");
+  EXPECT_EQ(access.identify(bearer(mes.key)), "mes");
+  EXPECT_EQ(access.identify({{"x-api-key", cell.key}}), "cell");
+  for (const Headers& headers : {Headers{}, bearer(""), bearer(mes.key + "x"),
+                                 bearer(mes.key.substr(1)), Headers{{"Authorization", mes.key}}}) {
+    ASSERT_FALSE(access.identify(headers));
+    EXPECT_EQ(access.identify(headers).error().code, ErrorCode::unauthorized);
+  }
+  std::ofstream(file) << cell.line << "\n";
+  EXPECT_EQ(access.load(), "");
+  EXPECT_FALSE(access.identify(bearer(mes.key)));
+  EXPECT_EQ(access.identify(bearer(cell.key)), "cell");
+  std::ofstream(file) << "nonsense\n";
+  EXPECT_NE(access.load(), "");
+  EXPECT_EQ(access.identify(bearer(cell.key)), "cell");  // as it was
+}
+
+TEST(Access, GivesEachIdentityItsOwnRate) {
+  const auto slow = make_key("slow");
+  const auto fast = make_key("fast");
+  Access access(file_with("tubecut_rates", slow.line + " 2\n" + fast.line + "\n"));
+  ASSERT_EQ(access.load(), "");
+  int taken = 0;
+  for (int i = 0; i <= 1000; ++i) {  // 10 s, a hundred a second
+    const double now = 1000.0 + 0.01 * i;
+    if (!access.take_turn("slow", now)) ++taken;
+    EXPECT_FALSE(access.take_turn("fast", now));
+  }
+  EXPECT_GE(taken, 21);
+  EXPECT_LE(taken, 22);  // the burst of one second, then two a second
+  const auto refusal = access.take_turn("slow", 1010.0);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->code, ErrorCode::rate_limited);
+  EXPECT_EQ(refusal->retry_after_s, 1);
+}
+
+TEST(Access, IsAskedBeforeTheJobAndNamedInItsRecord) {
+  const auto key = make_key("mes");
+  auto access = std::make_shared<Access>(file_with("tubecut_app_keys", key.line + "\n"));
+  ASSERT_EQ(access->load(), "");
+  std::vector<JobRecord> records;
+  int jobs = 0;
+  AppOptions options;
+  options.access = access;
+  options.dispatch = [&](const api::Call&, const api::Context&) {
+    ++jobs;
+    return api::Outcome{
+        .error = {}, .content_type = "text/plain", .body = "x", .headers = {}, .job = {}};
+  };
+  options.finished = [&](const JobRecord& record) { records.push_back(record); };
+  const App app(options);
+  Request request{.method = "POST", .target = "/v1/x"};
+  const auto refused = app.handle(request);
+  EXPECT_EQ(refused.status, 401);
+  EXPECT_EQ(header(refused.headers, "WWW-Authenticate"), "Bearer");
+  EXPECT_EQ(app.screen(request)->code, ErrorCode::unauthorized);
+  EXPECT_EQ(jobs, 0);
+  request.headers = bearer(key.key);
+  EXPECT_EQ(app.handle(request).status, 200);
+  EXPECT_EQ(records.back().identity, "mes");
+}
+
+TEST(Networks, HoldTheirAddresses) {
+  EXPECT_TRUE(in_networks("10.1.2.3", {"10.0.0.0/8"}));
+  EXPECT_FALSE(in_networks("11.1.2.3", {"10.0.0.0/8"}));
+  EXPECT_TRUE(in_networks("::ffff:10.1.2.3", {"10.1.2.3"}));
+  EXPECT_TRUE(in_networks("fd00::1", {"10.0.0.0/8", "fd00::/8"}));
+  EXPECT_FALSE(in_networks("10.1.2.3", {"fd00::/8", "nonsense", "10.0.0.0/33"}));
+  EXPECT_TRUE(in_networks("1.2.3.4", {"0.0.0.0/0"}));
+  EXPECT_FALSE(in_networks("fd00::1", {"0.0.0.0/0"}));
+  for (const auto* host : {"127.0.0.1", "127.9.9.9", "::1", "localhost"}) {
+    EXPECT_TRUE(is_loopback(host)) << host;
+  }
+  for (const auto* host : {"0.0.0.0", "::", "192.168.1.2", "example.org", ""}) {
+    EXPECT_FALSE(is_loopback(host)) << host;
+  }
+}
+
+TEST(Client, IsThePeerUnlessAProxyOfOursSpeaks) {
+  const std::vector<std::string> proxies = {"10.0.0.0/8"};
+  Request request{.headers = {{"X-Forwarded-For", "6.6.6.6, 1.2.3.4"}}, .peer = "9.9.9.9"};
+  EXPECT_EQ(client_of(request, proxies), "9.9.9.9");
+  EXPECT_EQ(client_of(request, {}), "9.9.9.9");
+  request.peer = "10.0.0.1";
+  EXPECT_EQ(client_of(request, proxies), "1.2.3.4");
+  request.headers = {{"X-Forwarded-For", "1.2.3.4, 10.0.0.7"}};
+  EXPECT_EQ(client_of(request, proxies), "1.2.3.4");
+  request.headers = {{"X-Forwarded-For", "evil\r\n"}};
+  EXPECT_EQ(client_of(request, proxies), "10.0.0.1");
+}
+
+TEST(Capacity, FollowsTheQuotaRoundedUp) {
+  EXPECT_EQ(slots_of_quota("100000 100000"), 1);
+  EXPECT_EQ(slots_of_quota("100001 100000"), 2);
+  EXPECT_EQ(slots_of_quota("50000 100000"), 1);
+  EXPECT_EQ(slots_of_quota("400000 100000"), 4);
+  for (const auto* none : {"max 100000", "", "0 100000", "x y"}) EXPECT_EQ(slots_of_quota(none), 0);
+  const auto root = ::testing::TempDir() + "tubecut_group";
+  ASSERT_EQ(std::system(("mkdir -p " + root + "/a/b").c_str()), 0);
+  std::ofstream(root + "/a/cpu.max") << "100000 100000\n";
+  std::ofstream(root + "/a/b/memory.max") << "268435456\n";
+  const auto self = file_with("tubecut_group_of", "0::/a/b\n");
+  const auto can = capacity(root, self);
+  EXPECT_EQ(can.slots, 1);
+  EXPECT_EQ(can.slots_from, "cgroup");
+  EXPECT_EQ(can.memory_from, "cgroup");
+  EXPECT_LT(can.memory, 268435456U);
+  EXPECT_GT(can.memory, 134217728U);
+  EXPECT_NE(capacity("/nowhere", "/nowhere").slots_from, "cgroup");
+}
+
+TEST(JobFiles, KeepOneFilePerJobInsideTheirFolder) {
+  EXPECT_EQ(file_name_of("order-17_a.b"), "order-17_a.b");
+  for (const auto* id : {"../../etc/passwd", ".hidden", "a/b", "a b", "", "\xc3\xa4"}) {
+    const auto name = file_name_of(id);
+    EXPECT_EQ(name.substr(0, 3), "id-") << id;
+    EXPECT_EQ(name.size(), 35U) << id;
+    EXPECT_EQ(name.find('/'), std::string::npos);
+  }
+  EXPECT_NE(file_name_of("a b"), file_name_of("a/b"));
+  const auto folder = ::testing::TempDir() + "tubecut_jobs";
+  ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
+  {
+    JobFiles files(folder);
+    files.write("2024-03-01", "order-17", "one\n");
+    files.write("2024-03-01", "order-17", "two\n");
+    files.write("2024-03-01", "../evil", "three\n");
+  }
+  std::ifstream in(folder + "/2024-03-01/order-17.jsonl");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(text, "one\ntwo\n");
+  EXPECT_FALSE(std::ifstream(folder + "/evil.jsonl"));
+  JobFiles lost("/nowhere/at/all");
+  lost.write("2024-03-01", "x", "y\n");
+  for (int i = 0; i < 5000 && lost.dropped() == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(lost.dropped(), 1U);
+}
+
+}  // namespace
+}  // namespace tubecut::server

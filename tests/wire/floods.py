@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Six floods from one socket each: `floods.py BINARY [MEGABYTES] [--must-fail]`. The peak of resident memory may grow by
+16 MiB at most during each, and the probe answers meanwhile. With --must-fail, BINARY being the stock library, a flood has
+to break that."""
+
+import pathlib
+import socket
+import sys
+import zlib
+
+from service import Service, connect, exchange, get, head, receive
+
+LIMIT_MIB = 16
+BLOCK = 1 << 18
+
+
+def bomb(megabytes):
+    """Zeros that compress a thousandfold, until as many megabytes would come out."""
+    squeeze = zlib.compressobj(9, zlib.DEFLATED, 31)
+    for _ in range(megabytes * 4):
+        yield squeeze.compress(bytes(BLOCK))
+    yield squeeze.flush()
+
+
+def floods(megabytes):
+    many = megabytes * 4
+    yield "endless header line", get("/v1/version")[:-2] + b"X: ", lambda: (b"a" * BLOCK for _ in range(many))
+    yield "endless header count", get("/v1/version")[:-2], lambda: (b"X-A: b\r\n" * (BLOCK // 8) for _ in range(many))
+    yield "endless chunked body", head("Transfer-Encoding: chunked"), lambda: (b"40000\r\n" + b" " * BLOCK + b"\r\n" for _ in range(many))
+    yield "endless chunk extension", head("Transfer-Encoding: chunked") + b"5;", lambda: (b"a" * BLOCK for _ in range(many))
+    yield "chunk of size -2", head("Transfer-Encoding: chunked") + b"-2\r\n", lambda: (b"a" * BLOCK for _ in range(many))
+    yield "gzip bomb", head("Content-Encoding: gzip", "Transfer-Encoding: chunked"), lambda: (
+        b"%x\r\n%s\r\n" % (len(part), part) for part in bomb(megabytes) if part)
+    yield "pipelined requests, answers never read", b"", lambda: (get("/v1/version") * (BLOCK // 44) for _ in range(many))
+
+
+def flood(service, first, blocks):
+    """Sends until all is sent, the connection breaks, or nothing moves for 5 s."""
+    sent = 0
+    with connect(service.port, 5.0) as sock:
+        try:
+            sock.sendall(first)
+            for block in blocks():
+                sock.sendall(block)
+                sent += len(block)
+        except (OSError, socket.timeout):
+            pass
+    return sent
+
+
+def main():
+    must_fail = "--must-fail" in sys.argv
+    words = [w for w in sys.argv[1:] if not w.startswith("--")]
+    megabytes = int(words[1]) if len(words) > 1 else 200
+    worst = 0.0
+    for name, first, blocks in floods(megabytes):
+        with Service(words[0]) as service:
+            for _ in range(20):
+                exchange(service.port, get("/v1/version"))
+            pathlib.Path(f"/proc/{service.process.pid}/clear_refs").write_text("5")  # forget the peak so far
+            before = service.memory("VmHWM")
+            sent = flood(service, first, blocks)
+            alive = service.alive()
+            growth = service.memory("VmHWM") - before if alive else float("inf")
+            replies = exchange(service.port, get("/v1/version")) if alive else []
+            ok = alive and len(replies) == 1 and replies[0].status == 200
+            worst = max(worst, growth if ok else float("inf"))
+            print(f"{name}: {sent / 1e6:.1f} of {megabytes} MB taken or dropped, peak grows {growth:.1f} MiB, "
+                  f"{'answers after it' if ok else 'DEAD'}", flush=True)
+    print(f"worst growth {worst:.1f} MiB, limit {LIMIT_MIB}")
+    sys.exit((worst <= LIMIT_MIB) if must_fail else (worst > LIMIT_MIB))
+
+
+main()

@@ -1,0 +1,128 @@
+"""Starts a server for a suite of raw sockets, talks to it byte by byte, and reads its memory."""
+
+import json
+import pathlib
+import re
+import signal
+import socket
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BODY = (ROOT / "examples/intersections/two-tubes-by-axis.json").read_bytes()
+
+
+class Service:
+    """`command` until the end of the with block; its log is thrown away after the ready line."""
+
+    def __init__(self, *command):
+        stock = command[0].endswith("stock_server")
+        words = list(command) if stock else [command[0], "--port", "0", "--admin-port", "0", *command[1:]]
+        self.process = subprocess.Popen(words, stdout=subprocess.PIPE)
+        self.stock = stock
+
+    def __enter__(self):
+        ready = json.loads(self.process.stdout.readline())
+        self.port, self.admin_port = ready["port"], ready["admin_port"]
+        subprocess.Popen(["cat"], stdin=self.process.stdout, stdout=subprocess.DEVNULL)
+        deadline = time.monotonic() + 10
+        while time.monotonic() < deadline:
+            try:
+                if exchange(self.admin_port, get("/readyz"))[0].status == 200:
+                    break
+            except OSError:
+                pass
+            time.sleep(0.01)
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+
+    def stop(self, seconds=12):
+        self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(seconds)
+
+    def alive(self):
+        return self.process.poll() is None
+
+    def memory(self, field="VmHWM"):
+        """MiB; VmHWM is the peak, VmRSS what is resident now."""
+        text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(re.search(field + r":\s+(\d+)", text).group(1)) / 1024
+
+    def metric(self, name):
+        text = exchange(self.admin_port, get("/metrics"))[0].body.decode()
+        return sum(float(line.rsplit(" ", 1)[1]) for line in text.splitlines() if line.startswith(name))
+
+
+class Reply:
+    def __init__(self, head, body):
+        lines = head.decode("latin-1").split("\r\n")
+        self.status = int(lines[0].split(" ")[1])
+        self.version = lines[0].split(" ")[0]
+        self.headers = [tuple(part.strip() for part in line.split(":", 1)) for line in lines[1:] if line]
+        self.body = body
+
+    def get(self, name):
+        return next((value for key, value in self.headers if key.lower() == name.lower()), None)
+
+
+def connect(port, timeout=5.0):
+    return socket.create_connection(("127.0.0.1", port), timeout)
+
+
+def get(target, *headers, method="GET"):
+    return f"{method} {target} HTTP/1.1\r\nHost: localhost\r\n{''.join(h + chr(13) + chr(10) for h in headers)}\r\n".encode()
+
+
+def post(body=BODY, *headers, target="/v1/intersections"):
+    return head(*headers, f"Content-Length: {len(body)}", target=target) + body
+
+
+def head(*headers, target="/v1/intersections", version="1.1", host="Host: localhost"):
+    lines = [f"POST {target} HTTP/{version}", *([host] if host else []), "Content-Type: application/json", *headers]
+    return "".join(line + "\r\n" for line in lines).encode("latin-1") + b"\r\n"
+
+
+def split_replies(data, bodiless=False):
+    """The replies in `data` and what is left over. `bodiless`: the first is to a HEAD."""
+    replies = []
+    while b"\r\n\r\n" in data and data.startswith(b"HTTP/"):
+        front, rest = data.split(b"\r\n\r\n", 1)
+        reply = Reply(front, b"")
+        length = 0 if bodiless and not replies or reply.status == 100 else int(reply.get("Content-Length") or 0)
+        if len(rest) < length:
+            break
+        reply.body, data = rest[:length], rest[length:]
+        replies.append(reply)
+    return replies, data
+
+
+def receive(sock, quiet=0.4, patience=5.0, enough=None, bodiless=False):
+    """Reads until the end, `quiet` seconds of silence after a whole reply, or `enough` replies. Returns replies, rest, ended."""
+    data, ended, until = b"", False, time.monotonic() + patience
+    while time.monotonic() < until:
+        replies, rest = split_replies(data, bodiless)
+        if enough is not None and len(replies) >= enough:
+            break
+        sock.settimeout(quiet if replies and not rest else max(0.01, until - time.monotonic()))
+        try:
+            more = sock.recv(1 << 16)
+        except socket.timeout:
+            break
+        except ConnectionError:
+            ended = True
+            break
+        if not more:
+            ended = True
+            break
+        data += more
+    replies, rest = split_replies(data, bodiless)
+    return replies, rest, ended
+
+
+def exchange(port, data, patience=5.0):
+    with connect(port, patience) as sock:
+        sock.sendall(data)
+        return receive(sock, enough=1, patience=patience)[0]

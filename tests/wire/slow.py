@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Slow and idle clients: `slow.py BINARY LOAD SECONDS HALVES IDLE`. HALVES sockets send a head byte by byte, as many a body,
+IDLE kept-alive ones do nothing; each that is closed comes back. Meanwhile the probe's p99 is at most 50 ms and good
+traffic loses nothing."""
+
+import json
+import subprocess
+import sys
+import tempfile
+import time
+
+from service import Service, connect, exchange, get, head, post, receive
+
+P99_MS = 50.0
+
+
+class Slow:
+    """A socket that sends `first`, then one byte at each turn."""
+
+    def __init__(self, port, first, rest):
+        self.port, self.first, self.rest = port, first, rest
+        self.begin()
+
+    def begin(self):
+        self.sock = connect(self.port)
+        self.sock.sendall(self.first)
+        self.sock.setblocking(False)
+
+    def turn(self):
+        """Sends a byte; says whether the server had ended the connection."""
+        try:
+            if self.rest:
+                self.sock.send(self.rest)
+            if self.sock.recv(4096) == b"":
+                raise ConnectionError
+        except BlockingIOError:
+            return False
+        except OSError:
+            self.sock.close()
+            self.begin()
+            return True
+        return False
+
+
+def main():
+    binary, load, seconds, halves, idle = sys.argv[1], sys.argv[2], float(sys.argv[3]), int(sys.argv[4]), int(sys.argv[5])
+    probes, ended = [], 0
+    with Service(binary) as service, tempfile.NamedTemporaryFile() as good:
+        good.write(post())
+        good.flush()
+        crowd = [Slow(service.port, b"GET /v1/version HTTP/1.1\r\nHost: x\r\nX: ", b"a") for _ in range(halves)]
+        crowd += [Slow(service.port, head("Content-Length: 100000"), b" ") for _ in range(halves)]
+        crowd += [Slow(service.port, get("/v1/version"), b"") for _ in range(idle)]
+        traffic = subprocess.Popen([load, str(seconds), "4", str(service.port), good.name, "--rate", "200"],
+                                   stdout=subprocess.PIPE, text=True)
+        until = time.monotonic() + seconds
+        turn = 0
+        while time.monotonic() < until:
+            start = time.perf_counter()
+            assert exchange(service.admin_port, get("/readyz"))[0].status == 200
+            probes.append(1e3 * (time.perf_counter() - start))
+            for member in crowd[turn % 10::10]:  # each about once in ten turns
+                ended += member.turn()
+            turn += 1
+        told = json.loads(traffic.communicate()[0])
+        resident = service.memory("VmRSS")
+    probes.sort()
+    p99 = probes[int(0.99 * (len(probes) - 1))]
+    good_ones = told["statuses"].get("200", 0)
+    others = sum(told["statuses"].values()) - good_ones
+    print(f"{2 * halves} slow and {idle} idle sockets for {seconds:g} s, {ended} ended by the server: {len(probes)} probes, "
+          f"p50 {probes[len(probes) // 2]:.1f} ms, p99 {p99:.1f} ms (limit {P99_MS:g}); good traffic {good_ones} answered, "
+          f"{others} otherwise, {told['lost']} lost, p99 {told['accepted_ms']['p99']:.1f} ms; resident {resident:.1f} MiB")
+    sys.exit(not (p99 <= P99_MS and told["lost"] == 0 and others == 0 and good_ones > 0 and len(probes) > 20))
+
+
+main()
