@@ -45,8 +45,9 @@ struct Contour {
 /// Axis values given directly, one column per axis of the machine, in the axis' unit: a mill path
 /// or plain axes.
 struct AxisColumns {
-  std::vector<double> length = {};  // s, mm: what the speed is measured along; empty for a mill path
-  double tip_radius = 0.0;          // rho3 of a mill path: C turns the tip on this radius, mm
+  std::vector<double> length =
+      {};                   // s, mm: what the speed is measured along; empty for a mill path
+  double tip_radius = 0.0;  // rho3 of a mill path: C turns the tip on this radius, mm
   std::vector<std::vector<double>> columns = {};  // in the order of the machine's axes
   std::vector<bool> corner = {};
   bool closed = false;
