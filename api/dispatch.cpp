@@ -3,6 +3,7 @@
 
 #include "api/api.hpp"
 #include "api/catalogue.hpp"
+#include "api/common_fields.hpp"
 #include "api/endpoint.hpp"
 #include "api/suspicion.hpp"
 
@@ -15,15 +16,6 @@ constexpr std::string_view kProblemMedia = "application/problem+json";
 constexpr std::string_view kAllPaths[] = {"/v1/errors",    "/v1/limits",   "/v1/version",
                                           "/v1/machines",  "/v1/tubes",    "/v1/examples",
                                           "/openapi.yaml", "/openapi.json"};
-
-/// Fields that belong to every request.
-struct Common {
-  std::vector<std::pair<std::string, std::string>> reference;
-  Json reference_echo;
-  bool inline_log = false;
-  std::optional<int> numerics;
-  std::vector<Measure> accept;
-};
 
 struct Query {
   bool validate_only = false;
@@ -189,7 +181,7 @@ class Job {
   Outcome compute(const Endpoint& endpoint);
 
  private:
-  Outcome answer(const Endpoint& endpoint, const Common& common, Answer answer,
+  Outcome answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                  const Choice& choice, const Query& query);
   void lap(std::string_view stage = {}) {
     if (!context_.clock) return;
@@ -203,33 +195,6 @@ class Job {
   Outcome out_;
   double mark_ = 0.0;
 };
-
-Common read_common(Reader& in, const Endpoint& endpoint) {
-  Common out;
-  in.optional_object("reference", [&](Reader& r) {
-    for (const auto* name : {"part", "order", "drawing", "revision", "heat", "customer_id"})
-      if (auto value =
-              r.optional_text(name, static_cast<std::size_t>(limit::reference_characters_max)))
-        out.reference.emplace_back(name, *value);
-    return 0;
-  });
-  out.reference_echo = in.take_echo("reference");
-  static constexpr std::array kLog{Option<bool>{"inline", true}};
-  if (in.has("log")) out.inline_log = in.choice("log", kLog);
-  in.note("log");
-  in.take_echo("log");
-  in.note("numerics");
-  if (in.has("numerics")) out.numerics = in.integer("numerics", 1, 1'000'000);
-  in.note("accept");
-  if (!endpoint.accepts.empty() && in.has("accept"))
-    in.object("accept", [&](Reader& r) {
-      for (const auto name : endpoint.accepts)
-        if (const auto value = r.optional_number(name, kNotNegative))
-          out.accept.push_back({name, *value});
-      return 0;
-    });
-  return out;
-}
 
 Outcome Job::compute(const Endpoint& endpoint) {
   out_.job.endpoint = endpoint.id;
@@ -253,7 +218,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
                   body.error().reason + " at byte " + std::to_string(body.error().offset));
   Reader in(*body);
   in.set_binary(choice->body == Body::cbor);
-  const auto common = read_common(in, endpoint);
+  const auto common = read_common_fields(in, endpoint.accepts);
   if (common.numerics && *common.numerics != numerics())
     return refuse(Problem{
         .code = ErrorCode::numerics_mismatch,
@@ -285,7 +250,7 @@ struct Verdict {
   std::vector<std::string> reasons;
 };
 
-Verdict judge(const Answer& answer, const Common& common) {
+Verdict judge(const Answer& answer, const CommonFields& common) {
   Verdict out;
   for (const auto& warning : answer.warnings) {
     if (info(warning.code).severity != Severity::cut) continue;
@@ -330,7 +295,7 @@ void write_warnings(Writer& w, const Answer& answer) {
   });
 }
 
-Outcome Job::answer(const Endpoint& endpoint, const Common& common, Answer answer,
+Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                     const Choice& choice, const Query& query) {
   for (const auto& check : answer.checks)
     if (!check.passed())

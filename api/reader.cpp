@@ -476,8 +476,4 @@ std::optional<std::size_t> Reader::exactly_one(std::initializer_list<std::string
   return std::nullopt;
 }
 
-void note_common(Reader& in) {
-  for (const auto* name : {"reference", "log", "numerics", "accept"}) in.note(name);
-}
-
 }  // namespace tubecut::api

@@ -59,6 +59,7 @@ class Reader {
  public:
   explicit Reader(const Json& body);
 
+  [[nodiscard]] const Json* find(std::string_view name) const { return body_->find(name); }
   [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
   template <class T>
   [[nodiscard]] bool is(std::string_view name) const {
@@ -193,7 +194,6 @@ class Reader {
   void put(std::string_view name, Json value);
   /// Removes a member from the echo and returns it; null when it is not there.
   Json take_echo(std::string_view name);
-  [[nodiscard]] const Json* find(std::string_view name) const { return body_->find(name); }
 
   /// Whether the answer goes out in a binary format, which may be longer. Set at the root.
   void set_binary(bool binary) { binary_ = binary; }
@@ -232,10 +232,6 @@ class Reader {
 /// The candidate most like `name`, empty when none is near.
 [[nodiscard]] std::string nearest_name(std::string_view name,
                                        const std::vector<std::string>& candidates);
-
-/// Lets a nested request carry the fields that belong to every request; they count at the root
-/// only.
-void note_common(Reader& in);
 
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);

@@ -24,23 +24,23 @@ constexpr auto kBacklogTime = std::chrono::seconds(1);
 class MemoryStream final : public httplib::Stream {
  public:
   explicit MemoryStream(std::string_view in) : in_(in) {}
-  [[nodiscard]] bool is_readable() const { return !in_.empty(); }
-  [[nodiscard]] bool is_writable() const { return true; }
+  [[nodiscard]] bool is_readable() const override { return !in_.empty(); }
+  [[nodiscard]] bool is_writable() const override { return true; }
   [[nodiscard]] bool wait_readable() const { return true; }
   [[nodiscard]] bool wait_writable() const { return true; }
   [[nodiscard]] time_t duration() const { return 0; }
-  ssize_t read(char* to, std::size_t size) {
+  ssize_t read(char* to, std::size_t size) override {
     const auto n = in_.copy(to, size);
     in_.remove_prefix(n);
     return static_cast<ssize_t>(n);
   }
-  ssize_t write(const char* bytes, std::size_t size) {
+  ssize_t write(const char* bytes, std::size_t size) override {
     out_.append(bytes, size);
     return static_cast<ssize_t>(size);
   }
-  void get_remote_ip_and_port(std::string& /*ip*/, int& /*port*/) const {}
-  void get_local_ip_and_port(std::string& /*ip*/, int& /*port*/) const {}
-  [[nodiscard]] socket_t socket() const { return INVALID_SOCKET; }
+  void get_remote_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
+  void get_local_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
+  [[nodiscard]] socket_t socket() const override { return INVALID_SOCKET; }
 
   [[nodiscard]] std::string take() { return std::move(out_); }
 

@@ -1,5 +1,6 @@
 #include "api/endpoints/groove_codec.hpp"
 
+#include "api/common_fields.hpp"
 #include "api/limits.hpp"
 
 namespace tubecut::api {
@@ -139,7 +140,7 @@ groove::GrooveSpec decode_groove_request(Reader& in) {
 groove::MillPathSpec decode_mill_path_request(Reader& in) {
   groove::MillPathSpec out;
   out.groove = in.object("groove", [](Reader& nested) {
-    note_common(nested);
+    read_inner_common_fields(nested);
     return decode_groove_request(nested);
   });
   out.mill = in.object("mill", decode_mill);

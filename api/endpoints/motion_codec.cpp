@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "api/common_fields.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/groove_codec.hpp"
 #include "api/limits.hpp"
@@ -279,7 +280,7 @@ JobRequest decode_job(Reader& in) {
   switch (in.exactly_one({"cut", "contour", "mill_path", "axes"}).value_or(4)) {
     case 0:
       out.cut = in.object("cut", [](Reader& cut) {
-        note_common(cut);
+        read_inner_common_fields(cut);
         return decode_bevel_table_request(cut);
       });
       break;
@@ -288,7 +289,7 @@ JobRequest decode_job(Reader& in) {
       break;
     case 2:
       out.cut = in.object("mill_path", [](Reader& path) {
-        note_common(path);
+        read_inner_common_fields(path);
         return decode_mill_path_request(path);
       });
       break;

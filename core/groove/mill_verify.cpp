@@ -230,11 +230,10 @@ class Verifier {
     return out;
   }
 
-  /// Least distance of a workpiece point over the motion within one block of `station`, by ternary
-  /// search.
+  /// Least distance of a workpiece point over the motion beside `station`: by ternary search in its
+  /// segment between two blocks and in the one before, for the motion has a corner at every block.
   template <class Distance>
   [[nodiscard]] double least_near(const Vector3d& point, double station, Distance distance) const {
-    double low = station - 1.0, high = station + 1.0;
     const auto at = [&](double t) {
       const Block block = block_at(blocks_, t);
       const double sg = spec_.setup.mount == Mount::end_up ? -1.0 : 1.0;
@@ -242,11 +241,16 @@ class Verifier {
                               Angle::rad(block.b)};
       return distance(spec_.mill, machine_.tool(axes), placed(point, axes.c));
     };
-    for (int i = 0; i < 40; ++i) {
-      const double third = (high - low) / 3.0;
-      at(low + third) < at(high - third) ? high -= third : low += third;
-    }
-    return at(0.5 * (low + high));
+    const auto least_from = [&at](double low) {
+      double high = low + 1.0;
+      for (int i = 0; i < 40; ++i) {
+        const double third = (high - low) / 3.0;
+        at(low + third) < at(high - third) ? high -= third : low += third;
+      }
+      return at(0.5 * (low + high));
+    };
+    const double first = std::floor(station);
+    return std::min(least_from(first - 1.0), least_from(first));
   }
 
   /// Reported extremes found again where they are said to be, and no sampled point beyond them.

@@ -9,10 +9,10 @@
 namespace tubecut::groove {
 namespace {
 
-// Steps of a golden section over two blocks. The flank's minimum is a parabola, the finite cutter's
-// may be a corner.
-constexpr int kSmoothSteps = 22;         // leaves 5e-5 of a block
-constexpr int kCornerSteps = 38;         // leaves 2e-8 of a block
+// Steps of a golden section between two blocks. The flank's minimum is a parabola, the finite
+// cutter's may be a corner.
+constexpr int kSmoothSteps = 21;         // leaves 4e-5 of a block
+constexpr int kCornerSteps = 37;         // leaves 2e-8 of a block
 constexpr double kNear = 0.25 * kTwoPi;  // tools further round than this do not reach a ruling
 
 /// A point of the workpiece on its ruling.
@@ -64,8 +64,11 @@ class Motion {
     count_ = first_at(omega + kNear) - first_;
   }
 
+  /// Between the blocks it is only less: a caller after the greatest of such needs no more than a
+  /// bound where that is already below the greatest so far.
   template <class Distance>
-  [[nodiscard]] Least least(const WorkPoint& point, Distance distance, int steps) const {
+  [[nodiscard]] Least least(const WorkPoint& point, Distance distance, int steps,
+                            double no_need_below) const {
     const auto n = std::ptrdiff_t(blocks_.size());
     Least best;
     for (std::ptrdiff_t i = first_; i < first_ + count_; ++i) {
@@ -73,21 +76,30 @@ class Motion {
       const double d = distance(at.pose, at.seen(point));
       if (d < best.value) best = {d, double((i % n + n) % n)};
     }
+    if (best.value <= no_need_below) return best;
     return between_ == Between::linear ? refined(point, distance, best, steps) : best;
   }
 
  private:
-  /// Golden section over the two segments beside the best block: there the distance falls and rises
-  /// once.
+  /// The two segments beside the best block, one by one: in each the distance falls and rises once,
+  /// and at the block the motion has a corner.
   template <class Distance>
   [[nodiscard]] Least refined(const WorkPoint& point, Distance distance, Least best,
                               int steps) const {
-    constexpr double kGolden = 0.6180339887498949;
     const auto at = [&](double t) {
       const Station there = station_of(block_at(blocks_, t), setup_);
       return Least{distance(there.pose, there.seen(point)), t};
     };
-    double low = best.station - 1.0, high = best.station + 1.0;
+    for (const double low : {best.station - 1.0, best.station}) {
+      const Least found = by_golden_section(low, low + 1.0, at, steps);
+      if (found.value < best.value) best = found;
+    }
+    return best;
+  }
+
+  template <class At>
+  static Least by_golden_section(double low, double high, At at, int steps) {
+    constexpr double kGolden = 0.6180339887498949;
     Least left = at(high - kGolden * (high - low)), right = at(low + kGolden * (high - low));
     for (int i = 0; i < steps; ++i) {
       if (left.value < right.value) {
@@ -99,10 +111,8 @@ class Motion {
         left = right;
         right = at(low + kGolden * (high - low));
       }
-      if (left.value < best.value) best = left;
-      if (right.value < best.value) best = right;
     }
-    return best;
+    return left.value < right.value ? left : right;
   }
 
   const Setup& setup_;
@@ -153,23 +163,25 @@ tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const
     const auto found = section(joint, omega);
     if (!found) return tl::unexpected(found.error());
     motion.look_at(omega.rad());
-    const auto seen = [&](double s, double z, double level, const auto& distance, int steps) {
-      const Least least = motion.least({found->dir.sin, found->dir.cos, s, z}, distance, steps);
+    const auto seen = [&](double s, double z, double level, const auto& distance, int steps,
+                          double no_need_below) {
+      const Least least =
+          motion.least({found->dir.sin, found->dir.cos, s, z}, distance, steps, no_need_below);
       return Extreme{least.value, omega, level, least.station};
     };
     for (int i = 0; i < points.per_ruling; ++i) {
       const double v = double(i) / (points.per_ruling - 1);
       const double s = joint.root_radius + v * joint.groove_width,
                    z = found->toe.y1 + v * found->height;
-      const Extreme on_flank = seen(s, z, v, flank, kSmoothSteps);
+      const Extreme on_flank = seen(s, z, v, flank, kSmoothSteps, -kFar);
       lower(out.flank_min, on_flank);
       raise(out.flank_max, on_flank);
-      raise(out.stock_left_max, seen(s, z, v, solid, kCornerSteps));
+      raise(out.stock_left_max, seen(s, z, v, solid, kCornerSteps, out.stock_left_max.value));
     }
     for (int i = 0; i < points.root_levels; ++i) {
       const double level = double(i) / (points.root_levels - 1);
       lower(out.root_face_min, seen(joint.root_radius, found->toe.y1 - level * joint.root_height,
-                                    level, solid, kCornerSteps));
+                                    level, solid, kCornerSteps, -kFar));
     }
   }
   return out;

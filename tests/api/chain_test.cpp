@@ -88,6 +88,24 @@ TEST(Chain, OffsetPairOfSource002GoesToTheCrawler) {
   EXPECT_EQ(text(schedule.body, "verdict/status"), "review");  // the stand-off grows: reported
 }
 
+TEST(Chain, CommonFieldsOfAnInnerRequestAreNotLost) {
+  const auto outer = example("mill-paths/case-a-end-up.json");
+  const Json reference{Json::Object{{"part", Json{"P-7"}}}};
+  const auto path = post("/v1/mill-paths", with(outer, "groove/reference", reference));
+  ASSERT_FALSE(path.outcome.error) << path.outcome.body.substr(0, 1000);
+  EXPECT_EQ(text(path.body, "request/groove/reference/part"), "P-7");
+  const auto pinned = post("/v1/mill-paths", with(outer, "groove/numerics", Json{46.0}));
+  EXPECT_EQ(text(pinned.body, "errors/0/pointer"), "/groove/numerics");
+  EXPECT_EQ(text(pinned.body, "errors/0/code"), "numerics_mismatch");
+  const Json accept{Json::Object{{"max_b_deg", Json{50.0}}}};
+  const auto cut = with(example("bevel-tables/k-joint-from-centre-lines.json"), "accept", accept);
+  const auto judged =
+      post("/v1/pulse-schedules",
+           Json{Json::Object{
+               {"cut", cut}, {"machine", Json{"five_axis_cutter"}}, {"motion", motion(600)}}});
+  EXPECT_EQ(text(judged.body, "errors/0/pointer"), "/cut/accept");
+}
+
 // Curve 3 of a groove is the intersection curve of a tube of diameter 2 rho3 on the chord: two
 // codes that share nothing.
 TEST(Chain, Curve3IsTheIntersectionCurve) {

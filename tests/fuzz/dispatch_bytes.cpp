@@ -16,9 +16,9 @@ namespace tubecut::fuzz {
 namespace {
 
 /// Places in the corpus stand for these; a new endpoint goes behind them.
-constexpr std::string_view kIds[] = {"intersections", "bevel-tables",    "feed-curves",
-                                     "nodes",         "holes",           "grooves",
-                                     "mill-paths",    "pulse-schedules", "replays"};
+constexpr std::string_view kIds[] = {
+    "intersections", "bevel-tables", "feed-curves",     "nodes",   "holes",
+    "grooves",       "mill-paths",   "pulse-schedules", "replays", "parts"};
 
 const api::Endpoint* endpoint_at(std::size_t place) {
   for (const auto& endpoint : api::endpoints())
@@ -79,8 +79,10 @@ void check(const api::Outcome& outcome) {
 
 }  // namespace
 
-bool reaches(std::string_view endpoint) {
-  return std::ranges::find(kIds, endpoint) != std::end(kIds);
+std::string_view endpoint_of(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty() || bytes.size() > kLongest) return {};
+  const auto* endpoint = endpoint_at(bytes[0] & 15u);
+  return endpoint == nullptr ? std::string_view{} : endpoint->id;
 }
 
 void dispatch_bytes(std::span<const std::uint8_t> bytes) {

@@ -16,7 +16,7 @@ inline constexpr std::size_t kLongest = 8192;
 /// JSON.
 void dispatch_bytes(std::span<const std::uint8_t> bytes);
 
-/// Has the endpoint of that id a place in the list?
-[[nodiscard]] bool reaches(std::string_view endpoint);
+/// Id of the endpoint that an input asks; empty when it asks none.
+[[nodiscard]] std::string_view endpoint_of(std::span<const std::uint8_t> bytes);
 
 }  // namespace tubecut::fuzz
