@@ -28,6 +28,7 @@ struct Job {
       std::chrono::steady_clock::time_point::max();  // of its budget
   std::string answer = {};
   std::function<void(bool)> sent = {};
+  bool refused = false;  // of a batch's line: its answer is a problem
 };
 
 /// The threads that compute, and the bounded queue before them.
