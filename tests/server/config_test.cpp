@@ -1,6 +1,7 @@
 #include "server/config.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -23,7 +24,8 @@ struct Variable {
 };
 
 std::string file_with(const std::string& text) {
-  const std::string name = ::testing::TempDir() + "tubecut_config_test.toml";
+  const std::string name =
+      ::testing::TempDir() + "tubecut_config_" + std::to_string(getpid()) + ".toml";
   std::ofstream(name) << text;
   return name;
 }
