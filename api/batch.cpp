@@ -21,6 +21,22 @@ void refuse(BatchLine& line, const Problem& problem, std::string_view request_id
       print(problem, request_id, context.status != nullptr ? context.status(*line.error) : 0);
 }
 
+/// Any text: it is the caller's, and only goes back.
+std::string read_id(Reader& in) {
+  in.note("id");
+  const Json* field = in.find("id");
+  const auto* text = field != nullptr ? field->as<std::string>() : nullptr;
+  if (text != nullptr && !text->empty() && text->size() <= kLongestId) return *text;
+  in.issue({.code = field == nullptr  ? ErrorCode::missing_field
+                    : text == nullptr ? ErrorCode::wrong_type
+                                      : ErrorCode::bad_text,
+            .pointer = "id",
+            .limit = Json{static_cast<double>(kLongestId)},
+            .hint = "a text of 1 to that many bytes"},
+           field);
+  return {};
+}
+
 /// The endpoint's path; empty beside an issue.
 std::string read_endpoint(Reader& in) {
   std::string list;
@@ -60,15 +76,13 @@ BatchLine read_batch_line(std::string_view text, std::string_view request_id,
   if (!json) {
     refuse(out,
            {.code = ErrorCode::unreadable_json,
-            .detail =
-                json.error().reason + " at byte " + std::to_string(json.error().offset) +
-                " of the line"},
+            .detail = json.error().reason + " at byte " + std::to_string(json.error().offset) +
+                      " of the line"},
            request_id, context);
     return out;
   }
   Reader in(*json);
-  out.id = in.text("id", kLongestId);
-  if (!in.understood("id")) out.id.clear();
+  out.id = read_id(in);
   out.path = read_endpoint(in);
   out.body = read_body(in);
   if (auto issues = in.finish_root(); !issues.empty())
@@ -81,7 +95,7 @@ std::string print_batch_line(const BatchLine& line, std::size_t number, int stat
   while (answer.ends_with('\n')) answer.remove_suffix(1);
   Writer out(answer.size() + line.id.size() + 64);
   out.object([&](Writer& w) {
-    w.field("id", line.id.empty() ? Json{nullptr} : Json{line.id});
+    w.field("id", line.id.empty() ? Json{} : Json{line.id});
     w.field("line", static_cast<double>(number));
     w.field("status", status);
     w.raw("body", answer);

@@ -37,8 +37,6 @@ constexpr std::size_t kJobBytesPerByte = 48;
 constexpr std::size_t kSlotBytes = 24u << 20;
 constexpr std::size_t kLeastMemory = 16u << 20;
 
-std::size_t memory_of(std::size_t body) { return kJobBytesPerByte * body; }
-
 /// What is left of the bound for bodies and answers once every slot has its part; 0: no bound.
 std::size_t shared_memory(const TransportOptions& options) {
   if (options.memory == 0) return 0;
@@ -51,6 +49,8 @@ double seconds(Clock::time_point time) {
 }
 
 }  // namespace
+
+std::size_t memory_of(std::size_t body) { return kJobBytesPerByte * body; }
 
 EventLoop::EventLoop(const TransportOptions& options, const Service& service, Print print)
     : options_(options),
@@ -483,7 +483,8 @@ void EventLoop::close(Connection& c) {
 
 void EventLoop::set_deadline(Connection& c, Clock::time_point when) {
   c.deadline = draining_ && c.state != State::working && c.state != State::batching
-                   ? std::min(when, drained_by_) : when;
+                   ? std::min(when, drained_by_)
+                   : when;
   soonest_ = std::min(soonest_, c.deadline);
 }
 

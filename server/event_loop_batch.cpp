@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "server/event_loop.hpp"
 
@@ -50,14 +51,19 @@ void EventLoop::begin_batch(Connection& c, std::shared_ptr<Job> job) {
   } else if (service_.admit) {
     job->request.refusal = service_.admit(job->request);
   }
-  const Response head = job->request.refusal ? Response{.status = 0} : service_.batch_head(job->request);
+  const Response head =
+      job->request.refusal ? Response{.status = 0} : service_.batch_head(job->request);
   if (head.status != 200) return write(c, print_(job->request, job->close));
   c.state = State::batching;
   c.batch = std::make_unique<Batch>();
   c.batch->lines = std::move(job->request.body);
   c.batch->head = std::move(job->request);
-  for (const auto& [name, value] : head.headers)
-    if (name == "X-Request-Id") c.batch->head.headers.emplace_back(name, value);
+  auto& common = c.batch->head.headers;  // the lines go by the name the client is told
+  const auto is_id = [](const auto& field) {
+    return equal_ignoring_case(field.first, "X-Request-Id");
+  };
+  std::erase_if(common, is_id);
+  std::ranges::copy_if(head.headers, std::back_inserter(common), is_id);
   counters_.memory += memory;
   std::size_t at = 0;
   while (!next_line(c.batch->lines, at).empty()) ++c.batch->count.items;
@@ -67,9 +73,11 @@ void EventLoop::begin_batch(Connection& c, std::shared_ptr<Job> job) {
   feed(c);
 }
 
-/// Begins as many lines as are worked on at a time - one more than there are slots, so that none
-/// waits, and other requests wait for no more than these - and sends what is answered.
+/// Sends what is answered and begins as many lines as are worked on at a time: one more than there
+/// are slots, so that no slot waits, and other requests wait for no more than these.
 void EventLoop::feed(Connection& c) {
+  send_batch(c);
+  if (!connections_.contains(&c)) return;
   Batch& batch = *c.batch;
   batch.again = Clock::time_point::max();
   const auto most = static_cast<std::size_t>(slots_->count()) + 1;
@@ -85,7 +93,7 @@ void EventLoop::feed(Connection& c) {
     }
   }
   if (batch.stopped && batch.running.empty()) return end_batch(c);
-  send_batch(c);
+  set_batch_deadline(c);
 }
 
 /// False when the queue is full.
@@ -99,7 +107,7 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   job->request.times.read = job->request.times.received =
       std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
   job->owner = &c;
-  job->memory = memory_of_job(line.size());
+  job->memory = memory_of(line.size());
   if (service_.budget) job->end = Clock::now() + service_.budget(job->request);
   if (!slots_->offer(job)) return false;
   counters_.memory += job->memory;
@@ -137,7 +145,6 @@ void EventLoop::send_batch(Connection& c) {
   } else if (progress || c.batch->stalled == Clock::time_point::max()) {
     c.batch->stalled = Clock::now() + options_.write;
   }
-  set_batch_deadline(c);
 }
 
 void EventLoop::end_batch(Connection& c) {

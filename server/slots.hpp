@@ -31,6 +31,9 @@ struct Job {
   bool refused = false;  // of a batch's line: its answer is a problem
 };
 
+/// Bytes to set aside for a job by those of its body.
+[[nodiscard]] std::size_t memory_of(std::size_t body);
+
 /// The threads that compute, and the bounded queue before them.
 class Slots {
  public:
