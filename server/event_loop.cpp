@@ -379,7 +379,7 @@ void EventLoop::on_whole(Connection& c) {
   request.reports_sending = true;
   job->close = c.closing;
   job->owner = &c;
-  if (service_.is_batch && service_.is_batch(request)) return begin_batch(c, std::move(job));
+  if (service_.is_batch && service_.is_batch(request)) return begin_batch(c, job);
   if (const auto budget = service_.budget ? service_.budget(request) : 0ms; budget > 0ms) {
     job->end = Clock::now() + budget;
     set_deadline(c, budget / kWaitShare);

@@ -68,7 +68,7 @@ class EventLoop {
   [[nodiscard]] bool in_time(const Job& job) const;
   [[nodiscard]] std::optional<Refusal> offer(Connection& c, const std::shared_ptr<Job>& job);
 
-  void begin_batch(Connection& c, std::shared_ptr<Job> job);
+  void begin_batch(Connection& c, const std::shared_ptr<Job>& job);
   void feed(Connection& c);
   [[nodiscard]] bool feed_line(Connection& c, std::string_view line);
   void answer_line(Connection& c, std::string_view text, bool refused);

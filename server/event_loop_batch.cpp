@@ -43,7 +43,7 @@ std::string_view next_line(std::string_view lines, std::size_t& at) {
 
 }  // namespace
 
-void EventLoop::begin_batch(Connection& c, std::shared_ptr<Job> job) {
+void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = job->request.body.size();
   if (options_.memory > 0 && counters_.memory > 0 && counters_.memory + memory > options_.memory) {
     ++counters_.bytes;
