@@ -68,6 +68,35 @@ struct Outcome {
 [[nodiscard]] Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,
                               const Context& context);
 
+/// Where many calls come in one body, one line of JSON each, and are answered line by line.
+inline constexpr std::string_view kBatchesPath = "/v1/batches";
+
+/// One line of a batch: `{"id": text, "endpoint": "bevel-tables", "body": {...}}`.
+struct BatchLine {
+  std::string id;    // empty: it could not be read
+  std::string path;  // "/v1/bevel-tables"
+  std::string body;  // JSON, as the endpoint takes it
+  std::optional<ErrorKind> error;
+  std::string problem;  // the document, where there is an error
+};
+
+/// Reads a line; one that cannot be worked on comes back with its problem.
+[[nodiscard]] BatchLine read_batch_line(std::string_view line, std::string_view request_id,
+                                        const Context& context);
+
+/// The line of a batch's answer, with its line feed. `number` counts from 1; `answer` is the answer
+/// or problem in JSON.
+[[nodiscard]] std::string print_batch_line(const BatchLine& line, std::size_t number, int status,
+                                           std::string_view answer);
+
+/// The last line: what became of the `lines` received. Unanswered ones may be sent again.
+struct BatchSummary {
+  std::size_t items = 0;
+  std::size_t answered = 0;  // with an answer
+  std::size_t refused = 0;   // with a problem
+};
+[[nodiscard]] std::string print_batch_summary(const BatchSummary& summary);
+
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
 

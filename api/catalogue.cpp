@@ -69,6 +69,10 @@ std::string version_page() {
         o.column("formats", formats);
       });
     });
+    w.object("batches", [](Writer& o) {
+      o.field("path", kBatchesPath);
+      o.column("formats", std::vector<std::string>{"application/x-ndjson"});
+    });
   });
   return out.take();
 }

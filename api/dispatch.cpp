@@ -374,6 +374,12 @@ Outcome dispatch(const Call& call, const Context& context) {
                         "POST");
     return job.compute(endpoint);
   }
+  if (call.path == kBatchesPath)
+    return call.method == "POST"
+               ? job.refuse(ErrorCode::unsupported_media_type, "a batch is application/x-ndjson")
+               : job.refuse(
+                     Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
+                     "POST");
   if (std::find(std::begin(kAllPaths), std::end(kAllPaths), call.path) == std::end(kAllPaths))
     return job.refuse(ErrorCode::not_found);
   if (call.method != "GET" && call.method != "HEAD")
@@ -399,6 +405,7 @@ Outcome problem(ErrorCode code, std::string_view detail, std::string_view reques
 std::size_t max_body(std::string_view path) {
   for (const auto& endpoint : endpoints())
     if (endpoint.path == path) return endpoint.max_body;
+  if (path == kBatchesPath) return static_cast<std::size_t>(limit::body_large_max_bytes);
   return static_cast<std::size_t>(limit::body_max_bytes);
 }
 

@@ -177,6 +177,8 @@ api::Outcome App::answer(const Request& request, const Identity& id) const {
     return refuse(
         {ErrorCode::body_too_large, fmt::format("The body is larger than {} bytes.", limit)}, id);
   }
+  if (is_batch(request))
+    if (const auto fault = batch_fault(request)) return refuse(*fault, id);
   api::Context with = context();
   if (request.stop.stop_possible()) with.stop = request.stop;
   api::Outcome outcome = x_.dispatch(call_of(request, id), with);

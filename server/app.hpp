@@ -72,6 +72,19 @@ class App {
   /// Whether a whole request may be worked on now: its key's rate.
   [[nodiscard]] std::optional<Refusal> admit(const Request& request) const;
 
+  /// Is it POST /v1/batches?
+  [[nodiscard]] static bool is_batch(const Request& request);
+
+  /// Status and headers of a batch's answer; another status than 200: `handle` refuses it.
+  [[nodiscard]] Response batch_head(const Request& request) const;
+
+  /// Answers one line of a batch, logged and counted like a request by itself: X-Request-Id is the
+  /// batch's with the line's number. The headers are the batch's.
+  [[nodiscard]] BatchReply line(const Request& request) const;
+
+  /// The last line of a batch's answer.
+  [[nodiscard]] static std::string summary(const BatchCount& count);
+
   /// Time for the job.
   [[nodiscard]] std::chrono::milliseconds budget(const Request& request) const;
 
@@ -83,6 +96,8 @@ class App {
   [[nodiscard]] api::Context context() const;
   [[nodiscard]] std::optional<Response> preflight(const Request& request) const;
   void allow_origin(const Request& request, Headers& headers) const;
+  [[nodiscard]] BatchReply answer_line(const Request& request) const;
+  [[nodiscard]] static std::optional<Refusal> batch_fault(const Request& request);
   void tell(JobRecord record, const Request& request, Response& response) const;
 
   AppOptions x_;

@@ -114,9 +114,14 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   app.add_flag("--print-config", print, "print every option's value as TOML and end")
       ->configurable(false);
   auto* health = app.add_subcommand("health", "ask the running service whether it is ready");
-  auto* run = app.add_subcommand("run", "answer one request from a file without a server");
-  run->add_option("--endpoint", command.endpoint, "such as bevel-tables")->required();
-  run->add_option("file", command.file, "the request's body; - for stdin")->required();
+  auto* run = app.add_subcommand("run", "answer a file without a server: the same bytes");
+  run->add_option(
+      "--endpoint", command.endpoint,
+      "such as bevel-tables, whose request the file is; without it the file is a batch");
+  run->add_option(
+         "file", command.file,
+         "one request, or a batch: a line {\"id\", \"endpoint\", \"body\"} per job; - for stdin")
+      ->required();
   auto* selftest = app.add_subcommand("selftest", "answer known jobs and compare their hashes");
   selftest->add_flag("--all", command.all, "print the hash of every example instead");
   auto* new_key = app.add_subcommand("new-key", "print a new API key and its line for --keys");

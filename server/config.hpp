@@ -42,7 +42,7 @@ struct Command {
   enum class Kind { serve, health, run, selftest, new_key };
   Kind kind = Kind::serve;
   Config config;
-  std::string endpoint;  // of run: "bevel-tables"
+  std::string endpoint;  // of run: "bevel-tables"; empty: the file is a batch
   std::string file;      // of run: "-" for stdin
   std::string identity;  // of new-key
   bool all = false;      // of selftest: every example, its hash printed

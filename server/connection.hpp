@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "server/request_reader.hpp"
 #include "server/slots.hpp"
@@ -15,6 +16,19 @@
 namespace tubecut::server {
 
 using Clock = std::chrono::steady_clock;
+
+/// A batch on its way: its lines become jobs, a few at a time.
+struct Batch {
+  Request head;          // what every line's request has in common
+  std::string lines;     // the body
+  std::size_t at = 0;    // of the next line
+  std::size_t line = 0;  // lines begun
+  bool stopped = false;  // no further line begins
+  BatchCount count;
+  std::vector<std::shared_ptr<Job>> running;
+  Clock::time_point stalled = Clock::time_point::max();  // when a client that takes nothing is cut
+  Clock::time_point again = Clock::time_point::max();    // when a full queue is asked again
+};
 
 /// One accepted socket as the port sees it: owned and touched by the port's thread alone.
 class Connection {
@@ -24,6 +38,7 @@ class Connection {
     head,      // a request's head is on its way
     body,      // its body
     working,   // a job waits for a slot or runs
+    batching,  // the lines of a batch are worked on and answered
     writing,   // the answer is on its way
     lingering  // nothing more is answered; lets the client read what was
   };
@@ -73,6 +88,7 @@ class Connection {
   std::size_t out_at = 0;
   std::size_t lingered = 0;
   std::shared_ptr<Job> job;
+  std::unique_ptr<Batch> batch;
   std::function<void(bool)> sent;
   Clock::time_point received;
   Clock::time_point deadline = Clock::time_point::max();

@@ -37,8 +37,6 @@ constexpr std::size_t kJobBytesPerByte = 48;
 constexpr std::size_t kSlotBytes = 24u << 20;
 constexpr std::size_t kLeastMemory = 16u << 20;
 
-std::size_t memory_of(std::size_t body) { return kJobBytesPerByte * body; }
-
 /// What is left of the bound for bodies and answers once every slot has its part; 0: no bound.
 std::size_t shared_memory(const TransportOptions& options) {
   if (options.memory == 0) return 0;
@@ -52,6 +50,8 @@ double seconds(Clock::time_point time) {
 
 }  // namespace
 
+std::size_t memory_of(std::size_t body) { return kJobBytesPerByte * body; }
+
 EventLoop::EventLoop(const TransportOptions& options, const Service& service, Print print)
     : options_(options),
       limits_{.head_bytes = options.max_head_bytes, .fields = options.max_fields},
@@ -63,9 +63,15 @@ EventLoop::EventLoop(const TransportOptions& options, const Service& service, Pr
       slots_(
           std::make_unique<Slots>(options.slots, options.queue, [this](std::shared_ptr<Job> job) {
             job->request.times.started = seconds(Clock::now());
-            Printed printed = print_(job->request, job->close);
-            job->answer = std::move(printed.bytes);
-            job->sent = std::move(printed.sent);
+            if (job->request.line > 0) {
+              BatchReply reply = service_.line(job->request);
+              job->answer = std::move(reply.text);
+              job->refused = reply.refused;
+            } else {
+              Printed printed = print_(job->request, job->close);
+              job->answer = std::move(printed.bytes);
+              job->sent = std::move(printed.sent);
+            }
             {
               const std::lock_guard lock(mutex_);
               finished_.push_back(std::move(job));
@@ -188,6 +194,9 @@ void EventLoop::take_messages() {
   if (!cancels) return;
   for (auto& [c, owned] : connections_) {
     if (c->job) c->job->stop.request_stop();
+    if (!c->batch) continue;
+    c->batch->stopped = true;
+    for (const auto& job : c->batch->running) job->stop.request_stop();
   }
 }
 
@@ -221,15 +230,17 @@ void EventLoop::accept(int descriptor) {
 
 void EventLoop::on_event(Connection& c, unsigned events) {
   if ((events & (EPOLLHUP | EPOLLERR)) != 0) {
-    if (c.state == State::working) ++counters_.hung_up;
+    if (c.state == State::working || c.state == State::batching) ++counters_.hung_up;
     return close(c);
   }
   if ((events & EPOLLIN) != 0) c.readable = true;
   if ((events & EPOLLRDHUP) != 0 && !c.half_closed) {
     c.half_closed = c.readable = true;
-    if (c.state == State::working)
+    if (c.state == State::working || c.state == State::batching)
       set_deadline(c, std::min(c.deadline, Clock::now() + kHangUpGrace));
   }
+  if (c.state == State::batching && (events & EPOLLOUT) != 0) feed(c);
+  if (!connections_.contains(&c)) return;
   if (c.state == State::writing && (events & EPOLLOUT) != 0) send(c);
   if (connections_.contains(&c)) pump(c);
 }
@@ -368,6 +379,7 @@ void EventLoop::on_whole(Connection& c) {
   request.reports_sending = true;
   job->close = c.closing;
   job->owner = &c;
+  if (service_.is_batch && service_.is_batch(request)) return begin_batch(c, job);
   if (const auto budget = service_.budget ? service_.budget(request) : 0ms; budget > 0ms) {
     job->end = Clock::now() + budget;
     set_deadline(c, budget / kWaitShare);
@@ -416,6 +428,7 @@ void EventLoop::finish(Job& job) {
     if (job.sent) job.sent(false);
     return;
   }
+  if (job.request.line > 0) return finish_line(*c, job);
   c->job = nullptr;
   write(*c, {std::move(job.answer), std::move(job.sent)});
   if (connections_.contains(c)) pump(*c);
@@ -460,6 +473,7 @@ void EventLoop::close(Connection& c) {
     if (slots_->withdraw(c.job)) release(*c.job);
     c.job = nullptr;
   }
+  drop_batch(c);
   if (c.reading()) counters_.memory -= c.reader.held();
   counters_.memory -= c.out.size();
   buried_.push_back(std::move(at->second));
@@ -468,7 +482,9 @@ void EventLoop::close(Connection& c) {
 }
 
 void EventLoop::set_deadline(Connection& c, Clock::time_point when) {
-  c.deadline = draining_ && c.state != State::working ? std::min(when, drained_by_) : when;
+  c.deadline = draining_ && c.state != State::working && c.state != State::batching
+                   ? std::min(when, drained_by_)
+                   : when;
   soonest_ = std::min(soonest_, c.deadline);
 }
 
@@ -495,6 +511,8 @@ void EventLoop::expire(Connection& c) {
     case State::body:
       ++counters_.over_time;
       return refuse_unread(c, {ErrorCode::bad_request, "The request came too slowly."});
+    case State::batching:
+      return expire_batch(c);
     case State::working:
       break;
   }
@@ -530,6 +548,9 @@ void EventLoop::begin_drain() {
       close(*c);
     } else if (c->state == State::idle) {
       set_deadline(*c, kFirstByteWhileDraining);
+    } else if (c->batch) {
+      c->batch->stopped = true;
+      feed(*c);
     } else if (c->state != State::working) {
       set_deadline(*c, c->deadline);
     }

@@ -68,6 +68,17 @@ class EventLoop {
   [[nodiscard]] bool in_time(const Job& job) const;
   [[nodiscard]] std::optional<Refusal> offer(Connection& c, const std::shared_ptr<Job>& job);
 
+  void begin_batch(Connection& c, const std::shared_ptr<Job>& job);
+  void feed(Connection& c);
+  [[nodiscard]] bool feed_line(Connection& c, std::string_view line);
+  void answer_line(Connection& c, std::string_view text, bool refused);
+  void finish_line(Connection& c, Job& job);
+  void send_batch(Connection& c);
+  void end_batch(Connection& c);
+  void expire_batch(Connection& c);
+  void drop_batch(Connection& c);
+  void set_batch_deadline(Connection& c);
+
   void refuse(Connection& c, Refusal refusal);
   void refuse_unread(Connection& c, Refusal refusal);
   void finish(Job& job);

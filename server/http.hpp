@@ -40,6 +40,20 @@ struct Request {
   std::stop_token stop = {};            // ends the job: over its budget, or nobody waits for it
   Times times = {};
   bool reports_sending = false;  // the transport will call `Response::sent`
+  std::size_t line = 0;          // of a batch, from 1; 0: a request by itself
+};
+
+/// The answer to one line of a batch.
+struct BatchReply {
+  std::string text = {};  // with its line feed
+  bool refused = false;
+};
+
+/// What became of a batch's lines.
+struct BatchCount {
+  std::size_t items = 0;
+  std::size_t answered = 0;
+  std::size_t refused = 0;
 };
 
 /// The body stays in the answer to a HEAD: its length is sent, the transport leaves the bytes out.

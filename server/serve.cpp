@@ -69,6 +69,10 @@ Service service_of(const App& app) {
           .screen = [&app](const Request& head) { return app.screen(head); },
           .max_body = [&app](std::string_view target) { return app.max_body(target); },
           .admit = [&app](const Request& request) { return app.admit(request); },
+          .is_batch = App::is_batch,
+          .batch_head = [&app](const Request& request) { return app.batch_head(request); },
+          .line = [&app](const Request& request) { return app.line(request); },
+          .summary = App::summary,
           .budget = [&app](const Request& request) { return app.budget(request); }};
 }
 

@@ -28,7 +28,11 @@ struct Job {
       std::chrono::steady_clock::time_point::max();  // of its budget
   std::string answer = {};
   std::function<void(bool)> sent = {};
+  bool refused = false;  // of a batch's line: its answer is a problem
 };
+
+/// Bytes to set aside for a job by those of its body.
+[[nodiscard]] std::size_t memory_of(std::size_t body);
 
 /// The threads that compute, and the bounded queue before them.
 class Slots {

@@ -23,6 +23,15 @@ struct Service {
   std::function<std::size_t(std::string_view target)> max_body;
   /// Whether a whole request may queue for a slot; empty: always.
   std::function<std::optional<Refusal>(const Request&)> admit = {};
+  /// Whether the request's body is a batch, each line a job and answered by `line` as soon as it is
+  /// done; empty: none is.
+  std::function<bool(const Request&)> is_batch = {};
+  /// The head of a batch's answer: status and headers. Anything but 200 is its whole answer.
+  std::function<Response(const Request&)> batch_head = {};
+  /// Answers the line in `Request::body`, the `Request::line`-th of a batch.
+  std::function<BatchReply(const Request&)> line = {};
+  /// The last line of a batch's answer.
+  std::function<std::string(const BatchCount&)> summary = {};
   /// Time for the job, from its last byte in to its answer; empty: no end.
   std::function<std::chrono::milliseconds(const Request&)> budget = {};
 };

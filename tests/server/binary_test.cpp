@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -6,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -161,6 +163,31 @@ TEST(Binary, RunsOneRequestWithoutAServer) {
   const std::string file = ::testing::TempDir() + "tubecut_run_test.json";
   std::ofstream(file) << "{not json";
   Program program({TUBECUT_BINARY, "run", "--endpoint", "bevel-tables", file});
+  EXPECT_EQ(program.exit_code(), 1);
+}
+
+TEST(Binary, RunsABatchWithoutAServer) {
+  const std::string file =
+      ::testing::TempDir() + "tubecut_batch_" + std::to_string(getpid()) + ".ndjson";
+  std::ofstream(file) << R"({"id": "a", "endpoint": "nodes", "body": {}})"
+                      << "\n\n"
+                      << "not a job\n"
+                      << R"({"id": "b", "endpoint": "no-such", "body": {}})";
+  Program program({TUBECUT_BINARY, "run", file});
+  std::map<std::string, double> statuses;
+  api::Json summary;
+  for (std::string line = program.line(); !line.empty(); line = program.line()) {
+    const auto json = api::parse(line);
+    ASSERT_TRUE(json) << line;
+    if (const auto* last = json->find("summary")) {
+      summary = *last;
+      break;
+    }
+    const auto* id = json->find("id")->as<std::string>();
+    statuses[id != nullptr ? *id : ""] = *json->find("status")->as<double>();
+  }
+  EXPECT_EQ(statuses, (std::map<std::string, double>{{"a", 422}, {"", 400}, {"b", 422}}));
+  EXPECT_EQ(summary, *api::parse(R"({"items":3,"answered":0,"refused":3,"unanswered":0})"));
   EXPECT_EQ(program.exit_code(), 1);
 }
 

@@ -18,13 +18,13 @@ PROPERTIES = {
     "errors": {"maxItems": 32}, "part": {"maxLength": 64}, "members": {"maxItems": 10000},
 }
 CONTRACT = {
-    "paths": {"/v1/errors": {"get": {}}, "/v1/bevel-tables": {"post": {}}},
+    "paths": {"/v1/errors": {"get": {}}, "/v1/bevel-tables": {"post": {}}, "/v1/batches": {"post": {}}},
     "components": {"schemas": {
         "ErrorCode": {"enum": ["open_profile", "torch_range"]}, "WarningCode": {"enum": ["free_end"]},
         "Cutters": {"maxItems": 64}, "Request": {"properties": PROPERTIES}}},
 }
 FACTS = {
-    "version": {"endpoints": [{"path": "/v1/bevel-tables"}]},
+    "version": {"endpoints": [{"path": "/v1/bevel-tables"}], "batches": {"path": "/v1/batches"}},
     "errors": {"errors": [{"code": "open_profile"}, {"code": "torch_range"}], "warnings": [{"code": "free_end"}]},
     "limits": {"limits": LIMITS},
 }
@@ -42,6 +42,7 @@ def request(contract):
 CHANGES = {
     "path not written": (lambda c, f: f["version"]["endpoints"].append({"path": "/v1/holes"}), "/v1/holes is in the code"),
     "path not coded": (lambda c, f: f["version"]["endpoints"].pop(), "/v1/bevel-tables is in the contract"),
+    "batches not written": (lambda c, f: c["paths"].pop("/v1/batches"), "/v1/batches is in the code"),
     "catalogue not written": (lambda c, f: c["paths"].pop("/v1/errors"), "GET /v1/errors is in the code"),
     "error not written": (lambda c, f: f["errors"]["errors"].append({"code": "wall"}), "wall is in the code"),
     "error not coded": (lambda c, f: f["errors"]["errors"].pop(), "torch_range is in the contract"),

@@ -51,6 +51,8 @@ def main():
         crowd = [Slow(service.port, b"GET /v1/version HTTP/1.1\r\nHost: x\r\nX: ", b"a") for _ in range(halves)]
         crowd += [Slow(service.port, head("Content-Length: 100000"), b" ") for _ in range(halves)]
         crowd += [Slow(service.port, get("/v1/version"), b"") for _ in range(idle)]
+        while service.metric("tubecut_queue_depth") + service.metric("tubecut_slots_busy") > 0:
+            time.sleep(0.01)  # the idle ones' first requests, all at once, may fill the queue for a moment
         traffic = subprocess.Popen([load, str(seconds), "4", str(service.port), good.name, "--rate", "200"],
                                    stdout=subprocess.PIPE, text=True)
         until = time.monotonic() + seconds

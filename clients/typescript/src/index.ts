@@ -92,7 +92,8 @@ export async function answered<Data>(call: Promise<Reply<Data>>): Promise<NonNul
   throw new ContractError(`${response.status} from ${response.url} without a problem document`);
 }
 
-export type PostPath = {[P in keyof paths]: paths[P] extends {post: unknown} ? P : never}[keyof paths];
+type JsonPost = {post: {requestBody: {content: {'application/json': unknown}}}};
+export type PostPath = {[P in keyof paths]: paths[P] extends JsonPost ? P : never}[keyof paths];
 export type RequestBody<P extends PostPath> = paths[P]['post']['requestBody']['content']['application/json'];
 export type Answer<P extends PostPath> = paths[P]['post']['responses'][200]['content']['application/json'];
 export type Answered<P extends PostPath> = Answer<P> & {result: NonNullable<Answer<P>['result']>};
@@ -115,4 +116,61 @@ export async function post<P extends PostPath>(
   }));
   if (data.result === undefined) throw new ContractError('an answer without result');
   return data as Answered<P>;
+}
+
+/** One job of a batch; its body is the endpoint's own. */
+export type BatchLine = {
+  [P in PostPath]: P extends `/v1/${infer Endpoint}` ? {id: string; endpoint: Endpoint; body: RequestBody<P>} : never
+}[PostPath];
+export type BatchReply = Schemas['BatchReply'];
+export type BatchSummary = Schemas['BatchSummary']['summary'];
+
+export interface BatchOptions {
+  /** Ends the batch and the work on it. */
+  signal?: AbortSignal;
+  headers?: Record<string, string>;
+  fetch?: typeof fetch;
+}
+
+async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
+  const decoder = new TextDecoder();
+  const reader = body.getReader();
+  let rest = '';
+  try {
+    for (;;) {
+      const {done, value} = await reader.read();
+      const lines = (rest + decoder.decode(value, {stream: !done})).split('\n');
+      rest = lines.pop() ?? '';
+      yield* lines;
+      if (done) break;
+    }
+  } finally {
+    await reader.cancel().catch(() => undefined);  // left early: the service stops
+  }
+  if (rest !== '') throw new ContractError('the batch was cut off within a line');
+}
+
+/**
+ * Many jobs in one request: each answer as soon as it is done. Returns the summary; a stream that ends without one was cut off,
+ * and is thrown as a ContractError: the jobs not answered may be sent again.
+ */
+export async function* batch(
+    baseUrl: string, lines: Iterable<BatchLine>, {signal, headers, fetch: send = fetch}: BatchOptions = {},
+): AsyncGenerator<BatchReply, BatchSummary> {
+  const media = 'application/x-ndjson';
+  const reply = await send(`${baseUrl.replace(/\/$/, '')}/v1/batches`, {
+    method: 'POST', headers: {...headers, 'Content-Type': media, Accept: media},
+    body: Array.from(lines, (line) => `${JSON.stringify(line)}\n`).join(''), ...(signal === undefined ? {} : {signal}),
+  });
+  if (!reply.ok || !reply.body) {
+    const error: unknown = await reply.json().catch(() => undefined);
+    if (isProblem(error)) throw new ProblemError(error);
+    throw new ContractError(`${reply.status} from ${reply.url} without a problem document`);
+  }
+  for await (const line of textLines(reply.body)) {
+    const answer = JSON.parse(line) as BatchReply | Schemas['BatchSummary'];
+    if ('summary' in answer) return answer.summary;
+    yield answer;
+  }
+  throw new ContractError('the batch was cut off: no summary');
 }

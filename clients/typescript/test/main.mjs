@@ -15,7 +15,7 @@ const {faults, expected} = compile();
 assert.deepEqual(faults, [], faults.join('\n'));
 console.log(`right.ts and the README compile; ${expected} wrong calls do not`);
 
-const {answered, post, ProblemError, retryingFetch, tubecut} = await import('../dist/index.js');
+const {answered, batch, ContractError, post, ProblemError, retryingFetch, tubecut} = await import('../dist/index.js');
 
 async function computesTableOne({client}) {
   const {job, result, verification, verdict} =
@@ -84,10 +84,26 @@ async function repeatsWhatIsRetryable({base}) {
   assert.equal(sent, 1, 'a 422 is not repeated');
 }
 
+async function streamsABatch({base}) {
+  const body = example('intersections/source-000-table-1.json');
+  const lines = Array.from({length: 50}, (_, n) => ({id: `größer ${n}`, endpoint: 'intersections', body: n === 20 ? {} : body}));
+  const statuses = new Map();
+  const stream = batch(base, lines);
+  let step = await stream.next();
+  for (; !step.done; step = await stream.next()) statuses.set(step.value.id, step.value.status);
+  assert.deepEqual(step.value, {items: 50, answered: 49, refused: 1, unanswered: 0});
+  assert.deepEqual(new Set(statuses.keys()), new Set(lines.map(({id}) => id)));
+  assert.equal(statuses.get('größer 20'), 422);
+
+  const cut = async () => new Response('{"id":"a","line":1,"status":200,"body":{}}\n{"id"', {status: 200});
+  await assert.rejects(async () => { for await (const _ of batch(base, [], {fetch: cut})); }, ContractError);
+  for await (const _ of batch(base, lines)) break;  // leaving early ends it
+}
+
 const service = await Service.start(values.server);
 const base = `http://127.0.0.1:${service.port}`;
 try {
-  for (const test of [computesTableOne, chainsTableToSchedule, tellsEveryWrongField, reachesFormatsAndCatalogues, repeatsWhatIsRetryable]) {
+  for (const test of [computesTableOne, chainsTableToSchedule, tellsEveryWrongField, reachesFormatsAndCatalogues, repeatsWhatIsRetryable, streamsABatch]) {
     await test({base, client: tubecut(base)});
     console.log(`ok ${test.name}`);
   }

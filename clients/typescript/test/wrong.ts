@@ -1,5 +1,5 @@
 // What the client must refuse. Each directive names the compiler's code and a word of its message; main.mjs holds both.
-import {post, tubecut} from '../src/index.js';
+import {post, tubecut, type BatchLine} from '../src/index.js';
 import {joint} from './right.js';
 
 const client = tubecut('http://127.0.0.1:8080');
@@ -52,6 +52,10 @@ export async function calls(): Promise<void> {
   const whole = await client.POST('/v1/bevel-tables', {body: joint});
   // @ts-expect-error 18048 possibly 'undefined'
   whole.data.job;
+
+  // @ts-expect-error 2322 'number' is not assignable
+  const lines: BatchLine[] = [{id: '1', endpoint: 'intersections', body: {target: {outer_diameter_mm: 70, wall_mm: 5}, cutters: [tube], surfaces: 1}}];
+  console.log(lines);
 
   // @ts-expect-error 2367 no overlap
   if (whole.data?.verdict.status === 'fine') console.log(text);

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "api/api.hpp"
+#include "server/app.hpp"
+#include "server/identity.hpp"
+#include "server/status.hpp"
+
+namespace tubecut::server {
+namespace {
+
+constexpr std::string_view kLinesMedia = "application/x-ndjson";
+
+/// What every line's request takes from the batch's: whose it is and how long it may take. Types
+/// and names of the batch itself are not the line's.
+Headers line_headers(const Headers& of_batch, std::string request_id) {
+  Headers out;
+  for (const auto* name : {"Authorization", "X-Api-Key", "X-Forwarded-For", "traceparent"})
+    if (const auto value = header(of_batch, name); !value.empty()) out.emplace_back(name, value);
+  out.emplace_back("Content-Type", "application/json");
+  out.emplace_back("X-Request-Id", std::move(request_id));
+  return out;
+}
+
+bool is_lines(std::string_view media) {
+  return equal_ignoring_case(media.substr(0, media.find_first_of("; ")), kLinesMedia);
+}
+
+bool takes_lines(std::string_view accept) {
+  return accept.empty() || accept.find("*/*") != accept.npos ||
+         accept.find("application/*") != accept.npos || accept.find(kLinesMedia) != accept.npos;
+}
+
+}  // namespace
+
+bool App::is_batch(const Request& request) {
+  return request.method == "POST" && path_of(request.target) == api::kBatchesPath;
+}
+
+std::optional<Refusal> App::batch_fault(const Request& request) {
+  if (!is_lines(header(request.headers, "Content-Type")))
+    return Refusal{ErrorCode::unsupported_media_type, fmt::format("A batch is {}.", kLinesMedia)};
+  if (!takes_lines(header(request.headers, "Accept")))
+    return Refusal{ErrorCode::not_acceptable,
+                   fmt::format("A batch is answered in {}.", kLinesMedia)};
+  if (!query_of(request.target).empty())
+    return Refusal{ErrorCode::bad_request, "A batch has no query parameters; its lines are JSON."};
+  return std::nullopt;
+}
+
+Response App::batch_head(const Request& request) const {
+  if (batch_fault(request)) return {.status = 400};
+  const Identity id = identify(request.headers);
+  Response head{.content_type = std::string(kLinesMedia)};
+  head.headers = {{"X-Request-Id", id.request_id}, {"X-Content-Type-Options", "nosniff"}};
+  if (!id.traceparent.empty()) head.headers.emplace_back("traceparent", id.traceparent);
+  if (!x_.replica.empty()) head.headers.emplace_back("Tubecut-Replica", x_.replica);
+  allow_origin(request, head.headers);
+  return head;
+}
+
+BatchReply App::line(const Request& request) const {
+  try {
+    return answer_line(request);
+  } catch (const std::exception&) {  // a slot's thread has nobody above to catch it
+    const auto bug = api::problem(ErrorCode::internal_error, "The line failed.",
+                                  header(request.headers, "X-Request-Id"), context());
+    return {api::print_batch_line({}, request.line, status_of(*bug.error), bug.body), true};
+  }
+}
+
+BatchReply App::answer_line(const Request& request) const {
+  const auto batch_id = header(request.headers, "X-Request-Id");
+  Request one = request;
+  one.headers =
+      line_headers(request.headers, fmt::format("{}-{}", batch_id.substr(0, 112), request.line));
+  one.line = 0;
+  one.reports_sending = false;
+  const auto line =
+      api::read_batch_line(request.body, header(one.headers, "X-Request-Id"), context());
+  if (line.error) {
+    const int status = status_of(*line.error);
+    JobRecord record{.method = "POST",
+                     .request_id = std::string(header(one.headers, "X-Request-Id")),
+                     .client = client_of(request, x_.trusted_proxies),
+                     .status = status,
+                     .bytes_in = request.body.size(),
+                     .bytes_out = line.problem.size(),
+                     .times = request.times,
+                     .begun = steady_seconds()};
+    x_.started();
+    x_.finished(record);
+    x_.sent(record);
+    return {api::print_batch_line(line, request.line, status, line.problem), true};
+  }
+  one.method = "POST";
+  one.target = line.path;
+  one.body = line.body;
+  const Response response = handle(one);
+  return {api::print_batch_line(line, request.line, response.status, response.body),
+          response.status != 200};
+}
+
+std::string App::summary(const BatchCount& count) {
+  return api::print_batch_summary(
+      {.items = count.items, .answered = count.answered, .refused = count.refused});
+}
+
+}  // namespace tubecut::server

@@ -1,0 +1,202 @@
+// Batches: one request whose lines become jobs like others, and whose answer is sent in chunks
+// (RFC 9112, 7.1) as they finish.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "server/event_loop.hpp"
+
+namespace tubecut::server {
+namespace {
+
+using namespace std::chrono_literals;
+using State = Connection::State;
+
+/// Answers held for a client that is slow to take them; no further line begins beyond.
+constexpr std::size_t kHeld = 512u << 10;
+constexpr auto kAskAgain = 20ms;  // a full queue
+constexpr std::string_view kLastChunk = "0\r\n\r\n";
+
+std::string chunk(std::string_view text) {
+  return fmt::format("{:x}\r\n{}\r\n", text.size(), text);
+}
+
+std::string print_head(const Response& head, bool close) {
+  std::string out = fmt::format("HTTP/1.1 200 OK\r\nContent-Type: {}\r\n", head.content_type);
+  for (const auto& [name, value] : head.headers) out += fmt::format("{}: {}\r\n", name, value);
+  if (close) out += "Connection: close\r\n";
+  return out + "Transfer-Encoding: chunked\r\n\r\n";
+}
+
+/// The next line that is not blank, and where the one after begins.
+std::string_view next_line(std::string_view lines, std::size_t& at) {
+  while (at < lines.size()) {
+    const auto end = std::min(lines.find('\n', at), lines.size());
+    auto line = lines.substr(at, end - at);
+    at = end + 1;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find_first_not_of(" \t") != line.npos) return line;
+  }
+  return {};
+}
+
+}  // namespace
+
+void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
+  const auto memory = job->request.body.size();
+  if (options_.memory > 0 && counters_.memory > 0 && counters_.memory + memory > options_.memory) {
+    ++counters_.bytes;
+    job->request.refusal = {ErrorCode::overloaded, "The memory for jobs is in use."};
+  } else if (service_.admit) {
+    job->request.refusal = service_.admit(job->request);
+  }
+  const Response head =
+      job->request.refusal ? Response{.status = 0} : service_.batch_head(job->request);
+  if (head.status != 200) return write(c, print_(job->request, job->close));
+  c.state = State::batching;
+  c.batch = std::make_unique<Batch>();
+  c.batch->lines = std::move(job->request.body);
+  c.batch->head = std::move(job->request);
+  auto& common = c.batch->head.headers;  // the lines go by the name the client is told
+  const auto is_id = [](const auto& field) {
+    return equal_ignoring_case(field.first, "X-Request-Id");
+  };
+  std::erase_if(common, is_id);
+  std::ranges::copy_if(head.headers, std::back_inserter(common), is_id);
+  counters_.memory += memory;
+  std::size_t at = 0;
+  while (!next_line(c.batch->lines, at).empty()) ++c.batch->count.items;
+  c.out = print_head(head, c.closing);
+  c.out_at = 0;
+  counters_.memory += c.out.size();
+  feed(c);
+}
+
+/// Sends what is answered and begins as many lines as are worked on at a time: one more than there
+/// are slots, so that no slot waits, and other requests wait for no more than these.
+void EventLoop::feed(Connection& c) {
+  send_batch(c);
+  if (!connections_.contains(&c)) return;
+  Batch& batch = *c.batch;
+  batch.again = Clock::time_point::max();
+  const auto most = static_cast<std::size_t>(slots_->count()) + 1;
+  while (!batch.stopped && batch.running.size() < most && c.out.size() < kHeld) {
+    const auto before = batch.at;
+    const auto line = next_line(batch.lines, batch.at);
+    if (line.empty()) {
+      batch.stopped = true;
+    } else if (!feed_line(c, line)) {
+      batch.at = before;
+      batch.again = Clock::now() + kAskAgain;
+      break;
+    }
+  }
+  if (batch.stopped && batch.running.empty()) return end_batch(c);
+  set_batch_deadline(c);
+}
+
+/// False when the queue is full.
+bool EventLoop::feed_line(Connection& c, std::string_view line) {
+  Batch& batch = *c.batch;
+  auto job = std::make_shared<Job>();
+  job->request = batch.head;
+  job->request.body = line;
+  job->request.line = batch.line + 1;
+  job->request.stop = job->stop.get_token();
+  job->request.times.read = job->request.times.received =
+      std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+  job->owner = &c;
+  job->memory = memory_of(line.size());
+  if (service_.budget) job->end = Clock::now() + service_.budget(job->request);
+  if (!slots_->offer(job)) return false;
+  counters_.memory += job->memory;
+  ++batch.line;
+  batch.running.push_back(std::move(job));
+  return true;
+}
+
+void EventLoop::answer_line(Connection& c, std::string_view text, bool refused) {
+  ++(refused ? c.batch->count.refused : c.batch->count.answered);
+  const auto bytes = chunk(text);
+  c.out += bytes;
+  counters_.memory += bytes.size();
+}
+
+void EventLoop::finish_line(Connection& c, Job& job) {
+  std::erase_if(c.batch->running, [&job](const auto& one) { return one.get() == &job; });
+  answer_line(c, job.answer, job.refused);
+  feed(c);
+}
+
+void EventLoop::send_batch(Connection& c) {
+  const auto size = c.out.size();
+  const auto done = c.send();
+  if (!done) {
+    ++counters_.hung_up;
+    return close(c);
+  }
+  c.out.erase(0, c.out_at);
+  c.out_at = 0;
+  const bool progress = c.out.size() < size;
+  counters_.memory -= size - c.out.size();
+  if (c.out.empty()) {
+    c.batch->stalled = Clock::time_point::max();
+  } else if (progress || c.batch->stalled == Clock::time_point::max()) {
+    c.batch->stalled = Clock::now() + options_.write;
+  }
+}
+
+void EventLoop::end_batch(Connection& c) {
+  const auto last = chunk(service_.summary(c.batch->count)) + std::string(kLastChunk);
+  c.out += last;
+  counters_.memory += last.size();
+  drop_batch(c);
+  c.state = State::writing;
+  set_deadline(c, options_.write);
+  send(c);
+  if (connections_.contains(&c)) pump(c);
+}
+
+void EventLoop::drop_batch(Connection& c) {
+  if (!c.batch) return;
+  for (const auto& job : c.batch->running) {
+    job->owner = nullptr;
+    job->stop.request_stop();
+    if (slots_->withdraw(job)) release(*job);
+  }
+  counters_.memory -= c.batch->lines.size();
+  c.batch = nullptr;
+}
+
+void EventLoop::set_batch_deadline(Connection& c) {
+  if (c.half_closed) return;  // counted down since
+  auto when = std::min(c.batch->stalled, c.batch->again);
+  for (const auto& job : c.batch->running) when = std::min(when, job->end);
+  set_deadline(c, when);
+}
+
+void EventLoop::expire_batch(Connection& c) {
+  const auto now = Clock::now();
+  if (c.half_closed || c.batch->stalled <= now) {
+    ++(c.half_closed ? counters_.hung_up : counters_.over_time);
+    return close(c);
+  }
+  const auto running = c.batch->running;
+  for (const auto& job : running) {
+    if (job->end > now) continue;
+    job->end = Clock::time_point::max();
+    if (!slots_->withdraw(job)) {
+      job->stop.request_stop();
+      continue;
+    }
+    ++counters_.wait;
+    release(*job);
+    job->request.refusal = {ErrorCode::overloaded, "No slot was free within the job's budget."};
+    std::erase(c.batch->running, job);
+    answer_line(c, service_.line(job->request).text, true);
+  }
+  feed(c);
+}
+
+}  // namespace tubecut::server

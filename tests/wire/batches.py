@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""POST /v1/batches on the wire: `batches.py BINARY JOBS`. Jobs are drawn as source 002 describes (diameters 400-2 000 mm,
+walls 20-50 mm, angles 30-90 deg, every one different), one bad line in the middle. Every id is answered once, each body is
+what a request by itself gets, memory stays flat, a single request gets its turn, a client that hangs up or takes nothing is
+dropped with its jobs, and SIGTERM ends the stream with a summary of what is left."""
+
+import collections
+import http.client
+import json
+import random
+import statistics
+import sys
+import threading
+import time
+
+from service import Service, connect, exchange, post
+
+GROWTH = 16.0  # MiB over the whole run: answers held, working memory of the slots
+SEED = 2
+
+
+def job(random_, number):
+    chord, branch = random_.uniform(400, 2000), random_.uniform(0.3, 0.95)
+    wall = random_.uniform(20, 50)
+    return {"id": f"job {number}", "endpoint": "bevel-tables", "body": {
+        "target": {"outer_diameter_mm": round(branch * chord, 3), "wall_mm": round(min(wall, branch * chord / 6), 3)},
+        "cutters": [{"kind": "tube", "outer_diameter_mm": round(chord, 3), "inclination_deg": round(random_.uniform(30, 90), 4),
+                     "clocking_deg": 0, "offset_mm": 0}],
+        "sampling": {"uniform_points": 360}, "root_surface": "inner", "contact": "inner",
+        "groove": {"rule": "half_dihedral", "cap_deg": 45}, "kerf_mm": 0,
+        "smoothing": {"method": "envelope", "limits": {"max_slope_deg_per_mm": 5, "max_curvature_deg_per_mm2": 1}}}}
+
+
+def lines_of(count):
+    random_ = random.Random(SEED)
+    jobs = [job(random_, n) for n in range(count)]
+    lines = [json.dumps(one).encode() for one in jobs]
+    lines[count // 2] = b'{"id": "job of no kind", "endpoint": oops'
+    return jobs, b"\n".join(lines) + b"\n"
+
+
+def batch(port, body):
+    """The answer's lines, as they come."""
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+    connection.request("POST", "/v1/batches", body, {"Content-Type": "application/x-ndjson"})
+    reply = connection.getresponse()
+    assert reply.status == 200, reply.status
+    for line in reply:
+        yield json.loads(line)
+
+
+def head(body):
+    return (b"POST /v1/batches HTTP/1.1\r\nHost: a\r\nContent-Type: application/x-ndjson\r\n"
+            b"Content-Length: %d\r\n\r\n" % len(body))
+
+
+class Suite:
+    def __init__(self, binary, count):
+        self.binary, self.count, self.faults = binary, count, []
+        self.jobs, self.body = lines_of(count)
+
+    def check(self, holds, what):
+        if not holds:
+            self.faults.append(what)
+
+    def whole(self):
+        with Service(self.binary) as service:
+            list(batch(service.port, lines_of(20)[1]))  # what a first job sets aside for good
+            before = service.memory("VmRSS")
+            times, stop = [], threading.Event()
+
+            def singles():
+                while not stop.is_set():
+                    start = time.monotonic()
+                    reply = exchange(service.port, post())[0]
+                    self.check(reply.status == 200, f"a single request beside the batch: {reply.status}")
+                    times.append(1e3 * (time.monotonic() - start))
+                    time.sleep(0.01)
+
+            beside = threading.Thread(target=singles)
+            beside.start()
+            start = time.monotonic()
+            ids, bad, samples, summary = collections.Counter(), [], [], None
+            for line in batch(service.port, self.body):
+                if "summary" in line:
+                    summary = line["summary"]
+                elif line["id"] is None:
+                    bad.append(line)
+                else:
+                    ids[line["id"]] += 1
+                    self.check(line["status"] == 200, f"{line['id']}: status {line['status']}")
+                    if line["line"] % (self.count // 5) == 1:
+                        samples.append(line)
+            seconds = time.monotonic() - start
+            stop.set()
+            beside.join()
+            grown = service.memory("VmHWM") - before
+            self.check(len(ids) == self.count - 1 and set(ids.values()) == {1}, "an id is not answered once")
+            self.check([(b["line"], b["status"]) for b in bad] == [(self.count // 2 + 1, 400)], f"the bad line: {bad}")
+            self.check(summary == {"items": self.count, "answered": self.count - 1, "refused": 1, "unanswered": 0}, f"{summary}")
+            self.check(grown <= GROWTH, f"{grown:.1f} MiB more than before")
+            for line in samples:
+                asked = json.dumps(self.jobs[line["line"] - 1]["body"]).encode()
+                alone = exchange(service.port, post(asked, target="/v1/bevel-tables"))[0]
+                self.check(json.loads(alone.body) == line["body"], f"{line['id']} is answered otherwise by itself")
+            self.check(len(samples) >= 4 and len(times) >= 2, "too few samples")
+            print(f"{self.count} jobs in {seconds:.1f} s, {grown:.1f} MiB more at most, {len(times)} single requests beside it "
+                  f"p50 {statistics.median(times):.1f} ms, worst {max(times):.1f} ms")
+
+    def idle_after(self, service, sock):
+        start = time.monotonic()
+        sock.close()
+        while time.monotonic() - start < 5 and service.metric("tubecut_slots_busy") + service.metric("tubecut_queue_depth") > 0:
+            time.sleep(0.005)
+        return time.monotonic() - start
+
+    def hang_up(self):
+        with Service(self.binary) as service:
+            sock = connect(service.port)
+            sock.sendall(head(self.body) + self.body)
+            got = 0
+            while got < 200000:
+                got += len(sock.recv(65536))
+            self.check(service.metric("tubecut_slots_busy") > 0, "nothing runs before the client hangs up")
+            seconds = self.idle_after(service, sock)
+            self.check(seconds <= 1.0, f"work went on for {seconds:.1f} s after the client hung up")
+            self.check(service.metric("tubecut_memory_reserved_bytes") == 0, "memory set aside is not given back")
+            print(f"hang-up: idle after {1e3 * seconds:.0f} ms")
+
+    def takes_nothing(self):
+        with Service(self.binary, "--write-s", "1") as service:
+            sock = connect(service.port)
+            sock.sendall(head(self.body) + self.body)
+            start = time.monotonic()
+            while time.monotonic() - start < 8 and service.metric("tubecut_clients_too_slow_total") == 0:
+                time.sleep(0.05)
+            self.check(service.metric("tubecut_clients_too_slow_total") == 1, "a client that takes nothing is not cut off")
+            peak = service.memory()
+            self.check(service.metric("tubecut_memory_reserved_bytes") == 0, "memory set aside is not given back")
+            print(f"takes nothing: cut off after {time.monotonic() - start:.1f} s, peak {peak:.0f} MiB")
+            sock.close()
+
+    def drains(self):
+        with Service(self.binary) as service:
+            lines = []
+            for line in batch(service.port, self.body):
+                lines.append(line)
+                if len(lines) == 5:
+                    threading.Thread(target=service.stop).start()
+            summary = lines[-1].get("summary", {})
+            self.check(summary.get("unanswered", 0) > 0, f"drained without a summary: {summary}")
+            self.check(summary.get("answered", 0) + summary.get("refused", 0) == len(lines) - 1, f"{summary}, {len(lines) - 1} lines")
+            self.check(service.process.wait(15) == 0, "did not end with 0")
+            print(f"SIGTERM: {summary}")
+
+    def odd_ones(self):
+        with Service(self.binary) as service:
+            self.check(list(batch(service.port, b""))[-1]["summary"]["items"] == 0, "an empty batch")
+            one = json.dumps(self.jobs[0]).encode()
+            answers = list(batch(service.port, b"\r\n \n" + one + b"\r\n\n" + one))
+            self.check([a.get("status") for a in answers[:-1]] == [200, 200], "blank lines, CR LF, no last line feed")
+            odd = {b'{"id":"","endpoint":"nodes","body":{}}': "/id", b'{"id":"a","endpoint":"batches","body":{}}': "/endpoint",
+                   b'{"id":"a","endpoint":"nodes"}': "/body", b'{"id":"a","endpoint":"nodes","body":{},"x":1}': "/x",
+                   b'{"id":"a","endpoint":"nodes","body":[]}': "", b'{"id":7,"endpoint":"nodes","body":{}}': "/id"}
+            for line, pointer in odd.items():
+                answer = list(batch(service.port, line))[0]
+                self.check(answer["status"] == 422 and answer["body"]["errors"][0]["pointer"].startswith(pointer), f"{line}: {answer}")
+            # Two batches in one connection, and a request after them.
+            with connect(service.port) as sock:
+                sock.sendall(2 * (head(one) + one) + post())
+                data = b""
+                while data.count(b"HTTP/1.1 200") < 3:
+                    data += sock.recv(65536)
+                self.check(data.count(b'"summary"') == 2, "pipelined batches")
+
+    def run(self):
+        for part in (self.whole, self.hang_up, self.takes_nothing, self.drains, self.odd_ones):
+            part()
+        for fault in self.faults[:20]:
+            print(fault)
+        sys.exit(bool(self.faults))
+
+
+Suite(sys.argv[1], int(sys.argv[2])).run()
