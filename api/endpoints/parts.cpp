@@ -10,6 +10,7 @@
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/part_request.hpp"
 #include "api/formats/part_formats.hpp"
+#include "api/formats/work_order.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::api {
@@ -192,7 +193,11 @@ struct Parts {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv",
-         [](const Spec& s, const Out& o, const Caption& c) { return part_csv(s.part, o, c); }}};
+         [](const Spec& s, const Out& o, const Caption& c) { return part_csv(s.part, o, c); }},
+        {"svg",
+         "image/svg+xml",
+         [](const Spec& s, const Out& o, const Caption& c) { return work_order(s.part, o, c); },
+         {"work_order"}}};
     return kFormats;
   }
 };

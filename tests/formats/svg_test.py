@@ -1,6 +1,7 @@
 """The 1:1 drawings drawn by librsvg and measured in its pixels."""
 
 import math
+import re
 import xml.etree.ElementTree as ElementTree
 
 import cairo
@@ -113,6 +114,39 @@ class Svg(FormatTest):
                     self.assertGreaterEqual(len(corners), 8 * 4)
                     for x, y in corners:
                         self.assertTrue(10 <= x <= 200 and 10 <= y <= 287, f"{x},{y}")
+
+    def test_work_orders(self):
+        for name, body in examples("parts").items():
+            with self.subTest(name):
+                result = self.service.answer("parts", body)["result"]
+                asked = {**body, "reference": HOSTILE}
+                root = ElementTree.fromstring(self.service.text("parts", asked, "format=svg&view=work_order"))
+                self.assertEqual((root.get("width"), root.get("height")), ("210.000mm", "297.000mm"))
+                words = [e.text or "" for e in root.iter(f"{SVG}text")]
+                for value in HOSTILE.values():
+                    self.assertIn(value, " ".join(words))
+                for check in result["check_dimensions"]:
+                    at = words.index(check["name"])
+                    self.assertAlmostEqual(float(words[at + 1]), check["value_mm"], delta=0.05)
+                    for mistake in check["changes_with"]:
+                        self.assertIn(mistake, words[at + 3])
+                for step in range(len(result["sequence"])):
+                    self.assertTrue(any(w.startswith(f"{step + 1}  ") for w in words), step)
+                along, round_ = (float(scale.split(":")[0]) / float(scale.split(":")[1]) for scale in
+                                 re.search(r"along (\S+), round (\S+)", next(w for w in words if "developed" in w)).groups())
+                for end in ("start", "finish"):
+                    rows = result["ends"][end]["points"]
+                    drawn = next(e for e in root.iter() if e.get("id") == f"{end}_outer").get("points").split()
+                    xy = [tuple(map(float, p.split(","))) for p in drawn]
+                    self.assertEqual(len(xy), len(rows["phi_deg"]) + 1)
+                    z = rows["z_outer_mm"]
+                    order = sorted(range(len(z)), key=lambda i: rows["phi_deg"][i] % 360)
+                    girth = result["check_dimensions"][0]["value_mm"]
+                    x0, y0 = xy[0]
+                    for (x, y), i in zip(xy, order):
+                        self.assertAlmostEqual((x - x0) / along, z[i] - z[order[0]], delta=2e-3 / along)
+                        turn = (rows["phi_deg"][i] - rows["phi_deg"][order[0]]) / 360
+                        self.assertAlmostEqual((y0 - y) / round_, turn * girth, delta=2e-3 / round_)
 
     def test_templates_of_the_smallest_and_the_largest_tube(self):
         for diameter in (5, 5000):

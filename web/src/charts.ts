@@ -157,7 +157,8 @@ class Plot {
       return [from, from + (this.size().height - 34) * scale];
     }
     if (this.chart.zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
-    const space = Math.max((high - low) * 0.08, Math.abs(high) * 1e-6, 1e-9);
+    const flat = high - low < 1e-6 * Math.max(1, Math.abs(high));  // a straight line, not the rounding it is made of
+    const space = flat ? 0.5 : (high - low) * 0.08;
     return [low - space * (this.chart.partners ? 1.8 : 1), high + space];
   }
 
