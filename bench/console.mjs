@@ -35,11 +35,13 @@ for (let run = 0; run < 5; ++run) {
 const page = await open(browser, origin);
 await answered(page);
 await page.locator('#view-before').waitFor();
-// From the keystroke to the frame that shows the new solid and curves: the answer is counted when the charts are
-// drawn, the solid is rendered in the next frame.
+// From the keystroke until the curves are drawn and the solid's pixels are there: the answer is counted when the charts
+// are drawn, the solid is rendered in the next frame, and reading a pixel waits for the picture to be finished.
 const redraws = await page.evaluate(async (runs) => {
   const input = document.querySelector('[data-pointer="/cutters/0/inclination_deg"]');
   const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0)));
+  const gl = document.querySelector('.canvas canvas').getContext('webgl2');
+  const pixel = new Uint8Array(4);
   const times = [];
   for (let run = 0; run < runs; ++run) {
     const before = document.body.dataset.answers;
@@ -48,6 +50,7 @@ const redraws = await page.evaluate(async (runs) => {
     input.dispatchEvent(new Event('input', {bubbles: true}));
     while (document.body.dataset.answers === before) await new Promise((done) => setTimeout(done, 1));
     await frame();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     times.push(performance.now() - start);
     await new Promise((done) => setTimeout(done, 50));
   }

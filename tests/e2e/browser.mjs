@@ -1,7 +1,7 @@
-// Chromium with software WebGL, and pages that keep account of what they said and whom they asked.
+// Chromium as it is without a graphics card, and pages that keep account of what they said and whom they asked.
 import {chromium} from 'playwright-core';
 
-const flags = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+const flags = ['--no-sandbox', '--enable-unsafe-swiftshader'];
 
 export const launch = (executablePath) => chromium.launch({executablePath, args: flags});
 

@@ -89,7 +89,8 @@ class Console {
     this.latest.run(async () => {
       const {endpoint} = this.state;
       const body = clone(this.state.body);
-      document.body.classList.add('busy');
+      // Not at once: one more frame of the page costs as much as most answers.
+      const busy = setTimeout(() => document.body.classList.add('busy'), 200);
       try {
         const reply = await ask(endpoint, body);
         const picture = reply.answer ? await drawing(endpoint)(body, reply.answer, this.context) : undefined;
@@ -97,6 +98,7 @@ class Console {
       } catch (failure) {
         this.take({problem: {code: 'unreachable', title: 'The service could not be asked.', status: 0, detail: String(failure)}, milliseconds: 0}, undefined);
       } finally {
+        clearTimeout(busy);
         document.body.classList.remove('busy');
       }
     });
