@@ -190,14 +190,20 @@ struct Parts {
     });
   }
 
+  template <auto Print>
+  static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
+    return Print(spec.part, out, caption);
+  }
+
   static const std::vector<Format<Spec, Out>>& formats() {
+    static const std::vector<std::string_view> kGcodeOptions{
+        "speed_mm_min", "dialect", "torch", "axial", "lead_mm", "pivot_length_mm"};
     static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv",
-         [](const Spec& s, const Out& o, const Caption& c) { return part_csv(s.part, o, c); }},
-        {"svg",
-         "image/svg+xml",
-         [](const Spec& s, const Out& o, const Caption& c) { return work_order(s.part, o, c); },
-         {"work_order"}}};
+        {"csv", "text/csv", &print<part_csv>},
+        {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
+        {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
+        {"nc1", "application/x-dstv", &print<part_dstv>},
+        {"gcode", "text/x-gcode", &print<part_gcode>, {}, kGcodeOptions, true}};
     return kFormats;
   }
 };

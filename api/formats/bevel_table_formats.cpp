@@ -154,7 +154,7 @@ std::string bevel_table_dstv(const bevel::TableSpec& spec, const bevel::Table& t
 
 std::string bevel_table_gcode(const bevel::TableSpec& spec, const bevel::Table& table,
                               const Caption& caption) {
-  return print_gcode(torch_path(spec, table), caption);
+  return print_gcode(torch_job(spec, table), caption);
 }
 
 }  // namespace tubecut::api

@@ -70,15 +70,42 @@ Development developed(const joint::IntersectionSpec& spec, const joint::Intersec
 }
 
 Development developed(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
-  const double outer = spec.chord.outer_radius, inner = spec.chord.inner_radius();
-  Development out{
-      .outer_radius = outer, .wall = spec.chord.wall, .around = false, .cuts = {}, .junctions = {}};
+  Development out{.outer_radius = spec.chord.outer_radius,
+                  .wall = spec.chord.wall,
+                  .cuts = {},
+                  .junctions = {}};
   for (const auto& hole : cut.holes)
-    out.cuts.push_back({.name = hole.far ? "far hole" : "hole",
-                        .outer = {.radius = outer, .phi = hole.phi, .z = hole.z},
-                        .inner = {.radius = inner, .phi = hole.phi_inner, .z = hole.z_inner},
-                        .torch = {.radius = outer, .phi = hole.torch_phi, .z = hole.torch_z}});
+    out.cuts.push_back(outline(spec.chord, hole, hole.far ? "far hole" : "hole"));
   return out;
+}
+
+CutOutline outline(const joint::Target& chord, const bevel::Hole& hole, std::string name) {
+  const double outer = chord.outer_radius, inner = chord.inner_radius();
+  return {.name = std::move(name),
+          .outer = {.radius = outer, .phi = hole.phi, .z = hole.z},
+          .inner = {.radius = inner, .phi = hole.phi_inner, .z = hole.z_inner},
+          .torch = {.radius = outer, .phi = hole.torch_phi, .z = hole.torch_z},
+          .around = false};
+}
+
+Development developed(const part::PartSpec& spec, const part::Part& part) {
+  Development out{.outer_radius = spec.target.outer_radius,
+                  .wall = spec.target.wall,
+                  .cuts = {},
+                  .junctions = {}};
+  for (const auto* end : {&part.start, &part.finish}) {
+    auto one = developed(end->spec, end->table);
+    one.cuts.front().name = end == &part.start ? "start" : "finish";
+    out.cuts.push_back(std::move(one.cuts.front()));
+  }
+  for (std::size_t i = 0; i < part.holes.size(); ++i)
+    out.cuts.push_back(
+        outline(spec.target, part.holes[i].hole, "hole " + std::to_string(i)));
+  return out;
+}
+
+bool Development::around() const {
+  return std::ranges::any_of(cuts, [](const CutOutline& cut) { return cut.around; });
 }
 
 Extent extent(const Development& development) {

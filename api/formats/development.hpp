@@ -6,6 +6,7 @@
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 #include "core/joint/intersection.hpp"
+#include "core/part/part.hpp"
 
 namespace tubecut::api {
 
@@ -24,21 +25,29 @@ struct CylinderCurve {
 struct CutOutline {
   std::string name;
   CylinderCurve outer, inner, torch;  // any may be empty
+  bool around = true;                 // it goes round the tube; else it is a hole
 };
 
 /// A bent surface laid flat: x = radius * phi, y = z. Frame of the result it comes from.
 struct Development {
   double outer_radius = 0.0;
   double wall = 0.0;
-  bool around = true;  // the cuts go round the tube; else they are holes
   std::vector<CutOutline> cuts;
   std::vector<double> junctions;  // phi, rad, on the surface that holds the root
+
+  /// Whether a cut goes round the tube; else there are holes only.
+  [[nodiscard]] bool around() const;
 };
 
 [[nodiscard]] Development developed(const bevel::TableSpec& spec, const bevel::Table& table);
 [[nodiscard]] Development developed(const joint::IntersectionSpec& spec,
                                     const joint::Intersection& cut);
 [[nodiscard]] Development developed(const bevel::HoleSpec& spec, const bevel::HoleCut& cut);
+/// One hole of a chord, by a name.
+[[nodiscard]] CutOutline outline(const joint::Target& chord, const bevel::Hole& hole,
+                                 std::string name);
+/// A part as it is cut: start, finish, then the holes in their order, in the part's frame.
+[[nodiscard]] Development developed(const part::PartSpec& spec, const part::Part& part);
 
 /// Bounds of all curves: phi and z.
 struct Extent {

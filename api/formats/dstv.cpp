@@ -28,50 +28,66 @@ std::string reference(const Caption& caption, std::string_view name) {
 }
 
 struct Lengths {
-  double low = 0.0, high = 0.0;  // z of the finished cut, both walls
-  double far = 0.0;
-  double saw = 0.0;  // from the lowest point of the torch line
+  double low = 0.0;                 // z of x = 0
+  double over_long = 0.0, over_short = 0.0, work_point = 0.0;
+  double saw = 0.0;                 // from where the torch line begins
+  bool assumed = false;             // nobody gave the far end
 };
 
 Lengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t) {
   const auto [li, hi] = std::ranges::minmax(t.z_inner);
   const auto [lo, ho] = std::ranges::minmax(t.z_outer);
-  Lengths out{.low = std::min(li, lo), .high = std::max(hi, ho)};
-  out.far = spec.target.length.value_or(cut_solid(spec, t, Smoothed::after).far);
+  const double far = spec.target.length.value_or(cut_solid(spec, t, Smoothed::after).far);
+  const double low = std::min(li, lo);
   const double torch = std::min(std::ranges::min(t.torch_inner), std::ranges::min(t.torch_outer));
-  out.saw = out.far - std::min(out.low, torch);
-  return out;
+  return {.low = low,
+          .over_long = far - low,
+          .over_short = far - std::max(hi, ho),
+          .work_point = far,
+          .saw = far - std::min(low, torch),
+          .assumed = !spec.target.length};
 }
 
-std::string comments(const bevel::TableSpec& spec, const Lengths& l, bool constant,
-                     const Caption& c) {
+Lengths lengths_of(const part::Part& p) {
+  const auto& s = p.start.table;
+  const auto& f = p.finish.table;
+  const double from = std::min({0.0, std::ranges::min(s.torch_inner), std::ranges::min(s.torch_outer)});
+  const double to = std::max({p.lengths.longest, std::ranges::max(f.torch_inner),
+                              std::ranges::max(f.torch_outer)});
+  return {.over_long = p.lengths.longest,
+          .over_short = p.lengths.shortest,
+          .work_point = p.lengths.work_point,
+          .saw = to - from};
+}
+
+std::string comments(const Lengths& l, bool constant, const Caption& c) {
   std::string out =
       comment(job_line(
           {.reference = {}, .input_sha256 = c.input_sha256, .result_sha256 = {}, .view = {}})) +
       comment("unit mm, deg; x from the long point of the cut, y = outer radius * phi");
   for (const auto& [name, text] : c.reference)
     out += comment(std::string(name) + ": " + machine_text(text));
-  out += comment("length over the long point " + fixed(l.far - l.low, 3)) +
-         comment("length over the short point " + fixed(l.far - l.high, 3)) +
-         comment("length from the work point " + fixed(l.far, 3));
-  if (!spec.target.length) out += comment("the request gives no length_mm: the far end is assumed");
+  out += comment("length over the long point " + fixed(l.over_long, 3)) +
+         comment("length over the short point " + fixed(l.over_short, 3)) +
+         comment("length from the work point " + fixed(l.work_point, 3));
+  if (l.assumed) out += comment("the request gives no length_mm: the far end is assumed");
   if (!constant)
     out += comment("the bevel varies; sidecar " + c.input_sha256.substr(0, 16) +
                    ".csv = the csv format of the same request");
   return out;
 }
 
-std::string header(const bevel::TableSpec& spec, const Lengths& l, const Caption& c) {
-  const double ro = spec.target.outer_radius, ri = spec.target.inner_radius();
+std::string header(const joint::Target& target, const Lengths& l, const Caption& c) {
+  const double ro = target.outer_radius, ri = target.inner_radius();
   const double diameter = 2.0 * ro;
   const double kg_per_m = kPi * (ro * ro - ri * ri) * kDensity * 1e3;
   auto part = reference(c, "part");
   std::string out = line(reference(c, "order")) + line(reference(c, "drawing")) + line("1") +
                     line(part) + line("-") + line("1") +
-                    line("ROHR" + fixed(diameter, 1) + "x" + fixed(spec.target.wall, 1)) +
+                    line("ROHR" + fixed(diameter, 1) + "x" + fixed(target.wall, 1)) +
                     line("RO");
-  out += field(l.far - l.low) + "," + field(l.saw) + "\r\n";
-  for (const double v : {diameter, diameter, spec.target.wall, spec.target.wall, 0.0, kg_per_m,
+  out += field(l.over_long) + "," + field(l.saw) + "\r\n";
+  for (const double v : {diameter, diameter, target.wall, target.wall, 0.0, kg_per_m,
                          kTwoPi * ro * 1e-3, 0.0, 0.0, 0.0, 0.0})
     out += field(v) + "\r\n";
   return out + line("-") + line("-") + line("-") + line("-");
@@ -88,18 +104,62 @@ std::string contour(const CutOutline& cut, const Lengths& l, double bevel_deg) {
   std::string out = "AK\r\n";
   for (std::size_t i = 0; i < c.phi.size(); ++i)
     out += point(c.z[i] - l.low, c.radius * c.phi[i], bevel_deg, i == 0);
-  const double around = c.radius * kTwoPi, end = l.far - l.low;
+  const double around = c.radius * kTwoPi, end = l.over_long;
   out += point(end, around, 0.0, false) + point(end, 0.0, 0.0, false);
   return out + point(c.z.front() - l.low, 0.0, 0.0, false);  // closed
 }
 
-std::string sidecar(const bevel::TableSpec& spec, const bevel::Table& t, const Lengths& l) {
-  std::string out = comment("phi_deg, x_outer_mm, y_outer_mm, x_inner_mm, y_inner_mm, b_deg");
+constexpr const char* kSidecar = "phi_deg, x_outer_mm, y_outer_mm, x_inner_mm, y_inner_mm, b_deg";
+
+std::string sidecar(double phi, double phi_inner, double x, double x_inner, double b,
+                    const joint::Target& target) {
+  return comment("B" + field(phi * kDegPerRad, 6) + field(x, 4) +
+                 field(target.outer_radius * phi, 4) + field(x_inner, 4) +
+                 field(target.inner_radius() * phi_inner, 4) + field(b * kDegPerRad, 4));
+}
+
+std::string sidecar(const joint::Target& target, const bevel::Table& t, double low) {
+  std::string out;
   for (std::size_t i = 0; i < t.phi.size(); ++i)
-    out += comment("B" + field(t.phi[i] * kDegPerRad, 6) + field(t.z_outer[i] - l.low, 4) +
-                   field(spec.target.outer_radius * t.phi[i], 4) + field(t.z_inner[i] - l.low, 4) +
-                   field(spec.target.inner_radius() * t.phi[i], 4) +
-                   field((t.inward ? -1.0 : 1.0) * t.b[i] * kDegPerRad, 4));
+    out += sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low,
+                   (t.inward ? -1.0 : 1.0) * t.b[i], target);
+  return out;
+}
+
+std::string sidecar(const joint::Target& target, const bevel::Hole& h) {
+  std::string out;
+  for (std::size_t i = 0; i < h.phi.size(); ++i)
+    out += sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target);
+  return out;
+}
+
+/// The bevel in degrees where it is one for the whole cut.
+std::optional<double> one_bevel(const std::vector<double>& b) {
+  const auto [least, most] = std::ranges::minmax(b);
+  if (most - least > kOneBevel) return std::nullopt;
+  return (least + most) / 2.0 * kDegPerRad;
+}
+
+/// The outside with both ends: up the start's cut, and back along the finish's.
+std::string outside(const CutOutline& start, const CutOutline& finish, double start_deg,
+                    double finish_deg) {
+  std::string out = "AK\r\n";
+  const auto& s = start.outer;
+  const auto& f = finish.outer;
+  for (std::size_t i = 0; i < s.phi.size(); ++i)
+    out += point(s.z[i], s.radius * s.phi[i], i + 1 < s.phi.size() ? start_deg : 0.0, i == 0);
+  for (std::size_t i = f.phi.size(); i-- > 0;)
+    out += point(f.z[i], f.radius * f.phi[i], i > 0 ? finish_deg : 0.0, false);
+  return out + point(s.z.front(), 0.0, 0.0, false);  // closed
+}
+
+std::string opening(const CutOutline& hole, double bevel_deg) {
+  const auto& c = hole.outer;
+  std::string out = "IK\r\n";
+  for (std::size_t i = 0; i <= c.phi.size(); ++i) {
+    const auto k = i % c.phi.size();
+    out += point(c.z[k], c.radius * c.phi[k], i < c.phi.size() ? bevel_deg : 0.0, i == 0);
+  }
   return out;
 }
 
@@ -108,12 +168,39 @@ std::string sidecar(const bevel::TableSpec& spec, const bevel::Table& t, const L
 std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
                        const Caption& caption) {
   const auto lengths = lengths_of(spec, t);
-  const auto [least, most] = std::ranges::minmax(t.b);
-  const bool constant = most - least <= kOneBevel;
-  const double bevel = (t.inward ? -1.0 : 1.0) * (least + most) / 2.0 * kDegPerRad;
-  return "ST\r\n" + comments(spec, lengths, constant, caption) + header(spec, lengths, caption) +
-         contour(developed(spec, t).cuts.front(), lengths, constant ? bevel : 0.0) +
-         sidecar(spec, t, lengths) + "EN\r\n";
+  const auto bevel = one_bevel(t.b);
+  return "ST\r\n" + comments(lengths, bevel.has_value(), caption) +
+         header(spec.target, lengths, caption) +
+         contour(developed(spec, t).cuts.front(), lengths, (t.inward ? -1.0 : 1.0) * bevel.value_or(0.0)) +
+         comment(kSidecar) + sidecar(spec.target, t, lengths.low) + "EN\r\n";
+}
+
+std::string print_dstv(const part::PartSpec& spec, const part::Part& part,
+                       const Caption& caption) {
+  const auto lengths = lengths_of(part);
+  const auto cuts = developed(spec, part).cuts;
+  const auto start = one_bevel(part.start.table.b), finish = one_bevel(part.finish.table.b);
+  bool constant = start && finish;
+  std::string openings, tables;
+  for (const auto& step : part.sequence) {
+    if (step.what == part::Step::What::hole) {
+      const auto& hole = part.holes[step.index].hole;
+      const auto bevel = one_bevel(hole.b);
+      constant = constant && bevel;
+      const auto& cut = cuts[2 + step.index];
+      openings += opening(cut, bevel.value_or(0.0));
+      tables += comment("cut " + cut.name) + sidecar(spec.target, hole);
+    } else if (step.what != part::Step::What::mark) {
+      const bool at_start = step.what == part::Step::What::start;
+      tables += comment(at_start ? "cut start" : "cut finish") +
+                sidecar(spec.target, at_start ? part.start.table : part.finish.table, 0.0);
+    }
+  }
+  return "ST\r\n" + comments(lengths, constant, caption) +
+         comment("a hole across phi = 0 is one contour: its y leaves the girth") +
+         header(spec.target, lengths, caption) +
+         outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0)) + openings +
+         comment(kSidecar) + tables + "EN\r\n";
 }
 
 }  // namespace tubecut::api

@@ -4,6 +4,7 @@
 
 #include "api/endpoint.hpp"
 #include "core/bevel/table.hpp"
+#include "core/part/part.hpp"
 
 namespace tubecut::api {
 
@@ -17,6 +18,11 @@ namespace tubecut::api {
 /// contour: the format knows one wall only, and an IK block would be cut as a hole.
 /// Without `length_mm` the far end is the solid's (cut_solid.hpp), and the header says so.
 [[nodiscard]] std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& table,
+                                     const Caption& caption);
+
+/// A whole part: AK is the outside with both ends, an IK block each hole, x from the start's long
+/// point. Angles and B as in the part: the outer edge further towards +x is positive.
+[[nodiscard]] std::string print_dstv(const part::PartSpec& spec, const part::Part& part,
                                      const Caption& caption);
 
 }  // namespace tubecut::api

@@ -41,12 +41,13 @@ std::vector<Eigen::Vector3d> in_space(const CylinderCurve& c, bool around) {
   return out;
 }
 
-std::vector<std::string> captions(const Development& d, double datum, const Caption& caption) {
+std::vector<std::string> captions(const Development& d, const std::string& frame,
+                                  const Caption& caption) {
   std::vector<std::string> out{
       "tube " + fixed(2.0 * d.outer_radius, 3) + " x " + fixed(d.wall, 3) + " mm",
       "CUT_OUTER on radius " + fixed(d.outer_radius, 3) + ", CUT_INNER on radius " +
           fixed(d.outer_radius - d.wall, 3) + " mm",
-      "DATUM z = " + fixed(datum, 3) + " mm; SEAM phi = 0 and 360 deg; y = z, kept side up"};
+      frame};
   for (const auto& [name, text] : caption.reference) out.push_back(name + ": " + text);
   out.push_back(job_line(
       {.reference = {}, .input_sha256 = caption.input_sha256, .result_sha256 = {}, .view = {}}));
@@ -64,15 +65,52 @@ void seams(DxfWriter& w, const Development& d, const Extent& e, double datum, bo
                false);
     return;
   }
-  const double from = d.around ? 0.0 : d.outer_radius * e.phi_from - kMargin;
-  const double to = d.outer_radius * (d.around ? kTwoPi : e.phi_to) + (d.around ? 0.0 : kMargin);
+  const double from = d.around() ? 0.0 : d.outer_radius * e.phi_from - kMargin;
+  const double to = d.outer_radius * (d.around() ? kTwoPi : e.phi_to) + (d.around() ? 0.0 : kMargin);
   w.polyline("DATUM", std::vector<Eigen::Vector2d>{{from, datum}, {to, datum}}, false);
   double foot = e.z_from;
-  if (d.around && !d.cuts.front().outer.empty()) foot = d.cuts.front().outer.z.front();
+  if (d.around() && !d.cuts.front().outer.empty()) foot = d.cuts.front().outer.z.front();
   for (const double x : {0.0, kTwoPi * d.outer_radius})
     if (x >= from && x <= to)
       w.polyline("SEAM", std::vector<Eigen::Vector2d>{{x, foot}, {x, datum}}, false);
 }
+
+void draw_cuts(DxfWriter& w, const Development& d, bool space) {
+  for (const auto& cut : d.cuts) {
+    const auto draw = [&](std::string_view layer, const CylinderCurve& c) {
+      if (c.empty()) return;
+      if (space)
+        w.polyline(layer, in_space(c, cut.around), true);
+      else
+        w.polyline(layer, flat(c), !cut.around);
+    };
+    draw("CUT_OUTER", cut.outer);
+    draw("CUT_INNER", cut.inner);
+  }
+}
+
+/// A line on the outside along the tube; across it, all round.
+void along(DxfWriter& w, std::string_view layer, const Development& d, bool space, double phi,
+           double from, double to) {
+  if (space)
+    w.polyline(
+        layer,
+        std::vector{on_wall(d.outer_radius, phi, from), on_wall(d.outer_radius, phi, to)}, false);
+  else
+    w.polyline(layer,
+               std::vector<Eigen::Vector2d>{{d.outer_radius * phi, from}, {d.outer_radius * phi, to}},
+               false);
+}
+void across(DxfWriter& w, std::string_view layer, const Development& d, bool space, double z) {
+  const CylinderCurve circle{.radius = d.outer_radius, .phi = {0.0, kTwoPi}, .z = {z, z}};
+  if (space)
+    w.polyline(layer, in_space(circle, true), true);
+  else
+    w.polyline(layer, flat(circle), false);
+}
+
+constexpr DxfWriter::Layer kLayers[] = {
+    {"CUT_OUTER", 5}, {"CUT_INNER", 3}, {"SEAM", 1}, {"DATUM", 8}, {"TEXT", 7}};
 
 }  // namespace
 
@@ -80,22 +118,37 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   const bool space = caption.view == "tube";
   const auto e = extent(d);
   const double datum = 10.0 * std::ceil((e.z_to + 15.0) / 10.0);
-  DxfWriter w({{"CUT_OUTER", 5}, {"CUT_INNER", 3}, {"SEAM", 1}, {"DATUM", 8}, {"TEXT", 7}});
-  for (const auto& cut : d.cuts) {
-    const auto draw = [&](std::string_view layer, const CylinderCurve& c) {
-      if (c.empty()) return;
-      if (space)
-        w.polyline(layer, in_space(c, d.around), true);
-      else
-        w.polyline(layer, flat(c), !d.around);
-    };
-    draw("CUT_OUTER", cut.outer);
-    draw("CUT_INNER", cut.inner);
-  }
+  DxfWriter w({std::begin(kLayers), std::end(kLayers)});
+  draw_cuts(w, d, space);
   seams(w, d, e, datum, space);
-  const double left = d.around || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
+  const double left = d.around() || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
   double y = datum;
-  for (const auto& line : captions(d, datum, caption)) w.text("TEXT", {left, y += 5.0}, 3.0, line);
+  const auto frame =
+      "DATUM z = " + fixed(datum, 3) + " mm; SEAM phi = 0 and 360 deg; y = z, kept side up";
+  for (const auto& line : captions(d, frame, caption)) w.text("TEXT", {left, y += 5.0}, 3.0, line);
+  return w.print();
+}
+
+std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks,
+                      const Caption& caption) {
+  const bool space = caption.view == "tube";
+  std::vector<DxfWriter::Layer> layers{std::begin(kLayers), std::end(kLayers)};
+  layers.push_back({"MARK", 6});
+  DxfWriter w(std::move(layers));
+  draw_cuts(w, d, space);
+  const double from = d.cuts[0].outer.z.front(), to = d.cuts[1].outer.z.front();
+  along(w, "SEAM", d, space, 0.0, from, to);
+  if (!space) along(w, "SEAM", d, space, kTwoPi, from, to);
+  across(w, "DATUM", d, space, 0.0);
+  for (const auto& mark : marks) {
+    along(w, "MARK", d, space, mark.phi, mark.z_from, mark.z_to);
+    if (!space && !mark.text.empty())
+      w.text("MARK", {d.outer_radius * mark.phi + 1.0, mark.z_from}, 3.0, mark.text);
+  }
+  double y = extent(d).z_to + 10.0;
+  const std::string frame =
+      "DATUM z = 0, the start's long point; SEAM phi = 0 and 360 deg; y = z, the finish up";
+  for (const auto& line : captions(d, frame, caption)) w.text("TEXT", {0.0, y += 5.0}, 3.0, line);
   return w.print();
 }
 

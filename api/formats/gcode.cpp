@@ -13,45 +13,60 @@ namespace {
 constexpr const char* kModes = "G21 G40 G49 G90 G94 G17\nG64 P0.01\n";
 constexpr double kSlow = 1e-3;  // mm, least length a node's time is taken from
 
+/// One place of the torch: tip on the outer wall, swing and tilt.
+struct Place {
+  double phi, z, b, a;
+};
+
 /// Joint values of one place of the torch.
 class Joints {
  public:
-  Joints(const TorchPath& path, const FormatOptions& options)
-      : path_(path),
+  Joints(const TorchJob& job, const FormatOptions& options)
+      : radius_(job.outer_radius),
         pivot_(options.pivot_length),
         along_(options.axial_z ? 'Z' : 'X'),
-        across_(options.axial_z ? 'X' : 'Z') {}
+        across_(options.axial_z ? 'X' : 'Z'),
+        tilts_(std::ranges::any_of(job.cuts, [](const auto& cut) { return !cut.a.empty(); })) {}
 
-  [[nodiscard]] std::string words(double phi, double z, double b) const {
-    const auto [sin, cos] = elementary::sincos(b);
+  [[nodiscard]] std::string words(const Place& at) const {
     const double length = pivot_.value_or(0.0);
-    std::string out = std::string(1, along_) + fixed(z + length * sin, 5);
-    if (pivot_) out += " " + std::string(1, across_) + fixed(path_.outer_radius + length * cos, 5);
-    return out + " A" + fixed(phi * kDegPerRad, 7) + " B" + fixed(b * kDegPerRad, 6);
-  }
-  [[nodiscard]] std::string words(std::size_t i) const {
-    return words(path_.phi[i], path_.z[i], path_.b[i]);
+    // The torch's line: 1 outwards, tan a round, tan b along.
+    const double round = elementary::tan(at.a), rise = elementary::tan(at.b);
+    const double out = length / std::sqrt(1.0 + round * round + rise * rise);
+    std::string text = std::string(1, along_) + fixed(at.z + out * rise, 5);
+    if (pivot_ && tilts_) text += " Y" + fixed(out * round, 5);
+    if (pivot_) text += " " + std::string(1, across_) + fixed(radius_ + out, 5);
+    text += " A" + fixed(at.phi * kDegPerRad, 7) + " B" + fixed(at.b * kDegPerRad, 6);
+    return tilts_ ? text + " C" + fixed(at.a * kDegPerRad, 6) : text;
   }
   [[nodiscard]] std::string describe() const {
     return std::string("A turns the tube: phi in deg, from x towards y. ") + along_ +
-           " goes along it: mm, from the cut into the part";
+           " goes along it: mm, +z of the result";
   }
+  [[nodiscard]] bool tilts() const { return tilts_; }
 
  private:
-  const TorchPath& path_;
+  double radius_;
   std::optional<double> pivot_;
   char along_, across_;
+  bool tilts_;
 };
 
-std::string header(const TorchPath& path, const Joints& joints, const Caption& caption) {
+Place place(const TorchPath& p, std::size_t i) {
+  return {p.phi[i], p.z[i], p.b[i], p.a.empty() ? 0.0 : p.a[i]};
+}
+
+std::string header(const TorchJob& job, const Joints& joints, const Caption& caption) {
   const auto& o = caption.options;
   std::string out = gcode_job(caption);
-  out += gcode_comment("tube " + fixed(2.0 * path.outer_radius, 3) + " x " + fixed(path.wall, 3) +
+  out += gcode_comment("tube " + fixed(2.0 * job.outer_radius, 3) + " x " + fixed(job.wall, 3) +
                        " mm") +
-         gcode_comment("tool: torch, kerf " + fixed(path.kerf, 3) + " mm, applied to the path") +
+         gcode_comment("tool: torch, kerf " + fixed(job.kerf, 3) + " mm, applied to the path") +
          gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
-         gcode_comment(
-             "B swings the torch in the axial plane, positive: outer edge further into the part");
+         gcode_comment("B swings the torch in the axial plane, positive: outer edge towards +z");
+  if (joints.tilts())
+    out += gcode_comment("C tilts it across, positive: outer edge towards growing phi; tan B and "
+                         "tan C are each over the way outwards");
   out += o.pivot_length
              ? gcode_comment("linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +
                              " mm from the tip, the one across is its height over the tube axis")
@@ -59,6 +74,7 @@ std::string header(const TorchPath& path, const Joints& joints, const Caption& c
                    "linear axes are the torch tip on the outer wall: the control must know it");
   out += gcode_comment(o.torch ? "THIS PROGRAM LIGHTS THE TORCH"
                                : "dry run: the torch stays off, ask with torch=on");
+  for (const auto& remark : job.remarks) out += gcode_comment(remark);
   return out;
 }
 
@@ -72,11 +88,66 @@ std::string timed(const std::string& words, double length) {
   return "G1 " + words + " F[#<speed_mm_min> / " + fixed(std::max(length, kSlow), 6) + "]\n";
 }
 
-double step(const TorchPath& p, std::size_t i) {
+double step(const TorchJob& job, const TorchPath& p, std::size_t i) {
   const double tip =
-      elementary::hypot(p.outer_radius * (p.phi[i] - p.phi[i - 1]), p.z[i] - p.z[i - 1]);
+      elementary::hypot(job.outer_radius * (p.phi[i] - p.phi[i - 1]), p.z[i] - p.z[i - 1]);
   // A swing at a standing tip takes the time of an arc of the wall.
-  return tip > kSlow ? tip : std::max(kSlow, p.wall * std::abs(p.b[i] - p.b[i - 1]));
+  const double tilt = p.a.empty() ? 0.0 : p.a[i] - p.a[i - 1];
+  return tip > kSlow ? tip
+                     : std::max(kSlow, job.wall * elementary::hypot(p.b[i] - p.b[i - 1], tilt));
+}
+
+/// From the run-in to the run-out of one cut.
+std::string print_cut(const TorchJob& job, const TorchPath& path, const Joints& joints,
+                      const TorchWords& torch, const FormatOptions& o) {
+  const double lead = std::min(o.lead, path.room);
+  const auto aside = [&](std::size_t i) {
+    auto at = place(path, i);
+    at.phi += lead * path.scrap.x() / job.outer_radius;
+    at.z += lead * path.scrap.y();
+    return joints.words(at);
+  };
+  std::string out;
+  if (!path.name.empty()) out += gcode_comment("cut: " + path.name);
+  if (lead < o.lead)
+    out += gcode_comment("run-in and run-out " + fixed(lead, 3) +
+                         " mm: half the way to the middle of the hole");
+  out += "G0 " + aside(0) + "\n";
+  if (o.torch) out += torch.on;
+  out += "G93\n";
+  if (lead > 0.0) out += timed(joints.words(place(path, 0)), lead);
+  for (std::size_t i = 1; i < path.phi.size(); ++i)
+    out += timed(joints.words(place(path, i)), step(job, path, i));
+  if (lead > 0.0) out += timed(aside(path.phi.size() - 1), lead);
+  return out + "G94\n" + torch.off;
+}
+
+TorchPath hole_path(const joint::Target& chord, const bevel::Hole& hole, std::string name) {
+  TorchPath out{.name = std::move(name),
+                .phi = hole.torch_phi,
+                .z = hole.torch_z,
+                .b = hole.b};
+  if (std::ranges::any_of(hole.a, [](double a) { return a != 0.0; })) out.a = hole.a;
+  for (auto* column : {&out.phi, &out.z, &out.b, &out.a})
+    if (!column->empty()) column->push_back(column->front());
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  const auto at = [&](std::size_t i) {
+    return Eigen::Vector2d{chord.outer_radius * hole.torch_phi[i], hole.torch_z[i]};
+  };
+  for (std::size_t i = 0; i < hole.torch_phi.size(); ++i) middle += at(i);
+  middle /= static_cast<double>(hole.torch_phi.size());
+  out.scrap = (middle - at(0)).normalized();
+  out.room = 0.5 * (middle - at(0)).norm();
+  return out;
+}
+
+std::string remark(const part::Mark& mark) {
+  const char* kind = mark.kind == part::Mark::Kind::datum_line ? "datum line"
+                     : mark.kind == part::Mark::Kind::partner  ? "partner"
+                                                               : "part mark";
+  return std::string("mark by hand: ") + kind + " " + mark.text + " at A" +
+         fixed(mark.phi * kDegPerRad, 3) + " from " + fixed(mark.z_from, 2) + " to " +
+         fixed(mark.z_to, 2) + " mm";
 }
 
 }  // namespace
@@ -103,27 +174,46 @@ TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table) {
   swing.torch_outer = table.b;
   for (auto& b : swing.torch_outer) b = table.inward ? -b : b;
   auto b = developed(spec, swing).cuts.front().torch.z;
+  return {.name = {}, .phi = std::move(torch.phi), .z = std::move(torch.z), .b = std::move(b)};
+}
+
+TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table) {
   return {.outer_radius = spec.target.outer_radius,
           .wall = spec.target.wall,
           .kerf = spec.kerf,
-          .phi = std::move(torch.phi),
-          .z = std::move(torch.z),
-          .b = std::move(b)};
+          .cuts = {torch_path(spec, table)}};
 }
 
-std::string print_gcode(const TorchPath& path, const Caption& caption) {
-  const auto& o = caption.options;
-  const Joints joints(path, o);
-  const auto torch = torch_words(o.dialect);
-  const auto run_in = joints.words(path.phi.front(), path.z.front() - o.lead, path.b.front());
-  const auto run_out = joints.words(path.phi.back(), path.z.back() - o.lead, path.b.back());
-  std::string out = "%\n" + header(path, joints, caption) + modes(caption) + "G0 " + run_in + "\n";
-  if (o.torch) out += torch.on;
-  out += "G93\n";
-  if (o.lead > 0.0) out += timed(joints.words(0), o.lead);
-  for (std::size_t i = 1; i < path.phi.size(); ++i) out += timed(joints.words(i), step(path, i));
-  if (o.lead > 0.0) out += timed(run_out, o.lead);
-  return out + "G94\n" + torch.off + "M2\n%\n";
+TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
+  TorchJob out{.outer_radius = spec.target.outer_radius,
+               .wall = spec.target.wall,
+               .kerf = part.start.spec.kerf};
+  for (const auto& step : part.sequence) {
+    if (step.what == part::Step::What::mark) {
+      out.remarks.push_back(remark(part.marks[step.index]));
+    } else if (step.what == part::Step::What::hole) {
+      const auto& hole = part.holes[step.index];
+      const auto& branch = spec.holes[hole.asked].name;
+      out.cuts.push_back(hole_path(spec.target, hole.hole,
+                                   "hole " + std::to_string(step.index) +
+                                       (branch.empty() ? "" : " for " + branch)));
+    } else {
+      const bool finish = step.what == part::Step::What::finish;
+      const auto& end = finish ? part.finish : part.start;
+      out.cuts.push_back(torch_path(end.spec, end.table));
+      out.cuts.back().name = finish ? "finish" : "start";
+      if (finish) out.cuts.back().scrap = {0.0, 1.0};
+    }
+  }
+  return out;
+}
+
+std::string print_gcode(const TorchJob& job, const Caption& caption) {
+  const Joints joints(job, caption.options);
+  const auto torch = torch_words(caption.options.dialect);
+  std::string out = "%\n" + header(job, joints, caption) + modes(caption);
+  for (const auto& cut : job.cuts) out += print_cut(job, cut, joints, torch, caption.options);
+  return out + "M2\n%\n";
 }
 
 }  // namespace tubecut::api

@@ -1,22 +1,39 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "api/endpoint.hpp"
 #include "core/bevel/table.hpp"
+#include "core/part/part.hpp"
 
 namespace tubecut::api {
 
-/// The torch's way round a cut end: its axis on the outer wall. mm and rad; B > 0: outer edge
-/// further into the part.
+/// The torch's way round one cut: its axis on the outer wall. mm and rad; B > 0: the outer edge lies
+/// further towards +z.
 struct TorchPath {
+  std::string name;               // empty: the only one
+  std::vector<double> phi, z, b;  // an end from the seam to the seam one turn on; a hole closed
+  std::vector<double> a = {};     // the torch's tilt across, towards growing phi; empty: none
+  // Where the scrap is from the first point, on the developed surface, and how far it reaches.
+  Eigen::Vector2d scrap{0.0, -1.0};
+  double room = std::numeric_limits<double>::infinity();
+};
+[[nodiscard]] TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table);
+
+/// What a program cuts, one cut after the other.
+struct TorchJob {
   double outer_radius = 0.0;
   double wall = 0.0;
   double kerf = 0.0;
-  std::vector<double> phi, z, b;  // from the seam to the seam one turn on
+  std::vector<TorchPath> cuts = {};
+  std::vector<std::string> remarks = {};  // comment lines of the header
 };
-[[nodiscard]] TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table);
+[[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table);
+/// A part in the order of its sequence; marks are remarks.
+[[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part);
 
 /// A comment line of a program.
 [[nodiscard]] std::string gcode_comment(const std::string& text);
@@ -33,8 +50,10 @@ struct TorchWords {
 /// through every mix of axes. Speed is one parameter at the top.
 ///
 /// With a pivot length the linear axes are the pivot's, and the one square to the tube moves too;
-/// without, the control must know the tip. The torch is lit only by the option `torch`.
-/// Accuracy  X, Z 1e-5 mm, A 1e-7 deg, B 1e-6 deg.
-[[nodiscard]] std::string print_gcode(const TorchPath& path, const Caption& caption);
+/// without, the control must know the tip. The torch is lit only by the option `torch`, for each cut
+/// anew. Where a hole's torch tilts across, C is that tilt and, with a pivot length, Y the pivot's
+/// way across.
+/// Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
+[[nodiscard]] std::string print_gcode(const TorchJob& job, const Caption& caption);
 
 }  // namespace tubecut::api

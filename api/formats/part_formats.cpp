@@ -1,6 +1,10 @@
 #include "api/formats/part_formats.hpp"
 
 #include "api/formats/csv.hpp"
+#include "api/formats/development.hpp"
+#include "api/formats/dstv.hpp"
+#include "api/formats/dxf.hpp"
+#include "api/formats/gcode.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -119,6 +123,18 @@ std::string part_csv(const part::PartSpec&, const part::Part& part, const Captio
       .cells_column("check_tool", std::move(tools))
       .cells_column("check_measured_from", std::move(from))
       .print();
+}
+
+std::string part_dxf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return print_dxf(developed(spec, part), part.marks, caption);
+}
+
+std::string part_dstv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return print_dstv(spec, part, caption);
+}
+
+std::string part_gcode(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return print_gcode(torch_job(spec, part), caption);
 }
 
 }  // namespace tubecut::api

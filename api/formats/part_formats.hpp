@@ -15,4 +15,12 @@ namespace tubecut::api {
 [[nodiscard]] std::string part_csv(const part::PartSpec& spec, const part::Part& part,
                                    const Caption& caption);
 
+/// The whole part as drawing and machine files: dxf.hpp, dstv.hpp, gcode.hpp.
+[[nodiscard]] std::string part_dxf(const part::PartSpec& spec, const part::Part& part,
+                                   const Caption& caption);
+[[nodiscard]] std::string part_dstv(const part::PartSpec& spec, const part::Part& part,
+                                    const Caption& caption);
+[[nodiscard]] std::string part_gcode(const part::PartSpec& spec, const part::Part& part,
+                                     const Caption& caption);
+
 }  // namespace tubecut::api

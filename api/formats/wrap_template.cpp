@@ -30,10 +30,10 @@ struct Field {
 
 Field field_of(const Development& d) {
   const auto e = extent(d);
-  const double room = d.around ? 0.0 : 15.0;
+  const double room = d.around() ? 0.0 : 15.0;
   const auto down = [](double v) { return 10.0 * std::floor(v / 10.0); };
-  return {.x_from = d.around ? 0.0 : d.outer_radius * e.phi_from - room,
-          .x_to = d.around ? d.outer_radius * kTwoPi : d.outer_radius * e.phi_to + room,
+  return {.x_from = d.around() ? 0.0 : d.outer_radius * e.phi_from - room,
+          .x_to = d.around() ? d.outer_radius * kTwoPi : d.outer_radius * e.phi_to + room,
           .z_from = down(e.z_from - 5.0),
           .z_datum = -down(-e.z_to - 15.0)};
 }
@@ -48,8 +48,8 @@ double scale_step(double radius) {
 std::vector<std::string> header(const Development& d, const Field& field, const Caption& c) {
   std::vector<std::string> lines{
       "Tube " + fixed(2.0 * d.outer_radius) + " x " + fixed(d.wall) + " mm, " +
-          (d.around ? "circumference " : "full circumference ") + fixed(kTwoPi * d.outer_radius) +
-          " mm; 1:1, wrap round the outside, " + (d.around ? "kept side up" : "z upwards"),
+          (d.around() ? "circumference " : "full circumference ") + fixed(kTwoPi * d.outer_radius) +
+          " mm; 1:1, wrap round the outside, " + (d.around() ? "kept side up" : "z upwards"),
       c.options.mirror ? "MIRRORED: print side towards the tube" : "print side out",
       "blue: outer edge; green dashed: inner edge, at its phi; red: torch line on the outer wall",
       "datum z = " + fixed(field.z_datum) + " mm from the frame's origin"};
@@ -71,7 +71,7 @@ class Template {
                     kLine * (static_cast<double>(header_.size()) + 1.0)) {}
 
   std::string print() {
-    if (d_.around)
+    if (d_.around())
       seam_and_quarters();
     else
       generator_zero();
@@ -132,7 +132,7 @@ class Template {
     points.reserve(c.phi.size());
     for (std::size_t i = 0; i < c.phi.size(); ++i)
       points.push_back(at(d_.outer_radius * c.phi[i], c.z[i]));
-    canvas_.polyline(points, stroke, id, !d_.around);
+    canvas_.polyline(points, stroke, id, !d_.around());
   }
   void outline(const CutOutline& cut, std::size_t i) {
     const auto number = i == 0 ? std::string{} : "-" + std::to_string(i + 1);
@@ -144,7 +144,7 @@ class Template {
     double y = canvas_.height() - kMargin;
     canvas_.text({kMargin, y}, "Wrap template", {.height = 4.2, .bold = true});
     for (const auto& line : header_) canvas_.text({kMargin, y -= kLine}, line, {.height = 2.8});
-    if (!d_.around || field_.width() < 60.0) return;
+    if (!d_.around() || field_.width() < 60.0) return;
     const auto corner = at(caption_.options.mirror ? field_.x_to : field_.x_from, field_.z_datum);
     std::string mark = "KEEP";
     for (const auto& [name, text] : caption_.reference)

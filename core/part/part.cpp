@@ -8,6 +8,7 @@
 #include "core/base/elementary.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/place.hpp"
+#include "core/part/hole_volume.hpp"
 #include "core/part/volume.hpp"
 
 namespace tubecut::part {
@@ -114,8 +115,8 @@ Lengths lengths(const PartSpec& spec, const Part& p) {
   out.shortest = lowest(f) - highest(s);
   out.blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing;
   out.weld = p.start.weld_length + p.finish.weld_length;
-  out.volume = end_volume(p.finish.spec, f) - end_volume(p.start.spec, s);
-  for (const auto& placed : p.holes) out.volume -= hole_volume(spec.target, placed.hole);
+  out.volume = end_volume(p.finish.spec, f) - end_volume(p.start.spec, s) -
+               holes_volume(spec.target, p);
   out.mass = out.volume * 1e-9 * spec.density;
   return out;
 }
@@ -166,6 +167,20 @@ std::vector<Step> sequence(const Part& p) {
   return out;
 }
 
+std::string asked_hole(const PartSpec& spec, const PlacedHole& placed) {
+  return "holes/" + std::to_string(spec.holes[placed.asked].asked);
+}
+
+/// Holes that run into each other: between them no wall is left for the weld of either.
+void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
+  for (std::size_t i = 0; i < p.holes.size(); ++i)
+    for (std::size_t j = i + 1; j < p.holes.size(); ++j)
+      if (holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole))
+        out.push_back({.code = WarningCode::holes_meet,
+                       .member = asked_hole(spec, p.holes[j]),
+                       .detail = "it cuts into " + asked_hole(spec, p.holes[i])});
+}
+
 /// A hole whose edge leaves the wall between the two cuts.
 void warn_of_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
   for (const auto& placed : p.holes) {
@@ -180,7 +195,7 @@ void warn_of_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& ou
     }
     if (outside)
       out.push_back({.code = WarningCode::hole_meets_end,
-                     .member = "holes/" + std::to_string(spec.holes[placed.asked].asked),
+                     .member = asked_hole(spec, placed),
                      .detail = "its edge reaches into the cut at an end"});
   }
 }
@@ -244,6 +259,7 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   assemble(spec, out);
   if (auto ok = check_left(out, *spec.target.length); !ok) return tl::unexpected(ok.error());
   warn_of_holes(spec, out, out.warnings);
+  warn_of_meeting(spec, out, out.warnings);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
   out.lengths = lengths(spec, out);
   out.check_dimensions = check_dimensions(shape_of(spec, out));

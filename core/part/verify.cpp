@@ -4,7 +4,9 @@
 #include <map>
 
 #include "core/base/elementary.hpp"
+#include "core/math/quadrature.hpp"
 #include "core/math/rotation.hpp"
+#include "core/part/hole_volume.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::part {
@@ -118,24 +120,51 @@ double ruled(const bevel::Table& t, const joint::Target& target, double face) {
   return sum;
 }
 
-double hole_by_slices(const bevel::Hole& h, const joint::Target& target) {
-  const auto slice = [&](double u) {
+/// A hole's plug by the same theorem: only its own wall counts, ring by ring. A straight line passes
+/// the radius rho acos(p / rho) round from its foot, p from the axis.
+double hole_by_rings(const bevel::Hole& h, const joint::Target& target) {
+  const double inner = target.inner_radius(), outer = target.outer_radius;
+  const auto n = h.phi.size();
+  std::vector<double> foot(n), nearest(n), way(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector3d a = at(inner, h.phi_inner[i], 0.0), b = at(outer, h.phi[i], 0.0);
+    const double turn = a.cross(b).z();
+    way[i] = (b - a).norm();
+    nearest[i] = std::abs(turn) / way[i];
+    foot[i] = h.phi_inner[i] - std::copysign(elementary::acos(std::min(1.0, nearest[i] / inner)), turn);
+    if (turn < 0.0) nearest[i] = -nearest[i];
+  }
+  const auto rule = math::gauss_legendre(10);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+    const double rho = inner + 0.5 * (1.0 + rule.nodes[k]) * target.wall;
+    const auto phi = [&](std::size_t i) {
+      const double p = std::abs(nearest[i]);
+      return foot[i] + std::copysign(elementary::acos(std::min(1.0, p / rho)), nearest[i]);
+    };
+    const auto z = [&](std::size_t i) {
+      const double p = nearest[i] * nearest[i];
+      const double s = (std::sqrt(rho * rho - p) - std::sqrt(inner * inner - p)) / way[i];
+      return h.z_inner[i] + s * (h.z[i] - h.z_inner[i]);
+    };
     double twice = 0.0;
-    const auto mix = [u](double a, double b) { return a + u * (b - a); };
-    for (std::size_t i = 0; i < h.phi.size(); ++i) {
-      const auto j = (i + 1) % h.phi.size();
-      const double step = mix(h.phi_inner[j], h.phi[j]) - mix(h.phi_inner[i], h.phi[i]);
-      twice += step * (mix(h.z_inner[i], h.z[i]) + mix(h.z_inner[j], h.z[j]));
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto j = (i + 1) % n;
+      twice += (phi(j) - phi(i)) * (z(i) + z(j));
     }
-    return 0.5 * std::abs(twice) * (target.inner_radius() + u * target.wall);
-  };
-  return target.wall / 6.0 * (slice(0.0) + 4.0 * slice(0.5) + slice(1.0));
+    sum += 0.5 * rule.weights[k] * target.wall * rho * 0.5 * std::abs(twice);
+  }
+  return sum;
 }
 
 double volume_off(const PartSpec& spec, const Part& p) {
   double volume = ruled(p.finish.table, spec.target, p.finish.spec.root_face) -
                   ruled(p.start.table, spec.target, p.start.spec.root_face);
-  for (const auto& placed : p.holes) volume -= hole_by_slices(placed.hole, spec.target);
+  const auto crowded = crowded_holes(p);
+  for (const auto& [hole, asked] : p.holes)
+    if (std::ranges::find(crowded, &hole) == crowded.end())
+      volume -= hole_by_rings(hole, spec.target);
+  volume -= crowded_volume(spec.target, p, crowded, Strips::around);
   return std::abs(p.lengths.mass / (spec.density * 1e-9) - volume) / std::abs(volume);
 }
 

@@ -40,40 +40,11 @@ double cut_at(const Rings& rings, std::size_t i, double rho) {
   return (1.0 - u) * rings.edges[k].z[i] + u * rings.edges[k + 1].z[i];
 }
 
-/// Area of the closed curve on the developed plane (phi, z), the way it runs left aside.
-double area(const std::vector<double>& phi, const std::vector<double>& z) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    const auto j = (i + 1) % phi.size();
-    twice += (phi[i] - phi[0]) * (z[j] - z[0]) - (phi[j] - phi[0]) * (z[i] - z[0]);
-  }
-  return 0.5 * std::abs(twice);
-}
-
-std::vector<double> mixed(const std::vector<double>& a, const std::vector<double>& b, double u) {
-  std::vector<double> out;
-  for (std::size_t i = 0; i < a.size(); ++i) out.push_back((1.0 - u) * a[i] + u * b[i]);
-  return out;
-}
-
 }  // namespace
 
 double end_volume(const bevel::TableSpec& spec, const bevel::Table& table) {
   const auto r = rings(spec, table);
   return ring_volume(r.radii, r.edges);
-}
-
-double hole_volume(const joint::Target& chord, const bevel::Hole& hole) {
-  // Area times radius is a cubic across the wall: two Gauss points are exact.
-  const auto rule = math::gauss_legendre(2);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-    const double u = 0.5 * (1.0 + rule.nodes[k]);
-    const double rho = chord.inner_radius() + u * chord.wall;
-    sum += 0.5 * rule.weights[k] * chord.wall * rho *
-           area(mixed(hole.phi_inner, hole.phi, u), mixed(hole.z_inner, hole.z, u));
-  }
-  return sum;
 }
 
 double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table) {

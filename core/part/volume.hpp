@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::part {
@@ -9,9 +8,6 @@ namespace tubecut::part {
 /// Accuracy  exact for edges straight between their nodes and straight across the wall.
 /// Source    docs/theory/parts.md, section 3.
 [[nodiscard]] double end_volume(const bevel::TableSpec& spec, const bevel::Table& table);
-
-/// Volume a hole takes out of the wall, its own wall straight from edge to edge, mm^3.
-[[nodiscard]] double hole_volume(const joint::Target& chord, const bevel::Hole& hole);
 
 /// Volume between an end's cut and its partners' metal, within the wall's thickness: what is filled
 /// when the weld ends flush with the outside. In the end's own frame, mm^3. Where a generator

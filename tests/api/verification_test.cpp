@@ -229,7 +229,8 @@ Table fixed_table(const Way& way, int kind) {
 
 void expect_seen(const Table& t, const std::string& name,
                  const std::function<void(bevel::Table&, double)>& corrupt) {
-  const auto* check = find(bevel::verify(t.spec, t.good), name);
+  const auto before = bevel::verify(t.spec, t.good);
+  const auto* check = find(before, name);
   ASSERT_NE(check, nullptr) << name;
   auto bad = t.good;
   corrupt(bad, 10.0 * check->limit);

@@ -13,7 +13,7 @@ POINT = re.compile(rf"^  ([ vouh])\s+({NUMBER})([ous ]?)\s+({NUMBER})\s+({NUMBER
 
 
 def parse(text):
-    """{"comments", "header", "AK": [(x, y, bevel)]}; refuses what the standard does not have."""
+    """{"comments", "header", "AK": [[(x, y, bevel)]], "IK": ...}; refuses what the standard does not have."""
     lines = text.split("\r\n")
     if lines[0] != "ST" or lines[-2:] != ["EN", ""]:
         raise AssertionError("no ST ... EN")
@@ -23,13 +23,26 @@ def parse(text):
     blocks, block = {}, None
     for line in rest:
         if re.fullmatch(r"[A-Z]{2}", line):
-            block = blocks.setdefault(line, [])
+            block = []
+            blocks.setdefault(line, []).append(block)
             continue
         found = POINT.match(line)
         if not found or block is None:
             raise AssertionError(f"no point: {line!r}")
         block.append((float(found[2]), float(found[4]), float(found[6] or 0)))
     return {"comments": comments, "header": {k: v.strip() for k, v in header.items()}, **blocks}
+
+
+def rows_of(comments):
+    """The B tables in the comments, each under the cut it follows."""
+    out = {}
+    cut = ""
+    for line in comments:
+        if line.startswith("cut "):
+            cut = line[4:]
+        elif line.startswith("B "):
+            out.setdefault(cut, []).append(list(map(float, line.split()[1:])))
+    return out
 
 
 class Dstv(FormatTest):
@@ -53,13 +66,13 @@ class Dstv(FormatTest):
                 self.assertAlmostEqual(over_all, 5000 - low, delta=2e-3)
                 torch = min(table["torch_inner_mm"] + table["torch_outer_mm"])
                 self.assertAlmostEqual(saw, 5000 - min(low, torch), delta=2e-3)
-                contour = file["AK"]
+                [contour] = file["AK"]
                 self.assertEqual(contour[0][:2], contour[-1][:2])
                 wanted = [(z - low, radius * math.radians(p)) for p, z in seam_row(table["phi_deg"], table["z_outer_mm"])]
                 self.assertEqual(len(contour), len(wanted) + 3)
                 for got, want in zip(contour, wanted):
                     self.assertLess(math.dist(got[:2], want), 2e-3)
-                rows = [list(map(float, c.split()[1:])) for c in file["comments"] if c.startswith("B ")]
+                rows = rows_of(file["comments"])[""]
                 self.assertEqual(len(rows), len(table["phi_deg"]))
                 sign = -1 if body.get("dihedral", "weld_side") != "weld_side" else 1
                 for row, phi, b in zip(rows, table["phi_deg"], table["b_deg"]):
@@ -71,7 +84,7 @@ class Dstv(FormatTest):
                 "cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}], "sampling": {"uniform_points": 36},
                 "root_surface": "inner", "groove": {"rule": "fixed", "angle_deg": 30}, "kerf_mm": 2, "smoothing": {"method": "none"}}
         file = self.file(body)
-        self.assertEqual([b for _, _, b in file["AK"]], [30.0] * 37 + [0.0] * 3)
+        self.assertEqual([b for _, _, b in file["AK"][0]], [30.0] * 37 + [0.0] * 3)
         self.assertFalse([c for c in file["comments"] if "sidecar" in c])
         over_all, saw = map(float, file["header"]["length"].split(","))
         self.assertAlmostEqual(over_all, 1000.0, delta=1e-3)
@@ -85,6 +98,52 @@ class Dstv(FormatTest):
     def test_open_text_stays_in_its_line(self):
         file = self.file({**examples("bevel-tables")["source-000-table-1"], "reference": HOSTILE})
         self.assertEqual(set(file) - {"comments", "header"}, {"AK"})
+
+
+class WholePart(FormatTest):
+    def test_outside_openings_lengths_and_tables(self):
+        openings = 0
+        for name, body in examples("parts").items():
+            with self.subTest(name):
+                body = {**body, "reference": HOSTILE}
+                result = self.service.answer("parts", body)["result"]
+                file = parse(self.service.text("parts", body, "format=nc1").decode("ascii"))
+                start, finish = result["ends"]["start"]["points"], result["ends"]["finish"]["points"]
+                header = file["header"]
+                radius = float(header["height"]) / 2
+                over_all, saw = map(float, header["length"].split(","))
+                self.assertAlmostEqual(over_all, result["lengths"]["long_mm"], delta=1e-3)
+                torch = [z for p in (start, finish) for c in ("torch_inner_mm", "torch_outer_mm") for z in p[c]]
+                self.assertAlmostEqual(saw, max(over_all, *torch) - min(0, *torch), delta=2e-3)
+                [outside] = file["AK"]
+                lower, upper = (seam_row(p["phi_deg"], p["z_outer_mm"]) for p in (start, finish))
+                wanted = [(z, radius * math.radians(phi)) for phi, z in lower + upper[::-1] + lower[:1]]
+                self.assertEqual(len(outside), len(wanted))
+                for got, want in zip(outside, wanted):
+                    self.assertLess(math.dist(got[:2], want), 2e-3)
+                for got, hole in zip(file.get("IK", []), self.in_order(result), strict=True):
+                    p = hole["points"]
+                    wanted = [(z, radius * math.radians(phi)) for phi, z in zip(p["phi_deg"], p["z_mm"])]
+                    for a, b in zip(got, wanted + wanted[:1], strict=True):
+                        self.assertLess(math.dist(a[:2], b), 2e-3)
+                    openings += 1
+                tables = rows_of(file["comments"])
+                self.assertEqual(set(tables), {"start", "finish"} | {f"hole {i}" for i in range(len(result["holes"]))})
+                for cut, rows in tables.items():
+                    p = result["holes"][int(cut[5:])]["points"] if cut.startswith("hole") else result["ends"][cut]["points"]
+                    for row, phi, b in zip(rows, p["phi_deg"], p["b_deg"], strict=True):
+                        self.assertAlmostEqual(row[0], phi, delta=2e-6)
+                        self.assertAlmostEqual(row[5], b, delta=2e-4)
+        self.assertGreater(openings, 0)
+
+    def in_order(self, result):
+        return [result["holes"][step["index"]] for step in result["sequence"] if step["what"] == "hole"]
+
+    def test_a_square_end_carries_its_bevel_and_the_other_none(self):
+        file = parse(self.service.text("parts", examples("parts")["table-1-with-a-square-far-end"], "format=nc1").decode("ascii"))
+        [outside] = file["AK"]
+        self.assertTrue(any("the bevel varies" in c for c in file["comments"]))
+        self.assertEqual({b for _, _, b in outside}, {0.0})
 
 
 if __name__ == "__main__":

@@ -92,7 +92,7 @@ class Dxf(FormatTest):
                     self.assertLess(short, 4 * 0.001**2 * len(points)**2 / profile["length_mm"])
 
     def test_on_the_tube_curves_are_closed_and_stay_on_the_wall(self):
-        for endpoint in ("bevel-tables", "intersections", "holes"):
+        for endpoint in ("bevel-tables", "intersections", "holes", "parts"):
             for name, body in examples(endpoint).items():
                 with self.subTest(f"{endpoint} {name}"):
                     drawing = self.drawing(endpoint, body, "tube")
@@ -117,6 +117,31 @@ class Dxf(FormatTest):
                     self.assertTrue(closed)
                     ours = [(radius * math.radians(p), z) for p, z in zip(hole["points"]["phi_deg"], hole["points"]["z_mm"])]
                     self.assertAlmostEqual(length(points, True), length(ours, True), delta=1e-6 * len(ours))
+
+    def test_a_part_is_one_closed_outline_with_its_holes(self):
+        for name, body in examples("parts").items():
+            with self.subTest(name):
+                result = self.service.answer("parts", body)["result"]
+                drawing = self.drawing("parts", body)
+                outer = polylines(drawing, "CUT_OUTER")
+                self.assertEqual([closed for _, closed in outer], [False, False] + [True] * len(result["holes"]))
+                girth = next(d["value_mm"] for d in result["check_dimensions"] if d["name"] == "girth")
+                (start, _), (finish, _) = outer[:2]
+                ends = result["ends"]
+                for points, end in ((start, ends["start"]), (finish, ends["finish"])):
+                    self.assertAlmostEqual(points[-1][0], girth, delta=1e-5)
+                    p = end["points"]
+                    self.assertAlmostEqual(length(points, False), developed(p["phi_deg"], p["z_outer_mm"], girth / (2 * math.pi)),
+                                           delta=1e-6 * len(points))
+                for (seam, _), a, b in zip(polylines(drawing, "SEAM"), (start[0], start[-1]), (finish[0], finish[-1]), strict=True):
+                    self.assertLess(math.dist(seam[0], a) + math.dist(seam[1], b), 1e-5)
+                for (points, _), hole in zip(outer[2:], result["holes"], strict=True):
+                    p = hole["points"]
+                    for got, phi, z in zip(points, p["phi_deg"], p["z_mm"]):
+                        self.assertLess(math.dist(got, (girth * phi / 360, z)), 1e-5)
+                marks = polylines(drawing, "MARK")
+                self.assertEqual(len(marks), sum(m["z_to_mm"] > m["z_from_mm"] for m in result["marks"]))
+                self.assertAlmostEqual(max(y for _, y in finish + start), max(ends["finish"]["points"]["z_outer_mm"]), delta=1e-6)
 
     def test_open_text_arrives_as_written(self):
         body = {**examples("bevel-tables")["source-000-table-1"], "reference": HOSTILE}

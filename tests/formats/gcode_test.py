@@ -94,6 +94,92 @@ class Gcode(FormatTest):
         self.assertIn(b"speed_mm_min", content)
 
 
+def unit(x, y):
+    return x / math.hypot(x, y), y / math.hypot(x, y)
+
+
+class PartGcode(FormatTest):
+    """A whole part: each cut of its sequence on its torch line, the torch put out between them."""
+
+    def cuts(self, result):
+        """[(name, [(phi, z, b, a)], way to the scrap)] in the order of the sequence."""
+        out = []
+        for step in result["sequence"]:
+            if step["what"] == "hole":
+                p = result["holes"][step["index"]]["points"]
+                rows = list(zip(p["torch_phi_deg"], p["torch_z_mm"], p["b_deg"], p.get("a_deg") or [0] * len(p["b_deg"])))
+                out.append((f"hole {step['index']}", rows + rows[:1], None))
+            elif step["what"] in ("finish", "start"):
+                p = result["ends"][step["what"]]["points"]
+                rows = [(phi, z, b, 0) for (phi, z), (_, b) in
+                        zip(seam_row(p["phi_deg"], p["torch_outer_mm"]), seam_row(p["phi_deg"], p["b_deg"]))]
+                out.append((step["what"], rows, (0, 1 if step["what"] == "finish" else -1)))
+        return out
+
+    def bodies(self):
+        for name, body in examples("parts").items():
+            yield name, body
+            if "holes" in body:
+                tilted = [{**hole, "tilt": "free"} for hole in body["holes"]]
+                yield name + ", torch tilting across", {**body, "holes": tilted}
+
+    def test_each_cut_in_its_order(self):
+        holes = tilted = 0
+        for name, body in self.bodies():
+            for lead in (0, 4):
+                with self.subTest(f"{name} {lead}"):
+                    result = self.service.answer("parts", body)["result"]
+                    program = self.service.text("parts", body, f"format=gcode&speed_mm_min=600&torch=on&lead_mm={lead}").decode("ascii")
+                    blocks = re.split(r"(?m)^\(cut: ", program)
+                    wanted = self.cuts(result)
+                    self.assertEqual([block.split(")")[0].split(" for ")[0] for block in blocks[1:]], [cut for cut, _, _ in wanted])
+                    radius = next(p["girth_mm"] / math.radians(p["phi_deg"]) for p in
+                                  (m for m in result["marks"] + [result["ends"]["start"]["short_point"], result["ends"]["finish"]["long_point"]])
+                                  if p["phi_deg"] > 1)
+                    for block, (cut, rows, way) in zip(blocks[1:], wanted):
+                        lines = block.splitlines()[1:]
+                        self.assertEqual((lines.count("M3 S1"), lines.count("M5")), (1, 1))
+                        got = moves("\n".join(line for line in lines if line != "M2"))
+                        if lead:
+                            (before, _), (_, length) = got[0], got[1]
+                            middle = [sum(r[k] for r in rows[:-1]) / (len(rows) - 1) for k in (0, 1)]
+                            to = way or unit(radius * math.radians(middle[0] - rows[0][0]), middle[1] - rows[0][1])
+                            for at, row in ((got[0][0], rows[0]), (got[-1][0], rows[-1])):
+                                self.assertAlmostEqual(radius * math.radians(at["A"] - row[0]), length * to[0], delta=1e-4)
+                                self.assertAlmostEqual(at["X"] - row[1], length * to[1], delta=1e-4)
+                            self.assertLessEqual(length, lead)
+                            got = got[1:-1]
+                        self.assertEqual(len(got), len(rows))
+                        for (axes, _), (phi, z, b, a) in zip(got, rows):
+                            self.assertAlmostEqual(axes["A"], phi, delta=1e-6)
+                            self.assertAlmostEqual(axes["X"], z, delta=1e-4)
+                            self.assertAlmostEqual(axes["B"], b, delta=1e-5)
+                            self.assertAlmostEqual(axes.get("C", 0), a, delta=1e-5)
+                        holes += way is None
+                        tilted += any(abs(a) > 1 for _, _, _, a in rows)
+        self.assertGreater(holes, 0)
+        self.assertGreater(tilted, 0)
+
+    def test_a_pivot_stands_on_the_torch_line(self):
+        name, body = [each for each in self.bodies() if "across" in each[0]][0]
+        tip = moves(self.program(body))
+        pivot = moves(self.program(body, "&pivot_length_mm=150"))
+        self.assertEqual(len(tip), len(pivot))
+        for (t, _), (p, _) in zip(tip, pivot):
+            rise, across = math.tan(math.radians(t["B"])), math.tan(math.radians(t["C"]))
+            size = math.sqrt(1 + rise**2 + across**2)
+            self.assertAlmostEqual(p["X"] - t["X"], 150 * rise / size, delta=1e-4)
+            self.assertAlmostEqual(p["Y"], 150 * across / size, delta=1e-4)
+            self.assertAlmostEqual(math.hypot(p["X"] - t["X"], p["Y"], p["Z"] - body["members"][0]["outer_diameter_mm"] / 2), 150, delta=1e-3)
+
+    def program(self, body, more=""):
+        return self.service.text("parts", body, f"format=gcode&speed_mm_min=600{more}").decode("ascii")
+
+    def test_a_dry_run_stays_dark(self):
+        for name, body in self.bodies():
+            self.assertNotRegex(self.program({**body, "reference": HOSTILE}), r"(?m)^M0?[34]\b")
+
+
 class ScheduleGcode(FormatTest):
     """Straight moves, uniform in time, against the integer pulses of the JSON answer."""
 

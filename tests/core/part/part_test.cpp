@@ -392,6 +392,72 @@ TEST(Part, SequenceEndsAtTheClampedSide) {
     EXPECT_TRUE(check.passed()) << check.name << " " << check.value << " of " << check.limit;
 }
 
+/// Square branches of radius 12 on the middle of a chord 50/44, at these heights.
+part::PartSpec drilled(std::initializer_list<double> heights, double clocking = 0.4) {
+  auto spec = direct({}, {}, 900);
+  for (const double height : heights) {
+    bevel::HoleSpec hole{.chord = {.outer_radius = 50, .wall = 6},
+                         .branch = joint::TubeCutter{
+                             .radius = 12, .clocking = Angle::rad(clocking), .height = height},
+                         .branch_wall = 3,
+                         .kind = bevel::JointKind::set_in,
+                         .groove = bevel::NoGroove{},
+                         .tilt = bevel::Tilt::free,
+                         .sampling = {.uniform_points = 360}};
+    spec.holes.push_back({hole, "", spec.holes.size()});
+  }
+  return spec;
+}
+
+/// What such holes take: slices across the branches, the lengths along the chord united.
+double drilled_volume(std::vector<double> heights, double from, double to) {
+  std::ranges::sort(heights);
+  double sum = 0;
+  const int n = 40'000;
+  for (int k = 0; k < n; ++k) {
+    const double x = -12 + 24 * (k + 0.5) / n, half = std::sqrt(144 - x * x);
+    double length = 0, reached = from;
+    for (const double height : heights) {
+      const double low = std::max(height - half, reached), high = std::min(height + half, to);
+      length += std::max(0.0, high - low);
+      reached = std::max(reached, high);
+    }
+    sum += 24.0 / n * length * (std::sqrt(2500 - x * x) - std::sqrt(44.0 * 44 - x * x));
+  }
+  return sum;
+}
+
+TEST(Part, WhatTwoHolesShareIsTakenOnce) {
+  const double whole = part::part(drilled({}))->lengths.volume;
+  for (const double clocking : {0.4, 0.02, 6.27}) {  // the last two across phi = 0
+    for (const std::vector<double>& heights :
+         {std::vector<double>{400, 418}, {400, 400}, {400, 409, 420}, {400, 425}, {300, 500}, {893, 880}}) {
+      part::PartSpec spec = drilled({}, clocking);
+      for (const double height : heights)
+        spec.holes.push_back({drilled({height}, clocking).holes.front().hole, "", spec.holes.size()});
+      const auto p = part::part(spec);
+      ASSERT_TRUE(p);
+      const double exact = drilled_volume(heights, 0, 900);
+      // The wall's lines are tangent to the branch: outside they stand up to 0.03 mm off it.
+      EXPECT_NEAR((whole - p->lengths.volume) / exact, 1.0, 1e-3) << heights[0] << " " << heights[1];
+      const bool meeting = std::abs(heights[0] - heights[1]) < 24;
+      EXPECT_EQ(std::ranges::any_of(p->warnings,
+                                    [](const Warning& w) { return w.code == WarningCode::holes_meet; }),
+                meeting);
+      for (const auto& check : part::verify(spec, *p))
+        EXPECT_TRUE(check.passed()) << check.name << " " << check.value << " of " << check.limit;
+    }
+  }
+}
+
+TEST(Part, TheSameHoleTwiceTakesWhatItTakesOnce) {
+  const auto volume = [](const part::PartSpec& spec) { return part::part(spec)->lengths.volume; };
+  const double whole = volume(drilled({})), once = whole - volume(drilled({400}));
+  EXPECT_NEAR((whole - volume(drilled({400, 400}))) / once, 1.0, 1e-9);
+  EXPECT_NEAR((whole - volume(drilled({400, 440}))) / once, 2.0, 1e-9);
+  EXPECT_NEAR((whole - volume(drilled({0}))) / once, 0.5, 1e-9);  // half of it lies beyond the end
+}
+
 TEST(Part, Refuses) {
   auto spec = direct({chord(60, 30)}, {chord(70, 100)}, 900);
   spec.target.length.reset();
