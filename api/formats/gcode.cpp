@@ -65,7 +65,7 @@ std::string header(const TorchJob& job, const Joints& joints, const Caption& cap
          gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
          gcode_comment("B swings the torch in the axial plane, positive: outer edge towards +z");
   if (joints.tilts())
-    out += gcode_comment("C tilts it across, positive: outer edge towards growing phi; tan B and "
+    out += gcode_comment("C tilts it across, positive: outer edge towards growing phi, tan B and "
                          "tan C are each over the way outwards");
   out += o.pivot_length
              ? gcode_comment("linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +

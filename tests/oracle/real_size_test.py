@@ -40,7 +40,7 @@ def counts(item):
 
 class Service:
     def __enter__(self):
-        self.child = subprocess.Popen([SERVER, "--port", "0", "--admin-port", "0"], stdout=subprocess.PIPE, text=True)
+        self.child = subprocess.Popen([SERVER, "--port", "0", "--admin-port", "0", "--budget-s", "30"], stdout=subprocess.PIPE, text=True)
         self.port = json.loads(self.child.stdout.readline())["port"]
         return self
 
