@@ -59,4 +59,5 @@ def main():
     sys.exit(growth > LIMIT_MIB or lost > 0 or statuses.get("500", 0) > 0)
 
 
-main()
+if __name__ == "__main__":
+    main()
