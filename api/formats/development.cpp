@@ -99,8 +99,7 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
     out.cuts.push_back(std::move(one.cuts.front()));
   }
   for (std::size_t i = 0; i < part.holes.size(); ++i)
-    out.cuts.push_back(
-        outline(spec.target, part.holes[i].hole, "hole " + std::to_string(i)));
+    out.cuts.push_back(outline(spec.target, part.holes[i].hole, "hole " + std::to_string(i)));
   return out;
 }
 

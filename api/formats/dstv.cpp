@@ -28,10 +28,10 @@ std::string reference(const Caption& caption, std::string_view name) {
 }
 
 struct Lengths {
-  double low = 0.0;                 // z of x = 0
+  double low = 0.0;  // z of x = 0
   double over_long = 0.0, over_short = 0.0, work_point = 0.0;
-  double saw = 0.0;                 // from where the torch line begins
-  bool assumed = false;             // nobody gave the far end
+  double saw = 0.0;      // from where the torch line begins
+  bool assumed = false;  // nobody gave the far end
 };
 
 Lengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t) {
@@ -51,9 +51,10 @@ Lengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t) {
 Lengths lengths_of(const part::Part& p) {
   const auto& s = p.start.table;
   const auto& f = p.finish.table;
-  const double from = std::min({0.0, std::ranges::min(s.torch_inner), std::ranges::min(s.torch_outer)});
-  const double to = std::max({p.lengths.longest, std::ranges::max(f.torch_inner),
-                              std::ranges::max(f.torch_outer)});
+  const double from =
+      std::min({0.0, std::ranges::min(s.torch_inner), std::ranges::min(s.torch_outer)});
+  const double to = std::max(
+      {p.lengths.longest, std::ranges::max(f.torch_inner), std::ranges::max(f.torch_outer)});
   return {.over_long = p.lengths.longest,
           .over_short = p.lengths.shortest,
           .work_point = p.lengths.work_point,
@@ -84,8 +85,7 @@ std::string header(const joint::Target& target, const Lengths& l, const Caption&
   auto part = reference(c, "part");
   std::string out = line(reference(c, "order")) + line(reference(c, "drawing")) + line("1") +
                     line(part) + line("-") + line("1") +
-                    line("ROHR" + fixed(diameter, 1) + "x" + fixed(target.wall, 1)) +
-                    line("RO");
+                    line("ROHR" + fixed(diameter, 1) + "x" + fixed(target.wall, 1)) + line("RO");
   out += field(l.over_long) + "," + field(l.saw) + "\r\n";
   for (const double v : {diameter, diameter, target.wall, target.wall, 0.0, kg_per_m,
                          kTwoPi * ro * 1e-3, 0.0, 0.0, 0.0, 0.0})
@@ -171,12 +171,12 @@ std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
   const auto bevel = one_bevel(t.b);
   return "ST\r\n" + comments(lengths, bevel.has_value(), caption) +
          header(spec.target, lengths, caption) +
-         contour(developed(spec, t).cuts.front(), lengths, (t.inward ? -1.0 : 1.0) * bevel.value_or(0.0)) +
+         contour(developed(spec, t).cuts.front(), lengths,
+                 (t.inward ? -1.0 : 1.0) * bevel.value_or(0.0)) +
          comment(kSidecar) + sidecar(spec.target, t, lengths.low) + "EN\r\n";
 }
 
-std::string print_dstv(const part::PartSpec& spec, const part::Part& part,
-                       const Caption& caption) {
+std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   const auto lengths = lengths_of(part);
   const auto cuts = developed(spec, part).cuts;
   const auto start = one_bevel(part.start.table.b), finish = one_bevel(part.finish.table.b);

@@ -66,7 +66,8 @@ void seams(DxfWriter& w, const Development& d, const Extent& e, double datum, bo
     return;
   }
   const double from = d.around() ? 0.0 : d.outer_radius * e.phi_from - kMargin;
-  const double to = d.outer_radius * (d.around() ? kTwoPi : e.phi_to) + (d.around() ? 0.0 : kMargin);
+  const double to =
+      d.outer_radius * (d.around() ? kTwoPi : e.phi_to) + (d.around() ? 0.0 : kMargin);
   w.polyline("DATUM", std::vector<Eigen::Vector2d>{{from, datum}, {to, datum}}, false);
   double foot = e.z_from;
   if (d.around() && !d.cuts.front().outer.empty()) foot = d.cuts.front().outer.z.front();
@@ -93,13 +94,14 @@ void draw_cuts(DxfWriter& w, const Development& d, bool space) {
 void along(DxfWriter& w, std::string_view layer, const Development& d, bool space, double phi,
            double from, double to) {
   if (space)
+    w.polyline(layer,
+               std::vector{on_wall(d.outer_radius, phi, from), on_wall(d.outer_radius, phi, to)},
+               false);
+  else
     w.polyline(
         layer,
-        std::vector{on_wall(d.outer_radius, phi, from), on_wall(d.outer_radius, phi, to)}, false);
-  else
-    w.polyline(layer,
-               std::vector<Eigen::Vector2d>{{d.outer_radius * phi, from}, {d.outer_radius * phi, to}},
-               false);
+        std::vector<Eigen::Vector2d>{{d.outer_radius * phi, from}, {d.outer_radius * phi, to}},
+        false);
 }
 void across(DxfWriter& w, std::string_view layer, const Development& d, bool space, double z) {
   const CylinderCurve circle{.radius = d.outer_radius, .phi = {0.0, kTwoPi}, .z = {z, z}};

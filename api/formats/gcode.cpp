@@ -65,8 +65,9 @@ std::string header(const TorchJob& job, const Joints& joints, const Caption& cap
          gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
          gcode_comment("B swings the torch in the axial plane, positive: outer edge towards +z");
   if (joints.tilts())
-    out += gcode_comment("C tilts it across, positive: outer edge towards growing phi, tan B and "
-                         "tan C are each over the way outwards");
+    out += gcode_comment(
+        "C tilts it across, positive: outer edge towards growing phi, tan B and "
+        "tan C are each over the way outwards");
   out += o.pivot_length
              ? gcode_comment("linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +
                              " mm from the tip, the one across is its height over the tube axis")
@@ -123,10 +124,7 @@ std::string print_cut(const TorchJob& job, const TorchPath& path, const Joints& 
 }
 
 TorchPath hole_path(const joint::Target& chord, const bevel::Hole& hole, std::string name) {
-  TorchPath out{.name = std::move(name),
-                .phi = hole.torch_phi,
-                .z = hole.torch_z,
-                .b = hole.b};
+  TorchPath out{.name = std::move(name), .phi = hole.torch_phi, .z = hole.torch_z, .b = hole.b};
   if (std::ranges::any_of(hole.a, [](double a) { return a != 0.0; })) out.a = hole.a;
   for (auto* column : {&out.phi, &out.z, &out.b, &out.a})
     if (!column->empty()) column->push_back(column->front());
@@ -194,9 +192,9 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
     } else if (step.what == part::Step::What::hole) {
       const auto& hole = part.holes[step.index];
       const auto& branch = spec.holes[hole.asked].name;
-      out.cuts.push_back(hole_path(spec.target, hole.hole,
-                                   "hole " + std::to_string(step.index) +
-                                       (branch.empty() ? "" : " for " + branch)));
+      out.cuts.push_back(hole_path(
+          spec.target, hole.hole,
+          "hole " + std::to_string(step.index) + (branch.empty() ? "" : " for " + branch)));
     } else {
       const bool finish = step.what == part::Step::What::finish;
       const auto& end = finish ? part.finish : part.start;

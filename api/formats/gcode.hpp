@@ -11,8 +11,8 @@
 
 namespace tubecut::api {
 
-/// The torch's way round one cut: its axis on the outer wall. mm and rad; B > 0: the outer edge lies
-/// further towards +z.
+/// The torch's way round one cut: its axis on the outer wall. mm and rad; B > 0: the outer edge
+/// lies further towards +z.
 struct TorchPath {
   std::string name;               // empty: the only one
   std::vector<double> phi, z, b;  // an end from the seam to the seam one turn on; a hole closed
@@ -50,10 +50,9 @@ struct TorchWords {
 /// through every mix of axes. Speed is one parameter at the top.
 ///
 /// With a pivot length the linear axes are the pivot's, and the one square to the tube moves too;
-/// without, the control must know the tip. The torch is lit only by the option `torch`, for each cut
-/// anew. Where a hole's torch tilts across, C is that tilt and, with a pivot length, Y the pivot's
-/// way across.
-/// Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
+/// without, the control must know the tip. The torch is lit only by the option `torch`, for each
+/// cut anew. Where a hole's torch tilts across, C is that tilt and, with a pivot length, Y the
+/// pivot's way across. Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
 [[nodiscard]] std::string print_gcode(const TorchJob& job, const Caption& caption);
 
 }  // namespace tubecut::api

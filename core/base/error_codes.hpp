@@ -205,7 +205,7 @@
   X(no_table, cut, "This end has no bevel table: it cannot be cut as asked, for this reason.")     \
   X(parallel_members, cut, "Two members that join are parallel; neither cuts the other.")          \
   X(root_opens, cut, "The root is opened so that the cut can be made.")                            \
-  X(holes_meet, cut, "Two holes of the part share a piece of its wall.")                          \
+  X(holes_meet, cut, "Two holes of the part share a piece of its wall.")                           \
   X(hole_meets_end, cut, "A hole of the part reaches into the cut at one of its ends.")            \
   X(unit_suspicion, cut, "The value looks as if it were given in another unit.")                   \
   X(tube_outside_range, note, "The tube is outside the range the source's machine was built for.") \

@@ -8,6 +8,8 @@
 namespace tubecut::math {
 namespace {
 
+constexpr std::size_t kPoll = 256;  // strips between two looks at the stop token
+
 /// An edge that is not upright, from left to right.
 struct Side {
   double x0, y0, x1, y1;
@@ -35,21 +37,28 @@ std::vector<Side> sides(std::span<const Polygon> polygons, const Window& window)
   return out;
 }
 
+/// Heights of a side at both ends of a strip.
+struct Rise {
+  double left, right;
+};
+
 /// Where sides change places between two x, and where they pass the window's floor and ceiling.
 std::vector<double> stops(const std::vector<Side>& over, double from, double to,
                           const Window& window) {
+  std::vector<Rise> rises;
+  rises.reserve(over.size() + 2);
+  for (const auto& side : over) rises.push_back({side.at(from), side.at(to)});
+  for (const double level : {window.y_from, window.y_to})
+    if (std::isfinite(level)) rises.push_back({level, level});
+  std::ranges::sort(rises, {}, &Rise::left);
   std::vector<double> out{from, to};
-  const auto crossing = [&](double left, double right) {
-    if ((left < 0.0) != (right < 0.0) && left != right)
-      out.push_back(std::clamp(from + (to - from) * left / (left - right), from, to));
-  };
-  for (std::size_t i = 0; i < over.size(); ++i) {
-    const double left = over[i].at(from), right = over[i].at(to);
-    for (const double level : {window.y_from, window.y_to})
-      if (std::isfinite(level)) crossing(left - level, right - level);
-    for (std::size_t j = i + 1; j < over.size(); ++j)
-      crossing(left - over[j].at(from), right - over[j].at(to));
-  }
+  if (std::ranges::is_sorted(rises, {}, &Rise::right)) return out;  // as in most strips
+  for (std::size_t i = 0; i < rises.size(); ++i)
+    for (std::size_t j = i + 1; j < rises.size(); ++j) {
+      const double left = rises[i].left - rises[j].left, right = rises[i].right - rises[j].right;
+      if ((left < 0.0) != (right < 0.0) && left != right)
+        out.push_back(std::clamp(from + (to - from) * left / (left - right), from, to));
+    }
   std::ranges::sort(out);
   return out;
 }
@@ -85,7 +94,8 @@ double area(const Polygon& polygon) {
   return 0.5 * std::abs(twice);
 }
 
-double union_area(std::span<const Polygon> polygons, const Window& window) {
+double union_area(std::span<const Polygon> polygons, const Window& window,
+                  const std::stop_token& stop) {
   const auto all = sides(polygons, window);
   std::vector<double> corners;
   for (const auto& side : all)
@@ -99,6 +109,7 @@ double union_area(std::span<const Polygon> polygons, const Window& window) {
   std::vector<Side> over;
   std::size_t next = 0;
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    if (k % kPoll == 0 && stop.stop_requested()) break;
     const double from = corners[k], to = corners[k + 1];
     std::erase_if(over, [&](const Side& side) { return side.x1 <= from; });
     while (next < all.size() && all[next].x0 <= from) {
@@ -108,8 +119,8 @@ double union_area(std::span<const Polygon> polygons, const Window& window) {
     const auto strips = stops(over, from, to, window);
     for (std::size_t i = 0; i + 1 < strips.size(); ++i)
       if (strips[i + 1] > strips[i])
-        sum += (strips[i + 1] - strips[i]) *
-               covered(over, 0.5 * (strips[i] + strips[i + 1]), window);
+        sum +=
+            (strips[i + 1] - strips[i]) * covered(over, 0.5 * (strips[i] + strips[i + 1]), window);
   }
   return sum;
 }

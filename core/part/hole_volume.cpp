@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "core/base/elementary.hpp"
@@ -13,8 +14,8 @@ namespace {
 
 using math::Polygon;
 
-constexpr int kSmooth = 6;     // Gauss points across the wall, 1e-12 of a hole
-constexpr int kCrowded = 12;   // the border of what two holes share has corners that move
+constexpr int kSmooth = 6;       // Gauss points across the wall, 1e-12 of a hole
+constexpr int kCrowded = 12;     // the border of what two holes share has corners that move
 constexpr double kTouch = 1e-9;  // of a hole's area, that rounding leaves two that only touch
 
 /// Rectangle around both edges of a cut on the developed plane.
@@ -28,6 +29,13 @@ Box box_of(const bevel::Hole& hole) {
   const auto [zi, yi] = std::ranges::minmax(hole.z_inner);
   const auto [zo, yo] = std::ranges::minmax(hole.z);
   return {std::min(pi, po), std::max(qi, qo), std::min(zi, zo), std::max(yi, yo)};
+}
+
+double lowest(const bevel::Table& t) {
+  return std::min(std::ranges::min(t.z_inner), std::ranges::min(t.z_outer));
+}
+double highest(const bevel::Table& t) {
+  return std::max(std::ranges::max(t.z_inner), std::ranges::max(t.z_outer));
 }
 
 double mixed(double inner, double outer, double u) { return inner + u * (outer - inner); }
@@ -51,9 +59,14 @@ Polygon slice(const joint::Target& target, const bevel::Hole& hole, double u, do
   return out;
 }
 
-/// The same seen from the turns before and after too.
-std::vector<Polygon> turns(const joint::Target& target, const bevel::Hole& hole, double u) {
-  return {slice(target, hole, u, -kTwoPi), slice(target, hole, u), slice(target, hole, u, kTwoPi)};
+/// The same wherever it shows within one turn.
+void add_turns(const joint::Target& target, const bevel::Hole& hole, double u,
+               std::vector<Polygon>& to) {
+  for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
+    auto polygon = slice(target, hole, u, turn);
+    const auto [least, most] = std::ranges::minmax(polygon.x);
+    if (most > 0.0 && least < kTwoPi) to.push_back(std::move(polygon));
+  }
 }
 
 /// All that an end's cut has taken, out to `beyond`: the turn at hand and one to each side of it.
@@ -77,31 +90,31 @@ Polygon cut_off(const bevel::Table& end, const joint::Target& target, double fac
 }
 
 /// Area (rad mm) of the union within one turn.
-double within_turn(std::vector<Polygon> polygons, Strips strips) {
+double within_turn(std::vector<Polygon> polygons, Strips strips, const std::stop_token& stop) {
   if (strips == Strips::along)
-    return math::union_area(polygons, {.x_from = 0.0, .x_to = kTwoPi});
+    return math::union_area(polygons, {.x_from = 0.0, .x_to = kTwoPi}, stop);
   for (auto& polygon : polygons) std::swap(polygon.x, polygon.y);
-  return math::union_area(polygons, {.y_from = 0.0, .y_to = kTwoPi});
+  return math::union_area(polygons, {.y_from = 0.0, .y_to = kTwoPi}, stop);
 }
 
-/// Area of the holes between the two cuts at the share u of the wall.
-double taken(const joint::Target& target, const Part& part,
-             const std::vector<const bevel::Hole*>& holes, double u, Strips strips) {
-  const auto& s = part.start;
-  const auto& f = part.finish;
-  double below = std::min(std::ranges::min(s.table.z_inner), std::ranges::min(s.table.z_outer));
-  double above = std::max(std::ranges::max(f.table.z_inner), std::ranges::max(f.table.z_outer));
-  for (const auto* hole : holes) {
+/// Area of a crowd between the two cuts at the share u of the wall.
+double taken(const joint::Target& target, const Part& part, const Crowd& crowd, double u,
+             Strips strips, const std::stop_token& stop) {
+  std::vector<Polygon> all;
+  double low = 0.0, high = 0.0;
+  for (const auto* hole : crowd.holes) {
     const auto box = box_of(*hole);
-    below = std::min(below, box.z_from);
-    above = std::max(above, box.z_to);
+    low = std::min(low, box.z_from);
+    high = std::max(high, box.z_to);
   }
-  std::vector<Polygon> all{cut_off(s.table, target, s.spec.root_face, u, below - 1.0),
-                           cut_off(f.table, target, f.spec.root_face, u, above + 1.0)};
-  const double ends = within_turn(all, strips);
-  for (const auto* hole : holes)
-    for (auto& polygon : turns(target, *hole, u)) all.push_back(std::move(polygon));
-  return within_turn(std::move(all), strips) - ends;
+  const auto end = [&](const End& e, bool here, double beyond) {
+    if (here) all.push_back(cut_off(e.table, target, e.spec.root_face, u, beyond));
+  };
+  end(part.start, crowd.start, std::min(low, lowest(part.start.table)) - 1.0);
+  end(part.finish, crowd.finish, std::max(high, highest(part.finish.table)) + 1.0);
+  const double ends = within_turn(all, strips, stop);
+  for (const auto* hole : crowd.holes) add_turns(target, *hole, u, all);
+  return within_turn(std::move(all), strips, stop) - ends;
 }
 
 /// Integral over the wall of an area at the share u times its radius.
@@ -111,7 +124,8 @@ double across(const joint::Target& target, int points, Area&& area) {
   double sum = 0.0;
   for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
     const double u = 0.5 * (1.0 + rule.nodes[k]);
-    sum += 0.5 * rule.weights[k] * target.wall * (target.inner_radius() + u * target.wall) * area(u);
+    sum +=
+        0.5 * rule.weights[k] * target.wall * (target.inner_radius() + u * target.wall) * area(u);
   }
   return sum;
 }
@@ -125,50 +139,70 @@ bool near(const Box& a, const Box& b) {
 }
 
 bool near(const Box& box, const bevel::Table& end) {
-  const auto [zi, yi] = std::ranges::minmax(end.z_inner);
-  const auto [zo, yo] = std::ranges::minmax(end.z_outer);
-  return box.z_from <= std::max(yi, yo) && std::min(zi, zo) <= box.z_to;
+  return box.z_from <= highest(end) && lowest(end) <= box.z_to;
 }
 
 }  // namespace
 
-bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::Hole& b) {
+bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::Hole& b,
+                const std::stop_token& stop) {
   if (!near(box_of(a), box_of(b))) return false;
   for (const double u : {0.0, 0.5, 1.0}) {
-    const auto own = within_turn(turns(target, a, u), Strips::along);
-    const auto other = within_turn(turns(target, b, u), Strips::along);
-    auto both = turns(target, a, u);
-    for (auto& polygon : turns(target, b, u)) both.push_back(std::move(polygon));
-    if (own + other - within_turn(std::move(both), Strips::along) > kTouch * own) return true;
+    std::vector<Polygon> one, other;
+    add_turns(target, a, u, one);
+    add_turns(target, b, u, other);
+    auto both = one;
+    both.insert(both.end(), other.begin(), other.end());
+    const double own = within_turn(std::move(one), Strips::along, stop);
+    const double sum = own + within_turn(std::move(other), Strips::along, stop);
+    if (sum - within_turn(std::move(both), Strips::along, stop) > kTouch * own) return true;
   }
   return false;
 }
 
-std::vector<const bevel::Hole*> crowded_holes(const Part& part) {
-  std::vector<const bevel::Hole*> out;
-  for (const auto& [hole, asked] : part.holes) {
-    const auto box = box_of(hole);
-    const auto beside = [&](const PlacedHole& other) {
-      return &other.hole != &hole && near(box, box_of(other.hole));
-    };
-    if (near(box, part.start.table) || near(box, part.finish.table) ||
-        std::ranges::any_of(part.holes, beside))
-      out.push_back(&hole);
+std::vector<Crowd> crowds(const Part& part) {
+  const auto n = part.holes.size();
+  std::vector<Box> boxes;
+  for (const auto& placed : part.holes) boxes.push_back(box_of(placed.hole));
+  std::vector<bool> seen(n, false);
+  std::vector<Crowd> out;
+  for (std::size_t first = 0; first < n; ++first) {
+    if (seen[first]) continue;
+    Crowd crowd;
+    std::vector<std::size_t> front{first};
+    seen[first] = true;
+    while (!front.empty()) {
+      const auto i = front.back();
+      front.pop_back();
+      crowd.holes.push_back(&part.holes[i].hole);
+      crowd.start = crowd.start || near(boxes[i], part.start.table);
+      crowd.finish = crowd.finish || near(boxes[i], part.finish.table);
+      for (std::size_t j = 0; j < n; ++j)
+        if (!seen[j] && near(boxes[i], boxes[j])) {
+          seen[j] = true;
+          front.push_back(j);
+        }
+    }
+    if (crowd.holes.size() > 1 || crowd.start || crowd.finish) out.push_back(std::move(crowd));
   }
   return out;
 }
 
-double crowded_volume(const joint::Target& target, const Part& part,
-                      const std::vector<const bevel::Hole*>& holes, Strips strips) {
-  if (holes.empty()) return 0.0;
-  return across(target, kCrowded, [&](double u) { return taken(target, part, holes, u, strips); });
+double crowd_volume(const joint::Target& target, const Part& part, const Crowd& crowd,
+                    Strips strips, const std::stop_token& stop) {
+  return across(target, kCrowded,
+                [&](double u) { return taken(target, part, crowd, u, strips, stop); });
 }
 
-double holes_volume(const joint::Target& target, const Part& part) {
-  const auto crowded = crowded_holes(part);
-  double sum = crowded_volume(target, part, crowded, Strips::along);
+double holes_volume(const joint::Target& target, const Part& part, const std::stop_token& stop) {
+  double sum = 0.0;
+  std::set<const bevel::Hole*> crowded;
+  for (const auto& crowd : crowds(part)) {
+    sum += crowd_volume(target, part, crowd, Strips::along, stop);
+    crowded.insert(crowd.holes.begin(), crowd.holes.end());
+  }
   for (const auto& [hole, asked] : part.holes)
-    if (std::ranges::find(crowded, &hole) == crowded.end())
+    if (!crowded.contains(&hole))
       sum += across(target, kSmooth, [&](double u) { return math::area(slice(target, hole, u)); });
   return sum;
 }

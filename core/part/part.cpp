@@ -7,8 +7,8 @@
 
 #include "core/base/elementary.hpp"
 #include "core/math/rotation.hpp"
-#include "core/part/place.hpp"
 #include "core/part/hole_volume.hpp"
+#include "core/part/place.hpp"
 #include "core/part/volume.hpp"
 
 namespace tubecut::part {
@@ -106,7 +106,7 @@ double highest_kerf(const Table& t) {
   return out;
 }
 
-Lengths lengths(const PartSpec& spec, const Part& p) {
+Lengths lengths(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
   Lengths out;
   const auto& s = p.start.table;
   const auto& f = p.finish.table;
@@ -116,7 +116,7 @@ Lengths lengths(const PartSpec& spec, const Part& p) {
   out.blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing;
   out.weld = p.start.weld_length + p.finish.weld_length;
   out.volume = end_volume(p.finish.spec, f) - end_volume(p.start.spec, s) -
-               holes_volume(spec.target, p);
+               holes_volume(spec.target, p, stop);
   out.mass = out.volume * 1e-9 * spec.density;
   return out;
 }
@@ -172,10 +172,11 @@ std::string asked_hole(const PartSpec& spec, const PlacedHole& placed) {
 }
 
 /// Holes that run into each other: between them no wall is left for the weld of either.
-void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
+void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
+                     const std::stop_token& stop) {
   for (std::size_t i = 0; i < p.holes.size(); ++i)
     for (std::size_t j = i + 1; j < p.holes.size(); ++j)
-      if (holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole))
+      if (!stop.stop_requested() && holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole, stop))
         out.push_back({.code = WarningCode::holes_meet,
                        .member = asked_hole(spec, p.holes[j]),
                        .detail = "it cuts into " + asked_hole(spec, p.holes[i])});
@@ -259,9 +260,10 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   assemble(spec, out);
   if (auto ok = check_left(out, *spec.target.length); !ok) return tl::unexpected(ok.error());
   warn_of_holes(spec, out, out.warnings);
-  warn_of_meeting(spec, out, out.warnings);
+  warn_of_meeting(spec, out, out.warnings, stop);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
-  out.lengths = lengths(spec, out);
+  out.lengths = lengths(spec, out, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   out.check_dimensions = check_dimensions(shape_of(spec, out));
   out.sequence = sequence(out);
   return out;

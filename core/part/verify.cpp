@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/base/elementary.hpp"
 #include "core/math/quadrature.hpp"
@@ -120,8 +121,8 @@ double ruled(const bevel::Table& t, const joint::Target& target, double face) {
   return sum;
 }
 
-/// A hole's plug by the same theorem: only its own wall counts, ring by ring. A straight line passes
-/// the radius rho acos(p / rho) round from its foot, p from the axis.
+/// A hole's plug by the same theorem: only its own wall counts, ring by ring. A straight line
+/// passes the radius rho acos(p / rho) round from its foot, p from the axis.
 double hole_by_rings(const bevel::Hole& h, const joint::Target& target) {
   const double inner = target.inner_radius(), outer = target.outer_radius;
   const auto n = h.phi.size();
@@ -131,7 +132,8 @@ double hole_by_rings(const bevel::Hole& h, const joint::Target& target) {
     const double turn = a.cross(b).z();
     way[i] = (b - a).norm();
     nearest[i] = std::abs(turn) / way[i];
-    foot[i] = h.phi_inner[i] - std::copysign(elementary::acos(std::min(1.0, nearest[i] / inner)), turn);
+    foot[i] =
+        h.phi_inner[i] - std::copysign(elementary::acos(std::min(1.0, nearest[i] / inner)), turn);
     if (turn < 0.0) nearest[i] = -nearest[i];
   }
   const auto rule = math::gauss_legendre(10);
@@ -160,11 +162,13 @@ double hole_by_rings(const bevel::Hole& h, const joint::Target& target) {
 double volume_off(const PartSpec& spec, const Part& p) {
   double volume = ruled(p.finish.table, spec.target, p.finish.spec.root_face) -
                   ruled(p.start.table, spec.target, p.start.spec.root_face);
-  const auto crowded = crowded_holes(p);
+  std::set<const bevel::Hole*> crowded;
+  for (const auto& crowd : crowds(p)) {
+    volume -= crowd_volume(spec.target, p, crowd, Strips::around);
+    crowded.insert(crowd.holes.begin(), crowd.holes.end());
+  }
   for (const auto& [hole, asked] : p.holes)
-    if (std::ranges::find(crowded, &hole) == crowded.end())
-      volume -= hole_by_rings(hole, spec.target);
-  volume -= crowded_volume(spec.target, p, crowded, Strips::around);
+    if (!crowded.contains(&hole)) volume -= hole_by_rings(hole, spec.target);
   return std::abs(p.lengths.mass / (spec.density * 1e-9) - volume) / std::abs(volume);
 }
 

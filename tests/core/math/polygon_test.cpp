@@ -92,7 +92,8 @@ TEST(Polygon, NeitherTurningNorDirectionChangesIt) {
     EXPECT_LE(whole, sum * (1 + 1e-12));
     EXPECT_NEAR(union_area(other) / whole, 1.0, 1e-12);
     EXPECT_NEAR(union_area(turned) / whole, 1.0, 1e-12);
-    const double left = union_area(stars, {.x_to = 1.3}), right = union_area(stars, {.x_from = 1.3});
+    const double left = union_area(stars, {.x_to = 1.3}),
+                 right = union_area(stars, {.x_from = 1.3});
     EXPECT_NEAR((left + right) / whole, 1.0, 1e-12);
   }
 }

@@ -396,14 +396,15 @@ TEST(Part, SequenceEndsAtTheClampedSide) {
 part::PartSpec drilled(std::initializer_list<double> heights, double clocking = 0.4) {
   auto spec = direct({}, {}, 900);
   for (const double height : heights) {
-    bevel::HoleSpec hole{.chord = {.outer_radius = 50, .wall = 6},
-                         .branch = joint::TubeCutter{
-                             .radius = 12, .clocking = Angle::rad(clocking), .height = height},
-                         .branch_wall = 3,
-                         .kind = bevel::JointKind::set_in,
-                         .groove = bevel::NoGroove{},
-                         .tilt = bevel::Tilt::free,
-                         .sampling = {.uniform_points = 360}};
+    bevel::HoleSpec hole{
+        .chord = {.outer_radius = 50, .wall = 6},
+        .branch =
+            joint::TubeCutter{.radius = 12, .clocking = Angle::rad(clocking), .height = height},
+        .branch_wall = 3,
+        .kind = bevel::JointKind::set_in,
+        .groove = bevel::NoGroove{},
+        .tilt = bevel::Tilt::free,
+        .sampling = {.uniform_points = 360}};
     spec.holes.push_back({hole, "", spec.holes.size()});
   }
   return spec;
@@ -430,20 +431,27 @@ double drilled_volume(std::vector<double> heights, double from, double to) {
 TEST(Part, WhatTwoHolesShareIsTakenOnce) {
   const double whole = part::part(drilled({}))->lengths.volume;
   for (const double clocking : {0.4, 0.02, 6.27}) {  // the last two across phi = 0
-    for (const std::vector<double>& heights :
-         {std::vector<double>{400, 418}, {400, 400}, {400, 409, 420}, {400, 425}, {300, 500}, {893, 880}}) {
+    for (const std::vector<double>& heights : {std::vector<double>{400, 418},
+                                               {400, 400},
+                                               {400, 409, 420},
+                                               {400, 425},
+                                               {300, 500},
+                                               {893, 880}}) {
       part::PartSpec spec = drilled({}, clocking);
       for (const double height : heights)
-        spec.holes.push_back({drilled({height}, clocking).holes.front().hole, "", spec.holes.size()});
+        spec.holes.push_back(
+            {drilled({height}, clocking).holes.front().hole, "", spec.holes.size()});
       const auto p = part::part(spec);
       ASSERT_TRUE(p);
       const double exact = drilled_volume(heights, 0, 900);
       // The wall's lines are tangent to the branch: outside they stand up to 0.03 mm off it.
-      EXPECT_NEAR((whole - p->lengths.volume) / exact, 1.0, 1e-3) << heights[0] << " " << heights[1];
+      EXPECT_NEAR((whole - p->lengths.volume) / exact, 1.0, 1e-3)
+          << heights[0] << " " << heights[1];
       const bool meeting = std::abs(heights[0] - heights[1]) < 24;
-      EXPECT_EQ(std::ranges::any_of(p->warnings,
-                                    [](const Warning& w) { return w.code == WarningCode::holes_meet; }),
-                meeting);
+      EXPECT_EQ(
+          std::ranges::any_of(p->warnings,
+                              [](const Warning& w) { return w.code == WarningCode::holes_meet; }),
+          meeting);
       for (const auto& check : part::verify(spec, *p))
         EXPECT_TRUE(check.passed()) << check.name << " " << check.value << " of " << check.limit;
     }
