@@ -171,15 +171,20 @@ std::string asked_hole(const PartSpec& spec, const PlacedHole& placed) {
   return "holes/" + std::to_string(spec.holes[placed.asked].asked);
 }
 
-/// Holes that run into each other: between them no wall is left for the weld of either.
+/// Holes that run into each other: between them no wall is left for the weld of either. One warning
+/// a hole, naming those before it.
 void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
                      const std::stop_token& stop) {
-  for (std::size_t i = 0; i < p.holes.size(); ++i)
-    for (std::size_t j = i + 1; j < p.holes.size(); ++j)
-      if (!stop.stop_requested() && holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole, stop))
-        out.push_back({.code = WarningCode::holes_meet,
-                       .member = asked_hole(spec, p.holes[j]),
-                       .detail = "it cuts into " + asked_hole(spec, p.holes[i])});
+  for (std::size_t j = 0; j < p.holes.size(); ++j) {
+    std::string met;
+    for (std::size_t i = 0; i < j && !stop.stop_requested(); ++i)
+      if (holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole, stop))
+        met += (met.empty() ? "" : ", ") + asked_hole(spec, p.holes[i]);
+    if (!met.empty())
+      out.push_back({.code = WarningCode::holes_meet,
+                     .member = asked_hole(spec, p.holes[j]),
+                     .detail = "it cuts into " + met});
+  }
 }
 
 /// A hole whose edge leaves the wall between the two cuts.
