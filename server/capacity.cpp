@@ -24,25 +24,47 @@ std::string first_line(const std::string& file) {
   return line;
 }
 
-/// The group's folders from its own up to the root: a limit of any of them binds.
-std::vector<std::string> folders(const std::string& root, const std::string& self) {
+/// Whether a line "4:cpu,cpuacct:/a/b" of /proc/self/cgroup is of the controller; version 2 names
+/// none.
+bool is_of(const std::string& line, std::string_view controller) {
+  const auto first = line.find(':'), second = line.find(':', first + 1);
+  if (second == std::string::npos) return false;
+  const auto names = line.substr(first + 1, second - first - 1);
+  if (controller.empty() || names.empty()) return controller.empty() && names.empty();
+  std::istringstream in(names);
+  for (std::string name; std::getline(in, name, ',');)
+    if (name == controller) return true;
+  return false;
+}
+
+/// The group's folders from its own up to the root: a limit of any of them binds. Of version 2, or
+/// of one controller of version 1, which stands below the root under its own name.
+std::vector<std::string> folders(const std::string& root, const std::string& self,
+                                 const std::string& controller = "") {
   std::string path;
   std::ifstream in(self);
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("0::")) path = line.substr(3);
-  }
+  for (std::string line; std::getline(in, line);)
+    if (is_of(line, controller)) path = line.substr(line.find(':', line.find(':') + 1) + 1);
+  const auto base = controller.empty() ? root : root + "/" + controller;
   std::vector<std::string> all;
-  for (; path.size() > 1; path = path.substr(0, path.rfind('/'))) all.push_back(root + path);
-  all.push_back(root);
+  for (; path.size() > 1; path = path.substr(0, path.rfind('/'))) all.push_back(base + path);
+  all.push_back(base);
   return all;
 }
 
-int quota_slots(const std::vector<std::string>& groups) {
+/// The least of what is said, of those that say anything.
+template <class Number>
+void take_least(Number& least, Number said) {
+  if (said > Number{}) least = least == Number{} ? said : std::min(least, said);
+}
+
+int quota_slots(const std::string& root, const std::string& self) {
   int least = 0;
-  for (const auto& group : groups) {
-    const int slots = slots_of_quota(first_line(group + "/cpu.max"));
-    if (slots > 0) least = least == 0 ? slots : std::min(least, slots);
-  }
+  for (const auto& group : folders(root, self))
+    take_least(least, slots_of_quota(first_line(group + "/cpu.max")));
+  for (const auto& group : folders(root, self, "cpu"))
+    take_least(least, slots_of_quota(first_line(group + "/cpu.cfs_quota_us") + " " +
+                                     first_line(group + "/cpu.cfs_period_us")));
   return least;
 }
 
@@ -52,13 +74,15 @@ int affinity_slots() {
   return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
 }
 
-double group_memory(const std::vector<std::string>& groups) {
+double group_memory(const std::string& root, const std::string& self) {
   double least = 0.0;
-  for (const auto& group : groups) {
+  const auto read = [&least](const std::string& file) {
     double bytes = 0.0;
-    std::istringstream(first_line(group + "/memory.max")) >> bytes;  // "max" leaves 0
-    if (bytes > 0.0) least = least == 0.0 ? bytes : std::min(least, bytes);
-  }
+    std::istringstream(first_line(file)) >> bytes;  // "max" leaves 0
+    take_least(least, bytes);
+  };
+  for (const auto& group : folders(root, self)) read(group + "/memory.max");
+  for (const auto& group : folders(root, self, "memory")) read(group + "/memory.limit_in_bytes");
   return least;
 }
 
@@ -77,10 +101,9 @@ int slots_of_quota(std::string_view cpu_max) {
 }
 
 Capacity capacity(const std::string& root, const std::string& self) {
-  const auto groups = folders(root, self);
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int affinity = affinity_slots();
-  const int quota = quota_slots(groups);
+  const int quota = quota_slots(root, self);
   Capacity out{.slots = machine, .slots_from = "machine"};
   if (affinity > 0 && affinity < out.slots) {
     out.slots = affinity;
@@ -90,7 +113,7 @@ Capacity capacity(const std::string& root, const std::string& self) {
     out.slots = quota;
     out.slots_from = "cgroup";
   }
-  const double group = group_memory(groups);
+  const double group = group_memory(root, self);
   if (group > 0.0 && group < machine_memory()) out.memory_from = "cgroup";
   const double bytes = out.memory_from == "cgroup" ? group : machine_memory();
   out.memory = static_cast<std::size_t>(kShare * bytes);

@@ -14,9 +14,9 @@ struct Capacity {
   std::string memory_from = "machine";
 };
 
-/// Slots from the control group's quota rounded up, else the CPUs this process may run on, else the
-/// machine's; memory as a part of the control group's limit, else of the machine's. `root` and
-/// `self` are for tests: the mounted hierarchy and /proc/self/cgroup.
+/// Slots from the control group's quota (version 2 or 1) rounded up, else the CPUs this process may
+/// run on, else the machine's; memory as a part of the control group's limit, else of the
+/// machine's. `root` and `self` are for tests: the mounted hierarchy and /proc/self/cgroup.
 [[nodiscard]] Capacity capacity(const std::string& root = "/sys/fs/cgroup",
                                 const std::string& self = "/proc/self/cgroup");
 

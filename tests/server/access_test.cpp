@@ -162,6 +162,34 @@ TEST(Capacity, FollowsTheQuotaRoundedUp) {
   EXPECT_NE(capacity("/nowhere", "/nowhere").slots_from, "cgroup");
 }
 
+// A host of version 1: controllers in folders of their own, each with a group of its own; both
+// versions side by side.
+TEST(Capacity, ReadsBothVersionsOfControlGroups) {
+  const auto root = ::testing::TempDir() + "tubecut_group_v1";
+  ASSERT_EQ(
+      std::system(
+          ("mkdir -p " + root + "/cpu/x/y " + root + "/memory/m " + root + "/cpuset/x/y").c_str()),
+      0);
+  const auto self =
+      file_with("tubecut_group_of_v1",
+                "9:cpuset:/x/y\n4:memory:/m\n3:cpu,cpuacct:/x/y\n1:name=systemd:/x\n0::/\n");
+  std::ofstream(root + "/cpu/x/cpu.cfs_period_us") << "100000\n";
+  std::ofstream(root + "/cpu/x/y/cpu.cfs_period_us") << "100000\n";
+  std::ofstream(root + "/cpu/x/y/cpu.cfs_quota_us") << "-1\n";
+  std::ofstream(root + "/memory/m/memory.limit_in_bytes") << "9223372036854771712\n";
+  std::ofstream(root + "/cpu/x/cpu.cfs_quota_us") << "-1\n";
+  const auto free = capacity(root, self);
+  EXPECT_NE(free.slots_from, "cgroup");
+  EXPECT_EQ(free.memory_from, "machine");
+  std::ofstream(root + "/cpu/x/cpu.cfs_quota_us") << "90000\n";
+  std::ofstream(root + "/memory/m/memory.limit_in_bytes") << "268435456\n";
+  const auto bound = capacity(root, self);
+  EXPECT_EQ(bound.slots, 1);
+  EXPECT_EQ(bound.slots_from, "cgroup");
+  EXPECT_EQ(bound.memory_from, "cgroup");
+  EXPECT_LT(bound.memory, 268435456U);
+}
+
 TEST(JobFiles, KeepOneFilePerJobInsideTheirFolder) {
   EXPECT_EQ(file_name_of("order-17_a.b"), "order-17_a.b");
   for (const auto* id : {"../../etc/passwd", ".hidden", "a/b", "a b", "", "\xc3\xa4"}) {
