@@ -102,8 +102,7 @@ double union_area(std::span<const Polygon> polygons, const Window& window,
     for (const double x : {side.x0, side.x1})
       corners.push_back(std::clamp(x, window.x_from, window.x_to));
   std::ranges::sort(corners);
-  const auto [last, end] = std::ranges::unique(corners);
-  corners.erase(last, end);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
 
   double sum = 0.0;
   std::vector<Side> over;

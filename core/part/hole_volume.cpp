@@ -201,9 +201,11 @@ double holes_volume(const joint::Target& target, const Part& part, const std::st
     sum += crowd_volume(target, part, crowd, Strips::along, stop);
     crowded.insert(crowd.holes.begin(), crowd.holes.end());
   }
-  for (const auto& [hole, asked] : part.holes)
+  for (const auto& placed : part.holes) {
+    const auto& hole = placed.hole;
     if (!crowded.contains(&hole))
       sum += across(target, kSmooth, [&](double u) { return math::area(slice(target, hole, u)); });
+  }
   return sum;
 }
 
