@@ -64,14 +64,20 @@ struct Endpoint {
 
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;
-///   static Spec decode(Reader&);                                        types, units, ranges
-///   static Result<Spec> resolve(Spec, const std::stop_token&);           optional: what only core
-///   can tell of the input static Result<Out> compute(const Spec&, const std::stop_token&);    pure
-///   core call static std::vector<Check> verify(const Spec&, const Out&);          the proof static
-///   std::vector<Warning> warnings(const Spec&, const Out&); static std::vector<Measure>
-///   measure(const Spec&, const Out&); static void encode(const Spec&, const Out&, Writer&);
-///   members of `result` static const std::vector<Format<Spec, Out>>& formats(); kId, kPath,
-///   kMaxBody, kAccepts, kChecks
+///   static Spec decode(Reader&);
+///     types, units, ranges
+///   static Result<Spec> resolve(Spec, const std::stop_token&);
+///     optional: what only core can tell of the input
+///   static Result<Out> compute(const Spec&, const std::stop_token&);
+///     pure core call
+///   static std::vector<Check> verify(const Spec&, const Out&);
+///     the proof; with a stop token where it may take long
+///   static std::vector<Warning> warnings(const Spec&, const Out&);
+///   static std::vector<Measure> measure(const Spec&, const Out&);
+///   static void encode(const Spec&, const Out&, Writer&);
+///     members of `result`
+///   static const std::vector<Format<Spec, Out>>& formats();
+///   kId, kPath, kMaxBody, kAccepts, kChecks
 template <class E>
 Reply run(Reader& in, Run& run) {
   auto spec = E::decode(in);
@@ -86,7 +92,13 @@ Reply run(Reader& in, Run& run) {
   auto out = E::compute(spec, run.stop);
   run.stage("compute");
   if (!out) return core_problem(out.error(), answer.request);
-  answer.checks = E::verify(spec, *out);
+  if constexpr (requires { E::verify(spec, *out, run.stop); }) {
+    answer.checks = E::verify(spec, *out, run.stop);
+    if (run.stop.stop_requested())
+      return core_problem(fail({.code = ErrorCode::cancelled}).value(), answer.request);
+  } else {
+    answer.checks = E::verify(spec, *out);
+  }
   run.stage("verify");
   answer.warnings = E::warnings(spec, *out);
   answer.measures = E::measure(spec, *out);

@@ -72,8 +72,8 @@ struct Parts {
     if (!out) return tl::unexpected(on_request(spec, out.error()));
     return out;
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out) {
-    return part::verify(spec.part, out);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    return part::verify(spec.part, out, stop);
   }
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     auto all = on_request(spec, out.warnings);

@@ -11,7 +11,7 @@ namespace tubecut::api {
 namespace {
 
 constexpr double kOneBevel = 0.01 * kRadPerDeg;  // within it a bevel is constant
-constexpr double kDensity = 7.85e-6;             // kg/mm3, steel
+constexpr double kSteel = 7850.0;                // kg/m3
 
 std::string field(double value, int digits = 3) {
   auto text = fixed(value, digits);
@@ -78,10 +78,11 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
   return out;
 }
 
-std::string header(const joint::Target& target, const Lengths& l, const Caption& c) {
+std::string header(const joint::Target& target, double density, const Lengths& l,
+                   const Caption& c) {
   const double ro = target.outer_radius, ri = target.inner_radius();
   const double diameter = 2.0 * ro;
-  const double kg_per_m = kPi * (ro * ro - ri * ri) * kDensity * 1e3;
+  const double kg_per_m = kPi * (ro * ro - ri * ri) * density * 1e-6;
   auto part = reference(c, "part");
   std::string out = line(reference(c, "order")) + line(reference(c, "drawing")) + line("1") +
                     line(part) + line("-") + line("1") +
@@ -110,12 +111,14 @@ std::string contour(const CutOutline& cut, const Lengths& l, double bevel_deg) {
 }
 
 constexpr const char* kSidecar = "phi_deg, x_outer_mm, y_outer_mm, x_inner_mm, y_inner_mm, b_deg";
+constexpr const char* kTilted = "; of a hole a_deg too, the tilt across";
 
 std::string sidecar(double phi, double phi_inner, double x, double x_inner, double b,
-                    const joint::Target& target) {
+                    const joint::Target& target, std::optional<double> a = {}) {
   return comment("B" + field(phi * kDegPerRad, 6) + field(x, 4) +
                  field(target.outer_radius * phi, 4) + field(x_inner, 4) +
-                 field(target.inner_radius() * phi_inner, 4) + field(b * kDegPerRad, 4));
+                 field(target.inner_radius() * phi_inner, 4) + field(b * kDegPerRad, 4) +
+                 (a ? field(*a * kDegPerRad, 4) : ""));
 }
 
 std::string sidecar(const joint::Target& target, const bevel::Table& t, double low) {
@@ -129,7 +132,7 @@ std::string sidecar(const joint::Target& target, const bevel::Table& t, double l
 std::string sidecar(const joint::Target& target, const bevel::Hole& h) {
   std::string out;
   for (std::size_t i = 0; i < h.phi.size(); ++i)
-    out += sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target);
+    out += sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target, h.a[i]);
   return out;
 }
 
@@ -170,7 +173,7 @@ std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
   const auto lengths = lengths_of(spec, t);
   const auto bevel = one_bevel(t.b);
   return "ST\r\n" + comments(lengths, bevel.has_value(), caption) +
-         header(spec.target, lengths, caption) +
+         header(spec.target, kSteel, lengths, caption) +
          contour(developed(spec, t).cuts.front(), lengths,
                  (t.inward ? -1.0 : 1.0) * bevel.value_or(0.0)) +
          comment(kSidecar) + sidecar(spec.target, t, lengths.low) + "EN\r\n";
@@ -185,7 +188,8 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
   for (const auto& step : part.sequence) {
     if (step.what == part::Step::What::hole) {
       const auto& hole = part.holes[step.index].hole;
-      const auto bevel = one_bevel(hole.b);
+      auto bevel = one_bevel(hole.b);
+      if (one_bevel(hole.a).value_or(1.0) != 0.0) bevel.reset();  // tilted across too
       constant = constant && bevel;
       const auto& cut = cuts[2 + step.index];
       openings += opening(cut, bevel.value_or(0.0));
@@ -198,9 +202,9 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
   }
   return "ST\r\n" + comments(lengths, constant, caption) +
          comment("a hole across phi = 0 is one contour: its y leaves the girth") +
-         header(spec.target, lengths, caption) +
+         header(spec.target, spec.density, lengths, caption) +
          outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0)) + openings +
-         comment(kSidecar) + tables + "EN\r\n";
+         comment(std::string(kSidecar) + kTilted) + tables + "EN\r\n";
 }
 
 }  // namespace tubecut::api

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kChord = 0.01;  // mm, of a chord in space off the wall
 constexpr double kMargin = 20.0;
+constexpr double kCross = 5.0;  // mm, half of a mark's cross
 
 std::vector<Eigen::Vector2d> flat(const CylinderCurve& c) {
   std::vector<Eigen::Vector2d> out;
@@ -38,6 +39,12 @@ std::vector<Eigen::Vector3d> in_space(const CylinderCurve& c, bool around) {
       out.push_back(on_wall(c.radius, c.phi[i] + share * dphi, c.z[i] + share * dz));
     }
   }
+  return out;
+}
+
+std::vector<Eigen::Vector3d> open_in_space(const CylinderCurve& c) {
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = 0; i < c.phi.size(); ++i) out.push_back(on_wall(c.radius, c.phi[i], c.z[i]));
   return out;
 }
 
@@ -143,14 +150,31 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
   if (!space) along(w, "SEAM", d, space, kTwoPi, from, to);
   across(w, "DATUM", d, space, 0.0);
   for (const auto& mark : marks) {
-    along(w, "MARK", d, space, mark.phi, mark.z_from, mark.z_to);
+    if (mark.z_to > mark.z_from) {
+      along(w, "MARK", d, space, mark.phi, mark.z_from, mark.z_to);
+    } else {  // a cross on its place
+      along(w, "MARK", d, space, mark.phi, mark.z_from - kCross, mark.z_from + kCross);
+      const double reach = kCross / d.outer_radius;
+      const CylinderCurve bar{.radius = d.outer_radius,
+                              .phi = {mark.phi - reach, mark.phi, mark.phi + reach},
+                              .z = {mark.z_from, mark.z_from, mark.z_from}};
+      if (space)
+        w.polyline("MARK", open_in_space(bar), false);
+      else
+        w.polyline("MARK", flat(bar), false);
+    }
     if (!space && !mark.text.empty())
       w.text("MARK", {d.outer_radius * mark.phi + 1.0, mark.z_from}, 3.0, mark.text);
   }
   double y = extent(d).z_to + 10.0;
   const std::string frame =
       "DATUM z = 0, the start's long point; SEAM phi = 0 and 360 deg; y = z, the finish up";
-  for (const auto& line : captions(d, frame, caption)) w.text("TEXT", {0.0, y += 5.0}, 3.0, line);
+  auto lines = captions(d, frame, caption);
+  for (const auto& mark : marks)
+    if (!mark.text.empty())
+      lines.push_back("MARK " + mark.text + ": phi " + fixed(mark.phi * kDegPerRad, 3) +
+                      " deg, z " + fixed(mark.z_from, 3) + " mm");
+  for (const auto& line : lines) w.text("TEXT", {0.0, y += 5.0}, 3.0, line);
   return w.print();
 }
 

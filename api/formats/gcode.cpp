@@ -11,7 +11,8 @@ namespace tubecut::api {
 namespace {
 
 constexpr const char* kModes = "G21 G40 G49 G90 G94 G17\nG64 P0.01\n";
-constexpr double kSlow = 1e-3;  // mm, least length a node's time is taken from
+constexpr double kClearance = 50.0;  // mm, of the tip over the tube between two cuts
+constexpr double kSlow = 1e-3;       // mm, least length a node's time is taken from
 
 /// One place of the torch: tip on the outer wall, swing and tilt.
 struct Place {
@@ -34,7 +35,8 @@ class Joints {
     const double round = elementary::tan(at.a), rise = elementary::tan(at.b);
     const double out = length / std::sqrt(1.0 + round * round + rise * rise);
     std::string text = std::string(1, along_) + fixed(at.z + out * rise, 5);
-    if (pivot_ && tilts_) text += " Y" + fixed(out * round, 5);
+    // Growing phi runs to -Y with the tube along X, to +Y with it along Z.
+    if (pivot_ && tilts_) text += " Y" + fixed((along_ == 'Z' ? 1.0 : -1.0) * out * round, 5);
     if (pivot_) text += " " + std::string(1, across_) + fixed(radius_ + out, 5);
     text += " A" + fixed(at.phi * kDegPerRad, 7) + " B" + fixed(at.b * kDegPerRad, 6);
     return tilts_ ? text + " C" + fixed(at.a * kDegPerRad, 6) : text;
@@ -44,6 +46,18 @@ class Joints {
            " goes along it: mm, +z of the result";
   }
   [[nodiscard]] bool tilts() const { return tilts_; }
+  /// The pivot's height while the torch goes from one cut to the next: its tip clear of the tube
+  /// whichever way it swings.
+  [[nodiscard]] std::optional<std::string> lifted() const {
+    if (!pivot_) return std::nullopt;
+    return std::string(1, across_) + fixed(radius_ + *pivot_ + kClearance, 5);
+  }
+  /// The same place without its height.
+  [[nodiscard]] std::string aloft(const Place& at) const {
+    auto text = words(at);
+    const auto from = text.find(" " + std::string(1, across_));
+    return from == std::string::npos ? text : text.erase(from, text.find(' ', from + 1) - from);
+  }
 
  private:
   double radius_;
@@ -64,6 +78,15 @@ std::string header(const TorchJob& job, const Joints& joints, const Caption& cap
          gcode_comment("tool: torch, kerf " + fixed(job.kerf, 3) + " mm, applied to the path") +
          gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
          gcode_comment("B swings the torch in the axial plane, positive: outer edge towards +z");
+  if (job.cuts.size() > 1)
+    out += gcode_comment(
+        o.pivot_length
+            ? "between cuts the torch is lifted " + fixed(kClearance, 0) + " mm clear of the tube"
+            : "between cuts the control must lift the torch: after each that ends, "
+              "before the rapid to the next");
+  if (joints.tilts() && o.pivot_length)
+    out += gcode_comment(std::string("Y: the pivot across, growing phi is ") +
+                         (o.axial_z ? "+Y" : "-Y"));
   if (joints.tilts())
     out += gcode_comment(
         "C tilts it across, positive: outer edge towards growing phi, tan B and "
@@ -106,20 +129,23 @@ std::string print_cut(const TorchJob& job, const TorchPath& path, const Joints& 
     auto at = place(path, i);
     at.phi += lead * path.scrap.x() / job.outer_radius;
     at.z += lead * path.scrap.y();
-    return joints.words(at);
+    return at;
   };
   std::string out;
   if (!path.name.empty()) out += gcode_comment("cut: " + path.name);
   if (lead < o.lead)
     out += gcode_comment("run-in and run-out " + fixed(lead, 3) +
                          " mm: half the way to the middle of the hole");
-  out += "G0 " + aside(0) + "\n";
+  const auto lifted = joints.lifted();
+  if (job.cuts.size() > 1 && lifted)
+    out += "G0 " + *lifted + "\nG0 " + joints.aloft(aside(0)) + "\n";
+  out += "G0 " + joints.words(aside(0)) + "\n";
   if (o.torch) out += torch.on;
   out += "G93\n";
   if (lead > 0.0) out += timed(joints.words(place(path, 0)), lead);
   for (std::size_t i = 1; i < path.phi.size(); ++i)
     out += timed(joints.words(place(path, i)), step(job, path, i));
-  if (lead > 0.0) out += timed(aside(path.phi.size() - 1), lead);
+  if (lead > 0.0) out += timed(joints.words(aside(path.phi.size() - 1)), lead);
   return out + "G94\n" + torch.off;
 }
 
@@ -211,6 +237,8 @@ std::string print_gcode(const TorchJob& job, const Caption& caption) {
   const auto torch = torch_words(caption.options.dialect);
   std::string out = "%\n" + header(job, joints, caption) + modes(caption);
   for (const auto& cut : job.cuts) out += print_cut(job, cut, joints, torch, caption.options);
+  if (const auto lifted = joints.lifted(); lifted && job.cuts.size() > 1)
+    out += "G0 " + *lifted + "\n";
   return out + "M2\n%\n";
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "core/base/elementary.hpp"
@@ -14,8 +13,7 @@ namespace {
 
 using math::Polygon;
 
-constexpr int kSmooth = 6;       // Gauss points across the wall, 1e-12 of a hole
-constexpr int kCrowded = 12;     // the border of what two holes share has corners that move
+constexpr int kRings = 16;
 constexpr double kTouch = 1e-9;  // of a hole's area, that rounding leaves two that only touch
 
 /// Rectangle around both edges of a cut on the developed plane.
@@ -51,13 +49,20 @@ Polygon slice(const joint::Target& target, const bevel::Hole& hole, double u, do
     const auto swing = elementary::sincos(hole.phi[i] - hole.phi_inner[i]);
     const Eigen::Vector2d d{outer * swing.cos - inner, outer * swing.sin};
     const double half = inner * d.x(), square = d.squaredNorm();
-    const double s =
-        (std::sqrt(half * half + square * (rho * rho - inner * inner)) - half) / square;
+    const double root = half * half + square * (rho * rho - inner * inner);
+    const double s = (std::sqrt(std::max(0.0, root)) - half) / square;
     out.x.push_back(turn + hole.phi_inner[i] + elementary::atan2(s * d.y(), inner + s * d.x()));
     out.y.push_back(mixed(hole.z_inner[i], hole.z[i], s));
   }
   return out;
 }
+
+/// Holes near each other, by the boxes around their edges: each may meet another of its crowd, or,
+/// if one may, the cut of an end, and nothing else.
+struct Crowd {
+  std::vector<const bevel::Hole*> holes;
+  bool at_end = false;
+};
 
 /// The same wherever it shows within one turn.
 void add_turns(const joint::Target& target, const bevel::Hole& hole, double u,
@@ -90,44 +95,8 @@ Polygon cut_off(const bevel::Table& end, const joint::Target& target, double fac
 }
 
 /// Area (rad mm) of the union within one turn.
-double within_turn(std::vector<Polygon> polygons, Strips strips, const std::stop_token& stop) {
-  if (strips == Strips::along)
-    return math::union_area(polygons, {.x_from = 0.0, .x_to = kTwoPi}, stop);
-  for (auto& polygon : polygons) std::swap(polygon.x, polygon.y);
-  return math::union_area(polygons, {.y_from = 0.0, .y_to = kTwoPi}, stop);
-}
-
-/// Area of a crowd between the two cuts at the share u of the wall.
-double taken(const joint::Target& target, const Part& part, const Crowd& crowd, double u,
-             Strips strips, const std::stop_token& stop) {
-  std::vector<Polygon> all;
-  double low = 0.0, high = 0.0;
-  for (const auto* hole : crowd.holes) {
-    const auto box = box_of(*hole);
-    low = std::min(low, box.z_from);
-    high = std::max(high, box.z_to);
-  }
-  const auto end = [&](const End& e, bool here, double beyond) {
-    if (here) all.push_back(cut_off(e.table, target, e.spec.root_face, u, beyond));
-  };
-  end(part.start, crowd.start, std::min(low, lowest(part.start.table)) - 1.0);
-  end(part.finish, crowd.finish, std::max(high, highest(part.finish.table)) + 1.0);
-  const double ends = within_turn(all, strips, stop);
-  for (const auto* hole : crowd.holes) add_turns(target, *hole, u, all);
-  return within_turn(std::move(all), strips, stop) - ends;
-}
-
-/// Integral over the wall of an area at the share u times its radius.
-template <class Area>
-double across(const joint::Target& target, int points, Area&& area) {
-  const auto rule = math::gauss_legendre(points);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-    const double u = 0.5 * (1.0 + rule.nodes[k]);
-    sum +=
-        0.5 * rule.weights[k] * target.wall * (target.inner_radius() + u * target.wall) * area(u);
-  }
-  return sum;
+double within_turn(const std::vector<Polygon>& polygons, const std::stop_token& stop) {
+  return math::union_area(polygons, {.x_from = 0.0, .x_to = kTwoPi}, stop);
 }
 
 bool near(const Box& a, const Box& b) {
@@ -138,30 +107,9 @@ bool near(const Box& a, const Box& b) {
   return false;
 }
 
-bool near(const Box& box, const bevel::Table& end) {
-  return box.z_from <= highest(end) && lowest(end) <= box.z_to;
-}
-
-}  // namespace
-
-bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::Hole& b,
-                const std::stop_token& stop) {
-  if (!near(box_of(a), box_of(b))) return false;
-  for (const double u : {0.0, 0.5, 1.0}) {
-    std::vector<Polygon> one, other;
-    add_turns(target, a, u, one);
-    add_turns(target, b, u, other);
-    auto both = one;
-    both.insert(both.end(), other.begin(), other.end());
-    const double own = within_turn(std::move(one), Strips::along, stop);
-    const double sum = own + within_turn(std::move(other), Strips::along, stop);
-    if (sum - within_turn(std::move(both), Strips::along, stop) > kTouch * own) return true;
-  }
-  return false;
-}
-
 std::vector<Crowd> crowds(const Part& part) {
   const auto n = part.holes.size();
+  const double from = highest(part.start.table), to = lowest(part.finish.table);
   std::vector<Box> boxes;
   for (const auto& placed : part.holes) boxes.push_back(box_of(placed.hole));
   std::vector<bool> seen(n, false);
@@ -175,37 +123,79 @@ std::vector<Crowd> crowds(const Part& part) {
       const auto i = front.back();
       front.pop_back();
       crowd.holes.push_back(&part.holes[i].hole);
-      crowd.start = crowd.start || near(boxes[i], part.start.table);
-      crowd.finish = crowd.finish || near(boxes[i], part.finish.table);
+      crowd.at_end = crowd.at_end || boxes[i].z_from <= from || boxes[i].z_to >= to;
       for (std::size_t j = 0; j < n; ++j)
         if (!seen[j] && near(boxes[i], boxes[j])) {
           seen[j] = true;
           front.push_back(j);
         }
     }
-    if (crowd.holes.size() > 1 || crowd.start || crowd.finish) out.push_back(std::move(crowd));
+    out.push_back(std::move(crowd));
   }
   return out;
 }
 
-double crowd_volume(const joint::Target& target, const Part& part, const Crowd& crowd,
-                    Strips strips, const std::stop_token& stop) {
-  return across(target, kCrowded,
-                [&](double u) { return taken(target, part, crowd, u, strips, stop); });
+}  // namespace
+
+std::vector<Ring> wall_rings(const joint::Target& target) {
+  const auto rule = math::gauss_legendre(kRings);
+  std::vector<Ring> out;
+  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+    const double v = 0.5 * (1.0 + rule.nodes[k]), u = v * v;
+    const double rho = mixed(target.inner_radius(), target.outer_radius, u);
+    out.push_back({u, rho, rule.weights[k] * v * target.wall * rho});
+  }
+  return out;
+}
+
+double area_between_cuts(const joint::Target& target, const Part& part,
+                         std::vector<Polygon> polygons, const Ring& ring,
+                         const std::stop_token& stop) {
+  double low = lowest(part.start.table), high = highest(part.finish.table);
+  for (const auto& polygon : polygons) {
+    low = std::min(low, std::ranges::min(polygon.y));
+    high = std::max(high, std::ranges::max(polygon.y));
+  }
+  std::vector<Polygon> ends;
+  const auto end = [&](const End& e, double beyond) {
+    ends.push_back(cut_off(e.table, target, e.spec.root_face, ring.u, beyond));
+  };
+  end(part.start, low - 1.0);
+  end(part.finish, high + 1.0);
+  const double cut = within_turn(ends, stop);
+  polygons.insert(polygons.end(), ends.begin(), ends.end());
+  return within_turn(polygons, stop) - cut;
+}
+
+bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::Hole& b,
+                const std::stop_token& stop) {
+  if (!near(box_of(a), box_of(b))) return false;
+  for (const double u : {0.0, 0.5, 1.0}) {
+    std::vector<Polygon> one, other;
+    add_turns(target, a, u, one);
+    add_turns(target, b, u, other);
+    const double own = within_turn(one, stop), sum = own + within_turn(other, stop);
+    one.insert(one.end(), other.begin(), other.end());
+    if (sum - within_turn(one, stop) > kTouch * own) return true;
+  }
+  return false;
 }
 
 double holes_volume(const joint::Target& target, const Part& part, const std::stop_token& stop) {
   double sum = 0.0;
-  std::set<const bevel::Hole*> crowded;
-  for (const auto& crowd : crowds(part)) {
-    sum += crowd_volume(target, part, crowd, Strips::along, stop);
-    crowded.insert(crowd.holes.begin(), crowd.holes.end());
-  }
-  for (const auto& placed : part.holes) {
-    const auto& hole = placed.hole;
-    if (!crowded.contains(&hole))
-      sum += across(target, kSmooth, [&](double u) { return math::area(slice(target, hole, u)); });
-  }
+  const auto rings = wall_rings(target);
+  for (const auto& crowd : crowds(part))
+    for (const auto& ring : rings) {
+      std::vector<Polygon> polygons;
+      if (crowd.holes.size() == 1 && !crowd.at_end) {
+        sum += ring.weight * math::area(slice(target, *crowd.holes.front(), ring.u));
+        continue;
+      }
+      for (const auto* hole : crowd.holes) add_turns(target, *hole, ring.u, polygons);
+      sum += ring.weight * (crowd.at_end
+                                ? area_between_cuts(target, part, std::move(polygons), ring, stop)
+                                : within_turn(polygons, stop));
+    }
   return sum;
 }
 

@@ -3,6 +3,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/math/polygon.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::part {
@@ -11,27 +12,25 @@ namespace tubecut::part {
 [[nodiscard]] bool holes_meet(const joint::Target& target, const bevel::Hole& a,
                               const bevel::Hole& b, const std::stop_token& stop = {});
 
-/// Holes near each other or an end's cut, by the boxes around their edges: each may meet another of
-/// its crowd, or the end, and nothing else.
-struct Crowd {
-  std::vector<const bevel::Hole*> holes;
-  bool start = false, finish = false;
+/// A radius in the wall: the share u of the way from the bore out, its radius, and what it counts.
+struct Ring {
+  double u, rho, weight;
 };
-[[nodiscard]] std::vector<Crowd> crowds(const Part& part);
+/// Radii for integrals over the wall: 16 Gauss points in v, u = v^2, for a hole's lines may graze
+/// the bore, where all that follows from them goes as the root of u.
+[[nodiscard]] std::vector<Ring> wall_rings(const joint::Target& target);
 
-/// In which direction the strips run that an area is taken by; the area is the same.
-enum class Strips { along, around };
+/// Area (rad mm) of the union of polygons (phi, z) between the cuts of both ends, at one ring.
+[[nodiscard]] double area_between_cuts(const joint::Target& target, const Part& part,
+                                       std::vector<math::Polygon> polygons, const Ring& ring,
+                                       const std::stop_token& stop = {});
 
-/// Volume that a crowd takes out of the wall between the two cuts, the holes' own walls straight in
+/// Volume that the holes take out of the wall between the two cuts, their own walls straight in
 /// space from edge to edge, mm^3. What two holes share counts once, what lies beyond a cut not at
-/// all.
-/// Accuracy  12 Gauss points across the wall: within 1e-3 of what is shared.
+/// all. Accuracy  1e-9 of a hole for edges straight between their nodes; where holes meet, within
+/// 1e-3
+///           of what they share: its border has corners that move across the wall.
 /// Source    docs/theory/parts.md, section 3.
-[[nodiscard]] double crowd_volume(const joint::Target& target, const Part& part, const Crowd& crowd,
-                                  Strips strips, const std::stop_token& stop = {});
-
-/// Volume that all holes take out of the wall between the two cuts, mm^3.
-/// Accuracy  1e-12 for edges straight between their nodes where a hole is in no crowd.
 [[nodiscard]] double holes_volume(const joint::Target& target, const Part& part,
                                   const std::stop_token& stop = {});
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "core/base/elementary.hpp"
@@ -167,23 +169,28 @@ std::vector<Step> sequence(const Part& p) {
   return out;
 }
 
-std::string asked_hole(const PartSpec& spec, const PlacedHole& placed) {
-  return "holes/" + std::to_string(spec.holes[placed.asked].asked);
+std::string asked_hole(const PartSpec& spec, std::size_t hole) {
+  return "holes/" + std::to_string(spec.holes[hole].asked);
 }
 
 /// Holes that run into each other: between them no wall is left for the weld of either. One warning
-/// a hole, naming those before it.
+/// for each as asked, naming those before it; the two sides of one that passes through may meet
+/// too.
 void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
                      const std::stop_token& stop) {
-  for (std::size_t j = 0; j < p.holes.size(); ++j) {
-    std::string met;
+  std::map<std::size_t, std::set<std::size_t>> met;
+  for (std::size_t j = 0; j < p.holes.size(); ++j)
     for (std::size_t i = 0; i < j && !stop.stop_requested(); ++i)
       if (holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole, stop))
-        met += (met.empty() ? "" : ", ") + asked_hole(spec, p.holes[i]);
-    if (!met.empty())
-      out.push_back({.code = WarningCode::holes_meet,
-                     .member = asked_hole(spec, p.holes[j]),
-                     .detail = "it cuts into " + met});
+        met[p.holes[j].asked].insert(p.holes[i].asked);
+  for (const auto& [hole, others] : met) {
+    std::string names;
+    for (const auto other : others)
+      names += (names.empty() ? "" : ", ") +
+               (other == hole ? "its own other side" : asked_hole(spec, other));
+    out.push_back({.code = WarningCode::holes_meet,
+                   .member = asked_hole(spec, hole),
+                   .detail = "it cuts into " + names});
   }
 }
 
@@ -201,7 +208,7 @@ void warn_of_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& ou
     }
     if (outside)
       out.push_back({.code = WarningCode::hole_meets_end,
-                     .member = asked_hole(spec, placed),
+                     .member = asked_hole(spec, placed.asked),
                      .detail = "its edge reaches into the cut at an end"});
   }
 }

@@ -115,6 +115,7 @@ struct Part {
 
 /// The part proved from its own numbers: each end's and hole's own proof (the worst of them all),
 /// and every point placed by a matrix instead of column by column.
-[[nodiscard]] std::vector<Check> verify(const PartSpec& spec, const Part& part);
+[[nodiscard]] std::vector<Check> verify(const PartSpec& spec, const Part& part,
+                                        const std::stop_token& stop = {});
 
 }  // namespace tubecut::part

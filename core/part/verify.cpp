@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "core/base/elementary.hpp"
-#include "core/math/quadrature.hpp"
+#include "core/math/polygon.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
 #include "core/part/part.hpp"
@@ -121,54 +120,74 @@ double ruled(const bevel::Table& t, const joint::Target& target, double face) {
   return sum;
 }
 
-/// A hole's plug by the same theorem: only its own wall counts, ring by ring. A straight line
-/// passes the radius rho acos(p / rho) round from its foot, p from the axis.
-double hole_by_rings(const bevel::Hole& h, const joint::Target& target) {
+/// A hole's lines where they pass the radius rho: acos(p / rho) round from their feet, p from the
+/// axis.
+math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double rho) {
   const double inner = target.inner_radius(), outer = target.outer_radius;
-  const auto n = h.phi.size();
-  std::vector<double> foot(n), nearest(n), way(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  math::Polygon out;
+  for (std::size_t i = 0; i < h.phi.size(); ++i) {
     const Vector3d a = at(inner, h.phi_inner[i], 0.0), b = at(outer, h.phi[i], 0.0);
-    const double turn = a.cross(b).z();
-    way[i] = (b - a).norm();
-    nearest[i] = std::abs(turn) / way[i];
-    foot[i] =
-        h.phi_inner[i] - std::copysign(elementary::acos(std::min(1.0, nearest[i] / inner)), turn);
-    if (turn < 0.0) nearest[i] = -nearest[i];
+    const double turn = a.cross(b).z(), way = (b - a).norm();
+    const double p = std::min(std::abs(turn) / way, inner);
+    const double round = elementary::acos(p / rho) - elementary::acos(p / inner);
+    const double s = (std::sqrt(rho * rho - p * p) - std::sqrt(inner * inner - p * p)) / way;
+    out.x.push_back(h.phi_inner[i] + std::copysign(round, turn));
+    out.y.push_back(h.z_inner[i] + s * (h.z[i] - h.z_inner[i]));
   }
-  const auto rule = math::gauss_legendre(10);
+  return out;
+}
+
+/// Whether a polygon may touch another one or an end, seen on the cylinder.
+bool apart(const math::Polygon& a, const math::Polygon& b) {
+  const auto [az, bz] = std::pair{std::ranges::minmax(a.y), std::ranges::minmax(b.y)};
+  if (az.min > bz.max || bz.min > az.max) return true;
+  const auto [ax, bx] = std::pair{std::ranges::minmax(a.x), std::ranges::minmax(b.x)};
+  for (int turn = -2; turn <= 2; ++turn)
+    if (ax.min + turn * kTwoPi <= bx.max && bx.min <= ax.max + turn * kTwoPi) return false;
+  return true;
+}
+
+/// What the holes take, ring by ring: each line's place by its foot, each ring's crowds by itself.
+double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
+  double from = -1e300, to = 1e300;
+  for (const auto* z : {&p.start.table.z_inner, &p.start.table.z_outer})
+    from = std::max(from, std::ranges::max(*z));
+  for (const auto* z : {&p.finish.table.z_inner, &p.finish.table.z_outer})
+    to = std::min(to, std::ranges::min(*z));
   double sum = 0.0;
-  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-    const double rho = inner + 0.5 * (1.0 + rule.nodes[k]) * target.wall;
-    const auto phi = [&](std::size_t i) {
-      const double p = std::abs(nearest[i]);
-      return foot[i] + std::copysign(elementary::acos(std::min(1.0, p / rho)), nearest[i]);
-    };
-    const auto z = [&](std::size_t i) {
-      const double p = nearest[i] * nearest[i];
-      const double s = (std::sqrt(rho * rho - p) - std::sqrt(inner * inner - p)) / way[i];
-      return h.z_inner[i] + s * (h.z[i] - h.z_inner[i]);
-    };
-    double twice = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto j = (i + 1) % n;
-      twice += (phi(j) - phi(i)) * (z(i) + z(j));
+  for (const auto& ring : wall_rings(spec.target)) {
+    std::vector<math::Polygon> all, crowded;
+    for (const auto& placed : p.holes) all.push_back(passing(placed.hole, spec.target, ring.rho));
+    for (const auto& polygon : all) {
+      const auto [least, most] = std::ranges::minmax(polygon.y);
+      const bool alone =
+          least > from && most < to && std::ranges::all_of(all, [&](const math::Polygon& other) {
+            return &other == &polygon || apart(polygon, other);
+          });
+      if (alone) {
+        double twice = 0.0;  // by the divergence theorem: z over the way round
+        for (std::size_t i = 0; i < polygon.x.size(); ++i) {
+          const auto j = (i + 1) % polygon.x.size();
+          twice += (polygon.x[j] - polygon.x[i]) * (polygon.y[i] + polygon.y[j]);
+        }
+        sum += ring.weight * 0.5 * std::abs(twice);
+        continue;
+      }
+      for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
+        crowded.push_back(polygon);
+        for (double& x : crowded.back().x) x += turn;
+      }
     }
-    sum += 0.5 * rule.weights[k] * target.wall * rho * 0.5 * std::abs(twice);
+    if (!crowded.empty())
+      sum += ring.weight * area_between_cuts(spec.target, p, std::move(crowded), ring, stop);
   }
   return sum;
 }
 
-double volume_off(const PartSpec& spec, const Part& p) {
-  double volume = ruled(p.finish.table, spec.target, p.finish.spec.root_face) -
-                  ruled(p.start.table, spec.target, p.start.spec.root_face);
-  std::set<const bevel::Hole*> crowded;
-  for (const auto& crowd : crowds(p)) {
-    volume -= crowd_volume(spec.target, p, crowd, Strips::around);
-    crowded.insert(crowd.holes.begin(), crowd.holes.end());
-  }
-  for (const auto& [hole, asked] : p.holes)
-    if (!crowded.contains(&hole)) volume -= hole_by_rings(hole, spec.target);
+double volume_off(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
+  const double volume = ruled(p.finish.table, spec.target, p.finish.spec.root_face) -
+                        ruled(p.start.table, spec.target, p.start.spec.root_face) -
+                        holes_by_rings(spec, p, stop);
   return std::abs(p.lengths.mass / (spec.density * 1e-9) - volume) / std::abs(volume);
 }
 
@@ -208,7 +227,7 @@ double dimensions_off(const PartSpec& spec, const Part& p) {
 
 }  // namespace
 
-std::vector<Check> verify(const PartSpec& spec, const Part& part) {
+std::vector<Check> verify(const PartSpec& spec, const Part& part, const std::stop_token& stop) {
   Worst all;
   all.see(bevel::verify(part.start.spec, part.start.own), "");
   all.see(bevel::verify(part.finish.spec, part.finish.own), "");
@@ -228,7 +247,7 @@ std::vector<Check> verify(const PartSpec& spec, const Part& part) {
     see(placed, misplaced(hole.hole, own, -start.z()));
   }
   out.push_back({"placed", placed, kPlaced * std::max(1.0, 1e-3 * scale), "mm"});
-  out.push_back({"volume", volume_off(spec, part), kVolume, ""});
+  out.push_back({"volume", volume_off(spec, part, stop), kVolume, ""});
   out.push_back({"check_dimensions", dimensions_off(spec, part),
                  kPlaced * std::max(1.0, 1e-3 * scale), "mm"});
   return out;

@@ -139,11 +139,25 @@ class WholePart(FormatTest):
     def in_order(self, result):
         return [result["holes"][step["index"]] for step in result["sequence"] if step["what"] == "hole"]
 
-    def test_a_square_end_carries_its_bevel_and_the_other_none(self):
-        file = parse(self.service.text("parts", examples("parts")["table-1-with-a-square-far-end"], "format=nc1").decode("ascii"))
+    def test_each_end_carries_its_own_constant_bevel(self):
+        plane = {"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}
+        start, finish = ({"cutters": [plane], "root_surface": "inner", "groove": {"rule": "fixed", "angle_deg": angle},
+                          "smoothing": {"method": "none"}} for angle in (30, 20))
+        body = {"target": {"outer_diameter_mm": 114.3, "wall_mm": 6.3, "length_mm": 1000}, "density_kg_m3": 2700,
+                "ends": {"start": start, "finish": finish}, "datum": "seam", "seam_deg": 0, "sampling": {"uniform_points": 36}, "kerf_mm": 2}
+        result = self.service.answer("parts", body)["result"]
+        told = {end: set(result["ends"][end]["points"]["b_deg"]) for end in ("start", "finish")}
+        file = parse(self.service.text("parts", body, "format=nc1").decode("ascii"))
         [outside] = file["AK"]
-        self.assertTrue(any("the bevel varies" in c for c in file["comments"]))
-        self.assertEqual({b for _, _, b in outside}, {0.0})
+        n = len(result["ends"]["start"]["points"]["b_deg"]) + 1
+        for end, rows in (("start", outside[:n - 1]), ("finish", outside[n:-2])):
+            [b] = told[end]
+            self.assertEqual({bevel for _, _, bevel in rows}, {round(b, 3)}, end)
+            self.assertNotEqual(b, 0)
+        self.assertNotEqual(told["start"], told["finish"])
+        self.assertFalse([c for c in file["comments"] if "sidecar" in c])
+        metre = math.pi / 4 * (114.3**2 - 101.7**2) * 1e-6 * 2700
+        self.assertAlmostEqual(float(file["header"]["weight"]), metre, delta=1e-3)
 
 
 if __name__ == "__main__":

@@ -139,9 +139,28 @@ class Dxf(FormatTest):
                     p = hole["points"]
                     for got, phi, z in zip(points, p["phi_deg"], p["z_mm"]):
                         self.assertLess(math.dist(got, (girth * phi / 360, z)), 1e-5)
-                marks = polylines(drawing, "MARK")
-                self.assertEqual(len(marks), sum(m["z_to_mm"] > m["z_from_mm"] for m in result["marks"]))
+                self.marked(result, girth, [points for points, _ in polylines(drawing, "MARK")], drawing)
+                in_space = self.drawing("parts", body, "tube")
+                turned = [[(girth * (math.atan2(y, x) / (2 * math.pi) % 1), z) for x, y, z in points] for points, _ in polylines(in_space, "MARK")]
+                self.marked(result, girth, turned, in_space)
                 self.assertAlmostEqual(max(y for _, y in finish + start), max(ends["finish"]["points"]["z_outer_mm"]), delta=1e-6)
+
+    def marked(self, result, girth, drawn, drawing):
+        """Every mark: a line from end to end, or a cross of two on its place; and its name somewhere in the text."""
+        texts = " ".join(t.dxf.text for t in drawing.modelspace().query("TEXT"))
+        wanted = 0
+        for mark in result["marks"]:
+            line = mark["z_to_mm"] > mark["z_from_mm"]
+            wanted += 1 if line else 2
+            middle = (mark["girth_mm"], (mark["z_from_mm"] + mark["z_to_mm"]) / 2)
+            near = [points for points in drawn if any(
+                math.hypot((p[0] + q[0]) / 2 - middle[0], (p[1] + q[1]) / 2 - middle[1]) < 1e-4 for p, q in ((points[0], points[-1]),))]
+            across = [points for points in drawn if len(points) == 3 and math.dist(points[1], middle) < 1e-4]
+            self.assertTrue(near)
+            self.assertEqual(bool(across), not line or bool(across))
+            if mark["kind"] != "datum_line":
+                self.assertIn(mark["text"], texts)
+        self.assertEqual(len(drawn), wanted)
 
     def test_open_text_arrives_as_written(self):
         body = {**examples("bevel-tables")["source-000-table-1"], "reference": HOSTILE}

@@ -148,6 +148,8 @@ class PartGcode(FormatTest):
                                 self.assertAlmostEqual(radius * math.radians(at["A"] - row[0]), length * to[0], delta=1e-4)
                                 self.assertAlmostEqual(at["X"] - row[1], length * to[1], delta=1e-4)
                             self.assertLessEqual(length, lead)
+                            if way:
+                                self.assertEqual(length, lead)
                             got = got[1:-1]
                         self.assertEqual(len(got), len(rows))
                         for (axes, _), (phi, z, b, a) in zip(got, rows):
@@ -162,15 +164,43 @@ class PartGcode(FormatTest):
 
     def test_a_pivot_stands_on_the_torch_line(self):
         name, body = [each for each in self.bodies() if "across" in each[0]][0]
-        tip = moves(self.program(body))
-        pivot = moves(self.program(body, "&pivot_length_mm=150"))
-        self.assertEqual(len(tip), len(pivot))
-        for (t, _), (p, _) in zip(tip, pivot):
-            rise, across = math.tan(math.radians(t["B"])), math.tan(math.radians(t["C"]))
-            size = math.sqrt(1 + rise**2 + across**2)
-            self.assertAlmostEqual(p["X"] - t["X"], 150 * rise / size, delta=1e-4)
-            self.assertAlmostEqual(p["Y"], 150 * across / size, delta=1e-4)
-            self.assertAlmostEqual(math.hypot(p["X"] - t["X"], p["Y"], p["Z"] - body["members"][0]["outer_diameter_mm"] / 2), 150, delta=1e-3)
+        radius = body["members"][0]["outer_diameter_mm"] / 2
+        # Growing phi is along x outwards: with the tube along X that is X x Z = -Y, along Z it is Z x X = +Y.
+        for along, out, side in (("X", "Z", -1), ("Z", "X", 1)):
+            option = f"&axial={along.lower()}"
+            tip = moves(self.program(body, option))
+            pivot = [m for m in moves(self.program(body, "&pivot_length_mm=150" + option)) if len(m[0]) == 6]
+            self.assertEqual(len(tip), len(pivot))
+            for (t, _), (p, _) in zip(tip, pivot):
+                rise, across = math.tan(math.radians(t["B"])), math.tan(math.radians(t["C"]))
+                size = math.sqrt(1 + rise**2 + across**2)
+                self.assertAlmostEqual(p[along] - t[along], 150 * rise / size, delta=1e-4)
+                self.assertAlmostEqual(p["Y"], side * 150 * across / size, delta=1e-4)
+                self.assertAlmostEqual(p[out], radius + 150 / size, delta=1e-4)
+
+    def test_between_cuts_a_pivot_is_lifted_and_the_tip_stays_clear(self):
+        for name, body in self.bodies():
+            with self.subTest(name):
+                result = self.service.answer("parts", body)["result"]
+                radius = next(d["value_mm"] for d in result["check_dimensions"] if d["name"] == "girth") / (2 * math.pi)
+                lines = [line for line in self.program(body, "&pivot_length_mm=150&torch=on").splitlines() if not line.startswith("(")]
+                at, cutting, rapids = {}, False, 0
+                for line in lines:
+                    cutting = {"M3 S1": True, "M5": False}.get(line, cutting)
+                    if not line.startswith("G0 "):
+                        at.update({a: float(v) for a, v in WORD.findall(line)} if line.startswith("G1 ") else {})
+                        continue
+                    self.assertFalse(cutting)
+                    to = {**at, **{a: float(v) for a, v in WORD.findall(line)}}
+                    for share in range(11) if at else []:  # all axes arrive together
+                        b, c, z = (at.get(w, 0) + (to.get(w, 0) - at.get(w, 0)) * share / 10 for w in "BCZ")
+                        tip = z - 150 / math.sqrt(1 + math.tan(math.radians(b))**2 + math.tan(math.radians(c))**2)
+                        self.assertGreater(tip, radius - 1e-3)
+                        if any(abs(to.get(w, 0) - at.get(w, 0)) > 1e-6 for w in "XAB"):
+                            self.assertGreater(tip, radius + 49)
+                    at, rapids = to, rapids + 1
+                self.assertEqual(rapids, 3 * (2 + len(result["holes"])) + 1)
+                self.assertIn("control must lift", self.program(body))
 
     def program(self, body, more=""):
         return self.service.text("parts", body, f"format=gcode&speed_mm_min=600{more}").decode("ascii")

@@ -458,6 +458,40 @@ TEST(Part, WhatTwoHolesShareIsTakenOnce) {
   }
 }
 
+// Beyond an end there is nothing to take, however many holes stand there.
+TEST(Part, HolesBeyondAnEndTakeNothing) {
+  const double whole = part::part(drilled({}))->lengths.volume;
+  for (const auto& heights : {std::vector<double>{-60}, {-60, -70}, {960}, {-60, 960, 955}}) {
+    part::PartSpec spec = drilled({});
+    for (const double height : heights)
+      spec.holes.push_back({drilled({height}).holes.front().hole, "", spec.holes.size()});
+    const auto p = part::part(spec);
+    ASSERT_TRUE(p);
+    EXPECT_NEAR(p->lengths.volume / whole, 1.0, 1e-12) << heights[0];
+    for (const auto& check : part::verify(spec, *p)) EXPECT_TRUE(check.passed()) << check.name;
+  }
+}
+
+// Lines that graze the bore: the branch nearly as wide as it, and as wide.
+TEST(Part, TheProofHoldsWhereAHoleGrazesTheBore) {
+  int cut = 0;
+  for (const double radius : {40.0, 43.0, 43.5, 43.9, 43.99, 44.0}) {
+    for (const auto kind : {bevel::JointKind::set_in, bevel::JointKind::set_on}) {
+      auto spec = drilled({400});
+      auto& hole = spec.holes.front().hole;
+      hole.kind = kind;
+      hole.branch = joint::TubeCutter{.radius = radius, .height = 400};
+      const auto p = part::part(spec);
+      if (!p) continue;  // too wide for the bore
+      ++cut;
+      for (const auto& check : part::verify(spec, *p))
+        EXPECT_TRUE(check.passed())
+            << radius << " " << check.name << " " << check.value << " of " << check.limit;
+    }
+  }
+  EXPECT_GE(cut, 6);
+}
+
 TEST(Part, TheSameHoleTwiceTakesWhatItTakesOnce) {
   const auto volume = [](const part::PartSpec& spec) { return part::part(spec)->lengths.volume; };
   const double whole = volume(drilled({})), once = whole - volume(drilled({400}));

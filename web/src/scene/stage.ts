@@ -7,8 +7,8 @@ import {listen, point, pointed} from '../links';
 import type {Solid} from '../picture';
 import {Beam, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
 
-// Samples a pixel, each way. Without a graphics card one takes 30 ms and four take 90: what changes is drawn with one,
-// and once more with four when nothing changed for a moment.
+// Pixels drawn for one of the page, each way. Without a graphics card one takes 30 ms and four take 90: what changes is
+// drawn coarse, and once more fine when nothing changed for a moment.
 const coarse = 1, fine = 2;
 const settled = 250;  // ms
 
@@ -117,14 +117,17 @@ export class Stage {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      this.render(coarse);
-      clearTimeout(this.settling);
-      this.settling = window.setTimeout(() => this.render(fine), settled);
+      this.now();
     });
   }
 
-  private render(samples: number): void {
-    const ratio = samples * Math.min(devicePixelRatio, 2);
+  private now(): void {
+    this.render(coarse);
+    clearTimeout(this.settling);
+    this.settling = window.setTimeout(() => this.render(fine), settled);
+  }
+
+  private render(ratio: number): void {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
     this.renderer.render(this.scene, this.camera);
   }
@@ -136,7 +139,7 @@ export class Stage {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.turned) this.reset();
-    this.draw();
+    this.now();  // before the page is painted: another size has cleared the canvas
   }
 
   private follow(index: number | null): void {
