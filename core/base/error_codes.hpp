@@ -157,6 +157,8 @@
   X(not_closed, no_solution, "The contour's two ends differ.",                                     \
     "Close the contour, or send closed false.")                                                    \
   X(duplicate_point, no_solution, "Two neighbouring points are equal.", "Remove one of them.")     \
+  X(turns_back, no_solution, "The contour runs back over the way it came.",                        \
+    "Leave out what is passed twice.")                                                             \
   X(angle_out_of_range, no_solution, "The bevel angle is beyond 85 degrees.",                      \
     "Check the bevel angles.")                                                                     \
   X(zero_limit, no_solution, "An axis limit is zero.", "Give limits above zero.")                  \

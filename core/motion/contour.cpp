@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/elementary.hpp"
 
 namespace tubecut::motion {
 namespace {
 
+constexpr double kBack = 3e-3;     // rad, of a turn by half a round
 constexpr double kClosing = 1e-6;  // mm and rad between the two ends
 constexpr double kMostBevel = 85.0 * kRadPerDeg + 1e-12;
 constexpr double kMostPhi = 3600.0 * kRadPerDeg;
@@ -133,6 +135,43 @@ Result<void> check_duplicates(const Track& t) {
   return {};
 }
 
+/// A track that runs straight back over itself: on the way back nobody can tell, from where the tip
+/// is, which of the two it is on.
+Result<void> check_turns(const Track& t) {
+  const auto step = [&](std::size_t from, std::size_t to) {
+    return std::pair{t.radius * (t.points[to].phi - t.points[from].phi),
+                     t.points[to].z - t.points[from].z};
+  };
+  std::pair<double, double> last{0.0, 0.0};
+  const auto see = [&](std::size_t from, std::size_t to) {
+    const auto now = step(from, to);
+    if (now.first == 0.0 && now.second == 0.0) return false;  // a swing in place
+    const double along = last.first * now.first + last.second * now.second;
+    const double across = last.first * now.second - last.second * now.first;
+    last = now;
+    return along < 0.0 && std::abs(across) <= kBack * -along;
+  };
+  const auto n = t.points.size();
+  for (std::size_t i = 1; i < n; ++i)
+    if (see(i - 1, i))
+      return fail({.code = ErrorCode::turns_back,
+                   .member = member("phi", i - 1),
+                   .got = t.points[i - 1].phi * kDegPerRad,
+                   .unit = "deg"});
+  // Across the join: the last way there, then the first way on.
+  for (std::size_t i = 1; t.closed && i < n; ++i) {
+    const auto way = step(i - 1, i);
+    if (way.first == 0.0 && way.second == 0.0) continue;
+    if (see(i - 1, i))
+      return fail({.code = ErrorCode::turns_back,
+                   .member = member("phi", 0),
+                   .got = t.points[0].phi * kDegPerRad,
+                   .unit = "deg"});
+    break;
+  }
+  return {};
+}
+
 }  // namespace
 
 double Track::tip_step(std::size_t from, std::size_t to) const {
@@ -161,6 +200,7 @@ Result<Track> track(const Contour& contour) {
     if (auto ok = close(t, contour.scrap); !ok) return tl::unexpected<Error>(ok.error());
   }
   if (auto ok = check_duplicates(t); !ok) return tl::unexpected<Error>(ok.error());
+  if (auto ok = check_turns(t); !ok) return tl::unexpected<Error>(ok.error());
   return t;
 }
 

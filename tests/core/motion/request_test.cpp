@@ -56,6 +56,33 @@ TEST(Refused, DuplicatePoint) {
   EXPECT_EQ(issue.member, "contour/phi/7");
 }
 
+// Straight back over the way it came, with or without a swing in place there, and across the join.
+TEST(Refused, AContourThatTurnsBack) {
+  const auto ring = [](std::vector<double> deg, std::vector<double> z, std::vector<double> b,
+                       bool closed) {
+    ScheduleSpec spec = table1(0);
+    Contour& c = contour_of(spec);
+    for (double& one : deg) one *= kRadPerDeg;
+    for (double& one : b) one *= kRadPerDeg;
+    c.phi = std::move(deg);
+    c.z = std::move(z);
+    c.b = std::move(b);
+    c.closed = closed;
+    return spec;
+  };
+  Issue issue =
+      refusal(ring({0, 10, 20, 12, 30, 40}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}, false));
+  EXPECT_EQ(issue.code, ErrorCode::turns_back);
+  EXPECT_EQ(issue.member, "contour/phi/2");
+  EXPECT_EQ(
+      refusal(ring({0, 10, 20, 20, 12, 2}, {0, 1, 2, 2, 1.2, 0.2}, {0, 0, 0, 9, 0, 0}, false)).code,
+      ErrorCode::turns_back);
+  // A wedge of a degree is no way back.
+  const auto wedge =
+      schedule(ring({0, 10, 20, 10, 0}, {0, 0, 0, 0.3, 0.6}, {0, 0, 0, 0, 0}, false));
+  EXPECT_TRUE(wedge || wedge.error().code() != ErrorCode::turns_back);
+}
+
 TEST(Refused, BadNumbersAndCounts) {
   ScheduleSpec spec = table1(0);
   contour_of(spec).z[3] = std::nan("");
