@@ -45,12 +45,14 @@ export async function then(page, act) {
   await answered(page, before + 1);
 }
 
-/** Share of the canvas that something solid covers, and a sum that changes with the picture. */
+/** Share of the canvas that something solid covers, and a sum that changes with the picture: the fine one, that stays. */
 export async function pixels(page) {
   await page.waitForSelector('.canvas canvas');
   return page.evaluate(async () => {
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
     const canvas = document.querySelector('.canvas canvas');
+    const end = Date.now() + 10000;
+    while (canvas.dataset.drawn !== 'fine' && Date.now() < end) await new Promise((done) => setTimeout(done, 10));
     const copy = document.createElement('canvas');
     copy.width = canvas.width;
     copy.height = canvas.height;

@@ -130,6 +130,7 @@ export class Stage {
   private render(ratio: number): void {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
     this.renderer.render(this.scene, this.camera);
+    this.renderer.domElement.dataset['drawn'] = ratio === fine ? 'fine' : 'coarse';
   }
 
   private fit(): void {
