@@ -1,6 +1,6 @@
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, CylinderGeometry, DoubleSide, ExtrudeGeometry, Float32BufferAttribute,
-  Group, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Quaternion,
+  Group, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PlaneGeometry, Quaternion,
   ShaderMaterial, Shape, SphereGeometry, TubeGeometry, Vector3, type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
@@ -66,10 +66,10 @@ function kept<M extends Material>(name: string, make: () => M): M {
 }
 
 const metal = (name: string, hue: string) =>
-  kept(name, () => new MeshStandardMaterial({color: hue, roughness: 0.62, metalness: 0.15, side: DoubleSide}));
+  kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide}));
 const steel = (tone: string) => metal(tone, colour(tone));
-const face = (tinted: boolean) => kept(`face ${tinted}`, () => new MeshStandardMaterial(
-  {color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, roughness: 0.5, metalness: 0.1, side: DoubleSide, flatShading: true}));
+const face = (tinted: boolean) => kept(`face ${tinted}`, () => new MeshLambertMaterial(
+  {color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, side: DoubleSide, flatShading: true}));
 const ink = (tone: string) => kept(`line ${tone}`, () => new LineBasicMaterial({color: colour(tone)}));
 /** Seen through everything: the cursor. */
 const signal = () => kept('signal', () => new MeshBasicMaterial({color: colour('mark'), depthTest: false, transparent: true}));
