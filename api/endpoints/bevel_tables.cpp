@@ -8,6 +8,7 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
+#include "api/formats/gcode.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
@@ -68,8 +69,6 @@ struct BevelTables {
     return Print(spec, out, caption);
   }
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<std::string_view> kGcodeOptions{
-        "speed_mm_min", "dialect", "torch", "axial", "lead_mm", "pivot_length_mm"};
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &print<bevel_table_csv>},
         {"svg",
@@ -81,7 +80,7 @@ struct BevelTables {
         {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
         {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},
         {"nc1", "application/x-dstv", &print<bevel_table_dstv>},
-        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, kGcodeOptions, true}};
+        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, gcode_options(), true}};
     return kFormats;
   }
 };

@@ -9,6 +9,7 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/part_request.hpp"
+#include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
 #include "api/formats/work_order.hpp"
 #include "core/part/member.hpp"
@@ -196,14 +197,12 @@ struct Parts {
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<std::string_view> kGcodeOptions{
-        "speed_mm_min", "dialect", "torch", "axial", "lead_mm", "pivot_length_mm"};
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &print<part_csv>},
         {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
         {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
         {"nc1", "application/x-dstv", &print<part_dstv>},
-        {"gcode", "text/x-gcode", &print<part_gcode>, {}, kGcodeOptions, true}};
+        {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true}};
     return kFormats;
   }
 };

@@ -29,7 +29,8 @@ class Joints {
         across_(options.axial_z ? 'X' : 'Z'),
         tilts_(std::ranges::any_of(job.cuts, [](const auto& cut) { return !cut.a.empty(); })) {}
 
-  [[nodiscard]] std::string words(const Place& at) const {
+  enum class Height { with, without };
+  [[nodiscard]] std::string words(const Place& at, Height height = Height::with) const {
     const double length = pivot_.value_or(0.0);
     // The torch's line: 1 outwards, tan a round, tan b along.
     const double round = elementary::tan(at.a), rise = elementary::tan(at.b);
@@ -37,7 +38,8 @@ class Joints {
     std::string text = std::string(1, along_) + fixed(at.z + out * rise, 5);
     // Growing phi runs to -Y with the tube along X, to +Y with it along Z.
     if (pivot_ && tilts_) text += " Y" + fixed((along_ == 'Z' ? 1.0 : -1.0) * out * round, 5);
-    if (pivot_) text += " " + std::string(1, across_) + fixed(radius_ + out, 5);
+    if (pivot_ && height == Height::with)
+      text += " " + std::string(1, across_) + fixed(radius_ + out, 5);
     text += " A" + fixed(at.phi * kDegPerRad, 7) + " B" + fixed(at.b * kDegPerRad, 6);
     return tilts_ ? text + " C" + fixed(at.a * kDegPerRad, 6) : text;
   }
@@ -51,12 +53,6 @@ class Joints {
   [[nodiscard]] std::optional<std::string> lifted() const {
     if (!pivot_) return std::nullopt;
     return std::string(1, across_) + fixed(radius_ + *pivot_ + kClearance, 5);
-  }
-  /// The same place without its height.
-  [[nodiscard]] std::string aloft(const Place& at) const {
-    auto text = words(at);
-    const auto from = text.find(" " + std::string(1, across_));
-    return from == std::string::npos ? text : text.erase(from, text.find(' ', from + 1) - from);
   }
 
  private:
@@ -138,7 +134,7 @@ std::string print_cut(const TorchJob& job, const TorchPath& path, const Joints& 
                          " mm: half the way to the middle of the hole");
   const auto lifted = joints.lifted();
   if (job.cuts.size() > 1 && lifted)
-    out += "G0 " + *lifted + "\nG0 " + joints.aloft(aside(0)) + "\n";
+    out += "G0 " + *lifted + "\nG0 " + joints.words(aside(0), Joints::Height::without) + "\n";
   out += "G0 " + joints.words(aside(0)) + "\n";
   if (o.torch) out += torch.on;
   out += "G93\n";
@@ -184,6 +180,12 @@ std::string gcode_job(const Caption& caption) {
   for (const auto& [name, text] : caption.reference)
     out += gcode_comment(std::string(name) + ": " + text);
   return out;
+}
+
+const std::vector<std::string_view>& gcode_options() {
+  static const std::vector<std::string_view> kOptions{"speed_mm_min", "dialect", "torch",
+                                                      "axial",        "lead_mm", "pivot_length_mm"};
+  return kOptions;
 }
 
 TorchWords torch_words(Dialect dialect) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/endpoint.hpp"
@@ -39,6 +40,8 @@ struct TorchJob {
 [[nodiscard]] std::string gcode_comment(const std::string& text);
 /// The comment lines every program begins with: engine, input hash, reference.
 [[nodiscard]] std::string gcode_job(const Caption& caption);
+/// Query parameters a program along torch lines reads.
+[[nodiscard]] const std::vector<std::string_view>& gcode_options();
 /// The lines that light the torch and put it out.
 struct TorchWords {
   std::string prepare, on, off;

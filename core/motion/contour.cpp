@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 #include "core/base/elementary.hpp"
 
@@ -138,36 +138,26 @@ Result<void> check_duplicates(const Track& t) {
 /// A track that runs straight back over itself: on the way back nobody can tell, from where the tip
 /// is, which of the two it is on.
 Result<void> check_turns(const Track& t) {
-  const auto step = [&](std::size_t from, std::size_t to) {
-    return std::pair{t.radius * (t.points[to].phi - t.points[from].phi),
-                     t.points[to].z - t.points[from].z};
+  struct Way {
+    double x, z;
+    std::size_t from;
   };
-  std::pair<double, double> last{0.0, 0.0};
-  const auto see = [&](std::size_t from, std::size_t to) {
-    const auto now = step(from, to);
-    if (now.first == 0.0 && now.second == 0.0) return false;  // a swing in place
-    const double along = last.first * now.first + last.second * now.second;
-    const double across = last.first * now.second - last.second * now.first;
-    last = now;
-    return along < 0.0 && std::abs(across) <= kBack * -along;
-  };
-  const auto n = t.points.size();
-  for (std::size_t i = 1; i < n; ++i)
-    if (see(i - 1, i))
+  std::vector<Way> ways;  // of the tip: a swing in place is none
+  for (std::size_t i = 1; i < t.points.size(); ++i) {
+    const ContourPoint& a = t.points[i - 1];
+    const ContourPoint& b = t.points[i];
+    if (a.phi != b.phi || a.z != b.z)
+      ways.push_back({t.radius * (b.phi - a.phi), b.z - a.z, i - 1});
+  }
+  for (std::size_t k = t.closed ? 0 : 1; k < ways.size(); ++k) {  // closed: across the join too
+    const Way& there = ways[(k + ways.size() - 1) % ways.size()];
+    const Way& on = ways[k];
+    const double along = there.x * on.x + there.z * on.z;
+    if (along < 0.0 && std::abs(there.x * on.z - there.z * on.x) <= kBack * -along)
       return fail({.code = ErrorCode::turns_back,
-                   .member = member("phi", i - 1),
-                   .got = t.points[i - 1].phi * kDegPerRad,
+                   .member = member("phi", on.from),
+                   .got = t.points[on.from].phi * kDegPerRad,
                    .unit = "deg"});
-  // Across the join: the last way there, then the first way on.
-  for (std::size_t i = 1; t.closed && i < n; ++i) {
-    const auto way = step(i - 1, i);
-    if (way.first == 0.0 && way.second == 0.0) continue;
-    if (see(i - 1, i))
-      return fail({.code = ErrorCode::turns_back,
-                   .member = member("phi", 0),
-                   .got = t.points[0].phi * kDegPerRad,
-                   .unit = "deg"});
-    break;
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/quadrature.hpp"
+#include "core/part/place.hpp"
 
 namespace tubecut::part {
 namespace {
@@ -27,13 +28,6 @@ Box box_of(const bevel::Hole& hole) {
   const auto [zi, yi] = std::ranges::minmax(hole.z_inner);
   const auto [zo, yo] = std::ranges::minmax(hole.z);
   return {std::min(pi, po), std::max(qi, qo), std::min(zi, zo), std::max(yi, yo)};
-}
-
-double lowest(const bevel::Table& t) {
-  return std::min(std::ranges::min(t.z_inner), std::ranges::min(t.z_outer));
-}
-double highest(const bevel::Table& t) {
-  return std::max(std::ranges::max(t.z_inner), std::ranges::max(t.z_outer));
 }
 
 double mixed(double inner, double outer, double u) { return inner + u * (outer - inner); }

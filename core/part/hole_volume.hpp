@@ -27,8 +27,9 @@ struct Ring {
 
 /// Volume that the holes take out of the wall between the two cuts, their own walls straight in
 /// space from edge to edge, mm^3. What two holes share counts once, what lies beyond a cut not at
-/// all. Accuracy  1e-9 of a hole for edges straight between their nodes; where holes meet, within
-/// 1e-3
+/// all.
+///
+/// Accuracy  1e-9 of a hole for edges straight between their nodes; where holes meet, within 1e-3
 ///           of what they share: its border has corners that move across the wall.
 /// Source    docs/theory/parts.md, section 3.
 [[nodiscard]] double holes_volume(const joint::Target& target, const Part& part,

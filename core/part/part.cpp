@@ -48,13 +48,6 @@ Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& st
   return out;
 }
 
-double lowest(const Table& t) {
-  return std::min(*std::ranges::min_element(t.z_inner), *std::ranges::min_element(t.z_outer));
-}
-double highest(const Table& t) {
-  return std::max(*std::ranges::max_element(t.z_inner), *std::ranges::max_element(t.z_outer));
-}
-
 Result<void> cut_holes(const PartSpec& spec, Part& out, const std::stop_token& stop) {
   for (std::size_t i = 0; i < spec.holes.size(); ++i) {
     auto asked = spec.holes[i].hole;

@@ -192,6 +192,13 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
   return out;
 }
 
+double lowest(const bevel::Table& t) {
+  return std::min(std::ranges::min(t.z_inner), std::ranges::min(t.z_outer));
+}
+double highest(const bevel::Table& t) {
+  return std::max(std::ranges::max(t.z_inner), std::ranges::max(t.z_outer));
+}
+
 bevel::Table shifted(bevel::Table table, double dz) {
   for (auto column : {&bevel::Table::z_inner, &bevel::Table::z_outer, &bevel::Table::z_face,
                       &bevel::Table::torch_inner, &bevel::Table::torch_outer})

@@ -17,6 +17,10 @@ namespace tubecut::part {
 /// rows come in reverse, and every elevation (B, tau, flush) changes its sign.
 [[nodiscard]] bevel::Table seen_from_start(const bevel::Table& finish, double length);
 
+/// The least and the greatest z of an end's cut, over both walls.
+[[nodiscard]] double lowest(const bevel::Table& table);
+[[nodiscard]] double highest(const bevel::Table& table);
+
 /// All z moved by `dz`.
 [[nodiscard]] bevel::Table shifted(bevel::Table table, double dz);
 [[nodiscard]] bevel::Hole shifted(bevel::Hole hole, double dz);

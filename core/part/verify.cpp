@@ -137,7 +137,7 @@ math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double 
   return out;
 }
 
-/// Whether a polygon may touch another one or an end, seen on the cylinder.
+/// Whether two polygons cannot touch, seen on the cylinder.
 bool apart(const math::Polygon& a, const math::Polygon& b) {
   const auto [az, bz] = std::pair{std::ranges::minmax(a.y), std::ranges::minmax(b.y)};
   if (az.min > bz.max || bz.min > az.max) return true;

@@ -354,18 +354,24 @@ TEST(Part, LongPointsAreWhereTheClockingSays) {
   EXPECT_NEAR(std::sin(turn / 2), 0.0, 0.01);
 }
 
+/// A set-in branch square on a chord 50/44, its hole cut with the torch free to tilt.
+bevel::HoleSpec square_branch(double radius, double height, std::size_t points,
+                              double clocking = 0) {
+  return {
+      .chord = {.outer_radius = 50, .wall = 6},
+      .branch =
+          joint::TubeCutter{.radius = radius, .clocking = Angle::rad(clocking), .height = height},
+      .branch_wall = 3,
+      .kind = bevel::JointKind::set_in,
+      .groove = bevel::NoGroove{},
+      .tilt = bevel::Tilt::free,
+      .sampling = {.uniform_points = points}};
+}
+
 TEST(Part, SequenceEndsAtTheClampedSide) {
   auto spec = direct({chord(60, 30)}, {chord(70, 100)}, 900);
-  for (const double height : {300.0, 600.0}) {
-    bevel::HoleSpec hole{.chord = {.outer_radius = 50, .wall = 6},
-                         .branch = joint::TubeCutter{.radius = 20, .height = height},
-                         .branch_wall = 3,
-                         .kind = bevel::JointKind::set_in,
-                         .groove = bevel::NoGroove{},
-                         .tilt = bevel::Tilt::free,
-                         .sampling = {.uniform_points = 72}};
-    spec.holes.push_back({hole, "", spec.holes.size()});
-  }
+  for (const double height : {300.0, 600.0})
+    spec.holes.push_back({square_branch(20, height, 72), "", spec.holes.size()});
   const auto p = part::part(spec);
   ASSERT_TRUE(p);
   std::vector<part::Step::What> order;
@@ -395,18 +401,8 @@ TEST(Part, SequenceEndsAtTheClampedSide) {
 /// Square branches of radius 12 on the middle of a chord 50/44, at these heights.
 part::PartSpec drilled(std::initializer_list<double> heights, double clocking = 0.4) {
   auto spec = direct({}, {}, 900);
-  for (const double height : heights) {
-    bevel::HoleSpec hole{
-        .chord = {.outer_radius = 50, .wall = 6},
-        .branch =
-            joint::TubeCutter{.radius = 12, .clocking = Angle::rad(clocking), .height = height},
-        .branch_wall = 3,
-        .kind = bevel::JointKind::set_in,
-        .groove = bevel::NoGroove{},
-        .tilt = bevel::Tilt::free,
-        .sampling = {.uniform_points = 360}};
-    spec.holes.push_back({hole, "", spec.holes.size()});
-  }
+  for (const double height : heights)
+    spec.holes.push_back({square_branch(12, height, 360, clocking), "", spec.holes.size()});
   return spec;
 }
 
