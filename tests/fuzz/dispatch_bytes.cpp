@@ -85,7 +85,7 @@ std::string_view endpoint_of(std::span<const std::uint8_t> bytes) {
   return endpoint == nullptr ? std::string_view{} : endpoint->id;
 }
 
-void dispatch_bytes(std::span<const std::uint8_t> bytes) {
+void dispatch_bytes(std::span<const std::uint8_t> bytes, std::stop_token stop) {
   if (bytes.empty() || bytes.size() > kLongest) return;
   const auto* endpoint = endpoint_at(bytes[0] & 15u);
   if (endpoint == nullptr) return;
@@ -100,7 +100,8 @@ void dispatch_bytes(std::span<const std::uint8_t> bytes) {
                        .body = body,
                        .job_id = {},
                        .request_id = "fuzz"};
-  check(api::dispatch(call, {.stop = {}, .clock = {}, .status = [](ErrorKind) { return 400; }}));
+  check(api::dispatch(
+      call, {.stop = std::move(stop), .clock = {}, .status = [](ErrorKind) { return 400; }}));
 }
 
 }  // namespace tubecut::fuzz

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <string_view>
 
 namespace tubecut::fuzz {
@@ -14,7 +15,7 @@ inline constexpr std::size_t kLongest = 8192;
 /// '_' CBOR, '`' to 'o' validate_only, others a text format), the rest is the body. Aborts when a
 /// promise is broken: no exception, no failure of ours, an answer or a problem that reads back as
 /// JSON.
-void dispatch_bytes(std::span<const std::uint8_t> bytes);
+void dispatch_bytes(std::span<const std::uint8_t> bytes, std::stop_token stop = {});
 
 /// Id of the endpoint that an input asks; empty when it asks none.
 [[nodiscard]] std::string_view endpoint_of(std::span<const std::uint8_t> bytes);

@@ -1,6 +1,27 @@
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
 #include "tests/fuzz/dispatch_bytes.hpp"
 
+namespace {
+
+/// The service ends a job that is over its budget; here it is wider, as every access is checked.
+/// What goes on after the stop is found by libFuzzer's own timeout.
+constexpr std::chrono::seconds kBudget{5};
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  tubecut::fuzz::dispatch_bytes({data, size});
+  std::stop_source over;
+  const std::jthread budget([&over](const std::stop_token& answered) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any().wait_for(lock, answered, kBudget, [] { return false; });
+    over.request_stop();
+  });
+  tubecut::fuzz::dispatch_bytes({data, size}, over.get_token());
   return 0;
 }

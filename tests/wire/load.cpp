@@ -52,7 +52,10 @@ class Load {
  public:
   Load(int port, std::vector<std::string> requests, std::size_t connections)
       : port_(port), requests_(std::move(requests)), connections_(connections) {
-    for (std::size_t i = 0; i < connections_.size(); ++i) open(i);
+    for (std::size_t i = 0; i < connections_.size(); ++i) {
+      connections_[i].request = i % requests_.size();
+      open(i);
+    }
   }
 
   void run(double seconds, double rate) {
@@ -106,8 +109,7 @@ class Load {
 
   void open(std::size_t i) {
     Connection& c = connections_[i];
-    c = Connection{};
-    c.request = i % requests_.size();
+    c = Connection{.request = c.request};
     c.socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
