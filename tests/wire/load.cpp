@@ -102,9 +102,10 @@ class Load {
       return ms.empty() ? 0.0F
                         : ms[static_cast<std::size_t>(q * static_cast<double>(ms.size() - 1))];
     };
-    std::printf(",\"%s\":{\"p50\":%.3f,\"p90\":%.3f,\"p99\":%.3f,\"max\":%.3f}", name,
-                static_cast<double>(at(0.5)), static_cast<double>(at(0.9)),
-                static_cast<double>(at(0.99)), static_cast<double>(at(1.0)));
+    const auto late = std::ranges::count_if(ms, [](float each) { return each > 10.0F; });
+    std::printf(",\"%s\":{\"p50\":%.3f,\"p90\":%.3f,\"p99\":%.3f,\"max\":%.3f,\"over_10_ms\":%td}",
+                name, static_cast<double>(at(0.5)), static_cast<double>(at(0.9)),
+                static_cast<double>(at(0.99)), static_cast<double>(at(1.0)), late);
   }
 
   void open(std::size_t i) {

@@ -39,7 +39,7 @@ def main():
     others = sum(statuses.values()) - refused - statuses.get("200", 0)
     late = told["refused_ms"]
     print(f"{slots} slots: capacity {capacity:.0f}/s, offered {5 * capacity:.0f}/s for {seconds:g} s: goodput {goodput:.0f}/s "
-          f"({100 * goodput / capacity:.0f} %), {refused} refused in p50 {late['p50']:.1f}, p99 {late['p99']:.1f}, max {late['max']:.1f} ms, "
+          f"({100 * goodput / capacity:.0f} %), {refused} refused in p50 {late['p50']:.1f}, p99 {late['p99']:.1f}, max {late['max']:.1f} ms ({late['over_10_ms']} over 10), "
           f"{told['without_retry_after']} without Retry-After, {others} otherwise, {told['lost']} lost; "
           f"accepted p99 {told['accepted_ms']['p99']:.0f} ms")
     sound = alive and refused > 0 and goodput > 0 and others == 0 and told["lost"] == 0 and told["without_retry_after"] == 0
