@@ -31,6 +31,7 @@ struct Call {
 struct Context {
   std::stop_token stop;
   std::function<double()> clock;       // monotonic seconds, for stage times; may be empty
+  double received = 0.0;               // when the request's first byte came, on that clock; 0: now
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
 };
 
@@ -38,6 +39,10 @@ struct Stage {
   std::string_view name;  // parse, decode, compute, verify, encode
   double seconds = 0.0;
 };
+
+/// What the end of a stage is called among a job's events: decoded, validated, computed, verified,
+/// encoded.
+[[nodiscard]] std::string_view event_of(std::string_view stage);
 
 /// What a log line and the metrics may know of a call: never the geometry.
 struct JobFacts {
@@ -69,6 +74,7 @@ struct Outcome {
                               const Context& context);
 
 /// Where many calls come in one body, one line of JSON each, and are answered line by line.
+inline constexpr std::string_view kBatchesId = "batches";
 inline constexpr std::string_view kBatchesPath = "/v1/batches";
 
 /// One line of a batch: `{"id": text, "endpoint": "bevel-tables", "body": {...}}`.
@@ -77,6 +83,7 @@ struct BatchLine {
   std::string path;  // "/v1/bevel-tables"
   std::string body;  // JSON, as the endpoint takes it
   std::optional<ErrorKind> error;
+  std::string code;     // the error's, as in /v1/errors
   std::string problem;  // the document, where there is an error
 };
 

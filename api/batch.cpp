@@ -17,6 +17,7 @@ constexpr std::size_t kLongestId = 128;
 void refuse(BatchLine& line, const Problem& problem, std::string_view request_id,
             const Context& context) {
   line.error = info(problem.code).kind;
+  line.code = info(problem.code).code;
   line.problem =
       print(problem, request_id, context.status != nullptr ? context.status(*line.error) : 0);
 }

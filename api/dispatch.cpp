@@ -158,7 +158,10 @@ std::optional<Problem> format_problem(const Query& query, const FormatName* form
 /// One answer or problem, with what is needed to print it.
 class Job {
  public:
-  Job(const Call& call, const Context& context) : call_(call), context_(context) { lap(); }
+  Job(const Call& call, const Context& context) : call_(call), context_(context) {
+    lap();
+    begun_ = mark_;
+  }
 
   Outcome refuse(const Problem& problem, std::string allow = {}) {
     const auto kind = info(problem.code).kind;
@@ -193,6 +196,7 @@ class Job {
   const Call& call_;
   const Context& context_;
   Outcome out_;
+  double begun_ = 0.0;
   double mark_ = 0.0;
 };
 
@@ -295,6 +299,20 @@ void write_warnings(Writer& w, const Answer& answer) {
   });
 }
 
+/// What has happened so far, counted from the request's first byte.
+void write_events(Writer& w, const Context& context, double begun,
+                  const std::vector<Stage>& stages) {
+  double at = context.clock && context.received > 0.0 ? begun - context.received : 0.0;
+  std::vector<std::pair<std::string_view, double>> events = {{"received", 0.0}, {"started", at}};
+  for (const auto& stage : stages) events.emplace_back(event_of(stage.name), at += stage.seconds);
+  w.array("log", events, [](Writer& each, const auto& event) {
+    each.object([&](Writer& o) {
+      o.field("event", event.first);
+      o.field("at_ms", event.second * 1e3);
+    });
+  });
+}
+
 Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                     const Choice& choice, const Query& query) {
   for (const auto& check : answer.checks)
@@ -349,13 +367,7 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
       o.column("reasons", verdict.reasons);
     });
     write_warnings(w, answer);
-    if (common.inline_log)
-      w.array("log", job.stages, [](Writer& each, const Stage& stage) {
-        each.object([&](Writer& o) {
-          o.field("event", stage.name);
-          o.field("duration_ms", stage.seconds * 1e3);
-        });
-      });
+    if (common.inline_log) write_events(w, context_, begun_, job.stages);
   });
   const bool cbor = choice.body == Body::cbor;
   out_.content_type = cbor ? kCborMedia : kJsonMedia;
@@ -407,6 +419,18 @@ std::size_t max_body(std::string_view path) {
     if (endpoint.path == path) return endpoint.max_body;
   if (path == kBatchesPath) return static_cast<std::size_t>(limit::body_large_max_bytes);
   return static_cast<std::size_t>(limit::body_max_bytes);
+}
+
+std::string_view event_of(std::string_view stage) {
+  static constexpr std::pair<std::string_view, std::string_view> kEvents[] = {
+      {"parse", "decoded"},
+      {"decode", "validated"},
+      {"compute", "computed"},
+      {"verify", "verified"},
+      {"encode", "encoded"}};
+  for (const auto& [name, event] : kEvents)
+    if (name == stage) return event;
+  return stage;
 }
 
 std::string job_line(const Caption& caption) {

@@ -181,6 +181,7 @@ api::Outcome App::answer(const Request& request, const Identity& id) const {
     if (const auto fault = batch_fault(request)) return refuse(*fault, id);
   api::Context with = context();
   if (request.stop.stop_possible()) with.stop = request.stop;
+  with.received = request.times.received;
   api::Outcome outcome = x_.dispatch(call_of(request, id), with);
   // A job cut off by our own stop is not the job's fault: the same request succeeds elsewhere, or
   // here a second later.
@@ -237,11 +238,14 @@ Response App::handle(const Request& request) const {
   if (record.facts.id.empty()) record.facts.id = id.job_id;
   record.status = response.status;
   record.bytes_out = response.body.size();
-  if (x_.access && response.status != 401) {
-    record.identity = x_.access->identify(request.headers).value_or(std::string{});
-  }
+  record.identity = identity_of(request);
   tell(std::move(record), request, response);
   return response;
+}
+
+/// Whose key it carries; empty without a right one.
+std::string App::identity_of(const Request& request) const {
+  return x_.access ? x_.access->identify(request.headers).value_or(std::string{}) : std::string{};
 }
 
 void App::tell(JobRecord record, const Request& request, Response& response) const {

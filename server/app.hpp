@@ -28,9 +28,10 @@ struct JobRecord {
   double seconds = 0.0;  // in `handle`
   std::size_t bytes_in = 0;
   std::size_t bytes_out = 0;
-  Times times = {};    // as the transport saw it, monotonic
-  double begun = 0.0;  // `handle` was called, monotonic seconds
-  double sent = 0.0;   // the last byte was handed to the kernel; 0: it never was
+  std::optional<BatchCount> batch = {};  // of its lines, which have records of their own
+  Times times = {};                      // as the transport saw it, monotonic
+  double begun = 0.0;                    // `handle` was called, monotonic seconds
+  double sent = 0.0;                     // the last byte was handed to the kernel; 0: it never was
 };
 
 struct AppOptions {
@@ -79,11 +80,12 @@ class App {
   [[nodiscard]] Response batch_head(const Request& request) const;
 
   /// Answers one line of a batch, logged and counted like a request by itself: X-Request-Id is the
-  /// batch's with the line's number. The headers are the batch's.
+  /// batch's with the line's number, Job-Id the line's id where it can be one. The headers are the
+  /// batch's.
   [[nodiscard]] BatchReply line(const Request& request) const;
 
-  /// The last line of a batch's answer.
-  [[nodiscard]] static std::string summary(const BatchCount& count);
+  /// The last line of a batch's answer, as the body; logs and counts the batch itself.
+  [[nodiscard]] Response summary(const Request& head, const BatchCount& count) const;
 
   /// Time for the job.
   [[nodiscard]] std::chrono::milliseconds budget(const Request& request) const;
@@ -99,6 +101,7 @@ class App {
   [[nodiscard]] BatchReply answer_line(const Request& request) const;
   [[nodiscard]] static std::optional<Refusal> batch_fault(const Request& request);
   void tell(JobRecord record, const Request& request, Response& response) const;
+  [[nodiscard]] std::string identity_of(const Request& request) const;
 
   AppOptions x_;
 };

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "api/api.hpp"
 #include "server/app.hpp"
@@ -11,6 +13,7 @@ namespace tubecut::server {
 namespace {
 
 constexpr std::string_view kLinesMedia = "application/x-ndjson";
+constexpr std::size_t kPrefix = std::string_view("/v1/").size();
 
 /// What every line's request takes from the batch's: whose it is and how long it may take. Types
 /// and names of the batch itself are not the line's.
@@ -54,8 +57,13 @@ Response App::batch_head(const Request& request) const {
   const Identity id = identify(request.headers);
   Response head{.content_type = std::string(kLinesMedia)};
   head.headers = {{"X-Request-Id", id.request_id}, {"X-Content-Type-Options", "nosniff"}};
-  if (!id.traceparent.empty()) head.headers.emplace_back("traceparent", id.traceparent);
-  if (!x_.replica.empty()) head.headers.emplace_back("Tubecut-Replica", x_.replica);
+  const std::pair<std::string_view, const std::string&> echoed[] = {
+      {"Job-Id", id.job_id_header},
+      {"Idempotency-Key", id.idempotency_key},
+      {"traceparent", id.traceparent},
+      {"Tubecut-Replica", x_.replica}};
+  for (const auto& [name, value] : echoed)
+    if (!value.empty()) head.headers.emplace_back(name, value);
   allow_origin(request, head.headers);
   return head;
 }
@@ -79,11 +87,16 @@ BatchReply App::answer_line(const Request& request) const {
   one.reports_sending = false;
   const auto line =
       api::read_batch_line(request.body, header(one.headers, "X-Request-Id"), context());
+  if (sound_id(line.id)) one.headers.emplace_back("Job-Id", line.id);
   if (line.error) {
     const int status = status_of(*line.error);
-    JobRecord record{.method = "POST",
+    JobRecord record{.facts = {.id = std::string(header(one.headers, "Job-Id")),
+                               .endpoint = line.path.substr(std::min(line.path.size(), kPrefix)),
+                               .error_code = line.code},
+                     .method = "POST",
                      .request_id = std::string(header(one.headers, "X-Request-Id")),
                      .client = client_of(request, x_.trusted_proxies),
+                     .identity = identity_of(request),
                      .status = status,
                      .bytes_in = request.body.size(),
                      .bytes_out = line.problem.size(),
@@ -102,9 +115,27 @@ BatchReply App::answer_line(const Request& request) const {
           response.status != 200};
 }
 
-std::string App::summary(const BatchCount& count) {
-  return api::print_batch_summary(
-      {.items = count.items, .answered = count.answered, .refused = count.refused});
+Response App::summary(const Request& head, const BatchCount& count) const {
+  const Identity id = identify(head.headers);
+  const double now = steady_seconds();
+  JobRecord record{.facts = {.id = id.job_id, .endpoint = std::string(api::kBatchesId)},
+                   .method = "POST",
+                   .request_id = id.request_id,
+                   .traceparent = id.traceparent,
+                   .client = client_of(head, x_.trusted_proxies),
+                   .identity = identity_of(head),
+                   .status = 200,
+                   .seconds = now - head.times.read,
+                   .bytes_in = count.bytes_in,
+                   .bytes_out = count.bytes_out,
+                   .batch = count,
+                   .times = head.times,
+                   .begun = head.times.read};
+  Response last{.body = api::print_batch_summary(
+                    {.items = count.items, .answered = count.answered, .refused = count.refused})};
+  x_.started();
+  tell(std::move(record), head, last);
+  return last;
 }
 
 }  // namespace tubecut::server

@@ -141,8 +141,8 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
     return tl::unexpected(Exit{code == 0 ? 0 : 2, out.str(), err.str()});
   }
   for (auto* list : {&c.cors_origins, &c.trusted_proxies}) std::erase(*list, "");
-  if (print) return tl::unexpected(Exit{0, app.config_to_str(true, false), {}});
   if (auto why = contradiction(c); !why.empty()) return tl::unexpected(Exit{2, {}, why + '\n'});
+  if (print) return tl::unexpected(Exit{0, app.config_to_str(true, false), {}});
   if (c.admin_host.empty()) c.admin_host = c.host;
   if (c.replica.empty()) c.replica = host_name();
   if (health->parsed()) command.kind = Command::Kind::health;

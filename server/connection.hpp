@@ -26,7 +26,9 @@ struct Batch {
   bool stopped = false;  // no further line begins
   BatchCount count;
   std::vector<std::shared_ptr<Job>> running;
-  Clock::time_point stalled = Clock::time_point::max();  // when a client that takes nothing is cut
+  bool paid = true;      // its key's rate has let the next line in; the first came with the batch
+  std::size_t owed = 0;  // bytes the client has to take until `stalled`
+  Clock::time_point stalled = Clock::time_point::max();  // when a client too slow is cut off
   Clock::time_point again = Clock::time_point::max();    // when a full queue is asked again
 };
 
@@ -87,6 +89,7 @@ class Connection {
   std::string out;
   std::size_t out_at = 0;
   std::size_t lingered = 0;
+  std::size_t held = 0;  // bytes that came in, as the bound on memory counts them
   std::shared_ptr<Job> job;
   std::unique_ptr<Batch> batch;
   std::function<void(bool)> sent;

@@ -36,6 +36,9 @@ constexpr std::size_t kJobBytesPerByte = 48;
 /// Memory of a running job whatever its body: 17 MiB were measured for 20 000 points.
 constexpr std::size_t kSlotBytes = 24u << 20;
 constexpr std::size_t kLeastMemory = 16u << 20;
+/// Part of the memory that requests on their way may hold: jobs find the rest, however many bodies
+/// clients begin.
+constexpr std::size_t kArrivingShare = 2;
 
 /// What is left of the bound for bodies and answers once every slot has its part; 0: no bound.
 std::size_t shared_memory(const TransportOptions& options) {
@@ -252,6 +255,7 @@ void EventLoop::pump(Connection& c) {
       c.in.erase(0, digest(c, c.in));
       if (c.in.empty()) c.in = {};
       if (!connections_.contains(&c)) return;
+      account(c);
     }
     if ((!c.reading() && c.state != State::lingering) || !c.readable) return;
     if (n == kReadsPerTurn) {
@@ -273,6 +277,29 @@ void EventLoop::pump(Connection& c) {
     } else {
       c.in.append(bytes);
     }
+    if (!connections_.contains(&c)) return;
+    account(c);
+  }
+}
+
+/// Sets memory aside for what has come of the connection's next requests.
+void EventLoop::account(Connection& c) {
+  const auto held = (c.reading() ? c.reader.held() : 0) + c.in.size();
+  counters_.memory += held - c.held;  // modulo 2^64: less is right too
+  arriving_ += held - c.held;
+  c.held = held;
+}
+
+/// Of requests on their way, the one that holds most makes room for the others.
+void EventLoop::bound_arrivals() {
+  while (options_.memory > 0 && arriving_ > options_.memory / kArrivingShare) {
+    Connection* most = nullptr;
+    for (const auto& [c, owned] : connections_) {
+      if (c->reading() && c->held > 0 && (most == nullptr || c->held > most->held)) most = c;
+    }
+    if (most == nullptr) return;
+    ++counters_.bytes;
+    refuse_unread(*most, {ErrorCode::overloaded, "The memory for requests is in use."});
   }
 }
 
@@ -286,10 +313,9 @@ std::size_t EventLoop::digest(Connection& c, std::string_view bytes) {
       c.received = Clock::now();
       set_deadline(c, options_.head);
     }
-    const auto held = c.reader.held();
     const auto n = c.reader.take(bytes.substr(taken));
     taken += n;
-    counters_.memory += c.reader.held() - held;
+    account(c);
     switch (c.reader.state()) {
       case RequestReader::State::head:
         break;
@@ -307,9 +333,20 @@ std::size_t EventLoop::digest(Connection& c, std::string_view bytes) {
         refuse_unread(c, c.reader.fault());
         break;
     }
+    bound_arrivals();
     if (!connections_.contains(&c)) return taken;
   }
   return taken;
+}
+
+/// The largest body of such a request that the memory has room for. A batch's lines are jobs by
+/// themselves.
+std::size_t EventLoop::room_for_body(const Request& head) const {
+  const auto limit = service_.max_body(head.target);
+  if (options_.memory == 0) return limit;
+  const bool batch = service_.is_batch && service_.is_batch(head);
+  return std::min(limit, batch ? options_.memory / kArrivingShare - options_.max_head_bytes
+                               : options_.memory / kJobBytesPerByte);
 }
 
 std::optional<Refusal> EventLoop::head_refusal(Connection& c) const {
@@ -321,9 +358,9 @@ std::optional<Refusal> EventLoop::head_refusal(Connection& c) const {
     return Refusal{ErrorCode::body_too_large,
                    fmt::format("The body is larger than {} bytes.", limit)};
   }
-  if (options_.memory > 0 && memory_of(static_cast<std::size_t>(length)) > options_.memory) {
+  if (const auto room = room_for_body(head); length > room) {
     return Refusal{ErrorCode::body_too_large,
-                   fmt::format("This replica's memory takes no body of {} bytes.", length)};
+                   fmt::format("This replica's memory has room for {} bytes of body.", room)};
   }
   return std::nullopt;
 }
@@ -331,7 +368,7 @@ std::optional<Refusal> EventLoop::head_refusal(Connection& c) const {
 void EventLoop::on_head(Connection& c, bool more_there) {
   c.reader.request().peer = c.peer;
   if (auto refusal = head_refusal(c)) return refuse_unread(c, *std::move(refusal));
-  c.reader.allow_body(service_.max_body(c.reader.request().target));
+  c.reader.allow_body(room_for_body(c.reader.request()));
   c.state = State::body;
   set_deadline(c, options_.body);
   if (c.reader.expects_continue() && !more_there) c.send_now("HTTP/1.1 100 Continue\r\n\r\n");
@@ -348,9 +385,13 @@ bool EventLoop::in_time(const Job& job) const {
 /// Sets the job's memory aside and queues it; or tells why not.
 std::optional<Refusal> EventLoop::offer(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = memory_of(job->request.body.size());
-  if (options_.memory > 0 && counters_.memory > 0 && counters_.memory + memory > options_.memory) {
+  if (options_.memory > 0 && counters_.memory + memory > options_.memory) {
     ++counters_.bytes;
     return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
+  }
+  if (!in_time(*job)) {
+    ++counters_.wait;
+    return Refusal{ErrorCode::overloaded, "No slot will be free within half of the job's budget."};
   }
   if (service_.admit) {
     if (auto refusal = service_.admit(job->request)) return refusal;
@@ -359,7 +400,7 @@ std::optional<Refusal> EventLoop::offer(Connection& c, const std::shared_ptr<Job
   c.job = job;
   job->memory = memory;
   counters_.memory += memory;
-  if (in_time(*job) && slots_->offer(job)) return std::nullopt;
+  if (slots_->offer(job)) return std::nullopt;
   ++counters_.queue;
   c.job = nullptr;
   release(*job);
@@ -367,11 +408,10 @@ std::optional<Refusal> EventLoop::offer(Connection& c, const std::shared_ptr<Job
 }
 
 void EventLoop::on_whole(Connection& c) {
-  const auto body = c.reader.held();
   c.closing = c.closing || draining_ || !c.reader.keeps_alive();
   auto job = std::make_shared<Job>();
   job->request = std::move(c.reader.request());
-  counters_.memory -= body;
+  account(c);
   Request& request = job->request;
   request.peer = c.peer;
   request.stop = job->stop.get_token();
@@ -413,9 +453,9 @@ void EventLoop::refuse(Connection& c, Refusal refusal) {
 /// The rest of the request will not be read: the connection ends.
 void EventLoop::refuse_unread(Connection& c, Refusal refusal) {
   c.closing = c.unread = true;
-  counters_.memory -= c.reader.held();
   c.in = {};
   refuse(c, std::move(refusal));
+  account(c);
 }
 
 void EventLoop::release(Job& job) { counters_.memory -= std::exchange(job.memory, 0); }
@@ -473,9 +513,10 @@ void EventLoop::close(Connection& c) {
     if (slots_->withdraw(c.job)) release(*c.job);
     c.job = nullptr;
   }
+  if (c.batch) c.sent = service_.summary(c.batch->head, c.batch->count).sent;  // for the log
   drop_batch(c);
-  if (c.reading()) counters_.memory -= c.reader.held();
-  counters_.memory -= c.out.size();
+  counters_.memory -= c.held + c.out.size();
+  arriving_ -= std::exchange(c.held, 0);
   buried_.push_back(std::move(at->second));
   connections_.erase(at);
   counters_.connections = connections_.size();
@@ -494,7 +535,9 @@ void EventLoop::expire_all() {
   for (auto& [c, owned] : connections_) {
     if (c->deadline <= now) due.push_back(c);
   }
-  for (auto* const c : due) expire(*c);
+  for (auto* const c : due) {
+    if (connections_.contains(c)) expire(*c);
+  }
   soonest_ = Clock::time_point::max();
   for (auto& [c, owned] : connections_) soonest_ = std::min(soonest_, c->deadline);
 }
@@ -541,6 +584,7 @@ void EventLoop::begin_drain() {
   std::vector<Connection*> all;
   for (auto& [c, owned] : connections_) all.push_back(c);
   for (auto* const c : all) {
+    if (!connections_.contains(c)) continue;
     if (c->job) c->job->close = true;
     c->closing = true;
     // A fresh connection was accepted as work: its request may still be on the wire.

@@ -61,6 +61,9 @@ class EventLoop {
 
   void pump(Connection& c);
   std::size_t digest(Connection& c, std::string_view bytes);
+  void account(Connection& c);
+  void bound_arrivals();
+  [[nodiscard]] std::size_t room_for_body(const Request& head) const;
   void on_head(Connection& c, bool more_there);
   void on_whole(Connection& c);
   void on_end(Connection& c);
@@ -108,7 +111,8 @@ class EventLoop {
   std::vector<std::unique_ptr<Connection>> buried_;  // ended in this round of events
   std::vector<Connection*> again_;                   // have more bytes than one turn
   Clock::time_point soonest_ = Clock::time_point::max();
-  double mean_s_ = 0.0;  // of a job in its slot
+  std::size_t arriving_ = 0;  // bytes of requests not yet handed on
+  double mean_s_ = 0.0;       // of a job in its slot
   bool draining_ = false;
   bool ending_ = false;
   Clock::time_point drained_by_ = Clock::time_point::max();

@@ -15,7 +15,7 @@ using State = Connection::State;
 
 /// Answers held for a client that is slow to take them; no further line begins beyond.
 constexpr std::size_t kHeld = 512u << 10;
-constexpr auto kAskAgain = 20ms;  // a full queue
+constexpr auto kAskAgain = 20ms;  // a full queue, or the key's rate
 constexpr std::string_view kLastChunk = "0\r\n\r\n";
 
 std::string chunk(std::string_view text) {
@@ -45,7 +45,7 @@ std::string_view next_line(std::string_view lines, std::size_t& at) {
 
 void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = job->request.body.size();
-  if (options_.memory > 0 && counters_.memory > 0 && counters_.memory + memory > options_.memory) {
+  if (options_.memory > 0 && counters_.memory + memory > options_.memory) {
     ++counters_.bytes;
     job->request.refusal = {ErrorCode::overloaded, "The memory for jobs is in use."};
   } else if (service_.admit) {
@@ -67,6 +67,7 @@ void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   counters_.memory += memory;
   std::size_t at = 0;
   while (!next_line(c.batch->lines, at).empty()) ++c.batch->count.items;
+  c.batch->count.bytes_in = memory;
   c.out = print_head(head, c.closing);
   c.out_at = 0;
   counters_.memory += c.out.size();
@@ -96,9 +97,11 @@ void EventLoop::feed(Connection& c) {
   set_batch_deadline(c);
 }
 
-/// False when the queue is full.
+/// False when the queue is full, or the rate of the batch's key is used up.
 bool EventLoop::feed_line(Connection& c, std::string_view line) {
   Batch& batch = *c.batch;
+  if (!batch.paid && service_.admit && service_.admit(batch.head)) return false;
+  batch.paid = true;
   auto job = std::make_shared<Job>();
   job->request = batch.head;
   job->request.body = line;
@@ -112,6 +115,7 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   if (!slots_->offer(job)) return false;
   counters_.memory += job->memory;
   ++batch.line;
+  batch.paid = false;
   batch.running.push_back(std::move(job));
   return true;
 }
@@ -121,6 +125,7 @@ void EventLoop::answer_line(Connection& c, std::string_view text, bool refused) 
   const auto bytes = chunk(text);
   c.out += bytes;
   counters_.memory += bytes.size();
+  c.batch->count.bytes_out += text.size();
 }
 
 void EventLoop::finish_line(Connection& c, Job& job) {
@@ -129,7 +134,9 @@ void EventLoop::finish_line(Connection& c, Job& job) {
   feed(c);
 }
 
+/// What is held for the client has to be taken within the time for an answer, not a byte of it.
 void EventLoop::send_batch(Connection& c) {
+  Batch& batch = *c.batch;
   const auto size = c.out.size();
   const auto done = c.send();
   if (!done) {
@@ -138,19 +145,20 @@ void EventLoop::send_batch(Connection& c) {
   }
   c.out.erase(0, c.out_at);
   c.out_at = 0;
-  const bool progress = c.out.size() < size;
-  counters_.memory -= size - c.out.size();
-  if (c.out.empty()) {
-    c.batch->stalled = Clock::time_point::max();
-  } else if (progress || c.batch->stalled == Clock::time_point::max()) {
-    c.batch->stalled = Clock::now() + options_.write;
-  }
+  const auto taken = size - c.out.size();
+  counters_.memory -= taken;
+  batch.owed -= std::min(batch.owed, taken);
+  if (batch.owed > 0) return;
+  batch.owed = c.out.size();
+  batch.stalled = c.out.empty() ? Clock::time_point::max() : Clock::now() + options_.write;
 }
 
 void EventLoop::end_batch(Connection& c) {
-  const auto last = chunk(service_.summary(c.batch->count)) + std::string(kLastChunk);
+  Response summary = service_.summary(c.batch->head, c.batch->count);
+  const auto last = chunk(summary.body) + std::string(kLastChunk);
   c.out += last;
   counters_.memory += last.size();
+  c.sent = std::move(summary.sent);
   drop_batch(c);
   c.state = State::writing;
   set_deadline(c, options_.write);

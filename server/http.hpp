@@ -54,6 +54,8 @@ struct BatchCount {
   std::size_t items = 0;
   std::size_t answered = 0;
   std::size_t refused = 0;
+  std::size_t bytes_in = 0;
+  std::size_t bytes_out = 0;
 };
 
 /// The body stays in the answer to a HEAD: its length is sent, the transport leaves the bytes out.

@@ -15,11 +15,6 @@ namespace {
 bool printable(char c) { return c >= 0x20 && c <= 0x7e; }
 bool lower_hex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
 
-bool sound_id(std::string_view id) {
-  return !id.empty() && id.size() <= kLongestId && std::ranges::all_of(id, printable) &&
-         id.front() != ' ' && id.back() != ' ';
-}
-
 bool all_zero(std::string_view digits) { return digits.find_first_not_of('0') == digits.npos; }
 
 /// version-traceid-parentid-flags of W3C Trace Context, version 00.
@@ -42,6 +37,11 @@ std::string sole_id(const Headers& headers, std::string_view name) {
 }
 
 }  // namespace
+
+bool sound_id(std::string_view id) {
+  return !id.empty() && id.size() <= kLongestId && std::ranges::all_of(id, printable) &&
+         id.front() != ' ' && id.back() != ' ';
+}
 
 std::string random_id() {
   std::array<std::uint64_t, 2> bits{};

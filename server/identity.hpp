@@ -7,6 +7,10 @@
 
 namespace tubecut::server {
 
+/// Whether a text can be a job's or a request's name: 1 to 128 printable ASCII characters without
+/// spaces at its ends.
+[[nodiscard]] bool sound_id(std::string_view id);
+
 /// The names a request goes by. Nothing is stored under them: they are for answers and logs.
 struct Identity {
   std::string request_id;       // the client's X-Request-Id when it is sound, else 128 random bits

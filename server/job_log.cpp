@@ -162,15 +162,6 @@ struct Event {
   double at = 0.0;  // seconds since the first byte
 };
 
-/// What a stage's end is called among the events.
-std::string_view event_of(std::string_view stage) {
-  if (stage == "parse") return "decoded";
-  if (stage == "decode") return "validated";
-  if (stage == "compute") return "computed";
-  if (stage == "verify") return "verified";
-  return "encoded";
-}
-
 std::vector<Event> events_of(const JobRecord& job) {
   const double zero = job.times.received > 0.0 ? job.times.received : job.begun;
   std::vector<Event> events = {{"received", 0.0}};
@@ -179,7 +170,7 @@ std::vector<Event> events_of(const JobRecord& job) {
   double at = job.begun - zero;
   for (const auto& stage : job.facts.stages) {
     at += stage.seconds;
-    events.push_back({event_of(stage.name), at});
+    events.push_back({api::event_of(stage.name), at});
   }
   if (job.sent > 0.0) events.push_back({"sent", job.sent - zero});
   return events;
@@ -221,6 +212,11 @@ std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point
   line.close('}').milliseconds("total_ms", job.seconds);
   line.integer("bytes_in", static_cast<std::int64_t>(job.bytes_in));
   line.integer("bytes_out", static_cast<std::int64_t>(job.bytes_out));
+  if (job.batch) {
+    line.integer("items", static_cast<std::int64_t>(job.batch->items));
+    line.integer("answered", static_cast<std::int64_t>(job.batch->answered));
+    line.integer("refused", static_cast<std::int64_t>(job.batch->refused));
+  }
   if (!job.client.empty()) line.text("client", job.client);
   if (!job.identity.empty()) line.text("identity", job.identity);
   if (!job.traceparent.empty()) line.text("traceparent", job.traceparent);

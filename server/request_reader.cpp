@@ -112,7 +112,8 @@ struct RequestReader::Impl {
   Parser parser;
   State state = State::head;
   Refusal fault;
-  std::string head;       // not yet whole
+  std::string head;  // not yet whole
+  std::size_t head_length = 0;
   std::size_t empty = 0;  // bytes of empty lines passed over
   std::size_t body_limit = 0;
   std::size_t on_wire = 0;  // bytes of a chunked body with its framing
@@ -157,6 +158,7 @@ std::size_t RequestReader::Impl::read_head(std::string_view bytes, std::size_t t
   if (target.empty()) return malformed("The target is no path of this service.", taken);
   request.target = std::move(target);
   head = {};
+  head_length = bytes.size();
   state = parser.is_done() ? State::whole : State::body;
   return taken;
 }
@@ -226,6 +228,9 @@ bool RequestReader::keeps_alive() const {
   return x_->parser.minor > 0;
 }
 
-std::size_t RequestReader::held() const { return x_->parser.request.body.size(); }
+std::size_t RequestReader::held() const {
+  const auto head = x_->state == State::body ? x_->head_length : x_->head.size();
+  return head + x_->parser.request.body.size();
+}
 
 }  // namespace tubecut::server

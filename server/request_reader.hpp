@@ -44,7 +44,7 @@ class RequestReader {
   [[nodiscard]] bool expects_continue() const;
   /// Whether the client leaves the connection open for another request.
   [[nodiscard]] bool keeps_alive() const;
-  /// Bytes of the body so far.
+  /// Bytes kept: of the head, and of the body so far.
   [[nodiscard]] std::size_t held() const;
 
  private:

@@ -54,7 +54,7 @@ class Lines {
       for (int i = 0; i < std::max(1, capacity().slots); ++i)
         threads.emplace_back([this] { work(); });
     }
-    const auto last = App::summary(count_);
+    const auto last = app_.summary({}, count_).body;
     std::fwrite(last.data(), 1, last.size(), stdout);
     if (watched_) std::fputc('\n', stderr);
     return count_;

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <future>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "server/access.hpp"
@@ -72,7 +75,8 @@ Service service_of(const App& app) {
           .is_batch = App::is_batch,
           .batch_head = [&app](const Request& request) { return app.batch_head(request); },
           .line = [&app](const Request& request) { return app.line(request); },
-          .summary = App::summary,
+          .summary = [&app](const Request& head,
+                            const BatchCount& count) { return app.summary(head, count); },
           .budget = [&app](const Request& request) { return app.budget(request); }};
 }
 
@@ -200,8 +204,25 @@ struct Run {
 
 constexpr int kRefusedToStart = 78;  // EX_CONFIG of sysexits.h
 
+/// The address of either port that other machines reach; empty when they reach none.
+std::string reached_host(const Config& c) {
+  if (!is_loopback(c.host)) return c.host;
+  return is_loopback(c.admin_host) ? std::string{} : c.admin_host;
+}
+
+/// What is wrong with a folder to write jobs' files into, or nothing.
+std::string folder_fault(const std::string& folder) {
+  if (folder.empty()) return {};
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown))
+    return fmt::format("--log-directory: {} is no folder", folder);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    return fmt::format("--log-directory: cannot write into {}", folder);
+  return {};
+}
+
 /// Whoever reaches the port may use it: that has to be said, or keys given.
-int refuse_open(const Config& c) {
+int refuse_open(const std::string& host) {
   fmt::print(stderr,
              "tubecut-server: {0} is reached from other machines and no keys are set. Either\n"
              "  tubecut-server new-key NAME | tee /dev/stderr | tail -n 1 >> keys.txt\n"
@@ -210,7 +231,7 @@ int refuse_open(const Config& c) {
              "  tubecut-server --host 127.0.0.1\n"
              "or let everybody in who reaches the port (TUBECUT_OPEN=true does the same):\n"
              "  tubecut-server --host {0} --open\n",
-             c.host);
+             host);
   return kRefusedToStart;
 }
 
@@ -219,7 +240,10 @@ int refuse_open(const Config& c) {
 int serve(const Config& c) {
   const Signals signals;
   raise_descriptor_limit();
-  if (!is_loopback(c.host) && c.keys.empty() && !c.open) return refuse_open(c);
+  const auto reached = reached_host(c);
+  if (!reached.empty() && c.keys.empty() && !c.open) return refuse_open(reached);
+  if (const auto wrong = folder_fault(c.log_directory); !wrong.empty())
+    return fail(wrong, kRefusedToStart);
   Run run(c);
   if (const auto wrong = run.access->load(); !wrong.empty()) return fail(wrong, kRefusedToStart);
   const Capacity can = capacity_of(c);

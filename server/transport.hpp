@@ -30,8 +30,8 @@ struct Service {
   std::function<Response(const Request&)> batch_head = {};
   /// Answers the line in `Request::body`, the `Request::line`-th of a batch.
   std::function<BatchReply(const Request&)> line = {};
-  /// The last line of a batch's answer.
-  std::function<std::string(const BatchCount&)> summary = {};
+  /// The last line of a batch's answer, as the body: the batch with that head is over.
+  std::function<Response(const Request& head, const BatchCount&)> summary = {};
   /// Time for the job, from its last byte in to its answer; empty: no end.
   std::function<std::chrono::milliseconds(const Request&)> budget = {};
 };

@@ -142,6 +142,36 @@ TEST(Binary, AnswersThoughNobodyReadsItsLog) {
   EXPECT_EQ(service.program.exit_code(), 0);
 }
 
+/// 20 MB leave 16 MiB for jobs, so 349 525 bytes for a body, and half for the lines of a batch.
+TEST(Binary, TakesBodiesItsMemoryHasRoomFor) {
+  Service service({"--memory-bytes", "20000000"});
+  const std::string fits(349'000, ' ');
+  const std::string too_large(350'000, ' ');
+  const std::string chunks = "Transfer-Encoding: chunked\r\nContent-Type: application/json\r\n";
+  EXPECT_EQ(ask(service.port, post("/v1/nodes", fits)).status, 400);
+  EXPECT_EQ(ask(service.port, post("/v1/nodes", too_large)).status, 413);
+  const std::string head = "POST /v1/nodes HTTP/1.1\r\nHost: x\r\n" + chunks + "\r\n";
+  EXPECT_EQ(ask(service.port, head + "55730\r\n" + too_large + "\r\n0\r\n\r\n").status, 413);
+  EXPECT_EQ(ask(service.port,
+                "POST /v1/batches HTTP/1.1\r\nHost: x\r\nContent-Type: application/x-ndjson\r\n"
+                "Content-Length: 3000000\r\n\r\n" +
+                    std::string(3'000'000, ' '))
+                .status,
+            200);
+}
+
+TEST(Binary, RefusesToStartInTheOpenOrWithoutItsFolder) {
+  using Words = std::vector<std::string>;
+  for (const auto& words :
+       {Words{"--host", "0.0.0.0"}, Words{"--admin-host", "0.0.0.0"},
+        Words{"--log-directory", "/nowhere"}, Words{"--log-directory", TUBECUT_BINARY}}) {
+    EXPECT_EQ(Program(Service::words(words)).exit_code(), 78) << words.back();
+  }
+  EXPECT_EQ(Program({TUBECUT_BINARY, "--port", "9090", "--admin-port", "9090", "--print-config"})
+                .exit_code(),
+            2);
+}
+
 TEST(Binary, RefusesAPortThatIsTaken) {
   const Service service;
   Program second({TUBECUT_BINARY, "--port", std::to_string(service.port), "--admin-port", "0"});

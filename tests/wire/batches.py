@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 """POST /v1/batches on the wire: `batches.py BINARY JOBS`. Jobs are drawn as source 002 describes (diameters 400-2 000 mm,
 walls 20-50 mm, angles 30-90 deg, every one different), one bad line in the middle. Every id is answered once, each body is
-what a request by itself gets, memory stays flat, a single request gets its turn, a client that hangs up or takes nothing is
-dropped with its jobs, and SIGTERM ends the stream with a summary of what is left."""
+what a request by itself with that Job-Id gets, memory stays flat, a single request gets its turn, a client that hangs up or
+takes nothing, or a byte now and then, is dropped with its jobs, lines wait for their key's rate, the log has every line by its
+id and the batch itself, and SIGTERM ends the stream with a summary of what is left."""
 
 import collections
 import http.client
 import json
 import random
 import statistics
+import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -39,12 +42,14 @@ def lines_of(count):
     return jobs, b"\n".join(lines) + b"\n"
 
 
-def batch(port, body):
+def batch(port, body, **headers):
     """The answer's lines, as they come."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
-    connection.request("POST", "/v1/batches", body, {"Content-Type": "application/x-ndjson"})
+    sent = {name.replace("_", "-"): value for name, value in headers.items()}
+    connection.request("POST", "/v1/batches", body, {"Content-Type": "application/x-ndjson"} | sent)
     reply = connection.getresponse()
     assert reply.status == 200, reply.status
+    assert all(reply.headers[name] == value for name, value in sent.items() if name != "X-Api-Key"), reply.headers
     for line in reply:
         yield json.loads(line)
 
@@ -101,7 +106,7 @@ class Suite:
             self.check(grown <= GROWTH, f"{grown:.1f} MiB more than before")
             for line in samples:
                 asked = json.dumps(self.jobs[line["line"] - 1]["body"]).encode()
-                alone = exchange(service.port, post(asked, target="/v1/bevel-tables"))[0]
+                alone = exchange(service.port, post(asked, f"Job-Id: {line['id']}", target="/v1/bevel-tables"))[0]
                 self.check(json.loads(alone.body) == line["body"], f"{line['id']} is answered otherwise by itself")
             self.check(len(samples) >= 4 and len(times) >= 2, "too few samples")
             print(f"{self.count} jobs in {seconds:.1f} s, {grown:.1f} MiB more at most, {len(times)} single requests beside it "
@@ -127,18 +132,50 @@ class Suite:
             self.check(service.metric("tubecut_memory_reserved_bytes") == 0, "memory set aside is not given back")
             print(f"hang-up: idle after {1e3 * seconds:.0f} ms")
 
-    def takes_nothing(self):
+    def takes_little(self, at_a_time):
         with Service(self.binary, "--write-s", "1") as service:
             sock = connect(service.port)
             sock.sendall(head(self.body) + self.body)
             start = time.monotonic()
             while time.monotonic() - start < 8 and service.metric("tubecut_clients_too_slow_total") == 0:
                 time.sleep(0.05)
-            self.check(service.metric("tubecut_clients_too_slow_total") == 1, "a client that takes nothing is not cut off")
+                if at_a_time > 0:
+                    sock.recv(at_a_time)
+            self.check(service.metric("tubecut_clients_too_slow_total") == 1, f"a client that takes {at_a_time} bytes is not cut off")
             peak = service.memory()
             self.check(service.metric("tubecut_memory_reserved_bytes") == 0, "memory set aside is not given back")
-            print(f"takes nothing: cut off after {time.monotonic() - start:.1f} s, peak {peak:.0f} MiB")
+            print(f"takes {at_a_time} bytes at a time: cut off after {time.monotonic() - start:.1f} s, peak {peak:.0f} MiB")
             sock.close()
+
+    def is_logged(self):
+        """Every line by its id, and the batch."""
+        lines = lines_of(20)[1] + b'{"id":"of no endpoint","endpoint":"nodez","body":{}}\n'
+        process = subprocess.Popen([self.binary, "--port", "0", "--admin-port", "0"], stdout=subprocess.PIPE)
+        port = json.loads(process.stdout.readline())["port"]
+        list(batch(port, lines, Job_Id="night shift", Idempotency_Key="n-1"))
+        process.terminate()
+        told = {event["job"]: event for event in map(json.loads, process.stdout) if event["event"] == "job"}
+        missing = [one["id"] for n, one in enumerate(self.jobs[:20]) if n != 10 and told.get(one["id"], {}).get("status") != 200]
+        self.check(not missing, f"not in the log: {missing}")
+        self.check(told.get("of no endpoint", {}).get("code") == "bad_choice", f"{told.get('of no endpoint')}")
+        whole = told.get("night shift", {})
+        self.check([whole.get(name) for name in ("endpoint", "status", "items", "answered", "refused")] == ["batches", 200, 21, 19, 2]
+                   and "sent" in whole.get("at_ms", {}), f"{whole}")
+        process.wait(10)
+
+    def minds_the_rate(self):
+        """A key's lines wait for its rate: 10 at once, the others 10 a second."""
+        _, key, _, line = subprocess.run([self.binary, "new-key", "cell"], check=True, capture_output=True, text=True).stdout.splitlines()
+        with tempfile.NamedTemporaryFile("w") as keys:
+            keys.write(f"{line} 10\n")
+            keys.flush()
+            with Service(self.binary, "--keys", keys.name) as service:
+                start = time.monotonic()
+                answers = list(batch(service.port, lines_of(25)[1], X_Api_Key=key))
+                seconds = time.monotonic() - start
+                self.check(answers[-1]["summary"]["answered"] == 24, f"{answers[-1]}")
+                self.check(1.4 <= seconds, f"25 lines took {seconds:.2f} s at 10 a second")
+                print(f"25 lines at 10 a second: {seconds:.2f} s")
 
     def drains(self):
         with Service(self.binary) as service:
@@ -174,7 +211,8 @@ class Suite:
                 self.check(data.count(b'"summary"') == 2, "pipelined batches")
 
     def run(self):
-        for part in (self.whole, self.hang_up, self.takes_nothing, self.drains, self.odd_ones):
+        for part in (self.whole, self.hang_up, lambda: self.takes_little(0), lambda: self.takes_little(10_000), self.is_logged,
+                     self.minds_the_rate, self.drains, self.odd_ones):
             part()
         for fault in self.faults[:20]:
             print(fault)
