@@ -259,6 +259,18 @@ class Agreement(unittest.TestCase):
         named = set(re.findall(r"TUBECUT_ERRORS}/([\w.]+)", CONFIG))
         self.assertEqual(named, {p.name for p in (DOCKER / "errors").iterdir() if p.suffix in (".http", ".json")})
 
+    def test_the_proxy_calls_retryable_what_the_service_does(self):
+        retryable = set(re.findall(r"status == (\d+)", (ROOT / "server/status.cpp").read_text()))
+        self.assertEqual(len(retryable), 3)
+        problems = {p.stem: json.loads(re.search(r"{.*}", p.read_text())[0])
+                    for p in (DOCKER / "errors").iterdir() if p.suffix in (".http", ".json")}
+        self.assertGreater(len(problems), 6)
+        self.assertEqual({status for status, problem in problems.items() if problem["retryable"]}, retryable & problems.keys())
+        self.assertEqual(set(re.findall(r"http-error status (\d+) .* hdr Retry-After", CONFIG)), retryable & problems.keys())
+        for status, problem in problems.items():
+            self.assertEqual(str(problem["status"]), status)
+            self.assertEqual("again" in problem["action"], problem["retryable"], status)
+
     def test_dockerfile_installs_what_dev_does(self):
         listed = re.search(r"^for_build=\((.*?)\)$", (ROOT / "dev").read_text(), re.M | re.S)[1].split()
         first = re.search(r"install -y --no-install-recommends \\\n(.*?)\nWORKDIR", (DOCKER / "Dockerfile").read_text(), re.S)[1]
