@@ -324,8 +324,15 @@ class Agreement(unittest.TestCase):
                 "Package: libc6\nStatus: install ok installed\nVersion: 2.36-9\nArchitecture: amd64\n")
             (root / "usr/share/tubecut/compiled-in").write_text("eigen3 3.4.0-4\ncli11 2.3.2+ds-1\n")
             d = spdx.document(root, "1.2.3", "abc", "2026-01-01T00:00:00Z")
+        console = json.loads((ROOT / "web/package.json").read_text())["dependencies"]  # versions pinned; carried in the binary
+        self.assertGreaterEqual(len(console), 3)
         ids = [p["SPDXID"] for p in d["packages"]]
-        self.assertEqual([p["name"] for p in d["packages"]], ["tubecut", "libc6", "libstdc++6", "cli11", "eigen3"])
+        self.assertEqual([p["name"] for p in d["packages"]], ["tubecut", "libc6", "libstdc++6", "cli11", "eigen3", *console])
+        for p in d["packages"][5:]:
+            self.assertEqual(p["externalRefs"][0]["referenceLocator"], f"pkg:npm/{p['name']}@{console[p['name']]}")
+            self.assertEqual(p["versionInfo"], console[p["name"]])
+            self.assertIn(p["licenseDeclared"], ("MIT", "Apache-2.0"))
+            self.assertIn({"spdxElementId": ids[0], "relationshipType": "CONTAINS", "relatedSpdxElement": p["SPDXID"]}, d["relationships"])
         self.assertEqual(len(set(ids)), len(ids))
         for name in ids:
             self.assertRegex(name, r"^SPDXRef-[A-Za-z0-9.-]+$")
