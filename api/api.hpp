@@ -104,6 +104,9 @@ struct BatchSummary {
 };
 [[nodiscard]] std::string print_batch_summary(const BatchSummary& summary);
 
+/// Ids of the endpoint table: what JobFacts::endpoint can be, unless empty.
+[[nodiscard]] std::vector<std::string_view> endpoint_ids();
+
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
 

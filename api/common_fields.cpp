@@ -38,14 +38,13 @@ CommonFields read_common_fields(Reader& in, std::span<const std::string_view> ac
   in.take_echo("log");
   in.note("numerics");
   if (in.has("numerics")) out.numerics = in.integer("numerics", 1, kMaxNumerics);
-  in.note("accept");
-  if (!accepts.empty() && in.has("accept"))
-    in.object("accept", [&](Reader& r) {
-      for (const auto name : accepts)
-        if (const auto value = r.optional_number(name, kNotNegative))
-          out.accept.push_back({name, *value});
-      return 0;
-    });
+  if (accepts.empty()) return out;  // `accept` is as unknown there as any other name
+  in.optional_object("accept", [&](Reader& r) {
+    for (const auto name : accepts)
+      if (const auto value = r.optional_number(name, kNotNegative))
+        out.accept.push_back({name, *value});
+    return 0;
+  });
   return out;
 }
 

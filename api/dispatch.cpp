@@ -414,6 +414,12 @@ Outcome problem(ErrorCode code, std::string_view detail, std::string_view reques
   return Job(call, context).refuse(code, std::string(detail));
 }
 
+std::vector<std::string_view> endpoint_ids() {
+  std::vector<std::string_view> out;
+  for (const auto& endpoint : endpoints()) out.push_back(endpoint.id);
+  return out;
+}
+
 std::size_t max_body(std::string_view path) {
   for (const auto& endpoint : endpoints())
     if (endpoint.path == path) return endpoint.max_body;

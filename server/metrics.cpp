@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "api/api.hpp"
+#include "server/status.hpp"
 
 namespace tubecut::server {
 namespace {
@@ -62,6 +63,25 @@ std::string method_label(std::string_view method) {
   return known ? std::string(method) : "_OTHER";
 }
 
+constexpr const char* kNoEndpoint = "none";
+
+prometheus::Labels error_labels(std::string_view endpoint, std::string_view code, int status) {
+  return {{"endpoint", std::string(endpoint)},
+          {"code", std::string(code)},
+          {"http_response_status_code", std::to_string(status)}};
+}
+
+/// The codes answered with 5xx, and their statuses.
+std::vector<std::pair<std::string_view, int>> failures() {
+  std::vector<std::pair<std::string_view, int>> out = {
+#define X(code, kind, meaning, action) {#code, status_of(ErrorKind::kind)},
+      TUBECUT_ERRORS(X)
+#undef X
+  };
+  std::erase_if(out, [](const auto& code) { return code.second < 500; });
+  return out;
+}
+
 void catch_up(Counter& counter, std::uint64_t total) {
   const double behind = static_cast<double>(total) - counter.Value();
   if (behind > 0.0) counter.Increment(behind);
@@ -95,8 +115,8 @@ struct Metrics::Impl {
       histogram(registry, "tubecut_stage_duration_seconds", "Time in each stage of a job.");
   Family<Counter>& jobs = counter(registry, "tubecut_jobs_total",
                                   "Jobs by endpoint and verdict: ok, review, reject, or refused.");
-  Family<Counter>& errors =
-      counter(registry, "tubecut_errors_total", "Problems answered, by endpoint and error code.");
+  Family<Counter>& errors = counter(registry, "tubecut_errors_total",
+                                    "Problems answered, by endpoint, error code and status.");
   Family<Counter>& unproven = counter(registry, "tubecut_verification_failures_total",
                                       "Answers withheld because a check failed: each is a bug.");
   Family<Counter>& refused = counter(registry, "tubecut_refused_total",
@@ -121,9 +141,22 @@ struct Metrics::Impl {
           "The integer raised with every change of a result bit.")
         .Add({})
         .Set(api::numerics());
-    unproven.Add({{"endpoint", "none"}});  // an alert on it needs a zero to rise from
+    start_at_zero();
     count_refusals();
     show_levels();
+  }
+
+  /// increase() sees only what rises: a series that begins with its first failure would hide it.
+  void start_at_zero() {
+    auto endpoints = api::endpoint_ids();
+    endpoints.emplace_back(kNoEndpoint);
+    const auto codes = failures();
+    for (const auto endpoint : endpoints) {
+      unproven.Add({{"endpoint", std::string(endpoint)}});
+      for (const auto& [code, status] : codes) {
+        errors.Add(error_labels(endpoint, code, status));
+      }
+    }
   }
 
   void count_refusals() {
@@ -167,7 +200,7 @@ void Metrics::started() { x_->active.Increment(); }
 void Metrics::finished(const JobRecord& job) {
   x_->active.Decrement();
   const bool known = !job.facts.endpoint.empty();
-  const std::string endpoint = known ? job.facts.endpoint : "none";
+  const std::string endpoint = known ? job.facts.endpoint : kNoEndpoint;
   const std::string route = known ? "/v1/" + job.facts.endpoint : "other";
   const prometheus::Labels http = {{"http_request_method", method_label(job.method)},
                                    {"http_route", route},
@@ -184,7 +217,7 @@ void Metrics::finished(const JobRecord& job) {
     const std::string verdict = code.empty() ? job.facts.verdict : "refused";
     x_->jobs.Add({{"endpoint", endpoint}, {"verdict", verdict}}).Increment();
   }
-  if (!code.empty()) x_->errors.Add({{"endpoint", endpoint}, {"code", code}}).Increment();
+  if (!code.empty()) x_->errors.Add(error_labels(endpoint, code, job.status)).Increment();
   if (code == "verification_failed") x_->unproven.Add({{"endpoint", endpoint}}).Increment();
   if (code == "rate_limited") x_->rate.Increment();
 }

@@ -1,6 +1,6 @@
 // Single edits of a valid request that a schema refuses, each with the pointers its problem may name.
 
-const escape = (name) => name.replaceAll('~', '~0').replaceAll('/', '~1');
+export const escape = (name) => name.replaceAll('~', '~0').replaceAll('/', '~1');
 const typeOf = (value) => (value === null ? 'null' : Array.isArray(value) ? 'array' : typeof value);
 const copy = (value) => JSON.parse(JSON.stringify(value));
 
@@ -34,7 +34,7 @@ export function branchOf(contract, schema, value) {
 const words = (schema) => ('const' in schema ? [schema.const] : schema.enum);
 
 // Could one object be meant as either? Not when a member takes other words in each.
-function alike(a, b) {
+export function alike(a, b) {
   if (!a.properties || !b.properties) return false;  // one of them is no object
   return a.type === b.type && Object.entries(a.properties ?? {}).every(([name, p]) => {
     const q = b.properties[name];

@@ -2,6 +2,7 @@
 import {parseArgs} from 'node:util';
 import {answers} from './suites/answers.mjs';
 import {editsRefused} from './suites/edits_refused.mjs';
+import {fields} from './suites/fields.mjs';
 import {gltf} from './suites/gltf.mjs';
 import {http} from './suites/http.mjs';
 import {mutants} from './suites/mutants.mjs';
@@ -9,7 +10,7 @@ import {valid} from './suites/valid.mjs';
 import {Contract} from './schemas.mjs';
 import {Service} from './service.mjs';
 
-const SUITES = {valid, edits: editsRefused, http, answers, mutants, gltf};
+const SUITES = {valid, edits: editsRefused, fields, http, answers, mutants, gltf};
 const SHOWN = 12;
 
 class Report {

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import {readFileSync, readdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
+import {isIPv4} from 'node:net';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {parseAllDocuments} from 'yaml';
@@ -51,9 +52,12 @@ function documents(folder) {
   });
 }
 
-// As Kustomize does it for what our patches hold: objects by key, lists of named things by name.
+// As Kustomize does it for what our patches hold: objects by key, lists of named things by name, new ones at their end.
 function patched(base, patch) {
-  if (Array.isArray(base)) return base.map((item) => patched(item, patch.find((p) => p.name === item.name) ?? {}));
+  if (Array.isArray(base)) {
+    const added = patch.filter((p) => !base.some((item) => item.name === p.name));
+    return [...base.map((item) => patched(item, patch.find((p) => p.name === item.name) ?? {})), ...added];
+  }
   if (patch === null || typeof patch !== 'object') return patch;
   const merged = Object.entries(patch).map(([key, value]) => [key, base?.[key] === undefined ? value : patched(base[key], value)]);
   return {...base, ...Object.fromEntries(merged)};
@@ -123,6 +127,30 @@ assert.equal(of('HorizontalPodAutoscaler').spec.scaleTargetRef.name, of('Deploym
 assert.ok(ports.includes(of('Service').spec.ports[0].targetPort));
 for (const rule of of('NetworkPolicy').spec.ingress) for (const p of rule.ports) assert.ok(ports.includes(p.port));
 assert.equal(of('Ingress', 'overlays').spec.rules[0].http.paths[0].backend.service.name, of('Service').metadata.name);
+
+// What a site sets by the example's patches. An address or network that the server takes.
+const site = all.filter((d) => d.path.includes('overlays') && d.document.kind === 'Deployment')
+  .map((d) => d.document.spec.template.spec.containers[0]);
+const trusted = site.flatMap((c) => c.env).filter((e) => e.name === 'TUBECUT_TRUSTED_PROXY');
+assert.equal(trusted.length, 1);
+const [address, bits] = trusted[0].value.split('/');
+assert.ok(isIPv4(address) && Number(bits) <= 32);
+
+// What is asked without a key needs none: the admin port never does, the service's port does for all but the console, and a check of
+// HAProxy's without a method is OPTIONS.
+for (const probe of ['readinessProbe', 'livenessProbe']) assert.equal(container[probe].httpGet.port, 'admin', probe);
+const {annotations} = of('Ingress', 'overlays').metadata;
+assert.match(annotations['haproxy.org/check-http'] ?? 'HEAD /', /^(GET|HEAD) \/( |$)/);
+
+// 70 % of the CPU a replica may use, whatever its size; and replicas to spare for what a disruption may take.
+const autoscaler = of('HorizontalPodAutoscaler').spec;
+const cores = (text) => (text.endsWith('m') ? Number(text.slice(0, -1)) / 1000 : Number(text));
+for (const {resources} of [container, ...site.filter((c) => c.resources.limits.cpu !== container.resources.limits.cpu)]) {
+  const busy = (autoscaler.metrics[0].resource.target.averageUtilization / 100) * cores(resources.requests.cpu);
+  assert.ok(Math.abs(busy / cores(resources.limits.cpu) - 0.7) < 1e-9, JSON.stringify(resources));
+}
+assert.equal(autoscaler.minReplicas, deployment.replicas);
+assert.ok(autoscaler.minReplicas - of('PodDisruptionBudget').spec.maxUnavailable >= 2);
 assert.ok(env.TUBECUT_KEYS.startsWith(container.volumeMounts[0].mountPath));
 assert.equal(container.volumeMounts[0].name, pod.volumes[0].name);
 

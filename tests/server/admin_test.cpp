@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
+#include "api/api.hpp"
 #include "server/metrics.hpp"
 
 namespace tubecut::server {
@@ -70,6 +72,42 @@ TEST(Metrics, CountWhatHappened) {
         "tubecut_refused_total{reason=\"queue_full\"} 9\n", "tubecut_clients_hung_up_total 3\n",
         "tubecut_log_lines_dropped_total 4\n", "tubecut_build_info{"}) {
     EXPECT_NE(text.find(line), text.npos) << line << text;
+  }
+}
+
+int count(std::string_view text, std::string_view part) {
+  int found = 0;
+  for (auto at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Metrics, FailuresRiseFromZero) {
+  std::set<std::string> endpoints = {"none"};
+  for (const auto& example : api::examples()) endpoints.emplace(example.endpoint);
+  ASSERT_GE(endpoints.size(), 11U);
+  Metrics metrics({});
+  const std::string fresh = metrics.text();
+  for (const auto& endpoint : endpoints) {
+    const std::string of = ",endpoint=\"" + endpoint + "\",http_response_status_code=";
+    for (const auto& line :
+         {"tubecut_verification_failures_total{endpoint=\"" + endpoint + "\"} 0\n",
+          "tubecut_errors_total{code=\"verification_failed\"" + of + "\"500\"} 0\n",
+          "tubecut_errors_total{code=\"not_converged\"" + of + "\"500\"} 0\n",
+          "tubecut_errors_total{code=\"internal_error\"" + of + "\"500\"} 0\n",
+          "tubecut_errors_total{code=\"unavailable\"" + of + "\"503\"} 0\n",
+          "tubecut_errors_total{code=\"over_budget\"" + of + "\"504\"} 0\n"}) {
+      EXPECT_NE(fresh.find(line), fresh.npos) << line;
+    }
+  }
+  JobRecord job;
+  job.status = 500;
+  job.facts.endpoint = "holes";
+  job.facts.error_code = "verification_failed";
+  metrics.started();
+  metrics.finished(job);
+  const std::string text = metrics.text();
+  for (const auto* name : {"tubecut_errors_total{", "tubecut_verification_failures_total{"}) {
+    EXPECT_EQ(count(text, name), count(fresh, name)) << "the failure began a series of its own";
   }
 }
 

@@ -25,7 +25,8 @@ struct Service {
   int port = 0;
   int admin_port = 0;
 
-  explicit Service(std::vector<std::string> more = {}) : program(words(std::move(more))) {
+  explicit Service(std::vector<std::string> more = {}, const char* binary = TUBECUT_BINARY)
+      : program(words(std::move(more), binary)) {
     ready = program.line();
     capacity = program.line();
     const auto json = api::parse(ready);
@@ -34,8 +35,8 @@ struct Service {
     admin_port = static_cast<int>(*json->find("admin_port")->as<double>());
   }
 
-  static std::vector<std::string> words(std::vector<std::string> more) {
-    std::vector<std::string> all = {TUBECUT_BINARY, "--port", "0", "--admin-port", "0"};
+  static std::vector<std::string> words(std::vector<std::string> more, const char* binary) {
+    std::vector<std::string> all = {binary, "--port", "0", "--admin-port", "0"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -308,6 +309,18 @@ TEST(Binary, KnowsItsAnswers) {
   for (std::string line = program.line(); !line.empty(); line = program.line()) last = line;
   EXPECT_NE(last.find(" 0 differ"), std::string::npos) << last;
   EXPECT_EQ(program.exit_code(), 0);
+}
+
+// The same program with one known answer more, which no job gives.
+TEST(Binary, IsNeverReadyWhenAnAnswerDiffers) {
+  Service differs({}, TUBECUT_DIFFERING_BINARY);
+  EXPECT_EQ(differs.ready, "");
+  EXPECT_EQ(differs.program.exit_code(), 1);
+  Program selftest({TUBECUT_DIFFERING_BINARY, "selftest"});
+  std::string last;
+  for (std::string line = selftest.line(); !line.empty(); line = selftest.line()) last = line;
+  EXPECT_NE(last.find(" 1 differ"), std::string::npos) << last;
+  EXPECT_EQ(selftest.exit_code(), 1);
 }
 
 }  // namespace

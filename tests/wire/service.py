@@ -18,7 +18,7 @@ class Service:
 
     def __init__(self, *command):
         stock = command[0].endswith("stock_server")
-        words = list(command) if stock else [command[0], "--port", "0", "--admin-port", "0", *command[1:]]
+        words = [command[0]] if stock else [command[0], "--port", "0", "--admin-port", "0", *command[1:]]
         # An address sanitizer keeps freed memory aside, 256 MiB of it unless told: what is held could not be seen.
         aside = os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1:thread_local_quarantine_size_kb=64"
         self.process = subprocess.Popen(words, stdout=subprocess.PIPE, env={**os.environ, "ASAN_OPTIONS": aside})

@@ -72,6 +72,7 @@ async function run(context, endpoint, name, arbitrary, runs) {
 export async function valid(given) {
   const context = {...given, problem: given.contract.problem()};
   const facts = [];
+  let answered = 0;
   for (const endpoint of given.contract.posts()) {
     const all = seldomPinned(fromSchema(given.contract, endpoint.request).filter((body) => endpoint.validRequest(body)));
     const sounds = sound(given.contract, endpoint);
@@ -80,7 +81,10 @@ export async function valid(given) {
     const good = await run(context, endpoint, 'sound', sounds, SOUND);
     const least = good.taken * (isFinite(seconds(endpoint)) ? HALF : ENOUGH / SOUND);
     given.report.expect(good.counts['200'] >= least, endpoint.id, `only ${good.counts['200']} of ${good.taken} sound requests were answered`);
-    for (const [name, {counts}] of Object.entries({any, mixed, good})) facts.push(`${endpoint.id} ${name} ${JSON.stringify(counts)}`);
+    for (const [name, {counts}] of Object.entries({any, mixed, good})) {
+      facts.push(`${endpoint.id} ${name} ${JSON.stringify(counts)}`);
+      answered += counts['200'] ?? 0;
+    }
   }
-  return facts;
+  return [...facts, `${answered} answered`];
 }

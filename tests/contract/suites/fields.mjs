@@ -1,0 +1,130 @@
+// The fields of every object of a request in the contract are those its reader knows, both ways: a name unlike any other gets
+// the list of those known there. A name known beside them must be refused, whatever it holds.
+import {alike, branchOf, escape} from '../edits.mjs';
+import {drawn, fromSchema, sound} from '../generate.mjs';
+import {each} from '../service.mjs';
+
+const ANY = 100;   // bodies from the schema alone, each endpoint
+const MORE = 20000;  // of them looked through, at most, for objects not seen yet
+const SOUND = 40;  // sound ones
+const AT_ONCE = 24;  // objects of one request: a problem names 32 fields
+const STRANGE = 'Q'.repeat(65);  // too long to be taken for a name misspelt
+const LIST = 'known here: ';
+
+// In the contract as the request by itself; inside of another one the whole member is refused.
+const REFUSED_WHOLE = ['/cut/accept'];
+
+const closed = (schema) => schema.properties && schema.additionalProperties === false;
+
+// Every closed object a request may have: {schema, where}.
+function* reachable(contract, given, where, seen = new Set()) {
+  const schema = contract.resolve(given);
+  if (schema === true || schema === undefined || seen.has(schema)) return;
+  seen.add(schema);
+  if (closed(schema)) yield {schema, where};
+  for (const branch of schema.oneOf ?? []) yield* reachable(contract, branch, where, seen);
+  for (const [name, property] of Object.entries(schema.properties ?? {})) yield* reachable(contract, property, `${where}/${name}`, seen);
+  if (schema.items) yield* reachable(contract, schema.items, `${where}/*`, seen);
+}
+
+// The closed objects of a body: {object, pointer, schema, names}, names being those of all branches it could be meant as.
+function* objects(contract, given, value, pointer = '') {
+  if (given === undefined || given === true || value === null || typeof value !== 'object') return;
+  const whole = contract.resolve(given);
+  const schema = branchOf(contract, whole, value);
+  if (Array.isArray(value)) {
+    for (const [i, item] of value.entries()) yield* objects(contract, schema.items, item, `${pointer}/${i}`);
+    return;
+  }
+  const meant = (whole.oneOf ?? []).map((branch) => contract.resolve(branch)).filter((branch) => alike(branch, schema));
+  if (closed(schema)) yield {object: value, pointer, schema, names: new Set([schema, ...meant].flatMap((s) => Object.keys(s.properties ?? {})))};
+  for (const [name, item] of Object.entries(value)) yield* objects(contract, schema.properties?.[name], item, `${pointer}/${escape(name)}`);
+}
+
+// Puts the strange name into some of a body's objects and returns what the reader says it knows in each.
+async function asked(service, endpoint, body, some) {
+  for (const {object} of some) object[STRANGE] = 1;
+  const reply = await service.post(endpoint.path, body);
+  for (const {object} of some) delete object[STRANGE];
+  if (reply.status !== 422) return [];
+  const hints = new Map(JSON.parse(reply.text).errors.map(({pointer, hint}) => [pointer, hint ?? '']));
+  return some.map((place) => [place, hints.get(`${place.pointer}/${STRANGE}`)])
+    .filter(([, hint]) => hint?.startsWith(LIST)).map(([place, hint]) => [place, hint.slice(LIST.length).split(', ')]);
+}
+
+// Is a member the contract has no place for refused there?
+async function refused(service, endpoint, body, {object, pointer}, name) {
+  const named = [];
+  for (const value of [1, {}]) {
+    object[name] = value;
+    const reply = await service.post(endpoint.path, body);
+    named.push(reply.status === 422 && JSON.parse(reply.text).errors.some((e) => e.pointer === `${pointer}/${escape(name)}`));
+  }
+  delete object[name];
+  return named.every(Boolean);
+}
+
+class Known {
+  lists = new Map();  // of names, by schema
+  beside = new Map();  // names the contract has no place for, by schema
+  compared = 0;
+
+  constructor({service, contract, report}, endpoint) {
+    Object.assign(this, {service, contract, report, endpoint});
+    this.closed = [...reachable(contract, endpoint.request, '')].filter(({where}) => !REFUSED_WHOLE.includes(where));
+  }
+
+  missing(schema) {
+    return Object.keys(schema.properties).filter((name) => !this.lists.get(schema)?.has(name));
+  }
+
+  async learn(body, wanted = () => true) {
+    const all = [...objects(this.contract, this.endpoint.request, body)].filter(({schema}) => wanted(schema));
+    for (let i = 0; i < all.length && i < 4 * AT_ONCE; i += AT_ONCE) {
+      for (const [place, list] of await asked(this.service, this.endpoint, body, all.slice(i, i + AT_ONCE))) {
+        this.compared += 1;
+        this.lists.set(place.schema, new Set([...(this.lists.get(place.schema) ?? []), ...list]));
+        for (const name of list) if (!place.names.has(name)) await this.judge(body, place, name);
+      }
+    }
+  }
+
+  async judge(body, place, name) {
+    const judged = this.beside.get(place.schema) ?? new Set();
+    if (judged.has(name)) return;
+    this.beside.set(place.schema, judged.add(name));
+    this.report.expect(await refused(this.service, this.endpoint, body, place, name), `${this.endpoint.id} ${place.pointer || '/'}`,
+      `the reader knows ${name}, the contract does not, and it is not refused`);
+  }
+
+  async learnAll(seed) {
+    const any = fromSchema(this.contract, this.endpoint.request).filter((body) => this.endpoint.validRequest(body));
+    const examples = this.endpoint.examples.map(({body}) => structuredClone(body));
+    await each([...examples, ...drawn(sound(this.contract, this.endpoint), seed, SOUND), ...drawn(any, seed, ANY)], (body) => this.learn(body));
+    const wanted = (schema) => this.missing(schema).length > 0;
+    for (const body of drawn(any, seed + 1, MORE)) {
+      if (!this.closed.some(({schema}) => wanted(schema))) break;
+      await this.learn(body, wanted);
+    }
+  }
+}
+
+export async function fields(context) {
+  let compared = 0;
+  let both = 0;
+  let beside = 0;
+  for (const endpoint of context.contract.posts()) {
+    const known = new Known(context, endpoint);
+    await known.learnAll(context.seed);
+    for (const {schema, where} of known.closed) {
+      const missing = known.missing(schema);
+      context.report.expect(missing.length === 0, `${endpoint.id} ${where || '/'}`,
+        `${known.lists.has(schema) ? 'the reader does not know' : 'no request reached'} ${missing}`);
+      both += Object.keys(schema.properties).length - missing.length;
+    }
+    for (const names of known.beside.values()) beside += names.size;
+    compared += known.compared;
+    context.report.expect(known.closed.length > 0, endpoint.id, 'has no closed object');
+  }
+  return [`${both} fields known to both sides, ${beside} to the reader alone, in ${compared} objects`];
+}

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""SIGTERM with work in flight: `drain.py BINARY [--must-fail]`. 20 requests are sent whole, then the signal, before most of
+them are answered. Each is answered all the same, and the program ends with 0 within 10 s. With --must-fail, BINARY being the
+stock library, which stops by its own stop(), some have to be lost."""
+
+import json
+import select
+import subprocess
+import sys
+import time
+
+from service import ROOT, Service, connect, post, receive
+
+REQUESTS = 20
+POINTS = 1500  # some 25 ms of a slot on an idle machine
+LEAST = 10  # of them unanswered at the signal, else nothing is shown
+SECONDS = 10.0
+
+
+def job():
+    body = json.loads((ROOT / "examples/bevel-tables/source-000-table-1.json").read_text())
+    body["sampling"] = {"uniform_points": POINTS}
+    return post(json.dumps(body).encode(), target="/v1/bevel-tables")
+
+
+def main():
+    must_fail = "--must-fail" in sys.argv
+    request = job()
+    with Service(sys.argv[1], "--slots", "1") as service:  # the stock server takes its time by sleeping
+        socks = [connect(service.port) for _ in range(REQUESTS)]
+        for sock in socks:
+            sock.sendall(request)
+        time.sleep(0.02)
+        early = len(select.select(socks, [], [], 0)[0])
+        start = time.monotonic()
+        until = start + SECONDS
+        service.process.terminate()
+        statuses = [[r.status for r in receive(sock, enough=1, patience=until - time.monotonic())[0]] for sock in socks]
+        answered = statuses.count([200])
+        try:
+            code = service.process.wait(max(0.0, until - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            code = None
+        seconds = time.monotonic() - start
+    print(f"SIGTERM with {REQUESTS - early} of {REQUESTS} in flight: {answered} answered, "
+          f"others {[s for s in statuses if s != [200]]}; ended with {code} after {seconds:.1f} s (limit {SECONDS:g})")
+    shown = REQUESTS - early >= LEAST
+    sys.exit(not (shown and answered < REQUESTS) if must_fail else not (shown and answered == REQUESTS and code == 0))
+
+
+main()
