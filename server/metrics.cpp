@@ -104,15 +104,15 @@ struct Metrics::Impl {
 
   Family<Histogram>& requests =
       histogram(registry, "http_server_request_duration_seconds",
-                "Time in the application, from the whole request to the whole answer.");
+                "From the whole request to the whole answer, waiting for a slot included.");
   Gauge& active =
       gauge(registry, "http_server_active_requests", "Requests being answered.").Add({});
   Family<Histogram>& bytes_in =
       histogram(registry, "http_server_request_body_size_bytes", "Bytes of requests' bodies.");
   Family<Histogram>& bytes_out =
       histogram(registry, "http_server_response_body_size_bytes", "Bytes of answers' bodies.");
-  Family<Histogram>& stages =
-      histogram(registry, "tubecut_stage_duration_seconds", "Time in each stage of a job.");
+  Family<Histogram>& stages = histogram(registry, "tubecut_stage_duration_seconds",
+                                        "Time in each stage of a job, and its wait for a slot.");
   Family<Counter>& jobs = counter(registry, "tubecut_jobs_total",
                                   "Jobs by endpoint and verdict: ok, review, reject, or refused.");
   Family<Counter>& errors = counter(registry, "tubecut_errors_total",
@@ -205,15 +205,18 @@ void Metrics::finished(const JobRecord& job) {
   const prometheus::Labels http = {{"http_request_method", method_label(job.method)},
                                    {"http_route", route},
                                    {"http_response_status_code", std::to_string(job.status)}};
-  x_->requests.Add(http, kSeconds).Observe(job.seconds);
+  const double waited = job.times.started > 0.0 ? job.times.started - job.times.read : 0.0;
+  x_->requests.Add(http, kSeconds).Observe(waited + job.seconds);
   x_->bytes_in.Add({{"http_route", route}}, kBytes).Observe(static_cast<double>(job.bytes_in));
   x_->bytes_out.Add({{"http_route", route}}, kBytes).Observe(static_cast<double>(job.bytes_out));
-  for (const auto& stage : job.facts.stages) {
+  auto stages = job.facts.stages;
+  if (job.times.started > 0.0) stages.insert(stages.begin(), {"wait", waited});
+  for (const auto& stage : stages) {
     x_->stages.Add({{"endpoint", endpoint}, {"stage", std::string(stage.name)}}, kSeconds)
         .Observe(stage.seconds);
   }
   const std::string& code = job.facts.error_code;
-  if (known) {
+  if (known && !job.batch) {  // a batch's lines are the jobs
     const std::string verdict = code.empty() ? job.facts.verdict : "refused";
     x_->jobs.Add({{"endpoint", endpoint}, {"verdict", verdict}}).Increment();
   }
