@@ -294,6 +294,21 @@ class Agreement(unittest.TestCase):
         first = re.search(r"install -y --no-install-recommends \\\n(.*?)\nWORKDIR", (DOCKER / "Dockerfile").read_text(), re.S)[1]
         self.assertEqual(sorted(first.replace("\\", " ").split()), sorted(entry.split("/")[0] for entry in listed))
 
+    def test_options_are_documented(self):
+        told = subprocess.run([SERVER, "--help"], check=True, capture_output=True, text=True).stdout
+        options = dict(re.findall(r"^  (?:-\w,)?(--[\w-]+)(?:.*?=([\w.]+) \(Env)?", told, re.M))
+        self.assertGreater(len(options), 20)
+        chapters = re.split(r"^## (\w+)\n", (ROOT / "docs/operations.md").read_text(), flags=re.M)
+        commands, chapter = (chapters[chapters.index(name) + 1] for name in ("Commands", "Options"))
+        table = {}
+        for names, default in re.findall(r"^\| (`--.*?) \| (.*?) ?\|", chapter, re.M):
+            table |= dict(zip(re.findall(r"--[\w-]+", names), default.split(", "), strict=True))
+        elsewhere = {"--help", "--version", "--config"} | set(re.findall(r"`tubecut-server (--[\w-]+)`", commands))
+        self.assertEqual(table.keys() | elsewhere, options.keys())
+        for name, default in options.items():
+            if default:
+                self.assertEqual(table[name], default, name)
+
     def test_compose(self):
         services = yaml.safe_load((DOCKER / "compose.yaml").read_text())["services"]
         replicas = {name: s for name, s in services.items() if name.startswith("tubecut-")}
