@@ -166,7 +166,7 @@ TEST(Binary, RefusesToStartInTheOpenOrWithoutItsFolder) {
   for (const auto& words :
        {Words{"--host", "0.0.0.0"}, Words{"--admin-host", "0.0.0.0"},
         Words{"--log-directory", "/nowhere"}, Words{"--log-directory", TUBECUT_BINARY}}) {
-    EXPECT_EQ(Program(Service::words(TUBECUT_BINARY, words)).exit_code(), 78) << words.back();
+    EXPECT_EQ(Program(Service::words(words, TUBECUT_BINARY)).exit_code(), 78) << words.back();
   }
   EXPECT_EQ(Program({TUBECUT_BINARY, "--port", "9090", "--admin-port", "9090", "--print-config"})
                 .exit_code(),

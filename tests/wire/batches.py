@@ -151,9 +151,11 @@ class Suite:
         """Every line by its id, and the batch."""
         lines = lines_of(20)[1] + b'{"id":"of no endpoint","endpoint":"nodez","body":{}}\n'
         process = subprocess.Popen([self.binary, "--port", "0", "--admin-port", "0"], stdout=subprocess.PIPE)
-        port = json.loads(process.stdout.readline())["port"]
-        list(batch(port, lines, Job_Id="night shift", Idempotency_Key="n-1"))
-        process.terminate()
+        try:
+            port = json.loads(process.stdout.readline())["port"]
+            list(batch(port, lines, Job_Id="night shift", Idempotency_Key="n-1"))
+        finally:
+            process.terminate()
         told = {event["job"]: event for event in map(json.loads, process.stdout) if event["event"] == "job"}
         missing = [one["id"] for n, one in enumerate(self.jobs[:20]) if n != 10 and told.get(one["id"], {}).get("status") != 200]
         self.check(not missing, f"not in the log: {missing}")
