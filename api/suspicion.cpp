@@ -32,6 +32,17 @@ bool is_size_in_inches(double diameter) {
   return sold(diameter * kMmPerInch) && !sold(diameter);
 }
 
+/// A wall sold in inches on a tube of this diameter, which in mm would be a foil.
+bool is_wall_in_inches(double diameter, double wall) {
+  const auto sold = [diameter](double mm) {
+    return std::ranges::any_of(tube_sizes(), [&](const TubeSize& tube) {
+      return std::abs(tube.outer_diameter - diameter) <= kSameSize * diameter &&
+             std::abs(tube.wall - mm) <= kSameSize * mm;
+    });
+  };
+  return sold(wall * kMmPerInch) && !sold(wall);
+}
+
 bool is_round_angle_in_radians(double value) {
   const double degrees = std::abs(value) * 180.0 / std::numbers::pi;
   const double nearest = kRoundAngleDeg * std::floor(degrees / kRoundAngleDeg + 0.5);
@@ -91,6 +102,10 @@ class Walk {
     if (diameter == nullptr) return;
     if (is_size_in_inches(*diameter)) {
       suspect(path + "outer_diameter_mm", *diameter, "inches", *diameter * kMmPerInch, "mm");
+    }
+    const auto* wall = number(json, "wall_mm");
+    if (wall != nullptr && is_wall_in_inches(*diameter, *wall)) {
+      suspect(path + "wall_mm", *wall, "inches", *wall * kMmPerInch, "mm");
     }
     const auto* length = number(json, "length_mm");
     if (length != nullptr && *length > 0.0 && *length < kShortest * *diameter) {
