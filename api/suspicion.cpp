@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,6 +56,15 @@ const double* number(const Json& object, std::string_view name) {
   return member == nullptr ? nullptr : member->as<double>();
 }
 
+/// Of a tube given by its diameter or by the name of its size.
+std::optional<double> diameter_of(const Json& tube) {
+  if (const auto* diameter = number(tube, "outer_diameter_mm")) return *diameter;
+  const auto* member = tube.find("size");
+  const auto* name = member == nullptr ? nullptr : member->as<std::string>();
+  const auto* size = name == nullptr ? nullptr : find_tube_size(*name);
+  return size == nullptr ? std::nullopt : std::optional(size->outer_diameter);
+}
+
 /// Length of a member given by its two ends; negative where there are none.
 double distance_of_ends(const Json& member) {
   const auto* start = member.find("start_mm");
@@ -98,8 +108,8 @@ class Walk {
 
  private:
   void tube(const Json& json, const std::string& path) {
-    const auto* diameter = number(json, "outer_diameter_mm");
-    if (diameter == nullptr) return;
+    const auto diameter = diameter_of(json);
+    if (!diameter) return;
     if (is_size_in_inches(*diameter)) {
       suspect(path + "outer_diameter_mm", *diameter, "inches", *diameter * kMmPerInch, "mm");
     }

@@ -74,6 +74,9 @@ TEST(Suspicion, IsInTheAnswer) {
   };
   const auto metres = with(with(node, "members/0/start_mm", Json::Array{-1.5, 0.0, 0.0}),
                            "members/0/end_mm", Json::Array{1.5, 0.0, 0.0});
+  auto named = example("nodes/mitre.json");
+  for (const auto* end : {"members/0/start_mm/2", "members/1/end_mm/0", "members/1/end_mm/2"})
+    named = with(named, end, testing::number(named, end) / 1000.0);
   const struct {
     std::string_view path;
     Json request;
@@ -88,6 +91,9 @@ TEST(Suspicion, IsInTheAnswer) {
       {"/v1/bevel-tables", with(saddle, "cutters/0/clocking_deg", 0.785),
        "/cutters/0/clocking_deg: 0.785 looks like rad: 45 deg\n"},
       {"/v1/nodes", metres, "/members/0/end_mm: 3 looks like metres: 3000 mm between the ends\n"},
+      {"/v1/nodes", named,
+       "/members/0/end_mm: 0.8 looks like metres: 800 mm between the ends\n"
+       "/members/1/end_mm: 0.9486832980505138 looks like metres: 948.683 mm between the ends\n"},
   };
   for (const auto& row : rows) {
     const auto answer = post(row.path, row.request);
