@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,6 +33,17 @@ bool is_size_in_inches(double diameter) {
   return sold(diameter * kMmPerInch) && !sold(diameter);
 }
 
+/// A wall sold in inches on a tube of this diameter, which in mm would be a foil.
+bool is_wall_in_inches(double diameter, double wall) {
+  const auto sold = [diameter](double mm) {
+    return std::ranges::any_of(tube_sizes(), [&](const TubeSize& tube) {
+      return std::abs(tube.outer_diameter - diameter) <= kSameSize * diameter &&
+             std::abs(tube.wall - mm) <= kSameSize * mm;
+    });
+  };
+  return sold(wall * kMmPerInch) && !sold(wall);
+}
+
 bool is_round_angle_in_radians(double value) {
   const double degrees = std::abs(value) * 180.0 / std::numbers::pi;
   const double nearest = kRoundAngleDeg * std::floor(degrees / kRoundAngleDeg + 0.5);
@@ -42,6 +54,15 @@ bool is_round_angle_in_radians(double value) {
 const double* number(const Json& object, std::string_view name) {
   const auto* member = object.find(name);
   return member == nullptr ? nullptr : member->as<double>();
+}
+
+/// Of a tube given by its diameter or by the name of its size.
+std::optional<double> diameter_of(const Json& tube) {
+  if (const auto* diameter = number(tube, "outer_diameter_mm")) return *diameter;
+  const auto* member = tube.find("size");
+  const auto* name = member == nullptr ? nullptr : member->as<std::string>();
+  const auto* size = name == nullptr ? nullptr : find_tube_size(*name);
+  return size == nullptr ? std::nullopt : std::optional(size->outer_diameter);
 }
 
 /// Length of a member given by its two ends; negative where there are none.
@@ -87,10 +108,14 @@ class Walk {
 
  private:
   void tube(const Json& json, const std::string& path) {
-    const auto* diameter = number(json, "outer_diameter_mm");
-    if (diameter == nullptr) return;
+    const auto diameter = diameter_of(json);
+    if (!diameter) return;
     if (is_size_in_inches(*diameter)) {
       suspect(path + "outer_diameter_mm", *diameter, "inches", *diameter * kMmPerInch, "mm");
+    }
+    const auto* wall = number(json, "wall_mm");
+    if (wall != nullptr && is_wall_in_inches(*diameter, *wall)) {
+      suspect(path + "wall_mm", *wall, "inches", *wall * kMmPerInch, "mm");
     }
     const auto* length = number(json, "length_mm");
     if (length != nullptr && *length > 0.0 && *length < kShortest * *diameter) {

@@ -8,8 +8,9 @@
 namespace tubecut::api {
 
 /// Values of a request, as understood, that look as if they were given in another unit: a diameter
-/// that is a catalogue size in inches (25.4), a round angle in radians (57.3), a length or a
-/// member's ends in metres (1000). Each is a warning that names the field and what was meant.
+/// that is a catalogue size in inches (25.4), a catalogue wall in inches on a diameter in mm, a
+/// round angle in radians (57.3), a length or a member's ends in metres (1000). Each is a warning
+/// that names the field and what was meant. Offsets may be of any size and are not suspected.
 [[nodiscard]] std::vector<Warning> unit_suspicions(const Json& request);
 
 /// What an out-of-range value in mm would be were it inches, metres or micrometres, when that is

@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "api/api.hpp"
+#include "tests/support/call.hpp"
 
 namespace tubecut::api {
 namespace {
+
+using testing::example;
+using testing::post;
+using testing::with;
 
 std::string suspects(const std::string& text) {
   std::string out;
@@ -33,6 +38,7 @@ TEST(Suspicion, SparesWhatIsPlausible) {
   for (
       const auto* text :
       {R"({"target":{"outer_diameter_mm":114.3,"wall_mm":6.3,"length_mm":400}})",
+       R"({"target":{"outer_diameter_mm":600,"wall_mm":0.5}})",
        R"({"target":{"outer_diameter_mm":70,"length_mm":40}})",
        R"({"cutters":[{"inclination_deg":90,"clocking_deg":0},{"inclination_deg":1.5,"clocking_deg":2}]})",
        R"({"cutters":[{"inclination_deg":0.9,"clocking_deg":3}]})",
@@ -41,6 +47,62 @@ TEST(Suspicion, SparesWhatIsPlausible) {
   }
   for (const auto& example : examples())
     EXPECT_EQ(suspects(std::string(example.body)), "") << example.name;
+  for (const auto* golden :
+       {"feed-curves", "grooves-and-milling", "intersections-and-bevels", "pulse-schedules"}) {
+    const auto file = "tests/golden/" + std::string(golden) + ".json";
+    EXPECT_EQ(suspects(testing::read_project_file(file)), "") << golden;
+  }
+}
+
+/// The unit_suspicion warnings of an answer, each "pointer: detail".
+std::string warned(const Json& answer) {
+  std::string out;
+  for (const auto& warning : *testing::at(answer, "warnings").as<Json::Array>()) {
+    if (testing::text(warning, "code") != "unit_suspicion") continue;
+    out += testing::text(warning, "pointer") + ": " + testing::text(warning, "detail") + "\n";
+  }
+  return out;
+}
+
+// A request that runs, and the same with a value off by each factor, as a client gets it wrong.
+TEST(Suspicion, IsInTheAnswer) {
+  const auto mitre = example("bevel-tables/mitre.json");
+  const auto saddle = example("bevel-tables/source-000-table-1.json");
+  const auto node = example("nodes/k-joint-from-centre-lines.json");
+  const auto tube = [&](double diameter) {
+    return with(with(mitre, "target/outer_diameter_mm", diameter), "target/wall_mm", 0.5);
+  };
+  const auto metres = with(with(node, "members/0/start_mm", Json::Array{-1.5, 0.0, 0.0}),
+                           "members/0/end_mm", Json::Array{1.5, 0.0, 0.0});
+  auto named = example("nodes/mitre.json");
+  for (const auto* end : {"members/0/start_mm/2", "members/1/end_mm/0", "members/1/end_mm/2"})
+    named = with(named, end, testing::number(named, end) / 1000.0);
+  const struct {
+    std::string_view path;
+    Json request;
+    std::string_view warning;
+  } rows[] = {
+      {"/v1/bevel-tables", mitre, ""},
+      {"/v1/bevel-tables", saddle, ""},
+      {"/v1/nodes", node, ""},
+      {"/v1/bevel-tables", tube(6.625),
+       "/target/outer_diameter_mm: 6.625 looks like inches: 168.275 mm\n"},
+      {"/v1/bevel-tables", tube(219.1), "/target/wall_mm: 0.5 looks like inches: 12.7 mm\n"},
+      {"/v1/bevel-tables", with(saddle, "cutters/0/clocking_deg", 0.785),
+       "/cutters/0/clocking_deg: 0.785 looks like rad: 45 deg\n"},
+      {"/v1/nodes", metres, "/members/0/end_mm: 3 looks like metres: 3000 mm between the ends\n"},
+      {"/v1/nodes", named,
+       "/members/0/end_mm: 0.8 looks like metres: 800 mm between the ends\n"
+       "/members/1/end_mm: 0.9486832980505138 looks like metres: 948.683 mm between the ends\n"},
+  };
+  for (const auto& row : rows) {
+    const auto answer = post(row.path, row.request);
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    EXPECT_EQ(warned(answer.body), row.warning);
+    if (!row.warning.empty()) {
+      EXPECT_EQ(testing::text(answer.body, "verdict/status"), "review");
+    }
+  }
 }
 
 TEST(Suspicion, HelpsWhereAValueIsOutOfRange) {

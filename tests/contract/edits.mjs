@@ -34,7 +34,7 @@ export function branchOf(contract, schema, value) {
 const words = (schema) => ('const' in schema ? [schema.const] : schema.enum);
 
 // Could one object be meant as either? Not when a member takes other words in each.
-export function alike(a, b) {
+function alike(a, b) {
   if (!a.properties || !b.properties) return false;  // one of them is no object
   return a.type === b.type && Object.entries(a.properties ?? {}).every(([name, p]) => {
     const q = b.properties[name];

@@ -1,6 +1,6 @@
 // The fields of every object of a request in the contract are those its reader knows, both ways: a name unlike any other gets
-// the list of those known there. A name known beside them must be refused, whatever it holds.
-import {alike, branchOf, escape} from '../edits.mjs';
+// the list of those known there. A name known beside them, of another kind of the object for example, must be refused.
+import {branchOf, escape} from '../edits.mjs';
 import {drawn, fromSchema, sound} from '../generate.mjs';
 import {each} from '../service.mjs';
 
@@ -10,6 +10,9 @@ const SOUND = 40;  // sound ones
 const AT_ONCE = 24;  // objects of one request: a problem names 32 fields
 const STRANGE = 'Q'.repeat(65);  // too long to be taken for a name misspelt
 const LIST = 'known here: ';
+
+// What is wrong with what a field holds.
+const OF_VALUES = ['wrong_type', 'not_a_number', 'not_an_integer', 'out_of_range', 'bad_choice', 'bad_text', 'wrong_count', 'missing_field'];
 
 // In the contract as the request by itself; inside of another one the whole member is refused.
 const REFUSED_WHOLE = ['/cut/accept'];
@@ -27,7 +30,7 @@ function* reachable(contract, given, where, seen = new Set()) {
   if (schema.items) yield* reachable(contract, schema.items, `${where}/*`, seen);
 }
 
-// The closed objects of a body: {object, pointer, schema, names}, names being those of all branches it could be meant as.
+// The closed objects of a body: {object, pointer, schema}.
 function* objects(contract, given, value, pointer = '') {
   if (given === undefined || given === true || value === null || typeof value !== 'object') return;
   const whole = contract.resolve(given);
@@ -36,8 +39,7 @@ function* objects(contract, given, value, pointer = '') {
     for (const [i, item] of value.entries()) yield* objects(contract, schema.items, item, `${pointer}/${i}`);
     return;
   }
-  const meant = (whole.oneOf ?? []).map((branch) => contract.resolve(branch)).filter((branch) => alike(branch, schema));
-  if (closed(schema)) yield {object: value, pointer, schema, names: new Set([schema, ...meant].flatMap((s) => Object.keys(s.properties ?? {})))};
+  if (closed(schema)) yield {object: value, pointer, schema};
   for (const [name, item] of Object.entries(value)) yield* objects(contract, schema.properties?.[name], item, `${pointer}/${escape(name)}`);
 }
 
@@ -52,16 +54,17 @@ async function asked(service, endpoint, body, some) {
     .filter(([, hint]) => hint?.startsWith(LIST)).map(([place, hint]) => [place, hint.slice(LIST.length).split(', ')]);
 }
 
-// Is a member the contract has no place for refused there?
+// Is a member the contract has no place for refused there, and for being there, not only for what it holds?
 async function refused(service, endpoint, body, {object, pointer}, name) {
-  const named = [];
-  for (const value of [1, {}]) {
+  const codes = [];
+  for (const value of [1, {}, [1, 2], 'text']) {
     object[name] = value;
     const reply = await service.post(endpoint.path, body);
-    named.push(reply.status === 422 && JSON.parse(reply.text).errors.some((e) => e.pointer === `${pointer}/${escape(name)}`));
+    const here = reply.status === 422 ? JSON.parse(reply.text).errors.filter((e) => e.pointer.startsWith(`${pointer}/`)) : [];
+    codes.push(here.map(({code}) => code));
   }
   delete object[name];
-  return named.every(Boolean);
+  return codes.every((all) => all.length > 0) && codes.flat().some((code) => !OF_VALUES.includes(code));
 }
 
 class Known {
@@ -84,7 +87,7 @@ class Known {
       for (const [place, list] of await asked(this.service, this.endpoint, body, all.slice(i, i + AT_ONCE))) {
         this.compared += 1;
         this.lists.set(place.schema, new Set([...(this.lists.get(place.schema) ?? []), ...list]));
-        for (const name of list) if (!place.names.has(name)) await this.judge(body, place, name);
+        for (const name of list) if (!Object.hasOwn(place.schema.properties, name)) await this.judge(body, place, name);
       }
     }
   }
