@@ -28,7 +28,7 @@ def mixed():
     yield get("/v1/machines", "Connection: close")
     yield get("/nowhere")
     yield get("/v1/nodes", method="PUT")
-    yield post()
+    yield post(json.dumps(json.loads(BODY) | {"sampling": {"uniform_points": 36}}).encode())
     yield post(b"{not json")
     yield post(b'{"a": 1}')
     yield post(b"{}", "Content-Encoding: gzip")
@@ -58,9 +58,9 @@ def main():
             path = pathlib.Path(folder) / str(i)
             path.write_bytes(data)
             files.append(str(path))
-        # The heavy ones come once in so many turns: a third of the work is theirs.
+        # The heavy ones come once in so many turns: a fifth of the work is theirs.
         light = len(list(mixed()))
-        files = files[:light] * 20 + files[light:]
+        files = files[:light] * 40 + files[light:]
 
         def run(seconds):
             told = json.loads(subprocess.run([load, str(seconds), "16", str(service.port), *files], check=True,
