@@ -15,14 +15,17 @@
 namespace tubecut::fuzz {
 namespace {
 
-/// Places in the corpus stand for these; a new endpoint goes behind them.
+/// Places in the corpus stand for these; a new endpoint goes behind them. A batch's line asks the
+/// endpoint that it names.
 constexpr std::string_view kIds[] = {
-    "intersections", "bevel-tables", "feed-curves",     "nodes",   "holes",
-    "grooves",       "mill-paths",   "pulse-schedules", "replays", "parts"};
+    "intersections", "bevel-tables",    "feed-curves", "nodes", "holes",  "grooves",
+    "mill-paths",    "pulse-schedules", "replays",     "parts", "batches"};
 
-const api::Endpoint* endpoint_at(std::size_t place) {
+std::string_view id_at(unsigned byte) { return kIds[(byte & 15u) % std::size(kIds)]; }
+
+const api::Endpoint* endpoint_of_id(std::string_view id) {
   for (const auto& endpoint : api::endpoints())
-    if (endpoint.id == kIds[place % std::size(kIds)]) return &endpoint;
+    if (endpoint.id == id) return &endpoint;
   return nullptr;
 }
 
@@ -77,31 +80,45 @@ void check(const api::Outcome& outcome) {
   if (json && !api::parse(outcome.body)) broken("not JSON", outcome.body);
 }
 
-}  // namespace
-
-std::string_view endpoint_of(std::span<const std::uint8_t> bytes) {
-  if (bytes.empty() || bytes.size() > kLongest) return {};
-  const auto* endpoint = endpoint_at(bytes[0] & 15u);
-  return endpoint == nullptr ? std::string_view{} : endpoint->id;
-}
-
-void dispatch_bytes(std::span<const std::uint8_t> bytes, std::stop_token stop) {
-  if (bytes.empty() || bytes.size() > kLongest) return;
-  const auto* endpoint = endpoint_at(bytes[0] & 15u);
-  if (endpoint == nullptr) return;
-  const auto query = query_of(*endpoint, bytes[0] >> 4u);
-  const std::string body(bytes.begin() + 1, bytes.end());
+void ask(std::string_view path, std::string_view query, const std::string& body,
+         const api::Context& context) {
   if (const auto parsed = api::parse(body); parsed && costly(*parsed)) return;
   const api::Call call{.method = "POST",
-                       .path = endpoint->path,
+                       .path = path,
                        .query = query,
                        .accept = {},
                        .content_type = "application/json",
                        .body = body,
                        .job_id = {},
                        .request_id = "fuzz"};
-  check(api::dispatch(
-      call, {.stop = std::move(stop), .clock = {}, .status = [](ErrorKind) { return 400; }}));
+  check(api::dispatch(call, context));
+}
+
+void ask_line(const std::string& text, const api::Context& context) {
+  const auto line = api::read_batch_line(text, "fuzz", context);
+  const std::string answer = line.error ? line.problem : "{}";
+  if (!api::parse(answer)) broken("not JSON", answer);
+  if (line.error.has_value() == line.code.empty()) broken("an error without its code", answer);
+  const auto printed = api::print_batch_line(line, 1, 200, answer);
+  if (!api::parse(printed.substr(0, printed.find('\n'))))
+    broken("a line that is not JSON", printed);
+  if (!line.error) ask(line.path, {}, line.body, context);
+}
+
+}  // namespace
+
+std::string_view endpoint_of(std::span<const std::uint8_t> bytes) {
+  return bytes.empty() || bytes.size() > kLongest ? std::string_view{} : id_at(bytes[0]);
+}
+
+void dispatch_bytes(std::span<const std::uint8_t> bytes, std::stop_token stop) {
+  if (bytes.empty() || bytes.size() > kLongest) return;
+  const api::Context context{
+      .stop = std::move(stop), .clock = {}, .status = [](ErrorKind) { return 400; }};
+  const std::string body(bytes.begin() + 1, bytes.end());
+  if (id_at(bytes[0]) == api::kBatchesId) return ask_line(body, context);
+  if (const auto* endpoint = endpoint_of_id(id_at(bytes[0])))
+    ask(endpoint->path, query_of(*endpoint, bytes[0] >> 4u), body, context);
 }
 
 }  // namespace tubecut::fuzz

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/api.hpp"
 #include "api/endpoint.hpp"
 #include "tests/fuzz/dispatch_bytes.hpp"
 
@@ -30,9 +31,11 @@ int main(int argc, char** argv) {
   }
   std::printf("%zu inputs\n", files.size());
   bool all = !files.empty();
-  for (const auto& endpoint : tubecut::api::endpoints()) {
-    if (asked.contains(endpoint.id)) continue;
-    std::printf("no input asks %s\n", std::string(endpoint.id).c_str());
+  std::vector<std::string_view> ids = {tubecut::api::kBatchesId};
+  for (const auto& endpoint : tubecut::api::endpoints()) ids.push_back(endpoint.id);
+  for (const auto id : ids) {
+    if (asked.contains(id)) continue;
+    std::printf("no input asks %s\n", std::string(id).c_str());
     all = false;
   }
   return all ? 0 : 1;
