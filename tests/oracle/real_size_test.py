@@ -40,7 +40,7 @@ def counts(item):
 
 class Service:
     def __enter__(self):
-        self.child = subprocess.Popen([SERVER, "--port", "0", "--admin-port", "0", "--budget-s", "30"], stdout=subprocess.PIPE, text=True)
+        self.child = subprocess.Popen([SERVER, "--port", "0", "--admin-port", "0", "--budget-s", "300"], stdout=subprocess.PIPE, text=True)
         self.port = json.loads(self.child.stdout.readline())["port"]
         return self
 
@@ -49,7 +49,7 @@ class Service:
         self.child.communicate()
 
     def post(self, body, accept):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=120)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=600)
         begin = self.cpu_ms()
         connection.request("POST", "/v1/pulse-schedules", json.dumps(body), {"Content-Type": "application/json", "Accept": accept})
         reply = connection.getresponse()
