@@ -27,7 +27,7 @@ BINARY = ""
 
 class Service:
     def __init__(self):
-        self._child = subprocess.Popen([BINARY, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--budget-s", "30"],
+        self._child = subprocess.Popen([BINARY, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--budget-s", "300"],
                                        stdout=subprocess.PIPE, text=True)
         ready = json.loads(self._child.stdout.readline())
         assert ready["event"] == "ready", ready

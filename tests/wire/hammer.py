@@ -14,7 +14,7 @@ from service import ROOT, Service, exchange, post
 
 def main():
     binary, load, seconds = sys.argv[1], sys.argv[2], sys.argv[3]
-    with Service(binary, "--budget-s", "30") as service, tempfile.TemporaryDirectory() as folder:
+    with Service(binary, "--budget-s", "300") as service, tempfile.TemporaryDirectory() as folder:
         files = []
         examples = [post(path.read_bytes(), target=f"/v1/{path.parent.name}") for path in sorted(ROOT.glob("examples/*/*.json"))]
         refused = [data[:80] for data in examples if exchange(service.port, data, 60.0)[0].status != 200]
