@@ -58,6 +58,12 @@ class Service:
         text = exchange(self.admin_port, get("/metrics"))[0].body.decode()
         return sum(float(line.rsplit(" ", 1)[1]) for line in text.splitlines() if line.startswith(name))
 
+    def refused(self):
+        """Requests turned away, by the reason that the metrics name."""
+        text = exchange(self.admin_port, get("/metrics"))[0].body.decode()
+        found = re.findall(r'^tubecut_refused_total\{reason="(\w+)"\} (\d+)$', text, re.MULTILINE)
+        return {reason: int(count) for reason, count in found if count != "0"}
+
 
 class Reply:
     def __init__(self, head, body):
