@@ -78,7 +78,7 @@ def crowd(binary):
         refused = service.metric('tubecut_refused_total{reason="memory"}')
         for sock in sockets:
             sock.close()
-        most = share / 2 / (1 << 20) + LIMIT_MIB
+        most = service.bytes_per_byte() * (share / 2 / (1 << 20) + LIMIT_MIB)
         print(f"{CROWD} bodies of 2 MB begun: {refused:.0f} turned away, peak grows {growth:.1f} MiB (limit {most:.0f}), "
               f"{statuses.count(200)} of {CROWD} good jobs meanwhile answered")
         return growth <= most and refused > 0 and statuses.count(200) == CROWD

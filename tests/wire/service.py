@@ -54,6 +54,10 @@ class Service:
         text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
         return int(re.search(field + r":\s+(\d+)", text).group(1)) / 1024
 
+    def bytes_per_byte(self):
+        """Resident bytes per byte in use: a build with ThreadSanitizer keeps four of its own beside each."""
+        return 5 if "libtsan" in pathlib.Path(f"/proc/{self.process.pid}/maps").read_text() else 1
+
     def metric(self, name):
         text = exchange(self.admin_port, get("/metrics"))[0].body.decode()
         return sum(float(line.rsplit(" ", 1)[1]) for line in text.splitlines() if line.startswith(name))
