@@ -98,6 +98,14 @@ def hang_up(handler, sent=b""):
     handler.connection.shutdown(socket.SHUT_RDWR)
 
 
+class Stubs(list):
+    """The replicas, and what the proxy before them logged of requests."""
+
+    def __init__(self, stubs, log):
+        super().__init__(stubs)
+        self.log = lambda: [line for line in pathlib.Path(log).read_text().splitlines() if '"event":"proxy"' in line]
+
+
 @contextlib.contextmanager
 def proxied(*behaviours, ready=True):
     """(url, stubs) of HAProxy before stubs of these behaviours; the others of the three replicas are not there."""
@@ -109,7 +117,7 @@ def proxied(*behaviours, ready=True):
         try:
             checked = "L7OK" if ready else "L7STS"
             restarts.until(lambda: checks(proxy, len(stubs)) == [checked] * len(stubs), 10, "the stubs' state")
-            yield f"https://127.0.0.1:{proxy.port}", stubs
+            yield f"https://127.0.0.1:{proxy.port}", Stubs(stubs, proxy.log.name)
         finally:
             proxy.end()
             for s in stubs:
@@ -181,10 +189,20 @@ class Proxy(unittest.TestCase):
 
     def test_no_replica_ready(self):
         with proxied(lambda h: reply(h, 200), ready=False) as (url, stubs):
-            answer = ask(url, headers=[("X-Request-Id", 'job"7\\')])
+            answer = ask(url)
             self.assertTrue(self.problem(answer, 503, "unavailable")["retryable"])
             self.assertEqual(answer[1]["Retry-After"], "1")
             self.assertEqual(stubs[0].asked, [])
+
+    def test_no_id_spoils_the_problem_or_the_log(self):
+        ids = ['job"7\\', 'x","client":"6.6.6.6","a":"']
+        with proxied(lambda h: reply(h, 200), ready=False) as (url, stubs):
+            for one in ids:
+                self.problem(ask(url, headers=[("X-Request-Id", one)]), 503, "unavailable")
+            restarts.until(lambda: len(stubs.log()) == len(ids), 5, "the proxy's log")
+            lines = [json.loads(line) for line in stubs.log()]
+            self.assertEqual([line["request_id"] for line in lines], ids)
+            self.assertEqual({line["client"] for line in lines}, {"127.0.0.1"})
 
     def test_bodies_beyond_the_limits_end_at_the_proxy(self):
         small, large = limit("body_max_bytes"), limit("body_large_max_bytes")
@@ -373,6 +391,10 @@ class Alerts(unittest.TestCase):
 
     def test_promtool_reads_them(self):
         subprocess.run([self.promtool(), "check", "rules", self.RULES], check=True, stdout=subprocess.DEVNULL)
+
+    def test_each_says_what_to_do(self):
+        for rule in (r for g in yaml.safe_load(self.RULES.read_text())["groups"] for r in g["rules"] if "alert" in r):
+            self.assertEqual(rule["annotations"].keys(), {"summary", "description"}, rule["alert"])
 
     def test_each_fires_and_is_silent(self):
         subprocess.run([self.promtool(), "test", "rules", self.TRIED], check=True,
