@@ -6,6 +6,7 @@
 #include <openssl/sha.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -49,13 +50,6 @@ std::string to_hex(const Digest& bytes) {
   std::string out;
   for (const auto byte : bytes) fmt::format_to(std::back_inserter(out), "{:02x}", byte);
   return out;
-}
-
-bool sound_identity(std::string_view name) {
-  return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-           c == '_' || c == '.';
-  });
 }
 
 tl::expected<ApiKey, std::string> parse_key(const std::string& line) {
@@ -108,8 +102,10 @@ std::optional<Network> parse_network(const std::string& text) {
   if (!out || slash == std::string::npos) return out;
   const bool four = text.find(':') == std::string::npos;
   int bits = -1;
-  std::istringstream(text.substr(slash + 1)) >> bits;
-  if (bits < 0 || bits > (four ? 32 : 128)) return std::nullopt;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data() + slash + 1, last, bits);
+  if (error != std::errc{} || end != last || bits < 0 || bits > (four ? 32 : 128))
+    return std::nullopt;
   out->bits = four ? 96 + bits : bits;
   return out;
 }
@@ -190,6 +186,13 @@ std::optional<Refusal> Access::take_turn(const std::string& identity, double now
                  std::max(1, static_cast<int>(std::ceil(wait)))};
 }
 
+bool sound_identity(std::string_view name) {
+  return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '.';
+  });
+}
+
 NewKey make_key(const std::string& identity) {
   NewKey out{.key = "tc_" + random_id() + random_id(), .line = {}};
   out.line = identity + " " + to_hex(digest(out.key));
@@ -203,6 +206,18 @@ bool is_loopback(std::string_view host) {
 }
 
 bool is_network(const std::string& text) { return parse_network(text).has_value(); }
+
+bool is_origin(std::string_view text) {
+  const auto scheme = text.find("://");
+  if (scheme == std::string_view::npos || scheme == 0) return false;
+  const auto host = text.substr(scheme + 3);
+  const auto fit = [](std::string_view part, std::string_view marks) {
+    return !part.empty() && std::ranges::all_of(part, [&](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || marks.find(c) != marks.npos;
+    });
+  };
+  return fit(text.substr(0, scheme), "+-.") && fit(host, "-._:[]");
+}
 
 bool in_networks(std::string_view peer, const std::vector<std::string>& networks) {
   const auto address = parse_address(std::string(peer));

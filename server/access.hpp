@@ -63,10 +63,16 @@ struct NewKey {
 };
 [[nodiscard]] NewKey make_key(const std::string& identity);
 
+/// Whether a key's owner can be so named: 1 to 64 letters, digits, . _ -
+[[nodiscard]] bool sound_identity(std::string_view name);
+
 /// Whether an address to listen on is reached from this machine only.
 [[nodiscard]] bool is_loopback(std::string_view host);
 
 [[nodiscard]] bool is_network(const std::string& text);
+
+/// Whether a browser could send it as `Origin`: "https://plant.example:8443".
+[[nodiscard]] bool is_origin(std::string_view text);
 
 /// Whether `peer` lies in one of the addresses or networks ("10.0.0.0/8"). Wrong texts match
 /// nothing.

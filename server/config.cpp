@@ -38,9 +38,11 @@ void add_network(CLI::App& app, Config& c) {
   option(app, "keys", c.keys, "file of API keys, one \"identity sha256 [rate]\" a line");
   std::ignore = app.add_flag("--open", c.open, "serve beyond this machine without keys")
                     ->envname("TUBECUT_OPEN");
-  option(app, "cors-origin", c.cors_origins, "origins whose pages may call, such as https://a.b");
+  option(app, "cors-origin", c.cors_origins, "origins whose pages may call, such as https://a.b")
+      ->delimiter(',');
   option(app, "trusted-proxy", c.trusted_proxies,
-         "addresses or networks whose X-Forwarded-For is believed");
+         "addresses or networks whose X-Forwarded-For is believed")
+      ->delimiter(',');
   option(app, "machines", c.machines, "folder whose *.json files join GET /v1/machines");
   option(app, "replica", c.replica, "name sent as Tubecut-Replica; empty: the host's name");
 }
@@ -96,6 +98,9 @@ std::string contradiction(const Config& c) {
   for (const auto& network : c.trusted_proxies) {
     if (!is_network(network)) return "--trusted-proxy: no address or network: " + network;
   }
+  for (const auto& origin : c.cors_origins) {
+    if (!is_origin(origin)) return "--cors-origin: not scheme://host[:port] in lower case: " + origin;
+  }
   return {};
 }
 
@@ -125,7 +130,13 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   auto* selftest = app.add_subcommand("selftest", "answer known jobs and compare their hashes");
   selftest->add_flag("--all", command.all, "print the hash of every example instead");
   auto* new_key = app.add_subcommand("new-key", "print a new API key and its line for --keys");
-  new_key->add_option("identity", command.identity, "whose it is")->required();
+  new_key->add_option("identity", command.identity, "whose it is")
+      ->required()
+      ->check(
+          [](const std::string& name) {
+            return sound_identity(name) ? std::string{} : "is not 1 to 64 letters, digits, . _ -";
+          },
+          "");
   for (auto* sub : {health, run, selftest, new_key}) {
     sub->configurable(false);
     for (auto* its : sub->get_options()) its->configurable(false);

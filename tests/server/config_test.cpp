@@ -77,6 +77,10 @@ TEST(Config, PassesOverNoMistake) {
                                                 {"--port", "9090"},
                                                 {"--head-s", "0"},
                                                 {"--max-body-bytes", "8388609"},
+                                                {"--cors-origin", "https://a.b/"},
+                                                {"--trusted-proxy", "10.0.0.0/8 127.0.0.1"},
+                                                {"new-key", "line 2"},
+                                                {"new-key", "#x"},
                                                 {"nonsense"},
                                                 {"run"}}) {
     const auto command = read(words);
@@ -106,6 +110,26 @@ TEST(Config, PrintsWhatItReadsBack) {
   ASSERT_TRUE(again) << again.error().err << printed.error().out;
   EXPECT_EQ(again->config.port, 0);
   EXPECT_EQ(again->config.idle_s, 3.5);
+}
+
+TEST(Config, SplitsListsAtCommasWhereverTheyStand) {
+  const std::vector<std::string> proxies = {"10.0.0.0/8", "127.0.0.0/8"};
+  const std::vector<std::string> origins = {"https://a.b", "http://127.0.0.1:3"};
+  const Variable some("TUBECUT_TRUSTED_PROXY", "10.0.0.0/8,127.0.0.0/8");
+  const Variable more("TUBECUT_CORS_ORIGIN", "https://a.b,http://127.0.0.1:3");
+  const auto environment = read({});
+  ASSERT_TRUE(environment) << environment.error().err;
+  EXPECT_EQ(environment->config.trusted_proxies, proxies);
+  EXPECT_EQ(environment->config.cors_origins, origins);
+  const auto line = read({"--trusted-proxy", "10.0.0.0/8,127.0.0.0/8", "--cors-origin",
+                          "https://a.b", "--cors-origin", "http://127.0.0.1:3"});
+  ASSERT_TRUE(line) << line.error().err;
+  EXPECT_EQ(line->config.trusted_proxies, proxies);
+  EXPECT_EQ(line->config.cors_origins, origins);
+  const std::string name = file_with("cors-origin = [\"https://a.b\", \"http://127.0.0.1:3\"]\n");
+  const auto file = read({"--config", name.c_str()});
+  ASSERT_TRUE(file) << file.error().err;
+  EXPECT_EQ(file->config.cors_origins, origins);
 }
 
 TEST(Config, KnowsItsCommands) {
