@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -33,6 +34,8 @@ struct Context {
   std::function<double()> clock;       // monotonic seconds, for stage times; may be empty
   double received = 0.0;               // when the request's first byte came, on that clock; 0: now
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
+  /// Bytes of body this replica takes, where an endpoint takes more; `GET /v1/limits` tells.
+  std::size_t max_body = std::numeric_limits<std::size_t>::max();
 };
 
 struct Stage {
@@ -109,6 +112,9 @@ struct BatchSummary {
 
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
+
+/// The id of the endpoint, or of the batches, at a path; empty for other paths.
+[[nodiscard]] std::string_view endpoint_at(std::string_view path);
 
 /// Adds a machine of one's own (a JSON object in the form of GET /v1/machines) to those a request
 /// can name. Only at start, before the first dispatch. Returns what is wrong with it, or nothing.

@@ -32,11 +32,16 @@ std::string errors_page() {
   return out.take();
 }
 
-std::string limits_page() {
+/// A limit as this replica holds to it: its bodies may be smaller than the contract's.
+double in_force(std::string_view name, double limit, std::size_t max_body) {
+  return name.ends_with("_bytes") ? std::min(limit, static_cast<double>(max_body)) : limit;
+}
+
+std::string limits_page(std::size_t max_body) {
   Writer out;
-  out.object([](Writer& w) {
-    w.object("limits", [](Writer& o) {
-#define X(name, value) o.field(#name, limit::name);
+  out.object([max_body](Writer& w) {
+    w.object("limits", [max_body](Writer& o) {
+#define X(name, value) o.field(#name, in_force(#name, limit::name, max_body));
       TUBECUT_LIMITS(X)
 #undef X
     });
@@ -124,13 +129,16 @@ std::vector<Example> examples() {
   return out;
 }
 
-std::optional<Page> catalogue(std::string_view path) {
+std::optional<Page> catalogue(std::string_view path, std::size_t max_body) {
   static const struct {
     std::string_view path;
     std::string (*print)();
-  } kPages[] = {{"/v1/errors", errors_page},     {"/v1/limits", limits_page},
-                {"/v1/version", version_page},   {"/v1/tubes", tubes_page},
-                {"/v1/machines", machines_page}, {"/v1/examples", examples_page}};
+  } kPages[] = {{"/v1/errors", errors_page},
+                {"/v1/version", version_page},
+                {"/v1/tubes", tubes_page},
+                {"/v1/machines", machines_page},
+                {"/v1/examples", examples_page}};
+  if (path == "/v1/limits") return Page{std::string(kJson), limits_page(max_body)};
   for (const auto& page : kPages)
     if (page.path == path) return Page{std::string(kJson), page.print()};
   for (const auto& file : embedded_files()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,7 +23,7 @@ struct Page {
 };
 
 /// The answer to a GET of a catalogue (`/v1/errors`, `/openapi.yaml`, ...); nothing for other
-/// paths.
-[[nodiscard]] std::optional<Page> catalogue(std::string_view path);
+/// paths. `max_body` bytes of body are what this replica takes.
+[[nodiscard]] std::optional<Page> catalogue(std::string_view path, std::size_t max_body);
 
 }  // namespace tubecut::api

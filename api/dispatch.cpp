@@ -397,7 +397,7 @@ Outcome dispatch(const Call& call, const Context& context) {
   if (call.method != "GET" && call.method != "HEAD")
     return job.refuse(Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
                       "GET, HEAD");
-  auto page = catalogue(call.path);
+  auto page = catalogue(call.path, context.max_body);
   return page ? job.page(std::move(*page)) : job.refuse(ErrorCode::not_found);
 }
 
@@ -425,6 +425,12 @@ std::size_t max_body(std::string_view path) {
     if (endpoint.path == path) return endpoint.max_body;
   if (path == kBatchesPath) return static_cast<std::size_t>(limit::body_large_max_bytes);
   return static_cast<std::size_t>(limit::body_max_bytes);
+}
+
+std::string_view endpoint_at(std::string_view path) {
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return endpoint.id;
+  return path == kBatchesPath ? kBatchesId : std::string_view{};
 }
 
 std::string_view event_of(std::string_view stage) {

@@ -164,7 +164,10 @@ void App::allow_origin(const Request& request, Headers& headers) const {
 }
 
 api::Context App::context() const {
-  return {.stop = x_.stop, .clock = steady_seconds, .status = status_of};
+  return {.stop = x_.stop,
+          .clock = steady_seconds,
+          .status = status_of,
+          .max_body = std::min(x_.max_body_bytes, x_.max_job_body_bytes)};
 }
 
 api::Outcome App::refuse(const Refusal& refusal, const Identity& id) const {
@@ -236,6 +239,8 @@ Response App::handle(const Request& request) const {
 
   record.facts = std::move(outcome.job);
   if (record.facts.id.empty()) record.facts.id = id.job_id;
+  if (record.facts.endpoint.empty())  // refused before it was read
+    record.facts.endpoint = api::endpoint_at(path_of(request.target));
   record.status = response.status;
   record.bytes_out = response.body.size();
   record.identity = identity_of(request);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <iterator>
@@ -27,13 +28,19 @@ bool safe(std::string_view name) {
          });
 }
 
+/// A file only: a pipe of that name would wait for its reader.
 bool append(const std::string& file, std::string_view text) {
-  const int descriptor =
-      ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0640);
+  const int descriptor = ::open(
+      file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0640);
   if (descriptor < 0) return false;
-  const auto written = ::write(descriptor, text.data(), text.size());
+  struct stat about = {};
+  const bool regular = ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
+  const auto written = regular ? ::write(descriptor, text.data(), text.size()) : -1;
   return ::close(descriptor) == 0 && written == static_cast<ssize_t>(text.size());
 }
+
+/// A folder that does not answer shall not keep the process from ending.
+constexpr auto kPatience = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -58,7 +65,7 @@ struct JobFiles::Impl {
     std::unique_lock lock(mutex);
     for (;;) {
       some.wait(lock, [this] { return ending || !queue.empty(); });
-      if (queue.empty()) return;
+      if (queue.empty()) break;
       const Entry entry = std::move(queue.front());
       queue.pop_front();
       lock.unlock();
@@ -67,31 +74,32 @@ struct JobFiles::Impl {
       if (!append(day + "/" + entry.name + ".jsonl", entry.lines)) ++dropped;
       lock.lock();
     }
+    ended = true;
+    done.notify_all();
   }
 
   std::string folder;
   std::size_t most = 0;
   std::mutex mutex;
   std::condition_variable some;
+  std::condition_variable done;
   std::deque<Entry> queue;
   bool ending = false;
+  bool ended = false;
   std::atomic<std::uint64_t> dropped = 0;
-  std::thread thread;
 };
 
-JobFiles::JobFiles(std::string folder, std::size_t queue) : x_(std::make_unique<Impl>()) {
+JobFiles::JobFiles(std::string folder, std::size_t queue) : x_(std::make_shared<Impl>()) {
   x_->folder = std::move(folder);
   x_->most = queue;
-  x_->thread = std::thread([this] { x_->run(); });
+  std::thread([x = x_] { x->run(); }).detach();
 }
 
 JobFiles::~JobFiles() {
-  {
-    const std::lock_guard lock(x_->mutex);
-    x_->ending = true;
-  }
+  std::unique_lock lock(x_->mutex);
+  x_->ending = true;
   x_->some.notify_all();
-  x_->thread.join();
+  x_->done.wait_for(lock, kPatience, [this] { return x_->ended; });
 }
 
 void JobFiles::write(std::string_view day, std::string_view job, std::string lines) {

@@ -13,7 +13,7 @@ namespace tubecut::server {
 class JobFiles {
  public:
   explicit JobFiles(std::string folder, std::size_t queue = 1024);
-  ~JobFiles();  // writes what is queued
+  ~JobFiles();  // writes what is queued, for a second at most
   JobFiles(const JobFiles&) = delete;
   JobFiles& operator=(const JobFiles&) = delete;
 
@@ -25,7 +25,7 @@ class JobFiles {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> x_;
+  std::shared_ptr<Impl> x_;  // the thread's too: it may hang in a write
 };
 
 /// The name of a job's file without its ending: the id where it is safe as a file's name, else

@@ -1,6 +1,7 @@
 #include "server/access.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -129,6 +130,27 @@ TEST(Networks, HoldTheirAddresses) {
   }
 }
 
+TEST(Networks, AreReadToTheirEnd) {
+  for (const auto* good : {"10.0.0.0/8", "10.1.2.3", "::1", "fd00::/8", "0.0.0.0/0"}) {
+    EXPECT_TRUE(is_network(good)) << good;
+  }
+  for (const auto* bad : {"10.0.0.0/8,127.0.0.0/8", "10.0.0.0/8 ", "10.0.0.0/8junk", "10.0.0.0/",
+                          "10.0.0.0/-1", "10.0.0.0/+8", "10.0.0.0/33", "10.0.0", ""}) {
+    EXPECT_FALSE(is_network(bad)) << bad;
+  }
+}
+
+TEST(Origins, AreAsABrowserSendsThem) {
+  for (const auto* good : {"https://plant.example", "http://127.0.0.1:8080", "http://[::1]:5173",
+                           "capacitor://localhost"}) {
+    EXPECT_TRUE(is_origin(good)) << good;
+  }
+  for (const auto* bad : {"https://plant.example/", "https://Plant.example", "plant.example", "*",
+                          "null", "https://", "://a", "https://a.b,http://c.d", "https://a.b x"}) {
+    EXPECT_FALSE(is_origin(bad)) << bad;
+  }
+}
+
 TEST(Client, IsThePeerUnlessAProxyOfOursSpeaks) {
   const std::vector<std::string> proxies = {"10.0.0.0/8"};
   Request request{.headers = {{"X-Forwarded-For", "6.6.6.6, 1.2.3.4"}}, .peer = "9.9.9.9"};
@@ -211,6 +233,17 @@ TEST(JobFiles, KeepOneFilePerJobInsideTheirFolder) {
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(text, "one\ntwo\n");
   EXPECT_FALSE(std::ifstream(folder + "/evil.jsonl"));
+  ASSERT_EQ(::mkfifo((folder + "/2024-03-01/stuck.jsonl").c_str(), 0600), 0);
+  {
+    JobFiles files(folder);
+    files.write("2024-03-01", "stuck", "never read\n");
+    files.write("2024-03-01", "order-18", "after it\n");
+    for (int i = 0; i < 5000 && !std::ifstream(folder + "/2024-03-01/order-18.jsonl"); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(files.dropped(), 1U);
+  }
+  EXPECT_TRUE(std::ifstream(folder + "/2024-03-01/order-18.jsonl"));
   JobFiles lost("/nowhere/at/all");
   lost.write("2024-03-01", "x", "y\n");
   for (int i = 0; i < 5000 && lost.dropped() == 0; ++i) {

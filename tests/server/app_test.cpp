@@ -207,6 +207,41 @@ TEST(App, TurnsAwayBeforeTheApi) {
   EXPECT_EQ(app.handle(request({{"Content-Encoding", "identity"}})).status, 200);
 }
 
+TEST(App, NamesTheEndpointOfWhatItRefuses) {
+  Fake fake;
+  const App app = fake.app({.max_body_bytes = 1});
+  const auto endpoint = [&](Request asked) {
+    asked.body = "{}";
+    static_cast<void>(app.handle(asked));
+    return fake.records.back().facts.endpoint;
+  };
+  EXPECT_EQ(endpoint(request()), "bevel-tables");
+  Request turned_away = request();
+  turned_away.refusal = Refusal{ErrorCode::overloaded, "All slots and the queue are full."};
+  EXPECT_EQ(endpoint(turned_away), "bevel-tables");
+  Request batch = request();
+  batch.target = "/v1/batches?x";
+  EXPECT_EQ(endpoint(batch), "batches");
+  Request elsewhere = request();
+  elsewhere.target = "/v1/bevel-tables/x";
+  EXPECT_EQ(endpoint(elsewhere), "");
+}
+
+TEST(App, TellsTheLimitsItHoldsTo) {
+  const auto limits = [](AppOptions options) {
+    const auto page = App(std::move(options)).handle({.method = "GET", .target = "/v1/limits"});
+    const auto document = api::parse(page.body);
+    const auto* all = document ? document->find("limits") : nullptr;
+    if (all == nullptr) return std::pair(0.0, 0.0);
+    return std::pair(*all->find("body_max_bytes")->as<double>(),
+                     *all->find("body_large_max_bytes")->as<double>());
+  };
+  EXPECT_EQ(limits({}), std::pair(1048576.0, 8388608.0));
+  EXPECT_EQ(limits({.max_job_body_bytes = 2831155}), std::pair(1048576.0, 2831155.0));
+  EXPECT_EQ(limits({.max_body_bytes = 300, .max_job_body_bytes = 2831155}),
+            std::pair(300.0, 300.0));
+}
+
 TEST(App, CallsAStopAStop) {
   Fake fake;
   fake.outcome.error = ErrorKind::timeout;

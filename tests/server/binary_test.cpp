@@ -237,6 +237,13 @@ TEST(Binary, SaysWhatItMayUse) {
 TEST(Binary, IsNotOpenByAccident) {
   Program shy({TUBECUT_BINARY, "--host", "0.0.0.0", "--port", "0", "--admin-port", "0"});
   EXPECT_EQ(shy.exit_code(), 78);
+  const std::string command = TUBECUT_BINARY " --host 127.0.0.1 --admin-host 0.0.0.0 2>&1";
+  Program admin({"/bin/sh", "-c", command});
+  std::string said;
+  for (std::string line = admin.line(); !line.empty(); line = admin.line()) said += line + '\n';
+  EXPECT_EQ(admin.exit_code(), 78);
+  EXPECT_NE(said.find("tubecut-server --admin-host 127.0.0.1\n"), said.npos) << said;
+  EXPECT_EQ(said.find(" --host"), said.npos) << said;
   const Service open({"--host", "0.0.0.0", "--open"});
   EXPECT_NE(open.port, 0);
   Program keyless({TUBECUT_BINARY, "--keys", "/nowhere/keys", "--port", "0", "--admin-port", "0"});
