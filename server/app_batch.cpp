@@ -20,7 +20,7 @@ constexpr std::size_t kPrefix = std::string_view("/v1/").size();
 Headers line_headers(const Headers& of_batch, std::string request_id) {
   Headers out;
   for (const auto* name : {"Authorization", "X-Api-Key", "X-Forwarded-For", "traceparent"})
-    if (const auto value = header(of_batch, name); !value.empty()) out.emplace_back(name, value);
+    for (const auto value : header_values(of_batch, name)) out.emplace_back(name, value);
   out.emplace_back("Content-Type", "application/json");
   out.emplace_back("X-Request-Id", std::move(request_id));
   return out;
@@ -86,7 +86,9 @@ BatchReply App::answer_line(const Request& request) const {
   one.line = 0;
   one.reports_sending = false;
   const auto line =
-      api::read_batch_line(request.body, header(one.headers, "X-Request-Id"), context());
+      request.body.empty()  // refused, and too large to be read
+          ? api::BatchLine{}
+          : api::read_batch_line(request.body, header(one.headers, "X-Request-Id"), context());
   if (sound_id(line.id)) one.headers.emplace_back("Job-Id", line.id);
   if (line.error) {
     const int status = status_of(*line.error);

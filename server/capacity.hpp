@@ -12,6 +12,7 @@ struct Capacity {
   std::string slots_from = "machine";  // cgroup | affinity | machine | option
   std::size_t memory = 0;              // bytes for bodies, jobs and answers; 0: unknown
   std::string memory_from = "machine";
+  int connections = 0;  // open at a time; as many as there are descriptors for
 };
 
 /// Slots from the control group's quota (version 2 or 1) rounded up, else the CPUs this process may

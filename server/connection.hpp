@@ -24,6 +24,7 @@ struct Batch {
   std::size_t at = 0;    // of the next line
   std::size_t line = 0;  // lines begun
   bool stopped = false;  // no further line begins
+  bool chunked = true;   // the answer; else the connection's end ends it (HTTP/1.0)
   BatchCount count;
   std::vector<std::shared_ptr<Job>> running;
   bool paid = true;      // its key's rate has let the next line in; the first came with the batch
@@ -95,6 +96,8 @@ class Connection {
   std::function<void(bool)> sent;
   Clock::time_point received;
   Clock::time_point deadline = Clock::time_point::max();
+  Clock::time_point ends_by = Clock::time_point::max();  // lingering
+  Clock::time_point begun;                               // writing
 };
 
 }  // namespace tubecut::server

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <limits>
 #include <system_error>
 
 namespace tubecut::server {
@@ -20,8 +21,10 @@ constexpr std::size_t kReadBytes = 65536;
 constexpr int kReadsPerTurn = 8;  // then another connection's turn
 constexpr int kEventsPerTurn = 256;
 constexpr auto kFirstByteWhileDraining = 500ms;
-constexpr auto kLingerTime = 1s;
-constexpr std::size_t kLingerBytes = 1u << 20;
+constexpr auto kTaken = 1s;  // most answers are by then: the others give way when memory is short
+/// A client that still sends reads no answer: its bytes are dropped until it pauses, or is done.
+constexpr auto kLingerTime = 1s;  // of silence
+constexpr std::size_t kLingerBytes = 64u << 20;
 /// A client that has closed its side only half still reads a quick answer; one that hung up cannot
 /// be told apart until this has passed.
 constexpr auto kHangUpGrace = 250ms;
@@ -55,8 +58,14 @@ double seconds(Clock::time_point time) {
 
 std::size_t memory_of(std::size_t body) { return kJobBytesPerByte * body; }
 
+std::size_t room_for_job_body(const TransportOptions& options) {
+  if (options.memory == 0) return std::numeric_limits<std::size_t>::max();
+  return shared_memory(options) / kJobBytesPerByte;
+}
+
 EventLoop::EventLoop(const TransportOptions& options, const Service& service, Print print)
     : options_(options),
+      memory_(shared_memory(options)),
       limits_{.head_bytes = options.max_head_bytes, .fields = options.max_fields},
       service_(service),
       print_(std::move(print)),
@@ -81,7 +90,6 @@ EventLoop::EventLoop(const TransportOptions& options, const Service& service, Pr
             }
             wake();
           })) {
-  options_.memory = shared_memory(options);
   epoll_event event{.events = EPOLLIN, .data = {.ptr = nullptr}};
   if (epoll_ < 0 || wake_ < 0 || epoll_ctl(epoll_, EPOLL_CTL_ADD, wake_, &event) != 0) {
     throw std::system_error(errno, std::generic_category(), "epoll");
@@ -139,6 +147,7 @@ TransportStats EventLoop::stats() const {
           .busy = static_cast<std::uint64_t>(slots_->busy()),
           .slots = static_cast<std::uint64_t>(slots_->count()),
           .memory = x.memory,
+          .memory_bound = options_.memory,
           .refused_queue = x.queue,
           .refused_wait = x.wait,
           .refused_memory = x.bytes,
@@ -271,6 +280,7 @@ void EventLoop::pump(Connection& c) {
     if (c.state == State::lingering) {
       c.lingered += bytes.size();
       if (c.lingered > kLingerBytes) return close(c);
+      set_deadline(c, std::min(c.ends_by, Clock::now() + kLingerTime));
     } else if (c.in.empty()) {
       const auto taken = digest(c, bytes);
       if (connections_.contains(&c) && !c.unread) c.in.assign(bytes.substr(taken));
@@ -292,15 +302,40 @@ void EventLoop::account(Connection& c) {
 
 /// Of requests on their way, the one that holds most makes room for the others.
 void EventLoop::bound_arrivals() {
-  while (options_.memory > 0 && arriving_ > options_.memory / kArrivingShare) {
+  while (memory_ > 0 && arriving_ > memory_ / kArrivingShare) {
     Connection* most = nullptr;
     for (const auto& [c, owned] : connections_) {
-      if (c->reading() && c->held > 0 && (most == nullptr || c->held > most->held)) most = c;
+      if (c->held > 0 && (most == nullptr || c->held > most->held)) most = c;
     }
     if (most == nullptr) return;
     ++counters_.bytes;
-    refuse_unread(*most, {ErrorCode::overloaded, "The memory for requests is in use."});
+    if (!most->reading()) {  // behind an answer that is not taken
+      close(*most);
+    } else {
+      refuse_unread(*most, {ErrorCode::overloaded, "The memory for requests is in use."});
+    }
   }
+}
+
+/// Whether so many bytes more are there, if need be without the clients slowest to take their
+/// answers.
+bool EventLoop::make_memory(std::size_t bytes) {
+  if (memory_ > 0 && bytes > memory_) return false;
+  while (memory_ > 0 && counters_.memory + bytes > memory_) {
+    Connection* most = nullptr;
+    const auto size = [](const Connection& c) { return c.held + c.out.size(); };
+    const auto late = Clock::now() - kTaken;
+    for (const auto& [c, owned] : connections_) {
+      if (c->state == State::writing && c->begun < late &&
+          (most == nullptr || size(*c) > size(*most))) {
+        most = c;
+      }
+    }
+    if (most == nullptr) return false;
+    ++counters_.over_time;
+    close(*most);
+  }
+  return true;
 }
 
 /// Takes requests off the front of `bytes` until one becomes a job or is not whole. Returns how
@@ -343,10 +378,10 @@ std::size_t EventLoop::digest(Connection& c, std::string_view bytes) {
 /// themselves.
 std::size_t EventLoop::room_for_body(const Request& head) const {
   const auto limit = service_.max_body(head.target);
-  if (options_.memory == 0) return limit;
+  if (memory_ == 0) return limit;
   const bool batch = service_.is_batch && service_.is_batch(head);
-  return std::min(limit, batch ? options_.memory / kArrivingShare - options_.max_head_bytes
-                               : options_.memory / kJobBytesPerByte);
+  return std::min(limit, batch ? memory_ / kArrivingShare - options_.max_head_bytes
+                               : room_for_job_body(options_));
 }
 
 std::optional<Refusal> EventLoop::head_refusal(Connection& c) const {
@@ -385,7 +420,7 @@ bool EventLoop::in_time(const Job& job) const {
 /// Sets the job's memory aside and queues it; or tells why not.
 std::optional<Refusal> EventLoop::offer(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = memory_of(job->request.body.size());
-  if (options_.memory > 0 && counters_.memory + memory > options_.memory) {
+  if (!make_memory(memory)) {
     ++counters_.bytes;
     return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
   }
@@ -468,9 +503,12 @@ void EventLoop::finish(Job& job) {
     if (job.sent) job.sent(false);
     return;
   }
-  if (job.request.line > 0) return finish_line(*c, job);
-  c->job = nullptr;
-  write(*c, {std::move(job.answer), std::move(job.sent)});
+  if (job.request.line > 0) {
+    finish_line(*c, job);
+  } else {
+    c->job = nullptr;
+    write(*c, {std::move(job.answer), std::move(job.sent)});
+  }
   if (connections_.contains(c)) pump(*c);
 }
 
@@ -480,8 +518,12 @@ void EventLoop::write(Connection& c, Printed answer) {
   c.sent = std::move(answer.sent);
   counters_.memory += c.out.size();
   c.state = State::writing;
+  c.begun = Clock::now();
   set_deadline(c, options_.write);
   send(c);
+  if (c.state == State::writing && c.out.capacity() > c.out.size() + kReadBytes) {
+    c.out.shrink_to_fit();  // it will wait, and the library has reserved up to twice its size
+  }
 }
 
 void EventLoop::send(Connection& c) {
@@ -501,6 +543,7 @@ void EventLoop::linger(Connection& c) {
   c.finish_sending();
   c.state = State::lingering;
   c.readable = true;
+  c.ends_by = Clock::now() + options_.body;
   set_deadline(c, kLingerTime);
 }
 
@@ -552,10 +595,13 @@ void EventLoop::expire(Connection& c) {
       return close(c);
     case State::head:
     case State::body:
+      if (c.held == 0) return close(c);  // empty lines only: no request
       ++counters_.over_time;
       return refuse_unread(c, {ErrorCode::bad_request, "The request came too slowly."});
     case State::batching:
-      return expire_batch(c);
+      expire_batch(c);
+      if (connections_.contains(&c)) pump(c);
+      return;
     case State::working:
       break;
   }
@@ -589,12 +635,15 @@ void EventLoop::begin_drain() {
     c->closing = true;
     // A fresh connection was accepted as work: its request may still be on the wire.
     if (c->state == State::idle && !c->fresh && c->in.empty()) {
-      close(*c);
+      c->readable = true;  // a request may have come since it was looked at
+      pump(*c);
+      if (connections_.contains(c) && c->state == State::idle) close(*c);
     } else if (c->state == State::idle) {
       set_deadline(*c, kFirstByteWhileDraining);
     } else if (c->batch) {
       c->batch->stopped = true;
       feed(*c);
+      if (connections_.contains(c)) pump(*c);
     } else if (c->state != State::working) {
       set_deadline(*c, c->deadline);
     }

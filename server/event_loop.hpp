@@ -63,6 +63,7 @@ class EventLoop {
   std::size_t digest(Connection& c, std::string_view bytes);
   void account(Connection& c);
   void bound_arrivals();
+  [[nodiscard]] bool make_memory(std::size_t bytes);
   [[nodiscard]] std::size_t room_for_body(const Request& head) const;
   void on_head(Connection& c, bool more_there);
   void on_whole(Connection& c);
@@ -74,6 +75,7 @@ class EventLoop {
   void begin_batch(Connection& c, const std::shared_ptr<Job>& job);
   void feed(Connection& c);
   [[nodiscard]] bool feed_line(Connection& c, std::string_view line);
+  void say(Connection& c, const std::string& bytes);
   void answer_line(Connection& c, std::string_view text, bool refused);
   void finish_line(Connection& c, Job& job);
   void send_batch(Connection& c);
@@ -101,6 +103,7 @@ class EventLoop {
   [[nodiscard]] int wait_ms() const;
 
   TransportOptions options_;
+  std::size_t memory_;  // of options_.memory what bodies and answers share; 0: no bound
   ReaderLimits limits_;
   const Service& service_;
   Print print_;

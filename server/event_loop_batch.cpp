@@ -15,18 +15,25 @@ using State = Connection::State;
 
 /// Answers held for a client that is slow to take them; no further line begins beyond.
 constexpr std::size_t kHeld = 512u << 10;
-constexpr auto kAskAgain = 20ms;  // a full queue, or the key's rate
+constexpr auto kAskAgain = 20ms;  // a full queue, memory in use, or the key's rate
+constexpr std::size_t kReadAtOnce = 64u << 10;
 constexpr std::string_view kLastChunk = "0\r\n\r\n";
 
 std::string chunk(std::string_view text) {
   return fmt::format("{:x}\r\n{}\r\n", text.size(), text);
 }
 
-std::string print_head(const Response& head, bool close) {
+std::string print_head(const Response& head, bool close, bool chunked) {
   std::string out = fmt::format("HTTP/1.1 200 OK\r\nContent-Type: {}\r\n", head.content_type);
   for (const auto& [name, value] : head.headers) out += fmt::format("{}: {}\r\n", name, value);
   if (close) out += "Connection: close\r\n";
-  return out + "Transfer-Encoding: chunked\r\n\r\n";
+  return out + (chunked ? "Transfer-Encoding: chunked\r\n\r\n" : "\r\n");
+}
+
+/// A large line is not even read for its id: that would hold up the port.
+void refuse_line(Request& line, Refusal refusal) {
+  line.refusal = std::move(refusal);
+  if (line.body.size() > kReadAtOnce) line.body.clear();
 }
 
 /// The next line that is not blank, and where the one after begins.
@@ -45,10 +52,11 @@ std::string_view next_line(std::string_view lines, std::size_t& at) {
 
 void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = job->request.body.size();
-  if (options_.memory > 0 && counters_.memory + memory > options_.memory) {
+  job->request.refusal = service_.screen(job->request);  // an empty one was whole at its head
+  if (!job->request.refusal && !make_memory(memory)) {
     ++counters_.bytes;
     job->request.refusal = {ErrorCode::overloaded, "The memory for jobs is in use."};
-  } else if (service_.admit) {
+  } else if (!job->request.refusal && service_.admit) {
     job->request.refusal = service_.admit(job->request);
   }
   const Response head =
@@ -56,6 +64,7 @@ void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   if (head.status != 200) return write(c, print_(job->request, job->close));
   c.state = State::batching;
   c.batch = std::make_unique<Batch>();
+  c.batch->chunked = c.reader.takes_chunks();
   c.batch->lines = std::move(job->request.body);
   c.batch->head = std::move(job->request);
   auto& common = c.batch->head.headers;  // the lines go by the name the client is told
@@ -68,7 +77,7 @@ void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   std::size_t at = 0;
   while (!next_line(c.batch->lines, at).empty()) ++c.batch->count.items;
   c.batch->count.bytes_in = memory;
-  c.out = print_head(head, c.closing);
+  c.out = print_head(head, c.closing, c.batch->chunked);
   c.out_at = 0;
   counters_.memory += c.out.size();
   feed(c);
@@ -97,9 +106,13 @@ void EventLoop::feed(Connection& c) {
   set_batch_deadline(c);
 }
 
-/// False when the queue is full, or the rate of the batch's key is used up.
+/// False when the line has to wait: for memory, for a full queue, or for the rate of the batch's
+/// key.
 bool EventLoop::feed_line(Connection& c, std::string_view line) {
   Batch& batch = *c.batch;
+  const bool fits = memory_ == 0 || memory_of(line.size()) + batch.lines.size() + kHeld <= memory_;
+  const auto memory = fits ? memory_of(line.size()) : 0;
+  if (!make_memory(memory)) return false;
   if (!batch.paid && service_.admit && service_.admit(batch.head)) return false;
   batch.paid = true;
   auto job = std::make_shared<Job>();
@@ -110,7 +123,10 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   job->request.times.read = job->request.times.received =
       std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
   job->owner = &c;
-  job->memory = memory_of(line.size());
+  job->memory = memory;
+  if (!fits)
+    refuse_line(job->request, {ErrorCode::body_too_large,
+                               "This replica's memory has no room for a line of that size."});
   if (service_.budget) job->end = Clock::now() + service_.budget(job->request);
   if (!slots_->offer(job)) return false;
   counters_.memory += job->memory;
@@ -120,11 +136,14 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   return true;
 }
 
-void EventLoop::answer_line(Connection& c, std::string_view text, bool refused) {
-  ++(refused ? c.batch->count.refused : c.batch->count.answered);
-  const auto bytes = chunk(text);
+void EventLoop::say(Connection& c, const std::string& bytes) {
   c.out += bytes;
   counters_.memory += bytes.size();
+}
+
+void EventLoop::answer_line(Connection& c, std::string_view text, bool refused) {
+  ++(refused ? c.batch->count.refused : c.batch->count.answered);
+  say(c, c.batch->chunked ? chunk(text) : std::string(text));
   c.batch->count.bytes_out += text.size();
 }
 
@@ -155,15 +174,13 @@ void EventLoop::send_batch(Connection& c) {
 
 void EventLoop::end_batch(Connection& c) {
   Response summary = service_.summary(c.batch->head, c.batch->count);
-  const auto last = chunk(summary.body) + std::string(kLastChunk);
-  c.out += last;
-  counters_.memory += last.size();
+  say(c, c.batch->chunked ? chunk(summary.body) + std::string(kLastChunk) : summary.body);
   c.sent = std::move(summary.sent);
   drop_batch(c);
   c.state = State::writing;
+  c.begun = Clock::now();
   set_deadline(c, options_.write);
   send(c);
-  if (connections_.contains(&c)) pump(c);
 }
 
 void EventLoop::drop_batch(Connection& c) {
@@ -200,7 +217,8 @@ void EventLoop::expire_batch(Connection& c) {
     }
     ++counters_.wait;
     release(*job);
-    job->request.refusal = {ErrorCode::overloaded, "No slot was free within the job's budget."};
+    refuse_line(job->request,
+                {ErrorCode::overloaded, "No slot was free within the job's budget."});
     std::erase(c.batch->running, job);
     answer_line(c, service_.line(job->request).text, true);
   }

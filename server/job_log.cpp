@@ -152,6 +152,7 @@ std::string capacity_line(const Capacity& capacity, std::size_t queue) {
       .integer("queue", static_cast<std::int64_t>(queue))
       .integer("memory_bytes", static_cast<std::int64_t>(capacity.memory))
       .text("memory_from", capacity.memory_from)
+      .integer("connections", capacity.connections)
       .done();
 }
 

@@ -188,7 +188,9 @@ struct Metrics::Impl {
     level("tubecut_slots_busy", "Jobs being computed.", &T::busy);
     level("tubecut_queue_depth", "Jobs that wait for a slot.", &T::waiting);
     level("tubecut_connections", "Connections open.", &T::connections);
-    level("tubecut_memory_reserved_bytes", "Set aside for bodies, jobs and answers.", &T::memory);
+    level("tubecut_memory_reserved_bytes", "Set aside for bodies and answers.", &T::memory);
+    level("tubecut_memory_bound_bytes", "For bodies, jobs and answers; 0: no bound.",
+          &T::memory_bound);
   }
 };
 

@@ -222,6 +222,8 @@ bool RequestReader::expects_continue() const {
   return x_->parser.minor > 0 && lists_token(x_->parser.request.headers, "Expect", "100-continue");
 }
 
+bool RequestReader::takes_chunks() const { return x_->parser.minor > 0; }
+
 bool RequestReader::keeps_alive() const {
   const auto& headers = x_->parser.request.headers;
   if (lists_token(headers, "Connection", "close")) return false;

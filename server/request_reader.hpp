@@ -42,6 +42,8 @@ class RequestReader {
   [[nodiscard]] bool chunked() const;
   [[nodiscard]] std::uint64_t content_length() const;  // 0 without one
   [[nodiscard]] bool expects_continue() const;
+  /// Whether the client knows chunks: HTTP/1.1 and later.
+  [[nodiscard]] bool takes_chunks() const;
   /// Whether the client leaves the connection open for another request.
   [[nodiscard]] bool keeps_alive() const;
   /// Bytes kept: of the head, and of the body so far.

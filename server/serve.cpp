@@ -10,9 +10,11 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "server/access.hpp"
 #include "server/admin.hpp"
@@ -32,6 +34,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kAdminConnections = 64;
+constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and what the kernel has accepted
 constexpr auto kLogPatience = 1s;  // for a line that should be read before going on
 
 std::chrono::milliseconds ms(double seconds) {
@@ -41,7 +44,7 @@ std::chrono::milliseconds ms(double seconds) {
 TransportOptions service_port(const Config& c, const Capacity& can) {
   return {.host = c.host,
           .port = c.port,
-          .connections = c.connections,
+          .connections = can.connections,
           .slots = can.slots,
           .queue = c.queue,
           .memory = can.memory,
@@ -86,8 +89,21 @@ Service service_of(const AdminSources& sources) {
           .max_body = [](std::string_view) { return std::size_t{0}; }};
 }
 
+/// Connections that there are descriptors for: beyond them the one idle for longest is closed,
+/// while without a descriptor a new one would only wait. The soft limit is often 1024 where the
+/// hard one is not.
+int connections_of(int wanted) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+  const auto own = std::min<rlim_t>(kOwnDescriptors + kAdminConnections, limit.rlim_cur / 2);
+  return static_cast<int>(std::min<rlim_t>(static_cast<rlim_t>(wanted), limit.rlim_cur - own));
+}
+
 Capacity capacity_of(const Config& c) {
   Capacity can = capacity();
+  can.connections = connections_of(c.connections);
   if (c.slots > 0) {
     can.slots = c.slots;
     can.slots_from = "option";
@@ -97,14 +113,6 @@ Capacity capacity_of(const Config& c) {
     can.memory_from = "option";
   }
   return can;
-}
-
-/// Every connection is a descriptor; the soft limit is often 1024 where the hard one is not.
-void raise_descriptor_limit() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  limit.rlim_cur = limit.rlim_max;
-  setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 /// A port being served by a thread of its own. When serving breaks down the whole service is asked
@@ -146,15 +154,17 @@ void stop_work(Transport& work, const std::future<bool>& served, std::stop_sourc
 
 /// What both ports need, for the length of one run.
 struct Run {
-  explicit Run(const Config& c) : access(std::make_shared<Access>(c.keys)), log(c.log_queue) {
+  Run(const Config& c, std::size_t job_body)
+      : access(std::make_shared<Access>(c.keys)), log(c.log_queue) {
     if (!c.log_directory.empty()) files = std::make_unique<JobFiles>(c.log_directory);
-    app = std::make_unique<App>(options(c));
+    app = std::make_unique<App>(options(c, job_body));
   }
 
-  AppOptions options(const Config& c) {
+  AppOptions options(const Config& c, std::size_t job_body) {
     return {.replica = c.replica,
             .max_target_bytes = c.max_target_bytes,
             .max_body_bytes = c.max_body_bytes,
+            .max_job_body_bytes = job_body,
             .stop = jobs.get_token(),
             .budget = ms(c.budget_s),
             .cors_origins = c.cors_origins,
@@ -204,10 +214,11 @@ struct Run {
 
 constexpr int kRefusedToStart = 78;  // EX_CONFIG of sysexits.h
 
-/// The address of either port that other machines reach; empty when they reach none.
-std::string reached_host(const Config& c) {
-  if (!is_loopback(c.host)) return c.host;
-  return is_loopback(c.admin_host) ? std::string{} : c.admin_host;
+/// The option by which other machines reach either port, and its address.
+std::optional<std::pair<std::string_view, std::string>> reached(const Config& c) {
+  if (!is_loopback(c.host)) return std::pair{"--host", c.host};
+  if (!is_loopback(c.admin_host)) return std::pair{"--admin-host", c.admin_host};
+  return std::nullopt;
 }
 
 /// What is wrong with a folder to write jobs' files into, or nothing.
@@ -222,16 +233,16 @@ std::string folder_fault(const std::string& folder) {
 }
 
 /// Whoever reaches the port may use it: that has to be said, or keys given.
-int refuse_open(const std::string& host) {
+int refuse_open(std::string_view option, const std::string& host) {
   fmt::print(stderr,
-             "tubecut-server: {0} is reached from other machines and no keys are set. Either\n"
+             "tubecut-server: {1} is reached from other machines and no keys are set. Either\n"
              "  tubecut-server new-key NAME | tee /dev/stderr | tail -n 1 >> keys.txt\n"
-             "  tubecut-server --host {0} --keys keys.txt\n"
+             "  tubecut-server {0} {1} --keys keys.txt\n"
              "or stay on this machine, behind a proxy:\n"
-             "  tubecut-server --host 127.0.0.1\n"
+             "  tubecut-server {0} 127.0.0.1\n"
              "or let everybody in who reaches the port (TUBECUT_OPEN=true does the same):\n"
-             "  tubecut-server --host {0} --open\n",
-             host);
+             "  tubecut-server {0} {1} --open\n",
+             option, host);
   return kRefusedToStart;
 }
 
@@ -239,15 +250,15 @@ int refuse_open(const std::string& host) {
 
 int serve(const Config& c) {
   const Signals signals;
-  raise_descriptor_limit();
-  const auto reached = reached_host(c);
-  if (!reached.empty() && c.keys.empty() && !c.open) return refuse_open(reached);
+  if (const auto by = reached(c); by && c.keys.empty() && !c.open)
+    return refuse_open(by->first, by->second);
   if (const auto wrong = folder_fault(c.log_directory); !wrong.empty())
     return fail(wrong, kRefusedToStart);
-  Run run(c);
-  if (const auto wrong = run.access->load(); !wrong.empty()) return fail(wrong, kRefusedToStart);
   const Capacity can = capacity_of(c);
-  auto work = Transport::open(service_port(c, can), service_of(*run.app));
+  const TransportOptions port = service_port(c, can);
+  Run run(c, room_for_job_body(port));
+  if (const auto wrong = run.access->load(); !wrong.empty()) return fail(wrong, kRefusedToStart);
+  auto work = Transport::open(port, service_of(*run.app));
   if (!work) return fail(work.error());
   auto probes = Transport::open(admin_port(c), service_of(run.admin_sources()));
   if (!probes) return fail(probes.error());

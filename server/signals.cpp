@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 
 namespace tubecut::server {
@@ -42,6 +43,9 @@ void Signals::wait(const std::function<void()>& hang_up) const {
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
-void Signals::raise_stop() { ::kill(::getpid(), SIGTERM); }
+void Signals::raise_stop() {
+  static std::atomic<bool> raised = false;  // a second signal would end the process at once
+  if (!raised.exchange(true)) ::kill(::getpid(), SIGTERM);
+}
 
 }  // namespace tubecut::server

@@ -52,6 +52,9 @@ struct TransportOptions {
   std::chrono::milliseconds write = std::chrono::seconds(10);  // the whole answer
 };
 
+/// The largest body whose job has room in that memory; a batch's lines are jobs by themselves.
+[[nodiscard]] std::size_t room_for_job_body(const TransportOptions& options);
+
 /// How a port is doing, for the metrics. Counters since the start.
 struct TransportStats {
   std::uint64_t connections = 0;
@@ -59,6 +62,7 @@ struct TransportStats {
   std::uint64_t busy = 0;
   std::uint64_t slots = 0;
   std::uint64_t memory = 0;          // bytes set aside now
+  std::uint64_t memory_bound = 0;    // bytes for bodies, jobs and answers; 0: no bound
   std::uint64_t refused_queue = 0;   // the queue was full
   std::uint64_t refused_wait = 0;    // no slot within half the budget
   std::uint64_t refused_memory = 0;  // the bound on memory

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <httplib.h>
 #include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -18,6 +20,7 @@ namespace {
 
 constexpr int kBacklog = 1024;  // the library's own is 5: the sixth waits a second for its SYN
 constexpr auto kBacklogTime = std::chrono::seconds(1);
+constexpr auto kOutOfMeans = std::chrono::milliseconds(10);  // descriptors, memory: asked again
 
 /// A request line of ours in, an answer out. What a library asks of a stream differs (0.41 has no
 /// is_writable, 0.11 no waiting): hence no `override`, as some would be one and some not.
@@ -50,17 +53,6 @@ class MemoryStream final : public httplib::Stream {
   std::string out_;
 };
 // NOLINTEND(modernize-use-override)
-
-/// Runs what the library would give a thread of its own, at once: taking over a socket is quick.
-class InPlace final : public httplib::TaskQueue {
- public:
-  using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue(nullptr));
-  Enqueued enqueue(std::function<void()> task) override {
-    task();
-    return Enqueued(true);
-  }
-  void shutdown() override {}
-};
 
 /// What the slot's thread is answering: the library hands its handlers no place of their own.
 struct Exchange {
@@ -115,7 +107,6 @@ struct Transport::Impl final : httplib::Server {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
-    new_task_queue = [] { return new InPlace; };
     set_pre_routing_handler([](const httplib::Request&, httplib::Response& out) {
       answer(out);
       return HandlerResponse::Handled;
@@ -144,7 +135,7 @@ struct Transport::Impl final : httplib::Server {
 
   bool serve() {
     std::thread sockets([this] { loop_.run(); });
-    const bool sound = listen_after_bind();
+    const bool sound = accept_all();
     if (!draining_) loop_.drain(std::chrono::seconds(1));  // listening broke down
     loop_.end();
     sockets.join();
@@ -155,12 +146,33 @@ struct Transport::Impl final : httplib::Server {
     draining_ = true;
     loop_.drain(patience);
     await_empty_backlog();
-    stop();
+    ::shutdown(svr_sock_, SHUT_RDWR);  // wakes `accept`
   }
+
+  [[nodiscard]] bool serving() const { return accepting_; }
 
   void cancel_jobs() { loop_.cancel_jobs(); }
 
  private:
+  /// Until `drain`. The library's own loop gives the port up at the first error it does not know,
+  /// such as a machine out of descriptors, which passes (accept(2)). False when the port is gone.
+  bool accept_all() {
+    accepting_ = true;
+    for (;;) {
+      const int socket = ::accept4(svr_sock_, nullptr, nullptr, SOCK_CLOEXEC);
+      if (socket >= 0) {
+        loop_.adopt(socket);
+      } else if (errno == EBADF || errno == EINVAL || errno == ENOTSOCK) {
+        break;
+      } else if (errno != EINTR && errno != ECONNABORTED) {
+        std::this_thread::sleep_for(kOutOfMeans);
+      }
+    }
+    accepting_ = false;
+    ::close(svr_sock_.exchange(INVALID_SOCKET));
+    return draining_;
+  }
+
   /// Connections that the kernel has taken for us are work too: closing the port would reset them.
   void await_empty_backlog() {
     const auto until = Clock::now() + kBacklogTime;
@@ -170,10 +182,7 @@ struct Transport::Impl final : httplib::Server {
     }
   }
 
-  bool process_and_close_socket(socket_t socket) override {
-    loop_.adopt(socket);
-    return true;
-  }
+  bool process_and_close_socket(socket_t /*never asked*/) override { return false; }
 
   /// The library parses a request line of ours, and nothing else; `answer` gets the client's
   /// request.
@@ -206,6 +215,7 @@ struct Transport::Impl final : httplib::Server {
   EventLoop loop_;
   int port_ = -1;
   std::atomic<bool> draining_ = false;
+  std::atomic<bool> accepting_ = false;
 };
 
 Transport::Transport(std::unique_ptr<Impl> impl) : x_(std::move(impl)) {}
@@ -221,7 +231,7 @@ tl::expected<Transport, std::string> Transport::open(const TransportOptions& opt
 
 int Transport::port() const { return x_->port(); }
 bool Transport::serve() { return x_->serve(); }
-bool Transport::serving() const { return x_->is_running(); }
+bool Transport::serving() const { return x_->serving(); }
 TransportStats Transport::stats() const { return x_->stats(); }
 void Transport::drain(std::chrono::milliseconds patience) { x_->drain(patience); }
 void Transport::cancel_jobs() { x_->cancel_jobs(); }
