@@ -38,11 +38,11 @@ struct JobRecord {
 struct AppOptions {
   std::string replica = {};  // value of Tubecut-Replica
   std::size_t max_target_bytes = 2048;
-  std::size_t max_body_bytes = 8u << 20;   // lowers the endpoints' own limits, never raises them
+  std::size_t max_body_bytes = 8u << 20;  // lowers the endpoints' own limits, never raises them
   /// What the memory has room for by one job; the transport refuses more.
   std::size_t max_job_body_bytes = std::numeric_limits<std::size_t>::max();
-  std::stop_token stop = {};               // cancels every job
-  std::chrono::milliseconds budget{2000};  // per job; a client may ask for less
+  std::stop_token stop = {};                      // cancels every job
+  std::chrono::milliseconds budget{2000};         // per job; a client may ask for less
   std::vector<std::string> cors_origins = {};     // "https://plant.example"; empty: no CORS
   std::vector<std::string> trusted_proxies = {};  // whose X-Forwarded-For is believed
   std::shared_ptr<Access> access = {};            // empty: no keys

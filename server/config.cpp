@@ -99,7 +99,8 @@ std::string contradiction(const Config& c) {
     if (!is_network(network)) return "--trusted-proxy: no address or network: " + network;
   }
   for (const auto& origin : c.cors_origins) {
-    if (!is_origin(origin)) return "--cors-origin: not scheme://host[:port] in lower case: " + origin;
+    if (!is_origin(origin))
+      return "--cors-origin: not scheme://host[:port] in lower case: " + origin;
   }
   return {};
 }

@@ -33,7 +33,7 @@ std::string print_head(const Response& head, bool close, bool chunked) {
 /// A large line is not even read for its id: that would hold up the port.
 void refuse_line(Request& line, Refusal refusal) {
   line.refusal = std::move(refusal);
-  if (line.body.size() > kReadAtOnce) line.body.clear();
+  if (line.body.size() > kReadAtOnce) line.body = {};
 }
 
 /// The next line that is not blank, and where the one after begins.
@@ -217,8 +217,7 @@ void EventLoop::expire_batch(Connection& c) {
     }
     ++counters_.wait;
     release(*job);
-    refuse_line(job->request,
-                {ErrorCode::overloaded, "No slot was free within the job's budget."});
+    refuse_line(job->request, {ErrorCode::overloaded, "No slot was free within the job's budget."});
     std::erase(c.batch->running, job);
     answer_line(c, service_.line(job->request).text, true);
   }

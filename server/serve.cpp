@@ -35,7 +35,7 @@ using namespace std::chrono_literals;
 
 constexpr int kAdminConnections = 64;
 constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and what the kernel has accepted
-constexpr auto kLogPatience = 1s;  // for a line that should be read before going on
+constexpr auto kLogPatience = 1s;    // for a line that should be read before going on
 
 std::chrono::milliseconds ms(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * seconds));

@@ -227,6 +227,38 @@ TEST(App, NamesTheEndpointOfWhatItRefuses) {
   EXPECT_EQ(endpoint(elsewhere), "");
 }
 
+TEST(App, NamesTheSameClientForABatchAndItsLines) {
+  Fake fake;
+  const App app = fake.app({.trusted_proxies = {"10.0.0.0/8"}});
+  Request line{.method = "POST",
+               .target = "/v1/batches",
+               .headers = {{"X-Forwarded-For", "6.6.6.6"}, {"X-Forwarded-For", "10.9.9.9"}},
+               .body = R"({"id": "a", "endpoint": "bevel-tables", "body": {}})",
+               .peer = "10.0.0.1",
+               .line = 1};
+  EXPECT_FALSE(app.line(line).refused);
+  const auto of_line = fake.records.back().client;
+  static_cast<void>(app.summary(line, {}));
+  EXPECT_EQ(of_line, fake.records.back().client);
+  line.headers.pop_back();
+  EXPECT_FALSE(app.line(line).refused);
+  EXPECT_EQ(fake.records.back().client, "6.6.6.6");
+}
+
+TEST(App, RefusesALineThatIsNotRead) {
+  Fake fake;
+  const App app = fake.app();
+  const auto reply = app.line({.method = "POST",
+                               .target = "/v1/batches",
+                               .refusal = Refusal{ErrorCode::body_too_large, "No room."},
+                               .line = 7});
+  EXPECT_TRUE(reply.refused);
+  const auto json = api::parse(reply.text);
+  ASSERT_TRUE(json) << reply.text;
+  EXPECT_EQ(*json->find("line"), api::Json(7.0));
+  EXPECT_EQ(*json->find("status"), api::Json(413.0));
+}
+
 TEST(App, TellsTheLimitsItHoldsTo) {
   const auto limits = [](AppOptions options) {
     const auto page = App(std::move(options)).handle({.method = "GET", .target = "/v1/limits"});

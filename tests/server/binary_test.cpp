@@ -234,6 +234,23 @@ TEST(Binary, SaysWhatItMayUse) {
   EXPECT_NE(metrics.find("tubecut_slots 3\n"), std::string::npos);
 }
 
+TEST(Binary, ClosesIdleConnectionsBeforeItRunsOutOfDescriptors) {
+  Program program(
+      {"/bin/sh", "-c", "ulimit -n 200; exec " TUBECUT_BINARY " --port 0 --admin-port 0"});
+  const auto ready = api::parse(program.line());
+  const auto capacity = api::parse(program.line());
+  ASSERT_TRUE(ready && capacity);
+  EXPECT_EQ(*capacity->find("connections"), api::Json(100.0));
+  const auto port = static_cast<int>(*ready->find("port")->as<double>());
+  std::vector<std::unique_ptr<Client>> idle;
+  for (int i = 0; i < 300; ++i) {
+    idle.push_back(std::make_unique<Client>(port));
+    if (i % 50 != 49) continue;
+    EXPECT_EQ(ask(port, get("/v1/version")).status, 200) << i;
+  }
+  EXPECT_TRUE(idle.front()->at_end());
+}
+
 TEST(Binary, IsNotOpenByAccident) {
   Program shy({TUBECUT_BINARY, "--host", "0.0.0.0", "--port", "0", "--admin-port", "0"});
   EXPECT_EQ(shy.exit_code(), 78);

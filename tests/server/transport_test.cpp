@@ -174,6 +174,50 @@ TEST(Transport, HoldsNoThreadForASlowClient) {
   EXPECT_EQ(body.receive().status, 400);
 }
 
+TEST(Transport, DropsEmptyLinesBehindABodyInSilence) {
+  TransportOptions options;
+  options.head = 100ms;
+  const Port port(echo, options);
+  Client client(port.number());
+  client.send(post("/b", "x") + "\r\n");
+  EXPECT_EQ(client.receive().status, 200);
+  EXPECT_TRUE(client.at_end());  // no answer to a request that nobody sent
+}
+
+TEST(Transport, LetsAClientReadWhyItsLargeBodyIsRefused) {
+  const Port port;
+  for (const std::size_t bytes : {std::size_t{2} << 20, std::size_t{40} << 20}) {
+    Client client(port.number());
+    client.send("POST /b HTTP/1.1\r\nHost: x\r\nContent-Length: " + std::to_string(bytes) +
+                "\r\n\r\n");
+    const std::string part(1 << 20, 'x');
+    for (std::size_t sent = 0; sent < bytes; sent += part.size()) client.send(part);
+    EXPECT_EQ(client.receive().status, 400) << bytes;
+    EXPECT_TRUE(client.at_end());
+  }
+}
+
+TEST(Transport, ClosesClientsThatTakeNothingBeforeItRefusesOthers) {
+  TransportOptions options;
+  options.memory = 1;  // the least there is: 16 MiB
+  const Port port(
+      [](const Request& request) {
+        auto answer = echo(request);
+        if (request.target == "/big") answer.body.assign(std::size_t{12} << 20, 'x');
+        return answer;
+      },
+      options);
+  std::vector<std::unique_ptr<Client>> takers;
+  for (int i = 0; i < 3; ++i) {
+    takers.push_back(std::make_unique<Client>(port.number()));
+    takers.back()->send(get("/big"));
+  }
+  std::this_thread::sleep_for(1500ms);
+  Client good(port.number());
+  good.send(post("/good", "x"));
+  EXPECT_EQ(good.receive().body, "POST /good x");
+}
+
 TEST(Transport, ShowsNoTextOfAnException) {
   const Port port([](const Request&) -> Response { throw std::runtime_error("secret"); });
   Client client(port.number());

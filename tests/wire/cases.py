@@ -29,6 +29,10 @@ def chunked(*chunks):
     return b"".join(b"%x\r\n%s\r\n" % (len(c), c) for c in chunks) + b"0\r\n\r\n"
 
 
+def lines(body, version="1.1"):
+    return head(f"Content-Length: {len(body)}", target="/v1/batches", version=version).replace(b"application/json", b"application/x-ndjson") + body
+
+
 TE = "Transfer-Encoding: chunked"
 HALF = len(BODY) // 2
 SMUGGLED = get("/v1/limits")  # must never be answered
@@ -77,6 +81,12 @@ def compliance():
     case(k, "pipelined gets", get("/v1/version") * 5, [200] * 5, trap=True)
     case(k, "pipelined, mixed", post() + get("/v1/version") + head(TE) + chunked(BODY) + get("/nowhere"), [200, 200, 200, 404], trap=True)
     case(k, "pipelined, a bad one ends it", get("/v1/version") + b"BAD\r\n\r\n" + get("/v1/version"), [200, 400], shut=True, trap=True)
+    empty = lines(b"")
+    case(k, "an empty batch", empty, 200)
+    case(k, "empty batches behind a get", get("/v1/version") + empty + empty + get("/v1/version"), [200] * 4)
+    case(k, "a batch behind a get", get("/v1/version") + lines(b"{}\n" * 3) + get("/v1/version"), [200] * 3)
+    case(k, "a batch in 1.0 is not chunked", lines(b"{}\n", version="1.0"), 200, shut=True,
+         check=lambda r: r.get("Transfer-Encoding") is None and b'"summary"' in r.body and r.body.startswith(b'{"id"'))
     case(k, "64 fields", get("/v1/version", *(f"X-{i}: y" for i in range(63))), 200)
 
 
@@ -115,6 +125,9 @@ def smuggling():
         "length in a trailer": b"0\r\nContent-Length: 3\r\n\r\n", "chunked in a trailer": b"0\r\nTransfer-Encoding: chunked\r\n\r\n",
     }.items():
         refused(k, "chunk: " + name, head(TE) + text, trap=name in {"data longer than its size", "data ends with LF", "bare LF in an extension"})
+    # The reader's second piece of 64 KiB begins with what looks like a request, in a body behind an empty batch.
+    front = lines(b"") + head("Content-Length: 100000")
+    case(k, "a request in a body behind an empty batch", front + (b" " * (65536 - len(front)) + SMUGGLED).ljust(100000), [200, 400])
     case(k, "look-alike names are only names", get("/v1/version", "Content_Length: 50", "Transfer_Encoding: chunked", "XContent-Length: 9"), 200)
 
 

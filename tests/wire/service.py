@@ -98,16 +98,40 @@ def head(*headers, target="/v1/intersections", version="1.1", host="Host: localh
     return "".join(line + "\r\n" for line in lines).encode("latin-1") + b"\r\n"
 
 
-def split_replies(data, bodiless=False):
+def split_chunks(data):
+    """The body in chunks at the front of `data` and what is left over; (None, data) when it is not whole."""
+    body, rest = b"", data
+    while b"\r\n" in rest:
+        size, rest = rest.split(b"\r\n", 1)
+        length = int(size, 16)
+        if len(rest) < length + 2:
+            break
+        assert rest[length:length + 2] == b"\r\n", "a chunk does not end where it says"
+        body, rest = body + rest[:length], rest[length + 2:]
+        if length == 0:
+            return body, rest
+    return None, data
+
+
+def split_replies(data, bodiless=False, ended=False):
     """The replies in `data` and what is left over. `bodiless`: the first is to a HEAD."""
     replies = []
     while b"\r\n\r\n" in data and data.startswith(b"HTTP/"):
         front, rest = data.split(b"\r\n\r\n", 1)
         reply = Reply(front, b"")
-        length = 0 if bodiless and not replies or reply.status == 100 else int(reply.get("Content-Length") or 0)
-        if len(rest) < length:
+        length = reply.get("Content-Length")
+        if bodiless and not replies or reply.status == 100:
+            reply.body = b""
+        elif reply.get("Transfer-Encoding") == "chunked":
+            reply.body, rest = split_chunks(rest)
+        elif length is None and reply.get("Connection") == "close":
+            reply.body, rest = (rest, b"") if ended else (None, rest)
+        else:
+            whole = len(rest) >= int(length or 0)
+            reply.body, rest = (rest[:int(length or 0)], rest[int(length or 0):]) if whole else (None, rest)
+        if reply.body is None:
             break
-        reply.body, data = rest[:length], rest[length:]
+        data = rest
         replies.append(reply)
     return replies, data
 
@@ -131,7 +155,7 @@ def receive(sock, quiet=0.4, patience=5.0, enough=None, bodiless=False):
             ended = True
             break
         data += more
-    replies, rest = split_replies(data, bodiless)
+    replies, rest = split_replies(data, bodiless, ended)
     return replies, rest, ended
 
 
