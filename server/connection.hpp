@@ -19,12 +19,13 @@ using Clock = std::chrono::steady_clock;
 
 /// A batch on its way: its lines become jobs, a few at a time.
 struct Batch {
-  Request head;          // what every line's request has in common
-  std::string lines;     // the body
-  std::size_t at = 0;    // of the next line
-  std::size_t line = 0;  // lines begun
-  bool stopped = false;  // no further line begins
-  bool chunked = true;   // the answer; else the connection's end ends it (HTTP/1.0)
+  Request head;                                  // what every line's request has in common
+  std::string lines;                             // the body
+  std::size_t at = 0;                            // of the next line
+  std::size_t line = 0;                          // lines begun
+  bool stopped = false;                          // no further line begins
+  std::optional<Clock::time_point> waits_since;  // for memory
+  bool chunked = true;  // the answer; else the connection's end ends it (HTTP/1.0)
   BatchCount count;
   std::vector<std::shared_ptr<Job>> running;
   bool paid = true;      // its key's rate has let the next line in; the first came with the batch
@@ -85,6 +86,7 @@ class Connection {
   bool closing = false;  // ends with the answer being made or sent
   bool unread = false;   // bytes of the last request may still come
   bool queued_again = false;
+  bool has_more = false;  // whole requests left for another turn
   RequestReader reader;
   std::string in;  // received, not yet taken by the reader
   std::string out;
@@ -96,6 +98,7 @@ class Connection {
   std::function<void(bool)> sent;
   Clock::time_point received;
   Clock::time_point deadline = Clock::time_point::max();
+  Clock::time_point gone_by = Clock::time_point::max();  // half-closed: taken for gone
   Clock::time_point ends_by = Clock::time_point::max();  // lingering
   Clock::time_point begun;                               // writing
 };

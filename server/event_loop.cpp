@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <functional>
 #include <limits>
 #include <system_error>
 
@@ -18,7 +19,8 @@ using namespace std::chrono_literals;
 using State = Connection::State;
 
 constexpr std::size_t kReadBytes = 65536;
-constexpr int kReadsPerTurn = 8;  // then another connection's turn
+constexpr int kReadsPerTurn = 8;      // then another connection's turn
+constexpr int kRequestsPerTurn = 32;  // refused at once, by rate or for want of room
 constexpr int kEventsPerTurn = 256;
 constexpr auto kFirstByteWhileDraining = 500ms;
 constexpr auto kTaken = 1s;  // most answers are by then: the others give way when memory is short
@@ -39,9 +41,6 @@ constexpr std::size_t kJobBytesPerByte = 48;
 /// Memory of a running job whatever its body: 17 MiB were measured for 20 000 points.
 constexpr std::size_t kSlotBytes = 24u << 20;
 constexpr std::size_t kLeastMemory = 16u << 20;
-/// Part of the memory that requests on their way may hold: jobs find the rest, however many bodies
-/// clients begin.
-constexpr std::size_t kArrivingShare = 2;
 
 /// What is left of the bound for bodies and answers once every slot has its part; 0: no bound.
 std::size_t shared_memory(const TransportOptions& options) {
@@ -72,18 +71,9 @@ EventLoop::EventLoop(const TransportOptions& options, const Service& service, Pr
       epoll_(epoll_create1(EPOLL_CLOEXEC)),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       scratch_(kReadBytes, '\0'),
-      slots_(
-          std::make_unique<Slots>(options.slots, options.queue, [this](std::shared_ptr<Job> job) {
-            job->request.times.started = seconds(Clock::now());
-            if (job->request.line > 0) {
-              BatchReply reply = service_.line(job->request);
-              job->answer = std::move(reply.text);
-              job->refused = reply.refused;
-            } else {
-              Printed printed = print_(job->request, job->close);
-              job->answer = std::move(printed.bytes);
-              job->sent = std::move(printed.sent);
-            }
+      slots_(std::make_unique<Slots>(
+          options.slots, options.queue, [this](const std::shared_ptr<Job>& job) { work(*job); },
+          [this](std::shared_ptr<Job> job) {
             {
               const std::lock_guard lock(mutex_);
               finished_.push_back(std::move(job));
@@ -93,6 +83,20 @@ EventLoop::EventLoop(const TransportOptions& options, const Service& service, Pr
   epoll_event event{.events = EPOLLIN, .data = {.ptr = nullptr}};
   if (epoll_ < 0 || wake_ < 0 || epoll_ctl(epoll_, EPOLL_CTL_ADD, wake_, &event) != 0) {
     throw std::system_error(errno, std::generic_category(), "epoll");
+  }
+}
+
+/// In a slot's thread.
+void EventLoop::work(Job& job) const {
+  job.request.times.started = seconds(Clock::now());
+  if (job.request.line > 0) {
+    BatchReply reply = service_.line(job.request);
+    job.answer = std::move(reply.text);
+    job.refused = reply.refused;
+  } else {
+    Printed printed = print_(job.request, job.close);
+    job.answer = std::move(printed.bytes);
+    job.sent = std::move(printed.sent);
   }
 }
 
@@ -248,8 +252,10 @@ void EventLoop::on_event(Connection& c, unsigned events) {
   if ((events & EPOLLIN) != 0) c.readable = true;
   if ((events & EPOLLRDHUP) != 0 && !c.half_closed) {
     c.half_closed = c.readable = true;
-    if (c.state == State::working || c.state == State::batching)
-      set_deadline(c, std::min(c.deadline, Clock::now() + kHangUpGrace));
+    if (c.state == State::working || c.state == State::batching) {
+      c.gone_by = Clock::now() + kHangUpGrace;
+      set_deadline(c, c.deadline);
+    }
   }
   if (c.state == State::batching && (events & EPOLLOUT) != 0) feed(c);
   if (!connections_.contains(&c)) return;
@@ -265,12 +271,10 @@ void EventLoop::pump(Connection& c) {
       if (c.in.empty()) c.in = {};
       if (!connections_.contains(&c)) return;
       account(c);
+      if (c.has_more) return look_again(c);
     }
     if ((!c.reading() && c.state != State::lingering) || !c.readable) return;
-    if (n == kReadsPerTurn) {
-      if (!std::exchange(c.queued_again, true)) again_.push_back(&c);
-      return;
-    }
+    if (n == kReadsPerTurn) return look_again(c);
     const auto got = c.receive(scratch_.data(), scratch_.size());
     if (got == -1) c.readable = false;
     if (got == 0) return on_end(c);
@@ -289,7 +293,14 @@ void EventLoop::pump(Connection& c) {
     }
     if (!connections_.contains(&c)) return;
     account(c);
+    if (c.has_more) return look_again(c);
   }
+}
+
+/// In the next turn, after the others'.
+void EventLoop::look_again(Connection& c) {
+  c.has_more = false;
+  if (!std::exchange(c.queued_again, true)) again_.push_back(&c);
 }
 
 /// Sets memory aside for what has come of the connection's next requests.
@@ -302,46 +313,63 @@ void EventLoop::account(Connection& c) {
 
 /// Of requests on their way, the one that holds most makes room for the others.
 void EventLoop::bound_arrivals() {
-  while (memory_ > 0 && arriving_ > memory_ / kArrivingShare) {
+  while (memory_ > 0 && arriving_ > memory_ / kWaiting) {
     Connection* most = nullptr;
     for (const auto& [c, owned] : connections_) {
       if (c->held > 0 && (most == nullptr || c->held > most->held)) most = c;
     }
     if (most == nullptr) return;
     ++counters_.bytes;
-    if (!most->reading()) {  // behind an answer that is not taken
-      close(*most);
-    } else {
+    if (most->reading()) {
       refuse_unread(*most, {ErrorCode::overloaded, "The memory for requests is in use."});
+    } else if (most->state == State::working || most->state == State::batching) {
+      drop_pipelined(*most);
+    } else {
+      close(*most);  // behind an answer that is not taken
     }
   }
+}
+
+/// What came behind the request being answered is not read: the connection ends with the answer.
+void EventLoop::drop_pipelined(Connection& c) {
+  c.closing = c.unread = true;
+  if (c.job) c.job->close = true;
+  c.in = {};
+  account(c);
+}
+
+bool EventLoop::has_memory(std::size_t bytes) const {
+  return memory_ == 0 || counters_.memory + bytes <= memory_;
 }
 
 /// Whether so many bytes more are there, if need be without the clients slowest to take their
-/// answers.
+/// answers: those that hold most go first, and none in vain.
 bool EventLoop::make_memory(std::size_t bytes) {
-  if (memory_ > 0 && bytes > memory_) return false;
-  while (memory_ > 0 && counters_.memory + bytes > memory_) {
-    Connection* most = nullptr;
-    const auto size = [](const Connection& c) { return c.held + c.out.size(); };
-    const auto late = Clock::now() - kTaken;
-    for (const auto& [c, owned] : connections_) {
-      if (c->state == State::writing && c->begun < late &&
-          (most == nullptr || size(*c) > size(*most))) {
-        most = c;
-      }
-    }
-    if (most == nullptr) return false;
-    ++counters_.over_time;
-    close(*most);
+  if (has_memory(bytes)) return true;
+  const auto size = [](const Connection* c) { return c->held + c->out.size(); };
+  const auto late = Clock::now() - kTaken;
+  std::vector<Connection*> slow;
+  std::size_t theirs = 0;
+  for (const auto& [c, owned] : connections_) {
+    if (c->state != State::writing || c->begun >= late) continue;
+    slow.push_back(c);
+    theirs += size(c);
   }
-  return true;
+  if (counters_.memory + bytes - theirs > memory_) return false;
+  std::ranges::sort(slow, std::greater{}, size);
+  for (auto* const c : slow) {
+    if (has_memory(bytes)) break;
+    ++counters_.over_time;
+    close(*c);
+  }
+  return has_memory(bytes);
 }
 
-/// Takes requests off the front of `bytes` until one becomes a job or is not whole. Returns how
-/// much was taken.
+/// Takes requests off the front of `bytes` until one becomes a job or is not whole, or the turn is
+/// over. Returns how much was taken.
 std::size_t EventLoop::digest(Connection& c, std::string_view bytes) {
   std::size_t taken = 0;
+  int whole = 0;
   while (c.reading() && taken < bytes.size()) {
     if (c.state == State::idle) {
       c.state = State::head;
@@ -363,13 +391,14 @@ std::size_t EventLoop::digest(Connection& c, std::string_view bytes) {
         break;
       case RequestReader::State::whole:
         on_whole(c);
+        c.has_more = ++whole == kRequestsPerTurn && taken < bytes.size();
         break;
       case RequestReader::State::faulty:
         refuse_unread(c, c.reader.fault());
         break;
     }
     bound_arrivals();
-    if (!connections_.contains(&c)) return taken;
+    if (!connections_.contains(&c) || c.has_more) return taken;
   }
   return taken;
 }
@@ -380,8 +409,8 @@ std::size_t EventLoop::room_for_body(const Request& head) const {
   const auto limit = service_.max_body(head.target);
   if (memory_ == 0) return limit;
   const bool batch = service_.is_batch && service_.is_batch(head);
-  return std::min(limit, batch ? memory_ / kArrivingShare - options_.max_head_bytes
-                               : room_for_job_body(options_));
+  return std::min(
+      limit, batch ? memory_ / kWaiting - options_.max_head_bytes : room_for_job_body(options_));
 }
 
 std::optional<Refusal> EventLoop::head_refusal(Connection& c) const {
@@ -454,6 +483,7 @@ void EventLoop::on_whole(Connection& c) {
   request.reports_sending = true;
   job->close = c.closing;
   job->owner = &c;
+  if (c.half_closed) c.gone_by = Clock::now() + kHangUpGrace;
   if (service_.is_batch && service_.is_batch(request)) return begin_batch(c, job);
   if (const auto budget = service_.budget ? service_.budget(request) : 0ms; budget > 0ms) {
     job->end = Clock::now() + budget;
@@ -478,6 +508,7 @@ void EventLoop::on_end(Connection& c) {
 void EventLoop::refuse(Connection& c, Refusal refusal) {
   Request request = std::move(c.reader.request());
   request.body = {};
+  account(c);
   request.peer = c.peer;
   request.refusal = std::move(refusal);
   request.reports_sending = true;
@@ -519,6 +550,7 @@ void EventLoop::write(Connection& c, Printed answer) {
   counters_.memory += c.out.size();
   c.state = State::writing;
   c.begun = Clock::now();
+  c.gone_by = Clock::time_point::max();
   set_deadline(c, options_.write);
   send(c);
   static_cast<void>(make_memory(0));  // those who take nothing give way to this one
@@ -567,6 +599,7 @@ void EventLoop::close(Connection& c) {
 }
 
 void EventLoop::set_deadline(Connection& c, Clock::time_point when) {
+  when = std::min(when, c.gone_by);
   c.deadline = draining_ && c.state != State::working && c.state != State::batching
                    ? std::min(when, drained_by_)
                    : when;
@@ -606,15 +639,14 @@ void EventLoop::expire(Connection& c) {
     case State::working:
       break;
   }
-  if (c.half_closed) {
+  if (c.gone_by <= Clock::now()) {
     ++counters_.hung_up;
     return close(c);
   }
   if (!slots_->withdraw(c.job)) {
     if (Clock::now() < c.job->end) return set_deadline(c, c.job->end);
-    c.deadline = Clock::time_point::max();
     c.job->stop.request_stop();
-    return;
+    return set_deadline(c, Clock::time_point::max());
   }
   ++counters_.wait;
   release(*c.job);

@@ -48,21 +48,29 @@ class EventLoop {
   [[nodiscard]] TransportStats stats() const;
 
  private:
+  /// Requests on their way hold one part of so many of the memory at most, and lines of batches
+  /// another: whatever clients begin, jobs find theirs.
+  static constexpr std::size_t kWaiting = 2;
+
   struct Counters {
     std::atomic<std::uint64_t> connections{0}, memory{0}, queue{0}, wait{0}, bytes{0}, full{0},
         hung_up{0}, over_time{0};
   };
 
   void wake() const;
+  void work(Job& job) const;
   void take_messages();
   void accept(int descriptor);
   [[nodiscard]] bool make_room();
   void on_event(Connection& c, unsigned events);
 
   void pump(Connection& c);
+  void look_again(Connection& c);
   std::size_t digest(Connection& c, std::string_view bytes);
   void account(Connection& c);
   void bound_arrivals();
+  void drop_pipelined(Connection& c);
+  [[nodiscard]] bool has_memory(std::size_t bytes) const;
   [[nodiscard]] bool make_memory(std::size_t bytes);
   [[nodiscard]] std::size_t room_for_body(const Request& head) const;
   void on_head(Connection& c, bool more_there);
@@ -75,6 +83,8 @@ class EventLoop {
   void begin_batch(Connection& c, const std::shared_ptr<Job>& job);
   void feed(Connection& c);
   [[nodiscard]] bool feed_line(Connection& c, std::string_view line);
+  [[nodiscard]] bool over_wait(Batch& batch) const;
+  void forget_begun(Batch& batch);
   void say(Connection& c, const std::string& bytes);
   void answer_line(Connection& c, std::string_view text, bool refused);
   void finish_line(Connection& c, Job& job);
@@ -115,6 +125,7 @@ class EventLoop {
   std::vector<Connection*> again_;                   // have more bytes than one turn
   Clock::time_point soonest_ = Clock::time_point::max();
   std::size_t arriving_ = 0;  // bytes of requests not yet handed on
+  std::size_t lines_ = 0;     // bytes of batches' lines not yet begun
   double mean_s_ = 0.0;       // of a job in its slot
   bool draining_ = false;
   bool ending_ = false;

@@ -53,7 +53,8 @@ std::string_view next_line(std::string_view lines, std::size_t& at) {
 void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = job->request.body.size();
   job->request.refusal = service_.screen(job->request);  // an empty one was whole at its head
-  if (!job->request.refusal && !make_memory(memory)) {
+  const bool room = memory_ == 0 || lines_ + memory <= memory_ / kWaiting;
+  if (!job->request.refusal && (!room || !make_memory(memory))) {
     ++counters_.bytes;
     job->request.refusal = {ErrorCode::overloaded, "The memory for jobs is in use."};
   } else if (!job->request.refusal && service_.admit) {
@@ -74,6 +75,7 @@ void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   std::erase_if(common, is_id);
   std::ranges::copy_if(head.headers, std::back_inserter(common), is_id);
   counters_.memory += memory;
+  lines_ += memory;
   std::size_t at = 0;
   while (!next_line(c.batch->lines, at).empty()) ++c.batch->count.items;
   c.batch->count.bytes_in = memory;
@@ -102,6 +104,7 @@ void EventLoop::feed(Connection& c) {
       break;
     }
   }
+  forget_begun(batch);
   if (batch.stopped && batch.running.empty()) return end_batch(c);
   set_batch_deadline(c);
 }
@@ -110,9 +113,10 @@ void EventLoop::feed(Connection& c) {
 /// key.
 bool EventLoop::feed_line(Connection& c, std::string_view line) {
   Batch& batch = *c.batch;
-  const bool fits = memory_ == 0 || memory_of(line.size()) + batch.lines.size() + kHeld <= memory_;
-  const auto memory = fits ? memory_of(line.size()) : 0;
-  if (!make_memory(memory)) return false;
+  const bool fits = memory_ == 0 || memory_of(line.size()) <= memory_ - memory_ / kWaiting;
+  const bool has = has_memory(fits ? memory_of(line.size()) : 0);
+  if (!has && !over_wait(batch)) return false;
+  batch.waits_since.reset();
   if (!batch.paid && service_.admit && service_.admit(batch.head)) return false;
   batch.paid = true;
   auto job = std::make_shared<Job>();
@@ -123,10 +127,15 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   job->request.times.read = job->request.times.received =
       std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
   job->owner = &c;
-  job->memory = memory;
-  if (!fits)
+  if (!fits) {
     refuse_line(job->request, {ErrorCode::body_too_large,
                                "This replica's memory has no room for a line of that size."});
+  } else if (!has) {
+    ++counters_.bytes;
+    refuse_line(job->request, {ErrorCode::overloaded, "The memory for jobs is in use."});
+  } else {
+    job->memory = memory_of(line.size());
+  }
   if (service_.budget) job->end = Clock::now() + service_.budget(job->request);
   if (!slots_->offer(job)) return false;
   counters_.memory += job->memory;
@@ -134,6 +143,24 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   batch.paid = false;
   batch.running.push_back(std::move(job));
   return true;
+}
+
+/// Whether the next line has waited for memory as long as a job may take.
+bool EventLoop::over_wait(Batch& batch) const {
+  if (!batch.waits_since) batch.waits_since = Clock::now();
+  const auto most = service_.budget ? service_.budget(batch.head) : 0ms;
+  return most > 0ms && Clock::now() - *batch.waits_since >= most;
+}
+
+/// Lines already begun need not be kept.
+void EventLoop::forget_begun(Batch& batch) {
+  if (2 * batch.at < batch.lines.size()) return;
+  const auto begun = std::min(batch.at, batch.lines.size());
+  batch.lines.erase(0, begun);
+  batch.lines.shrink_to_fit();
+  batch.at = 0;
+  counters_.memory -= begun;
+  lines_ -= begun;
 }
 
 void EventLoop::say(Connection& c, const std::string& bytes) {
@@ -179,6 +206,7 @@ void EventLoop::end_batch(Connection& c) {
   drop_batch(c);
   c.state = State::writing;
   c.begun = Clock::now();
+  c.gone_by = Clock::time_point::max();
   set_deadline(c, options_.write);
   send(c);
 }
@@ -191,11 +219,11 @@ void EventLoop::drop_batch(Connection& c) {
     if (slots_->withdraw(job)) release(*job);
   }
   counters_.memory -= c.batch->lines.size();
+  lines_ -= c.batch->lines.size();
   c.batch = nullptr;
 }
 
 void EventLoop::set_batch_deadline(Connection& c) {
-  if (c.half_closed) return;  // counted down since
   auto when = std::min(c.batch->stalled, c.batch->again);
   for (const auto& job : c.batch->running) when = std::min(when, job->end);
   set_deadline(c, when);
@@ -203,8 +231,8 @@ void EventLoop::set_batch_deadline(Connection& c) {
 
 void EventLoop::expire_batch(Connection& c) {
   const auto now = Clock::now();
-  if (c.half_closed || c.batch->stalled <= now) {
-    ++(c.half_closed ? counters_.hung_up : counters_.over_time);
+  if (c.gone_by <= now || c.batch->stalled <= now) {
+    ++(c.gone_by <= now ? counters_.hung_up : counters_.over_time);
     return close(c);
   }
   const auto running = c.batch->running;

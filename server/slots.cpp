@@ -21,8 +21,10 @@ void step_back() {
 
 }  // namespace
 
-Slots::Slots(int count, std::size_t queue, Step work)
-    : work_(std::move(work)), most_(queue + static_cast<std::size_t>(std::max(1, count))) {
+Slots::Slots(int count, std::size_t queue, Step work, Step done)
+    : work_(std::move(work)),
+      done_(std::move(done)),
+      most_(queue + static_cast<std::size_t>(std::max(1, count))) {
   for (int i = 0; i < std::max(1, count); ++i) threads_.emplace_back([this] { run(); });
 }
 
@@ -68,9 +70,10 @@ void Slots::run() {
     waiting_ = queue_.size();
     ++busy_;
     lock.unlock();
-    work_(std::move(job));
+    work_(job);
+    --busy_;  // before the answer is out: its client's next request finds the slot free
+    done_(std::move(job));
     lock.lock();
-    --busy_;
   }
 }
 

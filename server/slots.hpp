@@ -39,8 +39,8 @@ class Slots {
  public:
   using Step = std::function<void(std::shared_ptr<Job>)>;
 
-  /// `work` runs in a slot's thread and shall not throw.
-  Slots(int count, std::size_t queue, Step work);
+  /// `work`, then `done` run in a slot's thread and shall not throw; at `done` the slot is free.
+  Slots(int count, std::size_t queue, Step work, Step done);
   ~Slots() { join(); }
   Slots(const Slots&) = delete;
   Slots& operator=(const Slots&) = delete;
@@ -62,6 +62,7 @@ class Slots {
   void run();
 
   Step work_;
+  Step done_;
   std::size_t most_;
   std::mutex mutex_;
   std::condition_variable some_;

@@ -218,6 +218,43 @@ TEST(Transport, ClosesClientsThatTakeNothingBeforeItRefusesOthers) {
   EXPECT_EQ(good.receive().body, "POST /good x");
 }
 
+TEST(Transport, HasItsSlotFreeBeforeTheAnswerIsOut) {
+  TransportOptions options;
+  options.queue = 0;
+  const Port port(echo, options);
+  Client client(port.number());
+  for (int i = 0; i < 500; ++i) {
+    client.send(get("/one"));
+    ASSERT_EQ(client.receive().body, "GET /one ") << i;
+  }
+}
+
+TEST(Transport, AnswersAcceptedWorkWhateverComesBehindIt) {
+  TransportOptions options;
+  options.memory = 1;  // the least there is: 16 MiB
+  options.queue = 300;
+  std::promise<void> go;
+  const auto gate = go.get_future().share();
+  const Port port(
+      [&](const Request& request) {
+        gate.wait();
+        return echo(request);
+      },
+      options);
+  std::string behind;
+  while (behind.size() < 70000) behind += get("/behind");
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < 200; ++i) {  // 13 MB behind them, where 8 MiB may be on their way
+    clients.push_back(std::make_unique<Client>(port.number()));
+    clients.back()->send(post("/job", std::to_string(i)) + behind);
+  }
+  go.set_value();
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_EQ(clients[static_cast<std::size_t>(i)]->receive().body,
+              "POST /job " + std::to_string(i));
+  }
+}
+
 TEST(Transport, ShowsNoTextOfAnException) {
   const Port port([](const Request&) -> Response { throw std::runtime_error("secret"); });
   Client client(port.number());

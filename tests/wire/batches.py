@@ -20,6 +20,7 @@ from service import Service, connect, exchange, post
 
 GROWTH = 16.0  # MiB over the whole run: answers held, working memory of the slots
 SEED = 2
+SMALL = 16 << 20  # bytes for bodies and answers: the least that there is
 
 
 def job(random_, number):
@@ -179,6 +180,30 @@ class Suite:
                 self.check(1.4 <= seconds, f"25 lines took {seconds:.2f} s at 10 a second")
                 print(f"25 lines at 10 a second: {seconds:.2f} s")
 
+    def shares_memory(self):
+        """Batches whose lines have room only one at a time, or only when another's are through: all come to their end."""
+        large = b'{"id":"large","endpoint":"bevel-tables","body":{"x":"' + b"a" * 150_000 + b'"}}'
+        lines = b"\n".join([json.dumps(one).encode() for one in self.jobs[:2]] + [large] * 11)
+        with Service(self.binary, "--memory-bytes", str(SMALL), "--slots", "1", "--budget-s", "1") as service:
+            ended = []
+
+            def one():
+                try:
+                    ended.append(list(batch(service.port, lines))[-1]["summary"])
+                except AssertionError as refused:
+                    ended.append({"status": refused.args[0]})
+
+            beside = [threading.Thread(target=one) for _ in range(6)]
+            for each in beside:
+                each.start()
+            for each in beside:
+                each.join(60)
+            begun = [s for s in ended if "items" in s]
+            self.check(len(ended) == 6 and all(s.get("status", 429) == 429 for s in ended), f"{ended}")
+            self.check(len(begun) >= 2 and all(s["items"] == 13 and s["unanswered"] == 0 for s in begun), f"{begun}")
+            self.check(service.metric("tubecut_memory_reserved_bytes") == 0, "memory set aside is not given back")
+            print(f"6 batches in {SMALL >> 20} MiB: {ended}")
+
     def drains(self):
         with Service(self.binary) as service:
             lines = []
@@ -214,7 +239,7 @@ class Suite:
 
     def run(self):
         for part in (self.whole, self.hang_up, lambda: self.takes_little(0), lambda: self.takes_little(10_000), self.is_logged,
-                     self.minds_the_rate, self.drains, self.odd_ones):
+                     self.minds_the_rate, self.shares_memory, self.drains, self.odd_ones):
             part()
         for fault in self.faults[:20]:
             print(fault)

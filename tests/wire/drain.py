@@ -27,7 +27,7 @@ def job():
 
 def kept_alive(binary):
     """Requests on connections kept alive that reach the socket just before the signal: more than the port looks at in a turn."""
-    with Service(binary, "--queue", str(KEPT)) as service:
+    with Service(binary, "--queue", str(KEPT), "--budget-s", "60") as service:
         socks = [connect(service.port) for _ in range(KEPT)]
         request = get("/v1/version")
         for sock in socks:
@@ -71,4 +71,5 @@ def main():
              not (shown and answered == REQUESTS and code == 0 and kept_alive(sys.argv[1])))
 
 
-main()
+if __name__ == "__main__":
+    main()
