@@ -322,10 +322,8 @@ void EventLoop::bound_arrivals() {
     ++counters_.bytes;
     if (most->reading()) {
       refuse_unread(*most, {ErrorCode::overloaded, "The memory for requests is in use."});
-    } else if (most->state == State::working || most->state == State::batching) {
-      drop_pipelined(*most);
     } else {
-      close(*most);  // behind an answer that is not taken
+      drop_pipelined(*most);
     }
   }
 }
@@ -566,7 +564,7 @@ void EventLoop::send(Connection& c) {
   if (!*done) return;
   counters_.memory -= size;
   c.report(true);
-  if (c.closing || draining_) return c.half_closed && !c.unread ? close(c) : linger(c);
+  if (c.closing || draining_) return linger(c);
   c.restart(limits_);
   set_deadline(c, options_.idle);
 }
@@ -576,6 +574,8 @@ void EventLoop::linger(Connection& c) {
   c.finish_sending();
   c.state = State::lingering;
   c.readable = true;
+  c.in = {};
+  account(c);
   c.ends_by = Clock::now() + options_.body;
   set_deadline(c, kLingerTime);
 }

@@ -83,7 +83,8 @@ class EventLoop {
   void begin_batch(Connection& c, const std::shared_ptr<Job>& job);
   void feed(Connection& c);
   [[nodiscard]] bool feed_line(Connection& c, std::string_view line);
-  [[nodiscard]] bool over_wait(Batch& batch) const;
+  [[nodiscard]] bool has_memory_in_time(Batch& batch, std::size_t bytes);
+  [[nodiscard]] bool over_wait(const Batch& batch) const;
   void forget_begun(Batch& batch);
   void say(Connection& c, const std::string& bytes);
   void answer_line(Connection& c, std::string_view text, bool refused);

@@ -114,9 +114,8 @@ void EventLoop::feed(Connection& c) {
 bool EventLoop::feed_line(Connection& c, std::string_view line) {
   Batch& batch = *c.batch;
   const bool fits = memory_ == 0 || memory_of(line.size()) <= memory_ - memory_ / kWaiting;
-  const bool has = has_memory(fits ? memory_of(line.size()) : 0);
+  const bool has = has_memory_in_time(batch, fits ? memory_of(line.size()) : 0);
   if (!has && !over_wait(batch)) return false;
-  batch.waits_since.reset();
   if (!batch.paid && service_.admit && service_.admit(batch.head)) return false;
   batch.paid = true;
   auto job = std::make_shared<Job>();
@@ -131,13 +130,14 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
     refuse_line(job->request, {ErrorCode::body_too_large,
                                "This replica's memory has no room for a line of that size."});
   } else if (!has) {
-    ++counters_.bytes;
     refuse_line(job->request, {ErrorCode::overloaded, "The memory for jobs is in use."});
   } else {
     job->memory = memory_of(line.size());
   }
   if (service_.budget) job->end = Clock::now() + service_.budget(job->request);
   if (!slots_->offer(job)) return false;
+  if (!has) ++counters_.bytes;
+  batch.waits_since.reset();
   counters_.memory += job->memory;
   ++batch.line;
   batch.paid = false;
@@ -145,9 +145,17 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   return true;
 }
 
+/// Whether the memory for the next line is there. Slow takers give way when the wait for it begins
+/// and when it is over: to ask all connections each time would hold up the port.
+bool EventLoop::has_memory_in_time(Batch& batch, std::size_t bytes) {
+  if (has_memory(bytes)) return true;
+  const bool first = !batch.waits_since;
+  if (first) batch.waits_since = Clock::now();
+  return (first || over_wait(batch)) && make_memory(bytes);
+}
+
 /// Whether the next line has waited for memory as long as a job may take.
-bool EventLoop::over_wait(Batch& batch) const {
-  if (!batch.waits_since) batch.waits_since = Clock::now();
+bool EventLoop::over_wait(const Batch& batch) const {
   const auto most = service_.budget ? service_.budget(batch.head) : 0ms;
   return most > 0ms && Clock::now() - *batch.waits_since >= most;
 }

@@ -66,6 +66,8 @@ void Client::send(std::string_view bytes) {
   }
 }
 
+void Client::half_close() const { ::shutdown(descriptor_, SHUT_WR); }
+
 bool Client::fill() { return read_some(descriptor_, in_); }
 
 Answer Client::receive(bool head_only) {

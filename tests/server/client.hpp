@@ -27,6 +27,8 @@ class Client {
   Client& operator=(const Client&) = delete;
 
   void send(std::string_view bytes);
+  /// Says that no more is sent.
+  void half_close() const;
   /// The next answer, read by its Content-Length; without body for HEAD and 100.
   [[nodiscard]] Answer receive(bool head_only = false);
   /// True when the server has ended the connection and nothing is left to read.

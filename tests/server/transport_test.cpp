@@ -234,6 +234,23 @@ TEST(Transport, HasItsSlotFreeBeforeTheAnswerIsOut) {
   }
 }
 
+TEST(Transport, LetsAHalfClosedClientReadAllOfItsAnswer) {
+  const Port port([](const Request& request) {
+    std::this_thread::sleep_for(50ms);  // the client is done sending by then
+    auto answer = echo(request);
+    answer.body.assign(std::size_t{500'000}, 'x');
+    return answer;
+  });
+  std::string behind;
+  while (behind.size() < 100000) behind += get("/behind");
+  Client client(port.number());
+  client.send(get("/big", "Connection: close\r\n") + behind);
+  client.half_close();
+  std::this_thread::sleep_for(200ms);
+  EXPECT_EQ(client.receive().body.size(), std::size_t{500'000});
+  EXPECT_TRUE(client.at_end());
+}
+
 TEST(Transport, AnswersAcceptedWorkWhateverComesBehindIt) {
   TransportOptions options;
   options.memory = 1;  // the least there is: 16 MiB
