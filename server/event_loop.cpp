@@ -546,15 +546,20 @@ void EventLoop::write(Connection& c, Printed answer) {
   c.out_at = 0;
   c.sent = std::move(answer.sent);
   counters_.memory += c.out.size();
+  begin_writing(c);
+  static_cast<void>(make_memory(0));  // those who take nothing give way to this one
+  if (c.state == State::writing && c.out.capacity() > c.out.size() + kReadBytes) {
+    c.out.shrink_to_fit();  // it will wait, and the library has reserved up to twice its size
+  }
+}
+
+/// What is in `out` is the rest of the answer.
+void EventLoop::begin_writing(Connection& c) {
   c.state = State::writing;
   c.begun = Clock::now();
   c.gone_by = Clock::time_point::max();
   set_deadline(c, options_.write);
   send(c);
-  static_cast<void>(make_memory(0));  // those who take nothing give way to this one
-  if (c.state == State::writing && c.out.capacity() > c.out.size() + kReadBytes) {
-    c.out.shrink_to_fit();  // it will wait, and the library has reserved up to twice its size
-  }
 }
 
 void EventLoop::send(Connection& c) {

@@ -80,6 +80,7 @@ class EventLoop {
   [[nodiscard]] bool in_time(const Job& job) const;
   [[nodiscard]] std::optional<Refusal> offer(Connection& c, const std::shared_ptr<Job>& job);
 
+  [[nodiscard]] std::optional<Refusal> batch_refusal(const Request& whole);
   void begin_batch(Connection& c, const std::shared_ptr<Job>& job);
   void feed(Connection& c);
   [[nodiscard]] bool feed_line(Connection& c, std::string_view line);
@@ -100,6 +101,7 @@ class EventLoop {
   void finish(Job& job);
   void release(Job& job);
   void write(Connection& c, Printed answer);
+  void begin_writing(Connection& c);
   void send(Connection& c);
   void linger(Connection& c);
   void close(Connection& c);

@@ -50,16 +50,20 @@ std::string_view next_line(std::string_view lines, std::size_t& at) {
 
 }  // namespace
 
+std::optional<Refusal> EventLoop::batch_refusal(const Request& whole) {
+  if (auto refusal = service_.screen(whole)) return refusal;  // an empty one was whole at its head
+  const auto memory = whole.body.size();
+  const bool room = memory_ == 0 || lines_ + memory <= memory_ / kWaiting;
+  if (!room || !make_memory(memory)) {
+    ++counters_.bytes;
+    return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
+  }
+  return service_.admit ? service_.admit(whole) : std::nullopt;
+}
+
 void EventLoop::begin_batch(Connection& c, const std::shared_ptr<Job>& job) {
   const auto memory = job->request.body.size();
-  job->request.refusal = service_.screen(job->request);  // an empty one was whole at its head
-  const bool room = memory_ == 0 || lines_ + memory <= memory_ / kWaiting;
-  if (!job->request.refusal && (!room || !make_memory(memory))) {
-    ++counters_.bytes;
-    job->request.refusal = {ErrorCode::overloaded, "The memory for jobs is in use."};
-  } else if (!job->request.refusal && service_.admit) {
-    job->request.refusal = service_.admit(job->request);
-  }
+  job->request.refusal = batch_refusal(job->request);
   const Response head =
       job->request.refusal ? Response{.status = 0} : service_.batch_head(job->request);
   if (head.status != 200) return write(c, print_(job->request, job->close));
@@ -114,7 +118,8 @@ void EventLoop::feed(Connection& c) {
 bool EventLoop::feed_line(Connection& c, std::string_view line) {
   Batch& batch = *c.batch;
   const bool fits = memory_ == 0 || memory_of(line.size()) <= memory_ - memory_ / kWaiting;
-  const bool has = has_memory_in_time(batch, fits ? memory_of(line.size()) : 0);
+  const auto memory = fits ? memory_of(line.size()) : 0;
+  const bool has = has_memory_in_time(batch, memory);
   if (!has && !over_wait(batch)) return false;
   if (!batch.paid && service_.admit && service_.admit(batch.head)) return false;
   batch.paid = true;
@@ -132,7 +137,7 @@ bool EventLoop::feed_line(Connection& c, std::string_view line) {
   } else if (!has) {
     refuse_line(job->request, {ErrorCode::overloaded, "The memory for jobs is in use."});
   } else {
-    job->memory = memory_of(line.size());
+    job->memory = memory;
   }
   if (service_.budget) job->end = Clock::now() + service_.budget(job->request);
   if (!slots_->offer(job)) return false;
@@ -212,11 +217,7 @@ void EventLoop::end_batch(Connection& c) {
   say(c, c.batch->chunked ? chunk(summary.body) + std::string(kLastChunk) : summary.body);
   c.sent = std::move(summary.sent);
   drop_batch(c);
-  c.state = State::writing;
-  c.begun = Clock::now();
-  c.gone_by = Clock::time_point::max();
-  set_deadline(c, options_.write);
-  send(c);
+  begin_writing(c);
 }
 
 void EventLoop::drop_batch(Connection& c) {

@@ -58,14 +58,15 @@ class Service:
         """Resident bytes per byte in use: a build with ThreadSanitizer keeps four of its own beside each."""
         return 5 if "libtsan" in pathlib.Path(f"/proc/{self.process.pid}/maps").read_text() else 1
 
+    def metrics(self):
+        return exchange(self.admin_port, get("/metrics"))[0].body.decode()
+
     def metric(self, name):
-        text = exchange(self.admin_port, get("/metrics"))[0].body.decode()
-        return sum(float(line.rsplit(" ", 1)[1]) for line in text.splitlines() if line.startswith(name))
+        return sum(float(line.rsplit(" ", 1)[1]) for line in self.metrics().splitlines() if line.startswith(name))
 
     def refused(self):
         """Requests turned away, by the reason that the metrics name."""
-        text = exchange(self.admin_port, get("/metrics"))[0].body.decode()
-        found = re.findall(r'^tubecut_refused_total\{reason="(\w+)"\} (\d+)$', text, re.MULTILINE)
+        found = re.findall(r'^tubecut_refused_total\{reason="(\w+)"\} (\d+)$', self.metrics(), re.MULTILINE)
         return {reason: int(count) for reason, count in found if count != "0"}
 
 
