@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "server/request_reader.hpp"
+#include "server/http/request_reader.hpp"
 
 namespace {
 

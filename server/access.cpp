@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <system_error>
 
 #include "server/identity.hpp"
 
@@ -139,6 +141,9 @@ tl::expected<std::vector<ApiKey>, std::string> parse_keys(std::string_view text)
 
 std::string Access::load() {
   if (file_.empty()) return {};
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file_, unknown))
+    return fmt::format("cannot read the keys in {}: it is a folder", file_);
   std::ifstream in(file_, std::ios::binary);
   if (!in) return fmt::format("cannot read the keys in {}", file_);
   const std::string text{std::istreambuf_iterator<char>(in), {}};

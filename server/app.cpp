@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kExposed =
     "X-Request-Id, Job-Id, Idempotency-Key, traceparent, Server-Timing, Retry-After, "
-    "Tubecut-Replica, Tubecut-Input-Sha256, Tubecut-Result-Sha256";
+    "Tubecut-Replica, Tubecut-Input-Sha256, Tubecut-Result-Sha256, Tubecut-Verdict";
 constexpr std::string_view kAllowed =
     "Content-Type, Authorization, X-Api-Key, Job-Id, Idempotency-Key, X-Request-Id, traceparent, "
     "Tubecut-Budget-Ms";
@@ -76,6 +76,19 @@ std::optional<std::chrono::milliseconds> asked_budget(const Headers& headers) {
   return sound ? std::optional(std::chrono::milliseconds(ms)) : std::nullopt;
 }
 
+/// Host without its port, and an address without its brackets.
+std::string_view name_of(std::string_view host) {
+  if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
+  return host.substr(0, host.find(':'));
+}
+
+bool called_by(std::string_view host, const std::vector<std::string>& names) {
+  const auto name = name_of(host);
+  return name.empty() || equal_ignoring_case(name, "localhost") || is_loopback(name) ||
+         std::ranges::any_of(names,
+                             [&](const auto& one) { return equal_ignoring_case(name, one); });
+}
+
 bool asks_preflight(const Request& request) {
   return request.method == "OPTIONS" && !header(request.headers, "Origin").empty() &&
          !header(request.headers, "Access-Control-Request-Method").empty();
@@ -115,6 +128,9 @@ std::optional<Refusal> App::screen(const Request& head) const {
   if (!std::ranges::all_of(head.target, visible)) {
     return Refusal{ErrorCode::bad_request, "The target holds a byte that is not visible ASCII."};
   }
+  if (x_.hosts && !called_by(header(head.headers, "Host"), *x_.hosts)) {
+    return Refusal{ErrorCode::bad_request, "Host names another service; --hosts adds names."};
+  }
   const auto encoding = header(head.headers, "Content-Encoding");
   if (!encoding.empty() && !equal_ignoring_case(encoding, "identity")) {
     return Refusal{ErrorCode::unsupported_encoding,
@@ -136,6 +152,28 @@ std::optional<Refusal> App::admit(const Request& request) const {
   const auto identity = x_.access->identify(request.headers);
   return identity ? x_.access->take_turn(*identity, steady_seconds()) : std::nullopt;
 }
+
+std::size_t App::memory(const Request& request) {
+  const auto bound = api::call_memory(path_of(request.target));
+  return bound.fixed + bound.per_byte * request.body.size();
+}
+
+std::size_t App::room(std::string_view target) const {
+  const auto bound = api::call_memory(path_of(target));
+  return (x_.memory - std::min(x_.memory, bound.fixed)) / bound.per_byte;
+}
+
+std::string App::client(const Request& request) const {
+  if (x_.access && x_.access->asks()) return "key " + identity_of(request);
+  return client_of(request, x_.trusted_proxies);
+}
+
+std::string_view App::kind(const Request& request) {
+  if (request.method != "POST") return "catalogue";
+  return api::endpoint_at(path_of(request.target));
+}
+
+bool App::is_proxy(const std::string& peer) const { return in_networks(peer, x_.trusted_proxies); }
 
 std::chrono::milliseconds App::budget(const Request& request) const {
   const auto asked = asked_budget(request.headers);

@@ -39,13 +39,18 @@ struct AppOptions {
   std::string replica = {};  // value of Tubecut-Replica
   std::size_t max_target_bytes = 2048;
   std::size_t max_body_bytes = 8u << 20;  // lowers the endpoints' own limits, never raises them
-  /// What the memory has room for by one job; the transport refuses more.
+  /// What the memory has room for by one job of most endpoints; the transport refuses more.
   std::size_t max_job_body_bytes = std::numeric_limits<std::size_t>::max();
+  /// What jobs and answers share, in bytes.
+  std::size_t memory = std::numeric_limits<std::size_t>::max();
   std::stop_token stop = {};                      // cancels every job
   std::chrono::milliseconds budget{2000};         // per job; a client may ask for less
   std::vector<std::string> cors_origins = {};     // "https://plant.example"; empty: no CORS
   std::vector<std::string> trusted_proxies = {};  // whose X-Forwarded-For is believed
-  std::shared_ptr<Access> access = {};            // empty: no keys
+  /// Names by which Host may call the service besides those of this machine alone; none: any may.
+  /// A page whose name is rebound to this machine's address would else speak to it from a browser.
+  std::optional<std::vector<std::string>> hosts = {};
+  std::shared_ptr<Access> access = {};  // empty: no keys
   std::function<api::Outcome(const api::Call&, const api::Context&)> dispatch = api::dispatch;
   std::function<void()> started = [] {};
   std::function<void(const JobRecord&)> finished = [](const JobRecord&) {};
@@ -89,6 +94,21 @@ class App {
 
   /// The last line of a batch's answer, as the body; logs and counts the batch itself.
   [[nodiscard]] Response summary(const Request& head, const BatchCount& count) const;
+
+  /// An upper bound of the memory that the job takes, its answer's too, in bytes.
+  [[nodiscard]] static std::size_t memory(const Request& request);
+
+  /// The largest body at the target's path whose job has room in the memory.
+  [[nodiscard]] std::size_t room(std::string_view target) const;
+
+  /// Whose the request is: the owner of its key, else its address.
+  [[nodiscard]] std::string client(const Request& request) const;
+
+  /// The endpoint, "batches" for a batch and its lines, "catalogue" for what is not computed.
+  [[nodiscard]] static std::string_view kind(const Request& request);
+
+  /// Is it the address of a trusted proxy?
+  [[nodiscard]] bool is_proxy(const std::string& peer) const;
 
   /// Time for the job.
   [[nodiscard]] std::chrono::milliseconds budget(const Request& request) const;

@@ -107,13 +107,14 @@ BatchReply App::answer_line(const Request& request) const {
     x_.started();
     x_.finished(record);
     x_.sent(record);
-    return {api::print_batch_line(line, request.line, status, line.problem), true};
+    return {api::print_batch_line(line, request.line, status, line.problem), true, true};
   }
   one.method = "POST";
   one.target = line.path;
   one.body = line.body;
   const Response response = handle(one);
-  return {api::print_batch_line(line, request.line, response.status, response.body),
+  return {api::print_batch_line(line, request.line, response.status, response.body,
+                                header(response.headers, api::kVerdictHeader)),
           response.status != 200};
 }
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <tuple>
 #include <type_traits>
@@ -28,6 +29,16 @@ CLI::Option* option(CLI::App& app, const std::string& name, T& value, const std:
   return added->capture_default_str();
 }
 
+/// A number from `low` to `high`. CLI::Range lets NaN through.
+auto number(double low, double high) {
+  return [low, high](const std::string& text) {
+    const double value = std::strtod(text.c_str(), nullptr);
+    return value >= low && value <= high
+               ? std::string{}
+               : fmt::format("{} is no number from {} to {}", text, low, high);
+  };
+}
+
 void add_network(CLI::App& app, Config& c) {
   const CLI::Range port(0, 65535);
   option(app, "host", c.host, "address to listen on; 0.0.0.0 in a container");
@@ -43,14 +54,19 @@ void add_network(CLI::App& app, Config& c) {
   option(app, "trusted-proxy", c.trusted_proxies,
          "addresses or networks whose X-Forwarded-For is believed")
       ->delimiter(',');
+  option(app, "hosts", c.hosts, "names besides its own under which Host may call it; * for any")
+      ->delimiter(',');
   option(app, "machines", c.machines, "folder whose *.json files join GET /v1/machines");
   option(app, "replica", c.replica, "name sent as Tubecut-Replica; empty: the host's name");
 }
 
 void add_limits(CLI::App& app, Config& c) {
-  const CLI::Range seconds(0.01, 3600.0);
+  const auto seconds = number(0.01, 3600.0);
   option(app, "connections", c.connections, "connections open at a time; then idle ones end")
       ->check(CLI::Range(1, 100000));
+  option(app, "connections-per-client", c.connections_per_client,
+         "of those, one address's or key's at most; 0: half")
+      ->check(CLI::Range(0, 100000));
   option(app, "slots", c.slots, "jobs computed at a time; 0: by cgroup, affinity, machine")
       ->check(CLI::Range(0, 1024));
   option(app, "queue", c.queue, "jobs that wait for a slot; more are 429")
@@ -71,11 +87,15 @@ void add_limits(CLI::App& app, Config& c) {
   option(app, "body-s", c.body_s, "time for a request's body")->check(seconds);
   option(app, "write-s", c.write_s, "time for the client to take an answer")->check(seconds);
   option(app, "drain-delay-s", c.drain_delay_s, "on SIGTERM: not ready, but still accepting, for")
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(number(0.0, 3600.0));
   option(app, "drain-s", c.drain_s, "on SIGTERM: time for accepted work")->check(seconds);
   option(app, "log-queue", c.log_queue, "log lines kept for a slow reader of stdout")
       ->check(CLI::Range(std::size_t{16}, std::size_t{1u << 20}));
   option(app, "log-directory", c.log_directory, "folder for <day>/<job>.jsonl; empty: none");
+  option(app, "log-day-files", c.log_day.files, "files a day's folder may hold")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}));
+  option(app, "log-day-bytes", c.log_day.bytes, "bytes a day's folder may hold")
+      ->check(CLI::Range(std::size_t{4096}, std::size_t{1} << 40));
 }
 
 /// The file of the environment must exist, as one named on the command line must.
@@ -90,6 +110,19 @@ void add_file(CLI::App& app) {
 std::string host_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// The number of a line of the file that sets a value to no name: the parser passes over it. 0:
+/// none.
+int nameless_line(const std::string& file) {
+  std::ifstream in(file);
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const auto first = line.find_first_not_of(" \t");
+    if (first != std::string::npos && line[first] == '=') return number;
+  }
+  return 0;
 }
 
 /// What no single option can tell.
@@ -152,7 +185,10 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
     const int code = app.exit(end, out, err);
     return tl::unexpected(Exit{code == 0 ? 0 : 2, out.str(), err.str()});
   }
-  for (auto* list : {&c.cors_origins, &c.trusted_proxies}) std::erase(*list, "");
+  const auto file = app.get_config_ptr()->as<std::string>();
+  if (const int line = nameless_line(file); line > 0)
+    return tl::unexpected(Exit{2, {}, fmt::format("{}: line {} sets nothing\n", file, line)});
+  for (auto* list : {&c.cors_origins, &c.trusted_proxies, &c.hosts}) std::erase(*list, "");
   if (auto why = contradiction(c); !why.empty()) return tl::unexpected(Exit{2, {}, why + '\n'});
   if (print) return tl::unexpected(Exit{0, app.config_to_str(true, false), {}});
   if (c.admin_host.empty()) c.admin_host = c.host;

@@ -5,6 +5,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "server/job_files.hpp"
+
 namespace tubecut::server {
 
 /// Everything that can be set, with its default. Read and checked once, at start.
@@ -19,8 +21,10 @@ struct Config {
   bool open = false;     // serve beyond this machine without keys
   std::vector<std::string> cors_origins;
   std::vector<std::string> trusted_proxies;
+  std::vector<std::string> hosts;  // names it is called by besides its own; "*": any
   int connections = 4096;
-  int slots = 0;  // 0: as many as there are CPUs for this process
+  int connections_per_client = 0;  // 0: half of them
+  int slots = 0;                   // 0: as many as there are CPUs for this process
   std::size_t queue = 64;
   std::size_t memory_bytes = 0;  // for bodies, jobs and answers; 0: a part of what there is
   double budget_s = 2.0;
@@ -35,6 +39,7 @@ struct Config {
   double drain_s = 8.0;        // for accepted work, after that
   std::size_t log_queue = 4096;
   std::string log_directory;  // one file per job below it; empty: none
+  DayBounds log_day = {};     // of each day's folder there
 };
 
 /// What the command line asks for.

@@ -47,6 +47,7 @@ struct Request {
 struct BatchReply {
   std::string text = {};  // with its line feed
   bool refused = false;
+  bool malformed = false;  // it is no job, for the form of the line itself
 };
 
 /// What became of a batch's lines.

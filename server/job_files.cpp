@@ -12,8 +12,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <iterator>
 #include <mutex>
+#include <optional>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -29,9 +32,9 @@ bool safe(std::string_view name) {
 }
 
 /// A file only: a pipe of that name would wait for its reader.
-bool append(const std::string& file, std::string_view text) {
-  const int descriptor = ::open(
-      file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0640);
+bool append(const std::string& file, std::string_view text, int more) {
+  const int descriptor =
+      ::open(file.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | more, 0640);
   if (descriptor < 0) return false;
   struct stat about = {};
   const bool regular = ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
@@ -39,12 +42,45 @@ bool append(const std::string& file, std::string_view text) {
   return ::close(descriptor) == 0 && written == static_cast<ssize_t>(text.size());
 }
 
+/// The folder of one day and what it holds; another replica's part of it is seen when it is opened.
+class Day {
+ public:
+  Day(const std::string& folder, const std::string& day) : path_(folder + "/" + day) {
+    ::mkdir(path_.c_str(), 0750);
+    std::error_code unknown;
+    for (const auto& entry : std::filesystem::directory_iterator(path_, unknown)) {
+      ++files_;
+      const auto size = entry.file_size(unknown);
+      if (!unknown) bytes_ += size;
+    }
+  }
+
+  [[nodiscard]] bool append(const std::string& name, std::string_view text,
+                            const DayBounds& bounds) {
+    if (text.size() > bounds.bytes || bytes_ > bounds.bytes - text.size()) return false;
+    const auto file = path_ + "/" + name + ".jsonl";
+    struct stat about = {};
+    const bool there = ::lstat(file.c_str(), &about) == 0;
+    if (!there && files_ >= bounds.files) return false;
+    if (!server::append(file, text, there ? 0 : O_CREAT)) return false;
+    files_ += there ? 0 : 1;
+    bytes_ += text.size();
+    return true;
+  }
+
+ private:
+  std::string path_;
+  std::size_t files_ = 0;
+  std::size_t bytes_ = 0;
+};
+
 /// A folder that does not answer shall not keep the process from ending.
 constexpr auto kPatience = std::chrono::seconds(1);
 
 }  // namespace
 
-std::string file_name_of(std::string_view job) {
+std::string file_name_of(std::string_view identity, std::string_view job) {
+  if (!identity.empty()) return std::string(identity) + "~" + file_name_of({}, job);
   if (safe(job)) return std::string(job);
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
   const std::vector<unsigned char> bytes(job.begin(), job.end());
@@ -69,9 +105,8 @@ struct JobFiles::Impl {
       const Entry entry = std::move(queue.front());
       queue.pop_front();
       lock.unlock();
-      const std::string day = folder + "/" + entry.day;
-      ::mkdir(day.c_str(), 0750);
-      if (!append(day + "/" + entry.name + ".jsonl", entry.lines)) ++dropped;
+      if (!day || last != entry.day) day.emplace(folder, last = entry.day);
+      if (!day->append(entry.name, entry.lines, bounds)) ++dropped;
       lock.lock();
     }
     ended = true;
@@ -79,6 +114,9 @@ struct JobFiles::Impl {
   }
 
   std::string folder;
+  DayBounds bounds;
+  std::string last;        // day
+  std::optional<Day> day;  // its folder; the thread's alone
   std::size_t most = 0;
   std::mutex mutex;
   std::condition_variable some;
@@ -89,8 +127,10 @@ struct JobFiles::Impl {
   std::atomic<std::uint64_t> dropped = 0;
 };
 
-JobFiles::JobFiles(std::string folder, std::size_t queue) : x_(std::make_shared<Impl>()) {
+JobFiles::JobFiles(std::string folder, DayBounds bounds, std::size_t queue)
+    : x_(std::make_shared<Impl>()) {
   x_->folder = std::move(folder);
+  x_->bounds = bounds;
   x_->most = queue;
   std::thread([x = x_] { x->run(); }).detach();
 }
@@ -102,14 +142,15 @@ JobFiles::~JobFiles() {
   x_->done.wait_for(lock, kPatience, [this] { return x_->ended; });
 }
 
-void JobFiles::write(std::string_view day, std::string_view job, std::string lines) {
+void JobFiles::write(std::string_view day, std::string_view identity, std::string_view job,
+                     std::string lines) {
   {
     const std::lock_guard lock(x_->mutex);
     if (x_->queue.size() >= x_->most) {
       ++x_->dropped;
       return;
     }
-    x_->queue.push_back({std::string(day), file_name_of(job), std::move(lines)});
+    x_->queue.push_back({std::string(day), file_name_of(identity, job), std::move(lines)});
   }
   x_->some.notify_one();
 }

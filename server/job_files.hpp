@@ -8,19 +8,28 @@
 
 namespace tubecut::server {
 
-/// One file per job, `<folder>/<day>/<job>.jsonl`, written by a thread of its own: a slow disk
-/// blocks no job. The queue is bounded; what does not fit is dropped and counted.
+/// What one day's folder may hold; beyond it nothing is written.
+struct DayBounds {
+  std::size_t files = 100'000;
+  std::size_t bytes = std::size_t{1} << 30;
+};
+
+/// One file per job, `<folder>/<day>/[<identity>~]<job>.jsonl`, written by a thread of its own: a
+/// slow disk blocks no job. Queue and folders are bounded; what does not fit is dropped and
+/// counted.
 class JobFiles {
  public:
-  explicit JobFiles(std::string folder, std::size_t queue = 1024);
+  explicit JobFiles(std::string folder, DayBounds bounds = {}, std::size_t queue = 1024);
   ~JobFiles();  // writes what is queued, for a second at most
   JobFiles(const JobFiles&) = delete;
   JobFiles& operator=(const JobFiles&) = delete;
 
-  /// Appends lines to the file of that job on that day ("2024-03-01").
-  void write(std::string_view day, std::string_view job, std::string lines);
+  /// Appends lines to the file of that job of `identity`, a key's (empty: no keys are asked for),
+  /// on that day ("2024-03-01").
+  void write(std::string_view day, std::string_view identity, std::string_view job,
+             std::string lines);
 
-  /// Files not written: the queue was full or the disk refused.
+  /// Entries not written: the queue or the day's folder was full, or the disk refused.
   [[nodiscard]] std::uint64_t dropped() const;
 
  private:
@@ -29,7 +38,8 @@ class JobFiles {
 };
 
 /// The name of a job's file without its ending: the id where it is safe as a file's name, else
-/// "id-" and the first half of its SHA-256 in hex.
-[[nodiscard]] std::string file_name_of(std::string_view job);
+/// "id-" and the first half of its SHA-256 in hex; behind the identity of its key and a '~', which
+/// neither can hold, so that no id names another key's file.
+[[nodiscard]] std::string file_name_of(std::string_view identity, std::string_view job);
 
 }  // namespace tubecut::server

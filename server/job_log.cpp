@@ -2,21 +2,24 @@
 
 #include <fmt/chrono.h>
 #include <poll.h>
-#include <spdlog/async.h>
-#include <spdlog/async_logger.h>
-#include <spdlog/sinks/sink.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
-#include <functional>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "server/json_line.hpp"
 
 namespace tubecut::server {
 namespace {
+
+constexpr std::size_t kQueueBytes = 4u << 20;
+constexpr auto kPatience = std::chrono::milliseconds(500);
 
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -33,49 +36,6 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-/// Writes each message as one line. Called by the log's own thread only.
-class LineSink final : public spdlog::sinks::sink {
- public:
-  LineSink(int descriptor, std::function<std::uint64_t()> overrun)
-      : descriptor_(descriptor), overrun_(std::move(overrun)) {}
-
-  void log(const spdlog::details::log_msg& msg) override {
-    report_drops();
-    put(std::string(msg.payload.data(), msg.payload.size()));
-    ++handled_;
-  }
-  void flush() override {}
-  void set_pattern(const std::string&) override {}
-  void set_formatter(std::unique_ptr<spdlog::formatter>) override {}
-
-  [[nodiscard]] std::uint64_t handled() const { return handled_; }
-  [[nodiscard]] std::uint64_t failed() const { return failed_; }
-
- private:
-  void put(std::string line) {
-    line += '\n';
-    if (!write_all(descriptor_, line)) ++failed_;
-  }
-
-  void report_drops() {
-    const auto now = overrun_();
-    if (now == reported_) return;
-    put(JsonLine{}
-            .text("ts", utc(std::chrono::system_clock::now()))
-            .text("level", "warning")
-            .text("event", "log_dropped")
-            .integer("count", static_cast<std::int64_t>(now - reported_))
-            .done());
-    reported_ = now;
-  }
-
-  int descriptor_;
-  std::function<std::uint64_t()> overrun_;
-  std::uint64_t reported_ = 0;
-  std::atomic<std::uint64_t> handled_ = 0;
-  std::atomic<std::uint64_t> failed_ = 0;
-};
-
 std::string_view level_of(int status) {
   if (status >= 500) return "error";
   return status >= 400 ? "warning" : "info";
@@ -83,48 +43,94 @@ std::string_view level_of(int status) {
 
 }  // namespace
 
+/// Shared with its thread, which a reader that never reads leaves behind.
 struct JobLog::Impl {
-  std::shared_ptr<spdlog::details::thread_pool> pool;
-  std::shared_ptr<LineSink> sink;
-  std::shared_ptr<spdlog::async_logger> logger;
-  std::atomic<std::uint64_t> queued = 0;
+  void run() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      some.wait(lock, [this] { return ending || !queue.empty(); });
+      if (queue.empty()) break;
+      const std::string line = std::move(queue.front());
+      queue.pop_front();
+      bytes -= line.size();
+      const auto drops = overrun - std::exchange(reported, overrun);
+      lock.unlock();
+      if (drops > 0) put(drops_line(drops));
+      put(line);
+      lock.lock();
+      ++handled;
+      idle.notify_all();
+    }
+    ended = true;
+    idle.notify_all();
+  }
 
-  [[nodiscard]] std::uint64_t overrun() const { return pool->overrun_counter(); }
+  void put(const std::string& line) {
+    if (!write_all(descriptor, line + '\n')) ++failed;
+  }
+
+  [[nodiscard]] static std::string drops_line(std::uint64_t count) {
+    return JsonLine{}
+        .text("ts", utc(std::chrono::system_clock::now()))
+        .text("level", "warning")
+        .text("event", "log_dropped")
+        .integer("count", static_cast<std::int64_t>(count))
+        .done();
+  }
+
+  int descriptor = 1;
+  std::size_t most = 0;
+  std::mutex mutex;
+  std::condition_variable some;
+  std::condition_variable idle;
+  std::deque<std::string> queue;
+  std::size_t bytes = 0;
+  std::uint64_t queued = 0;
+  std::uint64_t handled = 0;
+  std::uint64_t overrun = 0;
+  std::uint64_t reported = 0;  // of overrun
+  bool ending = false;
+  bool ended = false;
+  std::atomic<std::uint64_t> failed = 0;
 };
 
-JobLog::JobLog(std::size_t queue, int descriptor) : x_(std::make_unique<Impl>()) {
-  x_->pool = std::make_shared<spdlog::details::thread_pool>(queue, 1);
-  const std::weak_ptr<spdlog::details::thread_pool> pool = x_->pool;
-  x_->sink = std::make_shared<LineSink>(descriptor, [pool]() -> std::uint64_t {
-    const auto alive = pool.lock();
-    return alive ? alive->overrun_counter() : 0;
-  });
-  x_->logger = std::make_shared<spdlog::async_logger>(
-      "jobs", x_->sink, x_->pool, spdlog::async_overflow_policy::overrun_oldest);
-  x_->logger->set_level(spdlog::level::trace);
+JobLog::JobLog(std::size_t queue, int descriptor) : x_(std::make_shared<Impl>()) {
+  x_->most = queue;
+  x_->descriptor = descriptor;
+  std::thread([x = x_] { x->run(); }).detach();
 }
 
 JobLog::~JobLog() {
-  // Ending the pool joins its thread: with a reader that never reads, that would never end. Then
-  // the thread is left to the end of the process.
-  static auto* const abandoned = new std::vector<std::shared_ptr<spdlog::details::thread_pool>>;
-  if (!flush(std::chrono::milliseconds(500))) abandoned->push_back(x_->pool);
+  std::unique_lock lock(x_->mutex);
+  x_->ending = true;
+  x_->some.notify_all();
+  x_->idle.wait_for(lock, kPatience, [this] { return x_->ended; });
 }
 
 void JobLog::write(std::string_view line) {
-  ++x_->queued;
-  x_->logger->log(spdlog::level::info, spdlog::string_view_t(line.data(), line.size()));
+  {
+    const std::lock_guard lock(x_->mutex);
+    x_->queue.emplace_back(line);
+    x_->bytes += line.size();
+    ++x_->queued;
+    while (x_->queue.size() > x_->most || (x_->bytes > kQueueBytes && x_->queue.size() > 1)) {
+      x_->bytes -= x_->queue.front().size();
+      x_->queue.pop_front();
+      ++x_->overrun;
+    }
+  }
+  x_->some.notify_one();
 }
 
-std::uint64_t JobLog::dropped() const { return x_->overrun() + x_->sink->failed(); }
+std::uint64_t JobLog::dropped() const {
+  const std::lock_guard lock(x_->mutex);
+  return x_->overrun + x_->failed;
+}
 
 bool JobLog::flush(std::chrono::milliseconds patience) {
-  const auto until = std::chrono::steady_clock::now() + patience;
-  while (x_->sink->handled() + x_->overrun() < x_->queued) {
-    if (std::chrono::steady_clock::now() > until) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
+  std::unique_lock lock(x_->mutex);
+  return x_->idle.wait_for(lock, patience,
+                           [this] { return x_->handled + x_->overrun >= x_->queued; });
 }
 
 std::string utc(std::chrono::system_clock::time_point time) {
@@ -204,7 +210,9 @@ std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point
   line.text("endpoint", job.facts.endpoint).text("method", job.method);
   line.integer("status", job.status).text("input_sha256", job.facts.input_sha256);
   line.text("verdict", job.facts.verdict).text("code", job.facts.error_code);
-  line.open("warnings", '[');
+  line.open("reasons", '[');
+  for (const auto& reason : job.facts.reasons) line.item(reason);
+  line.close(']').open("warnings", '[');
   for (const auto& code : job.facts.warnings) line.item(code);
   line.close(']').open("stages_ms", '{');
   for (const auto& stage : job.facts.stages) line.milliseconds(stage.name, stage.seconds);

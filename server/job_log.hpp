@@ -12,8 +12,8 @@
 namespace tubecut::server {
 
 /// Lines on a file descriptor, written by a thread of its own. A reader that stops reading blocks
-/// nobody: the queue is bounded, the oldest lines are dropped, counted, and reported in a line of
-/// their own once writing goes on.
+/// nobody: the queue is bounded, in lines and in bytes (4 MiB), the oldest lines are dropped,
+/// counted, and reported in a line of their own once writing goes on.
 class JobLog {
  public:
   explicit JobLog(std::size_t queue, int descriptor = 1);
@@ -32,7 +32,7 @@ class JobLog {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> x_;
+  std::shared_ptr<Impl> x_;
 };
 
 /// {"event":"ready",...}: the first line of every run.

@@ -7,6 +7,13 @@
 #include <iterator>
 
 namespace tubecut::server {
+namespace {
+
+constexpr std::size_t kText = 2048;  // bytes printed of one text
+constexpr std::size_t kTexts =
+    10240;  // of the line; two names and texts and the numbers come on top
+
+}  // namespace
 
 void JsonLine::separate() {
   if (x_.back() != '{' && x_.back() != '[') x_ += ',';
@@ -38,11 +45,28 @@ std::size_t utf8_sequence(std::string_view text) {
 
 }  // namespace
 
+/// No more texts then: the numbers that follow still have room.
+bool JsonLine::full() {
+  const bool full = x_.size() > kTexts;
+  left_out_ += full ? 1 : 0;
+  return full;
+}
+
+std::string JsonLine::done() {
+  if (left_out_ > 0) integer("left_out", left_out_);
+  return x_ + '}';
+}
+
 /// UTF-8 stays as it is; control characters and bytes that are no UTF-8 become \u00XX: whatever the
 /// bytes are, the line stays one line of valid JSON that no terminal interprets.
 void JsonLine::quote(std::string_view value) {
   x_ += '"';
+  const auto most = x_.size() + kText;
   while (!value.empty()) {
+    if (x_.size() >= most) {
+      ++left_out_;
+      break;
+    }
     const auto byte = static_cast<unsigned char>(value.front());
     const std::size_t length = byte < 0x80 ? 1 : utf8_sequence(value);
     if (byte == '"' || byte == '\\') {
@@ -59,6 +83,7 @@ void JsonLine::quote(std::string_view value) {
 }
 
 JsonLine& JsonLine::text(std::string_view name, std::string_view value) {
+  if (full()) return *this;
   key(name);
   quote(value);
   return *this;
@@ -84,6 +109,7 @@ JsonLine& JsonLine::open(std::string_view name, char bracket) {
 }
 
 JsonLine& JsonLine::item(std::string_view value) {
+  if (full()) return *this;
   separate();
   quote(value);
   return *this;

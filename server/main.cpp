@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <exception>
 
@@ -7,8 +10,22 @@
 #include "server/selftest.hpp"
 #include "server/serve.hpp"
 
+namespace {
+
+/// Closed ones of the three would be the numbers of the next files and sockets opened, and log
+/// lines would go there.
+void keep_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) != -1) continue;
+    if (::open("/dev/null", O_RDWR) != descriptor) ::_exit(1);
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) try {
   namespace server = tubecut::server;
+  keep_standard_descriptors();
   const auto command = server::read_command(argc, argv);
   if (!command) {
     std::fputs(command.error().out.c_str(), stdout);

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -18,6 +19,7 @@
 
 #include "server/access.hpp"
 #include "server/admin.hpp"
+#include "server/admin_port.hpp"
 #include "server/app.hpp"
 #include "server/capacity.hpp"
 #include "server/job_files.hpp"
@@ -33,7 +35,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kAdminConnections = 64;
 constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and what the kernel has accepted
 constexpr auto kLogPatience = 1s;    // for a line that should be read before going on
 
@@ -45,6 +46,7 @@ TransportOptions service_port(const Config& c, const Capacity& can) {
   return {.host = c.host,
           .port = c.port,
           .connections = can.connections,
+          .per_client = c.connections_per_client,
           .slots = can.slots,
           .queue = c.queue,
           .memory = can.memory,
@@ -53,17 +55,6 @@ TransportOptions service_port(const Config& c, const Capacity& can) {
           .head = ms(c.head_s),
           .body = ms(c.body_s),
           .write = ms(c.write_s)};
-}
-
-TransportOptions admin_port(const Config& c) {
-  return {.host = c.admin_host,
-          .port = c.admin_port,
-          .connections = kAdminConnections,
-          .slots = 1,
-          .idle = 2s,
-          .head = 2s,
-          .body = 2s,
-          .write = 5s};
 }
 
 /// Jobs are logged; of the rest (catalogues, probing strangers) only what failed by our fault, so
@@ -80,13 +71,13 @@ Service service_of(const App& app) {
           .line = [&app](const Request& request) { return app.line(request); },
           .summary = [&app](const Request& head,
                             const BatchCount& count) { return app.summary(head, count); },
+          .memory = App::memory,
+          .line_memory = api::line_memory,
+          .room = [&app](std::string_view target) { return app.room(target); },
+          .client = [&app](const Request& request) { return app.client(request); },
+          .kind = App::kind,
+          .is_shared = [&app](const std::string& peer) { return app.is_proxy(peer); },
           .budget = [&app](const Request& request) { return app.budget(request); }};
-}
-
-Service service_of(const AdminSources& sources) {
-  return {.handle = [sources](const Request& request) { return admin(request, sources); },
-          .screen = [](const Request&) { return std::optional<Refusal>{}; },
-          .max_body = [](std::string_view) { return std::size_t{0}; }};
 }
 
 /// Connections that there are descriptors for: beyond them the one idle for longest is closed,
@@ -97,7 +88,7 @@ int connections_of(int wanted) {
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
   limit.rlim_cur = limit.rlim_max;
   setrlimit(RLIMIT_NOFILE, &limit);
-  const auto own = std::min<rlim_t>(kOwnDescriptors + kAdminConnections, limit.rlim_cur / 2);
+  const auto own = std::min<rlim_t>(kOwnDescriptors + AdminPort::kConnections, limit.rlim_cur / 2);
   return static_cast<int>(std::min<rlim_t>(static_cast<rlim_t>(wanted), limit.rlim_cur - own));
 }
 
@@ -117,16 +108,18 @@ Capacity capacity_of(const Config& c) {
 
 /// A port being served by a thread of its own. When serving breaks down the whole service is asked
 /// to stop.
-std::future<bool> start(Transport& transport) {
-  return std::async(std::launch::async, [&transport] {
-    const bool sound = transport.serve();
+template <class Port>
+std::future<bool> start(Port& port) {
+  return std::async(std::launch::async, [&port] {
+    const bool sound = port.serve();
     if (!sound) Signals::raise_stop();
     return sound;
   });
 }
 
-void await_serving(const Transport& transport, const std::future<bool>& served) {
-  while (!transport.serving() && served.wait_for(0s) != std::future_status::ready) {
+template <class Port>
+void await_serving(const Port& port, const std::future<bool>& served) {
+  while (!port.serving() && served.wait_for(0s) != std::future_status::ready) {
     std::this_thread::sleep_for(100us);
   }
 }
@@ -152,23 +145,36 @@ void stop_work(Transport& work, const std::future<bool>& served, std::stop_sourc
   if (!finished(served, 1s)) std::_Exit(fail("a job did not stop within its time"));
 }
 
+/// Only a service that asks no key and is reached from this machine alone has something to fear
+/// from a page under a foreign name; others check where they are told names.
+std::optional<std::vector<std::string>> hosts_of(const Config& c) {
+  const bool any = std::ranges::find(c.hosts, "*") != c.hosts.end();
+  const bool guarded = c.keys.empty() && !c.open && is_loopback(c.host);
+  if (any || (c.hosts.empty() && !guarded)) return std::nullopt;
+  auto out = c.hosts;
+  out.push_back(c.host);
+  return out;
+}
+
 /// What both ports need, for the length of one run.
 struct Run {
-  Run(const Config& c, std::size_t job_body)
+  Run(const Config& c, std::size_t memory)
       : access(std::make_shared<Access>(c.keys)), log(c.log_queue) {
-    if (!c.log_directory.empty()) files = std::make_unique<JobFiles>(c.log_directory);
-    app = std::make_unique<App>(options(c, job_body));
+    if (!c.log_directory.empty()) files = std::make_unique<JobFiles>(c.log_directory, c.log_day);
+    app = std::make_unique<App>(options(c, memory));
   }
 
-  AppOptions options(const Config& c, std::size_t job_body) {
+  AppOptions options(const Config& c, std::size_t memory) {
     return {.replica = c.replica,
             .max_target_bytes = c.max_target_bytes,
             .max_body_bytes = c.max_body_bytes,
-            .max_job_body_bytes = job_body,
+            .max_job_body_bytes = memory / api::call_memory({}).per_byte,
+            .memory = memory,
             .stop = jobs.get_token(),
             .budget = ms(c.budget_s),
             .cors_origins = c.cors_origins,
             .trusted_proxies = c.trusted_proxies,
+            .hosts = hosts_of(c),
             .access = access,
             .started = [this] { metrics.started(); },
             .finished = [this](const JobRecord& job) { metrics.finished(job); },
@@ -178,9 +184,14 @@ struct Run {
     if (!logged(job)) return;
     const auto now = std::chrono::system_clock::now();
     log.write(job_line(job, now));
-    if (files && !job.facts.id.empty()) {
-      files->write(utc(now).substr(0, 10), job.facts.id, job_events(job, now));
+    if (files && kept(job)) {
+      files->write(utc(now).substr(0, 10), job.identity, job.facts.id, job_events(job, now));
     }
+  }
+  /// A job that was worked on for whom it may: refused strangers leave nothing on the disk.
+  [[nodiscard]] bool kept(const JobRecord& job) const {
+    const bool worked_on = job.status == 200 || job.status == 422 || job.status >= 500;
+    return worked_on && !job.facts.id.empty() && (!access->asks() || !job.identity.empty());
   }
   AdminSources admin_sources() {
     return {.ready = [this] { return ready.load(); }, .metrics = [this] { return metrics.text(); }};
@@ -221,9 +232,12 @@ std::optional<std::pair<std::string_view, std::string>> reached(const Config& c)
   return std::nullopt;
 }
 
-/// What is wrong with a folder to write jobs' files into, or nothing.
-std::string folder_fault(const std::string& folder) {
+/// What is wrong with the folder to write jobs' files into, or nothing.
+std::string folder_fault(const Config& c) {
+  const auto& folder = c.log_directory;
   if (folder.empty()) return {};
+  if (c.keys.empty() && !is_loopback(c.host))
+    return "--log-directory goes with --keys: whoever reaches the port would fill it";
   std::error_code unknown;
   if (!std::filesystem::is_directory(folder, unknown))
     return fmt::format("--log-directory: {} is no folder", folder);
@@ -252,22 +266,21 @@ int serve(const Config& c) {
   const Signals signals;
   if (const auto by = reached(c); by && c.keys.empty() && !c.open)
     return refuse_open(by->first, by->second);
-  if (const auto wrong = folder_fault(c.log_directory); !wrong.empty())
-    return fail(wrong, kRefusedToStart);
+  if (const auto wrong = folder_fault(c); !wrong.empty()) return fail(wrong, kRefusedToStart);
   const Capacity can = capacity_of(c);
   const TransportOptions port = service_port(c, can);
-  Run run(c, room_for_job_body(port));
+  Run run(c, memory_for_jobs(port));
   if (const auto wrong = run.access->load(); !wrong.empty()) return fail(wrong, kRefusedToStart);
   auto work = Transport::open(port, service_of(*run.app));
   if (!work) return fail(work.error());
-  auto probes = Transport::open(admin_port(c), service_of(run.admin_sources()));
+  auto probes = AdminPort::open(c.admin_host, c.admin_port, run.admin_sources());
   if (!probes) return fail(probes.error());
   run.work = &*work;
 
   auto probes_served = start(*probes);
   await_serving(*probes, probes_served);
   if (const auto fault = selftest_fault(); !fault.empty()) {
-    probes->drain(500ms);
+    probes->stop();
     return fail(fault);
   }
   run.log.write(ready_line(work->port(), probes->port(), api::version()));
@@ -280,7 +293,7 @@ int serve(const Config& c) {
   signals.wait([&run] { run.reload_keys(); });
   run.ready = false;
   stop_work(*work, work_served, run.jobs, c);
-  probes->drain(500ms);
+  probes->stop();
   const bool sound = work_served.get() && probes_served.get();
   run.log.flush(kLogPatience);
   return sound ? 0 : fail("listening broke down");

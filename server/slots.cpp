@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <exception>
+#include <utility>
 
 namespace tubecut::server {
 namespace {
@@ -13,10 +15,31 @@ namespace {
 /// nice value per thread.
 constexpr int kNice = 5;
 
+/// A job expected to take no longer is quick, where its body is small too.
+constexpr double kQuick = 0.02;
+constexpr std::size_t kQuickBytes = 64u << 10;
+/// One takes the lane when it has waited so long: while slots come free, nothing runs beside them.
+constexpr double kLaneAfter = 0.005;
+/// One that has the lane for longer is not quick.
+constexpr double kOutgrown = 0.05;
+constexpr int kLane = 1;
+/// Jobs beyond the slots that may have outgrown the lane at a time.
+constexpr int kSpare = 1;
+/// Until the first of a kind is done. What brings no body is believed to be quick until then.
+constexpr double kUnknown = 0.005;
+/// Weight of the last job in its kind's mean. What takes long is believed sooner: the lane is not
+/// for a kind of which some are long.
+constexpr double kRise = 0.2;
+constexpr double kFall = 0.05;
+
 void step_back() {
   const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
   static_cast<void>(
       ::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + kNice));
+}
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -24,8 +47,10 @@ void step_back() {
 Slots::Slots(int count, std::size_t queue, Step work, Step done)
     : work_(std::move(work)),
       done_(std::move(done)),
-      most_(queue + static_cast<std::size_t>(std::max(1, count))) {
-  for (int i = 0; i < std::max(1, count); ++i) threads_.emplace_back([this] { run(); });
+      count_(std::max(1, count)),
+      most_(queue + static_cast<std::size_t>(count_)) {
+  running_.reserve(static_cast<std::size_t>(count_ + kLane + kSpare));
+  for (int i = 0; i < count_ + kLane + kSpare; ++i) threads_.emplace_back([this] { run(); });
 }
 
 void Slots::join() {
@@ -39,39 +64,118 @@ void Slots::join() {
   }
 }
 
-bool Slots::offer(std::shared_ptr<Job> job) {
+void Slots::estimate(Job& job) const {
+  const auto mean = means_.find(job.kind);
+  const bool known = mean != means_.end();
+  job.claim.expected_s = known ? mean->second : kUnknown;
+  job.claim.quick = job.request.line == 0 && job.claim.expected_s <= kQuick &&
+                    job.request.body.size() <= (known ? kQuickBytes : 0);
+}
+
+double Slots::expected_wait(Job& job) const {
+  const std::lock_guard lock(mutex_);
+  estimate(job);
+  double slots = queue_.before(job.claim, false);
+  double lane = queue_.before(job.claim, true);
+  const double now = now_s();
+  for (const auto& running : running_) {
+    const double left = std::max(0.0, running->began_s + running->claim.expected_s - now);
+    (running->in_lane ? lane : slots) += left;
+  }
+  const double wait = in_slots_ < count_ ? 0.0 : slots / count_;
+  return job.claim.quick ? std::min(wait, lane / kLane) : wait;
+}
+
+Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
+  Offer out{.taken = true};
+  bool free = false;
   {
     const std::lock_guard lock(mutex_);
-    if (queue_.size() + static_cast<std::size_t>(busy_.load()) >= most_) return false;
-    queue_.push_back(std::move(job));
+    estimate(*job);
+    job->claim.since = now_s();
+    free = in_slots_ < count_;
+    const auto most = most_ + (job->claim.quick ? kLane : 0);
+    if (queue_.size() + running_.size() >= most) {
+      out.displaced = queue_.give_way(job->claim);
+      if (!out.displaced) return {};
+    }
+    queue_.push(job);
     waiting_ = queue_.size();
   }
-  some_.notify_one();
-  return true;
+  if (free) some_.notify_one();  // else whoever is done next takes it
+  return out;
 }
 
 bool Slots::withdraw(const std::shared_ptr<Job>& job) {
   const std::lock_guard lock(mutex_);
-  const auto at = std::ranges::find(queue_, job);
-  if (at == queue_.end()) return false;
-  queue_.erase(at);
+  const bool waited = queue_.remove(job);
   waiting_ = queue_.size();
-  return true;
+  return waited;
+}
+
+void Slots::look(Job& job) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool waits = job.began_s == 0.0 && job.claim.quick && in_lane_ < kLane;
+    const bool outgrown = job.in_lane && now_s() - job.began_s > kOutgrown;
+    if (!waits && (!outgrown || in_slots_ >= count_ + kSpare)) return;
+    if (outgrown) leave_lane(job);
+  }
+  some_.notify_one();
+}
+
+void Slots::leave_lane(Job& job) {
+  learn(job.kind, now_s() - job.began_s);
+  queue_.slow(job.kind);
+  job.in_lane = false;
+  --in_lane_;
+  ++in_slots_;
+}
+
+/// The job whose turn it is, if there is a place for it.
+std::shared_ptr<Job> Slots::next() {
+  const bool slot = in_slots_ < count_;
+  if (!slot && in_lane_ >= kLane) return nullptr;
+  auto job = slot ? queue_.pop() : queue_.pop_quick(now_s() - kLaneAfter);
+  if (!job) return nullptr;
+  job->in_lane = !slot;
+  ++(slot ? in_slots_ : in_lane_);
+  job->began_s = now_s();
+  running_.push_back(job);
+  waiting_ = queue_.size();
+  busy_ = static_cast<int>(running_.size());
+  return job;
+}
+
+void Slots::learn(std::string_view kind, double took) {
+  try {
+    const auto [mean, first] = means_.try_emplace(kind, took);
+    if (!first) mean->second += (took > mean->second ? kRise : kFall) * (took - mean->second);
+  } catch (const std::exception&) {  // no memory: the next one teaches it
+  }
+}
+
+void Slots::finish(Job& job) {
+  const double took = now_s() - job.began_s;
+  --(job.in_lane ? in_lane_ : in_slots_);
+  queue_.done(job.claim, took);
+  learn(job.kind, took);
+  std::erase_if(running_, [&job](const auto& one) { return one.get() == &job; });
+  busy_ = static_cast<int>(running_.size());
 }
 
 void Slots::run() {
   step_back();
   std::unique_lock lock(mutex_);
   for (;;) {
-    some_.wait(lock, [this] { return ending_ || !queue_.empty(); });
-    if (ending_) return;
-    auto job = std::move(queue_.front());
-    queue_.pop_front();
-    waiting_ = queue_.size();
-    ++busy_;
+    std::shared_ptr<Job> job;
+    some_.wait(lock, [&] { return ending_ || (job = next()); });
+    if (!job) return;
     lock.unlock();
     work_(job);
-    --busy_;  // before the answer is out: its client's next request finds the slot free
+    lock.lock();
+    finish(*job);  // before the answer is out: its client's next request finds the slot free
+    lock.unlock();
     done_(std::move(job));
     lock.lock();
   }

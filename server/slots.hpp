@@ -4,37 +4,49 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
-#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "server/http.hpp"
+#include "server/http/fair_queue.hpp"
+#include "server/http/memory_share.hpp"
+#include "server/http/printer.hpp"
 
 namespace tubecut::server {
+
+class Strand;
 
 /// A whole request on its way to an answer.
 struct Job {
   Request request = {};
   std::stop_source stop = {};
   std::atomic<bool> close = false;  // the connection ends after the answer
-  std::size_t memory = 0;           // bytes set aside for it
-  void* owner = nullptr;            // the connection it came from; nullptr once that is gone
+  MemoryShare memory = {};
+  std::weak_ptr<Strand> owner = {};  // whom its end wakes; none once nobody waits for it
   std::chrono::steady_clock::time_point end =
       std::chrono::steady_clock::time_point::max();  // of its budget
-  std::string answer = {};
-  std::function<void(bool)> sent = {};
-  bool refused = false;  // of a batch's line: its answer is a problem
+  std::string_view kind = {};                        // jobs of a kind take about as long
+  Claim claim = {};
+  bool in_lane = false;    // of the slots' mutex
+  double began_s = 0.0;    // of the slots' mutex; 0: it waits
+  bool displaced = false;  // known to the port: it lost its place in the queue
+  Printed answer = {};
+  bool refused = false;            // of a batch's line: its answer is a problem
+  bool malformed = false;          // of a batch's line: it is no job
+  bool finished = false;           // known to the port
+  std::shared_ptr<Job> next = {};  // handed over to the port after this one
 };
 
-/// Bytes to set aside for a job by those of its body.
-[[nodiscard]] std::size_t memory_of(std::size_t body);
-
-/// The threads that compute, and the bounded queue before them.
+/// The threads that compute, and the bounded queue before them. Beside the slots there is a lane
+/// for jobs that are expected to be quick: long ones never wait in front of them. A job that turns
+/// out not to be makes room in the lane and counts among the long ones.
 class Slots {
  public:
   using Step = std::function<void(std::shared_ptr<Job>)>;
@@ -48,25 +60,44 @@ class Slots {
   /// Ends the threads once the jobs that have begun are done; queued ones are dropped.
   void join();
 
-  /// Queues a job; false when the queue is full.
-  [[nodiscard]] bool offer(std::shared_ptr<Job> job);
+  /// Expected seconds until the job's turn, from what runs and waits now.
+  [[nodiscard]] double expected_wait(Job& job) const;
+
+  struct Offer {
+    bool taken = false;                   // false: the queue is full
+    std::shared_ptr<Job> displaced = {};  // another's, which lost its place
+  };
+  [[nodiscard]] Offer offer(const std::shared_ptr<Job>& job);
 
   /// Takes back a job that no slot has begun; false when one has.
   [[nodiscard]] bool withdraw(const std::shared_ptr<Job>& job);
 
+  /// To be called now and then while the job waits or runs: it takes the lane, or has outgrown it.
+  void look(Job& job);
+
   [[nodiscard]] std::size_t waiting() const { return waiting_; }
   [[nodiscard]] int busy() const { return busy_; }
-  [[nodiscard]] int count() const { return static_cast<int>(threads_.size()); }
+  [[nodiscard]] int count() const { return count_; }
 
  private:
   void run();
+  [[nodiscard]] std::shared_ptr<Job> next();
+  void estimate(Job& job) const;
+  void leave_lane(Job& job);
+  void finish(Job& job);
+  void learn(std::string_view kind, double took);
 
   Step work_;
   Step done_;
+  int count_;
   std::size_t most_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable some_;
-  std::deque<std::shared_ptr<Job>> queue_;
+  FairQueue queue_;
+  std::map<std::string_view, double> means_;   // seconds, by kind
+  std::vector<std::shared_ptr<Job>> running_;  // in slots and in the lane
+  int in_slots_ = 0;
+  int in_lane_ = 0;
   bool ending_ = false;
   std::atomic<std::size_t> waiting_ = 0;
   std::atomic<int> busy_ = 0;

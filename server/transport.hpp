@@ -32,6 +32,18 @@ struct Service {
   std::function<BatchReply(const Request&)> line = {};
   /// The last line of a batch's answer, as the body: the batch with that head is over.
   std::function<Response(const Request& head, const BatchCount&)> summary = {};
+  /// Bytes of memory to set aside for a job, its answer's too; empty: those of its body.
+  std::function<std::size_t(const Request&)> memory = {};
+  /// The same of a line of a batch.
+  std::function<std::size_t(std::string_view line)> line_memory = {};
+  /// The largest body whose job has that; empty: as much as there is.
+  std::function<std::size_t(std::string_view target)> room = {};
+  /// Whose the request is: clients take turns. Empty: the address's.
+  std::function<std::string(const Request&)> client = {};
+  /// What jobs of about the same length have in common, of a closed set; empty: all are alike.
+  std::function<std::string_view(const Request&)> kind = {};
+  /// Whether many clients come from that address, a proxy's; empty: none does.
+  std::function<bool(const std::string& peer)> is_shared = {};
   /// Time for the job, from its last byte in to its answer; empty: no end.
   std::function<std::chrono::milliseconds(const Request&)> budget = {};
 };
@@ -40,6 +52,7 @@ struct TransportOptions {
   std::string host = "127.0.0.1";
   int port = 0;            // 0: any free one
   int connections = 4096;  // open at a time; beyond, the longest idle one is closed
+  int per_client = 0;      // of those, one client's at most; 0: half
   int slots = 1;           // jobs computed at a time, each by a thread
   std::size_t queue = 64;  // jobs that wait for a slot
   std::size_t memory = 0;  // bytes for bodies, jobs and answers together; 0: no bound
@@ -52,8 +65,8 @@ struct TransportOptions {
   std::chrono::milliseconds write = std::chrono::seconds(10);  // the whole answer
 };
 
-/// The largest body whose job has room in that memory; a batch's lines are jobs by themselves.
-[[nodiscard]] std::size_t room_for_job_body(const TransportOptions& options);
+/// Bytes that jobs and answers share; the largest number where there is no bound.
+[[nodiscard]] std::size_t memory_for_jobs(const TransportOptions& options);
 
 /// How a port is doing, for the metrics. Counters since the start.
 struct TransportStats {
@@ -71,8 +84,8 @@ struct TransportStats {
   std::uint64_t over_time = 0;  // clients too slow to send or to take
 };
 
-/// A listening HTTP/1.1 port. The only thing the rest of the server knows of sockets; one source
-/// file implements it.
+/// A listening HTTP/1.1 port. The only thing the rest of the server knows of sockets; server/http
+/// implements it.
 class Transport {
  public:
   /// Binds and listens: from here on connections queue in the kernel. An error is text for the
@@ -105,9 +118,5 @@ class Transport {
   explicit Transport(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> x_;
 };
-
-/// The status that a GET of `path` answers; nothing when nobody does within `patience`.
-[[nodiscard]] std::optional<int> probe(const std::string& host, int port, const std::string& path,
-                                       std::chrono::milliseconds patience);
 
 }  // namespace tubecut::server

@@ -180,6 +180,12 @@ class Proxy(unittest.TestCase):
                     self.assertEqual(len(asked), times)
                     self.assertEqual({hashlib.sha256(b).digest() for _, _, b in asked}, {hashlib.sha256(body).digest()})
 
+    def test_a_silent_replica_computes_and_is_asked_alone(self):
+        silent = float(re.search(r"^  timeout server (\d+)s$", CONFIG, re.M)[1]) + 1.0
+        with proxied(lambda h: time.sleep(silent), lambda h: time.sleep(silent)) as (url, stubs):
+            self.problem(ask(url), 504, "over_budget")
+            self.assertEqual(sum(len(stub.asked) for stub in stubs), 1)
+
     def test_a_broken_answer_is_a_problem(self):
         half = b"HTTP/1.1 200 OK\r\nContent-"
         with proxied(lambda h: hang_up(h, half)) as (url, stubs):
@@ -290,6 +296,13 @@ class Agreement(unittest.TestCase):
         self.assertEqual(set(re.search(r"acl large path (.*)", CONFIG)[1].split()), large)
         self.assertGreater(self.number(r"^  timeout server (\d+)s$"), BUDGET_S)
 
+    def test_nothing_is_repeated_because_it_takes_long(self):
+        told = [CONFIG, *(f.read_text() for f in (DOCKER / "kubernetes").rglob("*.yaml"))]
+        repeats = [line for text in told for line in re.findall(r"^ *retry-on (.*)$", text, re.M)]
+        self.assertGreaterEqual(len(repeats), 2)
+        for line in repeats:
+            self.assertLessEqual(set(line.split()), {"conn-failure", "empty-response", "503"})
+
     def test_problems_of_the_proxy(self):
         subprocess.run([DOCKER / "errors/make", "--check"], check=True)
         named = set(re.findall(r"TUBECUT_ERRORS}/([\w.]+)", CONFIG))
@@ -332,6 +345,7 @@ class Agreement(unittest.TestCase):
         replicas = {name: s for name, s in services.items() if name.startswith("tubecut-")}
         hosts = re.findall(r"presetenv TUBECUT_\d ([\w-]+):8080", CONFIG)
         self.assertEqual(sorted(replicas), sorted(hosts))
+        self.assertLessEqual({"cpus", "mem_limit", "pids_limit"}, services["haproxy"].keys())
         for name, s in replicas.items():
             with self.subTest(name):
                 self.assertTrue(s["read_only"])

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/request_reader.hpp"
+#include "server/http/request_reader.hpp"
 
 namespace tubecut::fuzz {
 namespace {

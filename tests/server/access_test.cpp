@@ -4,12 +4,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <set>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "server/app.hpp"
 #include "server/capacity.hpp"
@@ -213,21 +218,21 @@ TEST(Capacity, ReadsBothVersionsOfControlGroups) {
 }
 
 TEST(JobFiles, KeepOneFilePerJobInsideTheirFolder) {
-  EXPECT_EQ(file_name_of("order-17_a.b"), "order-17_a.b");
+  EXPECT_EQ(file_name_of("", "order-17_a.b"), "order-17_a.b");
   for (const auto* id : {"../../etc/passwd", ".hidden", "a/b", "a b", "", "\xc3\xa4"}) {
-    const auto name = file_name_of(id);
+    const auto name = file_name_of("", id);
     EXPECT_EQ(name.substr(0, 3), "id-") << id;
     EXPECT_EQ(name.size(), 35U) << id;
     EXPECT_EQ(name.find('/'), std::string::npos);
   }
-  EXPECT_NE(file_name_of("a b"), file_name_of("a/b"));
+  EXPECT_NE(file_name_of("", "a b"), file_name_of("", "a/b"));
   const auto folder = ::testing::TempDir() + "tubecut_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
   {
     JobFiles files(folder);
-    files.write("2024-03-01", "order-17", "one\n");
-    files.write("2024-03-01", "order-17", "two\n");
-    files.write("2024-03-01", "../evil", "three\n");
+    files.write("2024-03-01", "", "order-17", "one\n");
+    files.write("2024-03-01", "", "order-17", "two\n");
+    files.write("2024-03-01", "", "../evil", "three\n");
   }
   std::ifstream in(folder + "/2024-03-01/order-17.jsonl");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -236,8 +241,8 @@ TEST(JobFiles, KeepOneFilePerJobInsideTheirFolder) {
   ASSERT_EQ(::mkfifo((folder + "/2024-03-01/stuck.jsonl").c_str(), 0600), 0);
   {
     JobFiles files(folder);
-    files.write("2024-03-01", "stuck", "never read\n");
-    files.write("2024-03-01", "order-18", "after it\n");
+    files.write("2024-03-01", "", "stuck", "never read\n");
+    files.write("2024-03-01", "", "order-18", "after it\n");
     for (int i = 0; i < 5000 && !std::ifstream(folder + "/2024-03-01/order-18.jsonl"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -245,11 +250,42 @@ TEST(JobFiles, KeepOneFilePerJobInsideTheirFolder) {
   }
   EXPECT_TRUE(std::ifstream(folder + "/2024-03-01/order-18.jsonl"));
   JobFiles lost("/nowhere/at/all");
-  lost.write("2024-03-01", "x", "y\n");
+  lost.write("2024-03-01", "", "x", "y\n");
   for (int i = 0; i < 5000 && lost.dropped() == 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(lost.dropped(), 1U);
+}
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    out.push_back(entry.path().filename());
+  std::ranges::sort(out);
+  return out;
+}
+
+TEST(JobFiles, KeepKeysApart) {
+  const std::vector<std::string> ids = {"b~job", "job", "a~b", "../a~job", "~job"};
+  std::set<std::string> names;
+  for (const auto* identity : {"", "a", "b", "a.b"})
+    for (const auto& id : ids) EXPECT_TRUE(names.insert(file_name_of(identity, id)).second) << id;
+}
+
+TEST(JobFiles, HoldTheBoundsOfADay) {
+  const auto folder = ::testing::TempDir() + "tubecut_bounded_jobs";
+  ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
+  for (int turn = 0; turn < 2; ++turn) {  // a new process counts what is there
+    JobFiles files(folder, {.files = 3, .bytes = 100});
+    for (int i = 0; i < 20; ++i)
+      files.write("2024-03-01", "", "job-" + std::to_string(i), "0123456789");
+    for (int i = 0; i < 20; ++i) files.write("2024-03-02", "", "one", "0123456789");
+    for (int i = 0; i < 5000 && files.dropped() < (turn == 0 ? 27U : 37U); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(files.dropped(), turn == 0 ? 27U : 37U);
+  }
+  EXPECT_EQ(files_in(folder + "/2024-03-01").size(), 3U);
+  EXPECT_EQ(std::filesystem::file_size(folder + "/2024-03-02/one.jsonl"), 100U);
 }
 
 }  // namespace

@@ -315,6 +315,23 @@ TEST(App, LetsAClientLowerItsBudgetOnly) {
       400);
 }
 
+TEST(App, AnswersOnlyToItsNamesWhereToldThem) {
+  Fake fake;
+  AppOptions options;
+  options.hosts = {"cell-3.plant.example"};
+  const App app = fake.app(options);
+  const auto status = [](const App& of, const char* host) {
+    return of.handle(request({{"Host", host}})).status;
+  };
+  for (const auto* own : {"localhost", "LOCALHOST:8080", "127.0.0.1:8080", "127.9.9.9", "[::1]:80",
+                          "cell-3.plant.example:8443", "Cell-3.Plant.Example"})
+    EXPECT_EQ(status(app, own), 200) << own;
+  for (const auto* foreign : {"evil.example", "localhost.evil.example:8080",
+                              "127.0.0.1.evil.example", "192.168.1.7", "[::2]"})
+    EXPECT_EQ(status(app, foreign), 400) << foreign;
+  EXPECT_EQ(status(fake.app({}), "evil.example"), 200);
+}
+
 TEST(App, AnswersOtherOriginsOnlyWhereAllowed) {
   Fake fake;
   AppOptions options;

@@ -151,14 +151,15 @@ TEST(Binary, TakesBodiesItsMemoryHasRoomFor) {
   const std::string chunks = "Transfer-Encoding: chunked\r\nContent-Type: application/json\r\n";
   EXPECT_EQ(ask(service.port, post("/v1/nodes", fits)).status, 400);
   EXPECT_EQ(ask(service.port, post("/v1/nodes", too_large)).status, 413);
-  const std::string head = "POST /v1/nodes HTTP/1.1\r\nHost: x\r\n" + chunks + "\r\n";
+  const std::string head = "POST /v1/nodes HTTP/1.1\r\nHost: localhost\r\n" + chunks + "\r\n";
   EXPECT_EQ(ask(service.port, head + "55730\r\n" + too_large + "\r\n0\r\n\r\n").status, 413);
-  EXPECT_EQ(ask(service.port,
-                "POST /v1/batches HTTP/1.1\r\nHost: x\r\nContent-Type: application/x-ndjson\r\n"
-                "Content-Length: 3000000\r\n\r\n" +
-                    std::string(3'000'000, ' '))
-                .status,
-            200);
+  EXPECT_EQ(
+      ask(service.port,
+          "POST /v1/batches HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/x-ndjson\r\n"
+          "Content-Length: 3000000\r\n\r\n" +
+              std::string(3'000'000, ' '))
+          .status,
+      200);
 }
 
 TEST(Binary, RefusesToStartInTheOpenOrWithoutItsFolder) {

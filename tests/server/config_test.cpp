@@ -76,6 +76,9 @@ TEST(Config, PassesOverNoMistake) {
                                                 {"--connections", "0"},
                                                 {"--port", "9090"},
                                                 {"--head-s", "0"},
+                                                {"--budget-s", "nan"},
+                                                {"--budget-s", "inf"},
+                                                {"--drain-delay-s", "nan"},
                                                 {"--max-body-bytes", "8388609"},
                                                 {"--cors-origin", "https://a.b/"},
                                                 {"--trusted-proxy", "10.0.0.0/8 127.0.0.1"},
@@ -110,6 +113,16 @@ TEST(Config, PrintsWhatItReadsBack) {
   ASSERT_TRUE(again) << again.error().err << printed.error().out;
   EXPECT_EQ(again->config.port, 0);
   EXPECT_EQ(again->config.idle_s, 3.5);
+}
+
+TEST(Config, SeesALineThatSetsNothing) {
+  for (const auto* text : {"=\n", "port = 1001\n  = 5\n"}) {
+    const std::string name = file_with(text);
+    const auto command = read({"--config", name.c_str()});
+    ASSERT_FALSE(command) << text;
+    EXPECT_EQ(command.error().code, 2);
+    EXPECT_FALSE(command.error().err.empty());
+  }
 }
 
 TEST(Config, SplitsListsAtCommasWhereverTheyStand) {

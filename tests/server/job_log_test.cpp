@@ -56,6 +56,25 @@ TEST(JobLine, SurvivesEveryByte) {
   }
 }
 
+/// However much a job has to say, its line is bounded, still JSON, and tells what it leaves out.
+TEST(JobLine, IsAtMostSoLong) {
+  for (const auto* piece : {"a_warning_of_some_length", "\x01\x02", "\xc3\xa4", "\"\\"}) {
+    JobRecord job = hostile();
+    std::string long_text;
+    while (long_text.size() < 300'000) long_text += piece;
+    job.failure = job.traceparent = long_text;
+    job.facts.warnings.assign(20'000, std::string(piece));
+    for (int i = 0; i < 50; ++i) job.facts.reference.emplace_back(std::to_string(i), long_text);
+    const auto line = job_line(job, system_clock::now());
+    EXPECT_LE(line.size(), kLongestLine);
+    const auto json = api::parse(line);
+    ASSERT_TRUE(json) << json.error().reason;
+    EXPECT_GT(*json->find("left_out")->as<double>(), 10'000.0);
+    EXPECT_EQ(*json->find("status"), api::Json(500.0));
+  }
+  EXPECT_EQ(job_line(hostile(), system_clock::now()).find("left_out"), std::string::npos);
+}
+
 TEST(ReadyLine, IsExact) {
   EXPECT_EQ(ready_line(8080, 9090, "0.1.0"),
             R"({"event":"ready","port":8080,"admin_port":9090,"version":"0.1.0"})");
@@ -90,6 +109,19 @@ TEST(JobLog, KeepsOrderAndNeverBlocksOnAReaderThatStopped) {
   }
   close(ends[0]);
   close(ends[1]);
+}
+
+/// A reader that has stopped costs 4 MiB of lines, however long and however many they may be.
+TEST(JobLog, HoldsSoManyBytes) {
+  signal(SIGPIPE, SIG_IGN);
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  JobLog log(1'000'000, ends[1]);
+  const std::string line(kLongestLine, 'x');
+  for (int i = 0; i < 1000; ++i) log.write(line);  // 16 MB
+  EXPECT_GE(log.dropped(), 1000U - (4u << 20) / kLongestLine - 8);
+  EXPECT_LT(log.dropped(), 1000U - (3u << 20) / kLongestLine);
+  close(ends[0]);
 }
 
 TEST(JobLog, EndsThoughNobodyReads) {

@@ -5,6 +5,7 @@
 #include <future>
 #include <latch>
 
+#include "server/admin_port.hpp"
 #include "tests/server/client.hpp"
 
 namespace tubecut::server {
@@ -30,11 +31,12 @@ class Port {
  public:
   explicit Port(std::function<Response(const Request&)> handle = echo,
                 const TransportOptions& options = {})
-      : transport_(Transport::open(
-                       options, {.handle = std::move(handle),
-                                 .screen = [](const Request&) { return std::optional<Refusal>{}; },
-                                 .max_body = [](std::string_view) { return std::size_t{1000}; }})
-                       .value()),
+      : Port({.handle = std::move(handle),
+              .screen = [](const Request&) { return std::optional<Refusal>{}; },
+              .max_body = [](std::string_view) { return std::size_t{1000}; }},
+             options) {}
+  Port(Service service, const TransportOptions& options)
+      : transport_(Transport::open(options, std::move(service)).value()),
         served_(std::async(std::launch::async, [this] { return transport_.serve(); })) {
     while (!transport_.serving()) std::this_thread::sleep_for(1ms);
   }
@@ -322,6 +324,97 @@ TEST(Transport, AnswersAcceptedWorkWhileDraining) {
     EXPECT_EQ(answer.header("Connection"), "close");
   }
   EXPECT_TRUE(port.join());
+}
+
+std::string_view kind_of(const Request& request) {
+  return request.target.starts_with("/long") ? "long" : "short";
+}
+
+Service service_of(std::function<Response(const Request&)> handle) {
+  return {.handle = std::move(handle),
+          .screen = [](const Request&) { return std::optional<Refusal>{}; },
+          .max_body = [](std::string_view) { return std::size_t{1000}; },
+          .kind = kind_of,
+          .budget = [](const Request&) { return std::chrono::milliseconds(5000); }};
+}
+
+/// Lets a job of some length teach what its kind takes.
+void teach(const Port& port) { EXPECT_EQ(one(port, get("/longish")).substr(0, 3), "GET"); }
+
+TEST(Transport, AnswersQuickJobsWhileLongOnesHoldEverySlot) {
+  std::atomic<bool> learnt = false;
+  std::promise<void> go;
+  const auto gate = go.get_future().share();
+  TransportOptions options;
+  options.slots = 1;
+  const Port port(service_of([&](const Request& request) {
+                    if (request.refusal) return echo(request);
+                    if (request.target.starts_with("/long") && !learnt) {
+                      std::this_thread::sleep_for(300ms);
+                    } else if (request.target.starts_with("/long")) {
+                      gate.wait();
+                    }
+                    return echo(request);
+                  }),
+                  options);
+  teach(port);
+  learnt = true;
+  std::vector<std::unique_ptr<Client>> hogs;
+  for (int i = 0; i < 8; ++i) {
+    hogs.push_back(std::make_unique<Client>(port.number()));
+    hogs.back()->send(get("/long"));
+  }
+  std::this_thread::sleep_for(100ms);
+  int answered = 0;
+  for (int i = 0; i < 50; ++i) answered += one(port, get("/short")) == "GET /short " ? 1 : 0;
+  go.set_value();
+  EXPECT_EQ(answered, 50);
+  EXPECT_EQ(hogs.front()->receive().status, 200);
+}
+
+/// What was long once says nothing of a service that has nothing to do.
+TEST(Transport, RefusesNobodyOnAnIdleServiceForWhatWasLongBefore) {
+  TransportOptions options;
+  const Port port(service_of([](const Request& request) {
+                    if (request.target.starts_with("/long")) std::this_thread::sleep_for(150ms);
+                    return echo(request);
+                  }),
+                  options);
+  for (int i = 0; i < 6; ++i) teach(port);
+  Client client(port.number());
+  for (int i = 0; i < 20; ++i) {
+    client.send(get("/short"));
+    ASSERT_EQ(client.receive().body, "GET /short ") << i;
+  }
+}
+
+/// As many silent sockets as there may be, begun or not: a newcomer is answered all the same.
+TEST(Transport, AnswersNewcomersBesideSilentSockets) {
+  TransportOptions options;
+  options.connections = 32;
+  options.idle = options.head = 60s;
+  const Port port(echo, options);
+  std::vector<std::unique_ptr<Client>> silent;
+  for (int i = 0; i < 40; ++i) {
+    silent.push_back(std::make_unique<Client>(port.number()));
+    if (i % 2 == 0) silent.back()->send("GET /silent HTTP/1.1\r\n");
+  }
+  std::this_thread::sleep_for(200ms);
+  for (int i = 0; i < 64; ++i) ASSERT_EQ(one(port, get("/good")), "GET /good ") << i;
+}
+
+TEST(Transport, LeavesRoomBesideAnAddressThatHasItsShare) {
+  TransportOptions options;
+  options.connections = 32;
+  options.per_client = 4;
+  options.idle = 60s;
+  const Port port(echo, options);
+  std::vector<std::unique_ptr<Client>> many;
+  for (int i = 0; i < 10; ++i) many.push_back(std::make_unique<Client>(port.number()));
+  std::this_thread::sleep_for(100ms);
+  for (int i = 0; i < 6; ++i) EXPECT_TRUE(many[static_cast<std::size_t>(i)]->at_end()) << i;
+  many.back()->send(get("/good"));
+  EXPECT_EQ(many.back()->receive().body, "GET /good ");
 }
 
 TEST(Transport, TakesAPortOnce) {

@@ -56,7 +56,7 @@ def batch(port, body, **headers):
 
 
 def head(body):
-    return (b"POST /v1/batches HTTP/1.1\r\nHost: a\r\nContent-Type: application/x-ndjson\r\n"
+    return (b"POST /v1/batches HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/x-ndjson\r\n"
             b"Content-Length: %d\r\n\r\n" % len(body))
 
 
@@ -246,9 +246,41 @@ class Suite:
                     data += sock.recv(65536)
                 self.check(data.count(b'"summary"') == 2, "pipelined batches")
 
+    def bounds(self):
+        """Lines that are no jobs end the batch after a hundred; blank ones cost their bytes, and the port goes on meanwhile."""
+        with Service(self.binary) as service:
+            with connect(service.port, 60.0) as sock:
+                body = b"x\n" * 200_000
+                sock.sendall(head(body) + body)
+                data = b""
+                while b'"summary"' not in data:
+                    data += sock.recv(1 << 20)
+            summary = json.loads(data[data.rindex(b'{"summary"'):].split(b"\n")[0])["summary"]
+            self.check(summary["items"] == 200_000 and 100 <= summary["refused"] <= 110 and
+                       summary["unanswered"] == 200_000 - summary["refused"], f"200 000 lines that are no jobs: {summary}")
+            self.check(len(data) < 200_000, f"they are answered with {len(data)} bytes")
+            blank = b"\n" * (8 << 20)
+            waits, over = [], threading.Event()
+
+            def probes():
+                while not over.is_set():
+                    start = time.monotonic()
+                    exchange(service.port, b"GET /v1/version HTTP/1.1\r\nHost: a\r\n\r\n")
+                    waits.append(1e3 * (time.monotonic() - start))
+
+            beside = threading.Thread(target=probes)
+            beside.start()
+            for _ in range(8):
+                self.check(list(batch(service.port, blank))[-1]["summary"]["items"] == 0, "blank lines are no items")
+            over.set()
+            beside.join()
+            waits.sort()
+            print(f"200 000 lines that are no jobs: {summary}, {len(data)} bytes; beside 8 times 8 MiB of blank lines {len(waits)} requests, "
+                  f"p99 {waits[int(0.99 * (len(waits) - 1))]:.1f} ms, {sum(w > 50 for w in waits)} over 50")
+
     def run(self):
         for part in (self.whole, self.hang_up, lambda: self.takes_little(0), lambda: self.takes_little(10_000), self.is_logged,
-                     self.minds_the_rate, self.shares_memory, self.drains, self.odd_ones):
+                     self.minds_the_rate, self.shares_memory, self.drains, self.odd_ones, self.bounds):
             part()
         for fault in self.faults[:20]:
             print(fault)

@@ -1,6 +1,6 @@
 // The one source that includes Boost.Beast: its parser reads the bytes, framing.hpp judges them.
 
-#include "server/request_reader.hpp"
+#include "server/http/request_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "server/framing.hpp"
+#include "server/http/framing.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -1,0 +1,281 @@
+// One request whose lines become jobs like others, and whose answer is sent in chunks (RFC 9112,
+// 7.1) as they finish.
+
+#include "server/http/batch.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace tubecut::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Answers held for a client that is slow to take them; no further line begins beyond.
+constexpr std::size_t kHeld = 512u << 10;
+constexpr auto kAskAgain = 20ms;  // a full queue, memory in use, or the key's rate
+constexpr auto kLook = 50ms;      // whether the client is still there
+/// Lines that are no jobs, after which no further line is looked at: each costs an answer and a
+/// line of log, many times its own bytes.
+constexpr std::size_t kMalformed = 100;
+constexpr std::size_t kReadAtOnce = 64u << 10;
+constexpr std::size_t kScanAtOnce = 256u << 10;  // bytes looked through in one turn
+
+/// A large line is not even read for its id: that would hold up the port.
+void refuse_line(Request& line, Refusal refusal) {
+  line.refusal = std::move(refusal);
+  if (line.body.size() > kReadAtOnce) line.body = {};
+}
+
+}  // namespace
+
+Batch::Batch(Session& session, std::shared_ptr<Job> whole)
+    : on_(session), port_(session.port_), whole_(std::move(whole)), held_(port_.lines) {}
+
+std::optional<Refusal> Batch::refusal() {
+  const Request& whole = whole_->request;
+  if (auto refusal = port_.service.screen(whole))
+    return refusal;  // an empty one was whole at its head
+  if (!port_.lines.has(whole.body.size()) || !port_.make_memory(whole.body.size())) {
+    ++port_.counters.memory;
+    return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
+  }
+  return port_.service.admit ? port_.service.admit(whole) : std::nullopt;
+}
+
+Task<void> Batch::live() {
+  Request& request = whole_->request;
+  request.refusal = refusal();
+  const Response head = request.refusal ? Response{.status = 0} : port_.service.batch_head(request);
+  if (head.status != 200) {
+    Printed refused = port_.answer(request, whole_->close);
+    co_await on_.send(std::move(refused));
+    co_return;
+  }
+  chunked_ = on_.reader_.takes_chunks();
+  lines_ = std::move(request.body);
+  held_.resize(lines_.size());
+  count_.bytes_in = lines_.size();
+  head_ = std::move(request);
+  auto& common = head_.headers;  // the lines go by the name the client is told
+  const auto is_id = [](const auto& field) {
+    return equal_ignoring_case(field.first, "X-Request-Id");
+  };
+  std::erase_if(common, is_id);
+  std::ranges::copy_if(head.headers, std::back_inserter(common), is_id);
+  const auto idle = std::chrono::ceil<std::chrono::seconds>(port_.options.idle);
+  on_.out_ =
+      print_head(head, whole_->close ? 0s : idle, chunked_ ? "Transfer-Encoding: chunked\r\n" : "");
+  try {
+    co_await answer_lines();
+  } catch (...) {
+    on_.sent_ = port_.service.summary(head_, count_).sent;  // for the log
+    throw;
+  }
+  Response last = port_.service.summary(head_, count_);
+  on_.out_ += chunked_ ? print_chunk(last.body) + std::string(kLastChunk) : last.body;
+  held_.resize(0);
+  Printed rest{.bytes = std::exchange(on_.out_, {}), .sent = std::move(last.sent)};
+  co_await on_.send(std::move(rest));  // gcc 12 destroys a temporary here twice
+}
+
+/// The next line that is not blank, empty at the end. Nothing when there is none in as many bytes
+/// as may be looked through at once: blank lines cost what their bytes cost.
+std::optional<std::string_view> Batch::next_line() {
+  const auto all = std::string_view(lines_);
+  const auto near = all.substr(0, std::min(all.size(), at_ + kScanAtOnce));
+  const auto begin = near.find_first_not_of(" \t\r\n", at_);
+  if (begin == near.npos) {
+    at_ = near.size();
+    return at_ == all.size() ? std::optional(std::string_view()) : std::nullopt;
+  }
+  const auto end = std::min(all.find('\n', begin), all.size());
+  at_ = std::min(end + 1, all.size());
+  const auto line = all.substr(begin, end - begin);
+  return line.substr(0, line.find_last_not_of('\r') + 1);
+}
+
+Task<void> Batch::count_lines() {
+  for (std::size_t looked = 0;;) {
+    const auto before = at_;
+    const auto line = next_line();
+    if (line && line->empty()) break;
+    count_.items += line ? 1 : 0;
+    looked += at_ - before;
+    if (looked < kScanAtOnce) continue;
+    looked = 0;
+    co_await on_.yield();
+  }
+  at_ = 0;
+}
+
+Task<void> Batch::answer_lines() {
+  co_await count_lines();
+  on_.gone_by_ = Clock::time_point::max();
+  for (auto looks = Clock::now() + kLook;;) {
+    stopped_ = stopped_ || port_.draining;
+    take_finished();
+    refuse_late();
+    send();
+    begin_lines();
+    if (stopped_ && on_.jobs_.empty()) co_return;
+    co_await on_.pause(std::min(due(), looks));
+    if (Clock::now() < looks) continue;
+    on_.look();
+    looks = Clock::now() + kLook;
+  }
+}
+
+void Batch::take_finished() {
+  std::erase_if(on_.jobs_, [this](const auto& job) {
+    if (job->finished && job->answer.bytes.empty()) throw Session::Gone{};
+    if (job->finished) answer_line(job->answer.bytes, job->refused);
+    if (job->finished && job->malformed && ++malformed_ == kMalformed) stopped_ = true;
+    return job->finished;
+  });
+}
+
+/// As many as are worked on at a time: one more than there are slots, so that no slot waits, and
+/// other requests wait for no more than these.
+void Batch::begin_lines() {
+  again_ = Clock::time_point::max();
+  const auto most = static_cast<std::size_t>(port_.slots.count()) + 1;
+  while (!stopped_ && on_.jobs_.size() < most && on_.out_.size() < kHeld) {
+    const auto before = at_;
+    const auto line = next_line();
+    if (!line) {
+      on_.wake();
+      break;
+    }
+    if (line->empty()) {
+      stopped_ = true;
+    } else if (!begin_line(*line)) {
+      at_ = before;
+      again_ = Clock::now() + kAskAgain;
+      break;
+    }
+  }
+  forget_begun();
+}
+
+std::shared_ptr<Job> Batch::job_of(std::string_view line) const {
+  auto job = std::make_shared<Job>();
+  job->request = head_;
+  job->request.body = line;
+  job->request.line = line_ + 1;
+  job->request.stop = job->stop.get_token();
+  job->request.times.read = job->request.times.received = seconds(Clock::now());
+  job->owner = on_.weak_from_this();
+  on_.claim(*job);
+  return job;
+}
+
+/// False when the line has to wait: for memory, for a full queue, or for the rate of the batch's
+/// key.
+bool Batch::begin_line(std::string_view line) {
+  const auto& service = port_.service;
+  const auto room = port_.memory.most() - port_.lines.most();
+  const auto wanted = service.line_memory ? service.line_memory(line) : line.size();
+  const bool fits = port_.memory.most() == 0 || wanted <= room;
+  const auto memory = fits ? wanted : 0;
+  const bool has = has_memory_in_time(memory);
+  if (!has && !over_wait()) return false;
+  if (!paid_ && service.admit && service.admit(head_)) return false;
+  paid_ = true;
+  const auto job = job_of(line);
+  if (!fits) {
+    refuse_line(job->request, {ErrorCode::body_too_large,
+                               "This replica's memory has no room for a line of that size."});
+  } else if (!has) {
+    refuse_line(job->request, {ErrorCode::overloaded, "The memory for jobs is in use."});
+  } else {
+    job->memory = MemoryShare(port_.memory, memory);
+  }
+  if (service.budget) job->end = Clock::now() + service.budget(job->request);
+  if (!port_.offer(job)) return false;
+  if (!has) ++port_.counters.memory;
+  waits_since_.reset();
+  ++line_;
+  paid_ = false;
+  on_.jobs_.push_back(job);
+  return true;
+}
+
+/// Whether the memory for the next line is there. Slow takers give way when the wait for it begins
+/// and when it is over: to ask all connections each time would hold up the port.
+bool Batch::has_memory_in_time(std::size_t bytes) {
+  if (port_.memory.has(bytes)) return true;
+  const bool first = !waits_since_;
+  if (first) waits_since_ = Clock::now();
+  return (first || over_wait()) && port_.make_memory(bytes);
+}
+
+/// Whether the next line has waited for memory as long as a job may take.
+bool Batch::over_wait() const {
+  const auto most = port_.service.budget ? port_.service.budget(head_) : 0ms;
+  return most > 0ms && Clock::now() - *waits_since_ >= most;
+}
+
+/// Lines already begun need not be kept.
+void Batch::forget_begun() {
+  if (2 * at_ < lines_.size()) return;
+  lines_.erase(0, std::exchange(at_, 0));
+  lines_.shrink_to_fit();
+  held_.resize(lines_.size());
+}
+
+/// Lines beyond their budget: those that run are stopped, the others refused.
+void Batch::refuse_late() {
+  const auto now = Clock::now();
+  const auto running = on_.jobs_;
+  for (const auto& job : running) {
+    if (job->end > now && !job->displaced) continue;
+    job->end = Clock::time_point::max();
+    if (!job->displaced && !port_.slots.withdraw(job)) {
+      job->stop.request_stop();
+      continue;
+    }
+    ++(job->displaced ? port_.counters.queue : port_.counters.wait);
+    job->memory = {};
+    refuse_line(job->request, {ErrorCode::overloaded, "No slot was free within the job's budget."});
+    std::erase(on_.jobs_, job);
+    answer_line(port_.service.line(job->request).text, true);
+  }
+}
+
+void Batch::answer_line(std::string_view text, bool refused) {
+  ++(refused ? count_.refused : count_.answered);
+  if (chunked_) {
+    on_.out_ += print_chunk(text);
+  } else {
+    on_.out_ += text;
+  }
+  count_.bytes_out += text.size();
+}
+
+/// What is held for the client has to be taken within the time for an answer, not a byte of it.
+void Batch::send() {
+  const auto size = on_.out_.size();
+  if (!on_.send_some()) {
+    on_.out_.erase(0, std::exchange(on_.out_at_, 0));
+    on_.count_sending();
+    on_.wait_writable();
+  }
+  const auto left = on_.out_.size();
+  owed_ -= std::min(owed_, size - left);
+  if (owed_ > 0 && Clock::now() >= stalled_) {
+    ++port_.counters.over_time;
+    throw Session::Gone{};
+  }
+  if (owed_ > 0) return;
+  owed_ = left;
+  stalled_ = left == 0 ? Clock::time_point::max() : Clock::now() + port_.options.write;
+}
+
+Clock::time_point Batch::due() const {
+  auto when = std::min({stalled_, again_, on_.gone_by_});
+  for (const auto& job : on_.jobs_) when = std::min(when, job->end);
+  return when;
+}
+
+}  // namespace tubecut::server

@@ -1,0 +1,271 @@
+#include "server/http/port.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "server/http/session.hpp"
+
+namespace tubecut::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kReadBytes = 65536;
+/// Requests on their way hold one part of so many of the memory at most, and lines of batches
+/// another: whatever clients begin, jobs find theirs.
+constexpr std::size_t kWaiting = 2;
+constexpr auto kHeadTaken = 100ms;  // one that takes longer makes room for others
+constexpr auto kTaken = 1s;  // most answers are by then: the others give way when memory is short
+/// Memory of a running job whatever its body: 17 MiB were measured for 20 000 points.
+constexpr std::size_t kSlotBytes = 24u << 20;
+constexpr std::size_t kLeastMemory = 16u << 20;
+
+/// What is left of the bound for bodies and answers once every slot has its part; 0: no bound.
+std::size_t shared_memory(const TransportOptions& options) {
+  if (options.memory == 0) return 0;
+  const auto slots = kSlotBytes * static_cast<std::size_t>(options.slots);
+  return std::max(kLeastMemory, options.memory - std::min(options.memory, slots));
+}
+
+/// Numeric.
+std::string address_of(const Socket& socket) {
+  boost::system::error_code error;
+  const auto end = socket.remote_endpoint(error);
+  return error ? std::string() : end.address().to_string(error);
+}
+
+/// Its client is gone.
+void report(const Job& job) noexcept {
+  try {
+    if (job.answer.sent) job.answer.sent(false);
+  } catch (const std::exception&) {  // a log line that memory is short for
+  }
+}
+
+}  // namespace
+
+double seconds(Clock::time_point time) {
+  return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
+std::size_t memory_for_jobs(const TransportOptions& options) {
+  return options.memory == 0 ? std::numeric_limits<std::size_t>::max() : shared_memory(options);
+}
+
+Port::Port(const TransportOptions& of, Service service_of)
+    : options(of),
+      service(std::move(service_of)),
+      limits{.head_bytes = of.max_head_bytes, .fields = of.max_fields},
+      memory(shared_memory(of)),
+      arriving(memory.most() / kWaiting, &memory),
+      lines(memory.most() / kWaiting, &memory),
+      places(static_cast<std::size_t>(of.per_client > 0 ? of.per_client
+                                                        : std::max(1, of.connections / 2))),
+      scratch(kReadBytes, '\0'),
+      slots(
+          of.slots, of.queue, [this](const std::shared_ptr<Job>& job) { work(*job); },
+          [this](std::shared_ptr<Job> job) { hand_over(std::move(job)); }) {}
+
+Port::~Port() { slots.join(); }
+
+Printed Port::answer(const Request& request, const std::atomic<bool>& close) const {
+  Response response;
+  try {
+    response = service.handle(request);
+  } catch (const std::exception&) {
+    response = {.status = 500,
+                .content_type = "text/plain; charset=utf-8",
+                .body = "The service failed.\n"};
+  }
+  const auto idle = std::chrono::ceil<std::chrono::seconds>(options.idle);
+  return print(std::move(response), request.method, close ? 0s : idle);
+}
+
+/// In a slot's thread.
+void Port::work(Job& job) const {
+  job.request.times.started = seconds(Clock::now());
+  try {
+    if (job.request.line > 0) {
+      BatchReply reply = service.line(job.request);
+      job.answer.bytes = std::move(reply.text);
+      job.refused = reply.refused;
+      job.malformed = reply.malformed;
+    } else {
+      job.answer = answer(job.request, job.close);
+    }
+  } catch (const std::exception&) {  // no memory for the bytes: no answer, and its connection ends
+    job.answer.bytes = {};
+  }
+}
+
+/// In a slot's thread.
+void Port::hand_over(std::shared_ptr<Job> job) {
+  bool first = false;
+  {
+    const std::lock_guard lock(mutex_);
+    first = !finished_;
+    job->next = std::move(finished_);
+    finished_ = std::move(job);
+  }
+  if (first) loop.interrupt();
+}
+
+void Port::tell(std::function<void()> what) {
+  {
+    const std::lock_guard lock(mutex_);
+    told_.push_back(std::move(what));
+  }
+  loop.interrupt();
+}
+
+void Port::run() {
+  loop.run([this] { return ending_ && sessions_.empty(); }, [this] { take_messages(); });
+  slots.join();  // jobs whose clients are gone still have a line to log
+  take_messages();
+}
+
+void Port::take_messages() {
+  std::unique_lock lock(mutex_);
+  auto job = std::exchange(finished_, nullptr);
+  const auto told = std::exchange(told_, {});
+  lock.unlock();
+  while (job) {
+    const auto done = std::exchange(job, job->next);
+    done->next = nullptr;
+    done->finished = true;
+    if (const auto owner = done->owner.lock()) {
+      owner->wake();
+    } else {
+      report(*done);
+    }
+  }
+  for (const auto& what : told) what();
+}
+
+bool Port::offer(const std::shared_ptr<Job>& job) {
+  const auto [taken, displaced] = slots.offer(job);
+  if (displaced) {
+    displaced->displaced = true;
+    if (const auto owner = displaced->owner.lock()) owner->wake();
+  }
+  return taken;
+}
+
+/// An address that has its share of the connections makes room among its own.
+void Port::open(Socket socket) {
+  const auto peer = address_of(socket);
+  const bool shared = service.is_shared && service.is_shared(peer);
+  bool full = false;
+  if (!shared && places.full(peer)) full = !make_room(peer);
+  if (!full && sessions_.size() >= static_cast<std::size_t>(options.connections)) {
+    full = !make_room("");
+  }
+  auto place = shared ? Place() : Place(places, peer);
+  auto session = std::make_shared<Session>(*this, std::move(socket), peer, std::move(place));
+  sessions_.push_back(session);
+  counters.connections = sessions_.size();
+  try {
+    session->start(std::prev(sessions_.end()), full);
+  } catch (...) {
+    forget(*session);
+    throw;
+  }
+}
+
+void Port::forget(Session& session) {
+  sessions_.erase(session.at());
+  counters.connections = sessions_.size();
+}
+
+/// The connection idle for longest makes room for a new one, else the one that has been longest at
+/// a request's head. Of that address, when one is named.
+bool Port::make_room(const std::string& of_peer) {
+  using State = Session::State;
+  const auto late = Clock::now() - kHeadTaken;
+  std::shared_ptr<Session> longest;
+  const auto rank = [](const Session& one) {
+    return std::pair(one.state() == State::head, one.due());
+  };
+  for (const auto& session : sessions_) {
+    if (session->is_cut() || (!of_peer.empty() && session->peer() != of_peer)) continue;
+    const bool idle = session->state() == State::idle || session->state() == State::lingering;
+    if (!idle && !(session->state() == State::head && session->received() < late)) continue;
+    if (!longest || rank(*session) < rank(*longest)) longest = session;
+  }
+  if (longest) longest->cut();
+  return longest != nullptr;
+}
+
+std::size_t Port::room_for_body(const Request& head) const {
+  const auto limit = service.max_body(head.target);
+  if (memory.most() == 0) return limit;
+  const bool batch = service.is_batch && service.is_batch(head);
+  if (batch) return std::min(limit, lines.most() - options.max_head_bytes);
+  return std::min(limit, service.room ? service.room(head.target) : memory.most());
+}
+
+std::size_t Port::memory_of(const Request& request) const {
+  return service.memory ? service.memory(request) : request.body.size();
+}
+
+void Port::bound_arrivals() {
+  while (!arriving.has(0)) {
+    const auto most = std::ranges::max_element(
+        sessions_, {}, [](const auto& session) { return session->holds_arriving(); });
+    if (most == sessions_.end() || (*most)->holds_arriving() == 0) return;
+    ++counters.memory;
+    (*most)->give_way();
+  }
+}
+
+/// Those that hold most go first, and none in vain.
+bool Port::make_memory(std::size_t bytes) {
+  if (memory.has(bytes)) return true;
+  const auto late = Clock::now() - kTaken;
+  std::vector<Session*> slow;
+  std::size_t theirs = 0;
+  for (const auto& session : sessions_) {
+    if (!session->takes_since(late)) continue;
+    slow.push_back(session.get());
+    theirs += session->holds();
+  }
+  if (memory.used() + bytes - theirs > memory.most()) return false;
+  std::ranges::sort(slow, std::greater{}, &Session::holds);
+  for (auto* const session : slow) {
+    if (memory.has(bytes)) break;
+    ++counters.over_time;
+    session->cut();
+  }
+  return memory.has(bytes);
+}
+
+void Port::drain(std::chrono::milliseconds patience) {
+  draining = true;
+  drain_began = Clock::now();
+  drained_by = drain_began + patience;
+  for (const auto& session : sessions_) session->end_soon();
+}
+
+void Port::cancel_jobs() {
+  for (const auto& session : sessions_) session->cancel();
+}
+
+TransportStats Port::stats() const {
+  const PortCounters& x = counters;
+  return {.connections = x.connections,
+          .waiting = slots.waiting(),
+          .busy = static_cast<std::uint64_t>(slots.busy()),
+          .slots = static_cast<std::uint64_t>(slots.count()),
+          .memory = memory.used(),
+          .memory_bound = options.memory,
+          .refused_queue = x.queue,
+          .refused_wait = x.wait,
+          .refused_memory = x.memory,
+          .refused_connections = x.full,
+          .hung_up = x.hung_up,
+          .over_time = x.over_time};
+}
+
+}  // namespace tubecut::server

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/http/loop.hpp"
+#include "server/http/memory_share.hpp"
+#include "server/http/places.hpp"
+#include "server/http/printer.hpp"
+#include "server/http/request_reader.hpp"
+#include "server/slots.hpp"
+#include "server/transport.hpp"
+
+namespace tubecut::server {
+
+class Session;
+
+/// Monotonic seconds.
+[[nodiscard]] double seconds(Clock::time_point time);
+
+/// See TransportStats.
+struct PortCounters {
+  std::atomic<std::uint64_t> connections{0}, queue{0}, wait{0}, memory{0}, full{0}, hung_up{0},
+      over_time{0};
+};
+
+/// What the connections of a port share. Its loop's thread's alone, but for what says otherwise.
+class Port {
+ public:
+  Port(const TransportOptions& options, Service service);
+  ~Port();
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+
+  /// Runs the loop until `end`, and then until nothing is left to answer.
+  void run();
+  /// From any thread: calls `what` in the loop's thread, soon.
+  void tell(std::function<void()> what);
+
+  /// Takes over an accepted socket.
+  void open(Socket socket);
+  void forget(Session& session);
+  void drain(std::chrono::milliseconds patience);
+  /// No more sockets will be opened: `run` may return.
+  void end() { ending_ = true; }
+  void cancel_jobs();
+
+  /// The largest body of such a request that the memory has room for. A batch's lines are jobs by
+  /// themselves.
+  [[nodiscard]] std::size_t room_for_body(const Request& head) const;
+  /// Memory to set aside for a job: all that it takes until it is answered, its answer too.
+  [[nodiscard]] std::size_t memory_of(const Request& request) const;
+  /// Of requests on their way, those that hold most make room for the others.
+  void bound_arrivals();
+  /// Whether so many bytes more are there, if need be without the clients slowest to take their
+  /// answers.
+  [[nodiscard]] bool make_memory(std::size_t bytes);
+  /// Queues the job; false when the queue is full.
+  [[nodiscard]] bool offer(const std::shared_ptr<Job>& job);
+
+  /// The answer to a request, printed; `close`: the connection ends with it. From any thread.
+  [[nodiscard]] Printed answer(const Request& request, const std::atomic<bool>& close) const;
+
+  /// From any thread.
+  [[nodiscard]] TransportStats stats() const;
+
+  const TransportOptions options;
+  const Service service;
+  const ReaderLimits limits;
+  MemoryBound memory;    // for bodies, jobs and answers
+  MemoryBound arriving;  // of it: requests not yet whole
+  MemoryBound lines;     // of it: batches' lines not yet begun
+  Places places;         // of clients
+  PortCounters counters;
+  Loop loop;  // after what sessions hold shares of: it may keep the last of them
+  bool draining = false;
+  Clock::time_point drain_began;
+  Clock::time_point drained_by = Clock::time_point::max();
+  std::string scratch;  // what a session has just received
+
+ private:
+  void work(Job& job) const;
+  void hand_over(std::shared_ptr<Job> job);
+  void take_messages();
+  [[nodiscard]] bool make_room(const std::string& of_peer);
+
+  std::list<std::shared_ptr<Session>> sessions_;
+  bool ending_ = false;
+
+  std::mutex mutex_;  // what other threads leave for the loop's
+  std::shared_ptr<Job> finished_;
+  std::vector<std::function<void()>> told_;
+
+ public:
+  Slots slots;  // last: its threads use what is above
+};
+
+}  // namespace tubecut::server

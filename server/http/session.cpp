@@ -1,0 +1,519 @@
+#include "server/http/session.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
+
+#include "server/http/batch.hpp"
+
+namespace tubecut::server {
+namespace {
+
+using namespace std::chrono_literals;
+namespace asio = boost::asio;
+
+constexpr int kReadsPerTurn = 8;      // then another connection's turn
+constexpr int kRequestsPerTurn = 32;  // refused at once, by rate or for want of room
+constexpr auto kFirstByteWhileDraining = 500ms;
+/// A client that still sends reads no answer: its bytes are dropped until it pauses, or is done.
+constexpr auto kLingerTime = 1s;  // of silence
+constexpr std::size_t kLingerBytes = 64u << 20;
+/// A client that has closed its side only half still reads a quick answer; one that hung up cannot
+/// be told apart until this has passed.
+constexpr auto kHangUpGrace = 250ms;
+constexpr auto kLook = 20ms;  // whether the client is still there, while its job is worked on
+/// A job waits for a slot no longer than this part of its budget: one begun with little time left
+/// would be cut off, and its slot wasted.
+constexpr int kWaitShare = 2;
+constexpr double kLikely = 0.5;  // of that wait, as the last jobs of its kind foretell
+
+constexpr std::string_view kFull = "All slots and the queue are full.";
+
+/// The job waited for a slot and gets none.
+void refuse_waiting(Job& job, PortCounters& counters) {
+  ++(job.displaced ? counters.queue : counters.wait);
+  job.request.refusal = {
+      ErrorCode::overloaded,
+      job.displaced ? std::string(kFull) : "No slot was free within half of the job's budget."};
+}
+
+}  // namespace
+
+Session::Session(Port& port, Socket socket, std::string peer, Place place)
+    : Strand(port.loop),
+      port_(port),
+      socket_(std::move(socket)),
+      peer_(std::move(peer)),
+      place_(std::move(place)),
+      reader_(port.limits),
+      arriving_(port.arriving),
+      sending_(port.memory) {
+  boost::system::error_code gone;
+  socket_.non_blocking(true, gone);
+  socket_.set_option(Tcp::no_delay(true), gone);
+}
+
+Session::~Session() { drop(); }
+
+void Session::start(InPort at, bool full) {
+  at_ = at;
+  if (full) {
+    ++port_.counters.full;
+    refuse({ErrorCode::overloaded, "Too many connections are open."});
+  }
+  begin(live());
+}
+
+/// Head, screen, body; turn and answer; again.
+Task<void> Session::live() {
+  try {
+    while (co_await read_request()) {
+      co_await answer_request();
+      if (ends_ || port_.draining) {
+        co_await linger();
+        break;
+      }
+      fresh_ = false;
+      if (++requests_ == kRequestsPerTurn) co_await turn_over();
+    }
+  } catch (const Gone&) {
+  } catch (const std::exception&) {  // out of memory: this connection ends, the others go on
+  }
+}
+
+/// The others' turn.
+Chain::Pause Session::turn_over() {
+  reads_ = requests_ = 0;
+  return yield();
+}
+
+/// The next request, or why it is refused. False when none comes.
+Task<bool> Session::read_request() {
+  if (refusal_) co_return true;  // before it came
+  reader_ = RequestReader(port_.limits);
+  const bool comes = co_await read_head();
+  if (!comes) co_return false;
+  if (!refusal_ && reader_.state() == RequestReader::State::body) screen();
+  if (!refusal_ && reader_.state() == RequestReader::State::body) co_await read_body();
+  if (!refusal_ && reader_.state() == RequestReader::State::faulty) {
+    refuse(reader_.fault());
+  }
+  co_return true;
+}
+
+Task<bool> Session::read_head() {
+  state_ = State::idle;
+  set_due(port_.draining ? kFirstByteWhileDraining : port_.options.idle);
+  while (reader_.state() == RequestReader::State::head && !refusal_) {
+    const Got got = co_await advance();
+    if (got == Got::bytes) continue;
+    const bool empty_lines = got == Got::late && arriving_.bytes() == 0;
+    if (got != Got::no_room && (state_ == State::idle || empty_lines)) co_return false;
+    refuse_rest(got);
+  }
+  co_return true;
+}
+
+/// Whether the body is worth reading.
+void Session::screen() {
+  Request& head = reader_.request();
+  head.peer = peer_;
+  if (auto refusal = port_.service.screen(head)) return refuse(*std::move(refusal));
+  const auto limit = port_.service.max_body(head.target);
+  const auto room = port_.room_for_body(head);
+  const auto length = reader_.content_length();
+  if (length > limit) {
+    refuse({ErrorCode::body_too_large, fmt::format("The body is larger than {} bytes.", limit)});
+  } else if (length > room) {
+    refuse({ErrorCode::body_too_large,
+            fmt::format("This replica's memory has room for {} bytes of body.", room)});
+  } else {
+    reader_.allow_body(room);
+  }
+}
+
+Task<void> Session::read_body() {
+  state_ = State::body;
+  set_due(port_.options.body);
+  if (reader_.expects_continue() && in_at_ == in_.size()) say("HTTP/1.1 100 Continue\r\n\r\n");
+  while (reader_.state() == RequestReader::State::body && !refusal_) {
+    const Got got = co_await advance();
+    if (got != Got::bytes) refuse_rest(got);
+  }
+}
+
+/// Gives the reader what is there, or waits for more.
+Task<Session::Got> Session::advance() {
+  for (;;) {
+    if (digest_rest()) co_return Got::bytes;
+    port_.bound_arrivals();
+    if (gives_way_) co_return Got::no_room;
+    if (++reads_ > kReadsPerTurn) co_await turn_over();
+    if (const auto got = receive()) co_return *got;
+    if (port_.draining && state_ == State::idle && !fresh_) co_return Got::nothing;
+    if (Clock::now() >= due()) co_return Got::late;
+    wait_readable();
+    co_await pause(due());
+    reads_ = requests_ = 0;
+  }
+}
+
+/// The reader takes what was left over; false when it wants more than that.
+bool Session::digest_rest() {
+  if (in_.empty() || starved_) return false;
+  in_at_ += digest(std::string_view(in_).substr(in_at_));
+  if (in_at_ == in_.size()) drop_rest();
+  count_arriving();
+  return !starved_;
+}
+
+std::size_t Session::digest(std::string_view bytes) {
+  if (state_ == State::idle) {
+    state_ = State::head;
+    received_ = Clock::now();
+    set_due(port_.options.head);
+  }
+  const auto taken = reader_.take(bytes);
+  const bool wants = reader_.state() == RequestReader::State::head ||
+                     reader_.state() == RequestReader::State::body;
+  starved_ = taken == 0 && wants;
+  return taken;
+}
+
+/// Takes what the socket has; nothing when it has none now.
+std::optional<Session::Got> Session::receive() {
+  boost::system::error_code error;
+  const auto n = socket_.read_some(asio::buffer(port_.scratch), error);
+  if (error == asio::error::would_block || error == asio::error::interrupted) return std::nullopt;
+  if (error == asio::error::eof) return Got::end;
+  if (error) throw Gone{};
+  const std::string_view bytes(port_.scratch.data(), n);
+  if (in_.empty()) {
+    const auto taken = digest(bytes);
+    in_.assign(bytes.substr(taken));
+  } else {
+    in_.erase(0, std::exchange(in_at_, 0)).append(bytes);
+    starved_ = false;
+    in_at_ = digest(in_);
+    if (in_at_ == in_.size()) drop_rest();
+  }
+  count_arriving();
+  return Got::bytes;
+}
+
+void Session::drop_rest() {
+  in_ = {};
+  in_at_ = 0;
+  starved_ = false;
+}
+
+/// Sets memory aside for what has come of the next requests.
+void Session::count_arriving() {
+  const bool reading = state_ == State::head || state_ == State::body;
+  arriving_.resize((reading && !gives_way_ ? reader_.held() : 0) + in_.size() - in_at_);
+}
+
+void Session::give_way() {
+  gives_way_ = state_ == State::head || state_ == State::body;
+  drop_rest();
+  if (gives_way_) {
+    reader_.request().body = {};
+  } else {  // what came behind the request being answered is not read
+    ends_ = true;
+    for (const auto& job : jobs_) job->close = true;
+  }
+  arriving_.resize(0);
+  wake();
+}
+
+/// Of a request that did not come whole.
+void Session::refuse_rest(Got got) {
+  if (got == Got::late) ++port_.counters.over_time;
+  switch (got) {
+    case Got::late:
+      return refuse({ErrorCode::bad_request, "The request came too slowly."});
+    case Got::no_room:
+      return refuse({ErrorCode::overloaded, "The memory for requests is in use."});
+    default:
+      return refuse({ErrorCode::bad_request, "The request ended early."});
+  }
+}
+
+/// The rest of the request will not be read: the connection ends with the answer.
+void Session::refuse(Refusal refusal) {
+  refusal_ = std::move(refusal);
+  ends_ = true;
+  drop_rest();
+}
+
+std::shared_ptr<Job> Session::take_job() {
+  auto job = std::make_shared<Job>();
+  ends_ = ends_ || port_.draining || !reader_.keeps_alive();
+  Request& request = job->request;
+  request = std::move(reader_.request());
+  request.refusal = std::exchange(refusal_, std::nullopt);
+  if (request.refusal) request.body = {};
+  request.peer = peer_;
+  request.stop = job->stop.get_token();
+  request.times = {.received = seconds(received_), .read = seconds(Clock::now())};
+  request.reports_sending = true;
+  job->close = ends_;
+  job->owner = weak_from_this();
+  state_ = State::working;
+  gives_way_ = false;
+  count_arriving();
+  port_.bound_arrivals();
+  return job;
+}
+
+Task<void> Session::answer_request() {
+  const auto job = take_job();
+  const bool batch = port_.service.is_batch && port_.service.is_batch(job->request);
+  if (!job->request.refusal) job->request.refusal = know_client(*job);
+  if (!job->request.refusal && batch) {
+    Batch lines(*this, job);
+    co_await lines.live();
+    co_return;
+  }
+  if (!job->request.refusal) {
+    claim(*job);
+    job->request.refusal = offer(job);
+  }
+  if (!job->request.refusal) co_await take_turn(job);
+  if (job->request.refusal) job->answer = port_.answer(job->request, job->close);
+  // Of its memory the answer keeps its own: it was counted, whether or not its client is slow.
+  if (job->memory.bytes() > 0) sending_ = std::exchange(job->memory, {});
+  if (job->answer.bytes.empty()) throw Gone{};
+  co_await send(std::move(job->answer));
+}
+
+/// Whether a slot is likely free before the job's wait is over: a refusal now serves the client
+/// better than one after the wait.
+bool Session::in_time(Job& job) const {
+  if (job.end == Clock::time_point::max()) return true;
+  return port_.slots.expected_wait(job) <=
+         kLikely * (seconds(job.end) - job.request.times.read) / kWaitShare;
+}
+
+/// Sets the job's memory aside and queues it; or tells why not.
+std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
+  const Request& request = job->request;
+  const auto budget = port_.service.budget ? port_.service.budget(request) : 0ms;
+  if (budget > 0ms) job->end = Clock::now() + budget;
+  const auto memory = port_.memory_of(request);
+  if (!port_.make_memory(memory)) {
+    ++port_.counters.memory;
+    return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
+  }
+  if (!in_time(*job)) {
+    ++port_.counters.wait;
+    return Refusal{ErrorCode::overloaded, "No slot will be free within half of the job's budget."};
+  }
+  if (port_.service.admit) {
+    if (auto refusal = port_.service.admit(request)) return refusal;
+  }
+  job->memory = MemoryShare(port_.memory, memory);
+  if (port_.offer(job)) return std::nullopt;
+  ++port_.counters.queue;
+  return Refusal{ErrorCode::overloaded, std::string(kFull)};
+}
+
+/// Whose the request is, and that it has not too many connections.
+std::optional<Refusal> Session::know_client(Job& job) {
+  client_ = port_.service.client ? port_.service.client(job.request) : peer_;
+  if (client_ == peer_ || key_.is_of(client_)) return std::nullopt;
+  if (!port_.places.full(client_)) {
+    key_ = Place(port_.places, client_);
+    return std::nullopt;
+  }
+  ++port_.counters.full;
+  ends_ = true;
+  job.close = true;
+  return Refusal{ErrorCode::overloaded, "Too many connections of this client are open."};
+}
+
+void Session::claim(Job& job) const {
+  job.claim.client = client_;
+  job.claim.flow = this;
+  if (port_.service.kind) job.kind = port_.service.kind(job.request);
+}
+
+/// Waits for the job's slot, and its end; or refuses it.
+Task<void> Session::take_turn(std::shared_ptr<Job> job) {
+  jobs_.push_back(job);
+  gone_by_ = Clock::time_point::max();
+  const bool ends = job->end != Clock::time_point::max();
+  auto until = ends ? Clock::now() + (job->end - Clock::now()) / kWaitShare : job->end;
+  while (!job->finished) {
+    const auto when = std::min(std::min(until, gone_by_), Clock::now() + kLook);
+    co_await pause(when);
+    if (job->finished) break;
+    look();
+    port_.slots.look(*job);
+    if (Clock::now() < until && !job->displaced) continue;
+    if (job->displaced || port_.slots.withdraw(job)) {
+      refuse_waiting(*job, port_.counters);
+      break;
+    }
+    const bool over = Clock::now() >= job->end;
+    if (over) job->stop.request_stop();
+    until = over ? Clock::time_point::max() : job->end;
+  }
+  std::erase(jobs_, job);
+}
+
+/// Whether the client is still there.
+void Session::look() {
+  pollfd who{.fd = socket_.native_handle(), .events = POLLRDHUP, .revents = 0};
+  ::poll(&who, 1, 0);
+  const bool half = (who.revents & POLLRDHUP) != 0;
+  if (half && gone_by_ == Clock::time_point::max()) gone_by_ = Clock::now() + kHangUpGrace;
+  const bool broken = cut_ || (who.revents & (POLLERR | POLLHUP)) != 0;
+  if (!broken && Clock::now() < gone_by_) return;
+  ++port_.counters.hung_up;
+  throw Gone{};
+}
+
+Task<void> Session::send(Printed answer) {
+  out_ = std::move(answer.bytes);
+  sent_ = std::move(answer.sent);
+  count_sending();
+  state_ = State::writing;
+  begun_ = Clock::now();
+  set_due(port_.options.write);
+  static_cast<void>(port_.make_memory(0));  // those who take nothing give way to this one
+  while (!send_some()) {
+    if (Clock::now() >= due()) {
+      ++port_.counters.over_time;
+      throw Gone{};
+    }
+    wait_writable();
+    co_await pause(due());
+  }
+  report(true);
+}
+
+/// Sends what the socket takes; true when nothing is left.
+bool Session::send_some() {
+  boost::system::error_code error;
+  while (out_at_ < out_.size() && !error) {
+    const auto rest = asio::buffer(out_.data() + out_at_, out_.size() - out_at_);
+    out_at_ += socket_.write_some(rest, error);
+    if (error == asio::error::interrupted) error = {};
+  }
+  if (error && error != asio::error::would_block) throw Gone{};
+  if (out_at_ < out_.size()) return false;
+  out_ = {};
+  out_at_ = 0;
+  count_sending();
+  return true;
+}
+
+/// Sets memory aside for what is still to be sent.
+void Session::count_sending() { sending_.resize(out_.size()); }
+
+/// A few bytes that fit any socket's buffer.
+void Session::say(std::string_view bytes) {
+  boost::system::error_code error;
+  socket_.write_some(asio::buffer(bytes), error);
+}
+
+/// Tells once what became of the answer. A log line that memory is short for is lost.
+void Session::report(bool whole) noexcept {
+  try {
+    if (const auto tell = std::exchange(sent_, nullptr)) tell(whole);
+  } catch (const std::exception&) {
+  }
+}
+
+/// A socket closed with bytes unread resets the connection, and the answer may be lost with it.
+Task<void> Session::linger() {
+  state_ = State::lingering;
+  drop_rest();
+  count_arriving();
+  boost::system::error_code error;
+  socket_.shutdown(Socket::shutdown_send, error);
+  const auto ends_by = Clock::now() + port_.options.body;
+  set_due(kLingerTime);
+  std::size_t dropped = 0;
+  while (dropped <= kLingerBytes) {
+    if (++reads_ > kReadsPerTurn) co_await turn_over();
+    const auto n = socket_.read_some(asio::buffer(port_.scratch), error);
+    dropped += n;
+    if (!error) {
+      due_ = std::min(ends_by, Clock::now() + kLingerTime);
+    } else if (error != asio::error::would_block || Clock::now() >= due()) {
+      co_return;
+    } else {
+      wait_readable();
+      co_await pause(due());
+    }
+  }
+}
+
+bool Session::takes_since(Clock::time_point late) const {
+  return state_ == State::writing && begun_ < late && !cut_;
+}
+
+Clock::time_point Session::due() const {
+  return port_.draining && state_ != State::working ? std::min(due_, port_.drained_by) : due_;
+}
+
+void Session::end_soon() {
+  for (const auto& job : jobs_) job->close = true;
+  // A connection's first request may still be on the wire: the connection was accepted as work.
+  if (state_ == State::idle) due_ = std::min(due_, Clock::now() + kFirstByteWhileDraining);
+  wake();
+}
+
+void Session::cancel() {
+  for (const auto& job : jobs_) job->stop.request_stop();
+  wake();
+}
+
+void Session::cut() {
+  cut_ = true;
+  boost::system::error_code error;
+  socket_.close(error);
+  drop_rest();
+  out_ = {};
+  arriving_.resize(0);
+  sending_.resize(0);
+  wake();
+}
+
+/// Nobody waits for its jobs any more.
+void Session::on_end() {
+  cut();
+  place_ = {};
+  key_ = {};
+  report(false);
+  for (const auto& job : std::exchange(jobs_, {})) {
+    if (!job || job->finished) continue;
+    job->owner.reset();
+    job->stop.request_stop();
+    static_cast<void>(port_.slots.withdraw(job));
+  }
+  port_.forget(*this);
+}
+
+void Session::wait_readable() {
+  if (std::exchange(awaits_reading_, true)) return;
+  socket_.async_wait(Socket::wait_read, [this, self = shared_from_this()](const auto&) {
+    awaits_reading_ = false;
+    wake();
+  });
+}
+
+void Session::wait_writable() {
+  if (std::exchange(awaits_writing_, true)) return;
+  socket_.async_wait(Socket::wait_write, [this, self = shared_from_this()](const auto&) {
+    awaits_writing_ = false;
+    wake();
+  });
+}
+
+}  // namespace tubecut::server

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""One client's long jobs beside everybody else's: `fair.py BINARY SECONDS`. A batch of long lines, then eight connections of
+long jobs, all from this address; meanwhile catalogues and small jobs are asked for over connections of their own. None of those is
+refused. When the long ones are over, the service is idle and refuses nothing."""
+
+import json
+import sys
+import threading
+import time
+
+from service import BODY, ROOT, Service, connect, exchange, get, head, post, receive
+
+HOGS = 8
+
+
+def long_job():
+    body = json.loads((ROOT / "examples/pulse-schedules/table-1-on-the-five-axis-cutter.json").read_text())
+    body.setdefault("motion", {})["speed"] = {"mm_min": 20}
+    return "pulse-schedules", body
+
+
+def batch_of(count):
+    endpoint, body = long_job()
+    lines = b"".join(json.dumps({"id": f"long {n}", "endpoint": endpoint, "body": body}).encode() + b"\n" for n in range(count))
+    return head(f"Content-Length: {len(lines)}", target="/v1/batches").replace(b"application/json", b"application/x-ndjson") + lines
+
+
+def hog(port, until):
+    endpoint, body = long_job()
+    request = post(json.dumps(body).encode(), target=f"/v1/{endpoint}")
+    while time.monotonic() < until:
+        exchange(port, request, patience=20.0)
+
+
+def keep_reading(sock, until):
+    while time.monotonic() < until:
+        try:
+            if not sock.recv(1 << 16):
+                return
+        except OSError:
+            return
+
+
+def victims(port, until, kinds):
+    """Statuses and the longest wait in ms, by the request's name."""
+    told = {name: ({}, [0.0]) for name, _ in kinds}
+    while time.monotonic() < until:
+        for name, request in kinds:
+            start = time.monotonic()
+            replies = exchange(port, request, patience=10.0)
+            status = replies[0].status if replies else 0
+            statuses, longest = told[name]
+            statuses[status] = statuses.get(status, 0) + 1
+            longest[0] = max(longest[0], 1e3 * (time.monotonic() - start))
+        time.sleep(0.02)
+    return told
+
+
+def main():
+    binary, seconds = sys.argv[1], float(sys.argv[2])
+    kinds = [("catalogue", get("/v1/tubes")), ("small job", post(BODY))]
+    wrong = []
+
+    def judge(what, told):
+        for name, (statuses, longest) in told.items():
+            print(f"{what}, {name}: {statuses}, the longest {longest[0]:.0f} ms")
+            if set(statuses) != {200}:
+                wrong.append(f"{what}: {name}: {statuses}")
+
+    with Service(binary, "--slots", "1") as service:
+        for _ in range(20):  # what a small job takes
+            exchange(service.port, post(BODY))
+        until = time.monotonic() + seconds
+        with connect(service.port, 60.0) as sock:
+            sock.sendall(batch_of(200))
+            threading.Thread(target=keep_reading, args=(sock, until), daemon=True).start()
+            time.sleep(0.3)
+            judge("beside a batch", victims(service.port, until, kinds))
+        time.sleep(3.0)
+        until = time.monotonic() + seconds
+        hogs = [threading.Thread(target=hog, args=(service.port, until)) for _ in range(HOGS)]
+        for one in hogs:
+            one.start()
+        time.sleep(0.3)
+        judge(f"beside {HOGS} connections", victims(service.port, until, kinds))
+        for one in hogs:
+            one.join()
+        judge("after them", victims(service.port, time.monotonic() + 1.0, kinds))
+        long_ones = service.metric('tubecut_jobs_total{endpoint="pulse-schedules"')
+    print("\n".join(wrong) or f"none refused beside {long_ones:.0f} long jobs")
+    sys.exit(bool(wrong) or long_ones < 3)
+
+
+main()
