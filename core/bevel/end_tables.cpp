@@ -14,6 +14,7 @@ Result<EndTable> end_table(const joint::NodeSpec& spec, const joint::MemberEnd& 
   EndTable out{.spec = asked, .table = {}, .refused = {}};
   out.spec.target = joint.target;
   out.spec.partners = std::move(joint.partners);
+  out.spec.stated = std::move(joint.stated);
   auto made = table(out.spec, stop);
   if (made) {
     out.table = *std::move(made);

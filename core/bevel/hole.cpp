@@ -164,17 +164,31 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
                            : "the surfaces are too nearly tangent here"});
 }
 
-void note_lost(const std::vector<Node>& nodes, std::vector<Warning>& out) {
+void note_lost(const HoleSpec& spec, const std::vector<Node>& nodes, std::vector<Warning>& out) {
+  const bool on = spec.kind == JointKind::set_on;
   for (const auto& [from, to] : runs(nodes, [](const WallLine& w) { return w.lost > kShallow; })) {
     double worst = 0.0;
     for (const auto& node : nodes)
       if (node.phase * kDegPerRad >= from && node.phase * kDegPerRad <= to)
         worst = std::max(worst, node.line.lost);
-    out.push_back({.code = WarningCode::torch_range_binds,
-                   .member = "torch",
-                   .detail = "branch phase " + shown(from) + " to " + shown(to) + " deg, up to " +
-                             shown(worst * kDegPerRad) + " deg of groove lost"});
+    out.push_back(
+        {.code = WarningCode::torch_range_binds,
+         .member = "torch",
+         .detail = "branch phase " + shown(from) + " to " + shown(to) + " deg, up to " +
+                   shown(worst * kDegPerRad) +
+                   (on ? " deg short of the branch's direction" : " deg of groove lost")});
   }
+}
+
+/// A set-on branch whose bore stands within the chord's sides, and whose wall does not.
+void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
+                   std::vector<Warning>& out) {
+  const double over = branch.radius + std::abs(branch.offset) - spec.chord.outer_radius - spec.gap;
+  if (spec.kind != JointKind::set_on || !(over > kShallow * branch.radius)) return;
+  out.push_back(
+      {.code = WarningCode::wall_overhangs,
+       .member = "branch",
+       .detail = "its outer surface passes up to " + brief(over) + " mm beside the chord"});
 }
 
 Hole tabulate(const HoleSpec& spec, const WallLines& walls, const joint::Contour& root,
@@ -226,7 +240,7 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   if (auto ok = check_lines(spec, *nodes); !ok) return tl::unexpected(ok.error());
   if (!root->near_parallel.empty() && !far)
     warnings.push_back({.code = WarningCode::near_parallel, .member = "branch"});
-  note_lost(*nodes, warnings);
+  note_lost(spec, *nodes, warnings);
   return tabulate(spec, walls, *root, *nodes, far);
 }
 
@@ -241,6 +255,8 @@ Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch) {
 }
 
 Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop) {
+  if (spec.kind == JointKind::mitre)
+    return fail({.code = ErrorCode::unsupported_combination, .member = "joint/kind"});
   const auto branch = branch_tube(spec.branch);
   if (!branch) return tl::unexpected(branch.error());
   HoleCut out;
@@ -256,7 +272,10 @@ Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop) {
     if (!end) return tl::unexpected(end.error());
     out.branch = *std::move(end);
   }
-  for (auto& one : out.holes) one.fit = fit_up(spec, *branch, out, one);
+  note_overhang(spec, *branch, out.warnings);
+  for (auto& one : out.holes) one.fit = fit_up(spec, *branch, out, one, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  note_nearest(spec, out);
   return out;
 }
 

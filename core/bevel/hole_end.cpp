@@ -17,12 +17,13 @@ Error about_branch(Error error) {
   return error;
 }
 
-/// Root on the inner wall, `gap` off the chord; never below flush there, where the chord would
-/// enter the wall.
+/// Root on the inner wall, on the cylinder that the end stands on; never below flush there, where
+/// that would enter the wall.
 Result<void> stand_on(const HoleSpec& spec, const joint::Contour& contour, double radius,
                       BranchEnd& end) {
   const Wall wall{contour.radius, radius};
-  const Rule rule(spec.groove, Dihedral::weld_side);
+  const bool on = spec.kind == JointKind::set_on;
+  const Rule rule(on ? spec.groove : GrooveRule{NoGroove{}}, Dihedral::weld_side);
   Intervals beyond;
   for (const double phi : end.phi) {
     const auto line = joint::generator_at(contour.radius, phi);
@@ -43,17 +44,6 @@ Result<void> stand_on(const HoleSpec& spec, const joint::Contour& contour, doubl
                .limit = spec.torch.max.deg(),
                .unit = "deg",
                .hint = "the branch's end cannot be cut flush on the chord here"});
-}
-
-/// Both edges on a cylinder about the chord's axis.
-Result<void> end_inside(const HoleSpec& spec, const joint::Contour& inner,
-                        const joint::Contour& outer, BranchEnd& end) {
-  for (const double phi : end.phi) {
-    end.z_inner.push_back(joint::contact_at(inner, phi).z);
-    end.z_outer.push_back(joint::contact_at(outer, phi).z);
-    end.b.push_back(elementary::atan2(end.z_outer.back() - end.z_inner.back(), spec.branch_wall));
-  }
-  return {};
 }
 
 }  // namespace
@@ -85,14 +75,7 @@ Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& bran
                 .b = {}};
   const auto inner = joint_curve(branch, radius, branch.radius - spec.branch_wall);
   if (!inner) return tl::unexpected(inner.error());
-  if (on) {
-    if (auto ok = stand_on(spec, *inner, branch.radius, end); !ok)
-      return tl::unexpected(ok.error());
-    return end;
-  }
-  const auto outer = joint_curve(branch, radius, branch.radius);
-  if (!outer) return tl::unexpected(outer.error());
-  if (auto ok = end_inside(spec, *inner, *outer, end); !ok) return tl::unexpected(ok.error());
+  if (auto ok = stand_on(spec, *inner, branch.radius, end); !ok) return tl::unexpected(ok.error());
   return end;
 }
 

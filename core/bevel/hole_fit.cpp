@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/placement.hpp"
 #include "core/joint/solid.hpp"
 
 namespace tubecut::bevel {
@@ -78,6 +80,64 @@ std::vector<Edges> edges(const HoleSpec& spec, const HoleCut& cut, const Hole& h
   return out;
 }
 
+/// The wall that faces the other member, by its edges.
+CutWall facing_wall(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
+                    const Hole& hole) {
+  if (spec.kind != JointKind::set_on)
+    return {.edges = {{spec.chord.inner_radius(), hole.phi_inner, hole.z_inner},
+                      {spec.chord.outer_radius, hole.phi, hole.z}},
+            .turn = 0.0};
+  return {.edges = {{branch.radius - spec.branch_wall, cut.branch->phi, cut.branch->z_inner},
+                    {branch.radius, cut.branch->phi, cut.branch->z_outer}},
+          .turn = kTwoPi};
+}
+
+/// What it faces, with the asked gap around it.
+joint::TubeCutter other_member(const HoleSpec& spec, const joint::TubeCutter& branch) {
+  auto out =
+      spec.kind == JointKind::set_on ? chord_seen_from(branch, spec.chord.outer_radius) : branch;
+  out.radius += spec.gap;
+  return out;
+}
+
+Penetration nearest(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
+                    const Hole& hole, const std::stop_token& stop) {
+  constexpr double kSlack = 3e-4;  // mm
+  const joint::Solid other{joint::Cutter(other_member(spec, branch))};
+  auto out = deepest(facing_wall(spec, branch, cut, hole), {&other, 1}, kSlack, stop);
+  out.depth = std::max(0.0, out.depth);
+  return out;
+}
+
+/// How much nearer than the asked gap a place lies, by its distance to the other member's axis.
+double nearer(const joint::TubeCutter& other, const Vector3d& place) {
+  const auto line = joint::axis_of(other);
+  return other.radius - (place - line.point).cross(line.direction).norm();
+}
+
+/// The deepest of a fixed set of places between the rows: half way and once more there, at both
+/// edges and once between them, by the golden ratio.
+double sampled(const CutWall& wall, const joint::TubeCutter& other) {
+  constexpr double kGolden = 0.6180339887498949;
+  double deepest = 0.0, seed = 0.0;
+  const auto next = [&] { return seed = seed + kGolden - std::floor(seed + kGolden); };
+  for (std::size_t i = 0; i < wall.gaps(); ++i)
+    for (const double share : {0.5, next()}) {
+      const auto j = (i + 1) % wall.gaps();
+      const auto on = [&](const WallEdge& e) {
+        const double to = e.phi[j] + (j == 0 ? wall.turn : 0.0);
+        return placed(e.radius, e.phi[i] + share * (to - e.phi[i]),
+                      e.z[i] + share * (e.z[j] - e.z[i]));
+      };
+      const Vector3d low = on(wall.edges[0]), high = on(wall.edges[1]);
+      for (const double across : {0.0, next(), 1.0}) {
+        const double depth = nearer(other, low + across * (high - low));
+        deepest = depth > deepest || depth != depth ? depth : deepest;
+      }
+    }
+  return deepest;
+}
+
 }  // namespace
 
 joint::TubeCutter chord_seen_from(const joint::TubeCutter& branch, double radius) {
@@ -89,12 +149,13 @@ joint::TubeCutter chord_seen_from(const joint::TubeCutter& branch, double radius
 }
 
 FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
-             const Hole& hole) {
+             const Hole& hole, const std::stop_token& stop) {
   const auto wall = facing(spec, branch);
   const auto all = edges(spec, cut, hole);
   FitUp out;
-  out.least_between = std::numeric_limits<double>::infinity();
   out.greatest_root_between = -std::numeric_limits<double>::infinity();
+  out.nearest = nearest(spec, branch, cut, hole, stop);
+  out.least_between = spec.gap - out.nearest.depth;
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     for (const double t : kBetween) {
       const auto gaps = wall.at(mixed(all[i], all[i + 1], t));
@@ -103,10 +164,41 @@ FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCu
         out.face.push_back(gaps.face);
         out.least.push_back(gaps.least);
       }
-      out.least_between = std::min(out.least_between, gaps.least);
       out.greatest_root_between = std::max(out.greatest_root_between, gaps.root);
     }
   }
+  return out;
+}
+
+void note_nearest(const HoleSpec& spec, HoleCut& cut) {
+  if (spec.sampling.tolerance) return;
+  for (const auto& hole : cut.holes) {
+    const auto& p = hole.fit.nearest;
+    if (!(p.depth > joint::Tolerance{}.value)) continue;
+    cut.warnings.push_back({.code = WarningCode::enters_partner,
+                            .member = "branch",
+                            .detail = "nearer than the asked gap by up to " + brief(p.depth) +
+                                      " mm between points, at phi " + brief(p.phi * kDegPerRad) +
+                                      " deg, radius " + brief(p.radius) + " mm, z " + brief(p.z) +
+                                      " mm"});
+  }
+}
+
+std::vector<Check> nearest_checks(const HoleSpec& spec, const joint::TubeCutter& branch,
+                                  const HoleCut& cut) {
+  constexpr double kStated = 1e-3;  // mm
+  const auto other = other_member(spec, branch);
+  double off = 0.0, deepest = 0.0;
+  for (const auto& hole : cut.holes) {
+    const auto& p = hole.fit.nearest;
+    const double there = std::max(0.0, nearer(other, placed(p.radius, p.phi, p.z)));
+    const double found = sampled(facing_wall(spec, branch, cut, hole), other);
+    off = std::max({off, std::abs(there - p.depth), found - p.depth});
+    deepest = std::max({deepest, p.depth, found});
+  }
+  std::vector<Check> out{{"gap_stated", off, kStated, "mm"}};
+  if (spec.sampling.tolerance)
+    out.push_back({"gap_between", deepest, spec.sampling.tolerance->value, "mm"});
   return out;
 }
 

@@ -10,6 +10,15 @@ namespace tubecut::bevel {
 /// The gap between the two cut surfaces, measured in 3D from the tables themselves: set-on, the
 /// branch's end to the chord's outer surface; else the hole's wall to the branch's outer surface.
 [[nodiscard]] FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch,
-                           const HoleCut& cut, const Hole& hole);
+                           const HoleCut& cut, const Hole& hole, const std::stop_token& stop);
+
+/// The warning where a bare grid comes nearer than the asked gap by more than joint::Tolerance's.
+void note_nearest(const HoleSpec& spec, HoleCut& cut);
+
+/// What the fit-ups state of their nearest places, held against those and against others by the
+/// distance to an axis.
+[[nodiscard]] std::vector<Check> nearest_checks(const HoleSpec& spec,
+                                                const joint::TubeCutter& branch,
+                                                const HoleCut& cut);
 
 }  // namespace tubecut::bevel

@@ -4,6 +4,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/hole.hpp"
+#include "core/bevel/hole_fit.hpp"
 #include "core/joint/placement.hpp"
 
 namespace tubecut::bevel {
@@ -83,6 +84,14 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
   see(p.tilt, std::abs(elementary::atan2(across, height) - h.a[i]) * kDegPerRad);
 }
 
+/// A set-on hole cut with free tilt is the branch's bore prolonged, wherever the torch leans so
+/// far.
+void prove_bore(const HoleSpec& spec, const Row& r, const Axis& axis, double rho, Proof& p) {
+  const double lean = between(r.chord_normal, axis.direction.normalized());
+  if (spec.tilt == Tilt::free && lean <= spec.torch.max.rad())
+    see(p.root, std::abs(axis.distance(r.inner) - rho));
+}
+
 /// The hole's wall against the branch.
 void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Axis& axis,
                      double branch_radius, std::size_t i, Proof& p) {
@@ -111,14 +120,14 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
     see(p.tilt,
         std::abs(elementary::atan2(end.z_outer[i] - end.z_inner[i], spec.branch_wall) - end.b[i]) *
             kDegPerRad);
-    if (!on) {
-      see(p.end, std::abs(axis.distance(face) - seat));
-      continue;
-    }
     for (int k = 0; k < kAcross; ++k) {
       const double t = static_cast<double>(k) / (kAcross - 1);
       see(p.gap, seat - axis.distance((1.0 - t) * root + t * face));
     }
+    // Set in, it lies flush: in the seat's tangent plane at the root.
+    if (!on && end.b[i] > spec.torch.min.rad())
+      see(p.end, std::abs((face - root).dot(axis.beside(root).normalized())));
+    if (!on) continue;
     see(p.fit, std::abs(axis.distance(root) - spec.chord.outer_radius - fit.root[i]));
     see(p.fit, std::abs(axis.distance(face) - spec.chord.outer_radius - fit.face[i]));
   }
@@ -139,13 +148,19 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut) {
       const auto r = row(spec, h, axis, i);
       see(p.root, std::abs(axis.distance(r.root) - rho));
       prove_wall(spec, h, r, i, p);
-      if (!on) prove_clearance(spec, h, r, axis, branch->radius, i, p);
+      if (on)
+        prove_bore(spec, r, axis, rho, p);
+      else
+        prove_clearance(spec, h, r, axis, branch->radius, i, p);
     }
   if (cut.branch) prove_end(spec, *branch, *cut.branch, cut.holes.front().fit, p);
-  return {{"on_branch", p.root, kLength, "mm"}, {"gap", p.gap, kLength, "mm"},
-          {"fit_up", p.fit, kLength, "mm"},     {"dihedral", p.dihedral, kAngle, "deg"},
-          {"groove", p.groove, kAngle, "deg"},  {"tilt", p.tilt, kAngle, "deg"},
-          {"kerf", p.kerf, kLength, "mm"},      {"branch_end", p.end, kLength, "mm"}};
+  std::vector<Check> out{
+      {"on_branch", p.root, kLength, "mm"}, {"gap", p.gap, kLength, "mm"},
+      {"fit_up", p.fit, kLength, "mm"},     {"dihedral", p.dihedral, kAngle, "deg"},
+      {"groove", p.groove, kAngle, "deg"},  {"tilt", p.tilt, kAngle, "deg"},
+      {"kerf", p.kerf, kLength, "mm"},      {"branch_end", p.end, kLength, "mm"}};
+  for (auto& check : nearest_checks(spec, *branch, cut)) out.push_back(std::move(check));
+  return out;
 }
 
 }  // namespace tubecut::bevel

@@ -20,15 +20,17 @@ Vector3d radial_at(const Vector3d& p) {
 }
 
 /// The first point, outwards or inwards, of a line that leaves the axis on the cylinder `radius`.
-/// Empty where the line passes by.
+/// Empty where the line passes by; one that is tangent but for rounding touches. How far it passes
+/// from the axis is one product: b^2 - a c would lose every digit at a tangent.
 std::optional<Vector3d> on_cylinder(const Vector3d& p, const Vector3d& along, double radius) {
-  const double a = along.x() * along.x() + along.y() * along.y();
-  const double b = p.x() * along.x() + p.y() * along.y();
+  const double flat = elementary::hypot(along.x(), along.y());
+  const double passes = std::abs(p.x() * along.y() - p.y() * along.x()) / flat;
   const double size = elementary::hypot(p.x(), p.y());
+  if (!(radius - passes >= -joint::kTouch * (radius + size))) return std::nullopt;
+  const double b = p.x() * along.x() + p.y() * along.y();
   const double c = (size - radius) * (size + radius);
-  const double square = b * b - a * c;
-  if (!(square >= 0.0)) return std::nullopt;
-  return p - along * (c / (b + std::sqrt(square)));
+  const double root = flat * std::sqrt(std::max(0.0, radius - passes) * (radius + passes));
+  return p - along * (c / (b + root));
 }
 
 }  // namespace
@@ -87,16 +89,27 @@ double WallLines::asked_groove(double dihedral) const {
   return 0.0;
 }
 
+// The branch's own direction, so that the hole is its bore prolonged; where that leans further from
+// the surface's normal than the torch does, as far towards it as the torch goes.
+WallLines::Direction WallLines::along_branch(const Corner& c) const {
+  const double up = frame_.axis.dot(c.chord);
+  const Vector3d flat = frame_.axis - up * c.chord;
+  const double lean = elementary::atan2(flat.norm(), up);
+  const double most = spec_.torch.max.rad();
+  if (lean <= most) return {.unit = frame_.axis};
+  const auto at = elementary::sincos(most);
+  return {.unit = at.cos * c.chord + at.sin * flat.normalized(), .held_back = lean - most};
+}
+
 // In the section across the weld the line stands `dihedral - groove` above the chord's surface.
 WallLines::Direction WallLines::free_direction(const Corner& c) const {
+  if (root_outside_) return along_branch(c);
   const double asked = asked_groove(c.dihedral);
   const double lowest = c.dihedral - 0.5 * kPi - spec_.torch.max.rad();
   const double highest = c.dihedral - 0.5 * kPi + spec_.torch.max.rad();
   const double groove = std::clamp(asked, lowest, highest);
   const auto at = elementary::sincos(groove);
-  return {.unit = at.cos * c.rise + at.sin * c.branch,
-          .b = 0.0,
-          .beyond = !root_outside_ && groove < 0.0};
+  return {.unit = at.cos * c.rise + at.sin * c.branch, .beyond = groove < 0.0};
 }
 
 // Where the curve runs along the chord, a swing in the axial plane leaves the bevel as it is: the
@@ -112,8 +125,10 @@ WallLines::Direction WallLines::axial_direction(const Corner& c, const Vector3d&
   } else if (flat > 0.0) {
     b += asked_groove(c.dihedral) * up / flat;
   }
-  b = std::clamp(b, spec_.torch.min.rad(), spec_.torch.max.rad());
   Direction out;
+  if (root_outside_)
+    out.held_back = std::max({0.0, b - spec_.torch.max.rad(), spec_.torch.min.rad() - b});
+  b = std::clamp(b, spec_.torch.min.rad(), spec_.torch.max.rad());
   if (!root_outside_) {
     const double out_of_branch = c.branch.dot(radial);
     if (up > 0.0) b = std::max(b, elementary::atan2(-out_of_branch, up));
@@ -157,7 +172,7 @@ WallLine WallLines::at(double phase) const {
   }
   out.beyond_torch = d.beyond || !(d.unit.dot(c.rise) > 0.0);
   const bool measured = !root_outside_ && !std::holds_alternative<SquareCut>(spec_.groove);
-  out.lost = measured ? std::max(0.0, asked_groove(c.dihedral) - out.groove) : 0.0;
+  out.lost = measured ? std::max(0.0, asked_groove(c.dihedral) - out.groove) : d.held_back;
 
   const double inside = spec_.chord.inner_radius();
   const double outside = spec_.chord.outer_radius;

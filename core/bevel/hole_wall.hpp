@@ -23,7 +23,7 @@ struct WallLine {
   Eigen::Vector3d root, outer, inner;  // finished wall
   Eigen::Vector3d torch_outer, torch_inner;
   double dihedral = 0.0, groove = 0.0, b = 0.0, a = 0.0;
-  double lost = 0.0;          // groove asked and not cut, rad
+  double lost = 0.0;          // groove asked and not cut; set-on: short of the branch's direction
   bool beyond_torch = false;  // the torch cannot keep the wall off the branch here
   bool misses_bore = false;   // the line does not reach the other surface
 };
@@ -44,9 +44,11 @@ class WallLines {
   struct Direction {
     Eigen::Vector3d unit;
     double b = 0.0;
+    double held_back = 0.0;  // set-on: how far the torch stays from the branch's direction, rad
     bool beyond = false;
   };
   [[nodiscard]] double asked_groove(double dihedral) const;
+  [[nodiscard]] Direction along_branch(const Corner& corner) const;
   [[nodiscard]] Direction free_direction(const Corner& corner) const;
   [[nodiscard]] Direction axial_direction(const Corner& corner,
                                           const Eigen::Vector3d& radial) const;

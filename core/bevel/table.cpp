@@ -4,6 +4,7 @@
 
 #include "core/bevel/swing_rows.hpp"
 #include "core/bevel/table_parts.hpp"
+#include "core/bevel/torch_line.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -56,6 +57,8 @@ Table outline(const Ground& g, const Rows& rows) {
   out.length_total = rows.samples.true_length;
   out.developed_total = rows.samples.developed_length;
   out.warnings = joint::partner_warnings(g.root);
+  if (out.inward)
+    out.warnings.push_back({.code = WarningCode::comparison_only, .member = "dihedral"});
   return out;
 }
 
@@ -74,6 +77,7 @@ Result<Table> build(const Ground& g, const std::vector<double>& also, const std:
   for (const auto* z : {&out.z_inner, &out.z_outer})
     if (auto ok = joint::check_length(g.spec.target, *z); !ok) return tl::unexpected(ok.error());
   detail::note_torch_binds(g, rows, out);
+  detail::note_overhang(g, out);
   detail::note_root_opens(g.spec, out);
   if (!g.spec.sampling.tolerance) detail::note_events_between(g, out);
   return out;
@@ -82,29 +86,36 @@ Result<Table> build(const Ground& g, const std::vector<double>& also, const std:
 }  // namespace
 
 Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
-  constexpr int kRounds = 6;  // each divides a shortfall by sixteen where the cut is smooth
+  constexpr int kSwingRounds = 6;   // of halving
+  constexpr int kTorchRounds = 3;   // the second sees what the first's own rows changed
+  constexpr int kClearRounds = 10;  // each divides a depth by sixteen where the cut is smooth
   const auto grounded = detail::ground(spec);
   if (!grounded) return tl::unexpected(grounded.error());
   const auto& g = *grounded;
-  std::vector<double> also;
-  for (const auto& event : g.other_events) also.push_back(event.phi);
+  auto also = g.row_phases;
   auto out = build(g, also, stop);
-  for (int round = 0; out && round < kRounds; ++round) {
+  const auto with_rows = [&](const std::vector<double>& more) {
+    also.insert(also.end(), more.begin(), more.end());
+    out = build(g, also, stop);
+    return out && !more.empty();
+  };
+  for (int round = 0; out && round < kSwingRounds; ++round) {
     const auto more = swing_rows(spec, *out);
-    if (more.empty()) break;
-    also.insert(also.end(), more.begin(), more.end());
-    out = build(g, also, stop);
+    if (more.empty() || !with_rows(more)) break;
   }
-  const bool held = spec.contact == Contact::inner || spec.contact == Contact::automatic;
-  if (!held || !spec.sampling.tolerance || spec.root_face > 0.0) return out;
-  // On the inner wall the sampling itself uses the whole tolerance.
-  const double share = spec.contact == Contact::inner ? 1.0 : 0.5;
-  for (int round = 0; out && round < kRounds; ++round) {
-    const auto more = detail::shortfalls(g, *out, share * spec.sampling.tolerance->value);
-    if (more.empty()) break;
-    also.insert(also.end(), more.begin(), more.end());
-    out = build(g, also, stop);
+  for (int round = 0; out && round < kTorchRounds; ++round) {
+    const auto more = torch_rows(spec, *out, stop);
+    if (more.empty() || !with_rows(more)) break;
   }
+  if (spec.contact != Contact::none && spec.sampling.tolerance)
+    for (int round = 0; out && round < kClearRounds; ++round) {
+      const auto more = detail::entering_phases(g, *out, spec.sampling.tolerance->value, stop);
+      if (more.empty() || !with_rows(more)) break;
+    }
+  if (!out) return out;
+  detail::state_penetration(g, *out, stop);
+  detail::lay_torch(spec, *out, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 

@@ -9,8 +9,11 @@
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
 #include "core/bevel/angles.hpp"
+#include "core/bevel/beam.hpp"
+#include "core/bevel/penetration.hpp"
 #include "core/bevel/smoothing.hpp"
 #include "core/joint/intersection.hpp"
+#include "core/joint/joint.hpp"
 
 namespace tubecut::bevel {
 
@@ -39,6 +42,8 @@ using Smoothing = std::variant<EnvelopeSmoothing, HermiteSmoothing, NoSmoothing>
 struct TableSpec {
   joint::Target target;
   std::vector<joint::Partner> partners;
+  std::vector<std::optional<joint::Joint>>
+      stated;  // how the partners are joined; empty: nobody says
   joint::Sampling sampling;
   RootSurface root_surface = RootSurface::inner;
   GrooveRule groove;
@@ -67,6 +72,7 @@ struct Table {
   std::vector<double> gap;   // root opening: z_inner less the envelope on the inner wall
   std::vector<double> beam;  // metal along the torch line
   std::vector<double> torch_inner, torch_outer;  // the torch axis, kerf applied
+  BeamProof torch_line;                          // what the kerf takes and leaves along it
   bool inward = false;  // B counts as published: positive = elevation seen inwards
   std::vector<joint::Event> inner_events, outer_events;
   struct Step {
@@ -87,6 +93,7 @@ struct Table {
   };
   std::vector<Binding> torch_binds;
   double length_total = 0.0, developed_total = 0.0;
+  Penetration penetration;  // of the finished surface, at rows and between them; solid: the partner
   std::vector<Warning> warnings;
 };
 
@@ -99,24 +106,51 @@ struct Table {
 /// torch binds; with the square rule B is 0. Contact outer: the outer edge lies on the envelope at
 /// the outer wall.
 ///
+/// Between two rows both edges, and that of a land, run straight in (phi, z), with every sampling:
+/// what a machine does that interpolates its rows, and what every format and part goes on with. At
+/// each phi the wall is straight across. `penetration` is the deepest place of that whole surface,
+/// round the seam too. With a tolerance and any contact but none it is never deeper than the
+/// tolerance (normal to the partner); elsewhere a depth above the tolerance, or above that of
+/// joint::Tolerance on a bare grid, is the warning `enters_partner`.
+///
 /// Partners count as grown by coating + root_gap, so the cut stays that far off their metal; gap is
-/// what opens beyond that. A root face of height f is a land from the inner edge to the radius
-/// r_in + f, square to the axis, or as steep as a partner makes it; the bevel begins at its outer
-/// edge, and `torch_*` is the bevel's line.
+/// what opens beyond that. One whose joint is stated counts as that joint's seat (joint::seat): its
+/// own gap instead of root_gap, which must not differ; where the target is set into it, the cut
+/// lies flush at the depth, without groove. A root face of height f is a land from the inner edge
+/// to the radius r_in + f, square to the axis, or as steep as a partner makes it; the bevel begins
+/// at its outer edge, and `torch_*` is the bevel's line.
+///
+/// The torch's axis is lowered no further than a round beam of the kerf's width needs to stay out
+/// of the finished part, rows and what lies between them (`torch_line`). With a tolerance it also
+/// has the rows that its own bends need.
 ///
 /// Frame   z along the target from the cut end into the kept member, phi from x towards y; B > 0:
-/// outer edge further into the part. Errors  open_profile, no_contact, parallel_axes,
+/// outer edge further into the part.
+/// Errors  open_profile, no_contact, parallel_axes,
 /// member_consumed, torch_range, sampling_not_uniform, smoothing_not_converged,
 ///         smoothing_enters, cut_enters (contact outer), out_of_range (groove/zones, root_face),
-///         transition_too_long, unsupported_combination, too_many_nodes, cancelled.
+///         joint_contradicts (root_gap), transition_too_long, unsupported_combination,
+///         too_many_nodes, cancelled.
+/// Accuracy  `penetration` is stated within 3e-4 mm, by an enclosure.
 /// Source  docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
 [[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
 
 /// Errors  wrong_count, out_of_range (groove/zones/i).
 [[nodiscard]] Result<void> check_groove(const GrooveRule& groove);
 
-/// The partners as the cut must see them: grown by coating and root gap.
+/// How partner i is joined, where somebody says.
+[[nodiscard]] const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size_t i);
+
+/// The partners as the cut must see them: grown by coating and root gap, or to their joint's seat.
 [[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
+
+/// The finished surface by its rows: inner edge, the land's, outer edge. Views of the table.
+[[nodiscard]] CutWall finished_wall(const TableSpec& spec, const Table& table);
+
+/// May the finished surface enter no partner by more than `penetration_limit`, between rows either?
+[[nodiscard]] bool promises_no_penetration(const TableSpec& spec);
+/// The sampling's tolerance; on a bare grid the one it has by default. mm
+[[nodiscard]] double penetration_limit(const TableSpec& spec);
 
 /// The table proved from its own numbers by other formulas: 3D distances, normals from gradients,
 /// half tangents.

@@ -6,6 +6,31 @@
 namespace tubecut::bevel::detail {
 namespace {
 
+bool set_in(const TableSpec& spec, std::size_t partner) {
+  const auto& stated = stated_joint(spec, partner);
+  return stated && stated->kind == joint::JointKind::set_in;
+}
+
+/// One gap a joint; and zones name every row's own, which a flush row has not.
+Result<void> check_stated(const TableSpec& spec) {
+  for (std::size_t i = 0; i < spec.stated.size(); ++i) {
+    if (!spec.stated[i]) continue;
+    if (!set_in(spec, i) && spec.root_gap > 0.0 && spec.root_gap != spec.stated[i]->gap)
+      return fail({.code = ErrorCode::joint_contradicts,
+                   .member = "root_gap",
+                   .got = spec.root_gap,
+                   .limit = spec.stated[i]->gap,
+                   .unit = "mm",
+                   .hint = "the members state another gap for this joint"});
+    if (set_in(spec, i) && std::holds_alternative<ZonedGroove>(spec.groove))
+      return fail({.code = ErrorCode::unsupported_combination,
+                   .member = "groove/rule",
+                   .got = "zones",
+                   .hint = "an end that is set in has no groove there, so no zone"});
+  }
+  return {};
+}
+
 Result<void> check(const TableSpec& spec) {
   if (!(spec.root_face >= 0.0 && spec.root_face < spec.target.wall))
     return fail({.code = ErrorCode::out_of_range,
@@ -18,7 +43,18 @@ Result<void> check(const TableSpec& spec) {
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = "root_face",
                  .hint = "a root face goes with contact inner"});
+  if (auto ok = check_stated(spec); !ok) return ok;
   return check_groove(spec.groove);
+}
+
+/// Events that are no rows of the root's own contour: of the other wall, and of the land's edge.
+std::vector<double> row_phases(const Ground& g) {
+  std::vector<double> out;
+  for (const auto& event : g.other_events) out.push_back(event.phi);
+  if (g.spec.root_face > 0.0)
+    for (const auto& event : joint::divide(g.root.cutters, g.wall.inner + g.spec.root_face).events)
+      out.push_back(event.phi);
+  return out;
 }
 
 /// What the smoother starts from.
@@ -64,9 +100,14 @@ Result<Ground> ground(const TableSpec& spec) {
              .root = *std::move(root),
              .inner = {},
              .other_events = {},
+             .row_phases = {},
+             .solids = {},
              .wall = wall,
-             .rule = Rule(spec.groove, spec.dihedral)};
+             .rule = Rule(spec.groove, spec.dihedral),
+             .flush = Rule(NoGroove{}, spec.dihedral)};
   out.other_events = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer).events;
+  out.row_phases = row_phases(out);
+  for (const auto& cutter : out.cutters) out.solids.emplace_back(cutter);
   if (outer) {
     auto inner = joint::trace(out.cutters, wall.inner);
     if (!inner) return tl::unexpected(inner.error());
@@ -79,8 +120,9 @@ Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutt
   const auto line = joint::generator_at(g.root.radius, phi);
   Point out{.cutter = cutter};
   const bool published = g.spec.dihedral == Dihedral::as_published;
+  const auto& rule = set_in(g.spec, cutter) ? g.flush : g.rule;
   out.angles =
-      g.rule.angles(published ? joint::published_normal(g.root.cutters[cutter], line) : hit.normal);
+      rule.angles(published ? joint::published_normal(g.root.cutters[cutter], line) : hit.normal);
   const auto& torch = g.spec.torch;
   out.raw = std::clamp(out.angles.b, torch.min.rad(), torch.max.rad());
   const double z = g.inner ? joint::contact_at(*g.inner, phi).z : root_z;
@@ -131,26 +173,17 @@ Result<void> check_groove(const GrooveRule& groove) {
   return ok;
 }
 
+const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size_t i) {
+  static const std::optional<joint::Joint> kNobody;
+  return i < spec.stated.size() ? spec.stated[i] : kNobody;
+}
+
 Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
   auto cutters = joint::resolve(spec.partners);
-  const double by = spec.coating + spec.root_gap;
-  if (!cutters || by == 0.0) return cutters;
-  for (auto& cutter : *cutters) {
-    if (auto* tube = std::get_if<joint::TubeCutter>(&cutter)) {
-      tube->radius += by;
-    } else if (auto* plane = std::get_if<joint::PlaneCutter>(&cutter)) {
-      const double up = plane->normal.z() < 0.0 ? -1.0 : 1.0;
-      plane->point += up * by * plane->normal.normalized();
-    } else if (auto* box = std::get_if<joint::BoxCutter>(&cutter)) {
-      box->width += 2.0 * by;
-      box->height += 2.0 * by;
-      box->corner += by;
-    } else if (auto* cone = std::get_if<joint::ConeCutter>(&cutter)) {
-      cone->radius += by / elementary::cos(cone->half_angle.rad());
-    } else if (auto* elbow = std::get_if<joint::ElbowCutter>(&cutter)) {
-      elbow->radius += by;
-    }
-  }
+  if (!cutters) return cutters;
+  for (std::size_t i = 0; i < cutters->size(); ++i)
+    (*cutters)[i] = joint::grown((*cutters)[i],
+                                 joint::seat(stated_joint(spec, i), spec.coating, spec.root_gap));
   return cutters;
 }
 

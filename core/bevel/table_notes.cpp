@@ -1,9 +1,17 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/bevel/table_parts.hpp"
+#include "core/joint/solid.hpp"
 
 namespace tubecut::bevel::detail {
+namespace {
+
+constexpr int kAcrossOpen = 16;  // places looked at where nothing is met
+
+}  // namespace
+
 void note_torch_binds(const Ground& g, const Rows& rows, Table& out) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
@@ -29,6 +37,27 @@ void note_torch_binds(const Ground& g, const Rows& rows, Table& out) {
                    " deg, up to " + brief(binding.groove_lost * kDegPerRad) +
                    " deg of groove lost" +
                    (lifted ? ", root open up to " + brief(binding.root_gap) + " mm" : "")});
+  }
+}
+
+void note_overhang(const Ground& g, Table& out) {
+  if (g.inner) return;  // with the root outside, both walls are met all round
+  for (const auto& [from, to] : joint::divide(g.root.cutters, g.wall.outer).open) {
+    double worst = 0.0;
+    for (int k = 0; k <= kAcrossOpen; ++k) {
+      const auto line =
+          joint::generator_at(1.0, (from + (to - from) * k / kAcrossOpen) * kRadPerDeg);
+      double beside = std::numeric_limits<double>::infinity();
+      for (const auto& cutter : g.cutters)
+        beside = std::min(beside, joint::Solid(cutter).clearance(g.wall.outer * line.cos_phi,
+                                                                 g.wall.outer * line.sin_phi));
+      worst = std::max(worst, beside);
+    }
+    out.warnings.push_back({.code = WarningCode::wall_overhangs,
+                            .member = "target",
+                            .detail = "phi " + brief(from) + " to " + brief(to) +
+                                      " deg, its outer surface passes up to " + brief(worst) +
+                                      " mm beside every partner"});
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/bevel/required.hpp"
 #include "core/bevel/table.hpp"
+#include "core/joint/solid.hpp"
 
 /// The parts of `table`, for its own sources only: what stands fixed, the rows before smoothing,
 /// the smoothing, the surfaces, and what is noted about them.
@@ -21,8 +22,11 @@ struct Ground {
   joint::Contour root;
   std::optional<joint::Contour> inner;  // when the root is on the outer surface
   std::vector<joint::Event> other_events;
+  std::vector<double> row_phases;    // of events off the root's surface: the other wall, the land
+  std::vector<joint::Solid> solids;  // the partners, grown
   Wall wall;
   Rule rule;
+  Rule flush;  // where the target is set into its partner
 
   [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
 };
@@ -83,15 +87,23 @@ template <class F>
 /// B required beyond the torch: an error, with the root gap that lifting the cut would open.
 [[nodiscard]] Result<void> check_torch(const Ground& g, const Rows& rows);
 
-/// Finished surface, root opening, metal in the beam and the torch's own line.
+/// Finished surface, root opening and metal in the beam.
 void fill_surfaces(const Ground& g, const Rows& rows, Table& out);
+/// The torch's own line and what it takes and leaves.
+void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop);
 /// Contact outer: does the cut stay clear of every partner across the wall?
 [[nodiscard]] Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out);
-/// Phases between rows where the cut, straight from row to row, would enter a partner by more
-/// than `tolerance` normal to the cut: the contours of the walls do not tell where it curves.
-[[nodiscard]] std::vector<double> shortfalls(const Ground& g, const Table& t, double tolerance);
+/// Phases of rows wanted in the gaps in which the finished wall may enter a partner by more than
+/// `tolerance`: the contours of the walls do not tell where it curves.
+[[nodiscard]] std::vector<double> entering_phases(const Ground& g, const Table& t, double tolerance,
+                                                  const std::stop_token& stop);
+/// How deep the finished wall enters a partner, and the warning where no mode promises that it does
+/// not.
+void state_penetration(const Ground& g, Table& out, const std::stop_token& stop);
 
 void note_torch_binds(const Ground& g, const Rows& rows, Table& out);
+/// Where the outer wall reaches beyond all partners' sides while the inner one does not.
+void note_overhang(const Ground& g, Table& out);
 void note_root_opens(const TableSpec& spec, Table& out);
 /// On a bare grid events lie between nodes: by how much the straight line between them falls short.
 void note_events_between(const Ground& g, Table& out);

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
-#include "core/bevel/kerf.hpp"
 #include "core/bevel/table_parts.hpp"
+#include "core/bevel/torch_line.hpp"
 
 namespace tubecut::bevel::detail {
 namespace {
@@ -34,7 +34,6 @@ double lift_at(const Ground& g, const Rows& rows, std::size_t i, double slope) {
 void fill_surfaces(const Ground& g, const Rows& rows, Table& out) {
   const auto& nodes = rows.samples.nodes;
   const double t = g.spec.target.wall, f = g.spec.root_face;
-  const auto drop = kerf_drops(g.root, rows.samples, out.b, out.gamma, g.spec.kerf);
   for (std::size_t i = 0; i < out.b.size(); ++i) {
     const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
     const bool outer = g.inner.has_value();
@@ -53,9 +52,19 @@ void fill_surfaces(const Ground& g, const Rows& rows, Table& out) {
                       : lifted ? z - nodes[i].z
                                : 0.0);
     out.beam.push_back(t / elementary::cos(out.b[i]));
+  }
+}
+
+void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop) {
+  const auto drop = torch_drops(spec, out, stop);
+  for (std::size_t i = 0; i < out.b.size(); ++i) {
+    const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
+    const double foot =
+        out.z_face.empty() ? out.z_inner[i] : out.z_face[i] - spec.root_face * slope;
     out.torch_inner.push_back(foot - drop[i]);
     out.torch_outer.push_back(out.z_outer[i] - drop[i]);
   }
+  out.torch_line = beam_proof(beam_cut(spec, out), Places::everywhere, stop);
 }
 
 Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out) {
@@ -76,28 +85,4 @@ Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out
                        " mm along the axis; contact auto lifts the cut clear"});
 }
 
-std::vector<double> shortfalls(const Ground& g, const Table& t, double tolerance) {
-  constexpr double kNarrow = 1e-4;  // mm, developed: no finer
-  std::vector<double> out;
-  for (std::size_t i = 0; i < t.phi.size(); ++i) {
-    const auto j = (i + 1) % t.phi.size();
-    const double step = t.phi[j] - t.phi[i] + (j == 0 ? kTwoPi : 0.0);
-    const double along = g.wall.inner * step;
-    if (along < kNarrow) continue;
-    const double rise = t.z_inner[j] - t.z_inner[i];
-    bool enters = false;
-    for (const double u : {0.25, 0.5, 0.75}) {
-      const double phi = t.phi[i] + u * step;
-      const double low = t.z_inner[i] + u * rise;
-      const double high = t.z_outer[i] + u * (t.z_outer[j] - t.z_outer[i]);
-      const double needed = lift(g.root.cutters, g.wall, joint::generator_at(g.wall.inner, phi),
-                                 (high - low) / g.spec.target.wall);
-      enters = enters || (needed - low) * along > tolerance * elementary::hypot(along, rise);
-    }
-    for (const double u : {0.25, 0.5, 0.75})
-      if (const double phi = t.phi[i] + u * step; enters)
-        out.push_back(phi < kTwoPi ? phi : phi - kTwoPi);
-  }
-  return out;
-}
 }  // namespace tubecut::bevel::detail

@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 constexpr double kAngle = 1e-9;        // deg
 constexpr double kPlane = 1e-9;        // sine of the angle between line and plane
 constexpr double kPenetration = 1e-6;  // mm
+constexpr double kStated = 1e-3;       // mm
 constexpr int kAlongBend = 24;
 constexpr double kSilhouette = 1e-5;  // axial part of the normal below which angles lose digits
 
@@ -158,6 +159,67 @@ double clearance(const TableSpec& spec, const Table& t, const std::vector<joint:
   return least;
 }
 
+/// A place of the finished surface: between row i and the next, at a radius.
+Vector3d between_rows(const TableSpec& spec, const Table& t, std::size_t i, double share,
+                      double radius) {
+  const auto j = (i + 1) % t.phi.size();
+  const auto mixed = [&](const std::vector<double>& v, double turn) {
+    return (1.0 - share) * v[i] + share * (v[j] + turn);
+  };
+  const double inner = spec.target.inner_radius(), outer = spec.target.outer_radius;
+  double low = inner, z_low = mixed(t.z_inner, 0.0);
+  double high = outer, z_high = mixed(t.z_outer, 0.0);
+  if (!t.z_face.empty()) {
+    const double edge = inner + spec.root_face, z_edge = mixed(t.z_face, 0.0);
+    (radius < edge ? high : low) = edge;
+    (radius < edge ? z_high : z_low) = z_edge;
+  }
+  const auto turn = elementary::sincos(mixed(t.phi, j == 0 ? kTwoPi : 0.0));
+  const double z = z_low + (radius - low) / (high - low) * (z_high - z_low);
+  return {radius * turn.cos, radius * turn.sin, z};
+}
+
+/// The deepest of a fixed set of places between the rows: half way, at every edge and once between
+/// them, and one place more anywhere in the gap, by the golden ratio.
+double sampled_depth(const TableSpec& spec, const Table& t,
+                     const std::vector<joint::Solid>& solids) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double inner = spec.target.inner_radius(), wall = spec.target.wall;
+  double deepest = 0.0, seed = 0.0;
+  const auto next = [&] { return seed = seed + kGolden - std::floor(seed + kGolden); };
+  const auto see = [&](std::size_t i, double share, double radius) {
+    const auto p = between_rows(spec, t, i, share, radius);
+    for (const auto& solid : solids) {
+      const double depth = -solid.distance(p);
+      deepest = depth > deepest || depth != depth ? depth : deepest;
+    }
+  };
+  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+    for (const double radius : {inner, inner + wall * next(), spec.target.outer_radius})
+      see(i, 0.5, radius);
+    if (!t.z_face.empty()) see(i, 0.5, inner + spec.root_face);
+    const double share = next();
+    see(i, share, inner + wall * next());
+  }
+  return deepest;
+}
+
+/// What the table states of its deepest place, held against that place and against others.
+void penetration_checks(const TableSpec& spec, const Table& t,
+                        const std::vector<joint::Solid>& solids, double at_rows,
+                        std::vector<Check>& out) {
+  const auto& p = t.penetration;
+  const auto turn = elementary::sincos(p.phi);
+  const Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z);
+  const double there = p.solid < solids.size() ? std::max(0.0, -solids[p.solid].distance(at))
+                                               : std::numeric_limits<double>::infinity();
+  const double found = std::max(at_rows, sampled_depth(spec, t, solids));
+  out.push_back(
+      {"penetration_stated", std::max(std::abs(there - p.depth), found - p.depth), kStated, "mm"});
+  if (promises_no_penetration(spec))
+    out.push_back({"penetration_between", std::max(p.depth, found), penetration_limit(spec), "mm"});
+}
+
 }  // namespace
 
 std::vector<Check> verify(const TableSpec& spec, const Table& t) {
@@ -185,7 +247,6 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
     below = std::max(below, (least - t.b[i]) * kDegPerRad);
     beyond = std::max({beyond, (t.b[i] - spec.torch.max.rad()) * kDegPerRad,
                        (spec.torch.min.rad() - t.b[i]) * kDegPerRad});
-    if (spec.contact == Contact::none) continue;
     const double clear = clearance(spec, t, solids, r, i);
     deep = std::max(deep, -clear);
     off = std::max(off, clear);
@@ -201,6 +262,8 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
   out.push_back({"torch_range", beyond, kAngle, "deg"});
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
   if (lifted) out.push_back({"touch", off, kPenetration, "mm"});
+  penetration_checks(spec, t, solids, deep, out);
+  for (auto& check : verify_torch_line(spec, t)) out.push_back(std::move(check));
   return out;
 }
 

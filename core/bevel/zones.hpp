@@ -9,7 +9,8 @@
 
 namespace tubecut::bevel {
 
-/// The groove angle over one interval of the dihedral, straight between its two ends.
+/// The groove angle over one interval of the dihedral, straight between its two ends; in a band
+/// shared with another zone only a part of what is cut.
 struct GrooveZone {
   std::string id;
   Angle dihedral_from, dihedral_to;  // ascending, within 0..180 deg
@@ -18,9 +19,10 @@ struct GrooveZone {
 
 /// A user's table of grooves, for example a welding procedure's. Where two zones meet or overlap
 /// the transition may lie anywhere in a band from `overlap` / 2 below the upper zone's first
-/// dihedral to `overlap` / 2 above the lower zone's last; it is made straight across that band,
-/// each zone's groove held at its own end beyond it. Without any band the groove steps, and the
-/// border belongs to the upper zone.
+/// dihedral to `overlap` / 2 above the lower zone's last. There the groove is the mean of both, the
+/// upper zone's weight running straight from 0 to 1 across the band, each zone's own groove held at
+/// its end beyond it: a straight line where both are constant in the band, else a parabola. Without
+/// any band the groove steps, and the border belongs to the upper zone.
 struct ZonedGroove {
   std::vector<GrooveZone> zones;  // in any order
   Angle overlap = {};

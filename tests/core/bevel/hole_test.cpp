@@ -218,6 +218,7 @@ TEST(Hole, RightAngleHasItsClosedForm) {
 TEST(Hole, FreeTiltCutsTheAskedGrooveAllAround) {
   auto s = plain(JointKind::set_in);
   s.tilt = Tilt::free;
+  s.sampling.uniform_points = 360;
   const auto cut = hole(s);
   ASSERT_TRUE(cut);
   EXPECT_TRUE(cut->warnings.empty());
@@ -236,6 +237,71 @@ TEST(Hole, AxialTiltStaysInTheAxialPlaneAndNamesTheGrooveLost) {
   }
   ASSERT_FALSE(cut->warnings.empty());
   EXPECT_EQ(cut->warnings.front().code, WarningCode::torch_range_binds);
+}
+
+// Equal tubes: the branch's bore is just as wide as the chord's and touches it at both sides. Along
+// the branch the wall reaches the bore everywhere, so no size and no angle is refused.
+TEST(Hole, SetOnEqualTubesAreCutAlongTheBranchAtEverySizeAndAngle) {
+  constexpr std::array<std::array<double, 2>, 9> kSizes{{{33.4, 3.38},
+                                                         {48.3, 3.68},
+                                                         {60.3, 3.91},
+                                                         {73.0, 5.16},
+                                                         {88.9, 5.49},
+                                                         {114.3, 6.02},
+                                                         {168.3, 7.11},
+                                                         {219.1, 8.18},
+                                                         {323.8, 9.53}}};
+  Real worst = 0;
+  for (const auto& [diameter, wall] : kSizes)
+    for (const double deg : {90.0, 75.0, 60.0, 45.0})
+      for (const double clocking : {90.0, 17.0}) {
+        HoleSpec s;
+        s.chord = {.outer_radius = diameter / 2, .wall = wall};
+        const joint::TubeCutter branch{.radius = diameter / 2,
+                                       .inclination = Angle::deg(deg),
+                                       .clocking = Angle::deg(clocking)};
+        s.branch = branch;
+        s.branch_wall = wall;
+        s.tilt = Tilt::free;
+        s.kerf = clocking == 17.0 ? 1.5 : 0.0;
+        s.sampling.uniform_points = 360;
+        const auto cut = hole(s);
+        ASSERT_TRUE(cut) << diameter << " at " << deg << ": " << info(cut.error().code()).code;
+        EXPECT_TRUE(cut->warnings.empty()) << diameter << ' ' << deg;
+        const auto line = axis(branch);
+        const auto& h = cut->holes.front();
+        for (std::size_t i = 0; i < h.phi.size(); ++i)
+          for (const bool outer : {true, false}) {
+            const auto p = outer ? on(diameter / 2, h.phi[i], h.z[i])
+                                 : on(diameter / 2 - wall, h.phi_inner[i], h.z_inner[i]);
+            worst = std::max(
+                worst, std::abs(from_line(p, line.point, line.direction) - (diameter / 2 - wall)));
+          }
+        expect_proved(s, *cut);
+      }
+  std::cout << "off the branch's bore by " << worst << " mm at most\n";
+  EXPECT_LT(worst, 1e-9L);
+}
+
+// A branch whose bore is wider than the chord's by more than rounding misses it, and is refused
+// just where it does.
+TEST(Hole, SetOnWiderBoresAreRefusedWhereTheyMiss) {
+  HoleSpec s;
+  s.chord = {.outer_radius = 30.15, .wall = 3.91};
+  s.branch = joint::TubeCutter{.radius = 30.15, .clocking = Angle::deg(90)};
+  s.branch_wall = 3.5;
+  s.tilt = Tilt::free;
+  s.sampling.uniform_points = 3600;
+  const auto cut = hole(s);
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().code(), ErrorCode::open_profile);
+  const auto open = std::get<Intervals>(cut.error().issues.front().got);
+  const double half = std::acos(26.24 / 26.65) * kDegPerRad;
+  ASSERT_EQ(open.size(), 3U);  // about 0, 180 and 360 deg
+  EXPECT_NEAR(open[0].second, half, 0.1);
+  EXPECT_NEAR(open[1].first, 180 - half, 0.1);
+  EXPECT_NEAR(open[1].second, 180 + half, 0.1);
+  EXPECT_NEAR(open[2].first, 360 - half, 0.1);
 }
 
 TEST(Hole, TheCurveTurnsAroundTheBranchNotTheChord) {

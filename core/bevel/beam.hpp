@@ -1,0 +1,58 @@
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace tubecut::bevel {
+
+/// A point on each of the two walls: phases in rad, heights in mm.
+struct AcrossWall {
+  double phi_inner, z_inner, phi_outer, z_outer;
+};
+
+/// A cut as its rows state it: finished lines across the wall and the torch's axis, all straight
+/// from row to row in phase and height, the last row joined to the first.
+struct BeamCut {
+  double inner = 0.0, outer = 0.0;  // radii
+  double kerf = 0.0;
+  double turn = 0.0;              // by how much the phases have grown after the last row: 2 pi or 0
+  bool part_to_the_left = false;  // of the finished edge as it runs, seen from outside with phi to
+                                  // the right and z up
+  double from = 0.0;  // share of the wall, from the bore out, from which the beam makes the surface
+  std::vector<AcrossWall> finished, torch;
+  std::vector<double> land;  // z of the land at the bore, one a row; empty without one
+};
+
+/// What a round beam of the kerf's width takes from the finished part and what it leaves on it, mm:
+/// the distance from the finished surface to the nearest axis, short of half a kerf and beyond it.
+struct BeamProof {
+  double gouge = 0.0, gouge_phi = 0.0;  // where: phase of the finished surface, rad
+  double left = 0.0, left_phi = 0.0;
+};
+
+/// Which places of the finished surface are looked at: every half kerf along the cut, or its rows
+/// alone. Either way against the axes at rows and between them.
+enum class Places { everywhere, rows };
+
+/// Measured in space, by distances between points and axes. A line counts from outside as far as
+/// the tube's middle: what it does to the wall beyond is not seen.
+///
+/// Accuracy  everywhere: gouge 1e-3 mm, left 5e-3 mm or 2 %. Rows: what is there, not all of it.
+/// Cost      about 5 us a row, at least 2 ms; rows alone 2 us a row.
+/// Source    docs/theory/intersections-and-bevels.md, section 5.6.
+[[nodiscard]] BeamProof beam_proof(const BeamCut& cut, Places places,
+                                   const std::stop_token& stop = {});
+
+inline constexpr double kGougeLimit = 0.01;  // mm
+
+struct TableSpec;
+struct Table;
+/// The cut of an end: with a root face the beam makes the bevel and must spare the land.
+[[nodiscard]] BeamCut beam_cut(const TableSpec& spec, const Table& table);
+
+/// `gouge` against its limit, and what the table states of its torch line against its rows.
+[[nodiscard]] std::vector<Check> verify_torch_line(const TableSpec& spec, const Table& table);
+
+}  // namespace tubecut::bevel

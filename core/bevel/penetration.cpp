@@ -1,0 +1,265 @@
+#include "core/bevel/penetration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+using Eigen::Vector3d;
+using joint::Solid;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// An edge of one piece of the wall on its way from one row to the next.
+struct Run {
+  double radius, phi, z, turn, rise;
+
+  [[nodiscard]] Vector3d at(double u) const {
+    const auto to = elementary::sincos(phi + u * turn);
+    return {radius * to.cos, radius * to.sin, z + u * rise};
+  }
+};
+
+/// The wall between two neighbouring edges, from one row to the next.
+struct Piece {
+  std::array<Run, 2> runs;
+
+  [[nodiscard]] Vector3d at(double u, double v) const {
+    const Vector3d low = runs[0].at(u);
+    return low + v * (runs[1].at(u) - low);
+  }
+  /// Greatest way of a point whose u grows by `width`, and greatest second derivative over it, mm.
+  [[nodiscard]] double way(double width) const {
+    const auto square = [](const Run& r) {
+      return r.radius * r.radius * r.turn * r.turn + r.rise * r.rise;
+    };
+    return width * std::sqrt(std::max(square(runs[0]), square(runs[1])));
+  }
+  [[nodiscard]] double bow(double width) const {
+    const auto of = [](const Run& r) { return r.radius * r.turn * r.turn; };
+    return width * width * std::max(of(runs[0]), of(runs[1]));
+  }
+};
+
+Piece piece_of(const CutWall& wall, std::size_t edge, std::size_t gap) {
+  Piece out;
+  const auto next = (gap + 1) % wall.gaps();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& e = wall.edges[edge + k];
+    out.runs[k] = {e.radius, e.phi[gap], e.z[gap],
+                   e.phi[next] - e.phi[gap] + (next == 0 ? wall.turn : 0.0), e.z[next] - e.z[gap]};
+  }
+  return out;
+}
+
+/// A place that was looked at.
+struct Found {
+  double depth = -kInfinity;
+  Vector3d at = Vector3d::Zero();
+  std::size_t solid = 0;
+};
+
+/// Where the search stands: a part of a gap of one piece, for one solid.
+struct Part {
+  std::size_t gap = 0;
+  double from = 0.0, to = 1.0;     // along
+  double low = 0.0, high = 1.0;    // across
+  double first = 0.0, last = 0.0;  // least distance of its two end lines, of a plain solid
+};
+
+/// The wall between two neighbouring edges, all the way round.
+struct Ring {
+  std::vector<Piece> pieces;                  // of each gap
+  std::vector<std::array<Vector3d, 2>> rows;  // both ends of the line across, where each begins
+};
+
+Ring ring_of(const CutWall& wall, std::size_t edge) {
+  Ring out;
+  for (std::size_t gap = 0; gap < wall.gaps(); ++gap) {
+    out.pieces.push_back(piece_of(wall, edge, gap));
+    out.rows.push_back({out.pieces.back().runs[0].at(0.0), out.pieces.back().runs[1].at(0.0)});
+  }
+  return out;
+}
+
+/// Searches one ring for one solid, widest parts first. `Aim` tells what is sought: `see` takes
+/// every depth found, `enough` the depth that need not be looked for.
+template <class Aim>
+class Search {
+ public:
+  Search(const Ring& ring, std::span<const Solid> solids, std::size_t solid, Aim& aim)
+      : ring_(ring), solid_(solids[solid]), index_(solid), aim_(aim) {}
+
+  void run(const std::stop_token& stop) {
+    std::vector<Part> level = solid_.shape() == Solid::Shape::plain ? strips() : cells();
+    std::vector<Part> next;
+    while (!level.empty()) {
+      next.clear();
+      for (const auto& part : level) {
+        if (stop.stop_requested()) return;
+        solid_.shape() == Solid::Shape::plain ? halve(part, next) : divide(part, next);
+      }
+      level.swap(next);
+    }
+  }
+
+ private:
+  double see(std::size_t gap, const Vector3d& p) {
+    const double distance = solid_.distance(p);
+    aim_.see(gap, {-distance, p, index_});
+    return distance;
+  }
+
+  /// Least distance of a line across the wall.
+  double line(std::size_t gap, const Vector3d& a, const Vector3d& b) {
+    return see(gap, a + solid_.nearest_share(a, b) * (b - a));
+  }
+
+  std::vector<Part> strips() {
+    std::vector<Part> out(ring_.rows.size());
+    for (std::size_t gap = 0; gap < out.size(); ++gap) {
+      out[gap].gap = gap;
+      out[gap].first = line(gap, ring_.rows[gap][0], ring_.rows[gap][1]);
+    }
+    for (std::size_t gap = 0; gap < out.size(); ++gap)
+      out[gap].last = out[(gap + 1) % out.size()].first;
+    return out;
+  }
+
+  /// Edges first: the deepest place lies on one of them more often than not.
+  std::vector<Part> cells() {
+    std::vector<Part> out(ring_.rows.size());
+    for (std::size_t gap = 0; gap < out.size(); ++gap) {
+      out[gap].gap = gap;
+      for (const auto& end : ring_.rows[gap]) see(gap, end);
+      for (const auto& run : ring_.pieces[gap].runs) see(gap, run.at(0.5));
+    }
+    return out;
+  }
+
+  /// Greatest depth within a strip.
+  [[nodiscard]] double bound(const Part& s) const {
+    const auto& piece = ring_.pieces[s.gap];
+    const double low = std::min(s.first, s.last);
+    const double way = piece.way(s.to - s.from);
+    const double nearest = low - 0.5 * way;  // no point is further than that from both end lines
+    const double bent = solid_.most_bent(nearest);
+    const double drop = (bent * way * way + piece.bow(s.to - s.from)) / 8.0;
+    return -std::max(nearest, low - drop);
+  }
+
+  void halve(const Part& s, std::vector<Part>& out) {
+    if (!(bound(s) > aim_.enough(s.gap))) return;
+    Part left = s, right = s;
+    left.to = right.from = 0.5 * (s.from + s.to);
+    const auto& runs = ring_.pieces[s.gap].runs;
+    left.last = right.first = line(s.gap, runs[0].at(left.to), runs[1].at(left.to));
+    out.push_back(left);
+    out.push_back(right);
+  }
+
+  /// Looks at a cell's middle and halves it unless its tangent plane bounds it: along where only
+  /// the edges' bow keeps it from that, else the longer way.
+  void divide(const Part& c, std::vector<Part>& out) {
+    const auto& piece = ring_.pieces[c.gap];
+    const double u = 0.5 * (c.from + c.to), v = 0.5 * (c.low + c.high);
+    const Vector3d middle = piece.at(u, v);
+    const double distance = see(c.gap, middle);
+    const Vector3d normal = solid_.normal(middle);
+    double fall = 0.0, reach = 0.0;
+    Vector3d lowest = middle;
+    for (const double along : {c.from, c.to})
+      for (const double across : {c.low, c.high}) {
+        const Vector3d corner = piece.at(along, across);
+        if (const double to = normal.dot(corner - middle); to < fall) {
+          fall = to;
+          lowest = corner;
+        }
+        reach = std::max(reach, (corner - middle).norm());
+      }
+    see(c.gap, lowest);
+    const double bow = piece.bow(c.to - c.from) / 8.0;
+    reach += bow;
+    const double hollow = solid_.most_hollow(distance + reach);
+    const double plane = 0.5 * hollow * reach * reach - fall;
+    const double enough = aim_.enough(c.gap);
+    if (!(std::min(reach, plane + bow) - distance > enough)) return;
+    Part left = c, right = c;
+    const double across = (piece.at(u, c.high) - piece.at(u, c.low)).norm();
+    if (plane - distance <= enough || piece.way(c.to - c.from) > across)
+      left.to = right.from = u;
+    else
+      left.high = right.low = v;
+    out.push_back(left);
+    out.push_back(right);
+  }
+
+  const Ring& ring_;
+  const Solid& solid_;
+  std::size_t index_;
+  Aim& aim_;
+};
+
+template <class Aim>
+void search(const CutWall& wall, std::span<const Solid> solids, Aim& aim,
+            const std::stop_token& stop) {
+  for (std::size_t edge = 0; edge + 1 < wall.edges.size(); ++edge) {
+    const auto ring = ring_of(wall, edge);
+    for (std::size_t solid = 0; solid < solids.size(); ++solid)
+      Search<Aim>(ring, solids, solid, aim).run(stop);
+  }
+}
+
+struct Deepest {
+  double slack;
+  Found best;
+
+  // A number that is no number stays, and fails whatever is proved with it.
+  void see(std::size_t /*gap*/, const Found& found) {
+    if (found.depth > best.depth || found.depth != found.depth) best = found;
+  }
+  [[nodiscard]] double enough(std::size_t /*gap*/) const {
+    return std::max(best.depth, 0.0) + slack;
+  }
+};
+
+struct Entering {
+  static constexpr double kShare = 0.98;  // so that a depth at the limit itself ends the search
+  double limit;
+  std::vector<bool> gaps;
+
+  void see(std::size_t gap, const Found& found) {
+    if (found.depth > kShare * limit) gaps[gap] = true;
+  }
+  [[nodiscard]] double enough(std::size_t gap) const { return gaps[gap] ? kInfinity : limit; }
+};
+
+}  // namespace
+
+Penetration deepest(const CutWall& wall, std::span<const Solid> solids, double slack,
+                    const std::stop_token& stop) {
+  Deepest aim{.slack = slack};
+  search(wall, solids, aim, stop);
+  const auto& [depth, at, solid] = aim.best;
+  const double phi = elementary::atan2(at.y(), at.x());
+  return {.depth = depth,
+          .phi = phi < 0.0 ? phi + kTwoPi : phi,
+          .radius = elementary::hypot(at.x(), at.y()),
+          .z = at.z(),
+          .solid = solid};
+}
+
+std::vector<bool> entering(const CutWall& wall, std::span<const Solid> solids, double limit,
+                           const std::stop_token& stop) {
+  Entering aim{.limit = limit, .gaps = std::vector<bool>(wall.gaps(), false)};
+  search(wall, solids, aim, stop);
+  return aim.gaps;
+}
+
+}  // namespace tubecut::bevel

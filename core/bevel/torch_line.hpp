@@ -1,0 +1,37 @@
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "core/bevel/table.hpp"
+
+namespace tubecut::bevel {
+
+/// How far below the finished cut the torch's axis runs at each row, mm along z: the least with
+/// which a round beam of the kerf's width, on its way straight from row to row, stays out of the
+/// finished part. The axis is parallel to the finished line of its row; with a root face the line
+/// is the bevel's, and the beam stays out of the land too.
+///
+/// In the half plane of phi0 the beam leaves the point q = (rho, phi0 + D, z_q) untouched if and
+/// only if its drop is at least
+///     line(rho cos D) - z_q + sqrt(k^2/4 - rho^2 sin^2 D) / cos B,     rho |sin D| < k/2,
+/// line(a) the finished line prolonged to the distance a from the tube's axis. The drop is the
+/// largest of it over the finished surface. On a plane that is (k/2) sqrt(1 + tan^2 B + (dz/ds)^2)
+/// with dz/ds the finished edge's own slope, the steeper where the edges differ; a corner, a jump
+/// or a bend tighter than the kerf takes what it needs and no more.
+///
+/// Reads phi, z_inner, z_face and z_outer of the table. Between rows the drop is straight, so rows
+/// are lowered where that would fall short.
+/// Accuracy  gouges below 2e-3 mm between the places looked at across the wall and along it.
+/// Cost      about 1.5 us a row; a row more than a kerf away costs only its share of a bound.
+/// Source    docs/theory/intersections-and-bevels.md, section 5.6.
+[[nodiscard]] std::vector<double> torch_drops(const TableSpec& spec, const Table& table,
+                                              const std::stop_token& stop = {});
+
+/// Phases of rows that the torch's line still lacks to follow its least drop within the sampling's
+/// tolerance: at corners and jumps the drop changes within half a kerf. Empty without a kerf and
+/// with uniform rows alone.
+[[nodiscard]] std::vector<double> torch_rows(const TableSpec& spec, const Table& table,
+                                             const std::stop_token& stop = {});
+
+}  // namespace tubecut::bevel
