@@ -93,6 +93,19 @@ void see_reversals(const AxisCounts& a, Worst& worst) {
   }
 }
 
+/// I16: the start against the axis value at the program's first point, in pulses; whole turns of a
+/// rotary axis apart. What stands on the path within its tolerance may still stand beside its
+/// start.
+void see_start(const Prepared& job, const AxisCounts& a, const AxisFunction& f, double start,
+               Worst& worst) {
+  double off = (start - f.at(coordinates_of(job.program, 0))) * a.pulses();
+  if (a.axis.pulses_per_turn > 0) {
+    const auto turn = static_cast<double>(a.axis.pulses_per_turn);
+    off -= turn * std::floor(off / turn + 0.5);
+  }
+  worst.see(std::abs(off), 0.5);
+}
+
 }  // namespace
 
 void Worst::see(double value, double limit) {
@@ -107,7 +120,7 @@ void Worst::see(double value, double limit) {
 }
 
 std::vector<Check> count_invariants(const Prepared& job, const Counted& counted, bool jerk) {
-  Worst sum, closed, overflow, speed, acceleration, third, travel, reversal;
+  Worst sum, closed, overflow, speed, acceleration, third, travel, reversal, begin;
   for (std::size_t i = 0; i < counted.counts.size(); ++i) {
     const AxisFunction& f = job.course.axes[i];
     const AxisCounts a{job.course.machine.axes[i], counted.counts[i], counted.period};
@@ -117,6 +130,7 @@ std::vector<Check> count_invariants(const Prepared& job, const Counted& counted,
     if (jerk) see_jerk(a, third);
     see_travel(a, counted.start[i], travel);
     see_reversals(a, reversal);
+    see_start(job, a, f, counted.start[i], begin);
   }
   std::vector<Check> out;
   const auto add = [&out](const Worst& worst, const char* name) {
@@ -130,6 +144,7 @@ std::vector<Check> count_invariants(const Prepared& job, const Counted& counted,
   add(third, "I7");
   add(travel, "I8");
   add(reversal, "I9");
+  add(begin, "I16");
   return out;
 }
 

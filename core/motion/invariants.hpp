@@ -32,8 +32,8 @@ class Worst {
   bool any_ = false;
 };
 
-/// I2 to I9: sums, closure, limits per period, travel, reversals. `jerk`: the schedule claims a
-/// jerk limit.
+/// I2 to I9 and I16: sums, closure, limits per period, travel, reversals, the start. `jerk`: the
+/// schedule claims a jerk limit.
 [[nodiscard]] std::vector<Check> count_invariants(const Prepared& job, const Counted& counted,
                                                   bool jerk);
 

@@ -16,11 +16,12 @@ struct Led {
 
 /// The finished part's border and the side of it that falls away.
 struct PartBorder {
-  Track cut = {};  // the whole contour, whatever stretch of it is cut
+  Track cut = {};  // the whole contour, whatever stretch of it is cut, as smooth_border gives it
   Scrap scrap = Scrap::minus_z;
   double outer_radius = 0.0;
   double inner_radius = 0.0;
   double sigma = -1.0;  // of the machine that counts the B of `cut`
+  double sag = 0.0;     // mm, largest distance of the contour's chords to `cut`
 };
 
 /// Lead-in arc (after a straight run where the fan of B needs it), the cut, its overcut, lead-out
@@ -29,6 +30,17 @@ struct PartBorder {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 2.6.
 [[nodiscard]] Led with_lead(const Track& cut, const Lead& lead, Scrap scrap);
+
+/// A closed track with points of the smooth curve through its own put between them, so that chords
+/// leave the curve by no more than a few micrometres, and how far its own chords leave it. Corners
+/// stay: flagged, or turning by more than 20 deg. Its tangents are those of the leads.
+///
+/// Source  docs/theory/pulse-schedules.md, section 2.3.
+struct SmoothTrack {
+  Track track = {};
+  double sag = 0.0;  // mm
+};
+[[nodiscard]] SmoothTrack smooth_border(const Track& track);
 
 /// How far, in mm, the beam at a point reaches into the finished part, over both wall surfaces and
 /// their middle. Negative: how far it stays away. Zero on the cut itself. Half the kerf is in the

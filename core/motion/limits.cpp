@@ -33,15 +33,28 @@ Bound3 sampled_bounds(const AxisFunction& f, const Jet& start, const Jet& middle
   return out;
 }
 
+void note_signed(AxisBounds& axis, std::size_t i, const Bound3& start, const Bound3& end) {
+  axis.along.first[i] = start[0];
+  axis.along.second[i] = start[1];
+  axis.along.third[i] = start[2];
+  axis.along.first[i + 1] = end[0];
+  axis.along.second[i + 1] = end[1];
+}
+
 void drop_noise(AxisBounds& axis, double d) {
   double largest = 1.0;
   for (const double first : axis.first) largest = std::max(largest, first);
   double floor = kNoise * largest;
-  for (auto* const derivative : {&axis.first, &axis.second, &axis.third}) {
-    for (double& value : *derivative) {
-      if (value < floor) value = 0.0;
+  const auto clean = [](std::vector<double>& values, double least) {
+    for (double& value : values) {
+      if (std::abs(value) < least) value = 0.0;
     }
-    floor /= d;
+  };
+  const std::array bounds{&axis.first, &axis.second, &axis.third};
+  const std::array signs{&axis.along.first, &axis.along.second, &axis.along.third};
+  for (std::size_t k = 0; k < 3; ++k, floor /= d) {
+    clean(*bounds[k], floor);
+    clean(*signs[k], floor);
   }
 }
 
@@ -52,9 +65,14 @@ bool moves(const AxisBounds& axis) {
   return any(axis.first) || any(axis.second) || any(axis.third);
 }
 
-/// Largest rate of the tip on an interval: its velocity is a quadratic (or nearly), so the Bezier
-/// points bound it.
-double tip_bound(const std::vector<AxisFunction>& tip, const Jet& start, const Jet& middle,
+struct TipRate {
+  double largest = 0.0;
+  Bound3 along{};  // at the start, the inner Bezier value, at the end
+};
+
+/// Rate of the tip on an interval: its velocity is a quadratic (or nearly), so the Bezier points
+/// bound it.
+TipRate tip_rate(const std::vector<AxisFunction>& tip, const Jet& start, const Jet& middle,
                  const Jet& end, double d) {
   Bound3 square{};
   double third = 0.0;
@@ -69,8 +87,13 @@ double tip_bound(const std::vector<AxisFunction>& tip, const Jet& start, const J
     square[1] += inner * inner;
     square[2] += b[0] * b[0];
   }
-  const double bound = std::sqrt(std::max({square[0], square[1], square[2]}));
-  return linear ? bound : kSampledMargin * bound + d * d / 8.0 * third;
+  TipRate out{std::sqrt(std::max({square[0], square[1], square[2]})),
+              {std::sqrt(square[0]), std::sqrt(square[1]), std::sqrt(square[2])}};
+  if (linear) return out;
+  out.largest = kSampledMargin * out.largest + d * d / 8.0 * third;
+  for (double& value : out.along) value *= kSampledMargin;
+  out.along[1] += d * d / 4.0 * third;  // the middle value lies half as far out as the inner one
+  return out;
 }
 
 }  // namespace
@@ -85,13 +108,15 @@ Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
   std::vector<AxisBounds> all(axes.size());
   for (std::size_t a = 0; a < axes.size(); ++a) {
     const Axis& axis = machine.axes[a];
+    const std::vector<double> intervals(n), knots(n + 1);
     all[a] = {a,
-              std::vector<double>(n),
-              std::vector<double>(n),
-              std::vector<double>(n),
+              intervals,
+              intervals,
+              intervals,
               kUnderCap * velocity_limit(axis, machine.period),
               axis.a_max,
-              axis.j_max.value_or(0.0)};
+              axis.j_max.value_or(0.0),
+              {knots, knots, intervals, axes[a].is_linear()}};
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Jet start = path.jet(i, 0.0), middle = path.jet(i, 0.5 * path.d);
@@ -103,9 +128,14 @@ Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
       all[a].first[i] = bound[0];
       all[a].second[i] = bound[1];
       all[a].third[i] = bound[2];
+      note_signed(all[a], i, axes[a].derivatives(start), axes[a].derivatives(end));
     }
     const double u = path.d * static_cast<double>(i);
-    out.slowness[i] = tip_bound(tip, start, middle, end, path.d) / speed.least(u, u + path.d);
+    const TipRate rate = tip_rate(tip, start, middle, end, path.d);
+    const double least = speed.least(u, u + path.d);
+    out.slowness[i] = rate.largest / least;
+    out.slowness_along.push_back(
+        {rate.along[0] / least, rate.along[1] / least, rate.along[2] / least});
   }
   for (AxisBounds& axis : all) {
     drop_noise(axis, path.d);

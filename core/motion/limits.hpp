@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/motion/kinematics.hpp"
 #include "core/motion/path.hpp"
+#include "core/motion/profile.hpp"
 
 namespace tubecut::motion {
 
@@ -31,6 +33,14 @@ class SpeedAlong {
   std::vector<double> beam_ = {};
 };
 
+/// An axis' derivatives where intervals meet.
+struct SignedDerivatives {
+  std::vector<double> first = {};   // q' at the knots
+  std::vector<double> second = {};  // q'' at the knots
+  std::vector<double> third = {};   // q''' at the start of every interval
+  bool linear = true;               // in the coordinates: q' is a quadratic on every interval
+};
+
 /// Bounds of an axis' derivatives over every interval: |q'|, |q''|, |q'''| per mm, mm2, mm3 of u.
 struct AxisBounds {
   std::size_t axis = 0;  // of the machine
@@ -40,6 +50,7 @@ struct AxisBounds {
   double v_max = 0.0;  // after the overflow cap
   double a_max = 0.0;
   double j_max = 0.0;  // 0: no jerk limit
+  SignedDerivatives along = {};
 };
 
 /// All that timing needs to know of a path on a machine.
@@ -48,6 +59,8 @@ struct Limits {
   std::vector<AxisBounds> axes = {};  // moving axes only
   std::vector<double> slowness =
       {};  // per interval: tip path per mm of u over the speed asked, s/mm
+  /// The same at an interval's start, as inner Bezier value and at its end.
+  std::vector<std::array<double, 3>> slowness_along = {};
 
   [[nodiscard]] std::size_t intervals() const { return slowness.size(); }
 };
@@ -90,6 +103,18 @@ struct Conditions {
   Rows rows = {};
 };
 [[nodiscard]] Conditions without_jerk(const Limits& limits);
+
+/// Caps of x at the knots by the speeds of axes and tip, on whole intervals; zero at both ends.
+///
+/// Accuracy  as `limits`.
+[[nodiscard]] std::vector<double> speed_caps(const Limits& limits);
+
+/// |q' u_ddot + q'' x| <= a_max of every axis on whole intervals, signs kept. With u_ddot constant
+/// it is a quadratic along the interval, so that its three Bezier values bound it.
+///
+/// Accuracy  exact for axes linear in the coordinates; else with 0.1 % margin.
+/// Source    docs/theory/pulse-schedules.md, section 6.2.
+[[nodiscard]] HalfPlanes acceleration_rows(const Limits& limits);
 
 /// Time over a profile: sum of 2 d / (sqrt i_ + sqrt x_(i+1)), s.
 [[nodiscard]] double duration(const std::vector<double>& x, double d);

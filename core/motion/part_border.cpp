@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/base/elementary.hpp"
 #include "core/motion/lead.hpp"
@@ -69,7 +70,90 @@ double depth_on_ring(const PartBorder& part, const ContourPoint& p, double rho) 
   return here < 0.0 ? -nearest : nearest;
 }
 
+/// A point of a track as (s, z, b), and differences of such points.
+using Spot = std::array<double, 3>;
+
+Spot mixed(double p, const Spot& a, double q, const Spot& b) {
+  return {p * a[0] + q * b[0], p * a[1] + q * b[1], p * a[2] + q * b[2]};
+}
+
+double tip_length(const Spot& a) { return elementary::hypot(a[0], a[1]); }
+
+/// Chords of a closed track, segment by segment, and the tangents per mm of the tip at their ends.
+class Curve {
+ public:
+  explicit Curve(const Track& track) : track_(track) {
+    for (const ContourPoint& p : track.points) {
+      spots_.push_back({track.radius * p.phi, p.z, p.b});
+    }
+  }
+
+  /// Segment `i` at share `w`.
+  [[nodiscard]] ContourPoint at(std::size_t i, double w) const {
+    const double l = length(i);
+    const Spot start = tangent(i, i), end = tangent(i + 1, i);
+    const double v = 1.0 - w;
+    const Spot ends =
+        mixed(v * v * (1.0 + 2.0 * w), spots_[i], w * w * (3.0 - 2.0 * w), spots_[i + 1]);
+    const Spot bends = mixed(l * w * v * v, start, -l * w * w * v, end);
+    const Spot x = mixed(1.0, ends, 1.0, bends);
+    return {x[0] / track_.radius, x[1], x[2], false, 0.0};
+  }
+
+  /// Distance of segment `i`'s chord to the curve in its middle.
+  [[nodiscard]] double sag(std::size_t i) const {
+    if (length(i) == 0.0) return 0.0;
+    return 0.125 * length(i) * tip_length(mixed(1.0, tangent(i, i), -1.0, tangent(i + 1, i)));
+  }
+
+ private:
+  static constexpr double kCorner = 0.94;  // cosine of 20 deg
+
+  [[nodiscard]] std::size_t segments() const { return spots_.size() - 1; }
+  [[nodiscard]] Spot chord(std::size_t i) const {
+    return mixed(1.0, spots_[i + 1], -1.0, spots_[i]);
+  }
+  [[nodiscard]] double length(std::size_t i) const { return tip_length(chord(i)); }
+  [[nodiscard]] Spot slope(std::size_t i) const {
+    return mixed(1.0 / length(i), chord(i), 0.0, {});
+  }
+
+  /// Tangent at knot `k` for the segment `own` beside it.
+  [[nodiscard]] Spot tangent(std::size_t k, std::size_t own) const {
+    const std::size_t before = k == 0 ? segments() - 1 : k - 1;
+    const std::size_t after = k == segments() ? 0 : k;
+    const double a = length(before), b = length(after);
+    if (a == 0.0 || b == 0.0 || track_.points[k].corner) return slope(own);
+    const Spot m = slope(before), n = slope(after);
+    if (m[0] * n[0] + m[1] * n[1] < kCorner) return slope(own);
+    return mixed(b / (a + b), m, a / (a + b), n);
+  }
+
+  const Track& track_;
+  std::vector<Spot> spots_;
+};
+
 }  // namespace
+
+SmoothTrack smooth_border(const Track& track) {
+  constexpr double kSag = 0.002;  // mm
+  constexpr double kMostPieces = 32.0;
+  SmoothTrack out{track, 0.0};
+  if (!track.closed) return out;
+  const Curve curve(track);
+  out.track.points.clear();
+  for (std::size_t i = 0; i + 1 < track.points.size(); ++i) {
+    const double sag = curve.sag(i);
+    out.sag = std::max(out.sag, sag);
+    out.track.points.push_back(track.points[i]);
+    const auto pieces = static_cast<int>(std::min(kMostPieces, std::ceil(std::sqrt(sag / kSag))));
+    for (int k = 1; k < pieces; ++k) {
+      out.track.points.push_back(curve.at(i, static_cast<double>(k) / pieces));
+    }
+  }
+  out.track.points.push_back(track.points.back());
+  return out;
+}
 
 double intrusion(const PartBorder& part, const ContourPoint& point) {
   const ContourPoint p = wrapped(part.cut, point);

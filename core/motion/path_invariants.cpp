@@ -229,7 +229,8 @@ class Examination {
     if (!lead || std::abs(at - lead_at_) < kLeadStep) return;
     lead_at_ = at;
     const ContourPoint point{x[0], x[1], x[2], false, 0.0};
-    lead_.see(intrusion(*border_, point), kLeadTouch + allow_.tip + allow_.thickness);
+    lead_.see(intrusion(*border_, point),
+              lead_touch(*border_, spec_.motion) + allow_.tip + allow_.thickness);
   }
 
   Followed result(const Follower& follower) const {

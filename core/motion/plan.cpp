@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/motion/search.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -14,6 +17,7 @@ constexpr double kAccepted = 1.0 + 1e-9;
 constexpr double kRelief = 0.97;
 constexpr double kLastCheck = 1.0 + 1e-8;
 constexpr double kNothingToGain = 1.0 + 1e-4;  // over the optimum without jerk limits
+constexpr double kCancels = 1.01;              // from here on, sums of magnitudes forbid too much
 
 /// One search over the ladder of filters for one optimism.
 class Search {
@@ -54,21 +58,8 @@ class Search {
   std::vector<double> filters(double optimism) const {
     if (options_.filter) return {*options_.filter};
     const Optimism level(course_.limits.intervals(), optimism);
-    double longest = 0.0;
-    for (const AxisBounds& axis : course_.limits.axes) {
-      if (axis.j_max > 0.0) longest = std::max(longest, 2.0 * axis.a_max / axis.j_max);
-    }
-    double best_count = 1.0, best_time = 1e300;
-    for (double ideal = longest / period();; ideal *= 0.5) {
-      const double count = std::max(1.0, std::floor(ideal + 0.5));
-      const double time = profile(count * period(), level, 1).time;
-      if (time < best_time) {
-        best_time = time;
-        best_count = count;
-      }
-      if (count <= 1.0 || stop_.stop_requested()) break;
-    }
-    return neighbours(best_count);
+    return neighbours(best_octave(
+        course_, [&](double filter) { return profile(filter, level, 1).time; }, stop_));
   }
 
   [[nodiscard]] std::vector<double> neighbours(double count) const {
@@ -90,7 +81,7 @@ class Search {
       if (timing.time >= bound || proven || stop_.stop_requested()) return timing;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
       const std::vector<Place> places = sampled(timing, course_.limits.d, count);
-      const std::vector<double> ratio = jerk_ratios(course_, places);
+      const std::vector<double> ratio = ratios(course_, places).jerk;
       if (*std::ranges::max_element(ratio) <= kAccepted) return timing;
       if (pass >= kMostPasses) {
         std::ranges::fill(optimism, 1.0);
@@ -104,15 +95,12 @@ class Search {
              double filter, bool to_proven) const {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
     const Optimism before = optimism;
-    const std::size_t n = optimism.size();
     for (std::size_t k = 0; k < ratio.size(); ++k) {
       if (ratio[k] <= kAccepted) continue;
-      const std::size_t from = places[k < reach ? 0 : k - reach].interval;
-      const std::size_t to = places[std::min(ratio.size() - 1, k + reach)].interval;
-      for (std::size_t i = from == 0 ? 0 : from - 1; i <= std::min(n - 1, to + 1); ++i) {
+      for_reach_of(places, k, reach, optimism.size(), [&](std::size_t i) {
         const double next = to_proven ? 1.0 : std::max(1.0, kRelief * before[i] / ratio[k]);
         optimism[i] = std::min(optimism[i], next);
-      }
+      });
     }
   }
 
@@ -148,6 +136,21 @@ Result<void> settle(Plan& out, const Course& course, const PlanOptions& options,
   }
 }
 
+Timing fastest_of(const std::vector<double>& a, const std::vector<double>& b, double d) {
+  const double time_a = duration(a, d), time_b = duration(b, d);
+  return time_a <= time_b ? Timing{a, 0.0, time_a} : Timing{b, 0.0, time_b};
+}
+
+/// The proven plan, and the faster of it and the optimistic one.
+void limit_jerk(Plan& out, Search search, const Course& course, const PlanOptions& options) {
+  out.timing = search.best(1.0, 1e300);
+  out.proven = out.timing.time;
+  if (options.optimism <= 1.0 || search.good_enough(out.timing)) return;
+  const double most = course.machine.period * (static_cast<double>(options.max_periods) + 1.0);
+  Timing faster = search.best(options.optimism, std::min(out.proven, most));
+  if (!faster.x.empty()) out.timing = std::move(faster);
+}
+
 }  // namespace
 
 double periods_of(double time, double period) {
@@ -157,27 +160,25 @@ double periods_of(double time, double period) {
 Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_token stop) {
   const Conditions base = without_jerk(course.limits);
   const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows);
+  HalfPlanes acceleration = acceleration_rows(course.limits);
+  const Profile by_signs = fastest_profile(speed_caps(course.limits), acceleration);
   Plan out;
-  out.no_jerk = duration(x, course.limits.d);
+  out.least = duration(by_signs.bound, course.limits.d);
+  out.timing = fastest_of(x, by_signs.x, course.limits.d);
+  out.no_jerk = out.proven = out.timing.time;
   const double least = periods_of(out.no_jerk, course.machine.period);
   if (!(least <= static_cast<double>(options.max_periods))) {
     return tl::unexpected<Error>(too_many(least, options.max_periods));
   }
   const bool jerk = options.jerk && any_jerk(course.limits);
   if (jerk) {
-    Search search(course, options, x, stop);
-    out.timing = search.best(1.0, 1e300);
-    out.proven = out.timing.time;
-    const double bound = std::min(
-        out.proven, course.machine.period * (static_cast<double>(options.max_periods) + 1.0));
-    if (options.optimism > 1.0 && !search.good_enough(out.timing)) {
-      if (Timing faster = search.best(options.optimism, bound); !faster.x.empty()) {
-        out.timing = std::move(faster);
-      }
+    const double by_magnitudes = duration(x, course.limits.d);
+    limit_jerk(out, Search(course, options, x, stop), course, options);
+    if (!options.filter && options.optimism > 1.0 && by_magnitudes > kCancels * out.least) {
+      Timing faster =
+          best_by_signed_rows(course, by_signs, std::move(acceleration), out.timing.time, stop);
+      if (!faster.x.empty()) out.timing = std::move(faster);
     }
-  } else {
-    out.timing = {x, 0.0, out.no_jerk};
-    out.proven = out.no_jerk;
   }
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (auto ok = settle(out, course, options, jerk); !ok) {

@@ -53,10 +53,12 @@ struct Uses {
 /// Source  docs/theory/pulse-schedules.md, section 6.6.
 [[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk);
 
-/// Ratio of the third difference to the jerk limit at every place: the worst of those it is a
-/// middle of.
-[[nodiscard]] std::vector<double> jerk_ratios(const Course& course,
-                                              const std::vector<Place>& places);
+/// Ratios of differences to their limits at every place, the worst of the axes.
+struct Ratios {
+  std::vector<double> acceleration = {};  // of the second difference that it is the middle of
+  std::vector<double> jerk = {};          // of the third differences that it is a middle of
+};
+[[nodiscard]] Ratios ratios(const Course& course, const std::vector<Place>& places);
 
 struct PlanOptions {
   bool jerk = true;
@@ -67,6 +69,7 @@ struct PlanOptions {
 
 struct Plan {
   Timing timing = {};
+  double least = 0.0;    // s, no motion along the path within v, a, tip speed and n_max is faster
   double no_jerk = 0.0;  // s
   double proven = 0.0;   // s, of the proven mode
   double stretch = 1.0;
@@ -77,8 +80,10 @@ struct Plan {
 /// The fastest of the ladder of filters, with optimism and repair, never slower than the proven
 /// mode; checked on its samples and, should a limit be broken there, stretched.
 ///
+/// Where cancelling terms of acceleration bind, the plan by signed rows is made as well.
+///
 /// Errors  too_many_periods (before samples are taken), cancelled.
-/// Source  docs/theory/pulse-schedules.md, sections 6.4 to 6.6.
+/// Source  docs/theory/pulse-schedules.md, sections 6.2 and 6.3.
 [[nodiscard]] Result<Plan> plan(const Course& course, const PlanOptions& options,
                                 std::stop_token stop);
 

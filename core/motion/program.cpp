@@ -66,7 +66,7 @@ Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec) {
   }
   const Led led = with_lead(*cut, *spec.motion.lead, contour.scrap);
   const auto border = part_border(spec);
-  if (auto ok = check_lead(led, *border, kLeadTouch); !ok) {
+  if (auto ok = check_lead(led, *border, lead_touch(*border, spec.motion)); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   Program out = from_points(led.points, cut->radius);
@@ -209,8 +209,13 @@ Result<PartBorder> part_border(const ScheduleSpec& spec) {
   if (contour == nullptr) return fail({.code = ErrorCode::unsupported_combination});
   auto whole = track(*contour);
   if (!whole) return tl::unexpected<Error>(whole.error());
-  return PartBorder{std::move(*whole), contour->scrap, contour->outer_radius,
-                    contour->inner_radius(), spec.machine.sigma()};
+  SmoothTrack border = smooth_border(*whole);
+  return PartBorder{std::move(border.track), contour->scrap,       contour->outer_radius,
+                    contour->inner_radius(), spec.machine.sigma(), border.sag};
+}
+
+double lead_touch(const PartBorder& border, const Motion& motion) {
+  return kLeadTouch + std::min(border.sag, motion.eps_tip);
 }
 
 Result<Program> program(const ScheduleSpec& spec) {

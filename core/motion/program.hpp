@@ -12,8 +12,8 @@ namespace tubecut::motion {
 /// bad.
 inline constexpr double kBevelWeight = 10.0;
 
-/// A lead may come this near to the border's wrong side, mm: rounding of the tangent at the join,
-/// nothing more.
+/// A lead may reach this far behind the border, mm: rounding of the tangent at the join. Where the
+/// contour's chords leave its curve, join and tangent are no better than that: see `lead_touch`.
 inline constexpr double kLeadTouch = 0.02;
 
 /// One coordinate of the path. `weight` turns its unit into mm of generalised length.
@@ -50,6 +50,10 @@ struct Program {
 ///         part).
 /// Source  docs/theory/pulse-schedules.md, sections 2.1, 2.2 and 2.6.
 [[nodiscard]] Result<Program> program(const ScheduleSpec& spec);
+
+/// How far a lead may reach behind the border, mm: kLeadTouch and the contour's sag, this no more
+/// than the tolerance of the motion.
+[[nodiscard]] double lead_touch(const PartBorder& border, const Motion& motion);
 
 /// The finished part's border, of a cut given as a contour.
 [[nodiscard]] Result<PartBorder> part_border(const ScheduleSpec& spec);

@@ -23,7 +23,7 @@ struct Replay {
   double deviation = 0.0;  // largest distance of the tip to the contour, mm
 };
 
-/// Rebuilds the torch from integer counts and holds it against the contour: invariants I1 to I15,
+/// Rebuilds the torch from integer counts and holds it against the contour: invariants I1 to I16,
 /// each with its worst value, the limit there and the unit. Those that do not apply (no contour, no
 /// jerk limit) are left out.
 ///

@@ -97,6 +97,7 @@ Report report(const ScheduleSpec& spec, const Prepared& job, const Plan& plan) {
   out.time = static_cast<double>(plan.places.size() - 1) * spec.machine.period;
   out.ideal = job.ideal;
   out.no_jerk = plan.no_jerk;
+  out.optimality = out.time / plan.least;
   out.proven = plan.proven;
   out.filter = plan.timing.filter;
   out.stretch = plan.stretch;
@@ -175,6 +176,8 @@ Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
   }
   out.events = events(*job, *timed);
   out.report = report(spec, *job, *timed);
+  out.report.edges = edge_deviation(spec, job->program, job->course.path, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (spec.motion.compare) out.comparison = comparison(*job);
   out.warnings = warnings(spec, out.report);
   return out;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/motion/edges.hpp"
 #include "core/motion/spec.hpp"
 
 namespace tubecut::motion {
@@ -58,11 +59,12 @@ struct Comparison {
 };
 
 struct Report {
-  double time = 0.0;     // s
-  double ideal = 0.0;    // s, length over speed
-  double no_jerk = 0.0;  // s, the optimum without jerk limit
-  double proven = 0.0;   // s, of the plan that needs no check
-  double filter = 0.0;   // s
+  double time = 0.0;        // s
+  double ideal = 0.0;       // s, length over speed
+  double no_jerk = 0.0;     // s, the fastest plan without jerk limits
+  double optimality = 1.0;  // time over a bound below every plan, with jerk limits or without
+  double proven = 0.0;      // s, of the plan that needs no check
+  double filter = 0.0;      // s
   double stretch = 1.0;
   double length = 0.0;            // mm of the tip's path
   double deviation_tip = 0.0;     // mm, smoothing
@@ -75,6 +77,8 @@ struct Report {
   double closing_residual = 0.0;  // pulses by which a whole turn misses a whole count; crawler
   std::vector<Use> max_use = {};
   std::vector<SlowZone> slow = {};
+  /// Of a contour.
+  std::optional<EdgeDeviation> edges = {};
 };
 
 struct Schedule {
@@ -87,7 +91,7 @@ struct Schedule {
   std::vector<Warning> warnings = {};
 };
 
-/// Integer pulses per axis and period for a cut on a machine: time-optimal within the rows,
+/// Integer pulses per axis and period for a cut on a machine: time-optimal without jerk limits,
 /// jerk-limited, no pulse lost.
 ///
 /// Errors    of the contour: bad_number, wrong_count, angle_out_of_range, duplicate_point,

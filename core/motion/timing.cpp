@@ -58,8 +58,14 @@ Hats hats(const Limits& limits, const std::vector<double>& fastest, const Optimi
           const Windows& w) {
   Hats out;
   for (const AxisBounds& axis : limits.axes) {
-    out.axes.push_back({axis.axis, hat(axis.first, w), hat(axis.second, w), hat(axis.third, w),
-                        axis.v_max, axis.a_max, axis.j_max});
+    out.axes.push_back({axis.axis,
+                        hat(axis.first, w),
+                        hat(axis.second, w),
+                        hat(axis.third, w),
+                        axis.v_max,
+                        axis.a_max,
+                        axis.j_max,
+                        {}});
   }
   out.slowness = hat(limits.slowness, w);
   std::vector<double> values(optimism.size());
@@ -73,15 +79,19 @@ Hats hats(const Limits& limits, const std::vector<double>& fastest, const Optimi
   return out;
 }
 
-/// W0: what acceleration and filter edges alone leave of |u_ddot|.
-std::vector<double> first_bound(const Hats& hats, double filter) {
+enum class Acceleration : std::uint8_t { bounds, has_rows_of_its_own };
+
+/// W0: what filter edges and, by magnitudes, acceleration alone leave of |u_ddot|.
+std::vector<double> first_bound(const Hats& hats, double filter, Acceleration acceleration) {
   std::vector<double> bound(hats.slowness.size(), 1e150);
   for (std::size_t i = 0; i < bound.size(); ++i) {
     for (const AxisBounds& axis : hats.axes) {
       if (axis.j_max <= 0.0 || axis.first[i] <= 0.0) continue;
       const double jerk = hats.optimism[i] * axis.j_max;
-      const double edges = jerk * filter / (2.0 * axis.first[i]);
-      bound[i] = std::min({bound[i], axis.a_max / axis.first[i], edges});
+      bound[i] = std::min(bound[i], jerk * filter / (2.0 * axis.first[i]));
+      if (acceleration == Acceleration::bounds) {
+        bound[i] = std::min(bound[i], axis.a_max / axis.first[i]);
+      }
     }
   }
   return bound;
@@ -106,6 +116,49 @@ void add_jerk_rows(const AxisBounds& axis, std::size_t i, double jerk, double sp
   if (need > kEdgeShare) {
     rows.add({3.0 * axis.second[i] * speed, axis.third[i] * speed, kEdgeShare * jerk});
   }
+}
+
+/// |u_ddot| alone, and alpha |u_ddot| + beta x <= c at both knots.
+void add_magnitude(const Row& row, double d, HalfPlanes& out) {
+  const double pull = row.alpha / (2.0 * d * row.c), weight = row.beta / row.c;
+  if (weight == 0.0) {
+    out.add(-pull, pull);
+    out.add(pull, -pull);
+    return;
+  }
+  for (const double sign : {-pull, pull}) {
+    out.add(weight - sign, sign);
+    out.add(-sign, weight + sign);
+  }
+}
+
+void add_scaled(const HalfPlanes& rows, std::size_t i, double scale, HalfPlanes& out) {
+  for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
+    out.add(scale * rows.rows[r].start, scale * rows.rows[r].end);
+  }
+}
+
+/// Rows of acceleration as they are, without windows, and those of jerk with them.
+HalfPlanes signed_rows(const SignedRows& rows, const Hats& hats, const std::vector<double>& bound,
+                       const std::vector<double>& wide, double d, double filter) {
+  HalfPlanes out;
+  out.rows.reserve(rows.acceleration.rows.size() + 8 * bound.size());
+  for (std::size_t i = 0; i < bound.size(); ++i) {
+    add_scaled(rows.acceleration, i, 1.0 / rows.share[i], out);
+    Rows jerk;
+    for (const AxisBounds& axis : hats.axes) {
+      if (axis.j_max <= 0.0) continue;
+      add_jerk_rows(axis, i, hats.optimism[i] * axis.j_max, hats.speed[i], wide[i], filter, jerk);
+    }
+    double most = bound[i];
+    for (const Row& row : jerk.rows) {
+      if (row.beta > 0.0) add_magnitude(row, d, out);
+      if (row.beta == 0.0 && row.alpha > 0.0) most = std::min(most, row.c / row.alpha);
+    }
+    add_magnitude({1.0, 0.0, most}, d, out);
+    out.close_interval();
+  }
+  return out;
 }
 
 Rows round_rows(const Hats& hats, const std::vector<double>& bound, const std::vector<double>& wide,
@@ -138,6 +191,25 @@ std::vector<double> round_caps(const Hats& hats, const std::vector<double>& fast
   return caps;
 }
 
+/// Solves the rows round by round, each with the windows that the profile before leaves.
+template <class Solve>
+Timing refined(const Limits& limits, const std::vector<double>& without_jerk, double filter,
+               const Optimism& optimism, int rounds, const Solve& solve) {
+  Timing best{{}, filter, 1e300};
+  std::vector<double> fastest = without_jerk;
+  std::vector<double> x;
+  for (int round = 0; round < rounds; ++round) {
+    const Windows reach = windows(fastest, limits.d, filter);
+    x = solve(hats(limits, fastest, optimism, reach), reach, x, fastest);
+    const double time = duration(x, limits.d) + filter;
+    if (time < best.time) best = {x, filter, time};
+    for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+      fastest[i] = std::min(without_jerk[i], 1.21 * x[i] + 1e-3);
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<double> widened(const std::vector<double>& values, const std::vector<std::size_t>& low,
@@ -158,23 +230,26 @@ std::vector<double> widened(const std::vector<double>& values, const std::vector
 
 Timing filtered_profile(const Limits& limits, const std::vector<double>& without_jerk,
                         double filter, const Optimism& optimism, int rounds) {
-  Timing best{{}, filter, 1e300};
-  std::vector<double> fastest = without_jerk;
-  std::vector<double> x;
-  for (int round = 0; round < rounds; ++round) {
-    const Windows reach = windows(fastest, limits.d, filter);
-    const Hats hat_of = hats(limits, fastest, optimism, reach);
-    std::vector<double> bound = first_bound(hat_of, filter);
-    if (round > 0) tighten(bound, x, limits.d);
+  const auto solve = [&](const Hats& hat_of, const Windows& reach,
+                         const std::vector<double>& before, const std::vector<double>& fastest) {
+    std::vector<double> bound = first_bound(hat_of, filter, Acceleration::bounds);
+    if (!before.empty()) tighten(bound, before, limits.d);
     const Rows rows = round_rows(hat_of, bound, hat(bound, reach), filter);
-    x = largest_profile(round_caps(hat_of, fastest), limits.d, rows);
-    const double time = duration(x, limits.d) + filter;
-    if (time < best.time) best = {x, filter, time};
-    for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-      fastest[i] = std::min(without_jerk[i], 1.21 * x[i] + 1e-3);
-    }
-  }
-  return best;
+    return largest_profile(round_caps(hat_of, fastest), limits.d, rows);
+  };
+  return refined(limits, without_jerk, filter, optimism, rounds, solve);
+}
+
+Timing filtered_signed_profile(const Limits& limits, const SignedRows& rows, double filter,
+                               const Optimism& optimism, int rounds) {
+  const auto solve = [&](const Hats& hat_of, const Windows& reach,
+                         const std::vector<double>& before, const std::vector<double>& fastest) {
+    std::vector<double> bound = first_bound(hat_of, filter, Acceleration::has_rows_of_its_own);
+    if (!before.empty()) tighten(bound, before, limits.d);
+    const HalfPlanes all = signed_rows(rows, hat_of, bound, hat(bound, reach), limits.d, filter);
+    return fastest_within(round_caps(hat_of, fastest), rows.without_jerk.bound, all);
+  };
+  return refined(limits, rows.without_jerk.x, filter, optimism, rounds, solve);
 }
 
 }  // namespace tubecut::motion

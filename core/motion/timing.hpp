@@ -40,6 +40,23 @@ using Optimism = std::vector<double>;
 [[nodiscard]] Timing filtered_profile(const Limits& limits, const std::vector<double>& without_jerk,
                                       double filter, const Optimism& optimism, int rounds);
 
+/// What the profile by signed rows starts from.
+struct SignedRows {
+  HalfPlanes acceleration = {};
+  Profile without_jerk = {};
+  std::vector<double> share = {};  // of a_max that each interval may use
+};
+
+/// The same with |q' u_ddot + q'' x| <= share a_max in place of the sum of magnitudes, so that
+/// terms of opposite signs cancel. A mean over the filter's window leaves these rows by as much as
+/// q' and q'' change within it: acceleration and jerk hold where the samples say so, speeds by
+/// proof.
+///
+/// Cost    as `filtered_profile`, times about 4.
+/// Source  docs/theory/pulse-schedules.md, section 6.3.
+[[nodiscard]] Timing filtered_signed_profile(const Limits& limits, const SignedRows& rows,
+                                             double filter, const Optimism& optimism, int rounds);
+
 /// Largest value of `values` over each window [low[i], high[i]]; both bounds never decrease.
 [[nodiscard]] std::vector<double> widened(const std::vector<double>& values,
                                           const std::vector<std::size_t>& low,

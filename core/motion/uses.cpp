@@ -66,11 +66,14 @@ double jerk_ratio(const Watched& w, double period) {
   return over(w.differences.third(), 8.0 * w.noise, *w.axis->j_max * period * period * period);
 }
 
+double acceleration_ratio(const Watched& w, double period) {
+  return over(w.differences.second(), 4.0 * w.noise, w.axis->a_max * period * period);
+}
+
 void note(const Watched& w, double period, bool jerk, AxisUse& use) {
   const double v = over(w.differences.first(), 2.0 * w.noise, w.axis->v_max * period);
-  const double a = over(w.differences.second(), 4.0 * w.noise, w.axis->a_max * period * period);
   use.velocity = std::max(use.velocity, v);
-  use.acceleration = std::max(use.acceleration, a);
+  use.acceleration = std::max(use.acceleration, acceleration_ratio(w, period));
   if (jerk) use.jerk = std::max(use.jerk, jerk_ratio(w, period));
   if (w.axis->n_max) {
     const double pulses = std::abs(w.differences.first()) * w.axis->pulses_per_axis_unit();
@@ -148,19 +151,25 @@ Uses uses(const Course& course, const std::vector<Place>& places, bool jerk) {
   return out;
 }
 
-std::vector<double> jerk_ratios(const Course& course, const std::vector<Place>& places) {
-  std::vector<double> ratio(places.size(), 0.0);
+Ratios ratios(const Course& course, const std::vector<Place>& places) {
+  Ratios out{std::vector<double>(places.size(), 0.0), std::vector<double>(places.size(), 0.0)};
+  const double period = course.machine.period;
   std::vector<Watched> axes = watched(course);
+  const auto note_at = [&](std::vector<double>& ratio, std::size_t k, double value) {
+    double& at = ratio[std::min(k, places.size() - 1)];
+    at = std::max(at, value);
+  };
   walk(course, places, axes, [&](std::size_t k) {
-    double worst = 0.0;
-    for (const Watched& w : axes) worst = std::max(worst, jerk_ratio(w, course.machine.period));
-    for (const std::size_t back : {std::size_t{1}, std::size_t{2}}) {
-      if (k < back) continue;
-      double& at = ratio[std::min(k - back, places.size() - 1)];
-      at = std::max(at, worst);
+    double acceleration = 0.0, jerk = 0.0;
+    for (const Watched& w : axes) {
+      acceleration = std::max(acceleration, acceleration_ratio(w, period));
+      jerk = std::max(jerk, jerk_ratio(w, period));
     }
+    if (k >= 1) note_at(out.acceleration, k - 1, acceleration);
+    if (k >= 1) note_at(out.jerk, k - 1, jerk);
+    if (k >= 2) note_at(out.jerk, k - 2, jerk);
   });
-  return ratio;
+  return out;
 }
 
 }  // namespace tubecut::motion

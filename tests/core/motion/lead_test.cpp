@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -278,6 +279,110 @@ TEST(Leads, ThatDoNotFitAreRefused) {
   const auto p = program(spec);
   ASSERT_FALSE(p);
   EXPECT_EQ(p.error().code(), ErrorCode::lead_blocked);
+}
+
+/// A tube coped by a round tube through its axis: where the cutter's far side meets the generator.
+struct Cope {
+  double outer = 24.15, partner = 24.15, inclination = kPi / 4, clocking = 0.0;
+
+  [[nodiscard]] double z(double phi) const {
+    const double across = outer * std::sin(phi - clocking);
+    const double along = outer * std::cos(phi - clocking);
+    const double chord = std::sqrt(std::max(0.0, partner * partner - across * across));
+    return (along * std::cos(inclination) + chord) / std::sin(inclination);
+  }
+};
+
+Cope everyday(Dice& dice) {
+  static constexpr std::array<double, 6> kOuter{33.7, 42.4, 48.3, 60.3, 88.9, 114.3};
+  static constexpr std::array<double, 5> kRatio{1.0, 1.0, 1.27, 1.8, 3.0};
+  static constexpr std::array<double, 5> kInclination{30.0, 45.0, 60.0, 75.0, 90.0};
+  Cope c;
+  c.outer = 0.5 * kOuter[static_cast<std::size_t>(dice.below(6))];
+  c.partner = c.outer * kRatio[static_cast<std::size_t>(dice.below(5))];
+  c.inclination = kInclination[static_cast<std::size_t>(dice.below(5))] * kRadPerDeg;
+  c.clocking = 90.0 * dice.below(4) * kRadPerDeg;
+  return c;
+}
+
+/// Points whose chords leave the cope by `tolerance`, no farther apart than 5 deg.
+Contour sampled_cope(const Cope& cope, double tolerance) {
+  Contour c;
+  c.outer_radius = cope.outer;
+  c.wall = 0.07 * cope.outer;
+  const auto sag = [&](double from, double to) {
+    double most = 0.0;
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const double chord = (1.0 - share) * cope.z(from) + share * cope.z(to);
+      most = std::max(most, std::abs(chord - cope.z(from + share * (to - from))));
+    }
+    return most;
+  };
+  for (double phi = 0.0; phi < kTwoPi - 1e-9;) {
+    c.phi.push_back(phi);
+    double step = 5.0 * kRadPerDeg;
+    const double corner = 0.5 * kPi * (std::floor(phi / (0.5 * kPi) + 1e-9) + 1.0);
+    while (sag(phi, std::min(phi + step, corner)) > tolerance) step *= 0.9;
+    phi = std::min(phi + step, corner);
+  }
+  c.phi.push_back(kTwoPi);
+  for (const double phi : c.phi) c.z.push_back(phi == kTwoPi ? cope.z(0.0) : cope.z(phi));
+  c.b.assign(c.phi.size(), 0.0);
+  return c;
+}
+
+/// How deep the lead of a job reaches into the cope's own surface on the outside, mm: along the
+/// nearest of many places of it.
+double deepest_in(const Cope& cope, const ScheduleSpec& spec) {
+  const auto& contour = std::get<Contour>(spec.cut);
+  const auto whole = track(contour);
+  const Led led = with_lead(*directed(*whole, spec.motion), *spec.motion.lead, contour.scrap);
+  double deepest = 0.0;
+  for (std::size_t i = 0; i < led.points.size(); ++i) {
+    if (i >= led.cut_first && i <= led.cut_last) continue;
+    const ContourPoint& p = led.points[i];
+    if (p.z <= cope.z(p.phi)) continue;
+    double nearest = 1e300;
+    for (int k = -2000; k <= 2000; ++k) {
+      const double phi = p.phi + 1e-4 * k;
+      nearest = std::min(nearest, std::hypot(cope.outer * (phi - p.phi), cope.z(phi) - p.z));
+    }
+    deepest = std::max(deepest, nearest);
+  }
+  return deepest;
+}
+
+/// Leads on copes sampled within a tolerance, default ones and long ones: refused only where they
+/// enter the true surface by more than the tolerance can explain, and wherever they do.
+TEST(Leads, OfThreeHundredEverydayCutsAreNotBlockedFalsely) {
+  static constexpr std::array<double, 3> kTolerance{0.01, 0.02, 0.05};
+  Dice dice(300);
+  int made = 0, refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Cope cope = everyday(dice);
+    const double tolerance = kTolerance[static_cast<std::size_t>(dice.below(3))];
+    ScheduleSpec spec;
+    spec.machine = source_machine();
+    spec.cut = sampled_cope(cope, tolerance);
+    for (const double radius : {5.0, 25.0}) {
+      spec.motion.lead = Lead{.radius = radius};
+      const auto p = program(spec);
+      const double depth = deepest_in(cope, spec);
+      if (!p) {
+        ASSERT_EQ(p.error().code(), ErrorCode::lead_blocked) << i;
+        EXPECT_GT(depth, 0.02) << i << " radius " << radius << " is blocked falsely";
+      }
+      if (depth > 0.02 + 2.0 * tolerance) {
+        EXPECT_FALSE(p) << i << " radius " << radius << " enters by " << depth;
+      }
+      made += p && radius == 5.0 ? 1 : 0;
+      refused += p ? 0 : 1;
+    }
+  }
+  RecordProperty("made", made);
+  RecordProperty("refused", refused);
+  EXPECT_GT(made, 280);
+  EXPECT_GT(refused, 20);
 }
 
 }  // namespace

@@ -68,6 +68,17 @@ TEST_P(Damaged, OnePulseMore) {
   expect("I2");
   expect("I3");
 }
+TEST_P(Damaged, StartBesideTheFirstPoint) {
+  const std::vector<double> right = good.start;
+  for (const auto& [axis, off] : {std::pair{kY, 0.05}, std::pair{kC, 0.1}, std::pair{kB, -0.001}}) {
+    good.start = right;
+    good.start[axis] += off;
+    expect("I16");
+  }
+  good.start = right;
+  good.start[kC] += 720.0;  // whole turns
+  EXPECT_FALSE(failed(good).contains("I16"));
+}
 TEST_P(Damaged, LostPeriod) {
   const std::size_t k = busiest(kB);
   for (auto& c : good.counts) {
