@@ -51,6 +51,7 @@
     "Send the number of elements asked for.")                                                      \
   X(exclusive_fields, invalid, "Exactly one of these fields must be given.",                       \
     "Give exactly one of them.")                                                                   \
+  X(repeated_parameter, invalid, "The query parameter is given more than once.", "Give it once.")  \
   X(unsupported_combination, invalid, "These choices do not go together.",                         \
     "Choose one of the combinations documented for the endpoint.")                                 \
   X(unsupported_target, invalid, "Only round targets can be cut for now.", "Send a round target.") \
@@ -85,10 +86,23 @@
     "Use a larger tolerance.")                                                                     \
   X(ambiguous_connection, no_solution, "Two members are equally near to this end.",                \
     "Name the connection explicitly.")                                                             \
+  X(joint_contradicts, no_solution, "A joint is stated in two ways that cannot both be right.",    \
+    "State it once, or the same on both sides.")                                                   \
   X(zero_length, no_solution, "A direction or member has no length.",                              \
     "Check the two points or the vector.")                                                         \
   X(bad_reference_direction, no_solution, "The reference direction is parallel to the axis.",      \
     "Choose another reference direction.")                                                         \
+  /* what may be cut */                                                                            \
+  X(rejected, no_solution, "The verdict is reject: no program that lights the torch is printed.",  \
+    "Change the cut until it is accepted, or ask without torch=on.")                               \
+  X(not_acknowledged, no_solution,                                                                 \
+    "The verdict is review, and its warnings are not all acknowledged.",                           \
+    "Look at each warning; then name their codes, and no others, in acknowledge.")                 \
+  X(comparison_only, no_solution,                                                                  \
+    "The answer is for comparison with published figures: no machine may cut by it.",              \
+    "Use dihedral weld_side for what is cut.")                                                     \
+  X(hole_off_part, no_solution, "The hole lies wholly outside the finished part.",                 \
+    "Check where the branch stands, or leave the hole out.")                                       \
   /* feed curves */                                                                                \
   X(r2_lt_a, no_solution, "The pivot distance is smaller than its horizontal part.",               \
     "Check pivot_distance_mm and pivot_offset_mm.")                                                \
@@ -192,38 +206,52 @@
     "Use a coarser sampling or a smaller request.")
 
 /// X(code, severity, meaning): severity `cut` makes the verdict `review`, `note` does not.
-#define TUBECUT_WARNINGS(X)                                                                        \
-  X(cutter_missed, note, "This partner is not met by the target at all.")                          \
-  X(near_parallel, note,                                                                           \
-    "The axes are within 5 degrees of parallel; the cut is long and sensitive.")                   \
-  X(events_between_nodes, note,                                                                    \
-    "With uniform points alone, events lie between nodes; the largest shortfall is given.")        \
-  X(torch_range_binds, cut, "The groove rule is cut back to the torch's range here.")              \
-  X(smoothed_below_raw, cut, "The published smoothing falls below its input here.")                \
-  X(ghost_contact, cut, "The cut follows a partner beyond that member's end.")                     \
-  X(free_end, cut, "This end meets no member.")                                                    \
-  X(end_open, cut, "Some generators of this end meet no cutter, so the cut is not closed.")        \
-  X(end_consumed, cut, "The cut at this end reaches beyond the member's other end.")               \
-  X(no_table, cut, "This end has no bevel table: it cannot be cut as asked, for this reason.")     \
-  X(parallel_members, cut, "Two members that join are parallel; neither cuts the other.")          \
-  X(root_opens, cut, "The root is opened so that the cut can be made.")                            \
-  X(holes_meet, cut, "Two holes of the part share a piece of its wall.")                           \
-  X(hole_meets_end, cut, "A hole of the part reaches into the cut at one of its ends.")            \
-  X(unit_suspicion, cut, "The value looks as if it were given in another unit.")                   \
-  X(tube_outside_range, note, "The tube is outside the range the source's machine was built for.") \
-  X(polynomial_window, note, "The polynomial is valid only within its time window.")               \
-  X(monotone_work_range, note,                                                                     \
-    "The speed has no maximum within the work feed; T/2 is the middle node.")                      \
-  X(root_in_bore, cut, "The root face lies below the chord's bore.")                               \
-  X(p2_inside_branch, note, "The weld's toe on the chord lies inside the branch's outer radius.")  \
-  X(branch_wider, note, "The branch is wider than the chord.")                                     \
-  X(groove_angle, note, "The groove line is outside 10..80 degrees to the branch axis.")           \
-  X(root_face_cut, cut, "The mill cuts into the root face.")                                       \
-  X(window_not_reached, cut, "A position stays outside the qualification window.")                 \
-  X(contour_too_coarse, cut, "The contour's points are too far apart for the tolerance.")          \
-  X(slow_zone, cut, "The tip falls below half of the asked speed here.")                           \
-  X(invariant_broken, cut, "The schedule breaks an invariant; do not run it.")                     \
-  X(standoff, cut, "The stand-off changes and this machine cannot compensate it.")
+#define TUBECUT_WARNINGS(X)                                                                       \
+  X(cutter_missed, note, "This partner is not met by the target at all.")                         \
+  X(near_parallel, note,                                                                          \
+    "The axes are within 5 degrees of parallel; the cut is long and sensitive.")                  \
+  X(events_between_nodes, note,                                                                   \
+    "With uniform points alone, events lie between nodes; the largest shortfall is given.")       \
+  X(torch_range_binds, cut, "The groove rule is cut back to the torch's range here.")             \
+  X(smoothed_below_raw, cut, "The published smoothing falls below its input here.")               \
+  X(ghost_contact, cut, "The cut follows a partner beyond that member's end.")                    \
+  X(comparison_only, cut,                                                                         \
+    "Comparison only, never to be cut: B and the root are those of a published figure.")          \
+  X(free_end, cut, "This end meets no member.")                                                   \
+  X(end_open, cut, "Some generators of this end meet no cutter, so the cut is not closed.")       \
+  X(end_consumed, cut, "The cut at this end reaches beyond the member's other end.")              \
+  X(no_table, cut, "This end has no bevel table: it cannot be cut as asked, for this reason.")    \
+  X(joint_not_stated, cut,                                                                        \
+    "A hole is for a joint that the members do not state; the branch's own part is not cut so.")  \
+  X(hole_missing, cut,                                                                            \
+    "A member enters this part by what is stated, and no hole is asked for it.")                  \
+  X(members_overlap, cut,                                                                         \
+    "Two finished members share metal: neither is cut to make room for the other.")               \
+  X(wall_overhangs, cut,                                                                          \
+    "The end's wall reaches beyond its partners' sides, and stands on nothing there.")            \
+  X(mitre_steps, cut, "Two mitred members differ in diameter or miss each other: edges step.")    \
+  X(parallel_members, cut, "Two members that join are parallel; neither cuts the other.")         \
+  X(root_opens, cut, "The root is opened so that the cut can be made.")                           \
+  X(holes_meet, cut, "Two holes of the part share a piece of its wall.")                          \
+  X(hole_meets_end, cut, "A hole of the part reaches into the cut at one of its ends.")           \
+  X(unit_suspicion, cut, "The value looks as if it were given in another unit.")                  \
+  X(tube_outside_range, note, "The tube is outside the range the machine was built for.")         \
+  X(target_missed, cut, "The cycle makes fewer pieces an hour than asked for.")                   \
+  X(not_cut_through, cut, "The work feed is shorter than the tube's wall.")                       \
+  X(polynomial_window, note, "The polynomial is valid only within its time window.")              \
+  X(monotone_work_range, note,                                                                    \
+    "The speed has no maximum within the work feed; T/2 is the middle node.")                     \
+  X(root_in_bore, cut, "The root face lies below the chord's bore.")                              \
+  X(p2_inside_branch, note, "The weld's toe on the chord lies inside the branch's outer radius.") \
+  X(branch_wider, note, "The branch is wider than the chord.")                                    \
+  X(groove_angle, note, "The groove line is outside 10..80 degrees to the branch axis.")          \
+  X(root_face_cut, cut, "The mill cuts into the root face.")                                      \
+  X(window_not_reached, cut, "A position stays outside the qualification window.")                \
+  X(contour_too_coarse, cut, "The contour's points are too far apart for the tolerance.")         \
+  X(slow_zone, cut, "The tip falls below half of the asked speed here.")                          \
+  X(invariant_broken, cut, "The schedule breaks an invariant; do not run it.")                    \
+  X(standoff, cut, "The stand-off changes and this machine cannot compensate it.")                \
+  X(enters_partner, cut, "The finished cut, straight from row to row, enters a partner here.")
 
 // clang-format on
 namespace tubecut {

@@ -59,10 +59,34 @@ std::vector<Warning> warnings_of(const FeedCurveSpec& spec, const Work& work) {
   if (!work.time_at_peak)
     out.push_back({WarningCode::monotone_work_range, "cut", "the cylinder speed is monotone"});
   if (!spec.tube) return out;
-  auto notes = tube_warnings(*spec.tube);
+  if (work.end_feed - work.start_feed < spec.tube->wall)
+    out.push_back({WarningCode::not_cut_through, "cut",
+                   "the work feed is " + shown(work.end_feed - work.start_feed) +
+                       " mm long, the wall " + shown(spec.tube->wall) + " mm thick"});
+  auto notes = tube_warnings(spec.linkage, *spec.tube);
   out.insert(out.end(), std::make_move_iterator(notes.begin()),
              std::make_move_iterator(notes.end()));
   return out;
+}
+
+/// The request may name the wall twice: where it is cut, and as the tube's.
+Result<void> check_one_wall(const FeedCurveSpec& spec) {
+  const auto* cut = std::get_if<CutDistances>(&spec.cut.range);
+  if (!spec.tube || cut == nullptr || cut->wall == spec.tube->wall) return {};
+  return fail({.code = ErrorCode::unsupported_combination,
+               .member = "tube/wall",
+               .got = spec.tube->wall,
+               .limit = cut->wall,
+               .unit = "mm",
+               .hint = "the cut is through another wall than this tube's"});
+}
+
+Warning missed(const Cycle& cycle, double target) {
+  const auto& needs = cycle.target->feed;
+  return {WarningCode::target_missed, "cycle/target",
+          brief(cycle.pieces_per_hour) + " an hour of the " + brief(target) + " asked for; " +
+              (needs ? "a feed of " + brief(*needs) + " mm/s makes them"
+                     : "no feed within the limits makes them")};
 }
 
 }  // namespace
@@ -92,12 +116,15 @@ Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop) {
     auto planned = cycle(*work, *spec.cycle, stop);
     if (!planned) return tl::unexpected(planned.error());
     out.cycle = *std::move(planned);
+    if (out.cycle->target && !out.cycle->target->met)
+      out.warnings.push_back(missed(*out.cycle, *spec.cycle->target));
   }
   if (spec.tool) {
     auto figures = tool_outputs(*spec.tool, spec.tube, out.work.feed, out.fit.errors.tool_ripple);
     if (!figures) return tl::unexpected(figures.error());
     out.tool = *figures;
   }
+  if (auto ok = check_one_wall(spec); !ok) return tl::unexpected(ok.error());
   return out;
 }
 

@@ -63,7 +63,7 @@ inline constexpr double kMostTableRows = 100'000.0;
 /// linkage.
 ///
 /// Errors    those of Mechanism::make, WorkFeed::make, command, comparison, cycle and tool_outputs;
-///           out_of_range for the table.
+///           out_of_range for the table; unsupported_combination (tube/wall is not the cut's).
 /// Accuracy  strokes and speeds 1e-12 relative, accelerations 1e-12 of their largest value.
 /// Cost      under 1 us a table row or servo sample, some 3 ms a fit.
 [[nodiscard]] Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop = {});

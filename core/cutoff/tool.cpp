@@ -51,14 +51,28 @@ std::optional<Error> check_tube(const TubeSpec& tube) {
                 .unit = "mm"}};
 }
 
-std::vector<Warning> tube_warnings(const TubeSpec& tube) {
+std::optional<TubeRange> published_range(const Linkage& linkage) {
+  const bool table_3 =
+      linkage.arm == 430.0 && linkage.pivot_distance == 340.0 && linkage.pivot_offset == 90.0;
+  if (!table_3) return std::nullopt;
+  return TubeRange{.outer_diameter = {89.0, 195.0}, .wall = {6.0, 25.0}};
+}
+
+std::vector<Warning> tube_warnings(const Linkage& linkage, const TubeSpec& tube) {
+  const auto range = tube.machine ? tube.machine : published_range(linkage);
   std::vector<Warning> out;
-  if (tube.outer_diameter < 89.0 || tube.outer_diameter > 195.0)
-    out.push_back({WarningCode::tube_outside_range, "tube/outer_diameter",
-                   "the source's machine cuts 89 to 195 mm"});
-  if (tube.wall < 6.0 || tube.wall > 25.0)
-    out.push_back({WarningCode::tube_outside_range, "tube/wall",
-                   "the source's machine cuts walls of 6 to 25 mm"});
+  if (!range) return out;
+  const std::string whose =
+      tube.machine ? "the machine" : "the machine of source 004, Tables 2 and 3,";
+  const auto see = [&](double value, std::pair<double, double> taken, const char* member,
+                       const char* what) {
+    if (value >= taken.first && value <= taken.second) return;
+    out.push_back({WarningCode::tube_outside_range, member,
+                   whose + " takes " + what + " of " + shown(taken.first) + " to " +
+                       shown(taken.second) + " mm, not of " + shown(value) + " mm"});
+  };
+  see(tube.outer_diameter, range->outer_diameter, "tube/outer_diameter", "diameters");
+  see(tube.wall, range->wall, "tube/wall", "walls");
   return out;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/cutoff/linkage.hpp"
 
 namespace tubecut::cutoff {
 
@@ -15,10 +17,17 @@ struct ToolSpec {
   double kerf = 0.0;           // mm, > 0
 };
 
+/// The tubes a machine takes, mm, least and most.
+struct TubeRange {
+  std::pair<double, double> outer_diameter = {};
+  std::pair<double, double> wall = {};
+};
+
 /// The tube that is cut.
 struct TubeSpec {
   double outer_diameter = 0.0;  // mm, > 0
   double wall = 0.0;            // mm, > 0, below the radius
+  std::optional<TubeRange> machine = {};
 };
 
 /// What needs the tube's size.
@@ -54,8 +63,12 @@ struct ToolOutputs {
 /// Errors    out_of_range, not_finite, wall_too_thick.
 [[nodiscard]] std::optional<Error> check_tube(const TubeSpec& tube);
 
-/// Notes for a tube outside the range of the source's machine (diameters 89..195 mm, walls 6..25
-/// mm).
-[[nodiscard]] std::vector<Warning> tube_warnings(const TubeSpec& tube);
+/// The tubes taken by the machine with this linkage, where a source tells: that of Tables 2 and 3
+/// of source 004, diameters 89..195 mm and walls 6..25 mm. Of that of its Table 1 none are told.
+[[nodiscard]] std::optional<TubeRange> published_range(const Linkage& linkage);
+
+/// Notes for a tube outside the range of its machine: `tube.machine`, else the published one; none
+/// where neither is there.
+[[nodiscard]] std::vector<Warning> tube_warnings(const Linkage& linkage, const TubeSpec& tube);
 
 }  // namespace tubecut::cutoff

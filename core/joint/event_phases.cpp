@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "core/base/elementary.hpp"
 #include "core/joint/trig_roots.hpp"
@@ -17,6 +19,11 @@ constexpr double kLeap = 0.02;      // relative; a difference between scanned ph
 constexpr double kJump = 1e-4;      // relative; what a continuous curve cannot do within 1e-15 rad
 constexpr double kTouching = 1e-6;  // relative; kept without a sign change
 constexpr double kHair = 1e-9;      // relative; an offset that is rounding, as in is_tangent
+constexpr double kSameHeight = 1e-12;  // relative; rounding of an elbow's height
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+// A block of the scan is looked at whole where few cutters may be on top there, else in parts.
+constexpr std::size_t kBlock = 32, kParts = 4, kFew = 3;
 
 bool same_piece(const Sheets& a, const Sheets& b) {
   const double size = std::max(a.size, b.size);
@@ -40,6 +47,12 @@ std::vector<double> crossings(const Sheets& a, const Sheets& b) {
   return root_phases(unlike * unlike - 2.0 * (apart2 * (a.square + b.square)) + apart2 * apart2);
 }
 
+double size(const Prepared& cutter, const std::vector<Sheets>& sheets, double rho) {
+  if (const auto* elbow = std::get_if<PreparedElbow>(&cutter))
+    return (elbow->radius + elbow->bend_radius + rho) / elbow_sine(*elbow);
+  return std::ranges::max(sheets, {}, &Sheets::size).size;
+}
+
 double scanned(std::size_t k) { return kTwoPi * static_cast<double>(k) / kScan; }
 
 }  // namespace
@@ -59,9 +72,14 @@ EventPhases::EventPhases(std::span<const Prepared> cutters, double rho)
   for (const auto& cutter : cutters) sheets_.push_back(sheets(cutter, rho));
   for (std::size_t i = 0; i < cutters.size(); ++i)
     if (!misses(cutters[i], rho) && !repeats_an_earlier(i)) active_.push_back(i);
-  for (const auto i : active_) add_own(i);
+  sizes_.resize(cutters.size());
+  for (const auto i : active_) {
+    sizes_[i] = size(cutters[i], sheets_[i], rho);
+    add_own(i);
+  }
   for (std::size_t a = 0; a < active_.size(); ++a)
     for (std::size_t b = a + 1; b < active_.size(); ++b) add_pair(active_[a], active_[b]);
+  add_scanned();
   merge();
 }
 
@@ -101,7 +119,6 @@ double EventPhases::apart(std::size_t i, std::size_t j, double phi) const {
 }
 
 void EventPhases::add_pair(std::size_t i, std::size_t j) {
-  if (sheets_[i].empty() || sheets_[j].empty()) return add_scanned_pair(i, j);
   const double size = std::max(size_of(i), size_of(j));
   for (const auto& a : sheets_[i])
     for (const auto& b : sheets_[j])
@@ -114,47 +131,124 @@ void EventPhases::add_pair(std::size_t i, std::size_t j) {
       }
 }
 
-double EventPhases::size_of(std::size_t i) const {
-  if (const auto* elbow = std::get_if<PreparedElbow>(&cutters_[i]))
-    return (elbow->radius + elbow->bend_radius + rho_) / elbow_sine(*elbow);
-  return std::ranges::max(sheets_[i], {}, &Sheets::size).size;
+/// Height, continued beyond the silhouettes, at a phase of the scan.
+double EventPhases::scanned_height(std::size_t i, std::size_t k) {
+  auto& heights = scans_.try_emplace(i, kScan, kUnknown).first->second;
+  double& z = heights[k % kScan];
+  if (std::isnan(z)) z = continued_sheet(cutters_[i], generator_at(rho_, scanned(k % kScan)));
+  return z;
 }
 
-/// Heights, continued beyond the silhouettes, at the scan's phases and one beyond.
-const std::vector<double>& EventPhases::scan(std::size_t i) {
-  auto& heights = scans_[i];
-  for (std::size_t k = heights.size(); k <= kScan + 1; ++k)
-    heights.push_back(continued_sheet(cutters_[i], generator_at(rho_, scanned(k))));
-  return heights;
+bool EventPhases::same_height(std::size_t i, std::size_t j, std::size_t k) {
+  const double size = std::max(size_of(i), size_of(j));
+  return std::abs(scanned_height(i, k) - scanned_height(j, k)) <= kSameHeight * size;
 }
 
-/// Sign changes of z_i - z_j between neighbouring phases, and on both sides of a near miss.
-void EventPhases::add_scanned_pair(std::size_t i, std::size_t j) {
-  const auto& a = scan(i);
-  const auto& b = scan(j);
-  const auto g = [&](std::size_t k) { return a[k] - b[k]; };
+/// An elbow's crossings have no closed form. They are looked for between the phases of a scan,
+/// where the elbow can be on top at all.
+void EventPhases::add_scanned() {
+  if (active_.size() < 2 || !std::ranges::any_of(active_, [&](std::size_t i) {
+        return std::holds_alternative<PreparedElbow>(cutters_[i]);
+      }))
+    return;
+  for (std::size_t k = 0; k < kScan; k += kBlock) add_cells(k, k + kBlock, active_);
+}
+
+/// Cells `from` to `to`: parts of them where many cutters may be on top.
+void EventPhases::add_cells(std::size_t from, std::size_t to, std::vector<std::size_t> cutters) {
+  cutters = on_top(from, to, cutters);
+  if (cutters.size() < 2) return;
+  const std::size_t part = (to - from) / kParts;
+  if (cutters.size() > kFew && part > 0) {
+    for (std::size_t k = from; k < to; k += part) add_cells(k, k + part, cutters);
+    return;
+  }
+  for (std::size_t k = from; k < to; ++k) add_cell(k, cutters);
+}
+
+/// Those that may hold the profile between the phases of a scan `from` and `to` + 1. A generator
+/// there is nowhere further than `off` from the one in the middle: an elbow thicker by so much
+/// bounds its heights from above, one thinner from below.
+std::vector<std::size_t> EventPhases::on_top(std::size_t from, std::size_t to,
+                                             const std::vector<std::size_t>& cutters) const {
+  const double half = 0.5 * (scanned(to + 1) - scanned(from));
+  const auto line = generator_at(rho_, scanned(from) + half);
+  const double off = rho_ * half * (1.0 + kHair);
+  const auto height = [&](const PreparedElbow& elbow, double thicker) {
+    auto other = elbow;
+    other.radius += thicker;
+    const auto top = shape_top(other, line);
+    return top ? *top : -kInfinity;
+  };
+  double least = -kInfinity;
+  std::vector<double> most;
+  for (const auto i : cutters) {
+    const auto* elbow = std::get_if<PreparedElbow>(&cutters_[i]);
+    const bool bounded = elbow != nullptr && elbow->radius + off < elbow->bend_radius;
+    most.push_back(bounded ? height(*elbow, off) : kInfinity);
+    if (elbow != nullptr && elbow->radius > off) least = std::max(least, height(*elbow, -off));
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t c = 0; c < cutters.size(); ++c)
+    if (most[c] > -kInfinity && most[c] >= least - kHair * size_of(cutters[c]))
+      out.push_back(cutters[c]);
+  return out;
+}
+
+/// Of cutters of one height on both sides of a cell the first: bends of one tube share a leg.
+std::vector<std::size_t> EventPhases::unlike(std::size_t k,
+                                             const std::vector<std::size_t>& cutters) {
+  std::vector<std::size_t> out;
+  for (const auto j : cutters) {
+    const bool like = std::ranges::any_of(
+        out, [&](std::size_t i) { return same_height(i, j, k) && same_height(i, j, k + 1); });
+    if (!like) out.push_back(j);
+  }
+  return out;
+}
+
+void EventPhases::add_cell(std::size_t k, const std::vector<std::size_t>& cutters) {
+  const auto some = unlike(k, cutters);
+  for (std::size_t a = 0; a < some.size(); ++a)
+    for (std::size_t b = a + 1; b < some.size(); ++b)
+      if (sheets_[some[a]].empty() || sheets_[some[b]].empty()) add_in_cell(some[a], some[b], k);
+}
+
+/// Sign changes of z_i - z_j between neighbouring phases, on both sides of a near miss, and where
+/// curves part that were one.
+void EventPhases::add_in_cell(std::size_t i, std::size_t j, std::size_t k) {
+  const auto g = [&](std::size_t at) { return scanned_height(i, at) - scanned_height(j, at); };
+  const auto same = [&](std::size_t at) { return same_height(i, j, at); };
+  if (same(k) && same(k + kScan - 1)) return add_border(i, j, scanned(k), scanned(k + 1));
+  if (same(k + 1) && same(k + 2)) return add_border(i, j, scanned(k + 1), scanned(k));
   const auto close = [&](double from, double gf, double to, double gt) {
     if ((gf <= 0.0) != (gt <= 0.0))
       phases_.push_back(wrapped(close_bracket(i, j, from, gf, to, gt)));
   };
-  for (std::size_t k = 0; k < kScan; ++k) {
-    close(scanned(k), g(k), scanned(k + 1), g(k + 1));
-    const double side = g(k + 1) <= 0.0 ? -1.0 : 1.0;
-    const bool turns = side * g(k + 1) <= std::min(side * g(k), side * g(k + 2));
-    if (!turns || side * g(k) < 0.0 || side * g(k + 2) < 0.0) continue;
-    const auto nearest = math::golden_maximum([&](double phi) { return -side * apart(i, j, phi); },
-                                              scanned(k), scanned(k + 2));
-    close(scanned(k), g(k), nearest.at, -side * nearest.value);
-    close(nearest.at, -side * nearest.value, scanned(k + 2), g(k + 2));
-  }
+  close(scanned(k), g(k), scanned(k + 1), g(k + 1));
+  const double side = g(k + 1) <= 0.0 ? -1.0 : 1.0;
+  const bool turns = side * g(k + 1) <= std::min(side * g(k), side * g(k + 2));
+  if (!turns || side * g(k) < 0.0 || side * g(k + 2) < 0.0) return;
+  const auto nearest = math::golden_maximum([&](double phi) { return -side * apart(i, j, phi); },
+                                            scanned(k), scanned(k + 2));
+  close(scanned(k), g(k), nearest.at, -side * nearest.value);
+  close(nearest.at, -side * nearest.value, scanned(k + 2), g(k + 2));
+}
+
+void EventPhases::add_border(std::size_t i, std::size_t j, double inside, double outside) {
+  const double size = std::max(size_of(i), size_of(j));
+  const auto same = [&](double share) {
+    return std::abs(apart(i, j, inside + share * (outside - inside))) <= kSameHeight * size;
+  };
+  phases_.push_back(wrapped(inside + math::last_true(same, 0.0, 1.0) * (outside - inside)));
 }
 
 std::optional<double> EventPhases::hidden_at(std::size_t i) {
-  const auto& z = scan(i);
+  const auto z = [&](std::size_t k) { return scanned_height(i, k); };
   const double size = size_of(i);
   for (std::size_t k = 0; k < kScan; ++k) {
-    if (!(std::abs(z[k + 1] - z[k]) > kLeap * size)) continue;
-    double from = scanned(k), to = scanned(k + 1), zf = z[k], zt = z[k + 1];
+    if (!(std::abs(z(k + 1) - z(k)) > kLeap * size)) continue;
+    double from = scanned(k), to = scanned(k + 1), zf = z(k), zt = z(k + 1);
     for (int step = 0; step < 45; ++step) {
       const double mid = 0.5 * (from + to);
       const double zm = continued_sheet(cutters_[i], generator_at(rho_, mid));

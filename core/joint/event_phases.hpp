@@ -36,8 +36,8 @@ class EventPhases {
   /// Ascending, [0, 2 pi), no two the same.
   [[nodiscard]] const std::vector<double>& phases() const { return phases_; }
   [[nodiscard]] const std::vector<Kink>& kinks() const { return kinks_; }
-  /// A length the rounding of this cutter's z is proportional to.
-  [[nodiscard]] double size_of(std::size_t i) const;
+  /// A length the rounding of this active cutter's z is proportional to.
+  [[nodiscard]] double size_of(std::size_t i) const { return sizes_[i]; }
   /// An elbow's highest sheet ends at a silhouette of its own while a lower one is met: z jumps
   /// from the cutter to itself.
   [[nodiscard]] std::optional<double> hidden_at(std::size_t i);
@@ -47,10 +47,19 @@ class EventPhases {
   void add_own(std::size_t i);
   void add_kink(double phi, std::size_t i);
   void add_pair(std::size_t i, std::size_t j);
-  void add_scanned_pair(std::size_t i, std::size_t j);
+  void add_scanned();
+  void add_cells(std::size_t from, std::size_t to, std::vector<std::size_t> cutters);
+  void add_cell(std::size_t k, const std::vector<std::size_t>& cutters);
+  void add_in_cell(std::size_t i, std::size_t j, std::size_t k);
+  void add_border(std::size_t i, std::size_t j, double inside, double outside);
+  [[nodiscard]] std::vector<std::size_t> on_top(std::size_t from, std::size_t to,
+                                                const std::vector<std::size_t>& cutters) const;
+  [[nodiscard]] std::vector<std::size_t> unlike(std::size_t k,
+                                                const std::vector<std::size_t>& cutters);
   void merge();
   [[nodiscard]] double apart(std::size_t i, std::size_t j, double phi) const;
-  [[nodiscard]] const std::vector<double>& scan(std::size_t i);
+  [[nodiscard]] double scanned_height(std::size_t i, std::size_t k);
+  [[nodiscard]] bool same_height(std::size_t i, std::size_t j, std::size_t k);
   [[nodiscard]] std::optional<double> polish(std::size_t i, std::size_t j, double near) const;
   [[nodiscard]] double close_bracket(std::size_t i, std::size_t j, double a, double ga, double b,
                                      double gb) const;
@@ -59,7 +68,8 @@ class EventPhases {
   double rho_;
   std::vector<std::vector<Sheets>> sheets_;  // of each cutter, its pieces
   std::vector<std::size_t> active_;
-  std::map<std::size_t, std::vector<double>> scans_;
+  std::vector<double> sizes_;                         // of the active ones
+  std::map<std::size_t, std::vector<double>> scans_;  // NaN: not looked at yet
   std::vector<double> phases_;
   std::vector<Kink> kinks_;
 };

@@ -31,6 +31,7 @@ class Divider {
   std::optional<Division::Hidden> hidden() {
     for (const auto i : found_.active()) {
       if (!std::holds_alternative<PreparedElbow>(cutters_[i])) continue;
+      if (std::ranges::find(labels_, Label(i)) == labels_.end()) continue;  // nowhere on top
       const auto phi = found_.hidden_at(i);
       if (phi && (label_at(*phi - kBeside) == i || label_at(*phi + kBeside) == i))
         return Division::Hidden{i, *phi};

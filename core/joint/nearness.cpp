@@ -1,5 +1,6 @@
 #include "core/joint/nearness.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -129,6 +130,20 @@ Nearness nearness(const Vector3d& point, const Stretch& stretch) {
   const double at = std::clamp((point - stretch.start).dot(unit), 0.0, length);
   return {.distance = (point - (stretch.start + at * unit)).norm(),
           .inside = std::min(at, length - at)};
+}
+
+// The least distance is between the lines' nearest points where both lie within, else at an end.
+double nearness(const Stretch& a, const Stretch& b) {
+  const Vector3d u = a.finish - a.start, v = b.finish - b.start, w = b.start - a.start;
+  const Vector3d n = u.cross(v);
+  double out = std::min({nearness(a.start, b).distance, nearness(a.finish, b).distance,
+                         nearness(b.start, a).distance, nearness(b.finish, a).distance});
+  const double square = n.squaredNorm();
+  if (!(square > 0.0)) return out;
+  const double s = w.cross(v).dot(n) / square, t = w.cross(u).dot(n) / square;
+  if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)
+    out = std::min(out, std::abs(w.dot(n)) / std::sqrt(square));
+  return out;
 }
 
 Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size_t most,

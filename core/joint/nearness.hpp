@@ -23,6 +23,8 @@ struct Nearness {
   double inside = 0.0;  // >= 0; 0 where the nearest point is an end
 };
 [[nodiscard]] Nearness nearness(const Eigen::Vector3d& point, const Stretch& stretch);
+/// Least distance of two stretches' axes.
+[[nodiscard]] double nearness(const Stretch& a, const Stretch& b);
 
 /// The end of one stretch within the reach of another.
 struct Touch {

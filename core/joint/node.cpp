@@ -16,21 +16,16 @@ using Eigen::Vector3d;
 
 constexpr double kEquallyNear = 1e-6;                  // mm: two chords at the same distance
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
+constexpr double kStep = 0.01;  // mm between two mitred edges: as good as none
+
+using detail::Applied;
+using detail::between_axes;
+using detail::called;
+using detail::goes_before;
+using detail::Joined;
+using detail::sine_between;
 
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
-std::string called(const NodeSpec& spec, std::size_t member) {
-  const auto& name = spec.members[member].name;
-  return name.empty() ? "member " + std::to_string(member) : name;
-}
-
-/// Does `a` cut `b` where they join? A total order, so two members never cut each other.
-bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b) {
-  const auto& p = spec.members[a];
-  const auto& q = spec.members[b];
-  if (p.priority != q.priority) return p.priority < q.priority;
-  if (p.outer_radius != q.outer_radius) return p.outer_radius > q.outer_radius;
-  return a < b;
-}
 bool alike(const Member& a, const Member& b) {
   return a.priority == b.priority && a.outer_radius == b.outer_radius;
 }
@@ -54,9 +49,6 @@ Result<void> check(const NodeSpec& spec) {
   }
   return {};
 }
-
-/// What joins each end: others in index order, with how near they are.
-using Joined = std::vector<std::vector<Touch>>;
 
 Result<Joined> joined_within(const NodeSpec& spec, double distance, const std::stop_token& stop) {
   std::vector<Stretch> stretches;
@@ -86,14 +78,21 @@ Result<Joined> joined_by(const NodeSpec& spec, const std::vector<Link>& links) {
   return out;
 }
 
+/// One member that cuts an end: its tube, or a mitre's plane.
+struct Cutting {
+  Touch touch;
+  const detail::Mitre* mitre = nullptr;
+};
+
 /// Two members that pass this end, alike in rank and equally near: which one is the chord?
-Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Touch>& above, double within) {
+Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Cutting>& above,
+                             double within) {
   const Touch* nearest = nullptr;
   const Touch* second = nullptr;
-  for (const auto& touch : above) {
+  for (const auto& [touch, mitre] : above) {
     const auto& other = spec.members[touch.other];
     const bool passing = touch.near.inside > within + other.outer_radius;
-    if (!passing || !alike(other, spec.members[above.front().other])) continue;
+    if (!passing || !alike(other, spec.members[above.front().touch.other])) continue;
     if (nearest == nullptr || touch.near.distance < nearest->near.distance)
       second = std::exchange(nearest, &touch);
     else if (second == nullptr || touch.near.distance < second->near.distance)
@@ -134,52 +133,93 @@ Result<MemberFrame> frame_of(const NodeSpec& spec, std::size_t member, End end,
   return frame;
 }
 
-/// Sine of the angle between two members.
-double sine_between(const Member& a, const Member& b) {
-  return (a.finish - a.start).normalized().cross((b.finish - b.start).normalized()).norm();
-}
-
 /// The cutters of one end, the chord first; parallel members are noted and do not cut.
-std::vector<Touch> cutters_of(const NodeSpec& spec, std::size_t member, End end,
-                              const std::vector<Touch>& joined, std::vector<Warning>& warnings) {
-  std::vector<Touch> out;
+std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const Applied& applied,
+                                const std::vector<Touch>& joined, std::vector<Warning>& warnings) {
+  const auto member = index / 2;
+  const auto at = place_of(member, index % 2 == 0 ? End::start : End::finish);
+  std::vector<Cutting> out;
   for (const auto& touch : joined) {
+    if (const auto mitre = applied.mitres.find({index, touch.other});
+        mitre != applied.mitres.end()) {
+      out.push_back({touch, &mitre->second});
+      continue;
+    }
     const double sine = sine_between(spec.members[member], spec.members[touch.other]);
     if (!goes_before(spec, touch.other, member)) continue;
     if (sine < 2.0 * kParallel) {
       warnings.push_back(
           {.code = WarningCode::parallel_members,
-           .member = place_of(member, end),
+           .member = at,
            .detail = called(spec, touch.other) + " is parallel and does not cut it"});
       continue;
     }
     if (sine < kNearParallel)
       warnings.push_back({.code = WarningCode::near_parallel,
-                          .member = place_of(member, end),
+                          .member = at,
                           .detail = called(spec, touch.other) + " is within 5 deg of parallel"});
-    out.push_back(touch);
+    out.push_back({touch});
   }
-  std::ranges::sort(
-      out, [&](const Touch& a, const Touch& b) { return goes_before(spec, a.other, b.other); });
+  std::ranges::sort(out, [&](const Cutting& a, const Cutting& b) {
+    return goes_before(spec, a.touch.other, b.touch.other);
+  });
   return out;
 }
 
-Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Member& member,
-                                         const MemberFrame& frame,
-                                         const std::vector<Touch>& cutters) {
+/// The first cutter that points somewhere: with it phase zero is found.
+const Cutting* chord_of(const NodeSpec& spec, std::size_t member,
+                        const std::vector<Cutting>& cutters) {
+  for (const auto& one : cutters)
+    if (sine_between(spec.members[member], spec.members[one.touch.other]) >= 2.0 * kParallel)
+      return &one;
+  return nullptr;
+}
+
+std::optional<Joint> joint_with(const NodeSpec& spec, const Applied& applied, std::size_t member,
+                                std::size_t other) {
+  const auto stated = applied.joints.find(std::minmax(member, other));
+  if (stated == applied.joints.end()) return std::nullopt;
+  auto out = stated->second;
+  if (out.kind == JointKind::set_in && !out.depth) out.depth = spec.members[other].wall;
+  return out;
+}
+
+Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& applied,
+                                         std::size_t member, const MemberFrame& frame,
+                                         const Cutting* chord,
+                                         const std::vector<Cutting>& cutters) {
   std::vector<CutBy> out;
-  for (const auto& touch : cutters) {
+  for (const auto& one : cutters) {
+    const auto& [touch, mitre] = one;
     const auto& other = spec.members[touch.other];
-    auto placed = place(frame.local(AxisLine{other.start, other.finish - other.start}),
-                        other.outer_radius, place_of(touch.other));
-    if (!placed) return tl::unexpected(placed.error());
-    if (!member.up && out.empty()) placed->tube.clocking = Angle{};  // the frame was made so
-    out.push_back({.member = touch.other,
-                   .placement = *placed,
-                   .gap = touch.near.distance,
-                   .eccentricity = std::abs(placed->tube.offset)});
+    CutBy cut{.member = touch.other,
+              .placement = {},
+              .stated = joint_with(spec, applied, member, touch.other),
+              .gap = touch.near.distance};
+    const AxisLine axis{other.start, other.finish - other.start};
+    if (mitre != nullptr) {
+      cut.plane = PlaneCutter{frame.local(mitre->point), frame.rows * mitre->normal};
+      cut.eccentricity = between_axes(spec.members[member], other);
+    } else {
+      auto placed = place(frame.local(axis), other.outer_radius, place_of(touch.other));
+      if (!placed) return tl::unexpected(placed.error());
+      // The frame was made so.
+      if (!spec.members[member].up && &one == chord) placed->tube.clocking = Angle{};
+      cut.placement = *placed;
+      cut.eccentricity = std::abs(placed->tube.offset);
+    }
+    out.push_back(std::move(cut));
   }
   return out;
+}
+
+/// How far the outer edges of two mitred ends stand apart at most: both are ellipses in one plane,
+/// leaning alike, their centres the axes' distance apart.
+double mitre_step(const NodeSpec& spec, std::size_t member, const CutBy& cut) {
+  if (!cut.plane) return 0.0;
+  const double wider =
+      std::abs(spec.members[member].outer_radius - spec.members[cut.member].outer_radius);
+  return wider / cut.plane->normal.normalized().z() + cut.eccentricity;
 }
 
 void warn(const NodeSpec& spec, const MemberEnd& end, bool by_distance, std::vector<Warning>& out) {
@@ -193,28 +233,35 @@ void warn(const NodeSpec& spec, const MemberEnd& end, bool by_distance, std::vec
       out.push_back({.code = WarningCode::ghost_contact,
                      .member = at,
                      .detail = "cut by " + called(spec, cut.member) + " beyond that member's end"});
+  for (const auto& cut : end.cut_by)
+    if (const double step = mitre_step(spec, end.member, cut); step > kStep)
+      out.push_back({.code = WarningCode::mitre_steps,
+                     .member = at,
+                     .detail = "its edge and that of " + called(spec, cut.member) +
+                               " stand up to " + shown(step) + " mm apart"});
   if (end.open) out.push_back({.code = WarningCode::end_open, .member = at});
   if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
 }
 
-Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index,
+Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Applied& applied,
                             const std::vector<Touch>& joined, std::vector<Warning>& warnings) {
   MemberEnd out{.member = index / 2, .end = index % 2 == 0 ? End::start : End::finish};
   out.free = joined.empty();
   const auto* within = std::get_if<Within>(&spec.connect);
-  const auto cutters = cutters_of(spec, out.member, out.end, joined, warnings);
+  const auto cutters = cutters_of(spec, index, applied, joined, warnings);
   if (within != nullptr && !cutters.empty())
     if (auto ok = check_ambiguous(spec, cutters, within->distance); !ok)
       return tl::unexpected(ok.error());
+  const auto* first = chord_of(spec, out.member, cutters);
   std::optional<Vector3d> chord;
-  if (!cutters.empty()) {
-    const auto& first = spec.members[cutters.front().other];
-    chord = first.finish - first.start;
+  if (first != nullptr) {
+    const auto& m = spec.members[first->touch.other];
+    chord = m.finish - m.start;
   }
   const auto frame = frame_of(spec, out.member, out.end, chord);
   if (!frame) return tl::unexpected(frame.error());
   out.frame = *frame;
-  auto placed = place_cutters(spec, spec.members[out.member], out.frame, cutters);
+  auto placed = place_cutters(spec, applied, out.member, out.frame, first, cutters);
   if (!placed) return tl::unexpected(placed.error());
   out.cut_by = *std::move(placed);
   if (!out.cut_by.empty()) detail::inspect(spec, out);
@@ -224,92 +271,21 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index,
 
 }  // namespace
 
-std::string place_of(std::size_t member, End end) {
-  return place_of(member) + (end == End::start ? "/start" : "/end");
-}
-
 Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
   if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());
   const auto* within = std::get_if<Within>(&spec.connect);
-  const auto joined = within != nullptr
-                          ? joined_within(spec, within->distance, stop)
-                          : joined_by(spec, std::get<std::vector<Link>>(spec.connect));
+  auto joined = within != nullptr ? joined_within(spec, within->distance, stop)
+                                  : joined_by(spec, std::get<std::vector<Link>>(spec.connect));
   if (!joined) return tl::unexpected(joined.error());
+  const auto applied = detail::apply_joints(spec, *joined);
+  if (!applied) return tl::unexpected(applied.error());
   Nodes out;
   out.ends.reserve(joined->size());
   for (std::size_t i = 0; i < joined->size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    auto end = solve_end(spec, i, (*joined)[i], out.warnings);
+    auto end = solve_end(spec, i, *applied, (*joined)[i], out.warnings);
     if (!end) return tl::unexpected(end.error());
     out.ends.push_back(*std::move(end));
-  }
-  return out;
-}
-
-EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end) {
-  const auto& m = spec.members[end.member];
-  EndJoint out{.target = {.outer_radius = m.outer_radius,
-                          .wall = m.wall,
-                          .length = (m.finish - m.start).norm()},
-               .partners = {},
-               .member = end.member,
-               .cutters = {},
-               .warnings = {}};
-  for (const auto& cut : end.cut_by) {
-    out.partners.emplace_back(cut.placement.tube);
-    out.cutters.push_back(cut.member);
-  }
-  return out;
-}
-
-Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
-                          const std::stop_token& stop) {
-  const auto nodes = solve(spec, stop);
-  if (!nodes) return tl::unexpected(nodes.error());
-  const auto at = place_of(member, end);
-  const auto& found = nodes->ends[2 * member + (end == End::finish ? 1 : 0)];
-  if (found.cut_by.empty())
-    return fail({.code = ErrorCode::no_contact,
-                 .member = at,
-                 .hint = found.free ? "this end joins no member"
-                                    : "no member that joins this end cuts it"});
-  auto out = joint_of(spec, found);
-  for (const auto& warning : nodes->warnings)
-    if (warning.member == at && warning.code != WarningCode::near_parallel)
-      out.warnings.push_back(warning);
-  return out;
-}
-
-Result<std::vector<std::optional<Intersection>>> profiles(const NodeSpec& spec, const Nodes& nodes,
-                                                          const Sampling& sampling,
-                                                          const std::stop_token& stop) {
-  std::vector<std::optional<Intersection>> out(nodes.ends.size());
-  auto left = sampling;
-  for (std::size_t i = 0; i < nodes.ends.size(); ++i) {
-    const auto& end = nodes.ends[i];
-    if (end.cut_by.empty() || end.open || end.consumed) continue;
-    auto joint = joint_of(spec, end);
-    auto curves = intersect({.target = joint.target,
-                             .partners = std::move(joint.partners),
-                             .surfaces = Surfaces::both,
-                             .sampling = left},
-                            stop);
-    if (!curves) {
-      const auto code = curves.error().code();
-      if (code == ErrorCode::member_consumed || code == ErrorCode::open_profile ||
-          code == ErrorCode::no_contact)
-        continue;
-      return tl::unexpected(curves.error());
-    }
-    std::size_t used = 0;
-    for (const auto& profile : curves->profiles) used += profile.phi.size();
-    if (used > left.max_nodes)
-      return fail({.code = ErrorCode::too_many_nodes,
-                   .member = "sampling",
-                   .got = static_cast<double>(sampling.max_nodes - left.max_nodes + used),
-                   .limit = static_cast<double>(sampling.max_nodes)});
-    left.max_nodes -= used;
-    out[i] = *std::move(curves);
   }
   return out;
 }

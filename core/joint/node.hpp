@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/joint/intersection.hpp"
+#include "core/joint/joint.hpp"
 #include "core/joint/placement.hpp"
 
 namespace tubecut::joint {
@@ -48,19 +49,25 @@ struct Link {
 
 /// Members that meet at one or more nodes. Of two that join, the one with the lower priority
 /// number, then the larger diameter, then the earlier place in the list cuts the other: two never
-/// cut each other.
+/// cut each other. Two whose joint nobody states are set on without a gap.
 struct NodeSpec {
   std::vector<Member> members;
   std::variant<Within, std::vector<Link>> connect;
+  std::vector<StatedJoint> joints = {};  // said by either of the two, or alike by both
 };
+
+/// What members state of their joint; nullptr where neither does. Of two that differ, the first.
+[[nodiscard]] const Joint* stated_joint(const NodeSpec& spec, std::size_t a, std::size_t b);
 
 /// One member that cuts an end. Lengths in mm.
 struct CutBy {
   std::size_t member = 0;
-  Placement placement;        // in the frame of the end; its line's point is the member's start
-  double gap = 0.0;           // from the end to the member's axis between its ends
-  double eccentricity = 0.0;  // least distance of the two axes, >= 0
-  bool ghost = false;         // the cut follows it beyond one of its own ends
+  Placement placement;  // in the frame of the end; its line's point is the member's start
+  std::optional<PlaneCutter> plane = {};  // of a mitre, in the same frame: cuts instead of the tube
+  std::optional<Joint> stated = {};       // how they are joined, if stated; set-in with its depth
+  double gap = 0.0;                       // from the end to the member's axis between its ends
+  double eccentricity = 0.0;              // least distance of the two axes, >= 0
+  bool ghost = false;                     // the cut follows it beyond one of its own ends
 };
 
 /// One end of one member, and what is cut there.
@@ -74,6 +81,11 @@ struct MemberEnd {
   bool consumed = false;      // the cut reaches beyond the member's other end
 };
 
+/// What cuts: the member's tube, or a mitre's plane.
+[[nodiscard]] Partner partner_of(const CutBy& cut);
+/// The surface the end lies on: as `partner_of`, at the joint's seat.
+[[nodiscard]] Cutter seat_of(const CutBy& cut);
+
 struct Nodes {
   std::vector<MemberEnd> ends;  // start and finish of each member, in their order
   std::vector<Warning> warnings;
@@ -83,9 +95,15 @@ struct Nodes {
 /// 000's, with which its chord has clocking 0; an end without cutters takes the world axis
 /// furthest from its own (the first of equals).
 ///
+/// A joint that is stated changes who cuts: through, neither the other; mitre, a plane both. The
+/// plane passes where the axes are nearest to each other (parallel axes: midway between the ends)
+/// and leans alike to both.
+///
 /// Errors    zero_length, bad_reference_direction (members/i...); wrong_count (more than
 ///           kMostCutters join one end); ambiguous_connection (two passing members, alike in
-///           priority and diameter, equally near); out_of_range (a link's index); cancelled.
+///           priority and diameter, equally near); joint_contradicts, no_contact, out_of_range
+///           (members/i/joints/j: both sides differ; the two do not meet; the depth); out_of_range
+///           (a link's index); cancelled.
 /// Accuracy  world -> numbers -> world 1e-12 relative (worst seen: see tests/core/joint/node_test).
 /// Cost      memory linear in members; time as `touches`, and 1 us for each cutter, 10 us for each
 ///           end whose cut may pass its partners' ends.
@@ -97,6 +115,7 @@ struct Nodes {
 struct EndJoint {
   Target target;
   std::vector<Partner> partners;
+  std::vector<std::optional<Joint>> stated;  // of each partner
   std::size_t member = 0;
   std::vector<std::size_t> cutters;
   std::vector<Warning> warnings;  // those of `solve` about this end
@@ -109,6 +128,8 @@ struct EndJoint {
 [[nodiscard]] Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
                                         const std::stop_token& stop = {});
 [[nodiscard]] EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end);
+/// The surfaces the end lies on, for its curves.
+[[nodiscard]] std::vector<Partner> seats(const EndJoint& joint);
 
 /// The curves of every end that is cut all round: the others, and those whose member is consumed,
 /// have none. Errors  too_many_nodes (of all ends together), cancelled.

@@ -7,19 +7,23 @@
 namespace tubecut::joint::detail {
 namespace {
 
+using Eigen::Vector3d;
+
 constexpr std::size_t kScan = 180;  // generators looked at for ghosts and the highest z
 
 std::vector<Prepared> prepared(const MemberEnd& end) {
   std::vector<Prepared> out;
   for (const auto& cut : end.cut_by)
-    if (auto one = prepare(Cutter{cut.placement.tube}, "")) out.push_back(*one);
+    if (auto one = prepare(seat_of(cut), "")) out.push_back(*one);
   return out;
 }
 
 /// Every generator of radius rho meets some cutter.
-bool closed(const MemberEnd& end, std::span<const Prepared> cutters, double rho) {
-  for (const auto& cut : end.cut_by)
-    if (std::abs(cut.placement.tube.offset) + rho <= cut.placement.tube.radius) return true;
+bool closed(std::span<const Prepared> cutters, double rho) {
+  for (const auto& cutter : cutters) {
+    const auto* tube = std::get_if<PreparedTube>(&cutter);
+    if (tube == nullptr || std::abs(tube->offset) + rho <= tube->radius) return true;
+  }
   return divide(cutters, rho).open.empty();
 }
 
@@ -27,7 +31,12 @@ bool closed(const MemberEnd& end, std::span<const Prepared> cutters, double rho)
 struct Bounds {
   double z, axial;
 };
-Bounds bounds(const TubeCutter& t, double rho) {
+Bounds bounds(const Cutter& cutter, double rho) {
+  if (const auto* plane = std::get_if<PlaneCutter>(&cutter)) {
+    const Vector3d n = plane->normal / plane->normal.z();
+    return {plane->point.dot(n) + rho * elementary::hypot(n.x(), n.y()), 0.0};
+  }
+  const auto& t = std::get<TubeCutter>(cutter);
   const auto turn = elementary::sincos(t.inclination.rad());
   return {t.height + (t.radius + rho * std::abs(turn.cos)) / turn.sin,
           (t.radius * std::abs(turn.cos) + rho) / turn.sin};
@@ -51,6 +60,7 @@ void scan(const NodeSpec& spec, std::span<const Prepared> cutters, double rho, d
     if (!top) continue;
     end.consumed = end.consumed || top->z > length;
     auto& cut = end.cut_by[top->cutter];
+    if (cut.plane) continue;
     if (const auto at = hit(cutters[top->cutter], line))
       cut.ghost = cut.ghost || beyond(spec.members[cut.member], cut, at->axial);
   }
@@ -63,9 +73,10 @@ void inspect(const NodeSpec& spec, MemberEnd& end) {
   const double length = (m.finish - m.start).norm();
   const auto cutters = prepared(end);
   for (const double rho : {m.outer_radius - m.wall, m.outer_radius}) {
-    end.open = end.open || !closed(end, cutters, rho);
+    end.open = end.open || !closed(cutters, rho);
     const bool nothing = std::ranges::all_of(end.cut_by, [&](const CutBy& cut) {
-      const auto most = bounds(cut.placement.tube, rho);
+      const auto most = bounds(seat_of(cut), rho);
+      if (cut.plane) return most.z < length;
       return most.z < length && !beyond(spec.members[cut.member], cut, most.axial) &&
              !beyond(spec.members[cut.member], cut, -most.axial);
     });

@@ -1,9 +1,44 @@
 #pragma once
 
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/joint/nearness.hpp"
 #include "core/joint/node.hpp"
 
 /// For `solve` only.
 namespace tubecut::joint::detail {
+
+/// Does `a` cut `b` where they join? A total order, so two members never cut each other.
+[[nodiscard]] bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b);
+/// The member's name, or "member 3".
+[[nodiscard]] std::string called(const NodeSpec& spec, std::size_t member);
+/// Sine of the angle between two members.
+[[nodiscard]] double sine_between(const Member& a, const Member& b);
+
+/// Least distance of the two axes, prolonged.
+[[nodiscard]] double between_axes(const Member& a, const Member& b);
+
+/// What joins each end: others in index order, with how near they are.
+using Joined = std::vector<std::vector<Touch>>;
+
+/// The plane of a mitre in the world; `normal` points into the member whose end is asked for.
+struct Mitre {
+  Eigen::Vector3d point, normal;
+};
+/// What is stated, once applied.
+struct Applied {
+  using Pair = std::pair<std::size_t, std::size_t>;
+  std::map<Pair, Joint> joints;  // of two members, the earlier first
+  std::map<Pair, Mitre> mitres;  // of an end (2 i, 2 i + 1) and the member it is mitred with
+};
+
+/// Applies what is stated to what joins: members that pass through each other are parted, those
+/// mitred join at the two ends that are nearest to each other, and there alone.
+/// Errors  joint_contradicts, no_contact, out_of_range (members/i/joints/j).
+[[nodiscard]] Result<Applied> apply_joints(const NodeSpec& spec, Joined& joined);
 
 /// Sets open, consumed and the ghosts of one end; the scan is left out where bounds already say
 /// that there is nothing to find.

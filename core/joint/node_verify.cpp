@@ -53,7 +53,30 @@ double to_axis(const Vector3d& p, const Member& m) {
   return between_ends ? (p - m.start).cross(along).norm() / along.norm() : ends;
 }
 
+/// A mitre's plane leans alike to both members, the end's own before it and the other behind it;
+/// midway between them, its point is as far from both axes.
+void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& worst) {
+  const auto& member = spec.members[end.member];
+  const auto& other = spec.members[cut.member];
+  const Vector3d normal = (end.frame.rows.transpose() * cut.plane->normal).normalized();
+  const Vector3d point = end.frame.origin + end.frame.rows.transpose() * cut.plane->point;
+  const Vector3d own = end.frame.rows.row(2);
+  Vector3d along = (other.finish - other.start).normalized();
+  if (along.dot(normal) > 0.0) along = -along;
+  worst.angle = std::max(
+      worst.angle, std::abs(between(own, normal) + between(along, normal) - kPi) * kDegPerRad);
+  const double scale = (member.start - point).norm() + (other.start - point).norm();
+  const auto aside = [&](const Member& m) {
+    return from_line(point, {m.start, (m.finish - m.start).normalized()});
+  };
+  worst.axis = std::max(worst.axis, std::abs(aside(member) - aside(other)) / scale);
+  worst.eccentricity = std::max(worst.eccentricity,
+                                std::abs(aside(member) + aside(other) - cut.eccentricity) / scale);
+  worst.gap = std::max(worst.gap, std::abs(to_axis(end.frame.origin, other) - cut.gap) / scale);
+}
+
 void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& worst) {
+  if (cut.plane) return see_mitre(spec, end, cut, worst);
   const auto& member = spec.members[end.member];
   const auto& other = spec.members[cut.member];
   const auto& t = cut.placement.tube;
@@ -90,12 +113,17 @@ double frame_error(const NodeSpec& spec, const MemberEnd& end) {
                    (end.frame.origin - m.at(end.end)).norm()});
 }
 
-/// Cuts against the rule of priority, diameter and order, or in both directions.
+/// Cuts against the rule of priority, diameter and order, or in both directions; mitres in one.
 double wrong_cuts(const NodeSpec& spec, const Nodes& nodes) {
-  std::set<std::pair<std::size_t, std::size_t>> cuts;
+  std::set<std::pair<std::size_t, std::size_t>> cuts, mitres;
   double wrong = 0.0;
   for (const auto& end : nodes.ends)
+    for (const auto& cut : end.cut_by)
+      if (cut.plane) mitres.insert({end.member, cut.member});
+  for (const auto& [a, b] : mitres) wrong += mitres.contains({b, a}) ? 0.0 : 1.0;
+  for (const auto& end : nodes.ends)
     for (const auto& cut : end.cut_by) {
+      if (cut.plane) continue;
       const auto& by = spec.members[cut.member];
       const auto& of = spec.members[end.member];
       const bool lower = by.priority > of.priority ||

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/base/elementary.hpp"
@@ -147,6 +148,28 @@ Eigen::Vector3d Solid::normal(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d from = point - point_;
   const Eigen::Vector3d radial = (from - from.dot(direction_) * direction_).normalized();
   return kind_ == Kind::tube ? radial : Eigen::Vector3d(cosine_ * radial - sine_ * direction_);
+}
+
+double Solid::nearest_share(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+  const Eigen::Vector3d way = b - a;
+  if (kind_ == Kind::plane) return way.dot(direction_) < 0.0 ? 1.0 : 0.0;
+  const Eigen::Vector3d across = way - way.dot(direction_) * direction_;
+  const double square = across.squaredNorm();
+  return square > 0.0 ? std::clamp((point_ - a).dot(across) / square, 0.0, 1.0) : 0.0;
+}
+
+double Solid::most_bent(double from) const {
+  if (kind_ == Kind::plane) return 0.0;
+  const double from_axis = radius_ + from;
+  return from_axis > 0.0 ? 1.0 / from_axis : std::numeric_limits<double>::infinity();
+}
+
+// The centre line, an arc of at most half a turn with its legs, is nowhere nearer to itself than
+// its bend radius R: within s < R of it the distance bends inwards by at most 1/(R - s).
+double Solid::most_hollow(double to) const {
+  if (kind_ != Kind::elbow) return 0.0;
+  const double room = bend_radius_ - std::max(0.0, radius_ + to);
+  return room > 0.0 ? 1.0 / room : std::numeric_limits<double>::infinity();
 }
 
 std::optional<double> Solid::top(double x, double y) const {

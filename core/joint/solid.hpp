@@ -31,6 +31,14 @@ class Solid {
   }
   /// Radius of a tube, 0 of a plane: the scale of rounding.
   [[nodiscard]] double radius() const { return radius_; }
+  /// Where a straight way from `a` to `b` comes nearest to a plain solid (deepest, if it enters),
+  /// 0..1 of the way. Exact.
+  [[nodiscard]] double nearest_share(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+  /// Bounds of the distance's second derivative along any unit direction, 1/mm. `most_bent`: from
+  /// above, for a plain solid, where the distance is at least `from`. `most_hollow`: how far below
+  /// zero it falls where the distance is at most `to`; 0 for a convex solid.
+  [[nodiscard]] double most_bent(double from) const;
+  [[nodiscard]] double most_hollow(double to) const;
 
  private:
   enum class Kind { tube, plane, box, cone, elbow };

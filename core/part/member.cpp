@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/overlap.hpp"
 #include "core/part/edge.hpp"
 #include "core/part/place.hpp"
 
@@ -22,12 +24,23 @@ Vector3d into(const joint::Member& m, End end) {
   return m.at(end == End::start ? End::finish : End::start) - m.at(end);
 }
 
+/// A mitre's plane, seen from another frame at the same end.
+joint::PlaneCutter turned(const joint::PlaneCutter& plane, const MemberFrame& from,
+                          const MemberFrame& to) {
+  const Eigen::Matrix3d turn = to.rows * from.rows.transpose();
+  return {turn * plane.point, turn * plane.normal};
+}
+
 /// The partners of an end, seen from `frame`.
 Result<std::vector<joint::Partner>> partners(const joint::NodeSpec& node, const MemberEnd& end,
                                              const MemberFrame& frame) {
   std::vector<joint::Partner> out;
   const bool same = frame.rows == end.frame.rows;
   for (const auto& cut : end.cut_by) {
+    if (cut.plane) {
+      out.emplace_back(same ? *cut.plane : turned(*cut.plane, end.frame, frame));
+      continue;
+    }
     const auto& m = node.members[cut.member];
     const auto placed = same
                             ? Result<joint::Placement>(cut.placement)
@@ -69,7 +82,8 @@ Mark mark_of(const joint::Member& branch, End end, const MemberFrame& frame, dou
 }
 
 bool cut_by(const MemberEnd& end, std::size_t member) {
-  return std::ranges::any_of(end.cut_by, [&](const auto& c) { return c.member == member; });
+  return std::ranges::any_of(end.cut_by,
+                             [&](const auto& c) { return c.member == member && !c.plane; });
 }
 
 struct Standing {
@@ -100,15 +114,15 @@ Result<std::vector<HoleSpec>> holes(const MemberSpec& spec, const joint::NodeSpe
                                     const joint::Target& chord, const MemberFrame& frame) {
   std::vector<HoleSpec> out;
   for (std::size_t i = 0; i < spec.holes.size(); ++i) {
-    const auto member = spec.branches[i];
+    const auto& [cut, member] = spec.holes[i];
     const auto& branch = node.members[member];
-    const bool through = spec.holes[i].kind == bevel::JointKind::through;
+    const bool through = cut.kind == bevel::JointKind::through;
     const auto before = out.size();
     if (through && member != spec.member)
-      out.push_back({hole_for(spec.holes[i], chord, branch, End::start, frame), branch.name, i});
+      out.push_back({hole_for(cut, chord, branch, End::start, frame), branch.name, i});
     for (const auto& one : standing)
       if (!through && one.member == member)
-        out.push_back({hole_for(spec.holes[i], chord, branch, one.end, frame), branch.name, i});
+        out.push_back({hole_for(cut, chord, branch, one.end, frame), branch.name, i});
     if (out.size() == before)
       return fail({.code = ErrorCode::no_contact,
                    .member = "holes/" + std::to_string(i) + "/member",
@@ -118,12 +132,65 @@ Result<std::vector<HoleSpec>> holes(const MemberSpec& spec, const joint::NodeSpe
   return out;
 }
 
+bool is_hole_for(const bevel::HoleSpec& hole, const joint::Joint& joint) {
+  return hole.kind == joint.kind && hole.gap == joint.gap && hole.depth == joint.depth;
+}
+
+/// Chord and branch are two calls: what the one is asked for must be what the members state, from
+/// which the other is cut.
+Result<void> check_joints(const MemberSpec& spec, const std::vector<Standing>& standing,
+                          std::vector<Warning>& warnings) {
+  for (std::size_t i = 0; i < spec.holes.size(); ++i) {
+    const auto& [cut, branch] = spec.holes[i];
+    const auto* stated = joint::stated_joint(spec.node, spec.member, branch);
+    const auto at = "holes/" + std::to_string(i) + "/joint";
+    const auto& name = spec.node.members[branch].name;
+    if (stated != nullptr && !is_hole_for(cut, *stated))
+      return fail({.code = ErrorCode::joint_contradicts,
+                   .member = at,
+                   .hint = "the members state this joint otherwise; leave joint out here"});
+    const bool ends_here =
+        std::ranges::any_of(standing, [&](const Standing& one) { return one.member == branch; });
+    if (stated == nullptr && ends_here && !is_hole_for(cut, {}))
+      warnings.push_back({.code = WarningCode::joint_not_stated,
+                          .member = at,
+                          .detail = "from these members " + name +
+                                    "'s own end is cut to be set on without a gap; state the joint "
+                                    "on either member"});
+  }
+  return {};
+}
+
+/// Branches that enter the wall by what is stated, and for which no hole is asked.
+void warn_of_missing(const MemberSpec& spec, const std::vector<Standing>& standing,
+                     std::vector<Warning>& warnings) {
+  const auto& members = spec.node.members;
+  std::set<std::size_t> branches;
+  for (const auto& said : spec.node.joints) {
+    if (said.member != spec.member && said.with != spec.member) continue;
+    const auto other = said.member == spec.member ? said.with : said.member;
+    const bool enters =
+        said.joint.kind == bevel::JointKind::through
+            ? members[other].outer_radius < members[spec.member].outer_radius
+            : said.joint.kind == bevel::JointKind::set_in &&
+                  std::ranges::any_of(standing, [&](const auto& s) { return s.member == other; });
+    const bool asked =
+        std::ranges::any_of(spec.holes, [&](const auto& h) { return h.branch == other; });
+    if (enters && !asked) branches.insert(other);
+  }
+  for (const auto branch : branches)
+    warnings.push_back({.code = WarningCode::hole_missing,
+                        .member = "members/" + std::to_string(branch),
+                        .detail = members[branch].name + " enters this part's wall"});
+}
+
 EndSpec end_spec(const MemberSpec& spec, const joint::Target& target,
-                 std::vector<joint::Partner> partners) {
+                 std::vector<joint::Partner> partners, const MemberEnd& end) {
   auto cut = spec.cut;
   cut.target = target;
   if (partners.empty()) return square_end(cut, 0.0);
   cut.partners = std::move(partners);
+  for (const auto& one : end.cut_by) cut.stated.push_back(one.stated);
   return {.cut = std::move(cut)};
 }
 
@@ -199,12 +266,14 @@ Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& s
   part.zero = *zero;
   part.start_frame = both->first;
   part.name = m.name;
-  part.start = end_spec(spec, part.target, *std::move(at_start));
-  part.finish = end_spec(spec, part.target, *std::move(at_finish));
+  part.start = end_spec(spec, part.target, *std::move(at_start), start);
+  part.finish = end_spec(spec, part.target, *std::move(at_finish), finish);
   const auto standing = standing_on(*nodes, spec.member);
   for (const auto& one : standing)
     part.partners.push_back(
         mark_of(node.members[one.member], one.end, both->first, m.outer_radius));
+  if (auto ok = check_joints(spec, standing, out.warnings); !ok) return tl::unexpected(ok.error());
+  warn_of_missing(spec, standing, out.warnings);
   auto cut = holes(spec, node, standing, part.target, both->first);
   if (!cut) return tl::unexpected(cut.error());
   part.holes = *std::move(cut);
@@ -213,7 +282,11 @@ Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& s
   part.density = spec.density;
   out.start_cutters = members_of(start);
   out.finish_cutters = members_of(finish);
-  out.warnings = about(*nodes, spec.member);
+  for (auto& warning : about(*nodes, spec.member)) out.warnings.push_back(std::move(warning));
+  const auto shared = joint::overlaps(node, *nodes, spec.member, stop);
+  if (!shared) return tl::unexpected(shared.error());
+  for (auto& warning : joint::warnings_of(node, *shared, spec.member))
+    out.warnings.push_back(std::move(warning));
   return out;
 }
 

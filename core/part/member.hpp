@@ -25,6 +25,12 @@ enum class Datum {
 /// A plane square to the axis, `height` from the work point into the member, instead of partners.
 [[nodiscard]] EndSpec square_end(const bevel::TableSpec& options, double height);
 
+/// A hole for a member of the node: `cut` but for chord and branch.
+struct BranchHole {
+  bevel::HoleSpec cut;
+  std::size_t branch = 0;
+};
+
 /// One member of a node as a part. An end that no member cuts is cut square at its work point.
 struct MemberSpec {
   joint::NodeSpec node;
@@ -33,8 +39,7 @@ struct MemberSpec {
   std::optional<Eigen::Vector3d> up = {};  // empty: the member's own
   Angle seam = {};                         // from `up`, or from the first cutter without one
   bevel::TableSpec cut;                    // of both ends, but for target and partners
-  std::vector<bevel::HoleSpec> holes;      // but for chord and branch
-  std::vector<std::size_t> branches;       // the member each hole is for
+  std::vector<BranchHole> holes;
   double clamping = 0.0, facing = 0.0, density = 7850.0;
 };
 
@@ -47,7 +52,10 @@ struct FoundMember {
 /// Finds who cuts the member's ends, who stands on it, and its frame in the world.
 ///
 /// Errors  those of joint::solve (members/...); bad_reference_direction (up, datum); no_contact
-///         (holes/i/member: that member neither ends on this one nor passes through it).
+///         (holes/i/member: that member neither ends on this one nor passes through it);
+///         joint_contradicts (holes/i/joint: the members state another).
+/// Warnings  joint_not_stated (the hole is for a joint that the branch's own part would not be cut
+///         for), hole_missing (a branch that is set in, or passes through, has no hole).
 /// Source  docs/theory/parts.md, section 1.
 [[nodiscard]] Result<FoundMember> find_member(const MemberSpec& spec,
                                               const std::stop_token& stop = {});

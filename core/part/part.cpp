@@ -33,6 +33,23 @@ void carry(std::vector<Warning> warnings, const std::string& parent, std::vector
   }
 }
 
+/// The root curve without what is set in: that is welded round its hole.
+double welded_length(const End& end) {
+  const auto& t = end.own;
+  const auto set_in = [&](std::size_t row) {
+    const auto& stated = bevel::stated_joint(end.spec, t.cutter[row]);
+    return stated && stated->kind == joint::JointKind::set_in;
+  };
+  double out = 0.0;
+  bool whole = true;
+  for (std::size_t i = 0; i < t.length.size(); ++i)
+    if (set_in(i))
+      whole = false;
+    else
+      out += (i + 1 < t.length.size() ? t.length[i + 1] : t.length_total) - t.length[i];
+  return whole ? t.length_total : out;
+}
+
 /// The end cut in its own frame, which is turned so that its phi = 0 is the part's.
 Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& stop) {
   const auto& asked = finish ? spec.finish : spec.start;
@@ -43,7 +60,7 @@ Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& st
   if (!table) return under(table, finish ? "finish" : "start");
   out.own = *std::move(table);
   if (!asked.welded) return out;
-  out.weld_length = out.own.length_total;
+  out.weld_length = welded_length(out);
   out.groove_volume = groove_volume(out.spec, out.own);
   return out;
 }
@@ -187,23 +204,53 @@ void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& 
   }
 }
 
-/// A hole whose edge leaves the wall between the two cuts.
-void warn_of_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
-  for (const auto& placed : p.holes) {
-    bool outside = false;
-    for (const bool outer : {false, true}) {
-      const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
-      const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
-      const auto& phi = outer ? placed.hole.phi : placed.hole.phi_inner;
-      const auto& z = outer ? placed.hole.z : placed.hole.z_inner;
-      for (std::size_t i = 0; i < phi.size(); ++i)
-        outside = outside || z[i] <= a.at(phi[i]).high || z[i] >= b.at(phi[i]).low;
+/// Where a hole's edge leaves the wall between the two cuts.
+struct Beyond {
+  bool anywhere = false;  // somewhere
+  bool start = true;      // everywhere, at the start
+  bool finish = true;     // everywhere, at the finish
+};
+
+Beyond beyond(const Part& p, const bevel::Hole& hole) {
+  Beyond out;
+  for (const bool outer : {false, true}) {
+    const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
+    const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
+    const auto& phi = outer ? hole.phi : hole.phi_inner;
+    const auto& z = outer ? hole.z : hole.z_inner;
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const bool below = z[i] <= a.at(phi[i]).high, above = z[i] >= b.at(phi[i]).low;
+      out.anywhere = out.anywhere || below || above;
+      out.start = out.start && below;
+      out.finish = out.finish && above;
     }
-    if (outside)
-      out.push_back({.code = WarningCode::hole_meets_end,
-                     .member = asked_hole(spec, placed.asked),
-                     .detail = "its edge reaches into the cut at an end"});
   }
+  return out;
+}
+
+/// A hole in the scrap alone is a mistake of the request's; one that reaches into a cut may be
+/// meant, and so may one side of a brace that passes through.
+Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
+  std::vector<Beyond> at;
+  std::set<std::size_t> on_part;
+  for (const auto& placed : p.holes) {
+    at.push_back(beyond(p, placed.hole));
+    if (!at.back().start && !at.back().finish) on_part.insert(placed.asked);
+  }
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto member = asked_hole(spec, p.holes[i].asked);
+    const bool off = at[i].start || at[i].finish;
+    const std::string where =
+        std::string("beyond the cut at the ") + (at[i].start ? "start" : "finish");
+    if (off && !on_part.contains(p.holes[i].asked))
+      return fail({.code = ErrorCode::hole_off_part, .member = member, .hint = "it lies " + where});
+    if (at[i].anywhere)
+      out.push_back({.code = WarningCode::hole_meets_end,
+                     .member = member,
+                     .detail = off ? "one of its two sides lies wholly " + where
+                                   : "its edge reaches into the cut at an end"});
+  }
+  return {};
 }
 
 EdgePoint edge_point(const Table& t, bool upwards) {
@@ -264,7 +311,7 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   if (auto ok = cut_holes(spec, out, stop); !ok) return tl::unexpected(ok.error());
   assemble(spec, out);
   if (auto ok = check_left(out, *spec.target.length); !ok) return tl::unexpected(ok.error());
-  warn_of_holes(spec, out, out.warnings);
+  if (auto ok = see_holes(spec, out, out.warnings); !ok) return tl::unexpected(ok.error());
   warn_of_meeting(spec, out, out.warnings, stop);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
   out.lengths = lengths(spec, out, stop);

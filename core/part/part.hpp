@@ -108,7 +108,8 @@ struct Part {
 /// wall, which has z = 0, to the finish; phi from x towards y, zero at PartSpec::zero. B > 0
 /// everywhere: the outer edge lies further towards +z.
 /// Errors  those of bevel::table and bevel::hole, under start/..., finish/... and holes/i/...;
-///         member_consumed (the two cuts meet); out_of_range (no length).
+///         member_consumed (the two cuts meet); hole_off_part (holes/i: all of it is cut off);
+///         out_of_range (no length).
 /// Accuracy  a point's place in the world within 1e-12 of the lengths involved of the end's own.
 /// Source  docs/theory/parts.md.
 [[nodiscard]] Result<Part> part(const PartSpec& spec, const std::stop_token& stop = {});

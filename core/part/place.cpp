@@ -187,8 +187,14 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
   out.inner_events = mirrored(in.inner_events, length);
   out.outer_events = mirrored(in.outer_events, length);
   mirror_lists(in, out);
+  out.torch_line = in.torch_line;
+  out.torch_line.gouge_phi = other_way(whole_turn(in.torch_line.gouge_phi));
+  out.torch_line.left_phi = other_way(whole_turn(in.torch_line.left_phi));
   out.length_total = in.length_total;
   out.developed_total = in.developed_total;
+  out.penetration = in.penetration;
+  out.penetration.phi = other_way(in.penetration.phi);
+  out.penetration.z = length - in.penetration.z;
   return out;
 }
 
@@ -208,6 +214,7 @@ bevel::Table shifted(bevel::Table table, double dz) {
       e.z_from += dz;
       e.z_to += dz;
     }
+  table.penetration.z += dz;
   return table;
 }
 

@@ -62,6 +62,8 @@ double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table) {
           spec.target.inner_radius() + 0.5 * (1.0 + rule.nodes[k]) * spec.target.wall;
       const auto top = joint::highest(prepared, joint::generator_at(rho, table.phi[i]));
       if (!top) continue;
+      const auto& stated = bevel::stated_joint(spec, top->cutter);
+      if (stated && stated->kind == joint::JointKind::set_in) continue;
       across.z[i] += 0.5 * rule.weights[k] * spec.target.wall * rho *
                      std::max(0.0, cut_at(r, i, rho) - top->z);
     }

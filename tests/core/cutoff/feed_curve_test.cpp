@@ -139,10 +139,14 @@ TEST(FeedCurve, OptionalSectionsAreThereWhenAsked) {
   spec.cycle.reset();
   spec.tool.reset();
   spec.comparison.reset();
-  spec.tube = TubeSpec{300.0, 30.0};
+  const double wall = std::get<CutDistances>(spec.cut.range).wall;
+  spec.tube = TubeSpec{300.0, wall};
   const auto bare = feed_curve(spec).value();
   EXPECT_FALSE(bare.cycle || bare.tool || bare.comparison);
-  EXPECT_EQ(bare.warnings.size(), 4u);
+  ASSERT_EQ(bare.warnings.size(), 3u);
+  EXPECT_EQ(bare.warnings[2].code, WarningCode::tube_outside_range);
+  spec.tube->wall = 2.0 * wall;
+  EXPECT_EQ(feed_curve(spec).error().code(), ErrorCode::unsupported_combination);
 }
 
 // y, speeds and the peak do not know what k is but as a factor 1/k: the metamorphic law of the
@@ -181,6 +185,7 @@ TEST(Verify, GoodAnswersPass) {
     const double clearance = any(1.0, 15.0);
     spec.cut = {CutDistances{clearance, any(0.0, 1.0) * clearance, any(3.0, 40.0), any(0.0, 4.0)},
                 any(0.3, 4.0)};
+    spec.tube->wall = std::get<CutDistances>(spec.cut.range).wall;
     constexpr FitMethod kMethods[] = {FitMethod::minimax, FitMethod::least_squares,
                                       FitMethod::three_point, FitMethod::automatic};
     spec.fit.method = kMethods[i % 4];

@@ -454,17 +454,16 @@ TEST(Part, WhatTwoHolesShareIsTakenOnce) {
   }
 }
 
-// Beyond an end there is nothing to take, however many holes stand there.
-TEST(Part, HolesBeyondAnEndTakeNothing) {
-  const double whole = part::part(drilled({}))->lengths.volume;
-  for (const auto& heights : {std::vector<double>{-60}, {-60, -70}, {960}, {-60, 960, 955}}) {
+// Beyond an end there is nothing to take: however many holes stand there, the first is refused.
+TEST(Part, AHoleBeyondAnEndIsRefused) {
+  for (const auto& heights : {std::vector<double>{-60}, {-60, -70}, {960}, {400, 960, 955}}) {
     part::PartSpec spec = drilled({});
     for (const double height : heights)
       spec.holes.push_back({drilled({height}).holes.front().hole, "", spec.holes.size()});
     const auto p = part::part(spec);
-    ASSERT_TRUE(p);
-    EXPECT_NEAR(p->lengths.volume / whole, 1.0, 1e-12) << heights[0];
-    for (const auto& check : part::verify(spec, *p)) EXPECT_TRUE(check.passed()) << check.name;
+    ASSERT_FALSE(p);
+    EXPECT_EQ(p.error().code(), ErrorCode::hole_off_part);
+    EXPECT_EQ(p.error().issues.front().member, heights[0] == 400 ? "holes/1" : "holes/0");
   }
 }
 
@@ -516,10 +515,9 @@ TEST(Part, Refuses) {
                        .groove = bevel::NoGroove{},
                        .sampling = {.uniform_points = 72}};
   spec.holes = {{hole, "", 0}};
-  const auto warned = part::part(spec);
-  ASSERT_TRUE(warned);
-  EXPECT_TRUE(std::ranges::any_of(
-      warned->warnings, [](const Warning& w) { return w.code == WarningCode::hole_meets_end; }));
+  const auto off = part::part(spec);  // the cut takes all of it
+  ASSERT_FALSE(off);
+  EXPECT_EQ(off.error().code(), ErrorCode::hole_off_part);
 }
 
 // Each number of the answer's own proof, off by ten times its limit.

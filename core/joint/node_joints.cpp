@@ -1,0 +1,208 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/joint/node_parts.hpp"
+
+namespace tubecut::joint {
+
+const Joint* stated_joint(const NodeSpec& spec, std::size_t a, std::size_t b) {
+  for (const auto& one : spec.joints)
+    if ((one.member == a && one.with == b) || (one.member == b && one.with == a)) return &one.joint;
+  return nullptr;
+}
+
+namespace detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// "members/3/joints/0": the statement as its member makes it.
+std::string place_of(const NodeSpec& spec, std::size_t index) {
+  const auto member = spec.joints[index].member;
+  const auto before = spec.joints.begin() + static_cast<std::ptrdiff_t>(index);
+  const auto own = std::count_if(spec.joints.begin(), before,
+                                 [&](const StatedJoint& s) { return s.member == member; });
+  return "members/" + std::to_string(member) + "/joints/" + std::to_string(own);
+}
+
+std::string name_of(JointKind kind) {
+  constexpr std::array kNames{"set_on", "set_in", "through", "mitre"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+/// "set_in, gap 1.5 mm, depth 8 mm"
+std::string told(const Joint& joint) {
+  return name_of(joint.kind) + ", gap " + shown(joint.gap) + " mm" +
+         (joint.depth ? ", depth " + shown(*joint.depth) + " mm" : "");
+}
+
+/// Both sides may say the same, and must not say different things.
+Result<void> check_sides(const NodeSpec& spec) {
+  std::map<Applied::Pair, std::size_t> out;
+  for (std::size_t i = 0; i < spec.joints.size(); ++i) {
+    const auto& said = spec.joints[i];
+    const auto n = spec.members.size();
+    if (said.member >= n || said.with >= n || said.member == said.with)
+      return fail({.code = ErrorCode::out_of_range, .member = place_of(spec, i)});
+    const auto [known, fresh] = out.emplace(std::minmax(said.member, said.with), i);
+    const auto& first = spec.joints[known->second];
+    if (fresh || first.joint == said.joint) continue;
+    return fail({.code = ErrorCode::joint_contradicts,
+                 .member = place_of(spec, i),
+                 .got = told(said.joint),
+                 .limit = told(first.joint),
+                 .unit = {},
+                 .hint = called(spec, first.member) + " states it otherwise"});
+  }
+  return {};
+}
+
+bool joins(const Joined& joined, std::size_t member, std::size_t other) {
+  for (const auto end : {2 * member, 2 * member + 1})
+    if (std::ranges::find(joined[end], other, &Touch::other) != joined[end].end()) return true;
+  return false;
+}
+
+void part(Joined& joined, std::size_t member, std::size_t other) {
+  for (const auto end : {2 * member, 2 * member + 1})
+    std::erase_if(joined[end], [&](const Touch& t) { return t.other == other; });
+}
+
+const Vector3d& point_of(const NodeSpec& spec, std::size_t end) {
+  return spec.members[end / 2].at(end % 2 == 0 ? End::start : End::finish);
+}
+/// From an end into its member, unit.
+Vector3d into(const NodeSpec& spec, std::size_t end) {
+  return (point_of(spec, end ^ 1U) - point_of(spec, end)).normalized();
+}
+
+/// The two ends, of one member each, that lie nearest to each other.
+std::pair<std::size_t, std::size_t> facing_ends(const NodeSpec& spec, std::size_t a,
+                                                std::size_t b) {
+  std::pair out{2 * a, 2 * b};
+  double least = (point_of(spec, out.first) - point_of(spec, out.second)).norm();
+  for (const auto p : {2 * a, 2 * a + 1})
+    for (const auto q : {2 * b, 2 * b + 1})
+      if (const double d = (point_of(spec, p) - point_of(spec, q)).norm(); d < least) {
+        least = d;
+        out = {p, q};
+      }
+  return out;
+}
+
+/// Midway between the points where the axes are nearest to each other, or between the ends.
+Vector3d meeting(const NodeSpec& spec, std::size_t p, std::size_t q) {
+  const Vector3d a = point_of(spec, p), b = point_of(spec, q);
+  const Vector3d u = into(spec, p), v = into(spec, q);
+  const Vector3d n = u.cross(v);
+  const double square = n.squaredNorm();
+  if (!(square >= 4.0 * kParallel * kParallel)) return 0.5 * (a + b);
+  const double s = (b - a).cross(v).dot(n) / square, t = (b - a).cross(u).dot(n) / square;
+  return 0.5 * (a + s * u + b + t * v);
+}
+
+void join(Joined& joined, const NodeSpec& spec, std::size_t end, std::size_t other) {
+  auto& touches = joined[end];
+  const auto at = std::ranges::lower_bound(touches, other, {}, &Touch::other);
+  if (at != touches.end() && at->other == other) return;
+  const auto& m = spec.members[other];
+  touches.insert(at, {end, other, nearness(point_of(spec, end), {m.start, m.finish, 0.0})});
+}
+
+Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
+  const auto a = spec.joints[index].member, b = spec.joints[index].with;
+  const auto [p, q] = facing_ends(spec, a, b);
+  const Vector3d normal = into(spec, p) - into(spec, q);
+  if (!(normal.norm() >= kParallel))
+    return fail({.code = ErrorCode::parallel_axes,
+                 .member = place_of(spec, index),
+                 .hint = "the two members lie along each other; no plane between them cuts both"});
+  part(joined, a, b);
+  part(joined, b, a);
+  join(joined, spec, p, b);
+  join(joined, spec, q, a);
+  const Vector3d at = meeting(spec, p, q);
+  out.mitres.emplace(std::pair{p, b}, Mitre{at, normal.normalized()});
+  out.mitres.emplace(std::pair{q, a}, Mitre{at, -normal.normalized()});
+  return {};
+}
+
+tl::unexpected<Error> apart(const NodeSpec& spec, std::size_t index, const std::string& hint) {
+  return fail({.code = ErrorCode::no_contact, .member = place_of(spec, index), .hint = hint});
+}
+
+Result<void> apply(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
+  const auto& [a, b, joint] = spec.joints[index];
+  const auto& p = spec.members[a];
+  const auto& q = spec.members[b];
+  if (joint.kind == JointKind::through) {
+    const double reach = p.outer_radius + q.outer_radius;
+    if (!(nearness(Stretch{p.start, p.finish}, Stretch{q.start, q.finish}) < reach))
+      return apart(spec, index, "the two do not reach each other");
+    part(joined, a, b);
+    part(joined, b, a);
+    return {};
+  }
+  if (joint.kind == JointKind::mitre) {
+    if (!joins(joined, a, b) && !joins(joined, b, a))
+      return apart(spec, index, "no end of either joins the other");
+    return mitre(spec, index, joined, out);
+  }
+  const bool first = goes_before(spec, a, b);
+  const auto chord = first ? a : b, branch = first ? b : a;
+  if (!joins(joined, branch, chord))
+    return apart(spec, index,
+                 "no end of " + called(spec, branch) + " joins " + called(spec, chord) +
+                     ", which goes before it");
+  const double radius = spec.members[chord].outer_radius;
+  if (joint.depth && !(*joint.depth < radius))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = place_of(spec, index) + "/depth",
+                 .got = *joint.depth,
+                 .limit = radius,
+                 .unit = "mm",
+                 .hint = "must be less than the chord's radius"});
+  return {};
+}
+
+}  // namespace
+
+bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b) {
+  const auto& p = spec.members[a];
+  const auto& q = spec.members[b];
+  if (p.priority != q.priority) return p.priority < q.priority;
+  if (p.outer_radius != q.outer_radius) return p.outer_radius > q.outer_radius;
+  return a < b;
+}
+
+std::string called(const NodeSpec& spec, std::size_t member) {
+  const auto& name = spec.members[member].name;
+  return name.empty() ? "member " + std::to_string(member) : name;
+}
+
+double sine_between(const Member& a, const Member& b) {
+  return (a.finish - a.start).normalized().cross((b.finish - b.start).normalized()).norm();
+}
+
+double between_axes(const Member& a, const Member& b) {
+  const Vector3d u = (a.finish - a.start).normalized(), v = (b.finish - b.start).normalized();
+  const Vector3d n = u.cross(v), w = b.start - a.start;
+  if (n.norm() < 2.0 * kParallel) return w.cross(u).norm();
+  return std::abs(w.dot(n)) / n.norm();
+}
+
+Result<Applied> apply_joints(const NodeSpec& spec, Joined& joined) {
+  if (auto ok = check_sides(spec); !ok) return tl::unexpected(ok.error());
+  Applied out;
+  for (std::size_t i = 0; i < spec.joints.size(); ++i) {
+    const auto pair = std::minmax(spec.joints[i].member, spec.joints[i].with);
+    if (!out.joints.emplace(pair, spec.joints[i].joint).second) continue;
+    if (auto ok = apply(spec, i, joined, out); !ok) return tl::unexpected(ok.error());
+  }
+  return out;
+}
+
+}  // namespace detail
+}  // namespace tubecut::joint
