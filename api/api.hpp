@@ -54,6 +54,7 @@ struct JobFacts {
   std::string input_sha256;           // empty when the request was not understood
   std::string result_sha256;          // empty for errors
   std::string verdict;                // ok | review | reject; empty for errors
+  std::vector<std::string> reasons;   // of the verdict
   std::string error_code;             // empty for answers
   std::vector<std::string> warnings;  // codes
   std::vector<std::pair<std::string, std::string>> reference;
@@ -67,6 +68,9 @@ struct Outcome {
   std::vector<std::pair<std::string, std::string>> headers;  // Allow and the like
   JobFacts job;
 };
+
+/// The header of every answer with a verdict: `review;reasons="free_end, standoff"`.
+inline constexpr std::string_view kVerdictHeader = "Tubecut-Verdict";
 
 /// Answers one call. Pure but for the clock: same call, same body. Never throws for bad input; a
 /// bug throws and is the server's to turn into a 500.
@@ -95,9 +99,9 @@ struct BatchLine {
                                         const Context& context);
 
 /// The line of a batch's answer, with its line feed. `number` counts from 1; `answer` is the answer
-/// or problem in JSON.
+/// or problem in JSON, `verdict` the answer's header of that name.
 [[nodiscard]] std::string print_batch_line(const BatchLine& line, std::size_t number, int status,
-                                           std::string_view answer);
+                                           std::string_view answer, std::string_view verdict = {});
 
 /// The last line: what became of the `lines` received. Unanswered ones may be sent again.
 struct BatchSummary {
@@ -112,6 +116,17 @@ struct BatchSummary {
 
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
+
+/// An upper bound of the memory that a call at a path takes while it is answered: `fixed`, and so
+/// many bytes per byte of its body. Its answer is in it.
+struct CallMemory {
+  std::size_t fixed = 0;
+  std::size_t per_byte = 0;
+};
+[[nodiscard]] CallMemory call_memory(std::string_view path);
+
+/// The same of a line of a batch, as bytes: by the costliest endpoint that it may name.
+[[nodiscard]] std::size_t line_memory(std::string_view line);
 
 /// The id of the endpoint, or of the batches, at a path; empty for other paths.
 [[nodiscard]] std::string_view endpoint_at(std::string_view path);

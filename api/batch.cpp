@@ -92,13 +92,14 @@ BatchLine read_batch_line(std::string_view text, std::string_view request_id,
 }
 
 std::string print_batch_line(const BatchLine& line, std::size_t number, int status,
-                             std::string_view answer) {
+                             std::string_view answer, std::string_view verdict) {
   while (answer.ends_with('\n')) answer.remove_suffix(1);
   Writer out(answer.size() + line.id.size() + 64);
   out.object([&](Writer& w) {
     w.field("id", line.id.empty() ? Json{} : Json{line.id});
     w.field("line", static_cast<double>(number));
     w.field("status", status);
+    if (!verdict.empty()) w.field("verdict", verdict.substr(0, verdict.find(';')));
     w.raw("body", answer);
   });
   return out.take() + "\n";

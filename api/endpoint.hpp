@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,16 +14,12 @@
 #include "api/limits.hpp"
 #include "api/problem.hpp"
 #include "api/reader.hpp"
+#include "api/suspicion.hpp"
+#include "api/verdict.hpp"
 #include "api/writer.hpp"
 #include "core/base/error.hpp"
 
 namespace tubecut::api {
-
-/// What an answer measures of itself, to be held against the request's own `accept`.
-struct Measure {
-  std::string_view name;  // as in `accept`, for example "max_b_deg"
-  double value = 0.0;
-};
 
 /// How a check's limit is stated in `GET /v1/limits`.
 struct CheckLimit {
@@ -30,6 +28,15 @@ struct CheckLimit {
   std::string_view unit;
 };
 
+/// Lists of checks as one list.
+template <std::size_t... N>
+[[nodiscard]] constexpr auto all_checks(const std::array<CheckLimit, N>&... lists) {
+  std::array<CheckLimit, (N + ...)> out{};
+  auto at = out.begin();
+  ((at = std::copy(lists.begin(), lists.end(), at)), ...);
+  return out;
+}
+
 /// A request as understood and its answer; or why there is none.
 struct Answer {
   Json request = {};  // echo without reference and log
@@ -37,6 +44,7 @@ struct Answer {
   std::vector<Check> checks = {};
   std::vector<Warning> warnings = {};
   std::vector<Measure> measures = {};
+  Verdict verdict = {};
   std::string text = {};  // in another format, if one was asked for
 };
 using Reply = std::variant<Answer, Problem>;
@@ -46,6 +54,7 @@ struct Run {
   std::stop_token stop = {};
   const FormatName* format = nullptr;  // nullptr: JSON or CBOR
   Caption caption = {};
+  std::vector<Measure> accepted = {};                // the request's `accept`
   std::function<void(std::string_view)> stage = {};  // called when a stage ends
 };
 
@@ -100,14 +109,21 @@ Reply run(Reader& in, Run& run) {
     answer.checks = E::verify(spec, *out);
   }
   run.stage("verify");
+  if (auto failed = failed_check(answer.checks)) return *std::move(failed);
   answer.warnings = E::warnings(spec, *out);
+  for (auto& warning : unit_suspicions(answer.request))
+    answer.warnings.push_back(std::move(warning));
   answer.measures = E::measure(spec, *out);
+  answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
   Writer writer(1 << 16);
   writer.object([&](Writer& w) { E::encode(spec, *out, w); });
   answer.result = writer.take();
   if (run.format != nullptr) {
+    if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
+      return *std::move(refused);
     run.caption.input_sha256 = sha256(dump(answer.request));
     run.caption.result_sha256 = sha256(answer.result);
+    run.caption.verdict = answer.verdict;
     for (const auto& format : E::formats())
       if (format.name == run.format->name) answer.text = format.print(spec, *out, run.caption);
   }
@@ -120,7 +136,8 @@ Endpoint endpoint() {
   static const auto names = [] {
     std::vector<FormatName> list;
     for (const auto& format : E::formats())
-      list.push_back({format.name, format.media, format.views, format.options, format.needs_speed});
+      list.push_back({format.name, format.media, format.views, format.options, format.needs_speed,
+                      format.machine});
     return list;
   }();
   return {E::kId, E::kPath, E::kMaxBody, &run<E>, names, E::kAccepts, E::kChecks};

@@ -13,13 +13,22 @@ enum class Dialect { linuxcnc, qtplasmac };
 
 /// What the query says of a drawing or a machine file. Lengths in mm.
 struct FormatOptions {
-  bool mirror = false;  // drawn for the print side to lie on the tube
-  bool torch = false;   // the program lights the torch; else it only moves
+  bool mirror = false;                         // drawn for the print side to lie on the tube
+  bool torch = false;                          // the program lights the torch; else it only moves
+  std::vector<std::string> acknowledged = {};  // codes of warnings of a `review` that is cut
   Dialect dialect = Dialect::linuxcnc;
   bool axial_z = false;                     // the axis along the tube is Z, not X
   std::optional<double> speed = {};         // mm/min, of the torch on the outer wall
   double lead = 0.0;                        // straight run-in and run-out on the scrap side
   std::optional<double> pivot_length = {};  // torch pivot to tip; empty: the control knows the tip
+};
+
+/// What is to be thought of an answer; verdict.hpp makes it and says it.
+struct Verdict {
+  std::string_view status = "ok";          // ok, review, reject
+  std::vector<std::string> reasons = {};   // as in the answer
+  std::vector<std::string> warnings = {};  // of severity `cut`: code, pointer, detail
+  std::vector<std::string> codes = {};     // theirs, each once
 };
 
 /// What a drawing or a machine file prints beside the result.
@@ -29,6 +38,7 @@ struct Caption {
   std::string result_sha256;
   std::string view;  // ?view=, empty: the format's default
   FormatOptions options = {};
+  Verdict verdict = {};  // stands in the head of every file: verdict_lines
 };
 
 /// One line that names the job on a drawing: engine, input hash, the caller's reference.
@@ -43,6 +53,7 @@ struct Format {
   std::vector<std::string_view> views = {};    // ?view=, the default first
   std::vector<std::string_view> options = {};  // query parameters it reads
   bool needs_speed = false;                    // speed_mm_min has no default
+  bool machine = false;                        // a machine works by it as it is
 };
 
 struct FormatName {
@@ -51,6 +62,7 @@ struct FormatName {
   std::vector<std::string_view> views = {};
   std::vector<std::string_view> options = {};
   bool needs_speed = false;
+  bool machine = false;
 };
 
 }  // namespace tubecut::api

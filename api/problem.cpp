@@ -101,6 +101,20 @@ Problem core_problem(const Error& error, const Json& request) {
   return out;
 }
 
+std::optional<Problem> failed_check(const std::vector<Check>& checks) {
+  for (const auto& check : checks)
+    if (!check.passed())
+      return Problem{.code = ErrorCode::verification_failed,
+                     .detail = "check " + check.name + " failed",
+                     .issues = {{.code = ErrorCode::verification_failed,
+                                 .pointer = "",
+                                 .got = Json{check.name},
+                                 .limit = Json{check.limit},
+                                 .unit = check.unit,
+                                 .hint = {}}}};
+  return std::nullopt;
+}
+
 std::string print(const Problem& problem, std::string_view request_id, int status) {
   const auto& about = info(problem.code);
   Writer out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ struct Problem {
 
 /// A core error, its members mapped to pointers into the request as it was understood.
 [[nodiscard]] Problem core_problem(const Error& error, const Json& request);
+
+/// The first check that does not hold; an answer with one is withheld.
+[[nodiscard]] std::optional<Problem> failed_check(const std::vector<Check>& checks);
 
 /// "cutters/1/offset" -> "/cutters/1/offset_mm", by the names the request has.
 [[nodiscard]] std::string pointer_of(std::string_view member, const Json& request);

@@ -6,6 +6,7 @@
 
 #include "api/limits.hpp"
 #include "api/machines.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -174,36 +175,6 @@ void check_combination(const bevel::TableSpec& s, Reader& in) {
            in.find("contact"));
 }
 
-void encode_points(const bevel::TableSpec& spec, const bevel::Table& out, Writer& p) {
-  encode_phi(out.phi, spec.sampling, p);
-  p.column("developed_mm", out.developed);
-  p.column("length_mm", out.length);
-  p.column("cutter", out.cutter);
-  p.column("z_inner_mm", out.z_inner);
-  p.column("z_outer_mm", out.z_outer);
-  p.degrees_column("dihedral_deg", out.dihedral);
-  p.degrees_column("groove_deg", out.groove);
-  p.degrees_column("tau_deg", out.tau);
-  p.degrees_column("gamma_deg", out.gamma);
-  p.degrees_column("flush_deg", out.flush);
-  p.degrees_column("b_raw_deg", out.b_raw);
-  p.degrees_column("b_required_deg", out.b_required);
-  p.degrees_column("b_deg", out.b);
-  p.column("gap_mm", out.gap);
-  p.column("beam_mm", out.beam);
-  p.column("torch_inner_mm", out.torch_inner);
-  p.column("torch_outer_mm", out.torch_outer);
-  if (spec.root_face > 0.0) {
-    p.column("z_face_mm", out.z_face);
-    p.degrees_column("b_face_deg", out.b_face);
-  }
-  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove)) {
-    std::vector<std::string> zone;
-    for (const auto i : out.zone) zone.push_back(zoned->zones[i].id);
-    p.column("zone", zone);
-  }
-}
-
 void encode_events(const bevel::Table& out, Writer& w) {
   struct Placed {
     const joint::Event* event;
@@ -286,17 +257,15 @@ void decode_cut(Reader& in, bool whole, bevel::TableSpec& out) {
 }
 
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& out, Writer& w) {
-  w.object("points", [&](Writer& p) { encode_points(spec, out, p); });
-  w.field("b_sign", out.inward ? "inward" : "outer_edge_into_part");
+  w.object("points", [&](Writer& p) { bevel_columns(spec, out).write(p); });
+  w.field("b_sign", name_of_b_sign(out));
   encode_bevel_lists(out, w);
   w.object("limits", [&](Writer& o) { encode_limits(spec, o); });
   encode_torch_binds(out, w);
+  encode_penetration(out.penetration, w);
+  encode_torch_line(out.torch_line, w);
   w.field("length_mm", out.length_total);
   w.field("developed_length_mm", out.developed_total);
-}
-
-void encode_bevel_points(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w) {
-  encode_points(spec, table, w);
 }
 
 void encode_bevel_lists(const bevel::Table& table, Writer& w) {
@@ -312,6 +281,25 @@ void encode_torch_binds(const bevel::Table& out, Writer& w) {
       o.degrees("groove_lost_deg", v.groove_lost);
       o.field("root_gap_mm", v.root_gap);
     });
+  });
+}
+
+void encode_penetration(const bevel::Penetration& deepest, Writer& w) {
+  w.object("penetration", [&](Writer& o) {
+    o.field("depth_mm", deepest.depth);
+    o.degrees("phi_deg", deepest.phi);
+    o.field("radius_mm", deepest.radius);
+    o.field("z_mm", deepest.z);
+    o.field("cutter", deepest.solid);
+  });
+}
+
+void encode_torch_line(const bevel::BeamProof& proof, Writer& w) {
+  w.object("torch_line", [&](Writer& o) {
+    o.field("gouge_mm", proof.gouge);
+    o.degrees("gouge_phi_deg", proof.gouge_phi);
+    o.field("left_mm", proof.left);
+    o.degrees("left_phi_deg", proof.left_phi);
   });
 }
 

@@ -5,6 +5,7 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/formats/bevel_table_formats.hpp"
 #include "api/writer.hpp"
 #include "core/bevel/table.hpp"
 
@@ -17,7 +18,7 @@ void decode_table_options(Reader& in, bevel::TableSpec& out);
 /// The members of a table's `result`.
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
 
-inline constexpr std::array<CheckLimit, 8> kTableChecks{{
+inline constexpr std::array<CheckLimit, 13> kTableChecks{{
     {"dihedral", "1e-9", "deg"},
     {"bevel_plane", "1e-9", ""},
     {"above_required", "1e-9", "deg"},
@@ -26,6 +27,11 @@ inline constexpr std::array<CheckLimit, 8> kTableChecks{{
     {"torch_range", "1e-9", "deg"},
     {"penetration", "1e-6", "mm"},
     {"touch", "1e-6", "mm"},
+    {"penetration_stated", "1e-3", "mm"},
+    {"penetration_between", "sampling.tolerance_mm", "mm"},
+    {"gouge", "0.01", "mm"},
+    {"gouge_stated", "1e-3", "mm"},
+    {"left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
 }};
 
 /// A bevel table asked for by its joint, given directly or as an end of a node; `resolve` fills in
@@ -39,10 +45,13 @@ struct BevelTableRequest : bevel::TableSpec {
 void decode_cut(Reader& in, bool whole, bevel::TableSpec& out);
 void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out);
 
-/// The columns of a table; its events, mutations and windows; where the torch binds.
-void encode_bevel_points(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
+/// A table's events, mutations and windows; where the torch binds.
 void encode_bevel_lists(const bevel::Table& table, Writer& w);
 void encode_torch_binds(const bevel::Table& table, Writer& w);
+/// The deepest place of the finished surface in a partner.
+void encode_penetration(const bevel::Penetration& deepest, Writer& w);
+/// What the beam takes from the finished part and leaves on it.
+void encode_torch_line(const bevel::BeamProof& proof, Writer& w);
 
 /// A /v1/bevel-tables request, also where it is nested in another.
 [[nodiscard]] BevelTableRequest decode_bevel_table_request(Reader& in);

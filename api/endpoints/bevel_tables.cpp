@@ -79,8 +79,8 @@ struct BevelTables {
         {"dxf", "image/vnd.dxf", &print<bevel_table_dxf>, {"template", "tube"}},
         {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
         {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},
-        {"nc1", "application/x-dstv", &print<bevel_table_dstv>},
-        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, gcode_options(), true}};
+        {"nc1", "application/x-dstv", &print<bevel_table_dstv>, {}, {}, false, true},
+        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, gcode_options(), true, true}};
     return kFormats;
   }
 };
@@ -95,6 +95,7 @@ Result<BevelTableRequest> resolve(BevelTableRequest request, const std::stop_tok
   request.source = *std::move(source);
   request.target = request.source.target;
   request.partners = request.source.partners;
+  request.stated = request.source.stated;
   return request;
 }
 

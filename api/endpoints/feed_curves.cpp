@@ -1,6 +1,7 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/formats/feed_curve_formats.hpp"
+#include "api/tables.hpp"
 #include "core/cutoff/feed_curve.hpp"
 #include "core/cutoff/verify.hpp"
 
@@ -127,10 +128,27 @@ cutoff::ToolSpec decode_tool(Reader& in) {
   return out;
 }
 
+/// [least, most] in mm.
+std::pair<double, double> decode_span(Reader& in, std::string_view name, Range range) {
+  const auto span = in.column(name, {.min = 2, .max = 2}, range);
+  if (span.size() != 2) return {};
+  if (!(span[0] <= span[1]))
+    in.issue({.code = ErrorCode::out_of_range,
+              .pointer = std::string(name) + "/1",
+              .limit = Json{span[0]},
+              .unit = "mm",
+              .hint = "least first, then most"});
+  return {span[0], span[1]};
+}
+
 cutoff::TubeSpec decode_tube(Reader& in) {
   cutoff::TubeSpec out;
   out.outer_diameter = in.number("outer_diameter_mm", kDiameter);
   out.wall = in.number("wall_mm", kWall);
+  out.machine = in.optional_object("machine_range", [](Reader& m) {
+    return cutoff::TubeRange{.outer_diameter = decode_span(m, "outer_diameters_mm", kDiameter),
+                             .wall = decode_span(m, "walls_mm", kWall)};
+  });
   return out;
 }
 
@@ -295,13 +313,7 @@ struct FeedCurves {
   static void encode(const Spec&, const Out& out, Writer& w) {
     w.object("geometry", [&](Writer& o) { encode_geometry(out.geometry, o); });
     w.object("work", [&](Writer& o) { encode_work(out.work, o); });
-    w.object("table", [&](Writer& o) {
-      o.column("t_s", out.table.time);
-      o.column("feed_mm", out.table.feed);
-      o.column("stroke_mm", out.table.stroke);
-      o.column("cylinder_speed_mm_s", out.table.speed);
-      o.column("cylinder_acceleration_mm_s2", out.table.acceleration);
-    });
+    w.object("table", [&](Writer& o) { feed_columns(out).write(o); });
     w.object("fit", [&](Writer& o) { encode_command(out.fit, o); });
     if (out.comparison)
       w.array("comparison", *out.comparison, [](Writer& each, const cutoff::Command& command) {
@@ -315,7 +327,7 @@ struct FeedCurves {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &feed_curve_csv, {"table", "samples"}},
         {"svg", "image/svg+xml", &feed_curve_svg, {"chart"}},
-        {"st", "text/x-iec61131-st", &feed_curve_structured_text}};
+        {"st", "text/x-iec61131-st", &feed_curve_structured_text, {}, {}, false, true}};
     return kFormats;
   }
 };

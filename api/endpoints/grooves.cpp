@@ -2,20 +2,10 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/groove_codec.hpp"
 #include "api/formats/groove_formats.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
-
-using groove::GrooveSection;
-
-/// One number of every section.
-template <class F>
-std::vector<double> each(const std::vector<GrooveSection>& sections, F value) {
-  std::vector<double> out;
-  out.reserve(sections.size());
-  for (const auto& section : sections) out.push_back(value(section));
-  return out;
-}
 
 struct Grooves {
   using Spec = groove::GrooveSpec;
@@ -50,12 +40,10 @@ struct Grooves {
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
-    w.object("sections", [&](Writer& o) { encode_sections(out.sections, o); });
+    w.object("sections", [&](Writer& o) { section_columns(out).write(o); });
     w.object("curves", [&](Writer& o) {
-      encode_curve("c1", out.sections, &groove::CurvePoints::c1, o);
-      encode_curve("c2", out.sections, &groove::CurvePoints::c2, o);
-      encode_curve("c3", out.sections, &groove::CurvePoints::c3, o);
-      encode_curve("c4", out.sections, &groove::CurvePoints::c4, o);
+      for (const auto& [name, points] : kCurves)
+        o.object(name, [&](Writer& c) { curve_columns(out, points).write(c); });
     });
     w.field("filler_area_mm2", out.area);
     w.field("first_order", spec.area_in == groove::AreaIn::normal);
@@ -67,40 +55,8 @@ struct Grooves {
     if (!out.compare) return;
     w.object("compare", [&](Writer& o) {
       o.field("height_mm", out.compare->height);
-      o.column("filler_area_mm2", out.compare->filler_area);
+      compare_columns(*out.compare).write(o);
       o.field("filler_volume_mm3", out.compare->filler_volume);
-    });
-  }
-
-  static void encode_sections(const std::vector<GrooveSection>& all, Writer& o) {
-    using S = const GrooveSection&;
-    o.degrees_column("omega_deg", each(all, [](S s) { return s.omega.rad(); }));
-    o.degrees_column("phi_deg", each(all, [](S s) { return s.phi.rad(); }));
-    o.column("root_z_mm", each(all, [](S s) { return s.root_z; }));
-    o.column("height_mm", each(all, [](S s) { return s.height; }));
-    o.column("p1_x_mm", each(all, [](S s) { return s.p1.x(); }));
-    o.column("p1_y_mm", each(all, [](S s) { return s.p1.y(); }));
-    o.column("p2_x_mm", each(all, [](S s) { return s.p2.x(); }));
-    o.column("p2_y_mm", each(all, [](S s) { return s.p2.y(); }));
-    o.column("p3_x_mm", each(all, [](S s) { return s.p3.x(); }));
-    o.column("p3_y_mm", each(all, [](S s) { return s.p3.y(); }));
-    // 0 where the chord's section is a pair of lines and has no such axis
-    o.column("ellipse_a_mm", each(all, [](S s) { return s.ellipse_a.value_or(0.0); }));
-    o.column("area_a_mm2", each(all, [](S s) { return s.areas.a; }));
-    o.column("area_b_mm2", each(all, [](S s) { return s.areas.b; }));
-    o.column("area_c_mm2", each(all, [](S s) { return s.areas.c; }));
-    o.column("area_d_mm2", each(all, [](S s) { return s.areas.d; }));
-    o.column("area_e_mm2", each(all, [](S s) { return s.areas.e; }));
-    o.degrees_column("twist_deg", each(all, [](S s) { return s.ruling.twist.rad(); }));
-    o.degrees_column("groove_angle_deg", each(all, [](S s) { return s.groove_angle.rad(); }));
-  }
-
-  static void encode_curve(std::string_view name, const std::vector<GrooveSection>& all,
-                           Eigen::Vector3d groove::CurvePoints::*curve, Writer& w) {
-    w.object(name, [&](Writer& o) {
-      o.column("x_mm", each(all, [&](const GrooveSection& s) { return (s.curves.*curve).x(); }));
-      o.column("y_mm", each(all, [&](const GrooveSection& s) { return (s.curves.*curve).y(); }));
-      o.column("z_mm", each(all, [&](const GrooveSection& s) { return (s.curves.*curve).z(); }));
     });
   }
 

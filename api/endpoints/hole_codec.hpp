@@ -16,8 +16,14 @@ struct HoleBranch {
 /// The branch of a hole: its size and where it stands.
 [[nodiscard]] HoleBranch decode_hole_branch(Reader& in);
 
-/// `joint`, `groove` and `tilt`. A set-in branch goes less deep than the chord's radius.
-void decode_hole_cut(Reader& in, double chord_radius, bevel::HoleSpec& out);
+/// `kind`, `gap_mm` and `depth_mm`. A set-in branch goes less deep than the chord's radius; a mitre
+/// is one of two members, not of a hole.
+[[nodiscard]] joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members);
+void encode_joint_kind(const joint::Joint& joint, Writer& o);
+
+/// `joint`, `groove` and `tilt`; without a `joint` where the members state it.
+void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated,
+                     bevel::HoleSpec& out);
 
 /// One hole as members of an object.
 void encode_hole(const bevel::HoleSpec& spec, const bevel::Hole& hole, Writer& o);

@@ -5,7 +5,9 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/hole_formats.hpp"
+#include "api/tables.hpp"
 #include "core/bevel/hole.hpp"
 
 namespace tubecut::api {
@@ -49,18 +51,16 @@ HoleBranch decode_hole_branch(Reader& in) {
 
 namespace {
 
-struct Joint {
-  JointKind kind = JointKind::set_on;
-  double gap = 0.0;
-  std::optional<double> depth = {};
-};
+constexpr std::array kKinds{
+    Option<JointKind>{"set_on", JointKind::set_on}, Option<JointKind>{"set_in", JointKind::set_in},
+    Option<JointKind>{"through", JointKind::through}, Option<JointKind>{"mitre", JointKind::mitre}};
 
-Joint decode_joint(Reader& in, double deepest) {
-  static constexpr std::array kKinds{Option<JointKind>{"set_on", JointKind::set_on},
-                                     Option<JointKind>{"set_in", JointKind::set_in},
-                                     Option<JointKind>{"through", JointKind::through}};
-  Joint out;
-  const auto kind = in.tag("kind", kKinds);
+}  // namespace
+
+joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members) {
+  static constexpr std::array kOfHoles{kKinds[0], kKinds[1], kKinds[2]};
+  joint::Joint out;
+  const auto kind = of_members ? in.tag("kind", kKinds) : in.tag("kind", kOfHoles);
   out.kind = kind.value_or(JointKind::set_in);
   out.gap = in.number("gap_mm", kGap, 0.0);
   if (out.kind != JointKind::set_in && in.has("depth_mm"))
@@ -68,10 +68,20 @@ Joint decode_joint(Reader& in, double deepest) {
               .pointer = "depth_mm",
               .hint = "only a set-in branch has a depth"},
              in.find("depth_mm"));
+  const double deepest = std::max(chord_radius, kDiameter.min);
   out.depth = in.optional_number("depth_mm",
                                  {.min = 0.0, .max = deepest, .open_min = true, .open_max = true});
   return out;
 }
+
+void encode_joint_kind(const joint::Joint& joint, Writer& o) {
+  for (const auto& kind : kKinds)
+    if (kind.value == joint.kind) o.field("kind", kind.name);
+  o.field("gap_mm", joint.gap);
+  if (joint.depth) o.field("depth_mm", *joint.depth);
+}
+
+namespace {
 
 enum class RuleName { half_dihedral, fixed, none, square };
 
@@ -105,11 +115,15 @@ bevel::TorchRange decode_range(Reader& in) {
 
 }  // namespace
 
-void decode_hole_cut(Reader& in, double chord_radius, bevel::HoleSpec& out) {
+void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated,
+                     bevel::HoleSpec& out) {
   static constexpr std::array kTilts{Option<Tilt>{"axial", Tilt::axial},
                                      Option<Tilt>{"free", Tilt::free}};
-  const auto joint = in.object(
-      "joint", [&](Reader& j) { return decode_joint(j, std::max(chord_radius, kDiameter.min)); });
+  in.note("joint");
+  const bool told = stated != nullptr && !in.has("joint");
+  const auto joint = told ? *stated : in.object("joint", [&](Reader& j) {
+    return decode_joint_kind(j, chord_radius, false);
+  });
   out.kind = joint.kind;
   out.gap = joint.gap;
   out.depth = joint.depth;
@@ -117,46 +131,15 @@ void decode_hole_cut(Reader& in, double chord_radius, bevel::HoleSpec& out) {
   out.tilt = in.choice("tilt", kTilts, Tilt::axial);
 }
 
-namespace {
-
-void encode_phase(std::string_view name, const std::vector<double>& phase, bool far,
-                  const bevel::HoleSpec& spec, Writer& w) {
-  if (far || spec.sampling.tolerance) return w.degrees_column(name, phase);
-  std::vector<double> grid(phase.size());  // exactly 360 i / n
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    grid[i] = 360.0 * static_cast<double>(i) / static_cast<double>(grid.size());
-  w.column(name, grid);
-}
-
-}  // namespace
-
 void encode_hole(const bevel::HoleSpec& spec, const bevel::Hole& hole, Writer& o) {
   o.field("side", hole.far ? "far" : "near");
-  o.object("points", [&](Writer& p) {
-    encode_phase("branch_phi_deg", hole.branch_phi, hole.far, spec, p);
-    p.column("length_mm", hole.length);
-    p.degrees_column("phi_deg", hole.phi);
-    p.column("z_mm", hole.z);
-    p.column("developed_mm", hole.developed);
-    p.degrees_column("phi_inner_deg", hole.phi_inner);
-    p.column("z_inner_mm", hole.z_inner);
-    p.degrees_column("dihedral_deg", hole.dihedral);
-    p.degrees_column("groove_deg", hole.groove);
-    p.degrees_column("b_deg", hole.b);
-    p.degrees_column("a_deg", hole.a);
-    p.column("beam_mm", hole.beam);
-    p.degrees_column("torch_phi_deg", hole.torch_phi);
-    p.column("torch_z_mm", hole.torch_z);
-    p.degrees_column("torch_phi_inner_deg", hole.torch_phi_inner);
-    p.column("torch_z_inner_mm", hole.torch_z_inner);
-  });
+  o.object("points", [&](Writer& p) { hole_columns(spec, hole).write(p); });
+  o.field("b_sign", kBSignInPart);
   o.field("scrap", "inside");
   o.field("turns", 0);
   o.field("length_mm", hole.length_total);
   o.object("fit_up", [&](Writer& f) {
-    f.column("root_mm", hole.fit.root);
-    f.column("face_mm", hole.fit.face);
-    f.column("least_mm", hole.fit.least);
+    fit_up_columns(hole).write(f);
     f.field("least_between_nodes_mm", hole.fit.least_between);
     f.field("greatest_root_between_nodes_mm", hole.fit.greatest_root_between);
   });
@@ -171,7 +154,7 @@ struct Holes {
   static constexpr std::string_view kPath = "/v1/holes";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr std::array<std::string_view, 2> kAccepts{"max_root_gap_mm", "max_b_deg"};
-  static constexpr std::array<CheckLimit, 8> kChecks{{
+  static constexpr std::array<CheckLimit, 10> kChecks{{
       {"on_branch", "1e-6", "mm"},
       {"gap", "1e-6", "mm"},
       {"fit_up", "1e-6", "mm"},
@@ -180,6 +163,8 @@ struct Holes {
       {"tilt", "1e-6", "deg"},
       {"kerf", "1e-6", "mm"},
       {"branch_end", "1e-6", "mm"},
+      {"gap_stated", "1e-3", "mm"},
+      {"gap_between", "sampling.tolerance_mm", "mm"},
   }};
 
   static Spec decode(Reader& in) {
@@ -190,7 +175,7 @@ struct Holes {
     const auto branch = in.object("branch", decode_hole_branch);
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
-    decode_hole_cut(in, deepest, out);
+    decode_hole_cut(in, deepest, nullptr, out);
     out.torch = in.defaulted_object("torch", decode_range);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
     out.sampling = decode_sampling(in);
@@ -231,12 +216,7 @@ struct Holes {
       c.field("offset_mm", end.chord.offset);
       c.field("height_mm", end.chord.height);
     });
-    o.object("points", [&](Writer& p) {
-      encode_phase("phi_deg", end.phi, false, spec, p);
-      p.column("z_inner_mm", end.z_inner);
-      p.column("z_outer_mm", end.z_outer);
-      p.degrees_column("b_deg", end.b);
-    });
+    o.object("points", [&](Writer& p) { branch_columns(spec, end).write(p); });
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {

@@ -38,7 +38,7 @@ struct Intersections {
     if (!source) return tl::unexpected(source.error());
     spec.source = *std::move(source);
     spec.target = spec.source.target;
-    spec.partners = spec.source.partners;
+    spec.partners = spec.source.node ? joint::seats(spec.source.found) : spec.source.partners;
     return spec;
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {

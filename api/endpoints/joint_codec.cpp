@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/limits.hpp"
+#include "api/tables.hpp"
 #include "api/tube_sizes.hpp"
 
 namespace tubecut::api {
@@ -218,24 +219,11 @@ void encode_event(const joint::Event& event, bool outer, Writer& w) {
 void encode_profile(const joint::Profile& profile, const joint::Sampling& sampling, Writer& w) {
   w.field("surface", profile.outer ? "outer" : "inner");
   w.field("radius_mm", profile.radius);
-  w.object("points", [&](Writer& c) {
-    encode_phi(profile.phi, sampling, c);
-    c.column("z_mm", profile.z);
-    c.column("cutter", profile.cutter);
-  });
+  w.object("points", [&](Writer& c) { profile_columns(profile, sampling).write(c); });
   w.array("events", profile.events,
           [&](Writer& e, const joint::Event& event) { encode_event(event, profile.outer, e); });
   w.field("length_mm", profile.length);
   w.field("developed_length_mm", profile.developed);
-}
-
-void encode_phi(const std::vector<double>& phi, const joint::Sampling& sampling, Writer& w) {
-  if (sampling.tolerance) return w.degrees_column("phi_deg", phi);
-  // Exactly 360 i / n, not that through radians and back.
-  std::vector<double> grid(phi.size());
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    grid[i] = 360.0 * static_cast<double>(i) / static_cast<double>(grid.size());
-  w.column("phi_deg", grid);
 }
 
 }  // namespace tubecut::api

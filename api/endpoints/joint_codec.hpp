@@ -35,7 +35,5 @@ inline constexpr std::array<CheckLimit, 4> kProfileChecks{{
 void encode_event(const joint::Event& event, bool outer, Writer& w);
 /// The curve on one wall, as members of an object.
 void encode_profile(const joint::Profile& profile, const joint::Sampling& sampling, Writer& w);
-/// The column phi_deg: on uniform points exactly 360 i / n.
-void encode_phi(const std::vector<double>& phi, const joint::Sampling& sampling, Writer& w);
 
 }  // namespace tubecut::api

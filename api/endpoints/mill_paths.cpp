@@ -2,19 +2,10 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/groove_codec.hpp"
 #include "api/formats/groove_formats.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
-
-using groove::MillPosition;
-
-template <class F>
-std::vector<double> each(const std::vector<MillPosition>& positions, F value) {
-  std::vector<double> out;
-  out.reserve(positions.size());
-  for (const auto& position : positions) out.push_back(value(position));
-  return out;
-}
 
 void encode_swept(std::string_view name, const groove::Swept& swept, Writer& w) {
   w.object(name, [&](Writer& o) {
@@ -54,42 +45,10 @@ struct MillPaths {
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
   static void encode(const Spec&, const Out& out, Writer& w) {
-    w.object("positions", [&](Writer& o) { encode_positions(out.positions, o); });
+    w.object("positions", [&](Writer& o) { position_columns(out).write(o); });
     encode_swept("swept", out.swept, w);
     encode_swept("swept_at_positions", out.swept_at_optima, w);
     w.field("qualified", out.qualified);
-  }
-
-  static void encode_positions(const std::vector<MillPosition>& all, Writer& o) {
-    using P = const MillPosition&;
-    o.degrees_column("omega_deg", each(all, [](P p) { return p.omega.rad(); }));
-    o.degrees_column("c_deg", each(all, [](P p) { return p.at.c.rad(); }));
-    o.column("x_mm", each(all, [](P p) { return p.at.x; }));
-    o.column("z_mm", each(all, [](P p) { return p.at.z; }));
-    o.degrees_column("b_deg", each(all, [](P p) { return p.at.b.rad(); }));
-    o.column("dz_mm", each(all, [](P p) { return p.by.dz; }));
-    o.degrees_column("db_deg", each(all, [](P p) { return p.by.db; }));
-    o.column("overcut_before_mm", each(all, [](P p) { return p.before.over; }));
-    o.column("undercut_before_mm", each(all, [](P p) { return p.before.under; }));
-    o.column("overcut_mm", each(all, [](P p) { return p.after.over; }));
-    o.column("undercut_mm", each(all, [](P p) { return p.after.under; }));
-    o.column("gap_before_mm", each(all, [](P p) { return p.before.largest; }));
-    o.column("gap_mm", each(all, [](P p) { return p.after.largest; }));
-    o.column("grid_overcut_before_mm", each(all, [](P p) { return p.grid_before.over; }));
-    o.column("grid_undercut_before_mm", each(all, [](P p) { return p.grid_before.under; }));
-    o.column("grid_overcut_mm", each(all, [](P p) { return p.grid.over; }));
-    o.column("grid_undercut_mm", each(all, [](P p) { return p.grid.under; }));
-    o.column("certificate_mm", each(all, [](P p) { return p.certificate; }));
-    std::vector<int> evaluations;
-    std::vector<bool> qualified, optimised;
-    for (const auto& p : all) {
-      evaluations.push_back(p.evaluations);
-      qualified.push_back(p.qualified);
-      optimised.push_back(p.optimised);
-    }
-    o.column("evaluations", evaluations);
-    o.flags("qualified", qualified);
-    o.flags("optimised", optimised);
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {

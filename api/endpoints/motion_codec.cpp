@@ -7,6 +7,7 @@
 #include "api/endpoints/groove_codec.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
+#include "core/base/elementary.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -26,29 +27,81 @@ constexpr std::array kScraps{Option<Scrap>{"-z", Scrap::minus_z},
                              Option<Scrap>{"+z", Scrap::plus_z},
                              Option<Scrap>{"inside", Scrap::inside}};
 
-void negate(std::vector<double>& values) {
-  for (auto& v : values) v = -v;
-}
+/// How a contour counts B.
+enum class BSign { outer_edge_into_part, outer_edge_to_plus_z, inward };
+
+/// What of a table's points tells their sign of B.
+struct TorchLines {
+  std::vector<double> inner, outer;
+};
 
 /// A bevel table's own points, unchanged: the torch line on the asked surface.
-void decode_table_points(Reader& in, Surface surface, motion::Contour& out) {
+TorchLines decode_table_points(Reader& in, Surface surface, motion::Contour& out) {
   for (const auto* other :
-       {"developed_mm", "length_mm", "cutter", "zone", "z_inner_mm", "z_outer_mm", "dihedral_deg",
-        "groove_deg", "tau_deg", "gamma_deg", "flush_deg", "b_raw_deg", "b_required_deg", "gap_mm"})
+       {"developed_mm", "length_mm", "cutter", "zone", "z_inner_mm", "z_outer_mm", "z_face_mm",
+        "b_face_deg", "dihedral_deg", "groove_deg", "tau_deg", "gamma_deg", "flush_deg",
+        "b_raw_deg", "b_required_deg", "gap_mm"})
     in.note(other);
   out.phi = in.angle_column("phi_deg", kPoints, kUnwrappedDeg);
   out.b = in.angle_column("b_deg", kPoints, kBevelDeg);
   out.beam = in.column("beam_mm", kPoints, kBeam);
-  auto inner = in.column("torch_inner_mm", kPoints, kOffset);
-  auto outer = in.column("torch_outer_mm", kPoints, kOffset);
-  out.z = surface == Surface::outer ? std::move(outer) : std::move(inner);
+  in.note("corner");
+  if (in.has("corner")) out.corner = in.flag_column("corner", kPoints);
+  TorchLines lines{in.column("torch_inner_mm", kPoints, kOffset),
+                   in.column("torch_outer_mm", kPoints, kOffset)};
+  out.z = surface == Surface::outer ? lines.outer : lines.inner;
+  return lines;
+}
+
+/// The sign must be stated: swung the other way, the torch cuts another joint.
+std::optional<BSign> decode_b_sign(Reader& in) {
+  static constexpr std::array kSigns{
+      Option<BSign>{"outer_edge_into_part", BSign::outer_edge_into_part},
+      Option<BSign>{"outer_edge_to_plus_z", BSign::outer_edge_to_plus_z},
+      Option<BSign>{"inward", BSign::inward}};
+  const auto sign = in.choice("b_sign", kSigns);
+  if (!in.understood("b_sign")) return std::nullopt;
+  if (sign == BSign::inward)
+    in.issue({.code = ErrorCode::comparison_only,
+              .pointer = "b_sign",
+              .limit = Json{"outer_edge_into_part|outer_edge_to_plus_z"},
+              .hint = "points that count B inward are for comparison with published figures"},
+             in.find("b_sign"));
+  return sign;
+}
+
+/// `outer_edge_into_part` is towards +z only where the part is.
+void check_b_sign(Reader& in, BSign sign, Scrap scrap) {
+  if (sign != BSign::outer_edge_into_part || scrap == Scrap::minus_z) return;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "b_sign",
+            .limit = Json{"outer_edge_to_plus_z"},
+            .hint = "into the part is towards +z only where the scrap is at -z"},
+           in.find("b_sign"));
+}
+
+/// A torch swung by B passes both walls at heights wall tan B apart: points that say otherwise are
+/// of another wall, or count B the other way.
+void check_torch_lines(Reader& in, const motion::Contour& contour, const TorchLines& lines) {
+  constexpr double kApart = 1e-3;  // mm; rounding of what was printed is far below
+  const auto n = std::min({contour.b.size(), lines.inner.size(), lines.outer.size()});
+  for (std::size_t i = 0; i < n; ++i) {
+    const double apart = lines.outer[i] - lines.inner[i];
+    const double swung = contour.wall * elementary::tan(contour.b[i]);
+    if (std::abs(apart - swung) <= kApart) continue;
+    const bool other_way = std::abs(apart + swung) <= kApart;
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = other_way ? "b_sign" : "wall_mm",
+              .got = Json{swung},
+              .limit = Json{apart},
+              .unit = "mm",
+              .hint = "the torch lines of point " + std::to_string(i) + " are so far apart that " +
+                      (other_way ? "B counts the other way" : "the wall is another")});
+    return;
+  }
 }
 
 motion::Contour decode_contour(Reader& in) {
-  // A part's own sign: of a start it is the table's; a finish is seen from the other side already.
-  static constexpr std::array kSigns{Option<bool>{"outer_edge_into_part", false},
-                                     Option<bool>{"inward", true},
-                                     Option<bool>{"outer_edge_to_plus_z", false}};
   motion::Contour out;
   out.surface = in.choice("surface", kSurfaces);
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
@@ -57,14 +110,15 @@ motion::Contour decode_contour(Reader& in) {
                    .open_max = out.outer_radius <= kWall.max};
   out.wall = in.number("wall_mm", in.understood("outer_diameter_mm") ? wall : kWall);
   out.closed = in.flag("closed");
+  const auto sign = decode_b_sign(in);
   in.note("scrap");
   if (in.exactly_one({"phi_deg", "points"}) == 1) {
-    in.object("points", [&](Reader& p) {
-      decode_table_points(p, out.surface, out);
-      return 0;
-    });
-    if (in.choice("b_sign", kSigns, false)) negate(out.b);
+    const auto lines =
+        in.object("points", [&](Reader& p) { return decode_table_points(p, out.surface, out); });
     out.scrap = in.choice("scrap", kScraps, Scrap::minus_z);
+    if (sign && sign != BSign::inward && in.understood("scrap")) check_b_sign(in, *sign, out.scrap);
+    if (sign && sign != BSign::inward && in.understood("wall_mm"))
+      check_torch_lines(in, out, lines);
     return out;
   }
   out.phi = in.angle_column("phi_deg", kPoints, kUnwrappedDeg);
@@ -75,6 +129,7 @@ motion::Contour decode_contour(Reader& in) {
   in.note("beam_mm");
   if (in.has("beam_mm")) out.beam = in.column("beam_mm", kPoints, kBeam);
   if (in.has("scrap")) out.scrap = in.choice("scrap", kScraps);
+  if (sign && in.understood("scrap")) check_b_sign(in, *sign, out.scrap);
   return out;
 }
 
@@ -178,6 +233,30 @@ tl::unexpected<Error> under(const Result<T>& result, const std::string& parent) 
   return tl::unexpected(std::move(error));
 }
 
+/// Rows but those at which the torch stands where it stood before: at a jump of the finished edge
+/// it waits below both.
+std::vector<std::size_t> distinct_rows(const motion::Contour& c) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < c.phi.size(); ++i)
+    if (i == 0 || c.phi[i] != c.phi[i - 1] || c.z[i] != c.z[i - 1] || c.b[i] != c.b[i - 1])
+      out.push_back(i);
+  return out;
+}
+
+void keep_distinct_rows(motion::Contour& c) {
+  const auto rows = distinct_rows(c);
+  if (rows.size() == c.phi.size()) return;
+  std::vector<bool> corner(rows.size(), false);  // a row left out hands its corner on
+  for (std::size_t i = 0, k = 0; i < c.corner.size(); ++i) {
+    while (k + 1 < rows.size() && rows[k + 1] <= i) ++k;
+    if (c.corner[i]) corner[k] = true;
+  }
+  c.corner = std::move(corner);
+  for (auto* column : {&c.phi, &c.z, &c.b, &c.beam})
+    for (std::size_t k = 0; k < rows.size(); ++k) (*column)[k] = (*column)[rows[k]];
+  for (auto* column : {&c.phi, &c.z, &c.b, &c.beam}) column->resize(rows.size());
+}
+
 /// The torch line of a table on its root surface, a corner at each event that is a node.
 motion::Contour contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
   const bool outer = spec.root_surface == bevel::RootSurface::outer;
@@ -189,13 +268,8 @@ motion::Contour contour_of(const bevel::TableSpec& spec, const bevel::Table& tab
   out.outer_radius = spec.target.outer_radius;
   out.wall = spec.target.wall;
   out.surface = outer ? Surface::outer : Surface::inner;
-  if (table.inward) negate(out.b);
-  if (!spec.sampling.tolerance) return out;
-  out.corner.assign(out.phi.size(), false);
-  for (const auto* events : {&table.inner_events, &table.outer_events})
-    for (const auto& event : *events)
-      for (std::size_t i = 0; i < out.phi.size(); ++i)
-        if (out.phi[i] == event.phi) out.corner[i] = true;
+  out.corner = corners(spec, table);
+  keep_distinct_rows(out);
   return out;
 }
 
@@ -249,6 +323,9 @@ struct CutOf {
       table = tl::unexpected(on_node(spec.source, table.error()));
       return under(table, "cut");
     }
+    if (table->inward)
+      return fail(
+          {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
     job.checks = bevel::verify(spec, *table);
     job.warnings = on_node(spec.source, table->warnings);
     for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;

@@ -1,5 +1,6 @@
 #include "api/endpoints/node_codec.hpp"
 
+#include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/limits.hpp"
 
@@ -14,8 +15,17 @@ constexpr int kPriorities = 1'000;
 constexpr auto kMembers = static_cast<std::size_t>(limit::members_max);
 constexpr std::array kEnds{Option<End>{"start", End::start}, Option<End>{"finish", End::finish}};
 
-joint::Member decode_member(Reader& in) {
-  joint::Member out;
+constexpr std::size_t kMostJoints = 1'000;  // of one member, with others
+
+/// A member, and what it says of its joints, the others still by name.
+struct NamedMember {
+  joint::Member member;
+  std::vector<std::pair<std::string, joint::Joint>> joints;
+};
+
+NamedMember decode_member(Reader& in) {
+  NamedMember named;
+  auto& out = named.member;
   out.name = in.text("id");
   out.start = in.vector3("start_mm", kOffset);
   out.finish = in.vector3("end_mm", kOffset);
@@ -25,7 +35,13 @@ joint::Member decode_member(Reader& in) {
   out.priority = in.integer("priority", 0, kPriorities, 0);
   in.note("up");
   if (in.has("up")) out.up = in.vector3("up", kComponent);
-  return out;
+  in.note("joints");
+  if (in.has("joints"))
+    named.joints = in.array("joints", {.min = 0, .max = kMostJoints}, [](Reader& j) {
+      auto with = j.text("member");
+      return std::pair{std::move(with), decode_joint_kind(j, kDiameter.max / 2.0, true)};
+    });
+  return named;
 }
 
 MemberIds decode_ids(Reader& in, const std::vector<joint::Member>& members) {
@@ -39,6 +55,26 @@ MemberIds decode_ids(Reader& in, const std::vector<joint::Member>& members) {
       in.issue({.code = ErrorCode::bad_text,
                 .pointer = "members/" + std::to_string(i) + "/id",
                 .hint = "another member has this id"});
+  return out;
+}
+
+/// The joints that members state, in the order of the members.
+std::vector<joint::StatedJoint> stated_joints(Reader& in, const MemberIds& ids,
+                                              const std::vector<NamedMember>& members) {
+  std::vector<joint::StatedJoint> out;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    for (std::size_t j = 0; j < members[i].joints.size(); ++j) {
+      const auto& [with, joint] = members[i].joints[j];
+      const auto pointer =
+          "members/" + std::to_string(i) + "/joints/" + std::to_string(j) + "/member";
+      const auto other = known_member(in, ids, with, pointer);
+      if (!with.empty() && with == members[i].member.name)
+        in.issue({.code = ErrorCode::bad_choice,
+                  .pointer = pointer,
+                  .got = Json{with},
+                  .hint = "a member cannot join itself"});
+      out.push_back({.member = i, .with = other, .joint = joint});
+    }
   return out;
 }
 
@@ -103,8 +139,10 @@ std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id
 
 NamedNode decode_named_node(Reader& in) {
   NamedNode out;
-  out.spec.members = in.array("members", {.min = 1, .max = kMembers}, decode_member);
+  const auto members = in.array("members", {.min = 1, .max = kMembers}, decode_member);
+  for (const auto& one : members) out.spec.members.push_back(one.member);
   out.ids = decode_ids(in, out.spec.members);
+  out.spec.joints = stated_joints(in, out.ids, members);
   if (in.is<Json::Array>("connect"))
     out.spec.connect = in.array("connect", {.min = 1, .max = 2 * kMembers},
                                 [&](Reader& link) { return decode_link(link, out.ids); });
@@ -145,6 +183,7 @@ Result<JointSource> resolve(JointSource source, const std::stop_token& stop) {
   source.found = *std::move(found);
   source.target = source.found.target;
   source.partners = source.found.partners;
+  source.stated = source.found.stated;
   return source;
 }
 

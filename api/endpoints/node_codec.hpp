@@ -38,6 +38,7 @@ struct NodeEnd {
 struct JointSource {
   joint::Target target = {};
   std::vector<joint::Partner> partners = {};
+  std::vector<std::optional<joint::Joint>> stated = {};  // how they are joined, of a node
   std::optional<NodeEnd> node = {};
   joint::EndJoint found = {};  // of the node, once resolved
 };

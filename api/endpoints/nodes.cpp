@@ -3,10 +3,12 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "core/bevel/end_tables.hpp"
 #include "core/joint/node.hpp"
+#include "core/joint/overlap.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -19,6 +21,7 @@ struct NodesRequest {
 };
 struct NodesAnswer {
   joint::Nodes nodes;
+  std::vector<joint::Overlap> overlaps;
   // Of each end, if asked for; else there are none.
   std::vector<std::optional<joint::Intersection>> profiles;
   std::vector<std::optional<bevel::EndTable>> tables;
@@ -87,15 +90,23 @@ void keep_worst(std::vector<Check>& worst, const std::vector<Check>& checks) {
 
 std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+void encode_placement(const joint::TubeCutter& tube, Writer& p) {
+  p.degrees("inclination_deg", tube.inclination.rad());
+  p.degrees("clocking_deg", tube.clocking.rad());
+  p.field("offset_mm", tube.offset);
+  p.field("height_mm", tube.height);
+}
+
 void encode_cut(const joint::NodeSpec& spec, const joint::CutBy& cut, Writer& w) {
-  const auto& tube = cut.placement.tube;
   w.field("member", spec.members[cut.member].name);
-  w.object("placement", [&](Writer& p) {
-    p.degrees("inclination_deg", tube.inclination.rad());
-    p.degrees("clocking_deg", tube.clocking.rad());
-    p.field("offset_mm", tube.offset);
-    p.field("height_mm", tube.height);
-  });
+  if (cut.plane)
+    w.object("plane", [&](Writer& p) {
+      p.column("point_mm", components(cut.plane->point));
+      p.column("normal", components(cut.plane->normal));
+    });
+  else
+    w.object("placement", [&](Writer& p) { encode_placement(cut.placement.tube, p); });
+  w.object("joint", [&](Writer& j) { encode_joint_kind(cut.stated.value_or(joint::Joint{}), j); });
   w.field("gap_mm", cut.gap);
   w.field("eccentricity_mm", cut.eccentricity);
   w.field("ghost", cut.ghost);
@@ -115,26 +126,15 @@ struct Nodes {
   static constexpr std::string_view kPath = "/v1/nodes";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 18> kChecks{{
+  static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
       {"axis_in_world", "1e-12, of the lengths involved", ""},
       {"inclination", "1e-9", "deg"},
       {"eccentricity", "1e-12, of the lengths involved", ""},
       {"gap", "1e-12, of the lengths involved", ""},
       {"frame", "1e-12", ""},
       {"one_cuts_the_other", "0", ""},
-      kProfileChecks[0],
-      kProfileChecks[1],
-      kProfileChecks[2],
-      kProfileChecks[3],
-      kTableChecks[0],
-      kTableChecks[1],
-      kTableChecks[2],
-      kTableChecks[3],
-      kTableChecks[4],
-      kTableChecks[5],
-      kTableChecks[6],
-      kTableChecks[7],
-  }};
+  });
+  static constexpr auto kChecks = all_checks(kOwnChecks, kProfileChecks, kTableChecks);
 
   static Spec decode(Reader& in) {
     Spec out;
@@ -149,7 +149,10 @@ struct Nodes {
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto nodes = joint::solve(spec.node, stop);
     if (!nodes) return tl::unexpected(nodes.error());
-    Out out{.nodes = *std::move(nodes), .profiles = {}, .tables = {}};
+    Out out{.nodes = *std::move(nodes), .overlaps = {}, .profiles = {}, .tables = {}};
+    auto overlaps = joint::overlaps(spec.node, out.nodes, {}, stop);
+    if (!overlaps) return tl::unexpected(overlaps.error());
+    out.overlaps = *std::move(overlaps);
     if (spec.profiles) {
       auto profiles = joint::profiles(spec.node, out.nodes, spec.sampling, stop);
       if (!profiles) return tl::unexpected(profiles.error());
@@ -175,7 +178,7 @@ struct Nodes {
       if (out.profiles[i]) {
         const auto joint = joint::joint_of(spec.node, out.nodes.ends[i]);
         keep_worst(checks, joint::verify(joint::IntersectionSpec{.target = joint.target,
-                                                                 .partners = joint.partners,
+                                                                 .partners = joint::seats(joint),
                                                                  .surfaces = joint::Surfaces::both,
                                                                  .sampling = spec.sampling},
                                          *out.profiles[i]));
@@ -185,8 +188,10 @@ struct Nodes {
     return checks;
   }
 
-  static std::vector<Warning> warnings(const Spec&, const Out& out) {
+  static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     auto all = out.nodes.warnings;
+    for (auto& warning : joint::warnings_of(spec.node, out.overlaps))
+      all.push_back(std::move(warning));
     for (std::size_t i = 0; i < out.tables.size(); ++i) {
       if (!out.tables[i]) continue;
       const auto at = joint::place_of(out.nodes.ends[i].member, out.nodes.ends[i].end);
@@ -230,6 +235,14 @@ struct Nodes {
   static void encode(const Spec& spec, const Out& out, Writer& w) {
     w.array("ends", out.nodes.ends, [&](Writer& each, const joint::MemberEnd& end) {
       each.object([&](Writer& o) { encode_end(spec, out, end, o); });
+    });
+    w.array("overlaps", out.overlaps, [&](Writer& each, const joint::Overlap& one) {
+      each.object([&](Writer& o) {
+        const auto& members = spec.node.members;
+        o.column("between", std::vector{members[one.a].name, members[one.b].name});
+        o.field("depth_mm", one.depth);
+        o.column("at_mm", components(one.at));
+      });
     });
   }
 

@@ -94,14 +94,17 @@ void decode_member(Reader& in, PartRequest& out) {
   in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {
     auto hole = hole_options(m.cut);
     const auto branch = h.text("member");
-    m.branches.push_back(known_member(h, node.ids, branch, "member"));
+    const auto other = known_member(h, node.ids, branch, "member");
     if (!branch.empty() && branch == id)
       h.issue({.code = ErrorCode::bad_choice,
                .pointer = "member",
                .got = Json{branch},
                .hint = "a member cannot stand on itself"});
-    decode_hole_cut(h, radius, hole);
-    m.holes.push_back(std::move(hole));
+    // Members that are refused may be those that state it.
+    static constexpr joint::Joint kUnknown{};
+    const auto* stated = joint::stated_joint(m.node, m.member, other);
+    decode_hole_cut(h, radius, stated == nullptr && h.refused() ? &kUnknown : stated, hole);
+    m.holes.push_back({std::move(hole), other});
     return 0;
   });
 }
@@ -154,7 +157,7 @@ void decode_direct(Reader& in, PartRequest& out) {
     const auto branch = h.object("branch", decode_hole_branch);
     hole.branch = branch.placement;
     hole.branch_wall = branch.wall;
-    decode_hole_cut(h, p.target.outer_radius, hole);
+    decode_hole_cut(h, p.target.outer_radius, nullptr, hole);
     p.holes.push_back({std::move(hole), branch.name, p.holes.size()});
     return 0;
   });

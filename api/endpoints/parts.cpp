@@ -12,6 +12,7 @@
 #include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
 #include "api/formats/work_order.hpp"
+#include "api/tables.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::api {
@@ -42,15 +43,7 @@ struct Parts {
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
                                                             "max_extra_bevel_deg", "max_b_deg"};
-  static constexpr std::array<CheckLimit, 19> kChecks{{
-      {"dihedral", "1e-9", "deg"},
-      {"bevel_plane", "1e-9", ""},
-      {"above_required", "1e-9", "deg"},
-      {"slope", "max_slope_deg_per_mm (1 + 1e-9)", "deg_per_mm"},
-      {"second_difference", "max_curvature_deg_per_mm2 (1 + 1e-6) + rounding", "deg_per_mm2"},
-      {"torch_range", "1e-9", "deg"},
-      {"penetration", "1e-6", "mm"},
-      {"touch", "1e-6", "mm"},
+  static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
       {"hole_on_branch", "1e-6", "mm"},
       {"hole_gap", "1e-6", "mm"},
       {"hole_fit_up", "1e-6", "mm"},
@@ -59,10 +52,13 @@ struct Parts {
       {"hole_tilt", "1e-6", "deg"},
       {"hole_kerf", "1e-6", "mm"},
       {"hole_branch_end", "1e-6", "mm"},
+      {"hole_gap_stated", "1e-3", "mm"},
+      {"hole_gap_between", "sampling.tolerance_mm", "mm"},
       {"placed", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
       {"volume", "1e-9, of itself", ""},
       {"check_dimensions", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
-  }};
+  });
+  static constexpr auto kChecks = all_checks(kTableChecks, kOwnChecks);
 
   static Spec decode(Reader& in) { return decode_part_request(in); }
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
@@ -138,12 +134,14 @@ struct Parts {
 
   static void encode_end(const Spec& spec, const Out& out, bool finish, Writer& w) {
     const auto& end = finish ? out.finish : out.start;
-    w.object("points", [&](Writer& p) { encode_bevel_points(end.spec, end.table, p); });
-    w.field("b_sign", "outer_edge_to_plus_z");
+    w.object("points", [&](Writer& p) { bevel_columns(end.spec, end.table).write(p); });
+    w.field("b_sign", kBSignInPart);
     w.field("scrap", finish ? "+z" : "-z");
     w.field("surface", end.spec.root_surface == bevel::RootSurface::outer ? "outer" : "inner");
     encode_bevel_lists(end.table, w);
     encode_torch_binds(end.table, w);
+    encode_penetration(end.table.penetration, w);
+    encode_torch_line(end.table.torch_line, w);
     const auto point = [&](std::string_view name, const part::EdgePoint& p) {
       w.object(name, [&](Writer& o) {
         o.degrees("phi_deg", p.phi);
@@ -201,8 +199,8 @@ struct Parts {
         {"csv", "text/csv", &print<part_csv>},
         {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
         {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
-        {"nc1", "application/x-dstv", &print<part_dstv>},
-        {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true}};
+        {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},
+        {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
     return kFormats;
   }
 };

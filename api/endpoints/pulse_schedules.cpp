@@ -25,6 +25,7 @@ void encode_report(const motion::Schedule& s, Writer& w) {
     o.field("ideal_s", r.ideal);
     o.field("no_jerk_s", r.no_jerk);
     o.field("proven_s", r.proven);
+    o.field("optimality", r.optimality);
     o.field("filter_ms", r.filter * 1e3);
     o.field("stretch", r.stretch);
     o.field("length_mm", r.length);
@@ -32,6 +33,10 @@ void encode_report(const motion::Schedule& s, Writer& w) {
     o.degrees("dev_b_deg", r.deviation_b);
     o.field("sag_mm", r.sag_tip);
     o.degrees("sag_b_deg", r.sag_b);
+    if (r.edges) {
+      o.field("dev_outer_edge_mm", r.edges->outer);
+      o.field("dev_inner_edge_mm", r.edges->inner);
+    }
     o.field("min_tip_mm_min", r.least_tip * 60.0);
     o.field("slow_s", r.slow_time);
     o.field("standoff_growth_mm", r.standoff_growth);
@@ -77,8 +82,8 @@ struct PulseSchedules {
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr std::array<std::string_view, 1> kAccepts{"max_slow_s"};
   static constexpr std::array<CheckLimit, 3> kChecks{{
-      {"I1..I15", "docs/theory/pulse-schedules.md, section 9", ""},
-      {"lead_clears_part", "0.02", "mm"},
+      {"I1..I16", "docs/theory/pulse-schedules.md, section 9", ""},
+      {"lead_clears_part", "0.02 and the contour's sag", "mm"},
       {"nested cut", "the checks of its own endpoint", ""},
   }};
 
@@ -149,7 +154,7 @@ struct PulseSchedules {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &csv},
         {"svg", "image/svg+xml", &svg, {"chart"}},
-        {"gcode", "text/x-gcode", &gcode, {}, {"dialect", "torch"}}};
+        {"gcode", "text/x-gcode", &gcode, {}, {"dialect", "torch", "acknowledge"}, false, true}};
     return kFormats;
   }
 };

@@ -11,6 +11,7 @@
 #include "api/formats/gcode.hpp"
 #include "api/formats/sections.hpp"
 #include "api/formats/wrap_template.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -33,7 +34,7 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
       before[i] = std::max(before[i], table.b_required[i]);
   Chart out{.title = "Cutting angle B before and after smoothing",
             .x_label = "developed length, mm",
-            .y_label = "B, deg",
+            .y_label = std::string("B, deg, ") + name_of_b_sign(table),
             .series = {{.name = "before",
                         .x = table.developed,
                         .y = degrees(std::move(before)),
@@ -86,40 +87,28 @@ Chart zone_chart(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
   return out;
 }
 
-std::vector<std::string> zone_names(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
-  std::vector<std::string> out;
-  for (const auto i : table.zone) out.push_back(zoned.zones[i].id);
+}  // namespace
+
+const char* name_of_b_sign(const bevel::Table& table) {
+  return table.inward ? "inward" : "outer_edge_into_part";
+}
+
+std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& table) {
+  std::vector<bool> out(table.phi.size(), false);
+  if (!spec.sampling.tolerance) return out;
+  for (const auto* events : {&table.inner_events, &table.outer_events})
+    for (const auto& event : *events)
+      for (std::size_t i = 0; i < out.size(); ++i)
+        if (table.phi[i] == event.phi) out[i] = true;
   return out;
 }
 
-}  // namespace
-
 std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& table,
-                            const Caption&) {
-  Csv out;
-  out.degrees("phi_deg", table.phi)
-      .column("developed_mm", table.developed)
-      .column("length_mm", table.length)
-      .integers("cutter", table.cutter)
-      .column("z_inner_mm", table.z_inner)
-      .column("z_outer_mm", table.z_outer)
-      .degrees("dihedral_deg", table.dihedral)
-      .degrees("groove_deg", table.groove)
-      .degrees("tau_deg", table.tau)
-      .degrees("gamma_deg", table.gamma)
-      .degrees("flush_deg", table.flush)
-      .degrees("b_raw_deg", table.b_raw)
-      .degrees("b_required_deg", table.b_required)
-      .degrees("b_deg", table.b)
-      .column("gap_mm", table.gap)
-      .column("beam_mm", table.beam)
-      .column("torch_inner_mm", table.torch_inner)
-      .column("torch_outer_mm", table.torch_outer);
-  if (!table.z_face.empty())
-    out.column("z_face_mm", table.z_face).degrees("b_face_deg", table.b_face);
-  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
-    out.cells_column("zone", zone_names(*zoned, table));
-  return out.print();
+                            const Caption& caption) {
+  return Csv(caption)
+      .remark(std::string("b_sign: ") + name_of_b_sign(table))
+      .table(bevel_columns(spec, table))
+      .print();
 }
 
 std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
@@ -129,7 +118,7 @@ std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& ta
   std::vector<Chart> charts{bevel_chart(spec, table), edge_chart(table)};
   if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
     charts.push_back(zone_chart(*zoned, table));
-  return print_charts(charts, job_line(caption));
+  return print_charts(charts, caption);
 }
 
 std::string bevel_table_dxf(const bevel::TableSpec& spec, const bevel::Table& table,

@@ -7,6 +7,14 @@
 
 namespace tubecut::api {
 
+/// How B counts, in the answer and in every file that names it.
+[[nodiscard]] const char* name_of_b_sign(const bevel::Table& table);
+/// Of whatever lies in a part's frame: its ends, its holes.
+inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
+
+/// Rows at which the cut has a corner: its junctions, where the sampling makes them rows.
+[[nodiscard]] std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& table);
+
 /// Every column of the table.
 [[nodiscard]] std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& table,
                                           const Caption& caption);

@@ -5,13 +5,14 @@
 #include <limits>
 
 #include "api/formats/text.hpp"
+#include "api/verdict.hpp"
 
 namespace tubecut::api {
 namespace {
 
 constexpr double kWidth = 960.0, kHeight = 360.0;  // px, of one chart
 constexpr double kLeft = 78.0, kRight = 24.0, kTop = 56.0, kBottom = 56.0;
-constexpr double kLegendLine = 18.0;
+constexpr double kLegendLine = 18.0, kVerdictLine = 16.0;
 
 /// Round ticks that cover [low, high]: steps of 1, 2 or 5 times a power of ten.
 struct Scale {
@@ -164,19 +165,26 @@ void plot(std::string& out, const Chart& chart, double top) {
 
 }  // namespace
 
-std::string print_charts(const std::vector<Chart>& charts, const std::string& footer) {
-  const double height = kHeight * static_cast<double>(charts.size()) + kLegendLine;
+std::string print_charts(const std::vector<Chart>& charts, const Caption& caption) {
+  const auto verdict = verdict_lines(caption.verdict, {.width = 130, .warnings = 12});
+  const double head = kVerdictLine * static_cast<double>(verdict.size()) + 8.0;
+  const double height = head + kHeight * static_cast<double>(charts.size()) + kLegendLine;
   std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(kWidth, 0) +
                     " " + fixed(height, 0) + "\" width=\"" + fixed(kWidth, 0) + "\" height=\"" +
                     fixed(height, 0) +
                     "\" font-family=\"system-ui, sans-serif\" font-size=\"12\" fill=\"#1d242b\">\n"
                     "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   double top = 0.0;
+  for (const auto& line : verdict)
+    text(out, kLeft, top += kVerdictLine, line,
+         caption.verdict.status == "ok" ? "fill=\"#56626e\""
+                                        : "fill=\"#b3261e\" font-weight=\"600\"");
+  top = head;
   for (const auto& chart : charts) {
     plot(out, chart, top);
     top += kHeight;
   }
-  text(out, kLeft, height - 8, footer, "font-size=\"10\" fill=\"#56626e\"");
+  text(out, kLeft, height - 8, job_line(caption), "font-size=\"10\" fill=\"#56626e\"");
   return out + "</svg>\n";
 }
 

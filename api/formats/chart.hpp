@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "api/format.hpp"
+
 namespace tubecut::api {
 
 /// One curve of a chart.
@@ -38,8 +40,8 @@ struct Chart {
   bool y_from_zero = false;
 };
 
-/// The charts one below the other as image/svg+xml; `footer` names the job. Coordinates are printed
-/// to 0.01 px.
-[[nodiscard]] std::string print_charts(const std::vector<Chart>& charts, const std::string& footer);
+/// The charts one below the other as image/svg+xml, over them the verdict, below them the job.
+/// Coordinates are printed to 0.01 px.
+[[nodiscard]] std::string print_charts(const std::vector<Chart>& charts, const Caption& caption);
 
 }  // namespace tubecut::api

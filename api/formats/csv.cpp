@@ -2,59 +2,91 @@
 
 #include <algorithm>
 
-#include "core/base/angle.hpp"
-#include "core/base/error.hpp"
+#include "api/formats/text.hpp"
+#include "api/json.hpp"
 
 namespace tubecut::api {
 namespace {
 
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
-  std::string out = "\"";
-  for (const char c : cell) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
+/// No spreadsheet takes a piece of it for a cell of its own.
+std::string unseparated(std::string text) {
+  for (auto& c : text)
+    if (std::string_view(",;|\"\t\r\n").find(c) != std::string_view::npos) c = ' ';
+  return text;
+}
+
+std::size_t size_of(const Column::Values& values) {
+  return std::visit([](const auto& v) { return v.size(); }, values);
+}
+
+std::size_t rows_of(const Columns& table) {
+  std::size_t rows = 0;
+  for (const auto& column : table.all()) rows = std::max(rows, size_of(column.values));
+  return rows;
+}
+
+void print_cell(const Column::Values& values, std::size_t i, std::string& out) {
+  if (const auto* numbers = std::get_if<std::vector<double>>(&values))
+    append_number(out, (*numbers)[i]);
+  else if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&values))
+    out += std::to_string((*integers)[i]);
+  else if (const auto* flags = std::get_if<std::vector<bool>>(&values))
+    out += (*flags)[i] ? "true" : "false";
+  else
+    out += csv_text(std::get<std::vector<std::string>>(values)[i]);
 }
 
 }  // namespace
 
-Csv& Csv::cells_column(std::string name, std::vector<std::string> cells) {
-  columns_.push_back({std::move(name), std::move(cells)});
+Csv& Csv::table(const Columns& columns) {
+  for (const auto& [name, values] : columns.all()) columns_.push_back({name, {{0, values}}});
   return *this;
 }
 
-Csv& Csv::column(std::string name, const std::vector<double>& values) {
-  std::vector<std::string> cells;
-  cells.reserve(values.size());
-  for (const double v : values) cells.push_back(shown(v));
-  return cells_column(std::move(name), std::move(cells));
-}
-
-Csv& Csv::degrees(std::string name, const std::vector<double>& radians) {
-  std::vector<std::string> cells;
-  cells.reserve(radians.size());
-  for (const double v : radians) cells.push_back(shown(v * kDegPerRad));
-  return cells_column(std::move(name), std::move(cells));
+Csv& Csv::stacked(std::string_view label,
+                  const std::vector<std::pair<std::string, Columns>>& tables) {
+  Stack labels{std::string(label), {}};
+  std::vector<Stack> stacks;
+  std::size_t from = 0;
+  for (const auto& [name, table] : tables) {
+    const auto rows = rows_of(table);
+    labels.pieces.push_back({from, std::vector<std::string>(rows, name)});
+    for (const auto& column : table.all()) {
+      auto stack = std::ranges::find(stacks, column.name, &Stack::name);
+      if (stack == stacks.end()) stack = stacks.insert(stacks.end(), Stack{column.name, {}});
+      stack->pieces.push_back({from, column.values});
+    }
+    from += rows;
+  }
+  columns_.push_back(std::move(labels));
+  std::ranges::move(stacks, std::back_inserter(columns_));
+  return *this;
 }
 
 std::string Csv::print() const {
+  std::string head;
+  for (const auto& line : head_) head += "# " + unseparated(line) + "\r\n";
   std::string out;
   std::size_t rows = 0;
   for (const auto& column : columns_) {
-    out += (out.empty() ? "" : ",") + quoted(column.name);
-    rows = std::max(rows, column.cells.size());
+    out += (&column == columns_.data() ? "" : ",") + csv_text(column.name);
+    for (const auto& piece : column.pieces)
+      rows = std::max(rows, piece.from + size_of(piece.values));
   }
   out += "\r\n";
+  std::vector<std::size_t> at(columns_.size(), 0);  // the piece that a column is in
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (k > 0) out += ',';
-      if (i < columns_[k].cells.size()) out += quoted(columns_[k].cells[i]);
+      const auto& pieces = columns_[k].pieces;
+      while (at[k] < pieces.size() && i >= pieces[at[k]].from + size_of(pieces[at[k]].values))
+        ++at[k];
+      if (at[k] < pieces.size() && i >= pieces[at[k]].from)
+        print_cell(pieces[at[k]].values, i - pieces[at[k]].from, out);
     }
     out += "\r\n";
   }
-  return out;
+  return head + out;
 }
 
 }  // namespace tubecut::api

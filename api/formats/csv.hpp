@@ -2,36 +2,45 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "api/columns.hpp"
+#include "api/verdict.hpp"
 
 namespace tubecut::api {
 
-/// Columns as text/csv (RFC 4180): a header row of names that carry their units, then rows; numbers
-/// shortest-round-trip.
+/// Tables as text/csv: lines that begin with `#` and hold neither commas nor quotes, with the
+/// verdict and what the columns need said; then RFC 4180, a header row of names that carry their
+/// units, then rows; numbers as in JSON, texts by csv_text, `true` and `false`.
 class Csv {
  public:
-  Csv& column(std::string name, const std::vector<double>& values);
-  /// Radians inside, degrees in the file.
-  Csv& degrees(std::string name, const std::vector<double>& radians);
-  template <class T>
-  Csv& integers(std::string name, const std::vector<T>& values) {
-    std::vector<std::string> cells;
-    cells.reserve(values.size());
-    for (const auto v : values) cells.push_back(std::to_string(v));
-    return cells_column(std::move(name), std::move(cells));
-  }
-  /// Text cells; quoted where they need it.
-  Csv& cells_column(std::string name, std::vector<std::string> cells);
+  explicit Csv(const Caption& caption) : head_(verdict_lines(caption.verdict)) {}
 
-  /// Shorter columns end in empty cells.
+  /// A line of the head.
+  Csv& remark(std::string text) {
+    head_.push_back(std::move(text));
+    return *this;
+  }
+  /// Beside what is there already; shorter columns end in empty cells.
+  Csv& table(const Columns& columns);
+  /// One below the other, from the first row: the column `label` says which a row belongs to, and a
+  /// column that a table does not have is empty there.
+  Csv& stacked(std::string_view label, const std::vector<std::pair<std::string, Columns>>& tables);
+
   [[nodiscard]] std::string print() const;
 
  private:
-  struct Column {
-    std::string name;
-    std::vector<std::string> cells;
+  struct Piece {
+    std::size_t from = 0;  // row
+    Column::Values values;
   };
-  std::vector<Column> columns_;
+  struct Stack {
+    std::string name;
+    std::vector<Piece> pieces;  // by their rows
+  };
+  std::vector<std::string> head_;
+  std::vector<Stack> columns_;
 };
 
 }  // namespace tubecut::api

@@ -8,11 +8,13 @@
 
 #include "api/formats/gltf.hpp"
 #include "api/formats/text.hpp"
+#include "api/verdict.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::api {
 namespace {
 
+constexpr std::size_t kStlHeader = 80;           // bytes
 constexpr double kSteepest = 89.5 * kRadPerDeg;  // drawn of an unsmoothed cut
 
 /// The wall's section at one phi: (radius, z) along the cut.
@@ -87,6 +89,16 @@ Eigen::Vector3f normal(const Point& a, const Point& b, const Point& c) {
   const Eigen::Map<const Eigen::Vector3f> pa(a.data()), pb(b.data()), pc(c.data());
   const Eigen::Vector3d n = (pb - pa).cast<double>().cross((pc - pa).cast<double>());
   return n.norm() > 0.0 ? Eigen::Vector3f((n / n.norm()).cast<float>()) : Eigen::Vector3f::Zero();
+}
+
+/// 80 bytes: what has no room is in the answer's header Tubecut-Verdict.
+std::string stl_header(const Caption& caption) {
+  std::string out = "tubecut unit mm, facets within " + fixed(kFacetError) + " mm, verdict " +
+                    verdict_in_short(caption.verdict);
+  if (caption.verdict.reasons.empty()) out += ", input " + caption.input_sha256.substr(0, 16);
+  if (out.size() > kStlHeader) out.replace(kStlHeader - 3, out.npos, "...");
+  out.resize(kStlHeader, ' ');
+  return out;
 }
 
 Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>& hue) {
@@ -167,9 +179,7 @@ std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& tabl
                           const Caption& caption) {
   const auto which = caption.view == "before" ? Smoothed::before : Smoothed::after;
   const auto mesh = closed_mesh(cut_solid(spec, table, which));
-  std::string out = "tubecut end, unit mm, facets within " + fixed(kFacetError) + " mm, input " +
-                    caption.input_sha256.substr(0, 16);
-  out.resize(80, ' ');
+  std::string out = stl_header(caption);
   append(out, static_cast<std::uint32_t>(mesh.triangles.size()));
   out.reserve(84 + 50 * mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
@@ -190,7 +200,7 @@ std::string print_cut_gltf(const bevel::TableSpec& spec, const bevel::Table& tab
     const auto solid = cut_solid(spec, table, which);
     meshes.push_back(coloured(which == Smoothed::before ? "before" : "after", solid, hues(solid)));
   }
-  return print_gltf(meshes, job_line(caption));
+  return print_gltf(meshes, caption);
 }
 
 }  // namespace tubecut::api

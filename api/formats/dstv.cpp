@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/cut_solid.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/text.hpp"
+#include "api/verdict.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -18,12 +20,15 @@ std::string field(double value, int digits = 3) {
   return std::string(text.size() < 12 ? 12 - text.size() : 1, ' ') + text;
 }
 
+/// The way up in the file, where x goes to the right: as seen from outside, phi grows downwards.
+double up(double radius, double phi) { return radius * (kTwoPi - phi); }
+
 std::string comment(const std::string& text) { return "** " + text + "\r\n"; }
 std::string line(const std::string& text) { return "  " + text + "\r\n"; }
 
 std::string reference(const Caption& caption, std::string_view name) {
   for (const auto& [key, text] : caption.reference)
-    if (key == name) return machine_text(text);
+    if (key == name) return dstv_text(text);
   return "-";
 }
 
@@ -65,9 +70,13 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
   std::string out =
       comment(job_line(
           {.reference = {}, .input_sha256 = c.input_sha256, .result_sha256 = {}, .view = {}})) +
-      comment("unit mm, deg; x from the long point of the cut, y = outer radius * phi");
+      comment("unit mm, deg; x along the tube from the long point of the cut, y round it") +
+      comment("RO = round tube, developed as seen from outside: x to the right, y up") +
+      comment("y = outer radius * " + fixed(360.0, 0) + " deg - phi");
   for (const auto& [name, text] : c.reference)
-    out += comment(std::string(name) + ": " + machine_text(text));
+    out += comment(std::string(name) + ": " + dstv_text(text));
+  out += comment(std::string("b_sign: ") + kBSignInPart + ", here x: outer edge towards +x");
+  for (const auto& text : verdict_lines(c.verdict, {.width = 76})) out += comment(dstv_text(text));
   out += comment("length over the long point " + fixed(l.over_long, 3)) +
          comment("length over the short point " + fixed(l.over_short, 3)) +
          comment("length from the work point " + fixed(l.work_point, 3));
@@ -104,28 +113,27 @@ std::string contour(const CutOutline& cut, const Lengths& l, double bevel_deg) {
   const auto& c = cut.outer;
   std::string out = "AK\r\n";
   for (std::size_t i = 0; i < c.phi.size(); ++i)
-    out += point(c.z[i] - l.low, c.radius * c.phi[i], bevel_deg, i == 0);
-  const double around = c.radius * kTwoPi, end = l.over_long;
-  out += point(end, around, 0.0, false) + point(end, 0.0, 0.0, false);
-  return out + point(c.z.front() - l.low, 0.0, 0.0, false);  // closed
+    out += point(c.z[i] - l.low, up(c.radius, c.phi[i]), bevel_deg, i == 0);
+  const double around = up(c.radius, 0.0), end = l.over_long;
+  out += point(end, 0.0, 0.0, false) + point(end, around, 0.0, false);
+  return out + point(c.z.front() - l.low, around, 0.0, false);  // closed
 }
 
 constexpr const char* kSidecar = "phi_deg, x_outer_mm, y_outer_mm, x_inner_mm, y_inner_mm, b_deg";
-constexpr const char* kTilted = "; of a hole a_deg too, the tilt across";
+constexpr const char* kTilted = "; of a hole a_deg too, the tilt across, towards growing phi (-y)";
 
 std::string sidecar(double phi, double phi_inner, double x, double x_inner, double b,
                     const joint::Target& target, std::optional<double> a = {}) {
   return comment("B" + field(phi * kDegPerRad, 6) + field(x, 4) +
-                 field(target.outer_radius * phi, 4) + field(x_inner, 4) +
-                 field(target.inner_radius() * phi_inner, 4) + field(b * kDegPerRad, 4) +
+                 field(up(target.outer_radius, phi), 4) + field(x_inner, 4) +
+                 field(up(target.inner_radius(), phi_inner), 4) + field(b * kDegPerRad, 4) +
                  (a ? field(*a * kDegPerRad, 4) : ""));
 }
 
 std::string sidecar(const joint::Target& target, const bevel::Table& t, double low) {
   std::string out;
   for (std::size_t i = 0; i < t.phi.size(); ++i)
-    out += sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low,
-                   (t.inward ? -1.0 : 1.0) * t.b[i], target);
+    out += sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low, t.b[i], target);
   return out;
 }
 
@@ -143,17 +151,17 @@ std::optional<double> one_bevel(const std::vector<double>& b) {
   return (least + most) / 2.0 * kDegPerRad;
 }
 
-/// The outside with both ends: up the start's cut, and back along the finish's.
+/// The outside with both ends: down the start's cut, and up along the finish's.
 std::string outside(const CutOutline& start, const CutOutline& finish, double start_deg,
                     double finish_deg) {
   std::string out = "AK\r\n";
   const auto& s = start.outer;
   const auto& f = finish.outer;
   for (std::size_t i = 0; i < s.phi.size(); ++i)
-    out += point(s.z[i], s.radius * s.phi[i], i + 1 < s.phi.size() ? start_deg : 0.0, i == 0);
+    out += point(s.z[i], up(s.radius, s.phi[i]), i + 1 < s.phi.size() ? start_deg : 0.0, i == 0);
   for (std::size_t i = f.phi.size(); i-- > 0;)
-    out += point(f.z[i], f.radius * f.phi[i], i > 0 ? finish_deg : 0.0, false);
-  return out + point(s.z.front(), 0.0, 0.0, false);  // closed
+    out += point(f.z[i], up(f.radius, f.phi[i]), i > 0 ? finish_deg : 0.0, false);
+  return out + point(s.z.front(), up(s.radius, 0.0), 0.0, false);  // closed
 }
 
 std::string opening(const CutOutline& hole, double bevel_deg) {
@@ -161,7 +169,7 @@ std::string opening(const CutOutline& hole, double bevel_deg) {
   std::string out = "IK\r\n";
   for (std::size_t i = 0; i <= c.phi.size(); ++i) {
     const auto k = i % c.phi.size();
-    out += point(c.z[k], c.radius * c.phi[k], i < c.phi.size() ? bevel_deg : 0.0, i == 0);
+    out += point(c.z[k], up(c.radius, c.phi[k]), i < c.phi.size() ? bevel_deg : 0.0, i == 0);
   }
   return out;
 }
@@ -174,8 +182,7 @@ std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
   const auto bevel = one_bevel(t.b);
   return "ST\r\n" + comments(lengths, bevel.has_value(), caption) +
          header(spec.target, kSteel, lengths, caption) +
-         contour(developed(spec, t).cuts.front(), lengths,
-                 (t.inward ? -1.0 : 1.0) * bevel.value_or(0.0)) +
+         contour(developed(spec, t).cuts.front(), lengths, bevel.value_or(0.0)) +
          comment(kSidecar) + sidecar(spec.target, t, lengths.low) + "EN\r\n";
 }
 

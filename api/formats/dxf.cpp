@@ -5,6 +5,7 @@
 
 #include "api/formats/dxf_writer.hpp"
 #include "api/formats/text.hpp"
+#include "api/verdict.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::api {
@@ -58,6 +59,8 @@ std::vector<std::string> captions(const Development& d, const std::string& frame
   for (const auto& [name, text] : caption.reference) out.push_back(name + ": " + text);
   out.push_back(job_line(
       {.reference = {}, .input_sha256 = caption.input_sha256, .result_sha256 = {}, .view = {}}));
+  auto verdict = verdict_lines(caption.verdict);  // these are read from below upwards
+  out.insert(out.end(), verdict.rbegin(), verdict.rend());
   return out;
 }
 
@@ -127,7 +130,7 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   const bool space = caption.view == "tube";
   const auto e = extent(d);
   const double datum = 10.0 * std::ceil((e.z_to + 15.0) / 10.0);
-  DxfWriter w({std::begin(kLayers), std::end(kLayers)});
+  DxfWriter w({std::begin(kLayers), std::end(kLayers)}, verdict_lines(caption.verdict));
   draw_cuts(w, d, space);
   seams(w, d, e, datum, space);
   const double left = d.around() || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
@@ -143,7 +146,7 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
   const bool space = caption.view == "tube";
   std::vector<DxfWriter::Layer> layers{std::begin(kLayers), std::end(kLayers)};
   layers.push_back({"MARK", 6});
-  DxfWriter w(std::move(layers));
+  DxfWriter w(std::move(layers), verdict_lines(caption.verdict));
   draw_cuts(w, d, space);
   const double from = d.cuts[0].outer.z.front(), to = d.cuts[1].outer.z.front();
   along(w, "SEAM", d, space, 0.0, from, to);

@@ -185,8 +185,11 @@ std::string DxfWriter::print() const {
     return groups("9 " + std::string(name) + "\n10 " + fixed(p.x(), 6) + "\n20 " + fixed(p.y(), 6) +
                   "\n30 " + fixed(p.z(), 6));
   };
-  return groups(
-             "999 tubecut drawing in millimetres\n0 SECTION\n2 HEADER\n"
+  std::string remarks = groups("999 tubecut drawing in millimetres");
+  for (const auto& line : remarks_) remarks += groups("999 " + gcode_text(line));
+  return remarks +
+         groups(
+             "0 SECTION\n2 HEADER\n"
              "9 $ACADVER\n1 AC1015\n9 $DWGCODEPAGE\n3 ANSI_1252\n9 $INSUNITS\n70 4\n"
              "9 $MEASUREMENT\n70 1\n9 $HANDSEED\n5 " +
              hex(handle_)) +

@@ -14,7 +14,9 @@ class DxfWriter {
     std::string_view name;
     int color;  // AutoCAD colour index
   };
-  explicit DxfWriter(std::vector<Layer> layers) : layers_(std::move(layers)) {}
+  /// `remarks` stand at the file's head.
+  explicit DxfWriter(std::vector<Layer> layers, std::vector<std::string> remarks = {})
+      : layers_(std::move(layers)), remarks_(std::move(remarks)) {}
 
   /// Points (x, y); those equal to their predecessor are left out.
   void polyline(std::string_view layer, const std::vector<Eigen::Vector2d>& points, bool closed);
@@ -32,6 +34,7 @@ class DxfWriter {
   void see(const Eigen::Vector3d& p);
 
   std::vector<Layer> layers_;
+  std::vector<std::string> remarks_;
   std::string entities_;
   int handle_ = 0x100;  // those below belong to the tables
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();

@@ -4,6 +4,8 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/text.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -24,30 +26,32 @@ std::string literal(double v) {
   return e == std::string::npos ? mantissa : mantissa + "E" + text.substr(e + 1);
 }
 
+std::string verdict_comments(const Caption& caption) {
+  std::string out;
+  for (const auto& line : verdict_lines(caption.verdict))
+    out += "(* " + structured_text_text(line) + " *)\n";
+  return out;
+}
+
 }  // namespace
 
 std::string feed_curve_csv(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve& curve,
                            const Caption& caption) {
-  Csv csv;
   if (caption.view == "samples" && curve.cycle) {
     const auto& s = curve.cycle->samples;
-    csv.column("t_s", s.time)
-        .column("stroke_mm", s.stroke)
-        .column("cylinder_speed_mm_s", s.speed)
-        .column("cylinder_acceleration_mm_s2", s.acceleration)
-        .column("feed_mm", s.feed)
-        .column("feed_speed_mm_s", s.feed_speed);
-    return csv.print();
+    return Csv(caption)
+        .table(Columns()
+                   .column("t_s", s.time)
+                   .column("stroke_mm", s.stroke)
+                   .column("cylinder_speed_mm_s", s.speed)
+                   .column("cylinder_acceleration_mm_s2", s.acceleration)
+                   .column("feed_mm", s.feed)
+                   .column("feed_speed_mm_s", s.feed_speed))
+        .print();
   }
   std::vector<double> command;
   for (const double t : curve.table.time) command.push_back(value(curve.fit.seconds_rounded, t));
-  csv.column("t_s", curve.table.time)
-      .column("feed_mm", curve.table.feed)
-      .column("stroke_mm", curve.table.stroke)
-      .column("cylinder_speed_mm_s", curve.table.speed)
-      .column("cylinder_acceleration_mm_s2", curve.table.acceleration)
-      .column("command_mm_s", command);
-  return csv.print();
+  return Csv(caption).table(feed_columns(curve).column("command_mm_s", std::move(command))).print();
 }
 
 std::string feed_curve_svg(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve& curve,
@@ -82,7 +86,7 @@ std::string feed_curve_svg(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve
                       .series = {{.name = "tool", .x = c.samples.time, .y = c.samples.feed}},
                       .marks = {{c.work_start, "t1"}, {c.work_end, "t2"}, {c.end, "t3"}}});
   }
-  return print_charts(charts, job_line(caption));
+  return print_charts(charts, caption);
 }
 
 std::string feed_curve_structured_text(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve& curve,
@@ -91,7 +95,8 @@ std::string feed_curve_structured_text(const cutoff::FeedCurveSpec&, const cutof
   std::string horner = literal(fit.seconds_rounded.back());
   for (auto i = fit.seconds_rounded.size() - 1; i-- > 0;)
     horner = literal(fit.seconds_rounded[i]) + " + t_s * (" + horner + ")";
-  return "(* Cylinder speed that keeps the tool feed constant. " + job_line(caption) +
+  return verdict_comments(caption) + "(* Cylinder speed that keeps the tool feed constant. " +
+         structured_text_text(job_line(caption)) +
          ".\n"
          "   Degree " +
          std::to_string(fit.degree) + ", largest relative error " +

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/text.hpp"
+#include "api/formats/torch_moves.hpp"
+#include "api/verdict.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::api {
@@ -13,11 +16,7 @@ namespace {
 constexpr const char* kModes = "G21 G40 G49 G90 G94 G17\nG64 P0.01\n";
 constexpr double kClearance = 50.0;  // mm, of the tip over the tube between two cuts
 constexpr double kSlow = 1e-3;       // mm, least length a node's time is taken from
-
-/// One place of the torch: tip on the outer wall, swing and tilt.
-struct Place {
-  double phi, z, b, a;
-};
+constexpr double kSag = 0.019;       // mm, of one move; below 0.02 with the rounding of its words
 
 /// Joint values of one place of the torch.
 class Joints {
@@ -30,7 +29,7 @@ class Joints {
         tilts_(std::ranges::any_of(job.cuts, [](const auto& cut) { return !cut.a.empty(); })) {}
 
   enum class Height { with, without };
-  [[nodiscard]] std::string words(const Place& at, Height height = Height::with) const {
+  [[nodiscard]] std::string words(const TorchPlace& at, Height height = Height::with) const {
     const double length = pivot_.value_or(0.0);
     // The torch's line: 1 outwards, tan a round, tan b along.
     const double round = elementary::tan(at.a), rise = elementary::tan(at.b);
@@ -62,18 +61,53 @@ class Joints {
   bool tilts_;
 };
 
-Place place(const TorchPath& p, std::size_t i) {
+TorchPlace place(const TorchPath& p, std::size_t i) {
   return {p.phi[i], p.z[i], p.b[i], p.a.empty() ? 0.0 : p.a[i]};
 }
 
-std::string header(const TorchJob& job, const Joints& joints, const Caption& caption) {
+void append(TorchPath& path, const TorchPlace& at) {
+  path.phi.push_back(at.phi);
+  path.z.push_back(at.z);
+  path.b.push_back(at.b);
+  path.a.push_back(at.a);
+}
+
+/// How moves between the nodes keep to the lines between them.
+struct Straightness {
+  double sag = 0.0;  // mm, a bound over all moves
+  std::size_t inserted = 0;
+};
+
+/// The same path with nodes between its nodes where a move of all axes would sag.
+TorchPath refined(const TorchPath& path, const TorchReach& reach, Straightness& told) {
+  TorchPath out{
+      .name = path.name, .phi = {}, .z = {}, .b = {}, .scrap = path.scrap, .room = path.room};
+  append(out, place(path, 0));
+  for (std::size_t i = 1; i < path.phi.size(); ++i) {
+    auto at = place(path, i - 1);
+    const auto moves = straight_moves(reach, at, place(path, i), kSag);
+    told.inserted += moves.size() - 1;
+    for (const auto& next : moves) {
+      told.sag = std::max(told.sag, sag(reach, at, next));
+      append(out, at = next);
+    }
+  }
+  if (path.a.empty()) out.a.clear();
+  return out;
+}
+
+std::string header(const TorchJob& job, const Joints& joints, const Straightness& moves,
+                   const Caption& caption) {
   const auto& o = caption.options;
   std::string out = gcode_job(caption);
   out += gcode_comment("tube " + fixed(2.0 * job.outer_radius, 3) + " x " + fixed(job.wall, 3) +
                        " mm") +
          gcode_comment("tool: torch, kerf " + fixed(job.kerf, 3) + " mm, applied to the path") +
          gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
-         gcode_comment("B swings the torch in the axial plane, positive: outer edge towards +z");
+         gcode_comment(
+             "B swings the torch in the axial plane, positive: outer edge towards +z, "
+             "b_sign: " +
+             std::string(kBSignInPart));
   if (job.cuts.size() > 1)
     out += gcode_comment(
         o.pivot_length
@@ -92,6 +126,9 @@ std::string header(const TorchJob& job, const Joints& joints, const Caption& cap
                              " mm from the tip, the one across is its height over the tube axis")
              : gcode_comment(
                    "linear axes are the torch tip on the outer wall: the control must know it");
+  out += gcode_comment("moves: tip and both edges within " + fixed(moves.sag, 4) +
+                       " mm of straight lines between the rows, blocks inserted for it: " +
+                       std::to_string(moves.inserted));
   out += gcode_comment(o.torch ? "THIS PROGRAM LIGHTS THE TORCH"
                                : "dry run: the torch stays off, ask with torch=on");
   for (const auto& remark : job.remarks) out += gcode_comment(remark);
@@ -172,19 +209,20 @@ std::string remark(const part::Mark& mark) {
 
 }  // namespace
 
-std::string gcode_comment(const std::string& text) { return "(" + machine_text(text) + ")\n"; }
+std::string gcode_comment(const std::string& text) { return "(" + gcode_text(text) + ")\n"; }
 
 std::string gcode_job(const Caption& caption) {
   std::string out = gcode_comment("tubecut " + std::string(version())) +
                     gcode_comment("input sha256 " + caption.input_sha256);
   for (const auto& [name, text] : caption.reference)
     out += gcode_comment(std::string(name) + ": " + text);
+  for (const auto& line : verdict_lines(caption.verdict)) out += gcode_comment(line);
   return out;
 }
 
 const std::vector<std::string_view>& gcode_options() {
-  static const std::vector<std::string_view> kOptions{"speed_mm_min", "dialect", "torch",
-                                                      "axial",        "lead_mm", "pivot_length_mm"};
+  static const std::vector<std::string_view> kOptions{
+      "speed_mm_min", "dialect", "torch", "axial", "lead_mm", "pivot_length_mm", "acknowledge"};
   return kOptions;
 }
 
@@ -196,10 +234,11 @@ TorchWords torch_words(Dialect dialect) {
 
 TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table) {
   auto torch = developed(spec, table).cuts.front().torch;
-  auto swing = table;
-  swing.torch_outer = table.b;
-  for (auto& b : swing.torch_outer) b = table.inward ? -b : b;
+  auto swing = table;  // tan B is straight between rows, as both edges are
+  for (std::size_t i = 0; i < table.b.size(); ++i)
+    swing.torch_outer[i] = elementary::tan(table.b[i]);
   auto b = developed(spec, swing).cuts.front().torch.z;
+  for (auto& each : b) each = elementary::atan(each);
   return {.name = {}, .phi = std::move(torch.phi), .z = std::move(torch.z), .b = std::move(b)};
 }
 
@@ -234,10 +273,16 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
   return out;
 }
 
-std::string print_gcode(const TorchJob& job, const Caption& caption) {
+std::string print_gcode(const TorchJob& asked, const Caption& caption) {
+  auto job = asked;
+  const TorchReach reach{.outer_radius = job.outer_radius,
+                         .inner_radius = job.outer_radius - job.wall,
+                         .pivot = caption.options.pivot_length.value_or(0.0)};
+  Straightness moves;
+  for (auto& cut : job.cuts) cut = refined(cut, reach, moves);
   const Joints joints(job, caption.options);
   const auto torch = torch_words(caption.options.dialect);
-  std::string out = "%\n" + header(job, joints, caption) + modes(caption);
+  std::string out = "%\n" + header(job, joints, moves, caption) + modes(caption);
   for (const auto& cut : job.cuts) out += print_cut(job, cut, joints, torch, caption.options);
   if (const auto lifted = joints.lifted(); lifted && job.cuts.size() > 1)
     out += "G0 " + *lifted + "\n";

@@ -38,7 +38,8 @@ struct TorchJob {
 
 /// A comment line of a program.
 [[nodiscard]] std::string gcode_comment(const std::string& text);
-/// The comment lines every program begins with: engine, input hash, reference.
+/// The comment lines every program begins with: engine, input hash, reference,
+/// verdict.
 [[nodiscard]] std::string gcode_job(const Caption& caption);
 /// Query parameters a program along torch lines reads.
 [[nodiscard]] const std::vector<std::string_view>& gcode_options();
@@ -49,8 +50,9 @@ struct TorchWords {
 [[nodiscard]] TorchWords torch_words(Dialect dialect);
 
 /// The cut as RS-274 for LinuxCNC: A turns the tube by phi, X (or Z) goes along it, B swings the
-/// torch; one G1 a node, in inverse time (G93) so that the torch keeps its speed on the outer wall
-/// through every mix of axes. Speed is one parameter at the top.
+/// torch; a G1 to each node and to as many places between as keep tip and both edges within 0.02 mm
+/// of straight lines in (phi, z), in inverse time (G93) so that the torch keeps its speed on the
+/// outer wall through every mix of axes. Speed is one parameter at the top.
 ///
 /// With a pivot length the linear axes are the pivot's, and the one square to the tube moves too;
 /// without, the control must know the tip. The torch is lit only by the option `torch`, for each

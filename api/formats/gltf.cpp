@@ -80,14 +80,19 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w) {
 }
 
 std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer,
-                     const std::string& title) {
+                     const Caption& caption) {
   std::vector<std::size_t> numbers(meshes.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
   Writer out;
   out.object([&](Writer& w) {
     w.object("asset", [&](Writer& o) {
       o.field("version", "2.0");
-      o.field("generator", title);
+      o.field("generator", job_line(caption));
+      o.object("extras", [&](Writer& e) {
+        e.field("verdict", caption.verdict.status);
+        e.column("reasons", caption.verdict.reasons);
+        e.column("warnings", caption.verdict.warnings);
+      });
     });
     w.field("scene", 0);
     w.raw(
@@ -146,7 +151,7 @@ void chunk(std::string& out, std::string body, std::uint32_t kind, char padding)
 
 }  // namespace
 
-std::string print_gltf(const std::vector<Mesh>& meshes, const std::string& title) {
+std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption) {
   Buffer buffer;
   for (const auto& mesh : meshes) {
     std::vector<Eigen::Vector3f> positions;
@@ -156,7 +161,7 @@ std::string print_gltf(const std::vector<Mesh>& meshes, const std::string& title
     buffer.indices(mesh.indices);
   }
   std::string chunks;
-  chunk(chunks, document(meshes, buffer, title), 0x4E4F534A, ' ');
+  chunk(chunks, document(meshes, buffer, caption), 0x4E4F534A, ' ');
   chunk(chunks, buffer.bytes, 0x004E4942, '\0');
   std::string out = "glTF";
   append(out, std::uint32_t{2});

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "api/format.hpp"
+
 namespace tubecut::api {
 
 /// A triangle mesh with a colour per vertex. Lengths in mm.
@@ -17,8 +19,8 @@ struct Mesh {
 };
 
 /// glTF 2.0 binary (.glb), one node a mesh, in metres as the format asks; flat normals are the
-/// viewer's.
-[[nodiscard]] std::string print_gltf(const std::vector<Mesh>& meshes, const std::string& title);
+/// viewer's. Verdict, reasons and warnings stand in the asset's extras.
+[[nodiscard]] std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption);
 
 /// A colour of -1..1: blue (below), grey (0), red (above).
 [[nodiscard]] Eigen::Vector3f diverging(double value);

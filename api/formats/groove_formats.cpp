@@ -6,6 +6,7 @@
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/gltf.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -44,27 +45,16 @@ Chart section_chart(const groove::Groove& g) {
 
 }  // namespace
 
-std::string groove_csv(const groove::GrooveSpec&, const groove::Groove& g, const Caption&) {
-  const auto& all = g.sections;
-  Csv csv;
-  csv.degrees("omega_deg", each(all, [](S s) { return s.omega.rad(); }))
-      .degrees("phi_deg", each(all, [](S s) { return s.phi.rad(); }))
-      .column("root_z_mm", each(all, [](S s) { return s.root_z; }))
-      .column("height_mm", each(all, [](S s) { return s.height; }))
-      .column("p1_x_mm", each(all, [](S s) { return s.p1.x(); }))
-      .column("p1_y_mm", each(all, [](S s) { return s.p1.y(); }))
-      .column("p2_x_mm", each(all, [](S s) { return s.p2.x(); }))
-      .column("p2_y_mm", each(all, [](S s) { return s.p2.y(); }))
-      .column("p3_x_mm", each(all, [](S s) { return s.p3.x(); }))
-      .column("p3_y_mm", each(all, [](S s) { return s.p3.y(); }))
-      .column("area_d_mm2", each(all, [](S s) { return s.areas.d; }))
-      .degrees("twist_deg", each(all, [](S s) { return s.ruling.twist.rad(); }));
-  if (g.compare) csv.column("compare_area_mm2", g.compare->filler_area);
-  return csv.print();
+std::string groove_csv(const groove::GrooveSpec&, const groove::Groove& g, const Caption& caption) {
+  auto columns = section_columns(g);
+  for (const auto& [name, points] : kCurves)
+    columns.append(std::string(name) + "_", curve_columns(g, points));
+  if (g.compare) columns.append("compare_", compare_columns(*g.compare));
+  return Csv(caption).table(columns).print();
 }
 
 std::string groove_svg(const groove::GrooveSpec&, const groove::Groove& g, const Caption& caption) {
-  if (caption.view == "section") return print_charts({section_chart(g)}, job_line(caption));
+  if (caption.view == "section") return print_charts({section_chart(g)}, caption);
   const auto omega = each(g.sections, [](S s) { return s.omega.deg(); });
   std::vector<Chart> charts{
       {.title = "Groove height for equal filler area",
@@ -86,7 +76,7 @@ std::string groove_svg(const groove::GrooveSpec&, const groove::Groove& g, const
                                   .dashed = true}},
                       .y_from_zero = true});
   charts.push_back(section_chart(g));
-  return print_charts(charts, job_line(caption));
+  return print_charts(charts, caption);
 }
 
 std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g,
@@ -100,23 +90,12 @@ std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g,
       mesh.colors.push_back(diverging(s.ruling.twist.rad() / worst));
     }
   mesh.indices = band_triangles(g.sections.size(), 4);
-  return print_gltf({mesh}, job_line(caption));
+  return print_gltf({mesh}, caption);
 }
 
 std::string mill_path_csv(const groove::MillPathSpec&, const groove::MillPath& path,
-                          const Caption&) {
-  const auto& all = path.positions;
-  return Csv()
-      .degrees("omega_deg", each(all, [](P p) { return p.omega.rad(); }))
-      .degrees("c_deg", each(all, [](P p) { return p.at.c.rad(); }))
-      .column("x_mm", each(all, [](P p) { return p.at.x; }))
-      .column("z_mm", each(all, [](P p) { return p.at.z; }))
-      .degrees("b_deg", each(all, [](P p) { return p.at.b.rad(); }))
-      .column("dz_mm", each(all, [](P p) { return p.by.dz; }))
-      .degrees("db_deg", each(all, [](P p) { return p.by.db; }))
-      .column("gap_before_mm", each(all, [](P p) { return p.before.largest; }))
-      .column("gap_mm", each(all, [](P p) { return p.after.largest; }))
-      .print();
+                          const Caption& caption) {
+  return Csv(caption).table(position_columns(path)).print();
 }
 
 std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& path,
@@ -153,7 +132,7 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
         .x_label = "section omega, deg",
         .y_label = "deg",
         .series = {{.name = "B", .x = omega, .y = each(all, [](P p) { return p.at.b.deg(); })}}}},
-      job_line(caption));
+      caption);
 }
 
 std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillPath& path,
@@ -176,7 +155,7 @@ std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillP
     }
   }
   for (auto& mesh : meshes) mesh.indices = band_triangles(path.positions.size(), across);
-  return print_gltf(meshes, job_line(caption));
+  return print_gltf(meshes, caption);
 }
 
 }  // namespace tubecut::api

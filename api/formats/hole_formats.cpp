@@ -2,26 +2,17 @@
 
 #include <algorithm>
 
+#include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/sections.hpp"
 #include "api/formats/wrap_template.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
-
-/// The columns of all holes one below the other.
-template <class Column>
-std::vector<double> joined(const bevel::HoleCut& cut, Column column) {
-  std::vector<double> out;
-  for (const auto& hole : cut.holes) {
-    const std::vector<double>& part = column(hole);
-    out.insert(out.end(), part.begin(), part.end());
-  }
-  return out;
-}
 
 std::vector<double> closed(std::vector<double> values, double scale = 1.0) {
   for (auto& v : values) v *= scale;
@@ -59,39 +50,14 @@ Chart gap_chart(const bevel::Hole& hole) {
 
 }  // namespace
 
-std::string hole_csv(const bevel::HoleSpec&, const bevel::HoleCut& cut, const Caption&) {
-  using H = bevel::Hole;
-  std::vector<std::string> side;
+std::string hole_csv(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                     const Caption& caption) {
+  std::vector<std::pair<std::string, Columns>> sides;
   for (const auto& hole : cut.holes)
-    side.insert(side.end(), hole.phi.size(), hole.far ? "far" : "near");
-  const auto all = [&](std::vector<double> H::*column) {
-    return joined(cut, [column](const H& h) -> const std::vector<double>& { return h.*column; });
-  };
-  return Csv()
-      .cells_column("side", std::move(side))
-      .degrees("branch_phi_deg", all(&H::branch_phi))
-      .column("length_mm", all(&H::length))
-      .degrees("phi_deg", all(&H::phi))
-      .column("z_mm", all(&H::z))
-      .column("developed_mm", all(&H::developed))
-      .degrees("phi_inner_deg", all(&H::phi_inner))
-      .column("z_inner_mm", all(&H::z_inner))
-      .degrees("dihedral_deg", all(&H::dihedral))
-      .degrees("groove_deg", all(&H::groove))
-      .degrees("b_deg", all(&H::b))
-      .degrees("a_deg", all(&H::a))
-      .column("beam_mm", all(&H::beam))
-      .degrees("torch_phi_deg", all(&H::torch_phi))
-      .column("torch_z_mm", all(&H::torch_z))
-      .degrees("torch_phi_inner_deg", all(&H::torch_phi_inner))
-      .column("torch_z_inner_mm", all(&H::torch_z_inner))
-      .column("gap_root_mm",
-              joined(cut, [](const H& h) -> const std::vector<double>& { return h.fit.root; }))
-      .column("gap_face_mm",
-              joined(cut, [](const H& h) -> const std::vector<double>& { return h.fit.face; }))
-      .column("gap_least_mm",
-              joined(cut, [](const H& h) -> const std::vector<double>& { return h.fit.least; }))
-      .print();
+    sides.emplace_back(hole.far ? "far" : "near",
+                       hole_columns(spec, hole).append("fit_up_", fit_up_columns(hole)));
+  if (cut.branch) sides.emplace_back("branch", branch_columns(spec, *cut.branch));
+  return Csv(caption).remark(std::string("b_sign: ") + kBSignInPart).stacked("side", sides).print();
 }
 
 std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
@@ -103,7 +69,7 @@ std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
     charts.push_back(edge_chart(spec, hole));
     charts.push_back(gap_chart(hole));
   }
-  return print_charts(charts, job_line(caption));
+  return print_charts(charts, caption);
 }
 
 std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,

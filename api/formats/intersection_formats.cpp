@@ -6,6 +6,7 @@
 #include "api/formats/dxf.hpp"
 #include "api/formats/sections.hpp"
 #include "api/formats/wrap_template.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -30,30 +31,19 @@ Chart profile_chart(const joint::Intersection& cut) {
 
 }  // namespace
 
-std::string intersection_csv(const joint::IntersectionSpec&, const joint::Intersection& cut,
-                             const Caption&) {
-  std::vector<std::string> surface;
-  std::vector<double> phi, z;
-  std::vector<std::size_t> cutter;
-  for (const auto& p : cut.profiles) {
-    surface.insert(surface.end(), p.phi.size(), p.outer ? "outer" : "inner");
-    phi.insert(phi.end(), p.phi.begin(), p.phi.end());
-    z.insert(z.end(), p.z.begin(), p.z.end());
-    cutter.insert(cutter.end(), p.cutter.begin(), p.cutter.end());
-  }
-  return Csv()
-      .cells_column("surface", std::move(surface))
-      .degrees("phi_deg", phi)
-      .column("z_mm", z)
-      .integers("cutter", cutter)
-      .print();
+std::string intersection_csv(const joint::IntersectionSpec& spec, const joint::Intersection& cut,
+                             const Caption& caption) {
+  std::vector<std::pair<std::string, Columns>> walls;
+  for (const auto& p : cut.profiles)
+    walls.emplace_back(p.outer ? "outer" : "inner", profile_columns(p, spec.sampling));
+  return Csv(caption).stacked("surface", walls).print();
 }
 
 std::string intersection_svg(const joint::IntersectionSpec& spec, const joint::Intersection& cut,
                              const Caption& caption) {
   if (caption.view == "template") return print_wrap_template(developed(spec, cut), caption);
   if (caption.view == "section") return print_sections(sections_of(spec, cut), caption);
-  return print_charts({profile_chart(cut)}, job_line(caption));
+  return print_charts({profile_chart(cut)}, caption);
 }
 
 std::string intersection_dxf(const joint::IntersectionSpec& spec, const joint::Intersection& cut,

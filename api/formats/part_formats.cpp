@@ -1,64 +1,49 @@
 #include "api/formats/part_formats.hpp"
 
+#include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/dstv.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/gcode.hpp"
+#include "api/tables.hpp"
 
 namespace tubecut::api {
 namespace {
 
-/// Points of one cut, of an end or a hole, in common columns.
-struct Rows {
-  std::vector<std::string> cut;
-  std::vector<double> phi, z_outer, phi_inner, z_inner, b, a, beam;
-  std::vector<double> torch_phi, torch_outer, torch_phi_inner, torch_inner;
-
-  void add(const std::string& name, const bevel::Table& t) {
-    cut.insert(cut.end(), t.phi.size(), name);
-    append(phi, t.phi);
-    append(z_outer, t.z_outer);
-    append(phi_inner, t.phi);
-    append(z_inner, t.z_inner);
-    append(b, t.b);
-    a.insert(a.end(), t.phi.size(), 0.0);
-    append(beam, t.beam);
-    append(torch_phi, t.phi);
-    append(torch_outer, t.torch_outer);
-    append(torch_phi_inner, t.phi);
-    append(torch_inner, t.torch_inner);
-  }
-  void add(const std::string& name, const bevel::Hole& h) {
-    cut.insert(cut.end(), h.phi.size(), name);
-    append(phi, h.phi);
-    append(z_outer, h.z);
-    append(phi_inner, h.phi_inner);
-    append(z_inner, h.z_inner);
-    append(b, h.b);
-    append(a, h.a);
-    append(beam, h.beam);
-    append(torch_phi, h.torch_phi);
-    append(torch_outer, h.torch_z);
-    append(torch_phi_inner, h.torch_phi_inner);
-    append(torch_inner, h.torch_z_inner);
-  }
-
- private:
-  static void append(std::vector<double>& to, const std::vector<double>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  }
-};
-
-Rows rows(const part::Part& p) {
-  Rows out;
+/// The points of every cut, in the order of the sequence.
+std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, const part::Part& p) {
+  std::vector<std::pair<std::string, Columns>> out;
+  const auto end = [&](const char* name, const part::End& cut) {
+    out.emplace_back(name, bevel_columns(cut.spec, cut.table));
+  };
   for (const auto& step : p.sequence) {
-    if (step.what == part::Step::What::hole)
-      out.add("hole " + std::to_string(step.index), p.holes[step.index].hole);
-    if (step.what == part::Step::What::finish) out.add("finish", p.finish.table);
-    if (step.what == part::Step::What::start) out.add("start", p.start.table);
+    if (step.what == part::Step::What::hole) {
+      const auto& placed = p.holes[step.index];
+      out.emplace_back("hole " + std::to_string(step.index),
+                       hole_columns(spec.holes[placed.asked].hole, placed.hole)
+                           .append("fit_up_", fit_up_columns(placed.hole)));
+    }
+    if (step.what == part::Step::What::finish) end("finish", p.finish);
+    if (step.what == part::Step::What::start) end("start", p.start);
   }
   return out;
+}
+
+Columns dimensions(const part::Part& part) {
+  std::vector<std::string> names, from, tools;
+  std::vector<double> values;
+  for (const auto& d : part.check_dimensions) {
+    names.push_back(d.name);
+    values.push_back(d.value);
+    tools.emplace_back(name_of_tool(d.tool));
+    from.push_back(d.measured_from);
+  }
+  return Columns()
+      .texts("check_dimension", std::move(names))
+      .column("check_mm", std::move(values))
+      .texts("check_tool", std::move(tools))
+      .texts("check_measured_from", std::move(from));
 }
 
 }  // namespace
@@ -95,33 +80,11 @@ std::string_view name_of_tool(part::Tool tool) {
   return "";
 }
 
-std::string part_csv(const part::PartSpec&, const part::Part& part, const Caption&) {
-  auto r = rows(part);
-  std::vector<std::string> names, from, tools;
-  std::vector<double> values;
-  for (const auto& d : part.check_dimensions) {
-    names.push_back(d.name);
-    values.push_back(d.value);
-    tools.emplace_back(name_of_tool(d.tool));
-    from.push_back(d.measured_from);
-  }
-  return Csv()
-      .cells_column("cut", std::move(r.cut))
-      .degrees("phi_deg", r.phi)
-      .column("z_outer_mm", r.z_outer)
-      .degrees("phi_inner_deg", r.phi_inner)
-      .column("z_inner_mm", r.z_inner)
-      .degrees("b_deg", r.b)
-      .degrees("a_deg", r.a)
-      .column("beam_mm", r.beam)
-      .degrees("torch_phi_deg", r.torch_phi)
-      .column("torch_outer_mm", r.torch_outer)
-      .degrees("torch_phi_inner_deg", r.torch_phi_inner)
-      .column("torch_inner_mm", r.torch_inner)
-      .cells_column("check_dimension", std::move(names))
-      .column("check_mm", values)
-      .cells_column("check_tool", std::move(tools))
-      .cells_column("check_measured_from", std::move(from))
+std::string part_csv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return Csv(caption)
+      .remark(std::string("b_sign: ") + kBSignInPart)
+      .stacked("cut", cuts(spec, part))
+      .table(dimensions(part))
       .print();
 }
 

@@ -56,14 +56,14 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
 
 }  // namespace
 
-std::string schedule_csv(const motion::Schedule& schedule, const Caption&) {
-  Csv csv;
+std::string schedule_csv(const motion::Schedule& schedule, const Caption& caption) {
   std::vector<std::int64_t> period(static_cast<std::size_t>(schedule.periods));
   for (std::size_t i = 0; i < period.size(); ++i) period[i] = static_cast<std::int64_t>(i);
-  csv.integers("period", period);
+  Columns columns;
+  columns.integers("period", period);
   for (const auto& axis : schedule.axes)
-    if (!axis.idle()) csv.integers(axis.name + "_pulses", axis.counts);
-  return csv.print();
+    if (!axis.idle()) columns.integers(axis.name + "_pulses", axis.counts);
+  return Csv(caption).table(columns).print();
 }
 
 std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedule& s,
@@ -95,7 +95,7 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
                              s.period * static_cast<double>(zone.to), "slow"});
     charts.push_back(std::move(speed));
   }
-  return print_charts(charts, job_line(caption));
+  return print_charts(charts, caption);
 }
 
 }  // namespace tubecut::api

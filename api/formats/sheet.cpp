@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "api/formats/text.hpp"
+#include "api/verdict.hpp"
 
 namespace tubecut::api {
 namespace {
 
-constexpr double kLine = 4.4, kPad = 2.0;
+constexpr double kLine = 4.4, kVerdictLine = 3.3, kPad = 2.0;
 constexpr Stroke kFrame{.width = 0.5};
 constexpr Stroke kRule{.color = "#7a8794", .width = 0.18};
 
@@ -36,6 +37,16 @@ Sheet::Sheet(std::string title, const SheetFacts& facts, const Caption& caption)
   job.emplace_back("input", caption.input_sha256.substr(0, 32));
   job.emplace_back("result", caption.result_sha256.substr(0, 32));
   column(kBorder + half + kPad, "Job", job);
+  high_ = kHeight - kBorder;
+  for (const auto& line : verdict_lines(caption.verdict, {.width = 120, .warnings = 5}))
+    canvas_.text({kBorder + kPad, high_ -= kVerdictLine}, line, verdict_lettering(caption, 2.3));
+  high_ -= kPad;
+  canvas_.line({kBorder, high_}, {kWidth - kBorder, high_}, kRule);
+}
+
+Lettering verdict_lettering(const Caption& caption, double height) {
+  if (caption.verdict.status == "ok") return {.height = height};
+  return {.height = height, .bold = true, .color = "#b3261e"};
 }
 
 Cell cell(const Sheet& sheet, int columns, int rows, int index) {

@@ -13,7 +13,7 @@ namespace tubecut::api {
 using SheetFacts = std::vector<std::pair<std::string, std::string>>;
 
 /// A page of A4 upright with a frame and a title block: title, facts, the caller's reference,
-/// engine and hashes. What goes between frame and title block is the caller's.
+/// engine and hashes; at its top the verdict. What goes between is the caller's.
 class Sheet {
  public:
   static constexpr double kWidth = 210.0, kHeight = 297.0, kBorder = 10.0;
@@ -22,15 +22,18 @@ class Sheet {
 
   /// The free part of the page.
   [[nodiscard]] DrawingPoint low() const { return {kBorder, low_}; }
-  [[nodiscard]] DrawingPoint high() const { return {kWidth - kBorder, kHeight - kBorder}; }
+  [[nodiscard]] DrawingPoint high() const { return {kWidth - kBorder, high_}; }
   [[nodiscard]] Canvas& canvas() { return canvas_; }
   [[nodiscard]] std::string print() const { return canvas_.print(title_); }
 
  private:
   std::string title_;
   Canvas canvas_;
-  double low_ = 0.0;
+  double low_ = 0.0, high_ = 0.0;
 };
+
+/// How a line of the verdict is lettered: loud, unless it is `ok`.
+[[nodiscard]] Lettering verdict_lettering(const Caption& caption, double height);
 
 /// The rectangle `index` of a grid over the free part of a sheet, row by row from the top left.
 struct Cell {

@@ -7,6 +7,18 @@ namespace {
 
 bool printable(char c) { return c >= 0x20 && c < 0x7f; }
 
+/// Letters, digits and signs that mean nothing in a comment of any control or compiler.
+std::string in_a_comment(std::string_view text) {
+  constexpr std::string_view kKept = "+-_.,:=/# ";
+  std::string out;
+  for (const char c : text) {
+    const bool alphanumeric =
+        (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    out += alphanumeric || kKept.find(c) != std::string_view::npos ? c : '_';
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string fixed(double value, int digits) {
@@ -28,6 +40,8 @@ std::string xml_text(std::string_view text) {
       out += "&gt;";
     else if (c == '"')
       out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
     else
       out += printable(c) ? c : '_';
   }
@@ -49,15 +63,29 @@ std::string dxf_text(std::string_view text) {
   return out;
 }
 
-std::string machine_text(std::string_view text) {
-  constexpr std::string_view kKept = "+-_.,:=/# ";
+std::string gcode_text(std::string_view text) { return in_a_comment(text); }
+
+std::string dstv_text(std::string_view text) {
+  const bool blank = text.find_first_not_of(' ') == std::string_view::npos;
+  return blank ? "-" : in_a_comment(text);
+}
+
+std::string structured_text_text(std::string_view text) { return in_a_comment(text); }
+
+std::string csv_text(std::string_view text) {
+  constexpr std::string_view kComputes = "=+-@'", kSeparates = ",;|", kPassedOver = " \"";
+  const auto is = [](std::string_view set, char c) {
+    return set.find(c) != std::string_view::npos;
+  };
   std::string out;
+  bool begins = true;
   for (const char c : text) {
-    const bool alphanumeric =
-        (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-    out += alphanumeric || kKept.find(c) != std::string_view::npos ? c : '_';
+    if (begins && is(kComputes, c)) out += '\'';
+    if (c == '"') out += '"';
+    out += printable(c) ? c : '_';
+    begins = is(kSeparates, c) || (begins && is(kPassedOver, c));
   }
-  return out;
+  return out.find_first_of(",;|\"") == std::string::npos ? out : '"' + out + '"';
 }
 
 }  // namespace tubecut::api

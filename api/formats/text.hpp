@@ -8,14 +8,31 @@ namespace tubecut::api {
 /// A number with so many digits behind the point; never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits = 2);
 
-/// Text as XML content or attribute value.
+// Text that comes from a client, one function a format: in what is printed nothing of it acts. It
+// is printable ASCII; other bytes become '_'. In JSON (glTF) text goes through the Writer; STL
+// carries none.
+
+/// As XML or HTML content or attribute value.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
-/// Text as the value of a DXF group: no group separator, no escape and no %% code of TEXT acts.
+/// As the value of a DXF group: no group separator, no escape and no %% code of TEXT acts.
 [[nodiscard]] std::string dxf_text(std::string_view text);
 
-/// Text inside a comment of a machine file: letters, digits and "+-_.,:=/# "; whatever else could
-/// end the comment or mean something to a control becomes '_'.
-[[nodiscard]] std::string machine_text(std::string_view text);
+/// Inside a comment of RS-274, but not as its first word, where (MSG, (PRINT, (LOGOPEN, and their
+/// like act. Kept are letters, digits and "+-_.,:=/# "; the rest becomes '_'.
+[[nodiscard]] std::string gcode_text(std::string_view text);
+
+/// In a comment or a header line of DSTV, never empty ('-'): a reader may skip blank lines. Kept as
+/// in gcode_text.
+[[nodiscard]] std::string dstv_text(std::string_view text);
+
+/// Inside a comment (* *) of IEC 61131-3: nothing in it ends the comment, opens one inside it or
+/// begins a pragma. Kept as in gcode_text.
+[[nodiscard]] std::string structured_text_text(std::string_view text);
+
+/// As a whole cell of CSV: quoted where it must be (RFC 4180), and a `'` before each of = + - @ '
+/// that begins it, or follows a `,`, `;` or `|` in it, so that no spreadsheet, whatever it takes
+/// for a separator, computes it. Taking those away again gives the text. Not for numbers.
+[[nodiscard]] std::string csv_text(std::string_view text);
 
 }  // namespace tubecut::api

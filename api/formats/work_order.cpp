@@ -19,8 +19,8 @@ constexpr Lettering kHead{.height = 3.4, .bold = true};
 constexpr Lettering kSmall{.height = 2.3};
 constexpr Lettering kGrey{.height = 2.1, .color = "#566370"};
 
-/// The outside laid flat: z to the right, girth upwards, each with its own scale, for a long tube
-/// is thin.
+/// The outside laid flat as it is seen from outside: z to the right, hence phi downwards (x, y, z
+/// is right-handed), each with its own scale, for a long tube is thin.
 class Development {
  public:
   Development(Canvas& canvas, const part::PartSpec& spec, const part::Part& part, Cell room)
@@ -48,8 +48,10 @@ class Development {
   }
 
   void draw() {
-    canvas_.text({at_.x + low_ * along_.factor - 10.0, at_.y + top_ * round_.factor + 3.0},
-                 "Outside developed: along " + along_.name + ", round " + round_.name, kHead);
+    canvas_.text(
+        {at_.x + low_ * along_.factor - 10.0, at_.y + top_ * round_.factor + 3.0},
+        "Outside developed, seen from outside: along " + along_.name + ", round " + round_.name,
+        kHead);
     for (int quarter = 0; quarter <= 4; ++quarter) {
       const double phi = 0.25 * kTwoPi * quarter;
       canvas_.line(at(phi, low_), at(phi, end_), quarter % 4 == 0 ? kLine : kDatum);
@@ -58,15 +60,16 @@ class Development {
     }
     edge(part_.start.table, "start");
     edge(part_.finish.table, "finish");
-    canvas_.begin_clip(at(0.0, low_), at(kTwoPi, end_));
+    canvas_.begin_clip(at(kTwoPi, low_), at(0.0, end_));
     for (const auto& placed : part_.holes) ring(placed.hole);
     for (const auto& mark : part_.marks) line(mark);
     canvas_.end_group();
-    canvas_.text(at(0.0, low_) - down(4.0), "start, z = 0 at its long point", kGrey);
+    canvas_.text(at(kTwoPi, low_) - down(4.0), "start, z = 0 at its long point", kGrey);
     auto right = kGrey;
     right.anchor = Anchor::end;
-    canvas_.text(at(0.0, low_) - down(8.0), "full line: outer edge; dashes: inner edge", kGrey);
-    canvas_.text({std::max(at(0.0, end_).x, at(0.0, low_).x + 100.0), at(0.0, low_).y - 4.0},
+    canvas_.text(at(kTwoPi, low_) - down(8.0), "full line: outer edge; dashes: inner edge", kGrey);
+    const auto corner = at(kTwoPi, low_);
+    canvas_.text({std::max(at(0.0, end_).x, corner.x + 100.0), corner.y - 4.0},
                  "finish, long point " + fixed(part_.finish.longest.z) + " mm", right);
   }
 
@@ -78,7 +81,8 @@ class Development {
   friend DrawingPoint operator-(DrawingPoint p, Down d) { return {p.x, p.y - d.by}; }
 
   [[nodiscard]] DrawingPoint at(double phi, double z) const {
-    return {at_.x + z * along_.factor, at_.y + spec_.target.outer_radius * phi * round_.factor};
+    return {at_.x + z * along_.factor,
+            at_.y + (top_ - spec_.target.outer_radius * phi) * round_.factor};
   }
 
   void curve(const std::vector<double>& phi, const std::vector<double>& z, const Stroke& stroke,
@@ -115,7 +119,7 @@ class Development {
     canvas_.line(at(phi, mark.z_from), at(phi, mark.z_to), {.color = "#2b6ca3", .width = 0.3});
     const auto where = at(phi, 0.5 * (mark.z_from + mark.z_to));
     if (mark.kind != part::Mark::Kind::datum_line)
-      canvas_.text({where.x, where.y + 1.0}, mark.text, kSmall);
+      canvas_.text({where.x + 0.5, where.y + (phi < kPi ? -2.6 : 1.0)}, mark.text, kSmall);
   }
 
   Canvas& canvas_;
@@ -181,7 +185,10 @@ std::string words(const part::PartSpec& spec, const part::Part& part, const part
 void steps(Canvas& canvas, double y, double low, const part::PartSpec& spec,
            const part::Part& part) {
   const double left = Sheet::kBorder + kPad, column = 0.5 * (Sheet::kWidth - 2.0 * Sheet::kBorder);
-  canvas.text({left, y}, "Sequence, z in mm in the part's frame", kHead);
+  const bool none = y - low - 4.0 < kStepRow;
+  canvas.text({left, y},
+              none ? "Sequence: see the CSV or the JSON" : "Sequence, z in mm in the part's frame",
+              kHead);
   const auto fit = static_cast<std::size_t>(std::max(0.0, (y - low - 4.0) / kStepRow));
   const std::size_t count = part.sequence.size(), shown = std::min(count, 2 * fit);
   const std::size_t half = std::min(fit, (shown + 1) / 2);

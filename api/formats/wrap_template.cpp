@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/formats/canvas.hpp"
+#include "api/formats/sheet.hpp"
 #include "api/formats/text.hpp"
+#include "api/verdict.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -66,9 +67,10 @@ class Template {
         caption_(c),
         field_(field_of(d)),
         header_(header(d, field_, c)),
+        verdict_(verdict_lines(c.verdict, {.warnings = 12})),
         canvas_(std::max(kLeastWidth, field_.width() + 2.0 * kMargin + kRulerRoom),
                 2.0 * kMargin + kRulerRoom + std::max(field_.height(), kRuler) + kScaleRoom +
-                    kLine * (static_cast<double>(header_.size()) + 1.0)) {}
+                    kLine * (static_cast<double>(header_.size() + verdict_.size()) + 1.0)) {}
 
   std::string print() {
     if (d_.around())
@@ -143,6 +145,8 @@ class Template {
   void words() {
     double y = canvas_.height() - kMargin;
     canvas_.text({kMargin, y}, "Wrap template", {.height = 4.2, .bold = true});
+    for (const auto& line : verdict_)
+      canvas_.text({kMargin, y -= kLine}, line, verdict_lettering(caption_, 2.8));
     for (const auto& line : header_) canvas_.text({kMargin, y -= kLine}, line, {.height = 2.8});
     if (!d_.around() || field_.width() < 60.0) return;
     const auto corner = at(caption_.options.mirror ? field_.x_to : field_.x_from, field_.z_datum);
@@ -157,7 +161,7 @@ class Template {
   const Development& d_;
   const Caption& caption_;
   Field field_;
-  std::vector<std::string> header_;
+  std::vector<std::string> header_, verdict_;
   Canvas canvas_;
 };
 

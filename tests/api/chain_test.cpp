@@ -22,6 +22,7 @@ TEST(Chain, BevelTablePointsToScheduleToReplay) {
                                   {"outer_diameter_mm", Json{70.0}},
                                   {"wall_mm", Json{5.0}},
                                   {"closed", Json{true}},
+                                  {"b_sign", at(table.body, "result/b_sign")},
                                   {"points", at(table.body, "result/points")}}};
   const Json job{Json::Object{
       {"contour", contour}, {"machine", Json{"five_axis_cutter"}}, {"motion", motion(600)}}};

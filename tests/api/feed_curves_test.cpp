@@ -129,7 +129,8 @@ TEST(FeedCurves, CsvHasEveryRowOfTheTableAndOfTheCycle) {
   const auto body = example_of("cut-off-194-mm-whole-cycle");
   const auto json = post(kPath, body);
   const auto rows = [](const std::string& text) {
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+    const auto table = text.substr(text.find("\nt_s,") + 1);  // below the head
+    return static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')) - 1;
   };
   EXPECT_EQ(rows(post(kPath, api::dump(body), "format=csv").outcome.body), 200u);
   EXPECT_EQ(static_cast<double>(
@@ -145,6 +146,79 @@ TEST(FeedCurves, TargetRateAsInTheTheory) {
   EXPECT_EQ(at(answer.body, "result/cycle/target_met"), api::Json{true});
   EXPECT_NEAR(number(answer.body, "result/cycle/feed_for_target_mm_s"), 0.815147, 5e-7);
   EXPECT_NEAR(number(answer.body, "result/cycle/estimated_feed_mm_s"), 0.815236, 5e-7);
+}
+
+/// Details of the warnings with this code.
+std::vector<std::string> warned(const Posted& answer, const std::string& code) {
+  std::vector<std::string> out;
+  for (const auto& w : *at(answer.body, "warnings").as<api::Json::Array>())
+    if (text(w, "code") == code) out.push_back(text(w, "pointer") + " " + text(w, "detail"));
+  return out;
+}
+
+TEST(FeedCurves, ATargetThatIsMissedIsReviewed) {
+  const auto body = example_of("cut-off-194-mm-whole-cycle");
+  EXPECT_TRUE(warned(post(kPath, body), "target_missed").empty());
+  const auto missed = post(kPath, with(body, "cycle/target_per_hour", 150.0));
+  EXPECT_EQ(at(missed.body, "result/cycle/target_met"), api::Json{false});
+  EXPECT_EQ(text(missed.body, "verdict/status"), "review");
+  const auto told = warned(missed, "target_missed");
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told[0].starts_with("/cycle/target_per_hour 135")) << told[0];
+  // What it says would make the target does.
+  const double feed = number(missed.body, "result/cycle/feed_for_target_mm_s");
+  auto again = with(body, "cycle/target_per_hour", 150.0);
+  again = with(again, "cut/feed_mm_s", feed * 1.0001);
+  EXPECT_EQ(text(post(kPath, again).body, "verdict/status"), "ok");
+  const auto never =
+      warned(post(kPath, with(body, "cycle/target_per_hour", 5000.0)), "target_missed");
+  ASSERT_EQ(never.size(), 1U);
+  EXPECT_NE(never[0].find("no feed within the limits"), std::string::npos) << never[0];
+}
+
+TEST(FeedCurves, OneTubeHasOneWall) {
+  const auto body = example_of("cut-off-194-mm-whole-cycle");
+  const auto other = post(kPath, with(body, "tube/wall_mm", 12.0));
+  EXPECT_EQ(text(other.body, "errors/0/code"), "unsupported_combination");
+  EXPECT_EQ(text(other.body, "errors/0/pointer"), "/tube/wall_mm");
+  EXPECT_EQ(number(other.body, "errors/0/limit"), 10.0);
+  // A window names no wall: shorter than it, the tube is not parted.
+  const auto window = example_of("source-004-table-3-as-printed");  // 29 mm
+  const auto tube = [&](double wall) {
+    return with(window, "tube",
+                api::Json{api::Json::Object{{"outer_diameter_mm", 190.0}, {"wall_mm", wall}}});
+  };
+  EXPECT_EQ(text(post(kPath, tube(25.0)).body, "verdict/status"), "ok");
+  const auto thick = post(kPath, tube(29.5));
+  EXPECT_EQ(text(thick.body, "verdict/status"), "review");
+  EXPECT_EQ(warned(thick, "not_cut_through").size(), 1U);
+}
+
+TEST(FeedCurves, ATubesRangeIsThatOfItsOwnMachine) {
+  const auto tube = [](const char* name, const char* text) {
+    return warned(post(kPath, with(example_of(name), "tube", *api::parse(text))),
+                  "tube_outside_range");
+  };
+  const auto* table_1 = "source-004-table-1-as-solved";
+  const auto* table_3 = "source-004-table-3-as-solved";
+  EXPECT_TRUE(tube(table_1, R"({"outer_diameter_mm": 300, "wall_mm": 30})").empty());
+  const auto published = tube(table_3, R"({"outer_diameter_mm": 300, "wall_mm": 30})");
+  ASSERT_EQ(published.size(), 2U);
+  EXPECT_NE(published[0].find("Tables 2 and 3, takes diameters of 89 to 195 mm"),
+            std::string::npos);
+  EXPECT_NE(published[1].find("walls of 6 to 25 mm"), std::string::npos);
+  for (const auto* name : {table_1, table_3}) {
+    const auto own = tube(name, R"({"outer_diameter_mm": 300, "wall_mm": 30,
+        "machine_range": {"outer_diameters_mm": [100, 250], "walls_mm": [5, 40]}})");
+    ASSERT_EQ(own.size(), 1U);
+    EXPECT_EQ(own[0],
+              "/tube/outer_diameter_mm the machine takes diameters of 100 to 250 mm, not of "
+              "300 mm");
+  }
+  const auto turned = post(kPath, with(example_of(table_1), "tube",
+                                       *api::parse(R"({"outer_diameter_mm": 300, "wall_mm": 30,
+        "machine_range": {"outer_diameters_mm": [250, 100], "walls_mm": [5, 40]}})")));
+  EXPECT_EQ(text(turned.body, "errors/0/pointer"), "/tube/machine_range/outer_diameters_mm/1");
 }
 
 struct Field {

@@ -81,7 +81,23 @@ TEST(Formats, OptionsAreReadStrictlyAndOnlyByDrawings) {
 TEST(Formats, TextIsHarmlessInEveryLanguage) {
   EXPECT_EQ(api::xml_text("a<b>&\"c\x01"), "a&lt;b&gt;&amp;&quot;c_");
   EXPECT_EQ(api::dxf_text("50%%c\\U+0041^J\n"), "50%%%%%%c\\U+005CU+0041^ J_");
-  EXPECT_EQ(api::machine_text("a)(MSG,x);[1]\n\xc3\xa9"), "a__MSG,x___1____");
+  EXPECT_EQ(api::xml_text("'"), "&#39;");
+  for (const auto text : {&api::gcode_text, &api::dstv_text, &api::structured_text_text}) {
+    EXPECT_EQ(text("a)(MSG,x);[1]\n\xc3\xa9"), "a__MSG,x___1____");
+    EXPECT_EQ(text("*) VAR x (* {p} $'\"%~"), "__ VAR x __ _p_ _____");
+  }
+  EXPECT_EQ(api::dstv_text("   "), "-");
+}
+
+TEST(Formats, ACellOfTextIsNeverComputed) {
+  EXPECT_EQ(api::csv_text("B1"), "B1");
+  EXPECT_EQ(api::csv_text("a-b=c"), "a-b=c");
+  EXPECT_EQ(api::csv_text("=1+1"), "'=1+1");
+  EXPECT_EQ(api::csv_text("  -1"), "  '-1");
+  EXPECT_EQ(api::csv_text("'=1"), "''=1");
+  EXPECT_EQ(api::csv_text("a,b"), "\"a,b\"");
+  EXPECT_EQ(api::csv_text("a; @x|+y"), "\"a; '@x|'+y\"");
+  EXPECT_EQ(api::csv_text("\"=1\""), "\"\"\"'=1\"\"\"");
 }
 
 TEST(Formats, FixedNumbersHaveNoNegativeZero) {

@@ -59,7 +59,8 @@ TEST(Holes, EchoedRequestGivesTheSameAnswer) {
 TEST(Holes, OtherFormats) {
   const auto body = api::dump(set_in());
   const auto csv = post(kPath, body, "format=csv");
-  EXPECT_TRUE(csv.outcome.body.starts_with("side,branch_phi_deg,"));
+  EXPECT_TRUE(csv.outcome.body.starts_with(
+      "# verdict: ok\r\n# b_sign: outer_edge_to_plus_z\r\nside,branch_phi_deg,"));
   const auto svg = post(kPath, body, "format=svg");
   EXPECT_NE(svg.outcome.body.find("<svg"), std::string::npos);
 }

@@ -50,8 +50,8 @@ bool warned(const Posted& answer, const std::string& warning, const std::string&
 }
 
 TEST(Nodes, EveryExampleRuns) {
-  for (const char* name :
-       {"k-joint-from-centre-lines", "k-joint-with-tables", "source-002-offset-pair", "mitre"}) {
+  for (const char* name : {"k-joint-from-centre-lines", "k-joint-with-tables",
+                           "source-002-offset-pair", "mitre", "stated-mitre"}) {
     const auto answer = post(kNodes, example("nodes/" + std::string(name) + ".json"));
     EXPECT_FALSE(answer.outcome.error) << name << ": " << answer.outcome.body.substr(0, 1500);
   }
@@ -206,6 +206,45 @@ TEST(Nodes, AnEndThatIsNotCutHasNoTable) {
   const auto answer = post(kTables, request);
   EXPECT_EQ(code(answer), "no_contact");
   EXPECT_EQ(text(answer.body, "errors/0/pointer"), "/node/members/0/start_mm");
+}
+
+TEST(Nodes, AMitreAskedForIsAMitre) {
+  const auto request = example("nodes/stated-mitre.json");
+  const auto answer = post(kNodes, request);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+  for (const std::size_t end : {1U, 2U}) {  // the leg's finish, the rail's start
+    ASSERT_EQ(cuts(answer, end), 1U);
+    EXPECT_EQ(end_of(answer, end).find("cut_by")->as<Json::Array>()->at(0).find("placement"),
+              nullptr);
+    EXPECT_EQ(text(end_of(answer, end), "cut_by/0/joint/kind"), "mitre");
+    // The rail rises by atan 1/3 from the leg's square: the plane leans by half of what is left.
+    EXPECT_NEAR(number(end_of(answer, end), "cut_by/0/plane/normal/2"),
+                std::sin(0.5 * (std::acos(-1.0) / 2 + std::atan(1.0 / 3))), 1e-12);
+  }
+  EXPECT_FALSE(warned(answer, "ghost_contact", "/members/1/start_mm"));
+}
+
+TEST(Nodes, MembersThatShareMetalAreSaidWithHowDeepAndWhere) {
+  auto request = node({member("C", point(-900, 0, 0), point(900, 0, 0), 168.3, 8),
+                       member("B", point(0, 0, 0), point(600, 0, 600), 88.9),
+                       member("again", point(0, 0, 0), point(600, 0, 600), 88.9)});
+  const auto answer = post(kNodes, request);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+  EXPECT_TRUE(warned(answer, "members_overlap", "/members/1"));
+  EXPECT_TRUE(warned(answer, "members_overlap", "/members/2"));
+  ASSERT_EQ(at(answer.body, "result/overlaps").as<Json::Array>()->size(), 1U);
+  EXPECT_EQ(text(answer.body, "result/overlaps/0/between/0"), "B");
+  EXPECT_EQ(text(answer.body, "result/overlaps/0/between/1"), "again");
+  EXPECT_NEAR(number(answer.body, "result/overlaps/0/depth_mm"), 5.0, 1e-6);
+  EXPECT_EQ(text(answer.body, "verdict/status"), "review");
+  // The end of one member, asked for alone, says it too.
+  Json end{Json::Object{{"members", at(request, "members")},
+                        {"connect", at(request, "connect")},
+                        {"member", Json{"B"}},
+                        {"end", Json{"start"}}}};
+  const auto curves = post(kCurves, Json{Json::Object{{"node", end}}});
+  ASSERT_FALSE(curves.outcome.error) << curves.outcome.body.substr(0, 800);
+  EXPECT_TRUE(warned(curves, "members_overlap", "/node/members/1"));
 }
 
 TEST(Nodes, GhostConsumedOpenAndParallel) {

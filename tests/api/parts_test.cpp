@@ -15,13 +15,14 @@ constexpr const char* kPath = "/v1/parts";
 Json table_1() { return example("parts/table-1-with-a-square-far-end.json"); }
 Json brace() { return example("parts/k-joint-brace.json"); }
 Json chord() { return example("parts/chord-with-holes.json"); }
+Json set_in() { return example("parts/set-in-branch.json"); }
 
 const Json::Array& list(const Json& json, std::string_view path) {
   return *at(json, path).as<Json::Array>();
 }
 
 TEST(Parts, EveryExampleRuns) {
-  for (const auto& request : {table_1(), brace(), chord()}) {
+  for (const auto& request : {table_1(), brace(), chord(), set_in()}) {
     const auto answer = post(kPath, request);
     ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
     EXPECT_EQ(text(answer.body, "verdict/status"), "ok");
@@ -160,8 +161,36 @@ TEST(Parts, HolesAreThoseOfTheirOwnEndpoint) {
   EXPECT_NEAR(number(*b1, "girth_mm"), 0.0, 1e-9);
 }
 
+// The branch of the chord's set-in hole as a part of its own: its inner edge lies on the chord's
+// bore (it stood on the outer surface, up to 12.9 mm off). C1 runs along the world's x axis.
+TEST(Parts, ASetInBranchReachesTheBoreOfItsHole) {
+  const auto part = post(kPath, set_in());
+  ASSERT_FALSE(part.outcome.error) << part.outcome.body.substr(0, 800);
+  const auto phi = numbers(part.body, "result/ends/start/points/phi_deg");
+  const auto z = numbers(part.body, "result/ends/start/points/z_inner_mm");
+  const auto axis = [&](const char* name) {
+    return numbers(part.body, std::string("result/frame/") + name);
+  };
+  const auto o = axis("origin_mm"), x = axis("x"), y = axis("y"), w = axis("z");
+  ASSERT_GE(phi.size(), 36U);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    const double a = phi[i] * std::acos(-1.0) / 180, rho = 114.3 / 2 - 6.3;
+    const auto at = [&](std::size_t k) {
+      return o[k] + rho * (std::cos(a) * x[k] + std::sin(a) * y[k]) + z[i] * w[k];
+    };
+    EXPECT_NEAR(std::hypot(at(1), at(2)), 99.55, 1e-9) << phi[i];
+  }
+  EXPECT_EQ(number(part.body, "result/lengths/weld_mm"), 0.0);  // it is welded round its hole
+}
+
+bool warned(const Posted& answer, std::string_view code, std::string_view pointer) {
+  return std::ranges::any_of(list(answer.body, "warnings"), [&](const Json& w) {
+    return text(w, "code") == code && text(w, "pointer") == pointer;
+  });
+}
+
 TEST(Parts, EchoedRequestGivesTheSameAnswer) {
-  for (const auto& request : {table_1(), brace(), chord()}) {
+  for (const auto& request : {table_1(), brace(), chord(), set_in()}) {
     const auto first = post(kPath, request);
     ASSERT_FALSE(first.outcome.error);
     EXPECT_EQ(first.outcome.body, post(kPath, at(first.body, "request")).outcome.body);
@@ -170,7 +199,8 @@ TEST(Parts, EchoedRequestGivesTheSameAnswer) {
 
 TEST(Parts, Csv) {
   const auto csv = post(kPath, api::dump(table_1()), "format=csv");
-  EXPECT_TRUE(csv.outcome.body.starts_with("cut,phi_deg,z_outer_mm,"));
+  EXPECT_TRUE(csv.outcome.body.starts_with(
+      "# verdict: ok\r\n# b_sign: outer_edge_to_plus_z\r\ncut,phi_deg,developed_mm,"));
   EXPECT_LT(csv.outcome.body.find("finish,"), csv.outcome.body.find("\nstart,"));
   EXPECT_NE(csv.outcome.body.find("start_overhang"), std::string::npos);
 }
@@ -195,6 +225,35 @@ std::string refusal(const Json& request, std::string_view pointer) {
   return answer.outcome.body;
 }
 
+TEST(Parts, OneJointIsSaidInOneWay) {
+  const auto c = chord();
+  const Json same = *api::parse(R"({"kind": "set_in", "gap_mm": 1.5})");
+  const Json other = *api::parse(R"({"kind": "set_in", "gap_mm": 2})");
+  const auto both = [](Json json, const Json& joint) {
+    auto said = with(joint, "member", "B2");
+    return with(std::move(json), "members/0/joints/0", said);
+  };
+  EXPECT_FALSE(post(kPath, with(c, "holes/1/joint", same)).outcome.error);
+  EXPECT_EQ(refusal(with(c, "holes/1/joint", other), "/holes/1/joint"), "joint_contradicts");
+  const auto told = with(c, "holes/0/joint", *api::parse(R"({"kind": "set_on", "gap_mm": 2})"));
+  EXPECT_FALSE(post(kPath, both(told, same)).outcome.error);
+  EXPECT_EQ(refusal(both(told, other), "/members/2/joints/0"), "joint_contradicts");
+  EXPECT_EQ(refusal(without(c, "members/0/joints"), "/holes/0/joint"), "missing_field");
+  EXPECT_EQ(refusal(with(c, "members/0/joints/0/member", "C1"), "/members/0/joints/0/member"),
+            "bad_choice");
+  EXPECT_EQ(refusal(with(c, "members/0/joints/0/depth_mm", 3.0), "/members/0/joints/0/depth_mm"),
+            "unsupported_combination");
+  EXPECT_EQ(refusal(with(c, "members/2/joints/0/depth_mm", 200.0), "/members/2/joints/0/depth_mm"),
+            "out_of_range");
+  auto on = with(with(set_in(), "member", "B1"), "root_gap_mm", 1.0);
+  EXPECT_EQ(refusal(on, "/root_gap_mm"), "joint_contradicts");
+  // What only one of the two calls would do is said.
+  auto unsaid = with(without(c, "members/2/joints"), "holes/1/joint", same);
+  EXPECT_TRUE(warned(post(kPath, unsaid), "joint_not_stated", "/holes/1/joint"));
+  auto missing = with(c, "holes", Json{Json::Array{at(c, "holes/0")}});
+  EXPECT_TRUE(warned(post(kPath, missing), "hole_missing", "/members/2"));
+}
+
 TEST(Parts, EveryFieldIsChecked) {
   const auto t = table_1();
   EXPECT_EQ(refusal(without(t, "target/length_mm"), "/target/length_mm"), "missing_field");
@@ -211,6 +270,35 @@ TEST(Parts, EveryFieldIsChecked) {
   EXPECT_EQ(refusal(without(b, "up"), "/datum"), "unsupported_combination");
 }
 
+// A hole for a branch of 30 mm square to a tube cut square at 0 and 400 mm.
+TEST(Parts, AHoleBeyondAnEndIsRefusedAndOneOnItReviewed) {
+  const auto at_height = [](double height, const char* kind) {
+    auto request = *api::parse(R"({
+      "target": {"outer_diameter_mm": 100, "wall_mm": 5, "length_mm": 400},
+      "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+      "holes": [{"branch": {"outer_diameter_mm": 30, "wall_mm": 3, "inclination_deg": 90},
+                 "joint": {"kind": "set_on"}, "groove": {"rule": "none"}}],
+      "kerf_mm": 1, "datum": "seam", "sampling": {"uniform_points": 90}})");
+    request = with(request, "holes/0/joint/kind", kind);
+    return post(kPath, with(request, "holes/0/branch/height_mm", height));
+  };
+  for (const char* kind : {"set_on", "through"})
+    for (const double height : {-200.0, -16.0, 416.0, 3000.0}) {
+      const auto off = at_height(height, kind);
+      EXPECT_EQ(text(off.body, "code"), "hole_off_part")
+          << height << off.outcome.body.substr(0, 300);
+      EXPECT_EQ(text(off.body, "errors/0/pointer"), "/holes/0");
+      EXPECT_NE(text(off.body, "errors/0/hint").find(height < 0 ? "start" : "finish"),
+                std::string::npos);
+    }
+  for (const double height : {-10.0, 0.0, 10.0, 390.0, 410.0}) {
+    const auto half = at_height(height, "set_on");
+    EXPECT_EQ(text(half.body, "verdict/status"), "review") << height;
+    EXPECT_EQ(text(half.body, "warnings/0/code"), "hole_meets_end");
+  }
+  EXPECT_EQ(text(at_height(200.0, "set_on").body, "verdict/status"), "ok");
+}
+
 TEST(Parts, WhatCannotBeCutNamesTheField) {
   const auto t = table_1();
   EXPECT_EQ(refusal(with(t, "target/length_mm", 80.0), "/target/length_mm"), "member_consumed");
@@ -225,6 +313,9 @@ TEST(Parts, WhatCannotBeCutNamesTheField) {
   auto holes = chord();
   holes =
       with(holes, "connect", *api::parse(R"([{"member": "B1", "end": "start", "to": ["C1"]}])"));
+  EXPECT_EQ(refusal(holes, "/members/2/joints/0"), "no_contact");
+  holes = with(without(holes, "members/2/joints"), "holes/1/joint",
+               *api::parse(R"({"kind": "set_in", "gap_mm": 1.5})"));
   EXPECT_EQ(refusal(holes, "/holes/1/member"), "no_contact");
   EXPECT_EQ(refusal(with(chord(), "torch", *api::parse(R"({"max_deg": 1})")), "/torch/max_deg"),
             "torch_range");

@@ -245,7 +245,7 @@ TEST(Problems, FieldsNameThemselves) {
       {"dihedral", "as_published", {"unsupported_combination", "/dihedral"}},
       {"torch", object({{"min_deg", 10.0}, {"max_deg", 10.0}}), {"out_of_range", "/torch/max_deg"}},
       {"root_face_mm", 500.0, {"out_of_range", "/root_face_mm"}},
-      {"numerics", 2.0, {"numerics_mismatch", "/numerics"}},
+      {"numerics", 999.0, {"numerics_mismatch", "/numerics"}},
       {"reference", object({{"part", "\n"}}), {"bad_text", "/reference/part"}},
   };
   for (const auto& c : kCases) {
@@ -340,6 +340,46 @@ TEST(Problems, FormatsThatThereAreNot) {
   expect_envelope(post(kBevel, body, "colour=red"), "bad_request");
   expect_envelope(post(kBevel, body, "validate_only=1"), "bad_request");
   expect_envelope(post("/v1/nothing", std::string_view(body)), "not_found");
+}
+
+// ---- the query
+
+struct BadQuery {
+  const char *query, *pointer, *code, *hint;
+};
+
+TEST(Query, WhatIsWrongIsNamedWithWhatIsAllowed) {
+  const auto body = api::dump(table_1());
+  constexpr BadQuery kBad[] = {
+      {"format=gcode&speed_mm_min=600&dialect=fanuc", "?dialect", "bad_choice", "qtplasmac"},
+      {"format=gcode&speed_mm_min=600&torch=yes", "?torch", "bad_choice", "on|off"},
+      {"format=gcode&speed_mm_min=600&lead_mm=-1", "?lead_mm", "out_of_range", "at least 0 mm"},
+      {"format=gcode&speed_mm_min=0.5", "?speed_mm_min", "out_of_range", "at least 1 mm_min"},
+      {"format=gcode&speed_mm_min=fast", "?speed_mm_min", "not_a_number", "number"},
+      {"format=gcode", "?speed_mm_min", "missing_field", "speed"},
+      {"validate_only=yes", "?validate_only", "wrong_type", "true or false"},
+      {"validate_olny=true", "?validate_olny", "unknown_field", "validate_only"},
+      {"format=csv&format=svg", "?format", "repeated_parameter", ""},
+      {"format=csv&mirror=true", "?mirror", "unsupported_combination", "csv"},
+      {"format=svg&view=t%65mplat", "?view", "bad_choice", "template"}};
+  for (const auto& bad : kBad) {
+    const auto answer = post(kBevel, body, bad.query);
+    const auto* issues = answer.body.find("errors");
+    ASSERT_TRUE(issues != nullptr && issues->as<Json::Array>()->size() == 1) << bad.query;
+    const auto& issue = issues->as<Json::Array>()->front();
+    EXPECT_EQ(text(issue, "pointer"), bad.pointer) << bad.query;
+    EXPECT_EQ(text(issue, "code"), bad.code) << bad.query;
+    EXPECT_NE(text(issue, "hint").find(bad.hint), std::string::npos) << text(issue, "hint");
+  }
+}
+
+TEST(Query, AllThatIsWrongIsToldAtOnceAndEncodingIsUndone) {
+  const auto body = api::dump(table_1());
+  const auto answer = post(kBevel, body, "torch=1&lead_mm=-1&colour=red");
+  EXPECT_EQ(text(answer.body, "code"), "bad_request");
+  EXPECT_EQ(answer.body.find("errors")->as<Json::Array>()->size(), 3u);
+  EXPECT_NE(post(kBevel, body, "%66ormat=%63sv").outcome.content_type.find("csv"),
+            std::string::npos);
 }
 
 // ---- warnings and verdicts

@@ -1,6 +1,7 @@
 """The running service, asked for the formats of one request; examples and hostile references."""
 
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -34,14 +35,19 @@ class Service:
 
     def ask(self, endpoint, body, query=""):
         """(status, content type, bytes)"""
+        status, headers, content = self.reply(endpoint, json.dumps(body).encode(), query)
+        return status, headers["Content-Type"], content
+
+    def reply(self, endpoint, body, query="", media="application/json"):
+        """(status, headers, bytes)"""
         url = f"http://127.0.0.1:{self.port}/v1/{endpoint}?{query}"
-        request = urllib.request.Request(url, json.dumps(body).encode(), {"Content-Type": "application/json"})
+        request = urllib.request.Request(url, body, {"Content-Type": media})
         try:
             with urllib.request.urlopen(request, timeout=60) as reply:
-                return reply.status, reply.headers["Content-Type"], reply.read()
+                return reply.status, reply.headers, reply.read()
         except urllib.error.HTTPError as refused:
             with refused:
-                return refused.code, refused.headers["Content-Type"], refused.read()
+                return refused.code, refused.headers, refused.read()
 
     def get(self, path):
         with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=60) as reply:
@@ -77,6 +83,23 @@ class FormatTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.service.stop()
+
+
+def rolled(points, radius):
+    """A sheet (right, up), print side out, laid round a tube of that radius about z with `right` along it: [(x, y, z)].
+
+    Who looks at it sees right x up towards himself; there outwards is (cos, sin, 0), so up is outwards x z and turns against x to y."""
+    return [(radius * math.cos(-up / radius), radius * math.sin(-up / radius), right) for right, up in points]
+
+
+def off_curve(points, curve):
+    """Largest distance of points to a closed polyline in space."""
+    def to_segment(p, a, b):
+        d = [v - u for u, v in zip(a, b)]
+        square = sum(v * v for v in d)
+        share = min(1.0, max(0.0, sum((w - u) * v for u, v, w in zip(a, d, p)) / square)) if square else 0.0
+        return math.dist(p, [u + share * v for u, v in zip(a, d)])
+    return max(min(to_segment(p, a, b) for a, b in zip(curve, curve[1:] + curve[:1])) for p in points)
 
 
 def main():

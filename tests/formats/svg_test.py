@@ -10,7 +10,8 @@ import gi
 gi.require_version("Rsvg", "2.0")
 from gi.repository import Rsvg  # noqa: E402
 
-from service import HOSTILE, FormatTest, examples, main, seam_row
+from dxf_test import polylines, read
+from service import HOSTILE, FormatTest, examples, main, off_curve, rolled, seam_row
 
 DPI = 254  # ten pixels a millimetre
 SVG = "{http://www.w3.org/2000/svg}"
@@ -146,7 +147,30 @@ class Svg(FormatTest):
                     for (x, y), i in zip(xy, order):
                         self.assertAlmostEqual((x - x0) / along, z[i] - z[order[0]], delta=2e-3 / along)
                         turn = (rows["phi_deg"][i] - rows["phi_deg"][order[0]]) / 360
-                        self.assertAlmostEqual((y0 - y) / round_, turn * girth, delta=2e-3 / round_)
+                        self.assertAlmostEqual((y - y0) / round_, turn * girth, delta=2e-3 / round_)
+
+    def test_a_work_order_seen_from_outside_is_the_part_in_space(self):
+        """Laid round the tube with its print side out the holes lie on the curves in space; mirrored they do not."""
+        body = examples("parts")["chord-with-holes"]
+        root = ElementTree.fromstring(self.service.text("parts", body, "format=svg&view=work_order"))
+        title = next(e.text for e in root.iter(f"{SVG}text") if "developed" in (e.text or ""))
+        self.assertIn("seen from outside", title)
+        along, around = (float(a) / float(b) for a, b in re.findall(r"(\d+):(\d+)", title))
+        result = self.service.answer("parts", body)["result"]
+        radius = next(d["value_mm"] for d in result["check_dimensions"] if d["name"] == "girth") / (2 * math.pi)
+        start = next(e for e in root.iter() if e.get("id") == "start_outer").get("points").split()[0].split(",")
+        first = min(zip((p % 360 for p in result["ends"]["start"]["points"]["phi_deg"]), result["ends"]["start"]["points"]["z_outer_mm"]))
+
+        def sheet(polygon, side):
+            """(z, up) on the tube, up from phi = 0."""
+            xy = [tuple(map(float, p.split(","))) for p in polygon.get("points").split()]
+            return [((x - float(start[0])) / along + first[1], side * ((float(start[1]) - y) / around - radius * math.radians(first[0]))) for x, y in xy]
+        holes = [e for e in root.iter(f"{SVG}polygon") if e.get("stroke-dasharray") is None]
+        self.assertEqual(len(holes), 3 * len(result["holes"]))
+        curves = [points for points, _ in polylines(read(self.service.text("parts", body, "format=dxf&view=tube")), "CUT_OUTER")][2:]
+        off = {side: max(min(off_curve(rolled(sheet(hole, side), radius), curve) for curve in curves) for hole in holes) for side in (1, -1)}
+        self.assertLess(off[1], 0.1)  # a hundredth of a mm on paper is 0.05 mm on the tube here
+        self.assertGreater(off[-1], 5)
 
     def test_templates_of_the_smallest_and_the_largest_tube(self):
         for diameter in (5, 5000):

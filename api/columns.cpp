@@ -1,0 +1,30 @@
+#include "api/columns.hpp"
+
+#include "core/base/angle.hpp"
+
+namespace tubecut::api {
+
+Columns& Columns::degrees(std::string_view name, std::vector<double> radians) {
+  for (auto& v : radians) v *= kDegPerRad;
+  return column(name, std::move(radians));
+}
+
+Columns& Columns::append(std::string_view prefix, const Columns& other) {
+  for (const auto& c : other.all_) add(std::string(prefix) + c.name, c.values);
+  return *this;
+}
+
+void Columns::write(Writer& w) const {
+  for (const auto& [name, values] : all_) {
+    if (const auto* flags = std::get_if<std::vector<bool>>(&values))
+      w.flags(name, *flags);
+    else if (const auto* numbers = std::get_if<std::vector<double>>(&values))
+      w.column(name, *numbers);
+    else if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&values))
+      w.column(name, *integers);
+    else
+      w.column(name, std::get<std::vector<std::string>>(values));
+  }
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,157 @@
+#include "api/formats/torch_moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kHalvings = 16;
+
+double squared(double v) { return v * v; }
+
+/// The torch below the outer wall, for a tilt across of tangent `rho`: how deep, in its own frame's
+/// x, it meets the inner wall, and the first two derivatives of that by rho. They all grow with
+/// |rho|. With C = ro^2 - ri^2 depth h solves (1 + rho^2) h^2 - 2 ro h + C = 0.
+struct Depth {
+  double h, first, second;
+  double root;  // D = ri times the cosine in the plane across the tube
+};
+std::optional<Depth> depth(const TorchReach& r, double rho) {
+  const double c = squared(r.outer_radius) - squared(r.inner_radius);
+  const double root = squared(r.outer_radius) - (1.0 + rho * rho) * c;
+  if (!(root > 0.0)) return std::nullopt;
+  const double d = std::sqrt(root), h = c / (r.outer_radius + d);
+  return Depth{
+      .h = h,
+      .first = rho * h * h / d,
+      .second = h * h * (1.0 / d + 2.0 * rho * rho * h / (d * d) + rho * rho * c / (d * d * d)),
+      .root = d};
+}
+
+/// Bounds over a whole move: greatest |tan|, and of its first and second derivative.
+struct Tangent {
+  double least, most, first, second;
+};
+Tangent tangent(double from, double to) {
+  const double a = std::abs(from), b = std::abs(to), step = std::abs(to - from);
+  const double most = elementary::tan(std::max(a, b)), slope = 1.0 + most * most;
+  const bool through_zero = (from < 0.0) != (to < 0.0);
+  return {.least = through_zero ? 0.0 : elementary::tan(std::min(a, b)),
+          .most = most,
+          .first = slope * step,
+          .second = 2.0 * most * slope * step * step};
+}
+
+/// A torch in the axial plane: u'' is B'^2, and the walls are straight lines there.
+double sag_in_plane(const TorchReach& r, const TorchPlace& from, const TorchPlace& to) {
+  const auto b = tangent(from.b, to.b);
+  const double tip = r.pivot * squared(to.b - from.b);
+  const double inner = (r.outer_radius - r.inner_radius) * b.second;
+  return (tip * std::sqrt(1.0 + b.most * b.most) + inner) / 8.0;
+}
+
+/// v = (1, tan a, tan b), u = v / |v|: |u''| <= |v''| / |v| + 2 |v'|^2 / |v|^2.
+double tip_sag(const TorchReach& r, const Tangent& a, const Tangent& b) {
+  const double least = 1.0 + a.least * a.least + b.least * b.least;
+  return r.pivot / 8.0 *
+         (elementary::hypot(a.second, b.second) / std::sqrt(least) +
+          2.0 * (squared(a.first) + squared(b.first)) / least);
+}
+
+/// Of the inner edge while the tip keeps to its line: second derivatives of where the line meets
+/// the inner wall, across (|w''| bounds ri |phi''|) and along.
+double inner_sag(const Depth& d, const Tangent& a, const Tangent& b) {
+  const double h1 = d.first * a.first, h2 = d.second * squared(a.first) + d.first * a.second;
+  const double across = h2 * a.most + 2.0 * h1 * a.first + d.h * a.second;
+  const double along = h2 * b.most + 2.0 * h1 * b.first + d.h * b.second;
+  return elementary::hypot(h2, across, along) / 8.0;
+}
+
+double sag_in_space(const TorchReach& r, const TorchPlace& from, const TorchPlace& to) {
+  const auto a = tangent(from.a, to.a), b = tangent(from.b, to.b);
+  const auto d = depth(r, a.most);
+  if (!d) return kInfinity;
+  const double tip = tip_sag(r, a, b);
+  // Cosine between torch and inner wall; at the outer one it is greater.
+  const double cosine =
+      d->root / (r.inner_radius * std::sqrt(1.0 + a.most * a.most + b.most * b.most));
+  const double edge = tip / cosine;
+  // Off the tangent plane by at most 6 % as long as the wall bends little over that way.
+  if (edge > 0.1 * cosine * r.inner_radius) return kInfinity;
+  return 1.1 * edge + inner_sag(*d, a, b);
+}
+
+/// Where the torch meets the inner wall.
+struct Inner {
+  double phi, z;
+};
+Inner inner_edge(const TorchReach& r, const TorchPlace& p, const Depth& d) {
+  const double rho = elementary::tan(p.a);
+  return {.phi = p.phi - elementary::atan2(d.h * rho, r.outer_radius - d.h),
+          .z = p.z - d.h * elementary::tan(p.b)};
+}
+
+double mixed(double a, double b, double share) { return a + share * (b - a); }
+
+/// The place at which both edges are on their lines.
+TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace& to,
+                   double share) {
+  TorchPlace out{.phi = mixed(from.phi, to.phi, share), .z = mixed(from.z, to.z, share)};
+  const auto d0 = depth(r, elementary::tan(from.a)), d1 = depth(r, elementary::tan(to.a));
+  const bool in_plane = from.a == 0.0 && to.a == 0.0;
+  if (in_plane || !d0 || !d1) {
+    const auto angle = [&](double a, double b) {
+      return elementary::atan(mixed(elementary::tan(a), elementary::tan(b), share));
+    };
+    out.b = angle(from.b, to.b);
+    out.a = in_plane ? 0.0 : angle(from.a, to.a);
+    return out;
+  }
+  const auto i0 = inner_edge(r, from, *d0), i1 = inner_edge(r, to, *d1);
+  const auto [sin, cos] = elementary::sincos(mixed(i0.phi, i1.phi, share) - out.phi);
+  const double outwards = r.outer_radius - r.inner_radius * cos;
+  out.a = elementary::atan2(-r.inner_radius * sin, outwards);
+  out.b = elementary::atan2(out.z - mixed(i0.z, i1.z, share), outwards);
+  return out;
+}
+
+}  // namespace
+
+double sag(const TorchReach& reach, const TorchPlace& from, const TorchPlace& to) {
+  if (from.a == 0.0 && to.a == 0.0) return sag_in_plane(reach, from, to);
+  return sag_in_space(reach, from, to);
+}
+
+std::vector<TorchPlace> straight_moves(const TorchReach& reach, const TorchPlace& from,
+                                       const TorchPlace& to, double limit) {
+  struct Stretch {
+    double end;
+    int halvings;
+  };
+  std::vector<TorchPlace> out;
+  std::vector<Stretch> todo{{1.0, 0}};
+  auto at = from;
+  double share = 0.0;
+  while (!todo.empty()) {
+    const auto [end, halvings] = todo.back();
+    const auto next = end == 1.0 ? to : between(reach, from, to, end);
+    if (halvings < kHalvings && sag(reach, at, next) > limit) {
+      todo.back().halvings = halvings + 1;
+      todo.push_back({(share + end) / 2.0, halvings + 1});
+      continue;
+    }
+    out.push_back(next);
+    at = next;
+    share = end;
+    todo.pop_back();
+  }
+  return out;
+}
+
+}  // namespace tubecut::api

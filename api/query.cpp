@@ -1,0 +1,138 @@
+#include "api/query.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace tubecut::api {
+namespace {
+
+constexpr std::array kSwitch{Option<bool>{"on", true}, Option<bool>{"off", false}};
+constexpr std::array kAxial{Option<bool>{"x", false}, Option<bool>{"z", true}};
+constexpr std::array kDialects{Option<Dialect>{"linuxcnc", Dialect::linuxcnc},
+                               Option<Dialect>{"qtplasmac", Dialect::qtplasmac}};
+constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};        // mm/min
+constexpr Range kLead{.min = 0.0, .max = 1'000.0};          // mm
+constexpr Range kPivotLength{.min = 0.0, .max = 10'000.0};  // mm
+
+std::optional<int> hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return std::nullopt;
+}
+
+/// Percent-encoding and "+" undone; a "%" that begins no code stands for itself.
+std::string decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : std::nullopt;
+    const auto low = high ? hex_digit(text[i + 2]) : std::nullopt;
+    out += low ? static_cast<char>(*high * 16 + *low) : text[i] == '+' ? ' ' : text[i];
+    if (low) i += 2;
+  }
+  return out;
+}
+
+/// A value of the query as the JSON value it would be in a body.
+Json typed(std::string_view text) {
+  if (text == "true" || text == "false") return Json{text == "true"};
+  double number = 0.0;
+  const auto* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec == std::errc{} && read.ptr == end && std::isfinite(number)) return Json{number};
+  return Json{std::string(text)};
+}
+
+std::string pointer(std::string_view name) { return "?" + std::string(name); }
+
+/// The parameters as the members of one object, the first of each name.
+Json::Object members(std::string_view text, std::vector<FieldIssue>& issues) {
+  Json::Object out;
+  while (!text.empty()) {
+    const auto end = text.find('&');
+    const auto item = text.substr(0, end);
+    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+    if (item.empty()) continue;
+    const auto equals = item.find('=');
+    auto name = decoded(item.substr(0, equals));
+    const auto value = equals == std::string_view::npos ? "" : decoded(item.substr(equals + 1));
+    const bool twice = std::ranges::any_of(out, [&](const auto& one) { return one.first == name; });
+    if (twice)
+      issues.push_back(
+          {.code = ErrorCode::repeated_parameter, .pointer = pointer(name), .got = Json{value}});
+    else
+      out.emplace_back(std::move(name), typed(value));
+  }
+  return out;
+}
+
+/// "free_end,standoff": codes between commas. Which are meant is judged when the answer is there.
+std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
+  constexpr std::size_t kLongest = 1'000;
+  const auto text = in.optional_text("acknowledge", kLongest);
+  if (!text) return {};
+  std::vector<std::string> out(1);
+  for (const char c : *text) {
+    if (c == ',')
+      out.emplace_back();
+    else
+      out.back() += c;
+  }
+  const auto odd = [](char c) {
+    return !(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9') && c != '_';
+  };
+  if (std::ranges::any_of(out, [&](const std::string& code) {
+        return code.empty() || std::ranges::any_of(code, odd);
+      }))
+    in.issue({.code = ErrorCode::bad_text,
+              .pointer = "acknowledge",
+              .hint = "codes of warnings, between commas"},
+             in.find("acknowledge"));
+  if (!torch)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "acknowledge",
+              .limit = Json{"torch=on"},
+              .hint = "acknowledge goes with torch=on"},
+             in.find("acknowledge"));
+  return out;
+}
+
+/// The parameters that only drawings and machine files read.
+FormatOptions read_options(Reader& in) {
+  FormatOptions out;
+  out.mirror = in.flag("mirror", false);
+  out.torch = in.choice("torch", kSwitch, false);
+  out.acknowledged = read_acknowledged(in, out.torch);
+  out.dialect = in.choice("dialect", kDialects, Dialect::linuxcnc);
+  out.axial_z = in.choice("axial", kAxial, false);
+  out.speed = in.optional_number("speed_mm_min", kSpeed);
+  out.lead = in.number("lead_mm", kLead, 0.0);
+  out.pivot_length = in.optional_number("pivot_length_mm", kPivotLength);
+  return out;
+}
+
+}  // namespace
+
+ParsedQuery parse_query(std::string_view text) {
+  ParsedQuery out;
+  const Json body{members(text, out.issues)};
+  Reader in(body);
+  auto& query = out.query;
+  query.validate_only = in.flag("validate_only", false);
+  query.format = in.optional_text("format").value_or("");
+  query.view = in.optional_text("view").value_or("");
+  const auto general = in.echo().size();
+  query.options = read_options(in);
+  for (auto i = general; i < in.echo().size(); ++i)
+    if (in.has(in.echo()[i].first)) query.given.push_back(in.echo()[i].first);
+  for (auto& issue : in.finish_root()) {
+    issue.pointer = pointer(issue.pointer.substr(1));
+    out.issues.push_back(std::move(issue));
+  }
+  return out;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,130 @@
+#include "api/verdict.hpp"
+
+#include <algorithm>
+
+namespace tubecut::api {
+namespace {
+
+void add_once(std::vector<std::string>& to, const std::string& text) {
+  if (std::ranges::find(to, text) == to.end()) to.push_back(text);
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const auto& text : texts) out += (out.empty() ? "" : ", ") + text;
+  return out;
+}
+
+std::vector<std::string> each_once(const std::vector<std::string>& texts) {
+  std::vector<std::string> out;
+  for (const auto& text : texts) add_once(out, text);
+  return out;
+}
+
+std::vector<std::string> without(const std::vector<std::string>& texts,
+                                 const std::vector<std::string>& others) {
+  std::vector<std::string> out;
+  for (const auto& text : each_once(texts))
+    if (std::ranges::find(others, text) == others.end()) out.push_back(text);
+  return out;
+}
+
+/// Without the sign, which comments of machine files cannot hold.
+std::string in_words(std::string reason) {
+  for (auto at = reason.find(" > "); at != std::string::npos; at = reason.find(" > "))
+    reason.replace(at, 3, " above ");
+  return reason;
+}
+
+/// Broken at blanks, a word too long for a line anywhere.
+void add_wrapped(std::string_view text, std::size_t width, std::vector<std::string>& out) {
+  std::string_view indent;
+  while (!text.empty()) {
+    const auto room = width - indent.size();
+    auto end = text.size() <= room ? text.size() : text.rfind(' ', room);
+    if (end == std::string_view::npos || end == 0) end = room;
+    out.push_back(std::string(indent) + std::string(text.substr(0, end)));
+    text.remove_prefix(end);
+    if (text.starts_with(' ')) text.remove_prefix(1);
+    indent = "... ";  // no line begins with a client's word: (LOGOPEN, acts in RS-274
+  }
+}
+
+}  // namespace
+
+Verdict judge(const std::vector<Warning>& warnings, const Json& request,
+              const std::vector<Measure>& measures, const std::vector<Measure>& accepted) {
+  Verdict out;
+  for (const auto& warning : warnings) {
+    const auto& about = info(warning.code);
+    if (about.severity != Severity::cut) continue;
+    out.status = "review";
+    out.reasons.emplace_back(about.code);
+    add_once(out.codes, std::string(about.code));
+    const auto pointer = pointer_of(warning.member, request);
+    out.warnings.push_back(std::string(about.code) + (pointer.empty() ? "" : " at " + pointer) +
+                           ": " +
+                           (warning.detail.empty() ? std::string(about.meaning) : warning.detail));
+  }
+  for (const auto& bound : accepted)
+    for (const auto& measure : measures) {
+      if (measure.name != bound.name || measure.value <= bound.value) continue;
+      out.status = "reject";
+      out.reasons.push_back(std::string(bound.name) + ": " + brief(measure.value) + " > " +
+                            brief(bound.value));
+    }
+  return out;
+}
+
+std::vector<std::string> verdict_lines(const Verdict& verdict, VerdictRoom room) {
+  std::vector<std::string> out;
+  add_wrapped("verdict: " + std::string(verdict.status), room.width, out);
+  if (!verdict.reasons.empty())
+    add_wrapped("reasons: " + in_words(joined(each_once(verdict.reasons))), room.width, out);
+  const auto shown = std::min(verdict.warnings.size(), room.warnings);
+  for (std::size_t i = 0; i < shown; ++i)
+    add_wrapped("warning: " + verdict.warnings[i], room.width, out);
+  if (const auto more = verdict.warnings.size() - shown; more > 0)
+    add_wrapped("and " + std::to_string(more) + " more warnings of severity cut, all in the JSON",
+                room.width, out);
+  return out;
+}
+
+std::string verdict_in_short(const Verdict& verdict) {
+  auto reasons = each_once(verdict.reasons);
+  std::ranges::stable_partition(reasons, [](const std::string& reason) {
+    return reason.find(" > ") != std::string::npos;  // what it is rejected for goes first
+  });
+  const std::string out(verdict.status);
+  return reasons.empty() ? out : out + ": " + in_words(joined(reasons));
+}
+
+std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& format,
+                                     const FormatOptions& options) {
+  const std::string comparison(info(WarningCode::comparison_only).code);
+  if (format.machine && std::ranges::find(verdict.codes, comparison) != verdict.codes.end())
+    return Problem{.code = ErrorCode::comparison_only,
+                   .detail = "a machine would work by a file of format " + std::string(format.name),
+                   .issues = {}};
+  if (!options.torch) return std::nullopt;
+  if (verdict.status == "reject")
+    return Problem{.code = ErrorCode::rejected,
+                   .detail = "The verdict is reject: " + joined(each_once(verdict.reasons)),
+                   .issues = {}};
+  const auto missing = without(verdict.codes, options.acknowledged);
+  const auto unknown = without(options.acknowledged, verdict.codes);
+  if (missing.empty() && unknown.empty()) return std::nullopt;
+  std::string detail = "The verdict is " + std::string(verdict.status);
+  if (!missing.empty()) detail += "; not acknowledged: " + joined(missing);
+  if (!unknown.empty())
+    detail += "; acknowledged, but no warning of this answer: " + joined(unknown);
+  return Problem{.code = ErrorCode::not_acknowledged, .detail = std::move(detail), .issues = {}};
+}
+
+std::string verdict_header(const Verdict& verdict) {
+  std::string out(verdict.status);
+  if (!verdict.reasons.empty()) out += ";reasons=\"" + joined(each_once(verdict.reasons)) + "\"";
+  return out;
+}
+
+}  // namespace tubecut::api

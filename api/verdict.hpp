@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/format.hpp"
+#include "api/problem.hpp"
+
+namespace tubecut::api {
+
+/// What an answer measures of itself, to be held against the request's own `accept`.
+struct Measure {
+  std::string_view name;  // as in `accept`, for example "max_b_deg"
+  double value = 0.0;
+};
+
+/// `reject` where a measure is above what is accepted, else `review` where a warning is of severity
+/// `cut`, else `ok`. `request`: as it was understood, for the warnings' pointers.
+[[nodiscard]] Verdict judge(const std::vector<Warning>& warnings, const Json& request,
+                            const std::vector<Measure>& measures,
+                            const std::vector<Measure>& accepted);
+
+/// How much of a verdict a file has room for.
+struct VerdictRoom {
+  std::size_t width = 100;    // characters a line; longer ones go on after "... "
+  std::size_t warnings = 40;  // of more, the rest are counted
+};
+
+/// The lines that stand in the head of every file, whatever its format: status, reasons, warnings
+/// of severity `cut`. Not escaped: the text may be a client's.
+[[nodiscard]] std::vector<std::string> verdict_lines(const Verdict& verdict, VerdictRoom room = {});
+
+/// Status and reasons, each once: "review: free_end, standoff".
+[[nodiscard]] std::string verdict_in_short(const Verdict& verdict);
+
+/// Why this answer is not printed in a format by which a machine works: it is for comparison only;
+/// or, where the torch is to be lit, its verdict is `reject` (`rejected`), or `review` and the
+/// codes acknowledged are not those of its warnings (`not_acknowledged`, which lists those that
+/// lack and those that are not there).
+[[nodiscard]] std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& format,
+                                                   const FormatOptions& options);
+
+/// The value of the header Tubecut-Verdict, a structured field (RFC 8941): the status, with the
+/// reasons as a parameter, each once: `review;reasons="free_end, standoff"`.
+[[nodiscard]] std::string verdict_header(const Verdict& verdict);
+
+}  // namespace tubecut::api
