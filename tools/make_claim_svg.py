@@ -42,7 +42,7 @@ def planned(server, phi, z, b):
     shelf = machine(server)
     shelf["b_positive"] = "outer_edge_to_waste"
     body = {"contour": {"phi_deg": phi, "z_mm": z, "b_deg": [-v for v in b], "outer_diameter_mm": 70, "wall_mm": 5, "surface": "outer",
-                        "closed": True}, "machine": shelf, "motion": {"speed": {"mm_min": 600}, "direction": "ccw"}}
+                        "closed": True, "b_sign": "outer_edge_to_plus_z"}, "machine": shelf, "motion": {"speed": {"mm_min": 600}, "direction": "ccw"}}
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(body, file)
         file.flush()

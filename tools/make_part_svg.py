@@ -56,13 +56,13 @@ class Page:
 
 
 class View:
-    """The part in space, its axis to the right; seen from the front, parallel."""
+    """The part in space, its axis to the right; seen from the front, parallel: right, up and towards the eye are right-handed."""
 
     def __init__(self, x, y, scale):
         self.x, self.y, self.scale = x, y, scale
 
     def turned(self, radius, phi, z):
-        a, b = radius * math.cos(phi + ROLL), radius * math.sin(phi + ROLL)
+        a, b = radius * math.cos(phi + ROLL), -radius * math.sin(phi + ROLL)
         right = z * math.cos(ALONG) + a * math.sin(ALONG)
         depth = z * math.sin(ALONG) - a * math.cos(ALONG)  # smaller is nearer
         return right, b, depth
@@ -105,10 +105,10 @@ def solid(page, view, part):
 
 
 def developed(page, part, box):
-    """The outside laid flat: girth upwards, z to the right."""
+    """The outside laid flat as seen from outside: z to the right, so phi downwards."""
     x0, y0, scale = box
     girth = 2 * math.pi * part["outer"]
-    at = lambda around, z: (x0 + scale * z, y0 - scale * around)
+    at = lambda around, z: (x0 + scale * z, y0 - scale * (girth - around))
     start, finish, long_mm = part["start"], part["finish"], part["lengths"]["long_mm"]
     around = [part["outer"] * p for p in start["phi"]] + [girth]
     edge = {name: start[name] + start[name][:1] for name in ("z_outer", "z_inner", "torch_outer")}
@@ -121,9 +121,9 @@ def developed(page, part, box):
         length = part["quarters"][k % 4]
         begin = edge["z_outer"][min(range(len(around)), key=lambda i: abs(around[i] - a))]
         page.path([at(a, begin), at(a, long_mm)], MARK if k in (0, 4) else SOFT, 1.4 if k in (0, 4) else 0.7, dash="" if k in (0, 4) else "5 4")
-        page.text(x0 - 10, y0 - scale * a + 4, f"{90 * k}&#176;", MARK if k in (0, 4) else SOFT, 12, "end")
+        page.text(x0 - 10, at(a, 0)[1] + 4, f"{90 * k}&#176;", MARK if k in (0, 4) else SOFT, 12, "end")
         if k < 4:
-            page.text(x0 + scale * (begin + long_mm) / 2 + 40, y0 - scale * a - 4, f"{length:.1f}", DIM, 13, "middle")
+            page.text(x0 + scale * (begin + long_mm) / 2 + 40, at(a, 0)[1] + 13, f"{length:.1f}", DIM, 13, "middle")
     cutter = start["cutter"]
     for i in range(len(cutter)):
         page.path([at(around[i], edge["z_outer"][i]), at(around[i + 1], edge["z_outer"][i + 1])], PARTNERS[cutter[i]], 2.4)
@@ -133,7 +133,7 @@ def developed(page, part, box):
         point = part[which]
         x, y = at(point["girth_mm"], point["z_mm"])
         page.dot(x, y, DIM)
-        page.text(x + 9, y + (14 if which == "long_point" else 18), f"{name}, {point['girth_mm']:.1f} round", DIM, 12)
+        page.text(x + 9, y + (14 if which == "long_point" else 1), f"{name}, {point['girth_mm']:.1f} round", DIM, 12)
     y = y0 + 26
     page.arrow((x0, y), (x0 + scale * long_mm, y), INK)
     page.text(x0 + scale * long_mm / 2, y + 17, f"{long_mm:.1f} tip to tip", INK, 13, "middle")
@@ -176,7 +176,7 @@ def draw(body):
     for k, line in enumerate(lines):
         page.text(650, 98 + 22 * k, line, SOFT if k else INK, 13 if k else 15)
     developed(page, part, (80, 535, 1.22))
-    page.text(80, 256, "Laid flat: the start's outer edge, one colour a partner; its inner edge dashed", SOFT, 13)
+    page.text(80, 256, "Laid flat, seen from outside: the start's outer edge, one colour a partner; its inner edge dashed", SOFT, 13)
     table(page, result["check_dimensions"], 580, 278)
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="system-ui, sans-serif">'
             f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#ffffff"/>' + "\n".join(page.out) + "</svg>\n")

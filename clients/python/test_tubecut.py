@@ -6,10 +6,13 @@ import http.server
 import inspect
 import io
 import json
+import os
 import pathlib
+import re
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -26,8 +29,8 @@ BINARY = ""
 
 
 class Service:
-    def __init__(self):
-        self._child = subprocess.Popen([BINARY, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--budget-s", "300"],
+    def __init__(self, *options):
+        self._child = subprocess.Popen([BINARY, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--budget-s", "300", *options],
                                        stdout=subprocess.PIPE, text=True)
         ready = json.loads(self._child.stdout.readline())
         assert ready["event"] == "ready", ready
@@ -262,6 +265,22 @@ class SingleJobs(Case):
         for name in ("errors", "limits", "machines", "tubes"):
             self.assertTrue(self.client.catalogue(name))
 
+    def test_every_option_of_a_format_is_told_and_sent(self):
+        contract = self.client._accepted(self.client._call("GET", "/openapi.json", None, {}))
+        parameters = json.loads(contract)["components"]["parameters"].values()
+        names = {p["name"] for p in parameters if p["in"] == "query"} - {"format", "validate_only"}
+        self.assertGreater(len(names), 6)
+        for name in names:
+            self.assertIn(name, Client.document.__doc__)
+            with self.assertRaises(ProblemError) as refused:  # each arrives: no format takes this value
+                self.client.document("bevel-tables", joint(60), "csv", **{name: "never"})
+            self.assertEqual(refused.exception.errors[0].pointer, "?" + name)
+        body = example("bevel-tables/source-000-table-1.json")
+        program = self.client.document("bevel-tables", body, "gcode", speed_mm_min=600, axial="z", lead_mm=2.5)
+        self.assertIn(b"Z", program)
+        plain, mirrored = (self.client.document("bevel-tables", body, "svg", view="template", mirror=m) for m in (False, True))
+        self.assertNotEqual(plain, mirrored)
+
     def test_the_next_replica_answers_for_a_dead_one(self):
         self.assertEqual(Client(unused_url(), self.service.url).intersections(joint(60)).job["endpoint"], "intersections")
 
@@ -448,10 +467,42 @@ class Progress(unittest.TestCase):
         self.assertEqual(file.getvalue(), "")
 
 
+class Key(unittest.TestCase):
+    def test_a_service_with_keys(self):
+        with tempfile.TemporaryDirectory() as folder:
+            keys, mine = pathlib.Path(folder, "keys"), pathlib.Path(folder, "mine")
+            made = subprocess.run([BINARY, "new-key", "shop"], capture_output=True, text=True, check=True).stdout
+            key = re.search(r"tc_[A-Za-z0-9_-]+", made)[0]
+            keys.write_text(next(line for line in made.splitlines() if line.startswith("shop ")) + "\n")
+            mine.write_text(key + "\n")
+            service = Service("--keys", str(keys))
+            self.addCleanup(service.stop)
+            with self.assertRaises(ProblemError) as refused:
+                Client(service.url).intersections(joint(60))
+            self.assertEqual(refused.exception.problem.code, "unauthorized")
+            self.assertTrue(Client(service.url, key=key).intersections(joint(60)).result)
+            command = [sys.executable, "-B", HERE / "tubecut.py", "--url", service.url]
+            post = ["post", "intersections", "-"]
+            for extra, environment, status in (([], {}, 1), (["--key-file", mine], {}, 0), ([], {"TUBECUT_KEY": key}, 0)):
+                done = subprocess.run([*command, *extra, *post], input=json.dumps(joint(60)), capture_output=True, text=True, timeout=60,
+                                      env={**os.environ, **environment})
+                self.assertEqual(done.returncode, status, done.stderr)
+
+
 class Program(Case):
     def run_program(self, *arguments, text=""):
         command = [sys.executable, "-B", HERE / "tubecut.py", "--url", self.service.url, *arguments]
         return subprocess.run(command, input=text, capture_output=True, text=True, timeout=60)
+
+    def test_document(self):
+        gcode = ["post", "bevel-tables", EXAMPLES / "bevel-tables/source-000-table-1.json", "--format", "gcode"]
+        done = self.run_program(*gcode, "--option", "speed_mm_min=600", "--option", "dialect=qtplasmac")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("G", done.stdout)
+        done = self.run_program(*gcode, "--option", "speed_mm_min=600", "--option", "dialect=fanuc")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("?dialect: bad_choice one of linuxcnc|qtplasmac", done.stderr)
+        self.assertEqual(self.run_program(*gcode[:3], "--option", "speed_mm_min=600").returncode, 2)
 
     def test_post(self):
         done = self.run_program("post", "bevel-tables", EXAMPLES / "bevel-tables/source-000-table-1.json")

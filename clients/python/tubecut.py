@@ -17,17 +17,19 @@ import dataclasses
 import hashlib
 import http.client
 import json
+import os
 import socket
 import sys
 import threading
 import time
 import urllib.parse
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, TextIO, Tuple
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, TextIO, Tuple, Union
 
 __all__ = ["Answer", "BatchItem", "BatchResult", "Client", "FieldError", "HashError", "Problem", "ProblemError", "ProgressBar",
            "ProtocolError", "TubecutError", "UnreachableError"]
 
 Json = Dict[str, Any]
+Option = Union[str, int, float, bool]
 _RETRYABLE = frozenset({429, 502, 503})
 _BATCH_BYTES = 4 << 20  # the service takes 8 MiB
 _BATCH_LINES = 2000
@@ -284,10 +286,11 @@ class Client:
 
     timeout_s   for one read or write of a connection
     patience_s  how long a call is repeated while no replica answers it
+    key         API key, for a service that asks for one
     """
 
-    def __init__(self, *urls: str, timeout_s: float = 60.0, patience_s: float = 30.0, check_hashes: bool = True,
-                 headers: Optional[Mapping[str, str]] = None) -> None:
+    def __init__(self, *urls: str, key: Optional[str] = None, timeout_s: float = 60.0, patience_s: float = 30.0,
+                 check_hashes: bool = True, headers: Optional[Mapping[str, str]] = None) -> None:
         if not urls:
             raise ValueError("no url of the service")
         self._urls = [url.rstrip("/") for url in urls]
@@ -295,7 +298,7 @@ class Client:
             if urllib.parse.urlsplit(url).scheme not in ("http", "https"):
                 raise ValueError(f"not an http url: {url}")
         self._timeout_s, self._patience_s, self._check_hashes = timeout_s, patience_s, check_hashes
-        self._headers = dict(headers or {})
+        self._headers = {**({"Authorization": f"Bearer {key}"} if key else {}), **(headers or {})}
         self._first = 0  # the replica that answered last
         self._connections = _Connections()
         self._batches: Dict[str, bool] = {}  # which replica has /v1/batches
@@ -349,11 +352,16 @@ class Client:
         reply = self._call("POST", f"/v1/{endpoint}{query}", self._encode(request), _job_headers(job_id))
         return Answer.of(self._accepted(reply).decode("utf-8"), self._check_hashes)
 
-    def document(self, endpoint: str, request: Mapping[str, Any], format: str, *, view: Optional[str] = None,
-                 job_id: Optional[str] = None) -> bytes:
-        """The same answer as a drawing, table or machine file: `format` "csv", "svg" and what GET /v1/version lists."""
-        query = urllib.parse.urlencode({"format": format, **({"view": view} if view else {})})
-        return self._accepted(self._call("POST", f"/v1/{endpoint}?{query}", self._encode(request), _job_headers(job_id)))
+    def document(self, endpoint: str, request: Mapping[str, Any], format: str, *, job_id: Optional[str] = None,
+                 **options: Option) -> bytes:
+        """The same answer as a drawing, table or machine file: `format` "csv", "svg" and what GET /v1/version lists.
+
+        options  those of the format, by the contract's names: view; mirror (true, false) of templates; of G-code speed_mm_min,
+                 dialect (linuxcnc, qtplasmac), torch (on, off), acknowledge (codes of warnings, with torch=on), axial (x, z), lead_mm,
+                 pivot_length_mm. docs/formats.md
+        """
+        reply = self._call("POST", f"/v1/{endpoint}?{_query(format=format, **options)}", self._encode(request), _job_headers(job_id))
+        return self._accepted(reply)
 
     # -- catalogues
 
@@ -552,6 +560,11 @@ class Client:
         raise _Down(f"{type(failure).__name__}: {failure}")
 
 
+def _query(**options: Option) -> str:
+    """`a=b&c=d`; truth in the contract's words."""
+    return urllib.parse.urlencode({name: str(value).lower() if isinstance(value, bool) else value for name, value in options.items()})
+
+
 def _job_headers(job_id: Optional[str]) -> Dict[str, str]:
     """A header cannot carry every id; without it the service names the job by its hash."""
     fits = job_id is not None and 0 < len(job_id) <= 128 and job_id.isascii() and job_id.isprintable() and job_id == job_id.strip()
@@ -645,23 +658,52 @@ def _run_batch(client: Client, path: str) -> int:
     return 1 if refused else 0
 
 
-def main(arguments: Optional[Sequence[str]] = None) -> int:
-    parser = argparse.ArgumentParser(description="Ask a tubecut service.")
+def _option(text: str) -> Tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name and equals):
+        raise argparse.ArgumentTypeError(f"{text!r} is not NAME=VALUE")
+    return name, value
+
+
+def _run_post(client: Client, options: argparse.Namespace) -> int:
+    text = sys.stdin.read() if options.file == "-" else open(options.file, encoding="utf-8").read()
+    if options.format:
+        document = client.document(options.endpoint, json.loads(text), options.format, **dict(options.option))
+        sys.stdout.buffer.write(document)
+        return 0
+    print(client.post(options.endpoint, json.loads(text), validate_only=options.validate_only).text)
+    return 0
+
+
+def _arguments() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(description="Ask a tubecut service. Its API key, where it asks for one: the variable TUBECUT_KEY.")
     parser.add_argument("--url", action="append", help="of a replica; may be given again (http://127.0.0.1:8080)")
+    parser.add_argument("--key-file", help="a file that holds the API key, instead of TUBECUT_KEY")
     commands = parser.add_subparsers(dest="command", required=True)
     post = commands.add_parser("post", help="one request file; prints the answer")
     post.add_argument("endpoint", help="such as bevel-tables")
     post.add_argument("file", help="- for stdin")
+    post.add_argument("--validate-only", action="store_true", help="everything but the result")
+    post.add_argument("--format", help="csv, svg, gcode and what GET /v1/version lists; not with --validate-only")
+    post.add_argument("--option", action="append", type=_option, default=[], metavar="NAME=VALUE",
+                      help="of the format, such as speed_mm_min=600; may be given again")
     batch = commands.add_parser("batch", help="NDJSON of {id, endpoint, body}; prints {id, status, body} as they finish")
     batch.add_argument("file", help="- for stdin")
+    return parser
+
+
+def _key(path: Optional[str]) -> Optional[str]:
+    return open(path, encoding="utf-8").read().strip() if path else os.environ.get("TUBECUT_KEY")
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    parser = _arguments()
     options = parser.parse_args(arguments)
-    client = Client(*(options.url or ["http://127.0.0.1:8080"]))
+    if options.command == "post" and ((options.format and options.validate_only) or (options.option and not options.format)):
+        parser.error("--option belongs to --format, and --format has no --validate-only")
     try:
-        if options.command == "batch":
-            return _run_batch(client, options.file)
-        text = sys.stdin.read() if options.file == "-" else open(options.file, encoding="utf-8").read()
-        print(client.post(options.endpoint, json.loads(text)).text)
-        return 0
+        client = Client(*(options.url or ["http://127.0.0.1:8080"]), key=_key(options.key_file))
+        return _run_batch(client, options.file) if options.command == "batch" else _run_post(client, options)
     except ProblemError as refused:
         print(refused, file=sys.stderr)
         for error in refused.errors:

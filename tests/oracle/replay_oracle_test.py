@@ -85,7 +85,7 @@ def contour_job(seed):
     z, b = Waves(dice, 0, 0.4 * outer), Waves(dice, math.radians(dice.uniform(-25, 25)), math.radians(15))
     count = math.ceil(2 * math.pi * outer / 0.1)
     phi = 2 * np.pi * np.arange(count) / count
-    contour = {"surface": dice.choice(["outer", "inner"]), "outer_diameter_mm": 2 * outer, "wall_mm": wall, "closed": True,
+    contour = {"surface": dice.choice(["outer", "inner"]), "outer_diameter_mm": 2 * outer, "wall_mm": wall, "closed": True, "b_sign": "outer_edge_to_plus_z",
                "phi_deg": np.degrees(phi).tolist(), "z_mm": z(phi).tolist(), "b_deg": np.degrees(b(phi)).tolist()}
     motion = {"speed": {"mm_min": dice.uniform(300, 2000)}, "direction": dice.choice(["ccw", "cw"]),
               "eps_tip_mm": EPS_TIP_MM, "eps_b_deg": EPS_B_DEG}
@@ -191,6 +191,31 @@ class Oracle(unittest.TestCase):
             self.assertLessEqual(found["b_deg"], report["dev_b_deg"] + report["sag_b_deg"] + pulse, seed)
             for sign in ("b_positive", "b_deg"):
                 self.assertGreater(replay.measure(wrong(request, sign), result)["other_wall_mm"], 0.2, f"{seed} {sign}")
+
+    def test_both_edges_keep_to_what_the_answer_says(self):
+        """Fine pulses and kinks of B, which smoothing rounds: on the wall that is not the contour's, dev_tip_mm is far from the truth."""
+        beyond = 0.0
+        for seed in range(8):
+            request, _, _ = contour_job(seed)
+            contour, machine = request["contour"], request["machine"]
+            count = 180
+            contour.update(wall_mm=0.2 * contour["outer_diameter_mm"], phi_deg=[360 / count * i for i in range(count)],
+                           z_mm=[5 * math.cos(math.radians(4 * i)) for i in range(count)], b_deg=[30 - abs(i % 60 - 30) for i in range(count)])
+            for axis_ in machine["axes"]:
+                axis_.pop("pulses_per_turn", None)
+                axis_.update(pulses_per_unit=20000, n_max=1000000)
+            request["motion"].update(eps_tip_mm=0.05, eps_b_deg=0.5)
+            result = run("pulse-schedules", request)
+            found, report = replay.measure(request, result), result["report"]
+            for edge in ("outer_edge_mm", "inner_edge_mm"):
+                told = report[f"dev_{edge}"]
+                self.assertLessEqual(found[edge], told + 1e-3, f"{seed} {edge}")
+                self.assertGreater(found[edge], 0.8 * told - 1e-3, f"{seed} {edge}: more than there is")
+            worst = max(found["outer_edge_mm"], found["inner_edge_mm"])
+            beyond = max(beyond, worst - report["dev_tip_mm"] - report["sag_mm"])
+            print(f"contour on the {contour['surface']} wall: outer {found['outer_edge_mm']:.4f} (told {report['dev_outer_edge_mm']:.4f}), inner "
+                  f"{found['inner_edge_mm']:.4f} (told {report['dev_inner_edge_mm']:.4f}), dev_tip_mm + sag_mm {report['dev_tip_mm'] + report['sag_mm']:.4f}")
+        self.assertGreater(beyond, 0.05)
 
 
 def wrong(request, sign):

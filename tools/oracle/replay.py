@@ -184,7 +184,14 @@ def measure(request, result):
     wanted.point = wanted.point - 10 * tube.outer * wanted.direction
     _, other_z, _ = far.at(tube.other)
     _, other_wanted, _ = wanted.at(tube.other)
-    out = {"contour_mm": distance.max(), "b_deg": np.degrees(np.abs(beam.b[cut] - wanted_b)).max(),
+    walls = {"outer": tube.outer, "inner": min(tube.contour, tube.other)}
+    at_points = Beam(line_phi, np.zeros((len(line_phi), 3)), line_b)
+    at_points.point = tube.contour * unit_vectors(line_phi)[0] + line_z[:, None] * unit_vectors(line_phi)[2] - 10 * tube.outer * at_points.direction
+    edges = {}
+    for name, radius in walls.items():
+        line = np.stack([radius * line_phi, at_points.at(radius)[1]], -1)
+        edges[f"{name}_edge_mm"] = nearest(line, np.stack([radius * phi, far.at(radius)[1]], -1)[cut])[0].max()
+    out = edges | {"contour_mm": distance.max(), "b_deg": np.degrees(np.abs(beam.b[cut] - wanted_b)).max(),
            "other_wall_mm": np.hypot(distance, (other_z - z)[cut] - (other_wanted - wanted_z)).max()}
     if arm is not None:
         out["standoff_mm"] = np.abs(beam.at(tube.outer)[2] - arm)[cut].max()

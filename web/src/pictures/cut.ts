@@ -21,11 +21,11 @@ export async function joint(request: Row, context: Context): Promise<Joint> {
   const answer = await context.ask('nodes', {members, connect: node['connect'] as Json});
   const ends = (answer?.result['ends'] ?? []) as Row[];
   const end = ends.find((each) => each['member'] === node['member'] && each['end'] === node['end']);
-  const cutters = ((end?.['cut_by'] ?? []) as Row[]).map((cut) => ({
-    kind: 'tube', id: cut['member'] as Json, outer_diameter_mm: tube(members.find((m) => m['id'] === cut['member']), context.sizes).outer,
-    ...(cut['placement'] as Row),
-  }));
-  return {outer, wall, cutters, names: cutters.map((each) => String(each.id))};
+  const cutters = ((end?.['cut_by'] ?? []) as Row[]).map((cut): Row => isRow(cut['plane'])  // of a mitre
+    ? {kind: 'plane', id: cut['member'] as Json, ...cut['plane']}
+    : {kind: 'tube', id: cut['member'] as Json, outer_diameter_mm: tube(members.find((m) => m['id'] === cut['member']), context.sizes).outer,
+      ...(cut['placement'] as Row)});
+  return {outer, wall, cutters, names: cutters.map((each) => String(each['id']))};
 }
 
 export async function bevelTable(_: Row, answer: Answer, context: Context): Promise<Picture> {

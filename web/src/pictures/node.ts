@@ -1,4 +1,4 @@
-import type {Row} from '../json';
+import {isRow, type Row} from '../json';
 import {short4} from '../names';
 import {column, type CutTube, type Picture, type Vector} from '../picture';
 import type {Answer} from '../service';
@@ -25,9 +25,9 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
       {name: 'free ends', value: String(ends.filter((e) => e['free']).length)}],
     tables: [{title: 'Who cuts whom', head: ['member', 'end', 'cut by', 'inclination °', 'clocking °', 'offset mm', 'height mm', 'gap mm', 'eccentricity mm'],
       rows: cut.flatMap((end) => (end['cut_by'] as Row[]).map((by) => {
-        const p = by['placement'] as Row;
+        const p = by['placement'];  // a mitre is by a plane
         return [String(end['member']), String(end['end']), String(by['member']),
-          ...['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'].map((key) => short4(Number(p[key]))),
+          ...['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'].map((key) => isRow(p) ? short4(Number(p[key])) : '–'),
           short4(Number(by['gap_mm'])), short4(Number(by['eccentricity_mm']))];
       }))}],
   };
