@@ -1,6 +1,7 @@
 #include "api/formats/chart.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -56,12 +57,20 @@ struct Frame {
   }
 };
 
+std::size_t points(const Series& s) {
+  return s.x.empty() ? s.y.size() : std::min(s.x.size(), s.y.size());
+}
+
+double x_of(const Series& s, std::size_t i) {
+  return s.x.empty() ? s.every * static_cast<double>(i) : s.x[i];
+}
+
 Frame frame(const Chart& chart, double top) {
   double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
   for (const auto& s : chart.series) {
-    for (const double v : s.x) {
-      x0 = std::min(x0, v);
-      x1 = std::max(x1, v);
+    for (std::size_t i = 0; i < points(s); ++i) {
+      x0 = std::min(x0, x_of(s, i));
+      x1 = std::max(x1, x_of(s, i));
     }
     for (const double v : s.y) {
       y0 = std::min(y0, v);
@@ -120,13 +129,47 @@ void legend(std::string& out, const Chart& chart, const Frame& f) {
   }
 }
 
+/// Points that follow one another in one column of pixels, and those of them that are drawn.
+class Column {
+ public:
+  Column(const Series& s, const Frame& f) : s_(s), f_(f) {}
+
+  /// Takes the next point; what is drawn of a column that ends before it goes to `out`.
+  void take(std::size_t i, std::string& out) {
+    const double at = std::floor(f_.px(x_of(s_, i)));
+    if (open_ && at != at_) draw(out);
+    if (!open_) first_ = low_ = high_ = i;
+    open_ = true;
+    at_ = at;
+    last_ = i;
+    if (s_.y[i] < s_.y[low_]) low_ = i;
+    if (s_.y[i] > s_.y[high_]) high_ = i;
+  }
+  void draw(std::string& out) {
+    open_ = false;
+    std::array kept{first_, std::min(low_, high_), std::max(low_, high_), last_};
+    const auto end = std::unique(kept.begin(), kept.end());
+    for (auto i = kept.begin(); i != end; ++i) point(out, *i);
+  }
+
+ private:
+  void point(std::string& out, std::size_t i) {
+    out += fixed(f_.px(x_of(s_, i))) + "," + fixed(f_.py(s_.y[i])) + " ";
+  }
+
+  const Series& s_;
+  const Frame& f_;
+  bool open_ = false;
+  double at_ = 0.0;
+  std::size_t first_ = 0, last_ = 0, low_ = 0, high_ = 0;
+};
+
 void curve(std::string& out, const Series& s, const Frame& f) {
   out += "<polyline fill=\"none\" stroke=\"" + s.color + "\" stroke-width=\"1.8\"" +
          (s.dashed ? " stroke-dasharray=\"6 4\"" : "") + " points=\"";
-  for (std::size_t i = 0; i < s.x.size() && i < s.y.size(); ++i) {
-    if (s.steps && i > 0) out += fixed(f.px(s.x[i])) + "," + fixed(f.py(s.y[i - 1])) + " ";
-    out += fixed(f.px(s.x[i])) + "," + fixed(f.py(s.y[i])) + " ";
-  }
+  Column column(s, f);
+  for (std::size_t i = 0; i < points(s); ++i) column.take(i, out);
+  if (points(s) > 0) column.draw(out);
   out += "\"/>\n";
 }
 

@@ -7,13 +7,13 @@
 
 namespace tubecut::api {
 
-/// One curve of a chart.
+/// One curve of a chart, of as many points as there are.
 struct Series {
   std::string name;  // in the legend
   std::vector<double> x, y;
   std::string color = "#1f5fbf";
   bool dashed = false;
-  bool steps = false;  // constant from each x to the next
+  double every = 0.0;  // where x is empty: from 0, so far apart
 };
 
 /// A stretch of x set apart by a tint, with a word at its top.
@@ -41,7 +41,9 @@ struct Chart {
 };
 
 /// The charts one below the other as image/svg+xml, over them the verdict, below them the job.
-/// Coordinates are printed to 0.01 px.
+/// Coordinates are printed to 0.01 px. Of the points of a curve that follow one another in one
+/// column of pixels the first, the last, the lowest and the highest are printed: what is drawn does
+/// not change by them, and a chart is no longer than its pixels ask for.
 [[nodiscard]] std::string print_charts(const std::vector<Chart>& charts, const Caption& caption);
 
 }  // namespace tubecut::api

@@ -1,7 +1,7 @@
 #include "api/formats/schedule_formats.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
@@ -12,24 +12,6 @@ namespace tubecut::api {
 namespace {
 
 constexpr const char* kColors[] = {"#1f5fbf", "#c0392b", "#1e8449", "#8e44ad", "#b9770e"};
-constexpr std::size_t kMostPoints = 4'000;  // of a curve: more cannot be told apart
-
-/// Extremes of equal stretches of a long column, so that no peak is lost.
-Series thinned(std::string name, const std::vector<double>& y, double dt, const char* color) {
-  Series out{.name = std::move(name), .x = {}, .y = {}, .color = color};
-  const auto stride = std::max<std::size_t>(1, 2 * y.size() / kMostPoints);
-  for (std::size_t i = 0; i < y.size(); i += stride) {
-    const auto end = y.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, y.size()));
-    const auto [low, high] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(i), end);
-    for (const auto at : {std::min(low, high), std::max(low, high)}) {
-      out.x.push_back(dt * static_cast<double>(at - y.begin()));
-      out.y.push_back(*at);
-      if (low == high) break;
-    }
-  }
-  return out;
-}
-
 /// On the surface where the speed is asked for, mm/min.
 std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s) {
   motion::ReplaySpec again{.job = spec, .period = s.period, .counts = {}, .start = {}};
@@ -74,9 +56,11 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
                .series = {}};
   for (std::size_t a = 0; a < s.axes.size(); ++a) {
     if (s.axes[a].idle()) continue;
-    const std::vector<double> counts(s.axes[a].counts.begin(), s.axes[a].counts.end());
-    pulses.series.push_back(
-        thinned(s.axes[a].name, counts, s.period, kColors[a % std::size(kColors)]));
+    pulses.series.push_back({.name = s.axes[a].name,
+                             .x = {},
+                             .y = {s.axes[a].counts.begin(), s.axes[a].counts.end()},
+                             .color = kColors[a % std::size(kColors)],
+                             .every = s.period});
   }
   for (const auto& event : s.events)
     pulses.marks.push_back(
@@ -88,7 +72,7 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
                          " surface, mean of 25 periods",
                 .x_label = "time, s",
                 .y_label = "mm/min",
-                .series = {thinned("tip", tip_speed(spec, s), s.period, kColors[0])},
+                .series = {{.name = "tip", .x = {}, .y = tip_speed(spec, s), .every = s.period}},
                 .y_from_zero = true};
     for (const auto& zone : s.report.slow)
       speed.bands.push_back({s.period * static_cast<double>(zone.from),
