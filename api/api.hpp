@@ -36,7 +36,16 @@ struct Context {
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
   /// Bytes of body this replica takes, where an endpoint takes more; `GET /v1/limits` tells.
   std::size_t max_body = std::numeric_limits<std::size_t>::max();
+  double budget_s = 0.0;  // CPU of any job here; 0: what its endpoint has by default
 };
+
+/// A job ends at the latest so many times its budget of CPU after its request came, whatever CPU it
+/// got. A replica works at three jobs per slot at most (slot, lane and one that has outgrown the
+/// lane): each has a third of a CPU, and half a budget may pass in the queue.
+inline constexpr int kWallPerCpu = 4;
+
+/// Seconds of CPU for a call at a path.
+[[nodiscard]] double budget_s(std::string_view path, const Context& context);
 
 struct Stage {
   std::string_view name;  // parse, decode, compute, verify, encode

@@ -37,13 +37,21 @@ double in_force(std::string_view name, double limit, std::size_t max_body) {
   return name.ends_with("_bytes") ? std::min(limit, static_cast<double>(max_body)) : limit;
 }
 
-std::string limits_page(std::size_t max_body) {
+std::string limits_page(const Context& context) {
   Writer out;
-  out.object([max_body](Writer& w) {
-    w.object("limits", [max_body](Writer& o) {
-#define X(name, value) o.field(#name, in_force(#name, limit::name, max_body));
+  out.object([&](Writer& w) {
+    w.object("limits", [&](Writer& o) {
+#define X(name, value) o.field(#name, in_force(#name, limit::name, context.max_body));
       TUBECUT_LIMITS(X)
 #undef X
+    });
+    w.object("budgets", [&](Writer& o) {
+      for (const auto& endpoint : endpoints())
+        o.object(endpoint.id, [&](Writer& each) {
+          const double cpu = budget_s(endpoint.path, context);
+          each.field("cpu_s", cpu);
+          each.field("wall_s", kWallPerCpu * cpu);
+        });
     });
     w.object("verification", [](Writer& o) {
       for (const auto& endpoint : endpoints())
@@ -129,7 +137,7 @@ std::vector<Example> examples() {
   return out;
 }
 
-std::optional<Page> catalogue(std::string_view path, std::size_t max_body) {
+std::optional<Page> catalogue(std::string_view path, const Context& context) {
   static const struct {
     std::string_view path;
     std::string (*print)();
@@ -138,7 +146,7 @@ std::optional<Page> catalogue(std::string_view path, std::size_t max_body) {
                 {"/v1/tubes", tubes_page},
                 {"/v1/machines", machines_page},
                 {"/v1/examples", examples_page}};
-  if (path == "/v1/limits") return Page{std::string(kJson), limits_page(max_body)};
+  if (path == "/v1/limits") return Page{std::string(kJson), limits_page(context)};
   for (const auto& page : kPages)
     if (page.path == path) return Page{std::string(kJson), page.print()};
   for (const auto& file : embedded_files()) {

@@ -17,13 +17,15 @@ struct Embedded {
 /// openapi.yaml, openapi.json and every file under examples/, by its path.
 [[nodiscard]] std::span<const Embedded> embedded_files();
 
+struct Context;
+
 struct Page {
   std::string content_type;
   std::string body;
 };
 
 /// The answer to a GET of a catalogue (`/v1/errors`, `/openapi.yaml`, ...); nothing for other
-/// paths. `max_body` bytes of body are what this replica takes.
-[[nodiscard]] std::optional<Page> catalogue(std::string_view path, std::size_t max_body);
+/// paths. Of limits, those in force on this replica.
+[[nodiscard]] std::optional<Page> catalogue(std::string_view path, const Context& context);
 
 }  // namespace tubecut::api

@@ -320,7 +320,7 @@ Outcome dispatch(const Call& call, const Context& context) {
   if (call.method != "GET" && call.method != "HEAD")
     return job.refuse(Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
                       "GET, HEAD");
-  auto page = catalogue(call.path, context.max_body);
+  auto page = catalogue(call.path, context);
   return page ? job.page(std::move(*page)) : job.refuse(ErrorCode::not_found);
 }
 
@@ -348,6 +348,13 @@ std::size_t max_body(std::string_view path) {
     if (endpoint.path == path) return endpoint.max_body;
   if (path == kBatchesPath) return static_cast<std::size_t>(limit::body_large_max_bytes);
   return static_cast<std::size_t>(limit::body_max_bytes);
+}
+
+double budget_s(std::string_view path, const Context& context) {
+  if (context.budget_s > 0.0) return context.budget_s;
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return endpoint.budget_s;
+  return kBudgetS;
 }
 
 CallMemory call_memory(std::string_view path) {

@@ -62,6 +62,7 @@ struct Endpoint {
   std::string_view id;
   std::string_view path;
   std::size_t max_body = 0;
+  double budget_s = 0.0;  // of CPU, unless configured
   Reply (*handle)(Reader& in, Run& run) = nullptr;
   std::span<const FormatName> formats;
   std::span<const std::string_view> accepts;  // names allowed in `accept`
@@ -86,7 +87,7 @@ struct Endpoint {
 ///   static void encode(const Spec&, const Out&, Writer&);
 ///     members of `result`
 ///   static const std::vector<Format<Spec, Out>>& formats();
-///   kId, kPath, kMaxBody, kAccepts, kChecks
+///   kId, kPath, kMaxBody, kBudgetS, kAccepts, kChecks
 template <class E>
 Reply run(Reader& in, Run& run) {
   auto spec = E::decode(in);
@@ -140,7 +141,7 @@ Endpoint endpoint() {
                       format.machine});
     return list;
   }();
-  return {E::kId, E::kPath, E::kMaxBody, &run<E>, names, E::kAccepts, E::kChecks};
+  return {E::kId, E::kPath, E::kMaxBody, E::kBudgetS, &run<E>, names, E::kAccepts, E::kChecks};
 }
 
 /// Every endpoint, in the order of the contract.

@@ -34,6 +34,10 @@ TUBECUT_LIMITS(X)
 #undef X
 }  // namespace limit
 
+/// Seconds of CPU for what takes no longer with any request that the contract allows, and for
+/// catalogues.
+inline constexpr double kBudgetS = 2.0;
+
 inline constexpr Range kDiameter{.min = limit::diameter_min_mm, .max = limit::diameter_max_mm};
 inline constexpr Range kWall{.min = limit::wall_min_mm, .max = limit::wall_max_mm};
 inline constexpr Range kOffset{.min = -limit::offset_max_mm, .max = limit::offset_max_mm};

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <exception>
 
+#include "server/cpu_clock.hpp"
 #include "server/identity.hpp"
 #include "server/static_files.hpp"
 #include "server/status.hpp"
@@ -39,12 +41,12 @@ api::Call call_of(const Request& request, const Identity& id) {
           .request_id = id.request_id};
 }
 
-std::string server_timing(const std::vector<api::Stage>& stages, double total_s) {
+std::string server_timing(const JobRecord& job) {
   std::string out;
-  for (const auto& stage : stages) {
+  for (const auto& stage : job.facts.stages) {
     out += fmt::format("{};dur={:.3f}, ", stage.name, 1e3 * stage.seconds);
   }
-  return out + fmt::format("total;dur={:.3f}", 1e3 * total_s);
+  return out + fmt::format("cpu;dur={:.3f}, total;dur={:.3f}", 1e3 * job.cpu, 1e3 * job.seconds);
 }
 
 /// A charset is named so that no transport compresses answers behind our back (a setting of the
@@ -175,9 +177,12 @@ std::string_view App::kind(const Request& request) {
 
 bool App::is_proxy(const std::string& peer) const { return in_networks(peer, x_.trusted_proxies); }
 
-std::chrono::milliseconds App::budget(const Request& request) const {
+Budget App::budget(const Request& request) const {
+  const auto own = api::budget_s(path_of(request.target), context());
+  auto cpu = std::chrono::milliseconds(std::llround(1e3 * own));
   const auto asked = asked_budget(request.headers);
-  return asked && asked->count() > 0 ? std::min(*asked, x_.budget) : x_.budget;
+  if (asked && asked->count() > 0) cpu = std::min(*asked, cpu);
+  return {.cpu = cpu, .wall = api::kWallPerCpu * cpu};
 }
 
 /// The browser's question before a request from another origin (Fetch, 3.2.2).
@@ -205,7 +210,8 @@ api::Context App::context() const {
   return {.stop = x_.stop,
           .clock = steady_seconds,
           .status = status_of,
-          .max_body = std::min(x_.max_body_bytes, x_.max_job_body_bytes)};
+          .max_body = std::min(x_.max_body_bytes, x_.max_job_body_bytes),
+          .budget_s = std::chrono::duration<double>(x_.budget).count()};
 }
 
 api::Outcome App::refuse(const Refusal& refusal, const Identity& id) const {
@@ -250,6 +256,7 @@ api::Outcome App::answer_guarded(const Request& request, const Identity& id,
 Response App::handle(const Request& request) const {
   if (auto page = static_answer(request, static_files())) return *std::move(page);  // no job
   const double start = steady_seconds();
+  const auto cpu = CpuClock::of_this_thread();
   if (auto response = preflight(request)) return *std::move(response);
   x_.started();
   const Identity id = identify(request.headers);
@@ -273,9 +280,9 @@ Response App::handle(const Request& request) const {
   allow_origin(request, response.headers);
   add_if(response.headers, "Tubecut-Replica", x_.replica);
   record.seconds = steady_seconds() - start;
-  response.headers.emplace_back("Server-Timing", server_timing(outcome.job.stages, record.seconds));
-
+  record.cpu = std::chrono::duration<double>(cpu.used()).count();
   record.facts = std::move(outcome.job);
+  response.headers.emplace_back("Server-Timing", server_timing(record));
   if (record.facts.id.empty()) record.facts.id = id.job_id;
   if (record.facts.endpoint.empty())  // refused before it was read
     record.facts.endpoint = api::endpoint_at(path_of(request.target));

@@ -27,6 +27,7 @@ struct JobRecord {
   std::string failure = {};   // text of an unexpected exception; the caller never sees it
   int status = 0;
   double seconds = 0.0;  // in `handle`
+  double cpu = 0.0;      // seconds of its thread's CPU there
   std::size_t bytes_in = 0;
   std::size_t bytes_out = 0;
   std::optional<BatchCount> batch = {};  // of its lines, which have records of their own
@@ -43,8 +44,8 @@ struct AppOptions {
   std::size_t max_job_body_bytes = std::numeric_limits<std::size_t>::max();
   /// What jobs and answers share, in bytes.
   std::size_t memory = std::numeric_limits<std::size_t>::max();
-  std::stop_token stop = {};                      // cancels every job
-  std::chrono::milliseconds budget{2000};         // per job; a client may ask for less
+  std::stop_token stop = {};            // cancels every job
+  std::chrono::milliseconds budget{0};  // CPU of any job; 0: what its endpoint has by default
   std::vector<std::string> cors_origins = {};     // "https://plant.example"; empty: no CORS
   std::vector<std::string> trusted_proxies = {};  // whose X-Forwarded-For is believed
   /// Names by which Host may call the service besides those of this machine alone; none: any may.
@@ -58,7 +59,7 @@ struct AppOptions {
   std::function<void(const JobRecord&)> sent = [](const JobRecord&) {};
 };
 
-/// Milliseconds a client gives its job; lowers the service's own budget, never raises it.
+/// Milliseconds of CPU a client gives its job; lowers the service's own budget, never raises it.
 inline constexpr std::string_view kBudgetHeader = "Tubecut-Budget-Ms";
 
 /// The service without sockets: one whole request in, one whole answer out. Safe to call from many
@@ -110,8 +111,7 @@ class App {
   /// Is it the address of a trusted proxy?
   [[nodiscard]] bool is_proxy(const std::string& peer) const;
 
-  /// Time for the job.
-  [[nodiscard]] std::chrono::milliseconds budget(const Request& request) const;
+  [[nodiscard]] Budget budget(const Request& request) const;
 
  private:
   [[nodiscard]] api::Outcome answer(const Request& request, const Identity& id) const;

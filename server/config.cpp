@@ -74,8 +74,11 @@ void add_limits(CLI::App& app, Config& c) {
   option(app, "memory-bytes", c.memory_bytes,
          "for bodies, jobs and answers; 0: 60 % of what there is")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1} << 40));
-  option(app, "budget-s", c.budget_s, "time for a job; Tubecut-Budget-Ms lowers it")
-      ->check(seconds);
+  option(app, "budget-s", c.budget_s,
+         "CPU of any job; Tubecut-Budget-Ms lowers it; 0: by endpoint, as GET /v1/limits tells")
+      ->check([seconds](const std::string& text) {
+        return text == "0" ? std::string{} : seconds(text);
+      });
   option(app, "max-body-bytes", c.max_body_bytes, "largest body; lowers the endpoints' own limits")
       ->check(CLI::Range(std::size_t{1}, std::size_t{8u << 20}));
   option(app, "max-target-bytes", c.max_target_bytes, "longest path with query")

@@ -27,7 +27,7 @@ struct Config {
   int slots = 0;                   // 0: as many as there are CPUs for this process
   std::size_t queue = 64;
   std::size_t memory_bytes = 0;  // for bodies, jobs and answers; 0: a part of what there is
-  double budget_s = 2.0;
+  double budget_s = 0.0;         // CPU of any job; 0: what its endpoint has by default
   std::size_t max_body_bytes = 8u << 20;
   std::size_t max_target_bytes = 2048;
   std::size_t max_head_bytes = 16384;

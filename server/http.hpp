@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -41,6 +42,12 @@ struct Request {
   Times times = {};
   bool reports_sending = false;  // the transport will call `Response::sent`
   std::size_t line = 0;          // of a batch, from 1; 0: a request by itself
+};
+
+/// What a job may take; 0: no end.
+struct Budget {
+  std::chrono::milliseconds cpu{0};   // of its thread: what others on the machine do takes nothing
+  std::chrono::milliseconds wall{0};  // from its last byte in to its answer
 };
 
 /// The answer to one line of a batch.

@@ -218,7 +218,7 @@ std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point
   for (const auto& stage : job.facts.stages) line.milliseconds(stage.name, stage.seconds);
   line.close('}').open("at_ms", '{');
   for (const auto& event : events_of(job)) line.milliseconds(event.name, event.at);
-  line.close('}').milliseconds("total_ms", job.seconds);
+  line.close('}').milliseconds("total_ms", job.seconds).milliseconds("cpu_ms", job.cpu);
   line.integer("bytes_in", static_cast<std::int64_t>(job.bytes_in));
   line.integer("bytes_out", static_cast<std::int64_t>(job.bytes_out));
   if (job.batch) {

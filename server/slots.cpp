@@ -86,6 +86,11 @@ double Slots::expected_wait(Job& job) const {
   return job.claim.quick ? std::min(wait, lane / kLane) : wait;
 }
 
+std::chrono::nanoseconds Slots::cpu(const Job& job) const {
+  const std::lock_guard lock(mutex_);  // a thread whose job runs lives
+  return job.cpu.used();
+}
+
 Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
   Offer out{.taken = true};
   bool free = false;
@@ -141,6 +146,7 @@ std::shared_ptr<Job> Slots::next() {
   job->in_lane = !slot;
   ++(slot ? in_slots_ : in_lane_);
   job->began_s = now_s();
+  job->cpu = CpuClock::of_this_thread();
   running_.push_back(job);
   waiting_ = queue_.size();
   busy_ = static_cast<int>(running_.size());
@@ -157,6 +163,7 @@ void Slots::learn(std::string_view kind, double took) {
 
 void Slots::finish(Job& job) {
   const double took = now_s() - job.began_s;
+  job.cpu.stop();
   --(job.in_lane ? in_lane_ : in_slots_);
   queue_.done(job.claim, took);
   learn(job.kind, took);

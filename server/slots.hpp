@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/cpu_clock.hpp"
 #include "server/http.hpp"
 #include "server/http/fair_queue.hpp"
 #include "server/http/memory_share.hpp"
@@ -30,12 +31,16 @@ struct Job {
   std::atomic<bool> close = false;  // the connection ends after the answer
   MemoryShare memory = {};
   std::weak_ptr<Strand> owner = {};  // whom its end wakes; none once nobody waits for it
+  Budget budget = {};
   std::chrono::steady_clock::time_point end =
-      std::chrono::steady_clock::time_point::max();  // of its budget
+      std::chrono::steady_clock::time_point::max();  // of its budget by the wall's clock
+  std::chrono::steady_clock::time_point due =
+      std::chrono::steady_clock::time_point::max();  // when the port has to look at it
   std::string_view kind = {};                        // jobs of a kind take about as long
   Claim claim = {};
   bool in_lane = false;    // of the slots' mutex
   double began_s = 0.0;    // of the slots' mutex; 0: it waits
+  CpuClock cpu = {};       // of the slots' mutex; its thread's while it runs
   bool displaced = false;  // known to the port: it lost its place in the queue
   Printed answer = {};
   bool refused = false;            // of a batch's line: its answer is a problem
@@ -74,6 +79,9 @@ class Slots {
 
   /// To be called now and then while the job waits or runs: it takes the lane, or has outgrown it.
   void look(Job& job);
+
+  /// CPU that the job has used since a slot began it. From any thread.
+  [[nodiscard]] std::chrono::nanoseconds cpu(const Job& job) const;
 
   [[nodiscard]] std::size_t waiting() const { return waiting_; }
   [[nodiscard]] int busy() const { return busy_; }

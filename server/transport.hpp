@@ -44,8 +44,8 @@ struct Service {
   std::function<std::string_view(const Request&)> kind = {};
   /// Whether many clients come from that address, a proxy's; empty: none does.
   std::function<bool(const std::string& peer)> is_shared = {};
-  /// Time for the job, from its last byte in to its answer; empty: no end.
-  std::function<std::chrono::milliseconds(const Request&)> budget = {};
+  /// Time for the job; empty: no end.
+  std::function<Budget(const Request&)> budget = {};
 };
 
 struct TransportOptions {

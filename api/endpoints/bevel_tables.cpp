@@ -20,6 +20,7 @@ struct BevelTables {
   static constexpr std::string_view kId = "bevel-tables";
   static constexpr std::string_view kPath = "/v1/bevel-tables";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
                                                             "max_extra_bevel_deg", "max_b_deg"};
   static constexpr auto kChecks = kTableChecks;

@@ -254,6 +254,7 @@ struct FeedCurves {
   static constexpr std::string_view kId = "feed-curves";
   static constexpr std::string_view kPath = "/v1/feed-curves";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr std::array<CheckLimit, 30> kChecks{{
       {"stroke_limits", "1e-9", ""},

@@ -13,6 +13,7 @@ struct Grooves {
   static constexpr std::string_view kId = "grooves";
   static constexpr std::string_view kPath = "/v1/grooves";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr std::array<CheckLimit, 12> kChecks{{
       {"on_chord", "1e-13 (R + r)/sin(inclination)", "mm"},

@@ -153,6 +153,7 @@ struct Holes {
   static constexpr std::string_view kId = "holes";
   static constexpr std::string_view kPath = "/v1/holes";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 2> kAccepts{"max_root_gap_mm", "max_b_deg"};
   static constexpr std::array<CheckLimit, 10> kChecks{{
       {"on_branch", "1e-6", "mm"},

@@ -18,6 +18,7 @@ struct Intersections {
   static constexpr std::string_view kId = "intersections";
   static constexpr std::string_view kPath = "/v1/intersections";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr auto kChecks = kProfileChecks;
 

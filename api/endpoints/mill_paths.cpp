@@ -22,6 +22,7 @@ struct MillPaths {
   static constexpr std::string_view kId = "mill-paths";
   static constexpr std::string_view kPath = "/v1/mill-paths";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr std::array<CheckLimit, 8> kChecks{{
       {"initial_on_ruling", "1e-12 of all lengths on the way into the machine", "mm"},

@@ -125,6 +125,7 @@ struct Nodes {
   static constexpr std::string_view kId = "nodes";
   static constexpr std::string_view kPath = "/v1/nodes";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
       {"axis_in_world", "1e-12, of the lengths involved", ""},

@@ -51,6 +51,7 @@ struct Replays {
   static constexpr std::string_view kId = "replays";
   static constexpr std::string_view kPath = "/v1/replays";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
+  static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr std::array<CheckLimit, 2> kChecks{
       {{"path_points", "0", ""}, {"nested cut", "the checks of its own endpoint", ""}}};

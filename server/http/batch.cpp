@@ -191,7 +191,9 @@ bool Batch::begin_line(std::string_view line) {
   } else {
     job->memory = MemoryShare(port_.memory, memory);
   }
-  if (service.budget) job->end = Clock::now() + service.budget(job->request);
+  port_.set_budget(*job);
+  if (job->budget.cpu > 0ms)
+    job->due = Clock::now() + job->budget.cpu;  // the batch is answered anyway
   if (!port_.offer(job)) return false;
   if (!has) ++port_.counters.memory;
   waits_since_.reset();
@@ -212,7 +214,7 @@ bool Batch::has_memory_in_time(std::size_t bytes) {
 
 /// Whether the next line has waited for memory as long as a job may take.
 bool Batch::over_wait() const {
-  const auto most = port_.service.budget ? port_.service.budget(head_) : 0ms;
+  const auto most = port_.service.budget ? port_.service.budget(head_).cpu : 0ms;
   return most > 0ms && Clock::now() - *waits_since_ >= most;
 }
 
@@ -224,15 +226,14 @@ void Batch::forget_begun() {
   held_.resize(lines_.size());
 }
 
-/// Lines beyond their budget: those that run are stopped, the others refused.
+/// Lines that have waited too long for a slot are refused, those that run held to their budget.
 void Batch::refuse_late() {
   const auto now = Clock::now();
   const auto running = on_.jobs_;
   for (const auto& job : running) {
-    if (job->end > now && !job->displaced) continue;
-    job->end = Clock::time_point::max();
+    if (job->due > now && !job->displaced) continue;
     if (!job->displaced && !port_.slots.withdraw(job)) {
-      job->stop.request_stop();
+      port_.hold_to_budget(*job);
       continue;
     }
     ++(job->displaced ? port_.counters.queue : port_.counters.wait);
@@ -274,7 +275,7 @@ void Batch::send() {
 
 Clock::time_point Batch::due() const {
   auto when = std::min({stalled_, again_, on_.gone_by_});
-  for (const auto& job : on_.jobs_) when = std::min(when, job->end);
+  for (const auto& job : on_.jobs_) when = std::min(when, job->due);
   return when;
 }
 

@@ -20,6 +20,10 @@ constexpr auto kHeadTaken = 100ms;  // one that takes longer makes room for othe
 constexpr auto kTaken = 1s;  // most answers are by then: the others give way when memory is short
 /// Memory of a running job whatever its body: 17 MiB were measured for 20 000 points.
 constexpr std::size_t kSlotBytes = 24u << 20;
+/// A job waits for a slot no longer than this part of its budget.
+constexpr int kWaitShare = 2;
+/// Between two looks at a job's CPU: it may be a hair below its budget for long, without the CPU.
+constexpr std::chrono::nanoseconds kLeastLook = 500us;
 constexpr std::size_t kLeastMemory = 16u << 20;
 
 /// What is left of the bound for bodies and answers once every slot has its part; 0: no bound.
@@ -151,6 +155,27 @@ bool Port::offer(const std::shared_ptr<Job>& job) {
     if (const auto owner = displaced->owner.lock()) owner->wake();
   }
   return taken;
+}
+
+void Port::set_budget(Job& job) const {
+  if (service.budget) job.budget = service.budget(job.request);
+  const auto now = Clock::now();
+  if (job.budget.wall > 0ms) job.end = now + job.budget.wall;
+  if (job.budget.cpu > 0ms) job.due = now + job.budget.cpu / kWaitShare;
+}
+
+/// A thread uses at most its time: until `due` nothing need be asked.
+void Port::hold_to_budget(Job& job) const {
+  const auto now = Clock::now();
+  const auto left = job.budget.cpu - slots.cpu(job);
+  const bool used = job.budget.cpu > 0ms && left <= 0ns;
+  if (used || now >= job.end) {
+    job.stop.request_stop();
+    job.due = Clock::time_point::max();
+  } else {
+    job.due = std::min(job.end, job.budget.cpu > 0ms ? now + std::max(left, kLeastLook)
+                                                     : Clock::time_point::max());
+  }
 }
 
 /// An address that has its share of the connections makes room among its own.

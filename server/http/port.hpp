@@ -65,6 +65,12 @@ class Port {
   /// Queues the job; false when the queue is full.
   [[nodiscard]] bool offer(const std::shared_ptr<Job>& job);
 
+  /// Sets the job's budget, which counts from now.
+  void set_budget(Job& job) const;
+  /// Of a job that a slot has begun: stops it when its budget is used up, else sets when that can
+  /// be at the earliest.
+  void hold_to_budget(Job& job) const;
+
   /// The answer to a request, printed; `close`: the connection ends with it. From any thread.
   [[nodiscard]] Printed answer(const Request& request, const std::atomic<bool>& close) const;
 

@@ -24,11 +24,8 @@ constexpr std::size_t kLingerBytes = 64u << 20;
 /// A client that has closed its side only half still reads a quick answer; one that hung up cannot
 /// be told apart until this has passed.
 constexpr auto kHangUpGrace = 250ms;
-constexpr auto kLook = 20ms;  // whether the client is still there, while its job is worked on
-/// A job waits for a slot no longer than this part of its budget: one begun with little time left
-/// would be cut off, and its slot wasted.
-constexpr int kWaitShare = 2;
-constexpr double kLikely = 0.5;  // of that wait, as the last jobs of its kind foretell
+constexpr auto kLook = 20ms;     // whether the client is still there, while its job is worked on
+constexpr double kLikely = 0.5;  // of a job's wait, as the last jobs of its kind foretell
 
 constexpr std::string_view kFull = "All slots and the queue are full.";
 
@@ -293,16 +290,14 @@ Task<void> Session::answer_request() {
 /// Whether a slot is likely free before the job's wait is over: a refusal now serves the client
 /// better than one after the wait.
 bool Session::in_time(Job& job) const {
-  if (job.end == Clock::time_point::max()) return true;
-  return port_.slots.expected_wait(job) <=
-         kLikely * (seconds(job.end) - job.request.times.read) / kWaitShare;
+  if (job.due == Clock::time_point::max()) return true;
+  return port_.slots.expected_wait(job) <= kLikely * (seconds(job.due) - job.request.times.read);
 }
 
 /// Sets the job's memory aside and queues it; or tells why not.
 std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
   const Request& request = job->request;
-  const auto budget = port_.service.budget ? port_.service.budget(request) : 0ms;
-  if (budget > 0ms) job->end = Clock::now() + budget;
+  port_.set_budget(*job);
   const auto memory = port_.memory_of(request);
   if (!port_.make_memory(memory)) {
     ++port_.counters.memory;
@@ -345,22 +340,20 @@ void Session::claim(Job& job) const {
 Task<void> Session::take_turn(std::shared_ptr<Job> job) {
   jobs_.push_back(job);
   gone_by_ = Clock::time_point::max();
-  const bool ends = job->end != Clock::time_point::max();
-  auto until = ends ? Clock::now() + (job->end - Clock::now()) / kWaitShare : job->end;
+  bool waits = true;
   while (!job->finished) {
-    const auto when = std::min(std::min(until, gone_by_), Clock::now() + kLook);
+    const auto when = std::min(std::min(job->due, gone_by_), Clock::now() + kLook);
     co_await pause(when);
     if (job->finished) break;
     look();
     port_.slots.look(*job);
-    if (Clock::now() < until && !job->displaced) continue;
-    if (job->displaced || port_.slots.withdraw(job)) {
+    if (Clock::now() < job->due && !job->displaced) continue;
+    if (waits && (job->displaced || port_.slots.withdraw(job))) {
       refuse_waiting(*job, port_.counters);
       break;
     }
-    const bool over = Clock::now() >= job->end;
-    if (over) job->stop.request_stop();
-    until = over ? Clock::time_point::max() : job->end;
+    waits = false;
+    port_.hold_to_budget(*job);
   }
   std::erase(jobs_, job);
 }

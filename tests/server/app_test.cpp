@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "api/json.hpp"
@@ -142,7 +143,8 @@ TEST(App, TellsStageTimesAndReplica) {
   fake.outcome.job.stages = {{"parse", 0.0005}, {"compute", 0.00125}};
   const auto response = fake.app({.replica = "cell-3"}).handle(request());
   const auto timing = header(response.headers, "Server-Timing");
-  EXPECT_EQ(timing.substr(0, timing.find("total")), "parse;dur=0.500, compute;dur=1.250, ");
+  EXPECT_EQ(timing.substr(0, timing.find("cpu")), "parse;dur=0.500, compute;dur=1.250, ");
+  EXPECT_NE(timing.find("cpu;dur="), timing.npos);
   EXPECT_EQ(header(response.headers, "Tubecut-Replica"), "cell-3");
 }
 
@@ -301,9 +303,9 @@ TEST(App, LetsAClientLowerItsBudgetOnly) {
   options.budget = std::chrono::milliseconds(2000);
   const App app = fake.app(options);
   const auto budget = [&](const char* text) {
-    return app.budget(request({{"tubecut-budget-ms", text}})).count();
+    return app.budget(request({{"tubecut-budget-ms", text}})).cpu.count();
   };
-  EXPECT_EQ(app.budget(request()).count(), 2000);
+  EXPECT_EQ(app.budget(request()).cpu.count(), 2000);
   EXPECT_EQ(budget("1"), 1);
   EXPECT_EQ(budget("250"), 250);
   EXPECT_EQ(budget("2001"), 2000);
@@ -313,6 +315,19 @@ TEST(App, LetsAClientLowerItsBudgetOnly) {
   EXPECT_EQ(
       app.handle(request({{std::string(kBudgetHeader), "5"}, {"tubecut-budget-ms", "6"}})).status,
       400);
+}
+
+TEST(App, BoundsTheWallByTheCpu) {
+  const App app{AppOptions{}};
+  for (const auto* endpoint : {"/v1/intersections", "/v1/mill-paths", "/v1/limits"}) {
+    Request asked = request();
+    asked.target = endpoint;
+    const auto own = app.budget(asked);
+    EXPECT_EQ(own.cpu.count(), std::llround(1e3 * api::budget_s(endpoint, {}))) << endpoint;
+    EXPECT_GE(own.wall, 3 * own.cpu) << endpoint;
+    asked.headers = {{std::string(kBudgetHeader), "100"}};
+    EXPECT_EQ(app.budget(asked).wall * own.cpu.count(), own.wall * 100) << endpoint;
+  }
 }
 
 TEST(App, AnswersOnlyToItsNamesWhereToldThem) {

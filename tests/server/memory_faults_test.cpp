@@ -63,7 +63,7 @@ Service service() {
                 t_is_port = true;
                 return request.peer;
               },
-          .budget = [](const Request&) { return std::chrono::milliseconds(5000); }};
+          .budget = [](const Request&) { return Budget{.cpu = std::chrono::milliseconds(5000)}; }};
 }
 
 /// Something of everything: answered one after another on one connection.

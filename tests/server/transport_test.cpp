@@ -335,7 +335,7 @@ Service service_of(std::function<Response(const Request&)> handle) {
           .screen = [](const Request&) { return std::optional<Refusal>{}; },
           .max_body = [](std::string_view) { return std::size_t{1000}; },
           .kind = kind_of,
-          .budget = [](const Request&) { return std::chrono::milliseconds(5000); }};
+          .budget = [](const Request&) { return Budget{.cpu = std::chrono::milliseconds(5000)}; }};
 }
 
 /// Lets a job of some length teach what its kind takes.
@@ -385,6 +385,33 @@ TEST(Transport, RefusesNobodyOnAnIdleServiceForWhatWasLongBefore) {
   for (int i = 0; i < 20; ++i) {
     client.send(get("/short"));
     ASSERT_EQ(client.receive().body, "GET /short ") << i;
+  }
+}
+
+Response until_stopped(const Request& request, bool busy, std::chrono::milliseconds at_most) {
+  const auto begun = std::chrono::steady_clock::now();
+  while (!request.stop.stop_requested() && std::chrono::steady_clock::now() - begun < at_most) {
+    if (!busy) std::this_thread::sleep_for(1ms);
+  }
+  return {.body = request.stop.stop_requested() ? "stopped" : "whole"};
+}
+
+/// One that is kept from the CPU is not over its budget, but for the wall's bound.
+TEST(Transport, CountsAJobsOwnCpu) {
+  Service service = service_of([](const Request& request) {
+    if (request.target == "/busy") return until_stopped(request, true, 10s);
+    return until_stopped(request, false, request.target == "/kept" ? 300ms : 10s);
+  });
+  service.budget = [](const Request&) { return Budget{.cpu = 100ms, .wall = 600ms}; };
+  const Port port(std::move(service), TransportOptions{});
+  for (const auto& [path, answer, least, most] :
+       {std::tuple("/kept", "whole", 300ms, 590ms), std::tuple("/busy", "stopped", 100ms, 590ms),
+        std::tuple("/idle", "stopped", 600ms, 2000ms)}) {
+    const auto begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(one(port, get(path)), answer) << path;
+    const auto took = std::chrono::steady_clock::now() - begun;
+    EXPECT_GE(took, least) << path;
+    EXPECT_LT(took, most) << path;
   }
 }
 
