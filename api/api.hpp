@@ -126,8 +126,8 @@ struct BatchSummary {
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
 
-/// An upper bound of the memory that a call at a path takes while it is answered: `fixed`, and so
-/// many bytes per byte of its body. Its answer is in it.
+/// An upper bound of the memory that a call at a path takes by its body while it is answered; what
+/// it asks for beside that comes on top (memory.hpp). Of no endpoint's path: that of the costliest.
 struct CallMemory {
   std::size_t fixed = 0;
   std::size_t per_byte = 0;

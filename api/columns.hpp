@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "api/writer.hpp"
+#include "core/base/variant.hpp"
 
 namespace tubecut::api {
 
 /// One column of an answer's table, under the name the wire gives it.
 struct Column {
-  using Values = std::variant<std::vector<double>, std::vector<std::int64_t>,
-                              std::vector<std::string>, std::vector<bool>>;
+  using Values = Variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>,
+                         std::vector<bool>>;
   std::string name;
   Values values;
 };

@@ -4,6 +4,7 @@
 #include "api/catalogue.hpp"
 #include "api/common_fields.hpp"
 #include "api/endpoint.hpp"
+#include "api/memory.hpp"
 #include "api/query.hpp"
 
 namespace tubecut::api {
@@ -15,13 +16,6 @@ constexpr std::string_view kProblemMedia = "application/problem+json";
 constexpr std::string_view kAllPaths[] = {"/v1/errors",    "/v1/limits",   "/v1/version",
                                           "/v1/machines",  "/v1/tubes",    "/v1/examples",
                                           "/openapi.yaml", "/openapi.json"};
-
-/// Memory of a call by its body: 16 to 31 bytes per byte were measured on bodies of short numbers,
-/// empty arrays, empty strings and short keys; the echo of an answer comes on top. A replay keeps
-/// its motion beside that, as pulses and as positions.
-constexpr std::size_t kBytesPerByte = 48;
-constexpr std::size_t kReplayBytesPerByte = 144;
-constexpr std::string_view kReplays = "/v1/replays";
 
 /// Media type without parameters, in lower case.
 std::string media_of(std::string_view header) {
@@ -358,13 +352,18 @@ double budget_s(std::string_view path, const Context& context) {
 }
 
 CallMemory call_memory(std::string_view path) {
-  return {.fixed = 0, .per_byte = path == kReplays ? kReplayBytesPerByte : kBytesPerByte};
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return {.per_byte = job_bytes(endpoint.id, {}).per_byte};
+  return {.per_byte = most_per_byte()};
 }
 
 std::size_t line_memory(std::string_view line) {
-  // An escaped letter could hide the name.
-  const bool replay = line.find("replays") != line.npos || line.find("\\u") != line.npos;
-  return line.size() * (replay ? kReplayBytesPerByte : kBytesPerByte);
+  std::size_t per_byte = job_bytes({}, {}).per_byte;
+  const bool escaped = line.find("\\u") != line.npos;  // a letter so could hide the name
+  for (const auto& endpoint : endpoints())
+    if (escaped || line.find(endpoint.id) != line.npos)
+      per_byte = std::max(per_byte, job_bytes(endpoint.id, {}).per_byte);
+  return line.size() * per_byte;
 }
 
 std::string_view endpoint_at(std::string_view path) {

@@ -5,8 +5,9 @@
 #include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
-#include <variant>
 #include <vector>
+
+#include "core/base/variant.hpp"
 
 namespace tubecut::api {
 
@@ -17,7 +18,7 @@ struct Json {
   using Array = std::vector<Json>;
   using Member = std::pair<std::string, Json>;
   using Object = std::vector<Member>;
-  std::variant<std::nullptr_t, bool, double, std::string, Array, Object> value = nullptr;
+  Variant<std::nullptr_t, bool, double, std::string, Array, Object> value = nullptr;
 
   Json() = default;
   Json(bool v) : value(v) {}                      // NOLINT(google-explicit-constructor)

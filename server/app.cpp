@@ -10,6 +10,7 @@
 
 #include "server/cpu_clock.hpp"
 #include "server/identity.hpp"
+#include "server/job_memory.hpp"
 #include "server/static_files.hpp"
 #include "server/status.hpp"
 
@@ -53,6 +54,12 @@ std::string server_timing(const JobRecord& job) {
 /// library keyed on the bare type made answers 240 times slower).
 std::string with_charset(std::string type) {
   return type == "application/json" ? "application/json; charset=utf-8" : std::move(type);
+}
+
+/// A job that wants more memory than there is.
+Refusal refusal_of(const NoRoom& memory) {
+  if (memory.ever_fits) return {ErrorCode::overloaded, "The memory for jobs is in use."};
+  return {ErrorCode::body_too_large, "The job needs more memory than this replica has."};
 }
 
 /// Whoever may GET may HEAD.
@@ -243,6 +250,8 @@ api::Outcome App::answer_guarded(const Request& request, const Identity& id,
                                  std::string& failure) const {
   try {
     return answer(request, id);
+  } catch (const NoRoom& memory) {
+    return refuse(refusal_of(memory), id);
   } catch (const std::exception& bug) {
     failure = bug.what();
   } catch (...) {
@@ -288,6 +297,7 @@ Response App::handle(const Request& request) const {
     record.facts.endpoint = api::endpoint_at(path_of(request.target));
   record.status = response.status;
   record.bytes_out = response.body.size();
+  record.memory = JobMemory::peak_here();
   record.identity = identity_of(request);
   tell(std::move(record), request, response);
   return response;

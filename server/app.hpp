@@ -30,6 +30,7 @@ struct JobRecord {
   double cpu = 0.0;      // seconds of its thread's CPU there
   std::size_t bytes_in = 0;
   std::size_t bytes_out = 0;
+  std::size_t memory = 0;  // the most bytes it took at a time, its body aside; 0: not known
   std::optional<BatchCount> batch = {};  // of its lines, which have records of their own
   Times times = {};                      // as the transport saw it, monotonic
   double begun = 0.0;                    // `handle` was called, monotonic seconds

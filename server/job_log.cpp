@@ -221,6 +221,7 @@ std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point
   line.close('}').milliseconds("total_ms", job.seconds).milliseconds("cpu_ms", job.cpu);
   line.integer("bytes_in", static_cast<std::int64_t>(job.bytes_in));
   line.integer("bytes_out", static_cast<std::int64_t>(job.bytes_out));
+  if (job.memory > 0) line.integer("memory_bytes", static_cast<std::int64_t>(job.memory));
   if (job.batch) {
     line.integer("items", static_cast<std::int64_t>(job.batch->items));
     line.integer("answered", static_cast<std::int64_t>(job.batch->answered));

@@ -1,6 +1,7 @@
 #include "server/serve.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -8,6 +9,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -224,6 +227,7 @@ struct Run {
 };
 
 constexpr int kRefusedToStart = 78;  // EX_CONFIG of sysexits.h
+constexpr int kNoThread = 71;        // EX_OSERR
 
 /// The option by which other machines reach either port, and its address.
 std::optional<std::pair<std::string_view, std::string>> reached(const Config& c) {
@@ -260,9 +264,38 @@ int refuse_open(std::string_view option, const std::string& host) {
   return kRefusedToStart;
 }
 
+/// Large blocks go back to the system as soon as they are freed, and the end of a thread's heap
+/// when it is worth the call: what was counted as free is free for others.
+void give_memory_back() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  mallopt(M_TRIM_THRESHOLD, 4 << 20);
+}
+
+/// What nobody catches ends the process. Where the system had no thread to give, that is no fault
+/// of the program: it is said, and no core is left. An exception on its way (a library ends the
+/// process when it cannot start all of its threads) is of that kind too: no other leaves the start.
+[[noreturn]] void end_uncaught() {
+  bool of_system = std::uncaught_exceptions() > 0;
+  try {
+    if (const auto failure = std::current_exception()) std::rethrow_exception(failure);
+  } catch (const std::system_error&) {
+    of_system = true;
+  } catch (...) {  // the core tells
+  }
+  if (!of_system) std::abort();
+  std::_Exit(
+      fail("the system refuses a thread: raise its limit on processes (ulimit -u, pids.max) or "
+           "lower --slots",
+           kNoThread));
+}
+
 }  // namespace
 
-int serve(const Config& c) {
+// Threads are started here alone. One that cannot be ends the process where it stands (noexcept):
+// to take down the others in order would wait for ports that are being served.
+int serve(const Config& c) noexcept {
+  std::set_terminate(end_uncaught);
+  give_memory_back();
   const Signals signals;
   if (const auto by = reached(c); by && c.keys.empty() && !c.open)
     return refuse_open(by->first, by->second);
@@ -279,6 +312,7 @@ int serve(const Config& c) {
 
   auto probes_served = start(*probes);
   await_serving(*probes, probes_served);
+  if (finished(probes_served, 0s)) probes_served.get();  // throws what it threw
   if (const auto fault = selftest_fault(); !fault.empty()) {
     probes->stop();
     return fail(fault);
@@ -288,6 +322,7 @@ int serve(const Config& c) {
   run.log.flush(kLogPatience);  // first, before any request can queue a line
   auto work_served = start(*work);
   await_serving(*work, work_served);
+  if (finished(work_served, 0s)) work_served.get();
   run.ready = true;
 
   signals.wait([&run] { run.reload_keys(); });

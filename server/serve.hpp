@@ -5,7 +5,7 @@
 namespace tubecut::server {
 
 /// Runs the service until SIGTERM or SIGINT. Returns the process's exit code: 0 after a clean stop.
-[[nodiscard]] int serve(const Config& config);
+[[nodiscard]] int serve(const Config& config) noexcept;
 
 /// Asks the service of that configuration, on this machine, whether it is ready. 0: yes.
 [[nodiscard]] int health(const Config& config);

@@ -49,8 +49,13 @@ Slots::Slots(int count, std::size_t queue, Step work, Step done)
       done_(std::move(done)),
       count_(std::max(1, count)),
       most_(queue + static_cast<std::size_t>(count_)) {
-  running_.reserve(static_cast<std::size_t>(count_ + kLane + kSpare));
-  for (int i = 0; i < count_ + kLane + kSpare; ++i) threads_.emplace_back([this] { run(); });
+  const auto all = threads(count_);
+  running_.reserve(all);
+  while (threads_.size() < all) threads_.emplace_back([this] { run(); });
+}
+
+std::size_t Slots::threads(int slots) {
+  return static_cast<std::size_t>(std::max(1, slots) + kLane + kSpare);
 }
 
 void Slots::join() {

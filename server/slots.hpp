@@ -83,6 +83,9 @@ class Slots {
   /// CPU that the job has used since a slot began it. From any thread.
   [[nodiscard]] std::chrono::nanoseconds cpu(const Job& job) const;
 
+  /// That compute, of so many slots.
+  [[nodiscard]] static std::size_t threads(int slots);
+
   [[nodiscard]] std::size_t waiting() const { return waiting_; }
   [[nodiscard]] int busy() const { return busy_; }
   [[nodiscard]] int count() const { return count_; }

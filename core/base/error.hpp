@@ -6,10 +6,10 @@
 #include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "core/base/error_codes.hpp"
+#include "core/base/variant.hpp"
 
 namespace tubecut {
 
@@ -17,7 +17,7 @@ namespace tubecut {
 using Intervals = std::vector<std::pair<double, double>>;
 
 /// A value shown to the caller: what was got, or what the limit is.
-using Shown = std::variant<std::monostate, double, std::string, Intervals>;
+using Shown = Variant<std::monostate, double, std::string, Intervals>;
 
 /// One thing that is wrong. `member` is a path in core's own names, such as "cutters/1/offset"
 /// (empty: the whole request); the api maps it to the wire's pointer. `got` and `limit` are in

@@ -5,10 +5,10 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/variant.hpp"
 #include "core/joint/intersection.hpp"
 #include "core/joint/joint.hpp"
 #include "core/joint/placement.hpp"
@@ -52,7 +52,7 @@ struct Link {
 /// cut each other. Two whose joint nobody states are set on without a gap.
 struct NodeSpec {
   std::vector<Member> members;
-  std::variant<Within, std::vector<Link>> connect;
+  Variant<Within, std::vector<Link>> connect;
   std::vector<StatedJoint> joints = {};  // said by either of the two, or alike by both
 };
 

@@ -23,6 +23,13 @@ class MemoryBound {
 
  private:
   friend class MemoryShare;
+  /// So many bytes more, if they are there: also when others ask at the same time.
+  [[nodiscard]] bool take(std::size_t bytes) {
+    change(bytes);
+    if (has(0)) return true;
+    change(-bytes);
+    return false;
+  }
   void change(std::size_t by) {  // modulo 2^64: less is right too
     used_ += by;
     if (whole_ != nullptr) whole_->change(by);
@@ -51,6 +58,12 @@ class MemoryShare {
   void resize(std::size_t bytes) {
     if (of_ != nullptr) of_->change(bytes - bytes_);
     bytes_ = bytes;
+  }
+  /// So many bytes more; false, and none, where they are not there.
+  [[nodiscard]] bool grow(std::size_t by) {
+    if (of_ != nullptr && !of_->take(by)) return false;
+    bytes_ += by;
+    return true;
   }
 
  private:

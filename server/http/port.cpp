@@ -1,5 +1,7 @@
 #include "server/http/port.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -18,19 +20,24 @@ constexpr std::size_t kReadBytes = 65536;
 constexpr std::size_t kWaiting = 2;
 constexpr auto kHeadTaken = 100ms;  // one that takes longer makes room for others
 constexpr auto kTaken = 1s;  // most answers are by then: the others give way when memory is short
-/// Memory of a running job whatever its body: 17 MiB were measured for 20 000 points.
-constexpr std::size_t kSlotBytes = 24u << 20;
 /// A job waits for a slot no longer than this part of its budget.
 constexpr int kWaitShare = 2;
 /// Between two looks at a job's CPU: it may be a hair below its budget for long, without the CPU.
 constexpr std::chrono::nanoseconds kLeastLook = 500us;
+/// Part of the memory that is kept free of answers which slow clients have not taken.
+constexpr std::size_t kKeptFree = 4;
+/// What each thread has for its job, beside what is set aside for the job: the everyday ones need
+/// no more.
+constexpr std::size_t kThreadBytes = 8u << 20;
+/// A job that took more leaves holes, which are given back to the system.
+constexpr std::size_t kLarge = 16u << 20;
 constexpr std::size_t kLeastMemory = 16u << 20;
 
-/// What is left of the bound for bodies and answers once every slot has its part; 0: no bound.
+/// What is left of the bound for bodies and answers once every thread has its part; 0: no bound.
 std::size_t shared_memory(const TransportOptions& options) {
   if (options.memory == 0) return 0;
-  const auto slots = kSlotBytes * static_cast<std::size_t>(options.slots);
-  return std::max(kLeastMemory, options.memory - std::min(options.memory, slots));
+  const auto threads = kThreadBytes * Slots::threads(options.slots);
+  return std::max(kLeastMemory, options.memory - std::min(options.memory, threads));
 }
 
 /// Numeric.
@@ -87,9 +94,28 @@ Printed Port::answer(const Request& request, const std::atomic<bool>& close) con
   return print(std::move(response), request.method, close ? 0s : idle);
 }
 
+/// More memory for a running job: only what others have not.
+JobMemory::Grant Port::grow(Job& job, std::size_t bytes) const {
+  if (job.memory.grow(bytes)) return JobMemory::Grant::given;
+  const bool fits = job.memory.bytes() + bytes <= memory.most();
+  return fits ? JobMemory::Grant::in_use : JobMemory::Grant::never;
+}
+
 /// In a slot's thread.
 void Port::work(Job& job) const {
   job.request.times.started = seconds(Clock::now());
+  const auto body = std::min(job.request.body.size(), job.memory.bytes());
+  const auto given = kThreadBytes + job.memory.bytes() - body;
+  std::size_t peak = 0;
+  {
+    const JobMemory taken(given, [&](std::size_t bytes) { return grow(job, bytes); });
+    answer(job);
+    peak = taken.peak();
+  }
+  if (peak > kLarge) ::malloc_trim(0);
+}
+
+void Port::answer(Job& job) const {
   try {
     if (job.request.line > 0) {
       BatchReply reply = service.line(job.request);
@@ -265,6 +291,8 @@ bool Port::make_memory(std::size_t bytes) {
   }
   return memory.has(bytes);
 }
+
+void Port::keep_memory_free() { static_cast<void>(make_memory(memory.most() / kKeptFree)); }
 
 void Port::drain(std::chrono::milliseconds patience) {
   draining = true;

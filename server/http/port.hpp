@@ -15,6 +15,7 @@
 #include "server/http/places.hpp"
 #include "server/http/printer.hpp"
 #include "server/http/request_reader.hpp"
+#include "server/job_memory.hpp"
 #include "server/slots.hpp"
 #include "server/transport.hpp"
 
@@ -62,6 +63,8 @@ class Port {
   /// Whether so many bytes more are there, if need be without the clients slowest to take their
   /// answers.
   [[nodiscard]] bool make_memory(std::size_t bytes);
+  /// Clients slowest to take their answers give way while little is free: running jobs may grow.
+  void keep_memory_free();
   /// Queues the job; false when the queue is full.
   [[nodiscard]] bool offer(const std::shared_ptr<Job>& job);
 
@@ -93,6 +96,8 @@ class Port {
 
  private:
   void work(Job& job) const;
+  void answer(Job& job) const;
+  [[nodiscard]] JobMemory::Grant grow(Job& job, std::size_t bytes) const;
   void hand_over(std::shared_ptr<Job> job);
   void take_messages();
   [[nodiscard]] bool make_room(const std::string& of_peer);

@@ -10,6 +10,9 @@
 namespace tubecut::server {
 namespace {
 
+/// Head and body together cost one call of the kernel; a body beyond this costs less apart.
+constexpr std::size_t kCopied = 256u << 10;
+
 /// RFC 9110, 6.6.1. Printed once a second and thread.
 std::string_view http_date() {
   static constexpr std::array kDays = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
@@ -63,10 +66,13 @@ Printed print(Response response, std::string_view method, std::chrono::seconds i
   const auto framing =
       bare ? std::string() : fmt::format("Content-Length: {}\r\n", response.body.size());
   Printed out{.bytes = print_head(response, idle, framing), .sent = std::move(response.sent)};
-  if (!bare && method != "HEAD") {
-    out.bytes.reserve(out.bytes.size() + response.body.size());
-    out.bytes += response.body;
+  if (bare || method == "HEAD") return out;
+  if (response.body.size() > kCopied) {
+    out.rest = std::move(response.body);
+    return out;
   }
+  out.bytes.reserve(out.bytes.size() + response.body.size());
+  out.bytes += response.body;
   return out;
 }
 

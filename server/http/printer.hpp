@@ -12,6 +12,7 @@ namespace tubecut::server {
 /// An answer as bytes for the wire.
 struct Printed {
   std::string bytes = {};
+  std::string rest = {};                // to be sent after them: a large body, which is not copied
   std::function<void(bool)> sent = {};  // see Response
 };
 

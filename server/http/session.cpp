@@ -372,12 +372,13 @@ void Session::look() {
 
 Task<void> Session::send(Printed answer) {
   out_ = std::move(answer.bytes);
+  rest_ = std::move(answer.rest);
   sent_ = std::move(answer.sent);
   count_sending();
   state_ = State::writing;
   begun_ = Clock::now();
   set_due(port_.options.write);
-  static_cast<void>(port_.make_memory(0));  // those who take nothing give way to this one
+  port_.keep_memory_free();
   while (!send_some()) {
     if (Clock::now() >= due()) {
       ++port_.counters.over_time;
@@ -393,9 +394,13 @@ Task<void> Session::send(Printed answer) {
 bool Session::send_some() {
   boost::system::error_code error;
   while (out_at_ < out_.size() && !error) {
-    const auto rest = asio::buffer(out_.data() + out_at_, out_.size() - out_at_);
-    out_at_ += socket_.write_some(rest, error);
+    const auto left = asio::buffer(out_.data() + out_at_, out_.size() - out_at_);
+    out_at_ += socket_.write_some(left, error);
     if (error == asio::error::interrupted) error = {};
+    if (out_at_ == out_.size() && !rest_.empty()) {
+      out_ = std::exchange(rest_, {});
+      out_at_ = 0;
+    }
   }
   if (error && error != asio::error::would_block) throw Gone{};
   if (out_at_ < out_.size()) return false;
@@ -406,7 +411,7 @@ bool Session::send_some() {
 }
 
 /// Sets memory aside for what is still to be sent.
-void Session::count_sending() { sending_.resize(out_.size()); }
+void Session::count_sending() { sending_.resize(out_.size() + rest_.size()); }
 
 /// A few bytes that fit any socket's buffer.
 void Session::say(std::string_view bytes) {
@@ -473,6 +478,7 @@ void Session::cut() {
   socket_.close(error);
   drop_rest();
   out_ = {};
+  rest_ = {};
   arriving_.resize(0);
   sending_.resize(0);
   wake();

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <utility>
+#include <variant>
+
+namespace tubecut {
+
+/// std::variant for alternatives of which every one is a string, a vector or plain: when memory
+/// ends while libstdc++ 12 copies one of those, it destroys an alternative that it has not made.
+template <class... Types>
+struct Variant : std::variant<Types...> {
+  using Base = std::variant<Types...>;
+  using Base::Base;
+  Variant() = default;
+  Variant(const Variant& other) : Base() {
+    std::visit(
+        [this](const auto& value) {
+          auto copy = value;  // this may fail, what follows may not
+          static_cast<Base&>(*this) = std::move(copy);
+        },
+        static_cast<const Base&>(other));
+  }
+  Variant(Variant&&) = default;
+  Variant& operator=(const Variant& other) {
+    Variant copy(other);
+    static_cast<Base&>(*this) = static_cast<Base&&>(copy);
+    return *this;
+  }
+  Variant& operator=(Variant&&) = default;
+  ~Variant() = default;
+
+  using Base::operator=;
+};
+
+}  // namespace tubecut

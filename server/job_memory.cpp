@@ -1,0 +1,46 @@
+#include "server/job_memory.hpp"
+
+#include <algorithm>
+
+namespace tubecut::server {
+namespace {
+
+/// Asked for at a time: each time the port's memory is touched.
+constexpr std::size_t kStep = 1u << 20;
+
+thread_local JobMemory* t_job = nullptr;  // NOLINT: operator new has no other way to know
+
+}  // namespace
+
+JobMemory::JobMemory(std::size_t given, Grow grow) : given_(given), grow_(std::move(grow)) {
+  t_job = this;
+}
+
+JobMemory::~JobMemory() { t_job = nullptr; }
+
+std::size_t JobMemory::peak_here() { return t_job != nullptr ? t_job->peak_ : 0; }
+
+void JobMemory::take(std::size_t bytes) {
+  if (t_job != nullptr && !t_job->asking_) t_job->ask(bytes);
+}
+
+void JobMemory::give(std::size_t bytes) noexcept {
+  if (t_job != nullptr && !t_job->asking_) t_job->live_ -= std::min(t_job->live_, bytes);
+}
+
+void JobMemory::ask(std::size_t bytes) {
+  if (live_ + bytes > given_) {
+    const std::size_t least = live_ + bytes - given_, most = std::max(least, kStep);
+    asking_ = true;
+    std::size_t more = most;
+    Grant grant = grow_(more);
+    if (grant != Grant::given && least < most) grant = grow_(more = least);
+    asking_ = false;
+    if (grant != Grant::given) throw NoRoom(grant == Grant::in_use);
+    given_ += more;
+  }
+  live_ += bytes;
+  peak_ = std::max(peak_, live_);
+}
+
+}  // namespace tubecut::server
