@@ -32,6 +32,9 @@ constexpr double kUnknown = 0.005;
 constexpr double kRise = 0.2;
 constexpr double kFall = 0.05;
 
+/// Clients whose means are kept.
+constexpr std::size_t kClients = 4096;
+
 void step_back() {
   const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
   static_cast<void>(
@@ -69,10 +72,21 @@ void Slots::join() {
   }
 }
 
+/// What the client's jobs of the kind take: others' long ones do not make its own long. One who has
+/// asked for none yet is believed to ask for what is quick, where others' jobs of the kind tell.
+const double* Slots::mean_of(const Job& job) const {
+  const auto all = means_.find(job.kind);
+  if (all == means_.end()) return nullptr;
+  const auto client = of_clients_.find(job.claim.client);
+  if (client == of_clients_.end()) return &kUnknown;
+  const auto own = client->second.find(job.kind);
+  return own == client->second.end() ? &kUnknown : &own->second;
+}
+
 void Slots::estimate(Job& job) const {
-  const auto mean = means_.find(job.kind);
-  const bool known = mean != means_.end();
-  job.claim.expected_s = known ? mean->second : kUnknown;
+  const double* const mean = mean_of(job);
+  const bool known = mean != nullptr;
+  job.claim.expected_s = known ? *mean : kUnknown;
   job.claim.quick = job.request.line == 0 && job.claim.expected_s <= kQuick &&
                     job.request.body.size() <= (known ? kQuickBytes : 0);
 }
@@ -135,8 +149,8 @@ void Slots::look(Job& job) {
 }
 
 void Slots::leave_lane(Job& job) {
-  learn(job.kind, now_s() - job.began_s);
-  queue_.slow(job.kind);
+  learn(job, now_s() - job.began_s);
+  queue_.slow(job.kind, job.claim.client);
   job.in_lane = false;
   --in_lane_;
   ++in_slots_;
@@ -158,10 +172,16 @@ std::shared_ptr<Job> Slots::next() {
   return job;
 }
 
-void Slots::learn(std::string_view kind, double took) {
-  try {
-    const auto [mean, first] = means_.try_emplace(kind, took);
+void Slots::learn(const Job& job, double took) {
+  const auto teach = [&](Means& means) {
+    const auto [mean, first] = means.try_emplace(job.kind, took);
     if (!first) mean->second += (took > mean->second ? kRise : kFall) * (took - mean->second);
+  };
+  try {
+    teach(means_);
+    if (of_clients_.size() >= kClients && !of_clients_.contains(job.claim.client))
+      of_clients_.clear();  // they teach it again
+    teach(of_clients_[job.claim.client]);
   } catch (const std::exception&) {  // no memory: the next one teaches it
   }
 }
@@ -171,7 +191,7 @@ void Slots::finish(Job& job) {
   job.cpu.stop();
   --(job.in_lane ? in_lane_ : in_slots_);
   queue_.done(job.claim, took);
-  learn(job.kind, took);
+  learn(job, took);
   std::erase_if(running_, [&job](const auto& one) { return one.get() == &job; });
   busy_ = static_cast<int>(running_.size());
 }

@@ -96,7 +96,8 @@ class Slots {
   void estimate(Job& job) const;
   void leave_lane(Job& job);
   void finish(Job& job);
-  void learn(std::string_view kind, double took);
+  void learn(const Job& job, double took);
+  [[nodiscard]] const double* mean_of(const Job& job) const;
 
   Step work_;
   Step done_;
@@ -105,7 +106,9 @@ class Slots {
   mutable std::mutex mutex_;
   std::condition_variable some_;
   FairQueue queue_;
-  std::map<std::string_view, double> means_;   // seconds, by kind
+  using Means = std::map<std::string_view, double>;  // seconds, by kind
+  Means means_;
+  std::map<std::string, Means, std::less<>> of_clients_;
   std::vector<std::shared_ptr<Job>> running_;  // in slots and in the lane
   int in_slots_ = 0;
   int in_lane_ = 0;

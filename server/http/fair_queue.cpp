@@ -109,12 +109,11 @@ void FairQueue::forget_idle(const std::string& client, const void* flow) {
   if (flows.empty()) clients_.erase(client);
 }
 
-void FairQueue::slow(std::string_view kind) {
-  for (auto& [name, client] : clients_) {
-    for (auto& [flow_name, flow] : client.flows) {
-      for (const auto& job : flow.jobs) job->claim.quick = job->claim.quick && job->kind != kind;
-    }
-  }
+void FairQueue::slow(std::string_view kind, const std::string& client) {
+  const auto its = clients_.find(client);
+  if (its == clients_.end()) return;
+  for (auto& [flow_name, flow] : its->second.flows)
+    for (const auto& job : flow.jobs) job->claim.quick = job->claim.quick && job->kind != kind;
 }
 
 bool FairQueue::remove(const std::shared_ptr<Job>& job) {

@@ -38,8 +38,8 @@ class FairQueue {
   /// `took` seconds were had by a job popped, and no more will be.
   void done(const Claim& claim, double took);
 
-  /// Jobs of that kind are not quick after all.
-  void slow(std::string_view kind);
+  /// The client's jobs of that kind are not quick after all.
+  void slow(std::string_view kind, const std::string& client);
 
   /// Takes a waiting job back; false when it does not wait.
   [[nodiscard]] bool remove(const std::shared_ptr<Job>& job);

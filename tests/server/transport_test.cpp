@@ -372,6 +372,43 @@ TEST(Transport, AnswersQuickJobsWhileLongOnesHoldEverySlot) {
   EXPECT_EQ(hogs.front()->receive().status, 200);
 }
 
+/// Of one kind one client's jobs are long, another's are not: each goes by its own.
+TEST(Transport, AnswersAClientsQuickJobsWhileAnothersOfTheKindAreLong) {
+  std::promise<void> go;
+  const auto gate = go.get_future().share();
+  std::atomic<bool> learnt = false;
+  auto service = service_of([&](const Request& request) {
+    if (request.refusal || header(request.headers, "Who") != "hog") return echo(request);
+    if (learnt) {
+      gate.wait();
+    } else {
+      std::this_thread::sleep_for(300ms);
+    }
+    return echo(request);
+  });
+  service.client = [](const Request& request) {
+    return std::string(header(request.headers, "Who"));
+  };
+  service.kind = [](const Request&) { return std::string_view("one kind"); };
+  TransportOptions options;
+  options.slots = 1;
+  const Port port(std::move(service), options);
+  EXPECT_EQ(one(port, get("/long", "Who: hog\r\n")).substr(0, 3), "GET");
+  learnt = true;
+  std::vector<std::unique_ptr<Client>> hogs;
+  for (int i = 0; i < 8; ++i) {
+    hogs.push_back(std::make_unique<Client>(port.number()));
+    hogs.back()->send(get("/long", "Who: hog\r\n"));
+  }
+  std::this_thread::sleep_for(100ms);
+  int answered = 0;
+  for (int i = 0; i < 50; ++i)
+    answered += one(port, get("/short", "Who: other\r\n")) == "GET /short " ? 1 : 0;
+  go.set_value();
+  EXPECT_EQ(answered, 50);
+  EXPECT_EQ(hogs.front()->receive().status, 200);
+}
+
 /// What was long once says nothing of a service that has nothing to do.
 TEST(Transport, RefusesNobodyOnAnIdleServiceForWhatWasLongBefore) {
   TransportOptions options;
