@@ -296,6 +296,13 @@ class Agreement(unittest.TestCase):
         self.assertEqual(set(re.search(r"acl large path (.*)", CONFIG)[1].split()), large)
         self.assertGreater(self.number(r"^  timeout server (\d+)s$"), BUDGET_S)
 
+    def test_kubernetes_names_its_image_by_version(self):
+        version = re.search(r"project\(tubecut VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        images = [image for f in (DOCKER / "kubernetes").rglob("*.yaml") for image in re.findall(r"^ *(?:- )?image: (\S+)$", f.read_text(), re.M)]
+        self.assertTrue(images)
+        for image in images:
+            self.assertTrue(image.endswith(f":{version}") or re.search(r"@sha256:[0-9a-f]{64}$", image), image)
+
     def test_nothing_is_repeated_because_it_takes_long(self):
         told = [CONFIG, *(f.read_text() for f in (DOCKER / "kubernetes").rglob("*.yaml"))]
         repeats = [line for text in told for line in re.findall(r"^ *retry-on (.*)$", text, re.M)]
