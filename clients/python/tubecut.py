@@ -284,12 +284,12 @@ class _Connections(threading.local):
 class Client:
     """The service at `urls`: several are replicas, taken in turn when one is down. Safe to share between threads.
 
-    timeout_s   for one read or write of a connection
+    timeout_s   for one read or write of a connection; longer than the service lets a job take (120 s, `wall_s` of GET /v1/limits)
     patience_s  how long a call is repeated while no replica answers it
     key         API key, for a service that asks for one
     """
 
-    def __init__(self, *urls: str, key: Optional[str] = None, timeout_s: float = 60.0, patience_s: float = 30.0,
+    def __init__(self, *urls: str, key: Optional[str] = None, timeout_s: float = 130.0, patience_s: float = 30.0,
                  check_hashes: bool = True, headers: Optional[Mapping[str, str]] = None) -> None:
         if not urls:
             raise ValueError("no url of the service")

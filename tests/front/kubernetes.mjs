@@ -108,7 +108,7 @@ assert.equal(container.securityContext.allowPrivilegeEscalation, false);
 assert.equal(container.securityContext.readOnlyRootFilesystem, true);
 assert.deepEqual(container.securityContext.capabilities, {drop: ['ALL']});
 
-// drain delay + accepted work (at least the budget, 2 s) + 5 s before the kill; the delay longer than a readiness poll.
+// drain delay + accepted work (at least the budget of most endpoints, 2 s; longer jobs are 503 and begin again elsewhere) + 5 s before the kill; the delay longer than a readiness poll.
 const BUDGET_S = 2;
 assert.ok(Number(env.TUBECUT_DRAIN_S) >= BUDGET_S);
 assert.ok(pod.terminationGracePeriodSeconds > Number(env.TUBECUT_DRAIN_DELAY_S) + Number(env.TUBECUT_DRAIN_S) + 5);
