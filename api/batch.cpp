@@ -64,7 +64,29 @@ std::string read_body(Reader& in) {
     in.issue({.code = ErrorCode::missing_field, .pointer = "body"});
     return {};
   }
-  return dump(*body);
+  return dump(*body, in.stop());
+}
+
+void read_line(BatchLine& out, std::string_view text, std::string_view request_id,
+               const Context& context) {
+  // One deeper than a body may be.
+  const auto json = parse(
+      text, {.depth = static_cast<std::size_t>(limit::nesting_max) + 1, .stop = context.stop});
+  if (!json) {
+    refuse(out,
+           {.code = ErrorCode::unreadable_json,
+            .detail = json.error().reason + " at byte " + std::to_string(json.error().offset) +
+                      " of the line"},
+           request_id, context);
+    return;
+  }
+  Reader in(*json);
+  in.set_stop(context.stop);
+  out.id = read_id(in);
+  out.path = read_endpoint(in);
+  out.body = read_body(in);
+  if (auto issues = in.finish_root(); !issues.empty())
+    refuse(out, field_problem(std::move(issues)), request_id, context);
 }
 
 }  // namespace
@@ -72,22 +94,11 @@ std::string read_body(Reader& in) {
 BatchLine read_batch_line(std::string_view text, std::string_view request_id,
                           const Context& context) {
   BatchLine out;
-  // One deeper than a body may be.
-  const auto json = parse(text, {.depth = static_cast<std::size_t>(limit::nesting_max) + 1});
-  if (!json) {
-    refuse(out,
-           {.code = ErrorCode::unreadable_json,
-            .detail = json.error().reason + " at byte " + std::to_string(json.error().offset) +
-                      " of the line"},
-           request_id, context);
-    return out;
+  try {
+    read_line(out, text, request_id, context);
+  } catch (const Stopped&) {
+    refuse(out, {.code = ErrorCode::over_budget, .detail = {}, .issues = {}}, request_id, context);
   }
-  Reader in(*json);
-  out.id = read_id(in);
-  out.path = read_endpoint(in);
-  out.body = read_body(in);
-  if (auto issues = in.finish_root(); !issues.empty())
-    refuse(out, field_problem(std::move(issues)), request_id, context);
   return out;
 }
 

@@ -135,6 +135,7 @@ class Job {
   Outcome compute(const Endpoint& endpoint);
 
  private:
+  Outcome work(const Endpoint& endpoint);
   Outcome answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                  const Choice& choice, const Query& query);
   void lap(std::string_view stage = {}) {
@@ -152,6 +153,19 @@ class Job {
 };
 
 Outcome Job::compute(const Endpoint& endpoint) {
+  try {
+    return work(endpoint);
+  } catch (const Stopped&) {
+    out_ = {.error = {},
+            .content_type = {},
+            .body = {},
+            .headers = {},
+            .job = {.endpoint = std::string(endpoint.id), .stages = std::move(out_.job.stages)}};
+    return refuse(ErrorCode::over_budget);
+  }
+}
+
+Outcome Job::work(const Endpoint& endpoint) {
   out_.job.endpoint = endpoint.id;
   auto asked = parse_query(call_.query);
   if (!asked.issues.empty()) return refuse(query_problem(std::move(asked.issues)));
@@ -166,12 +180,14 @@ Outcome Job::compute(const Endpoint& endpoint) {
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
                   "the limit is " + std::to_string(endpoint.max_body) + " bytes");
-  const auto body = parse(call_.body, {.depth = static_cast<std::size_t>(limit::nesting_max)});
+  auto body = parse(call_.body,
+                    {.depth = static_cast<std::size_t>(limit::nesting_max), .stop = context_.stop});
   lap("parse");
   if (!body)
     return refuse(ErrorCode::unreadable_json,
                   body.error().reason + " at byte " + std::to_string(body.error().offset));
   Reader in(*body);
+  in.set_stop(context_.stop);
   in.set_binary(choice->body == Body::cbor);
   const auto common = read_common_fields(in, endpoint.accepts);
   if (common.numerics && *common.numerics != numerics())
@@ -192,7 +208,8 @@ Outcome Job::compute(const Endpoint& endpoint) {
                       .view = std::string(query.view),
                       .options = query.options},
           .accepted = common.accept,
-          .stage = [this](std::string_view stage) { lap(stage); }};
+          .stage = [this](std::string_view stage) { lap(stage); },
+          .forget_body = [&body] { *body = Json{}; }};
   auto reply = endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {
     if (problem->code == ErrorCode::cancelled) problem->code = ErrorCode::over_budget;
@@ -243,9 +260,10 @@ void write_events(Writer& w, const Context& context, double begun,
 
 Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                     const Choice& choice, const Query& query) {
-  const auto request_text = dump(answer.request);
+  const auto& stop = context_.stop;
+  const auto request_text = dump(answer.request, stop);
   auto& job = out_.job;
-  job.input_sha256 = sha256(request_text);
+  job.input_sha256 = sha256(request_text, stop);
   job.id = call_.job_id.empty() ? job.input_sha256.substr(0, 16) : call_.job_id;
   job.reference = common.reference;
   const auto& verdict = answer.verdict;
@@ -253,7 +271,7 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
   job.reasons = verdict.reasons;
   out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
   for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
-  const auto result_sha256 = sha256(answer.result);
+  const auto result_sha256 = sha256(answer.result, stop);
   job.result_sha256 = result_sha256;
   if (choice.body == Body::text && !query.validate_only) {
     out_.content_type = choice.format->media;
@@ -262,11 +280,11 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
     out_.headers.emplace_back("Tubecut-Result-Sha256", result_sha256);
     return std::move(out_);
   }
-  auto echo = answer.request;
+  Json& echo = answer.request;
   auto& members = *echo.as<Json::Object>();
   if (!common.reference.empty()) members.emplace_back("reference", common.reference_echo);
   if (common.inline_log) members.emplace_back("log", Json{"inline"});
-  Writer out(answer.result.size() + request_text.size() + 4096);
+  Writer out(answer.result.size() + request_text.size() + 4096, stop);
   out.object([&](Writer& w) {
     w.object("job", [&](Writer& o) {
       o.field("id", job.id);
@@ -288,7 +306,7 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
   });
   const bool cbor = choice.body == Body::cbor;
   out_.content_type = cbor ? kCborMedia : kJsonMedia;
-  out_.body = cbor ? to_cbor(out.text()) : out.take();
+  out_.body = cbor ? to_cbor(out.text(), stop) : out.take();
   return std::move(out_);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -56,6 +57,7 @@ struct Run {
   Caption caption = {};
   std::vector<Measure> accepted = {};                // the request's `accept`
   std::function<void(std::string_view)> stage = {};  // called when a stage ends
+  std::function<void()> forget_body = [] {};         // called when all of it is read
 };
 
 struct Endpoint {
@@ -70,7 +72,7 @@ struct Endpoint {
 };
 
 /// sha256 in lower-case hex.
-[[nodiscard]] std::string sha256(std::string_view bytes);
+[[nodiscard]] std::string sha256(std::string_view bytes, const std::stop_token& stop = {});
 
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;
@@ -92,38 +94,41 @@ template <class E>
 Reply run(Reader& in, Run& run) {
   auto spec = E::decode(in);
   if (auto issues = in.finish_root(); !issues.empty()) return field_problem(std::move(issues));
-  Answer answer{.request = Json{in.echo()}};
+  Answer answer{.request = Json{in.take_echo()}};
+  run.forget_body();
   run.stage("decode");
   if constexpr (requires { E::resolve(spec, run.stop); }) {
     auto resolved = E::resolve(std::move(spec), run.stop);
+    ask(run.stop);
     if (!resolved) return core_problem(resolved.error(), answer.request);
     spec = *std::move(resolved);
   }
   auto out = E::compute(spec, run.stop);
   run.stage("compute");
+  ask(run.stop);  // what it found may not be all
   if (!out) return core_problem(out.error(), answer.request);
   if constexpr (requires { E::verify(spec, *out, run.stop); }) {
     answer.checks = E::verify(spec, *out, run.stop);
-    if (run.stop.stop_requested())
-      return core_problem(fail({.code = ErrorCode::cancelled}).value(), answer.request);
+    ask(run.stop);
   } else {
     answer.checks = E::verify(spec, *out);
   }
   run.stage("verify");
   if (auto failed = failed_check(answer.checks)) return *std::move(failed);
   answer.warnings = E::warnings(spec, *out);
-  for (auto& warning : unit_suspicions(answer.request))
+  for (auto& warning : unit_suspicions(answer.request, run.stop))
     answer.warnings.push_back(std::move(warning));
   answer.measures = E::measure(spec, *out);
   answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
-  Writer writer(1 << 16);
+  Writer writer(1 << 16, run.stop);
   writer.object([&](Writer& w) { E::encode(spec, *out, w); });
   answer.result = writer.take();
   if (run.format != nullptr) {
     if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
       return *std::move(refused);
-    run.caption.input_sha256 = sha256(dump(answer.request));
-    run.caption.result_sha256 = sha256(answer.result);
+    run.caption.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
+    run.caption.result_sha256 = sha256(answer.result, run.stop);
+    run.caption.stop = run.stop;
     run.caption.verdict = answer.verdict;
     for (const auto& format : E::formats())
       if (format.name == run.format->name) answer.text = format.print(spec, *out, run.caption);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,7 @@ struct Caption {
   std::string view;  // ?view=, empty: the format's default
   FormatOptions options = {};
   Verdict verdict = {};  // stands in the head of every file: verdict_lines
+  std::stop_token stop = {};
 };
 
 /// One line that names the job on a drawing: engine, input hash, the caller's reference.

@@ -11,9 +11,26 @@
 #include <stdexcept>
 
 #include "api/cbor.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
+
+/// How far the bytes are read. A single text of a body may take longer than a stop waits.
+struct Progress {
+  static constexpr std::ptrdiff_t kAskEvery = 65536;
+  const char* at;
+  const char* ask_at;
+  const char* end;
+  const std::stop_token& stop;
+
+  void reach(const char* place) {
+    at = place;
+    if (at < ask_at) return;
+    ask(stop);
+    ask_at = at + kAskEvery;
+  }
+};
 
 /// Walks bytes and tells a shared place how far it has come, so that a SAX callback knows its
 /// offset.
@@ -25,10 +42,10 @@ class CountingIterator {
   using pointer = const char*;
   using reference = const char&;
 
-  CountingIterator(const char* at, const char** progress) : at_(at), progress_(progress) {}
+  CountingIterator(const char* at, Progress* progress) : at_(at), progress_(progress) {}
   reference operator*() const { return *at_; }
   CountingIterator& operator++() {
-    *progress_ = ++at_;
+    progress_->reach(++at_);
     return *this;
   }
   CountingIterator operator++(int) {
@@ -42,14 +59,14 @@ class CountingIterator {
 
  private:
   const char* at_;
-  const char** progress_;
+  Progress* progress_;
 };
 
 /// Builds a Json from SAX events and refuses what a lenient parser lets through.
 class Builder final : public nlohmann::json_sax<nlohmann::json> {
  public:
-  Builder(ParseLimits limits, const char* begin, const char* const* progress)
-      : limits_(limits), begin_(begin), progress_(progress) {}
+  Builder(std::size_t depth, const char* begin, const Progress* progress)
+      : depth_(depth), begin_(begin), progress_(progress) {}
 
   bool null() override { return put(Json{}); }
   bool boolean(bool v) override { return put(Json{v}); }
@@ -95,7 +112,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
 
  private:
   bool refuse(const char* reason) {
-    error_ = {static_cast<std::size_t>(*progress_ - begin_), reason};
+    error_ = {static_cast<std::size_t>(progress_->at - begin_), reason};
     return false;
   }
   // Inlined, g++ 12 takes the other members of the variant for uninitialised.
@@ -103,6 +120,11 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     if (stack_.empty()) {
       root_ = std::move(v);
     } else if (auto* array = stack_.back().as<Json::Array>()) {
+      // Growth by halves would move a long array at once, and for longer than a stop waits.
+      if (array->size() == kLong && !reserved_) {
+        reserved_ = true;  // once: memory is taken as it is written
+        array->reserve(kLong + static_cast<std::size_t>(progress_->end - progress_->at) / 2);
+      }
       array->push_back(std::move(v));
     } else {
       stack_.back().as<Json::Object>()->back().second = std::move(v);
@@ -110,7 +132,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool open(Json container) {
-    if (stack_.size() >= limits_.depth) return refuse("nested too deeply");
+    if (stack_.size() >= depth_) return refuse("nested too deeply");
     stack_.push_back(std::move(container));
     keys_.emplace_back();
     return true;
@@ -122,11 +144,13 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     return put(std::move(done));
   }
 
-  ParseLimits limits_;
+  std::size_t depth_;
   const char* begin_;
-  const char* const* progress_;
+  const Progress* progress_;
   std::vector<Json> stack_;
   std::vector<std::set<std::string>> keys_;  // of each open object
+  static constexpr std::size_t kLong = 4096;
+  bool reserved_ = false;
   Json root_;
   ParseError error_;
 };
@@ -178,7 +202,8 @@ void append_list(std::string& out, const Range& range, char open, char close, Ea
   out += close;
 }
 
-void append(std::string& out, const Json& json) {
+void append(std::string& out, const Json& json, Pace& pace) {
+  pace.turn();
   if (const auto* b = json.as<bool>()) {
     out += *b ? "true" : "false";
   } else if (const auto* d = json.as<double>()) {
@@ -186,12 +211,12 @@ void append(std::string& out, const Json& json) {
   } else if (const auto* s = json.as<std::string>()) {
     append_text(out, *s);
   } else if (const auto* a = json.as<Json::Array>()) {
-    append_list(out, *a, '[', ']', [&](const Json& item) { append(out, item); });
+    append_list(out, *a, '[', ']', [&](const Json& item) { append(out, item, pace); });
   } else if (const auto* o = json.as<Json::Object>()) {
     append_list(out, *o, '{', '}', [&](const Json::Member& member) {
       append_text(out, member.first);
       out += ':';
-      append(out, member.second);
+      append(out, member.second, pace);
     });
   } else {
     out += "null";
@@ -201,19 +226,25 @@ void append(std::string& out, const Json& json) {
 /// SAX events of the parser as calls of the CBOR writer.
 struct CborEvents {
   CborWriter& out;
+  Pace pace;
 
-  bool null() { return out.null(); }
-  bool boolean(bool v) { return out.boolean(v); }
-  bool number_integer(std::int64_t v) { return out.integer(v); }
-  bool number_unsigned(std::uint64_t v) { return out.integer(static_cast<std::int64_t>(v)); }
-  bool number_float(double v, const std::string&) { return out.number(v); }
-  bool string(const std::string& v) { return out.text(v); }
+  CborWriter& next() {
+    pace.turn();
+    return out;
+  }
+
+  bool null() { return next().null(); }
+  bool boolean(bool v) { return next().boolean(v); }
+  bool number_integer(std::int64_t v) { return next().integer(v); }
+  bool number_unsigned(std::uint64_t v) { return next().integer(static_cast<std::int64_t>(v)); }
+  bool number_float(double v, const std::string&) { return next().number(v); }
+  bool string(const std::string& v) { return next().text(v); }
   bool binary(const nlohmann::json::binary_t&) { return false; }
-  bool key(const std::string& name) { return out.key(name); }
-  bool start_object(std::size_t) { return out.open(true); }
-  bool start_array(std::size_t) { return out.open(false); }
-  bool end_object() { return out.close(); }
-  bool end_array() { return out.close(); }
+  bool key(const std::string& name) { return next().key(name); }
+  bool start_object(std::size_t) { return next().open(true); }
+  bool start_array(std::size_t) { return next().open(false); }
+  bool end_object() { return next().close(); }
+  bool end_array() { return next().close(); }
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
     throw std::logic_error(error.what());  // our own text
   }
@@ -229,15 +260,15 @@ const Json* Json::find(std::string_view key) const {
   return nullptr;
 }
 
-tl::expected<Json, ParseError> parse(std::string_view bytes, ParseLimits limits) {
+tl::expected<Json, ParseError> parse(std::string_view bytes, const ParseLimits& limits) {
   if (bytes.substr(0, 3) == "\xEF\xBB\xBF")
     return tl::make_unexpected(ParseError{0, "byte order mark"});
   // The parser below takes a NUL for the end of its input.
   if (const auto nul = bytes.find('\0'); nul != std::string_view::npos)
     return tl::make_unexpected(ParseError{nul, "NUL byte"});
   const char* const begin = bytes.data();
-  const char* progress = begin;
-  Builder builder(limits, begin, &progress);
+  Progress progress{.at = begin, .ask_at = begin, .end = begin + bytes.size(), .stop = limits.stop};
+  Builder builder(limits.depth, begin, &progress);
   const bool ok =
       nlohmann::json::sax_parse(CountingIterator(begin, &progress),
                                 CountingIterator(begin + bytes.size(), &progress), &builder);
@@ -245,15 +276,16 @@ tl::expected<Json, ParseError> parse(std::string_view bytes, ParseLimits limits)
   return builder.take();
 }
 
-std::string dump(const Json& json) {
+std::string dump(const Json& json, const std::stop_token& stop) {
   std::string out;
-  append(out, json);
+  Pace pace(stop);
+  append(out, json, pace);
   return out;
 }
 
-std::string to_cbor(std::string_view json_text) {
+std::string to_cbor(std::string_view json_text, const std::stop_token& stop) {
   CborWriter out;
-  CborEvents events{out};
+  CborEvents events{out, Pace(stop)};
   nlohmann::json::sax_parse(json_text.begin(), json_text.end(), &events);
   return out.take();
 }

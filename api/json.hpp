@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -51,15 +52,17 @@ struct ParseError {
 
 struct ParseLimits {
   std::size_t depth = 32;
+  std::stop_token stop = {};
 };
 
 /// Strict RFC 8259: UTF-8 without BOM, one document, no duplicate keys, no lone surrogates, depth
 /// bounded, every number finite and representable (no underflow to zero, no integer beyond 2^53).
-/// Cost linear in the bytes; never throws.
-[[nodiscard]] tl::expected<Json, ParseError> parse(std::string_view bytes, ParseLimits limits = {});
+/// Cost linear in the bytes; throws but Stopped.
+[[nodiscard]] tl::expected<Json, ParseError> parse(std::string_view bytes,
+                                                   const ParseLimits& limits = {});
 
 /// The document with no white space; numbers shortest-round-trip.
-[[nodiscard]] std::string dump(const Json& json);
+[[nodiscard]] std::string dump(const Json& json, const std::stop_token& stop = {});
 
 /// Appends a JSON string or number token. `value` must be finite.
 void append_text(std::string& out, std::string_view text);
@@ -68,6 +71,6 @@ void append_number(std::string& out, double value);
 /// The same document in CBOR (RFC 8949), order kept. `json_text` is text this service printed.
 /// Arrays under the name `counts` become RFC 8746 typed arrays (tag 77, int16 little endian; tag
 /// 78, int32, where a value does not fit).
-[[nodiscard]] std::string to_cbor(std::string_view json_text);
+[[nodiscard]] std::string to_cbor(std::string_view json_text, const std::stop_token& stop = {});
 
 }  // namespace tubecut::api

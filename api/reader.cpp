@@ -146,6 +146,7 @@ void Reader::finish() {
   const auto* object = body_->as<Json::Object>();
   if (object == nullptr || silent_) return;
   for (const auto& [name, value] : *object) {
+    pace_.turn();
     if (issues_->size() >= kIssuesNamed) return;
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
     const auto near = nearest_name(name, known_);
@@ -335,12 +336,16 @@ std::vector<double> Reader::column(std::string_view name, CountRange count, Rang
   const auto* items = required_array(name, count);
   if (items == nullptr) return out;
   out.reserve(items->size());
+  Json::Array echo;
+  echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
+    pace_.turn();
+    echo.push_back((*items)[i]);
     const auto value =
         checked(name, (*items)[i], range, std::string(name) + "/" + std::to_string(i));
     out.push_back(value.value_or(0.0));
   }
-  put(name, Json{Json::Array(items->begin(), items->end())});
+  put(name, Json{std::move(echo)});
   return out;
 }
 
@@ -355,7 +360,11 @@ std::vector<bool> Reader::flag_column(std::string_view name, CountRange count) {
   std::vector<bool> out;
   const auto* items = required_array(name, count);
   if (items == nullptr) return out;
+  Json::Array echo;
+  echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
+    pace_.turn();
+    echo.push_back((*items)[i]);
     const auto* value = (*items)[i].as<bool>();
     if (value == nullptr)
       issue({.code = ErrorCode::wrong_type,
@@ -364,7 +373,7 @@ std::vector<bool> Reader::flag_column(std::string_view name, CountRange count) {
             &(*items)[i]);
     out.push_back(value != nullptr && *value);
   }
-  put(name, Json{Json::Array(items->begin(), items->end())});
+  put(name, Json{std::move(echo)});
   return out;
 }
 
@@ -373,7 +382,11 @@ std::vector<std::string> Reader::text_column(std::string_view name, CountRange c
   std::vector<std::string> out;
   const auto* items = required_array(name, count);
   if (items == nullptr) return out;
+  Json::Array echo;
+  echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
+    pace_.turn();
+    echo.push_back((*items)[i]);
     const auto* value = (*items)[i].as<std::string>();
     const bool text = value != nullptr && printable(*value, longest);
     if (!text)
@@ -383,7 +396,7 @@ std::vector<std::string> Reader::text_column(std::string_view name, CountRange c
             &(*items)[i]);
     out.push_back(text ? *value : std::string{});
   }
-  put(name, Json{Json::Array(items->begin(), items->end())});
+  put(name, Json{std::move(echo)});
   return out;
 }
 
@@ -398,7 +411,11 @@ std::vector<std::pair<double, double>> Reader::pairs(std::string_view name, Coun
   std::vector<std::pair<double, double>> out;
   const auto* items = required_array(name, count);
   if (items == nullptr) return out;
+  Json::Array echo;
+  echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
+    pace_.turn();
+    echo.push_back((*items)[i]);
     const auto step = std::string(name) + "/" + std::to_string(i);
     const auto* pair = (*items)[i].as<Json::Array>();
     if (pair == nullptr || pair->size() != 2) {
@@ -413,7 +430,7 @@ std::vector<std::pair<double, double>> Reader::pairs(std::string_view name, Coun
     const auto b = checked(name, (*pair)[1], second, step + "/1");
     out.emplace_back(a.value_or(0.0), b.value_or(0.0));
   }
-  put(name, Json{Json::Array(items->begin(), items->end())});
+  put(name, Json{std::move(echo)});
   return out;
 }
 

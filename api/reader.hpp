@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "api/json.hpp"
+#include "api/stop.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
 
@@ -165,6 +167,7 @@ class Reader {
     if (items == nullptr) return out;
     Json::Array echoes;
     for (std::size_t i = 0; i < items->size(); ++i) {
+      ask(pace_.stop());
       const auto step = std::string(name) + "/" + std::to_string(i);
       if ((*items)[i].template as<Json::Object>() == nullptr) {
         issue({.code = ErrorCode::wrong_type, .pointer = step, .hint = "an object is required"},
@@ -191,6 +194,8 @@ class Reader {
   /// Reports the fields never asked for and gives up the issues; call once, at the root.
   [[nodiscard]] std::vector<FieldIssue> finish_root();
   [[nodiscard]] const Json::Object& echo() const { return echo_; }
+  /// The echo, which may be large, given away; for when all is read.
+  [[nodiscard]] Json::Object take_echo() { return std::move(echo_); }
   void put(std::string_view name, Json value);
   /// Removes a member from the echo and returns it; null when it is not there.
   Json take_echo(std::string_view name);
@@ -198,6 +203,9 @@ class Reader {
   /// Whether the answer goes out in a binary format, which may be longer. Set at the root.
   void set_binary(bool binary) { binary_ = binary; }
   [[nodiscard]] bool binary() const { return binary_; }
+  /// Reading ends with Stopped when it is asked to. Set at the root.
+  void set_stop(std::stop_token stop) { pace_ = Pace(std::move(stop)); }
+  [[nodiscard]] const std::stop_token& stop() const { return pace_.stop(); }
 
  private:
   Reader(const Json& body, std::string pointer, std::vector<FieldIssue>* issues)
@@ -206,6 +214,7 @@ class Reader {
     Reader child(body, pointer_ + "/" + step, issues_);
     child.binary_ = binary_;
     child.silent_ = silent_;
+    child.pace_ = pace_;
     return child;
   }
   void adopt(std::string_view name, Reader& child);
@@ -225,6 +234,7 @@ class Reader {
   std::vector<FieldIssue>* issues_;
   std::vector<std::string> known_;
   Json::Object echo_;
+  Pace pace_;
   bool binary_ = false;
   bool silent_ = false;
 };

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/stop.hpp"
 #include "api/tube_sizes.hpp"
 
 namespace tubecut::api {
@@ -81,17 +82,25 @@ double distance_of_ends(const Json& member) {
   return std::sqrt(sum);
 }
 
+bool holds_more(const Json& json) {
+  return json.as<Json::Array>() != nullptr || json.as<Json::Object>() != nullptr;
+}
+
 class Walk {
  public:
+  explicit Walk(const std::stop_token& stop) : pace_(stop) {}
+
   void object(const Json& json, const std::string& path) {
     if (const auto* array = json.as<Json::Array>()) {
       for (std::size_t i = 0; i < array->size(); ++i) {
-        object((*array)[i], path + std::to_string(i) + "/");
+        pace_.turn();
+        if (holds_more((*array)[i])) object((*array)[i], path + std::to_string(i) + "/");
       }
       return;
     }
     const auto* members = json.as<Json::Object>();
     if (members == nullptr) return;
+    ask(pace_.stop());
     tube(json, path);
     for (const auto& [name, value] : *members) {
       const auto* angle = value.as<double>();
@@ -100,13 +109,15 @@ class Walk {
         const double degrees = *angle * 180.0 / std::numbers::pi;
         suspect(path + name, *angle, "rad", std::floor(10.0 * degrees + 0.5) / 10.0, "deg");
       }
-      object(value, path + name + "/");
+      if (holds_more(value)) object(value, path + name + "/");
     }
   }
 
   std::vector<Warning> found;
 
  private:
+  Pace pace_;
+
   void tube(const Json& json, const std::string& path) {
     const auto diameter = diameter_of(json);
     if (!diameter) return;
@@ -138,8 +149,8 @@ class Walk {
 
 }  // namespace
 
-std::vector<Warning> unit_suspicions(const Json& request) {
-  Walk walk;
+std::vector<Warning> unit_suspicions(const Json& request, const std::stop_token& stop) {
+  Walk walk(stop);
   walk.object(request, {});
   return std::move(walk.found);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "api/json.hpp"
@@ -11,7 +12,8 @@ namespace tubecut::api {
 /// that is a catalogue size in inches (25.4), a catalogue wall in inches on a diameter in mm, a
 /// round angle in radians (57.3), a length or a member's ends in metres (1000). Each is a warning
 /// that names the field and what was meant. Offsets may be of any size and are not suspected.
-[[nodiscard]] std::vector<Warning> unit_suspicions(const Json& request);
+[[nodiscard]] std::vector<Warning> unit_suspicions(const Json& request,
+                                                   const std::stop_token& stop = {});
 
 /// What an out-of-range value in mm would be were it inches, metres or micrometres, when that is
 /// within [min, max]; empty otherwise.

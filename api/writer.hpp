@@ -3,24 +3,28 @@
 #include <concepts>
 #include <span>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "api/json.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 
 /// Prints results straight into a buffer, without a tree between: columns dominate an answer's
 /// cost. Numbers are shortest-round-trip; a number that is not finite throws NotFinite, which
-/// becomes a 500.
+/// becomes a 500. Throws Stopped.
 class Writer {
  public:
   struct NotFinite : std::runtime_error {
     using std::runtime_error::runtime_error;
   };
 
-  explicit Writer(std::size_t reserve = 4096) { out_.reserve(reserve); }
+  explicit Writer(std::size_t reserve = 4096, std::stop_token stop = {}) : pace_(std::move(stop)) {
+    out_.reserve(reserve);
+  }
 
   template <class F>
   void object(F body) {
@@ -64,7 +68,7 @@ class Writer {
   void field(std::string_view name, const std::string& value) {
     field(name, std::string_view(value));
   }
-  void field(std::string_view name, const Json& value) { raw(name, dump(value)); }
+  void field(std::string_view name, const Json& value) { raw(name, dump(value, pace_.stop())); }
   void degrees(std::string_view name, double radians);
 
   void column(std::string_view name, std::span<const double> values);
@@ -96,6 +100,7 @@ class Writer {
 
  private:
   void separate() {
+    pace_.turn();
     if (!fresh_) out_ += ',';
     fresh_ = false;
   }
@@ -121,6 +126,7 @@ class Writer {
   }
 
   std::string out_;
+  Pace pace_;
   bool fresh_ = true;
 };
 

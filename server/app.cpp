@@ -221,6 +221,12 @@ api::Context App::context() const {
           .budget_s = std::chrono::duration<double>(x_.budget).count()};
 }
 
+api::Context App::context(const Request& request) const {
+  api::Context with = context();
+  if (request.stop.stop_possible()) with.stop = request.stop;
+  return with;
+}
+
 api::Outcome App::refuse(const Refusal& refusal, const Identity& id) const {
   return api::problem(refusal.code, refusal.detail, id.request_id, context());
 }
@@ -233,8 +239,7 @@ api::Outcome App::answer(const Request& request, const Identity& id) const {
   }
   if (is_batch(request))
     if (const auto fault = batch_fault(request)) return refuse(*fault, id);
-  api::Context with = context();
-  if (request.stop.stop_possible()) with.stop = request.stop;
+  api::Context with = context(request);
   with.received = request.times.received;
   api::Outcome outcome = x_.dispatch(call_of(request, id), with);
   // A job cut off by our own stop is not the job's fault: the same request succeeds elsewhere, or

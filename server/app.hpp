@@ -120,6 +120,7 @@ class App {
                                             std::string& failure) const;
   [[nodiscard]] api::Outcome refuse(const Refusal& refusal, const Identity& id) const;
   [[nodiscard]] api::Context context() const;
+  [[nodiscard]] api::Context context(const Request& request) const;
   [[nodiscard]] std::optional<Response> preflight(const Request& request) const;
   void allow_origin(const Request& request, Headers& headers) const;
   [[nodiscard]] BatchReply answer_line(const Request& request) const;

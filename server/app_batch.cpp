@@ -85,10 +85,10 @@ BatchReply App::answer_line(const Request& request) const {
       line_headers(request.headers, fmt::format("{}-{}", batch_id.substr(0, 112), request.line));
   one.line = 0;
   one.reports_sending = false;
-  const auto line =
-      request.body.empty()  // refused, and too large to be read
-          ? api::BatchLine{}
-          : api::read_batch_line(request.body, header(one.headers, "X-Request-Id"), context());
+  const auto line = request.body.empty()  // refused, and too large to be read
+                        ? api::BatchLine{}
+                        : api::read_batch_line(request.body, header(one.headers, "X-Request-Id"),
+                                               context(request));
   if (sound_id(line.id)) one.headers.emplace_back("Job-Id", line.id);
   if (line.error) {
     const int status = status_of(*line.error);

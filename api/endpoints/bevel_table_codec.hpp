@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <stop_token>
 
 #include "api/endpoint.hpp"
 #include "api/endpoints/joint_codec.hpp"

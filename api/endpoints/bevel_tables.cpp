@@ -41,8 +41,8 @@ struct BevelTables {
     if (!out) return tl::unexpected(on_node(spec.source, out.error()));
     return out;
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out) {
-    return bevel::verify(spec, out);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    return bevel::verify(spec, out, stop);
   }
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     return on_node(spec.source, out.warnings);

@@ -34,8 +34,8 @@ struct Grooves {
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     return groove::groove(spec, stop);
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out) {
-    return groove::verify(spec, out);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    return groove::verify(spec, out, stop);
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }

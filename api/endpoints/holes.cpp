@@ -186,8 +186,8 @@ struct Holes {
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     return bevel::hole(spec, stop);
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out) {
-    return bevel::verify(spec, out);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    return bevel::verify(spec, out, stop);
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
 

@@ -22,7 +22,7 @@ struct MillPaths {
   static constexpr std::string_view kId = "mill-paths";
   static constexpr std::string_view kPath = "/v1/mill-paths";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
-  static constexpr double kBudgetS = api::kBudgetS;
+  static constexpr double kBudgetS = kLongBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr std::array<CheckLimit, 8> kChecks{{
       {"initial_on_ruling", "1e-12 of all lengths on the way into the machine", "mm"},
@@ -39,8 +39,8 @@ struct MillPaths {
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     return groove::mill_path(spec, stop);
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out) {
-    return groove::verify(spec, out);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    return groove::verify(spec, out, stop);
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }

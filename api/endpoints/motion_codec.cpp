@@ -326,7 +326,7 @@ struct CutOf {
     if (table->inward)
       return fail(
           {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
-    job.checks = bevel::verify(spec, *table);
+    job.checks = bevel::verify(spec, *table, stop);
     job.warnings = on_node(spec.source, table->warnings);
     for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;
     return (*this)(contour_of(spec, *table));
@@ -334,7 +334,7 @@ struct CutOf {
   Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
     const auto path = groove::mill_path(spec, stop);
     if (!path) return under(path, "mill_path");
-    job.checks = groove::verify(spec, *path);
+    job.checks = groove::verify(spec, *path, stop);
     job.warnings = path->warnings;
     for (auto& warning : job.warnings) warning.member = "mill_path/" + warning.member;
     auto columns = columns_of(spec, *path, request.machine);

@@ -125,7 +125,7 @@ struct Nodes {
   static constexpr std::string_view kId = "nodes";
   static constexpr std::string_view kPath = "/v1/nodes";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
-  static constexpr double kBudgetS = api::kBudgetS;
+  static constexpr double kBudgetS = kLongBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
       {"axis_in_world", "1e-12, of the lengths involved", ""},
@@ -173,8 +173,8 @@ struct Nodes {
     return error;
   }
 
-  static std::vector<Check> verify(const Spec& spec, const Out& out) {
-    auto checks = joint::verify(spec.node, out.nodes);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    auto checks = joint::verify(spec.node, out.nodes, stop);
     for (std::size_t i = 0; i < out.profiles.size(); ++i)
       if (out.profiles[i]) {
         const auto joint = joint::joint_of(spec.node, out.nodes.ends[i]);
@@ -182,10 +182,10 @@ struct Nodes {
                                                                  .partners = joint::seats(joint),
                                                                  .surfaces = joint::Surfaces::both,
                                                                  .sampling = spec.sampling},
-                                         *out.profiles[i]));
+                                         *out.profiles[i], stop));
       }
     for (const auto& end : out.tables)
-      if (end && end->table) keep_worst(checks, bevel::verify(end->spec, *end->table));
+      if (end && end->table) keep_worst(checks, bevel::verify(end->spec, *end->table, stop));
     return checks;
   }
 

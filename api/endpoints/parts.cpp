@@ -41,7 +41,7 @@ struct Parts {
   static constexpr std::string_view kId = "parts";
   static constexpr std::string_view kPath = "/v1/parts";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
-  static constexpr double kBudgetS = api::kBudgetS;
+  static constexpr double kBudgetS = kLongBudgetS;
   static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
                                                             "max_extra_bevel_deg", "max_b_deg"};
   static constexpr auto kOwnChecks = std::to_array<CheckLimit>({

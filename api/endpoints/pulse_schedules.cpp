@@ -80,7 +80,7 @@ struct PulseSchedules {
   static constexpr std::string_view kId = "pulse-schedules";
   static constexpr std::string_view kPath = "/v1/pulse-schedules";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
-  static constexpr double kBudgetS = api::kBudgetS;
+  static constexpr double kBudgetS = kLongBudgetS;
   static constexpr std::array<std::string_view, 1> kAccepts{"max_slow_s"};
   static constexpr std::array<CheckLimit, 3> kChecks{{
       {"I1..I16", "docs/theory/pulse-schedules.md, section 9", ""},
@@ -98,9 +98,9 @@ struct PulseSchedules {
     return Out{*std::move(job), *std::move(schedule)};
   }
 
-  static std::vector<Check> verify(const Spec&, const Out& out) {
+  static std::vector<Check> verify(const Spec&, const Out& out, const std::stop_token& stop) {
     auto checks = out.job.checks;
-    for (auto& check : motion::verify(out.job.spec, out.schedule))
+    for (auto& check : motion::verify(out.job.spec, out.schedule, stop))
       checks.push_back(std::move(check));
     return checks;
   }

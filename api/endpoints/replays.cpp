@@ -51,7 +51,7 @@ struct Replays {
   static constexpr std::string_view kId = "replays";
   static constexpr std::string_view kPath = "/v1/replays";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
-  static constexpr double kBudgetS = api::kBudgetS;
+  static constexpr double kBudgetS = kLongBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
   static constexpr std::array<CheckLimit, 2> kChecks{
       {{"path_points", "0", ""}, {"nested cut", "the checks of its own endpoint", ""}}};
@@ -70,7 +70,8 @@ struct Replays {
     auto replay = motion::replay({.job = std::move(job->spec),
                                   .period = spec.schedule.period,
                                   .counts = spec.schedule.counts,
-                                  .start = spec.schedule.start});
+                                  .start = spec.schedule.start},
+                                 stop);
     if (!replay) return tl::unexpected(replay.error());
     Out out{*std::move(replay), std::move(job->checks), std::move(job->warnings)};
     for (const auto& invariant : out.replay.invariants)

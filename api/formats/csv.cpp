@@ -4,6 +4,7 @@
 
 #include "api/formats/text.hpp"
 #include "api/json.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -76,6 +77,7 @@ std::string Csv::print() const {
   out += "\r\n";
   std::vector<std::size_t> at(columns_.size(), 0);  // the piece that a column is in
   for (std::size_t i = 0; i < rows; ++i) {
+    ask(stop_);
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (k > 0) out += ',';
       const auto& pieces = columns_[k].pieces;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,7 +16,8 @@ namespace tubecut::api {
 /// units, then rows; numbers as in JSON, texts by csv_text, `true` and `false`.
 class Csv {
  public:
-  explicit Csv(const Caption& caption) : head_(verdict_lines(caption.verdict)) {}
+  explicit Csv(const Caption& caption)
+      : head_(verdict_lines(caption.verdict)), stop_(caption.stop) {}
 
   /// A line of the head.
   Csv& remark(std::string text) {
@@ -41,6 +43,7 @@ class Csv {
   };
   std::vector<std::string> head_;
   std::vector<Stack> columns_;
+  std::stop_token stop_;
 };
 
 }  // namespace tubecut::api

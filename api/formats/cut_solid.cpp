@@ -8,6 +8,7 @@
 
 #include "api/formats/gltf.hpp"
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 #include "api/verdict.hpp"
 #include "core/base/elementary.hpp"
 
@@ -53,11 +54,13 @@ Row row(const bevel::TableSpec& spec, const bevel::Table& t, std::size_t i, Smoo
   return out;
 }
 
-double highest(const bevel::TableSpec& spec, const bevel::Table& t) {
+double highest(const bevel::TableSpec& spec, const bevel::Table& t, const std::stop_token& stop) {
   double z = t.z_inner.front();
   for (const auto which : {Smoothed::before, Smoothed::after})
-    for (std::size_t i = 0; i < t.phi.size(); ++i)
+    for (std::size_t i = 0; i < t.phi.size(); ++i) {
+      ask(stop);
       for (const auto& p : row(spec, t, i, which).cut) z = std::max(z, p.y());
+    }
   return z;
 }
 
@@ -101,11 +104,13 @@ std::string stl_header(const Caption& caption) {
   return out;
 }
 
-Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>& hue) {
+Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>& hue,
+              const std::stop_token& stop) {
   const Eigen::Vector3f steel(0.62F, 0.65F, 0.68F);
   Mesh out{.name = std::move(name), .positions = {}, .colors = {}, .indices = {}};
   const auto n = solid.rings.size(), across = solid.rings.front().size();
   const auto strip = [&](std::size_t from, std::size_t to, bool cut) {
+    ask(stop);
     const auto base = static_cast<std::uint32_t>(out.positions.size());
     for (std::size_t i = 0; i < n; ++i)
       for (const auto k : {from, to}) {
@@ -131,15 +136,17 @@ std::vector<double> hues(const CutSolid& solid) {
 
 }  // namespace
 
-CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& t, Smoothed which) {
+CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& t, Smoothed which,
+                   const std::stop_token& stop) {
   const double inner = spec.target.inner_radius(), outer = spec.target.outer_radius;
-  const double top = highest(spec, t);
+  const double top = highest(spec, t, stop);
   CutSolid out{.rings = {}, .cut_points = t.z_face.empty() ? 2U : 3U, .far = top + outer};
   if (spec.target.length && *spec.target.length > top + 1e-3)
     out.far = std::min(out.far, *spec.target.length);
   const double step = 2.0 * elementary::acos(1.0 - std::min(1.0, kFacetError / outer));
   const auto n = t.phi.size();
   for (std::size_t i = 0; i < n; ++i) {
+    ask(stop);
     const auto a = row(spec, t, i, which);
     auto b = row(spec, t, (i + 1) % n, which);
     if (i + 1 == n) b.phi += kTwoPi;
@@ -151,7 +158,7 @@ CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& t, Smoothed
   return out;
 }
 
-TriangleMesh closed_mesh(const CutSolid& solid) {
+TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop) {
   TriangleMesh out;
   std::map<Point, std::uint32_t> known;
   const auto n = solid.rings.size(), across = solid.rings.front().size();
@@ -166,23 +173,27 @@ TriangleMesh closed_mesh(const CutSolid& solid) {
   const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (a != b && b != c && c != a) out.triangles.push_back({a, b, c});
   };
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i) {
+    ask(stop);
     for (std::size_t k = 0; k < across; ++k) {
       const auto a = index(i, k), b = index(i + 1, k), c = index(i, k + 1), d = index(i + 1, k + 1);
       triangle(a, b, c);
       triangle(b, d, c);
     }
+  }
   return out;
 }
 
 std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& table,
                           const Caption& caption) {
   const auto which = caption.view == "before" ? Smoothed::before : Smoothed::after;
-  const auto mesh = closed_mesh(cut_solid(spec, table, which));
+  const auto mesh = closed_mesh(cut_solid(spec, table, which, caption.stop), caption.stop);
   std::string out = stl_header(caption);
   append(out, static_cast<std::uint32_t>(mesh.triangles.size()));
   out.reserve(84 + 50 * mesh.triangles.size());
+  Pace pace(caption.stop);
   for (const auto& t : mesh.triangles) {
+    pace.turn();
     const auto& [a, b, c] = t;
     const auto n = normal(mesh.points[a], mesh.points[b], mesh.points[c]);
     for (int k = 0; k < 3; ++k) append(out, n[k]);
@@ -197,8 +208,9 @@ std::string print_cut_gltf(const bevel::TableSpec& spec, const bevel::Table& tab
                            const Caption& caption) {
   std::vector<Mesh> meshes;
   for (const auto which : {Smoothed::before, Smoothed::after}) {
-    const auto solid = cut_solid(spec, table, which);
-    meshes.push_back(coloured(which == Smoothed::before ? "before" : "after", solid, hues(solid)));
+    const auto solid = cut_solid(spec, table, which, caption.stop);
+    meshes.push_back(
+        coloured(which == Smoothed::before ? "before" : "after", solid, hues(solid), caption.stop));
   }
   return print_gltf(meshes, caption);
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct CutSolid {
 /// The far end is half a diameter above the highest point of the cut, at most the target's length.
 /// `before`: the cut as it would be unsmoothed, on the same root.
 [[nodiscard]] CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& table,
-                                 Smoothed which);
+                                 Smoothed which, const std::stop_token& stop);
 
 /// Triangles of the closed surface, counter-clockwise seen from outside, on single-precision points
 /// (those that coincide are one): what STL can hold.
@@ -36,7 +37,7 @@ struct TriangleMesh {
   std::vector<std::array<float, 3>> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
-[[nodiscard]] TriangleMesh closed_mesh(const CutSolid& solid);
+[[nodiscard]] TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop);
 
 /// Binary STL, mm. The 80 bytes of its header say so, with the facet error and the job.
 [[nodiscard]] std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& table,

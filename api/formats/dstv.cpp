@@ -7,6 +7,7 @@
 #include "api/formats/cut_solid.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 #include "api/verdict.hpp"
 
 namespace tubecut::api {
@@ -39,10 +40,11 @@ struct Lengths {
   bool assumed = false;  // nobody gave the far end
 };
 
-Lengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t) {
+Lengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t,
+                   const std::stop_token& stop) {
   const auto [li, hi] = std::ranges::minmax(t.z_inner);
   const auto [lo, ho] = std::ranges::minmax(t.z_outer);
-  const double far = spec.target.length.value_or(cut_solid(spec, t, Smoothed::after).far);
+  const double far = spec.target.length.value_or(cut_solid(spec, t, Smoothed::after, stop).far);
   const double low = std::min(li, lo);
   const double torch = std::min(std::ranges::min(t.torch_inner), std::ranges::min(t.torch_outer));
   return {.low = low,
@@ -109,11 +111,14 @@ std::string point(double x, double y, double bevel, bool first) {
          field(0.0) + field(bevel) + field(0.0) + field(0.0) + field(0.0) + "\r\n";
 }
 
-std::string contour(const CutOutline& cut, const Lengths& l, double bevel_deg) {
+std::string contour(const CutOutline& cut, const Lengths& l, double bevel_deg,
+                    const std::stop_token& stop) {
   const auto& c = cut.outer;
   std::string out = "AK\r\n";
-  for (std::size_t i = 0; i < c.phi.size(); ++i)
+  for (std::size_t i = 0; i < c.phi.size(); ++i) {
+    ask(stop);
     out += point(c.z[i] - l.low, up(c.radius, c.phi[i]), bevel_deg, i == 0);
+  }
   const double around = up(c.radius, 0.0), end = l.over_long;
   out += point(end, 0.0, 0.0, false) + point(end, around, 0.0, false);
   return out + point(c.z.front() - l.low, around, 0.0, false);  // closed
@@ -130,17 +135,23 @@ std::string sidecar(double phi, double phi_inner, double x, double x_inner, doub
                  (a ? field(*a * kDegPerRad, 4) : ""));
 }
 
-std::string sidecar(const joint::Target& target, const bevel::Table& t, double low) {
+std::string sidecar(const joint::Target& target, const bevel::Table& t, double low,
+                    const std::stop_token& stop) {
   std::string out;
-  for (std::size_t i = 0; i < t.phi.size(); ++i)
+  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+    ask(stop);
     out += sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low, t.b[i], target);
+  }
   return out;
 }
 
-std::string sidecar(const joint::Target& target, const bevel::Hole& h) {
+std::string sidecar(const joint::Target& target, const bevel::Hole& h,
+                    const std::stop_token& stop) {
   std::string out;
-  for (std::size_t i = 0; i < h.phi.size(); ++i)
+  for (std::size_t i = 0; i < h.phi.size(); ++i) {
+    ask(stop);
     out += sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target, h.a[i]);
+  }
   return out;
 }
 
@@ -153,21 +164,26 @@ std::optional<double> one_bevel(const std::vector<double>& b) {
 
 /// The outside with both ends: down the start's cut, and up along the finish's.
 std::string outside(const CutOutline& start, const CutOutline& finish, double start_deg,
-                    double finish_deg) {
+                    double finish_deg, const std::stop_token& stop) {
   std::string out = "AK\r\n";
   const auto& s = start.outer;
   const auto& f = finish.outer;
-  for (std::size_t i = 0; i < s.phi.size(); ++i)
+  for (std::size_t i = 0; i < s.phi.size(); ++i) {
+    ask(stop);
     out += point(s.z[i], up(s.radius, s.phi[i]), i + 1 < s.phi.size() ? start_deg : 0.0, i == 0);
-  for (std::size_t i = f.phi.size(); i-- > 0;)
+  }
+  for (std::size_t i = f.phi.size(); i-- > 0;) {
+    ask(stop);
     out += point(f.z[i], up(f.radius, f.phi[i]), i > 0 ? finish_deg : 0.0, false);
+  }
   return out + point(s.z.front(), up(s.radius, 0.0), 0.0, false);  // closed
 }
 
-std::string opening(const CutOutline& hole, double bevel_deg) {
+std::string opening(const CutOutline& hole, double bevel_deg, const std::stop_token& stop) {
   const auto& c = hole.outer;
   std::string out = "IK\r\n";
   for (std::size_t i = 0; i <= c.phi.size(); ++i) {
+    ask(stop);
     const auto k = i % c.phi.size();
     out += point(c.z[k], up(c.radius, c.phi[k]), i < c.phi.size() ? bevel_deg : 0.0, i == 0);
   }
@@ -178,12 +194,12 @@ std::string opening(const CutOutline& hole, double bevel_deg) {
 
 std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
                        const Caption& caption) {
-  const auto lengths = lengths_of(spec, t);
+  const auto lengths = lengths_of(spec, t, caption.stop);
   const auto bevel = one_bevel(t.b);
   return "ST\r\n" + comments(lengths, bevel.has_value(), caption) +
          header(spec.target, kSteel, lengths, caption) +
-         contour(developed(spec, t).cuts.front(), lengths, bevel.value_or(0.0)) +
-         comment(kSidecar) + sidecar(spec.target, t, lengths.low) + "EN\r\n";
+         contour(developed(spec, t).cuts.front(), lengths, bevel.value_or(0.0), caption.stop) +
+         comment(kSidecar) + sidecar(spec.target, t, lengths.low, caption.stop) + "EN\r\n";
 }
 
 std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
@@ -199,19 +215,20 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       if (one_bevel(hole.a).value_or(1.0) != 0.0) bevel.reset();  // tilted across too
       constant = constant && bevel;
       const auto& cut = cuts[2 + step.index];
-      openings += opening(cut, bevel.value_or(0.0));
-      tables += comment("cut " + cut.name) + sidecar(spec.target, hole);
+      openings += opening(cut, bevel.value_or(0.0), caption.stop);
+      tables += comment("cut " + cut.name) + sidecar(spec.target, hole, caption.stop);
     } else if (step.what != part::Step::What::mark) {
       const bool at_start = step.what == part::Step::What::start;
-      tables += comment(at_start ? "cut start" : "cut finish") +
-                sidecar(spec.target, at_start ? part.start.table : part.finish.table, 0.0);
+      tables +=
+          comment(at_start ? "cut start" : "cut finish") +
+          sidecar(spec.target, at_start ? part.start.table : part.finish.table, 0.0, caption.stop);
     }
   }
   return "ST\r\n" + comments(lengths, constant, caption) +
          comment("a hole across phi = 0 is one contour: its y leaves the girth") +
          header(spec.target, spec.density, lengths, caption) +
-         outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0)) + openings +
-         comment(std::string(kSidecar) + kTilted) + tables + "EN\r\n";
+         outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop) +
+         openings + comment(std::string(kSidecar) + kTilted) + tables + "EN\r\n";
 }
 
 }  // namespace tubecut::api

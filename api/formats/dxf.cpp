@@ -130,7 +130,8 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   const bool space = caption.view == "tube";
   const auto e = extent(d);
   const double datum = 10.0 * std::ceil((e.z_to + 15.0) / 10.0);
-  DxfWriter w({std::begin(kLayers), std::end(kLayers)}, verdict_lines(caption.verdict));
+  DxfWriter w({std::begin(kLayers), std::end(kLayers)}, verdict_lines(caption.verdict),
+              caption.stop);
   draw_cuts(w, d, space);
   seams(w, d, e, datum, space);
   const double left = d.around() || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
@@ -146,7 +147,7 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
   const bool space = caption.view == "tube";
   std::vector<DxfWriter::Layer> layers{std::begin(kLayers), std::end(kLayers)};
   layers.push_back({"MARK", 6});
-  DxfWriter w(std::move(layers), verdict_lines(caption.verdict));
+  DxfWriter w(std::move(layers), verdict_lines(caption.verdict), caption.stop);
   draw_cuts(w, d, space);
   const double from = d.cuts[0].outer.z.front(), to = d.cuts[1].outer.z.front();
   along(w, "SEAM", d, space, 0.0, from, to);

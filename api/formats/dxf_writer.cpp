@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -135,6 +136,7 @@ void DxfWriter::polyline(std::string_view layer, const std::vector<Eigen::Vector
   group(90, static_cast<int>(kept.size()));
   group(70, closed ? 1 : 0);
   for (const auto& p : kept) {
+    ask(stop_);
     group(10, p.x());
     group(20, p.y());
     see({p.x(), p.y(), 0.0});
@@ -156,6 +158,7 @@ void DxfWriter::polyline(std::string_view layer, const std::vector<Eigen::Vector
     group(8, layer);
   };
   for (const auto& p : points) {
+    ask(stop_);
     part("VERTEX");
     group(100, "AcDbVertex");
     group(100, "AcDb3dPolylineVertex");

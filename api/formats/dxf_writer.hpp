@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,8 @@ class DxfWriter {
     int color;  // AutoCAD colour index
   };
   /// `remarks` stand at the file's head.
-  explicit DxfWriter(std::vector<Layer> layers, std::vector<std::string> remarks = {})
-      : layers_(std::move(layers)), remarks_(std::move(remarks)) {}
+  DxfWriter(std::vector<Layer> layers, std::vector<std::string> remarks, std::stop_token stop)
+      : layers_(std::move(layers)), remarks_(std::move(remarks)), stop_(std::move(stop)) {}
 
   /// Points (x, y); those equal to their predecessor are left out.
   void polyline(std::string_view layer, const std::vector<Eigen::Vector2d>& points, bool closed);
@@ -35,6 +36,7 @@ class DxfWriter {
 
   std::vector<Layer> layers_;
   std::vector<std::string> remarks_;
+  std::stop_token stop_;
   std::string entities_;
   int handle_ = 0x100;  // those below belong to the tables
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();

@@ -7,6 +7,7 @@
 #include "api/formats/development.hpp"
 #include "api/formats/text.hpp"
 #include "api/formats/torch_moves.hpp"
+#include "api/stop.hpp"
 #include "api/verdict.hpp"
 #include "core/base/elementary.hpp"
 
@@ -79,11 +80,13 @@ struct Straightness {
 };
 
 /// The same path with nodes between its nodes where a move of all axes would sag.
-TorchPath refined(const TorchPath& path, const TorchReach& reach, Straightness& told) {
+TorchPath refined(const TorchPath& path, const TorchReach& reach, const std::stop_token& stop,
+                  Straightness& told) {
   TorchPath out{
       .name = path.name, .phi = {}, .z = {}, .b = {}, .scrap = path.scrap, .room = path.room};
   append(out, place(path, 0));
   for (std::size_t i = 1; i < path.phi.size(); ++i) {
+    ask(stop);
     auto at = place(path, i - 1);
     const auto moves = straight_moves(reach, at, place(path, i), kSag);
     told.inserted += moves.size() - 1;
@@ -156,7 +159,8 @@ double step(const TorchJob& job, const TorchPath& p, std::size_t i) {
 
 /// From the run-in to the run-out of one cut.
 std::string print_cut(const TorchJob& job, const TorchPath& path, const Joints& joints,
-                      const TorchWords& torch, const FormatOptions& o) {
+                      const TorchWords& torch, const Caption& caption) {
+  const auto& o = caption.options;
   const double lead = std::min(o.lead, path.room);
   const auto aside = [&](std::size_t i) {
     auto at = place(path, i);
@@ -176,8 +180,10 @@ std::string print_cut(const TorchJob& job, const TorchPath& path, const Joints& 
   if (o.torch) out += torch.on;
   out += "G93\n";
   if (lead > 0.0) out += timed(joints.words(place(path, 0)), lead);
-  for (std::size_t i = 1; i < path.phi.size(); ++i)
+  for (std::size_t i = 1; i < path.phi.size(); ++i) {
+    ask(caption.stop);
     out += timed(joints.words(place(path, i)), step(job, path, i));
+  }
   if (lead > 0.0) out += timed(joints.words(aside(path.phi.size() - 1)), lead);
   return out + "G94\n" + torch.off;
 }
@@ -279,11 +285,11 @@ std::string print_gcode(const TorchJob& asked, const Caption& caption) {
                          .inner_radius = job.outer_radius - job.wall,
                          .pivot = caption.options.pivot_length.value_or(0.0)};
   Straightness moves;
-  for (auto& cut : job.cuts) cut = refined(cut, reach, moves);
+  for (auto& cut : job.cuts) cut = refined(cut, reach, caption.stop, moves);
   const Joints joints(job, caption.options);
   const auto torch = torch_words(caption.options.dialect);
   std::string out = "%\n" + header(job, joints, moves, caption) + modes(caption);
-  for (const auto& cut : job.cuts) out += print_cut(job, cut, joints, torch, caption.options);
+  for (const auto& cut : job.cuts) out += print_cut(job, cut, joints, torch, caption);
   if (const auto lifted = joints.lifted(); lifted && job.cuts.size() > 1)
     out += "G0 " + *lifted + "\n";
   return out + "M2\n%\n";

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "api/stop.hpp"
 #include "api/writer.hpp"
 
 namespace tubecut::api {
@@ -154,6 +155,7 @@ void chunk(std::string& out, std::string body, std::uint32_t kind, char padding)
 std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption) {
   Buffer buffer;
   for (const auto& mesh : meshes) {
+    ask(caption.stop);
     std::vector<Eigen::Vector3f> positions;
     for (const auto& p : mesh.positions) positions.push_back(metres(p));
     buffer.vectors(positions);

@@ -6,6 +6,7 @@
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/gltf.hpp"
+#include "api/stop.hpp"
 #include "api/tables.hpp"
 
 namespace tubecut::api {
@@ -144,6 +145,7 @@ std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillP
   for (const auto& p : path.positions) worst = std::max(worst, p.before.largest);
   std::size_t across = 0;
   for (const auto& p : path.positions) {
+    ask(caption.stop);
     const auto section = groove::section(*joint, p.omega);
     across = p.after.gap.size();
     for (std::size_t k = 0; k < across; ++k) {

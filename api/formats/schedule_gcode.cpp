@@ -6,6 +6,7 @@
 
 #include "api/formats/gcode.hpp"
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -122,12 +123,15 @@ std::vector<char> axis_letters(const std::vector<motion::AxisPulses>& axes) {
   return out;
 }
 
-std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance) {
+std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance,
+                                    const std::stop_token& stop) {
+  Pace pace(stop);
   std::vector<std::int64_t> out{0};
   Cursor at(s);
   auto before = at.sums();
   Cones cones(before, 0);
   for (std::int64_t p = 1; p <= s.periods; ++p) {
+    pace.turn();
     at.advance();
     if (!cones.hold(at.sums(), p)) {
       out.push_back(p - 1);
@@ -153,7 +157,8 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
                     "G21 G40 G49 G90 G94 G17\nG64 P0.01\n" + (contour ? torch.prepare : "") + "G0" +
                     words(machine, s, letters, at.sums()) + "\nG93\n";
   std::int64_t from = 0;
-  for (const auto end : move_ends(s, kTolerance)) {
+  for (const auto end : move_ends(s, kTolerance, caption.stop)) {
+    ask(caption.stop);
     at.advance_to(end);
     if (end > from)
       out += "G1" + words(machine, s, letters, at.sums()) + " F" +

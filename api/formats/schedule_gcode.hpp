@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace tubecut::api {
 /// `tolerance` pulses of its counts at every period; the events' are among them. Ascending, from 0
 /// to the last. Cost linear in the counts.
 [[nodiscard]] std::vector<std::int64_t> move_ends(const motion::Schedule& schedule,
-                                                  double tolerance);
+                                                  double tolerance,
+                                                  const std::stop_token& stop = {});
 
 /// A schedule as RS-274 for LinuxCNC: the axes' own values at such periods, each move in inverse
 /// time, so that the planned motion is kept in time as well. The torch (of a cut along a contour)

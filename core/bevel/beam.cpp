@@ -81,9 +81,9 @@ struct Stretch {
 /// The axes along the torch's way; indices over two laps, so that half a lap either way is a run.
 class Beam {
  public:
-  explicit Beam(const BeamCut& cut) : cut_(cut) {
+  Beam(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
     const auto n = cut.torch.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
       first_.push_back(stretches_.size());
       const auto a = torch(i, 0.0), b = torch(i, 1.0);
       const double wide =
@@ -239,8 +239,8 @@ struct Place {
 
 class Surface {
  public:
-  explicit Surface(const BeamCut& cut) : cut_(cut), beam_(cut) {
-    for (std::size_t i = 0; i < rows(); ++i) along_.push_back(way(i));
+  Surface(const BeamCut& cut, const std::stop_token& stop) : cut_(cut), beam_(cut, stop) {
+    for (std::size_t i = 0; i < rows() && !stop.stop_requested(); ++i) along_.push_back(way(i));
   }
 
   /// Distance from the nearest axis; negative where that runs beyond the finished line of its own
@@ -363,7 +363,8 @@ struct Figure {
 }  // namespace
 
 BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& stop) {
-  const Surface surface(cut);
+  const Surface surface(cut, stop);
+  if (stop.stop_requested()) return {};
   const double half = 0.5 * cut.kerf;
   const bool rows_only = places == Places::rows;
   double length = 0.0;

@@ -53,6 +53,7 @@ struct Table;
 [[nodiscard]] BeamCut beam_cut(const TableSpec& spec, const Table& table);
 
 /// `gouge` against its limit, and what the table states of its torch line against its rows.
-[[nodiscard]] std::vector<Check> verify_torch_line(const TableSpec& spec, const Table& table);
+[[nodiscard]] std::vector<Check> verify_torch_line(const TableSpec& spec, const Table& table,
+                                                   const std::stop_token& stop = {});
 
 }  // namespace tubecut::bevel

@@ -26,10 +26,11 @@ BeamCut beam_cut(const TableSpec& spec, const Table& table) {
   return out;
 }
 
-std::vector<Check> verify_torch_line(const TableSpec& spec, const Table& table) {
+std::vector<Check> verify_torch_line(const TableSpec& spec, const Table& table,
+                                     const std::stop_token& stop) {
   constexpr double kGouge = 1e-3;                // mm: what beam_proof promises
   constexpr double kLeft = 5e-3, kShare = 0.02;  // mm, and of what is left
-  const auto seen = beam_proof(beam_cut(spec, table), Places::rows);
+  const auto seen = beam_proof(beam_cut(spec, table), Places::rows, stop);
   const auto& stated = table.torch_line;
   return {{"gouge", std::max(seen.gouge, stated.gouge), kGougeLimit, "mm"},
           {"gouge_stated", std::max(0.0, seen.gouge - stated.gouge), kGouge, "mm"},

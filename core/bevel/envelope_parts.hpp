@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <stop_token>
 #include <vector>
 
 #include "core/bevel/smoothing.hpp"

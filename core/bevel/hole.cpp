@@ -192,7 +192,7 @@ void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
 }
 
 Hole tabulate(const HoleSpec& spec, const WallLines& walls, const joint::Contour& root,
-              const std::vector<Node>& nodes, bool far) {
+              const std::vector<Node>& nodes, bool far, const std::stop_token& stop) {
   Hole out;
   out.far = far;
   std::vector<double> phases;
@@ -215,7 +215,7 @@ Hole tabulate(const HoleSpec& spec, const WallLines& walls, const joint::Contour
     out.torch_phi_inner.push_back(walls.phi(w.torch_inner));
     out.torch_z_inner.push_back(w.torch_inner.z());
   }
-  out.length = joint::lengths_along(root, phases);
+  out.length = joint::lengths_along(root, phases, stop);
   out.length_total = out.length.back();
   out.length.pop_back();
   return out;
@@ -241,7 +241,7 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   if (!root->near_parallel.empty() && !far)
     warnings.push_back({.code = WarningCode::near_parallel, .member = "branch"});
   note_lost(spec, *nodes, warnings);
-  return tabulate(spec, walls, *root, *nodes, far);
+  return tabulate(spec, walls, *root, *nodes, far, stop);
 }
 
 }  // namespace
@@ -268,7 +268,7 @@ Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop) {
     if (!far) return tl::unexpected(far.error());
     out.holes.push_back(*std::move(far));
   } else {
-    auto end = branch_end(spec, *branch, out.holes.front().branch_phi);
+    auto end = branch_end(spec, *branch, out.holes.front().branch_phi, stop);
     if (!end) return tl::unexpected(end.error());
     out.branch = *std::move(end);
   }

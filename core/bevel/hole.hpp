@@ -94,7 +94,8 @@ struct HoleCut {
 [[nodiscard]] Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop = {});
 
 /// The answer proved in 3D: distances of its own points to the axes, by cross products.
-[[nodiscard]] std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut);
+[[nodiscard]] std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut,
+                                        const std::stop_token& stop = {});
 
 /// The branch's four numbers. Errors  as joint::place, at branch/axis.
 [[nodiscard]] Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch);

@@ -20,12 +20,13 @@ Error about_branch(Error error) {
 /// Root on the inner wall, on the cylinder that the end stands on; never below flush there, where
 /// that would enter the wall.
 Result<void> stand_on(const HoleSpec& spec, const joint::Contour& contour, double radius,
-                      BranchEnd& end) {
+                      BranchEnd& end, const std::stop_token& stop) {
   const Wall wall{contour.radius, radius};
   const bool on = spec.kind == JointKind::set_on;
   const Rule rule(on ? spec.groove : GrooveRule{NoGroove{}}, Dihedral::weld_side);
   Intervals beyond;
   for (const double phi : end.phi) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     const auto line = joint::generator_at(contour.radius, phi);
     const auto hit = joint::continued_hit(contour.cutters.front(), line);
     const double required = required_bevel(contour.cutters, wall, line, hit.z);
@@ -64,7 +65,7 @@ Result<joint::Contour> joint_curve(const joint::TubeCutter& branch, double chord
 }
 
 Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& branch,
-                             const std::vector<double>& phases) {
+                             const std::vector<double>& phases, const std::stop_token& stop) {
   const bool on = spec.kind == JointKind::set_on;
   const double depth = spec.depth.value_or(spec.chord.wall);
   const double radius = spec.chord.outer_radius + (on ? spec.gap : -depth);
@@ -75,7 +76,8 @@ Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& bran
                 .b = {}};
   const auto inner = joint_curve(branch, radius, branch.radius - spec.branch_wall);
   if (!inner) return tl::unexpected(inner.error());
-  if (auto ok = stand_on(spec, *inner, branch.radius, end); !ok) return tl::unexpected(ok.error());
+  if (auto ok = stand_on(spec, *inner, branch.radius, end, stop); !ok)
+    return tl::unexpected(ok.error());
   return end;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "core/bevel/hole.hpp"
@@ -16,6 +17,7 @@ namespace tubecut::bevel {
 /// The end of a set-on or set-in branch at these phases.
 /// Errors  as joint_curve; torch_range when it cannot be cut flush on the chord.
 [[nodiscard]] Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& branch,
-                                           const std::vector<double>& phases);
+                                           const std::vector<double>& phases,
+                                           const std::stop_token& stop);
 
 }  // namespace tubecut::bevel

@@ -117,11 +117,11 @@ double nearer(const joint::TubeCutter& other, const Vector3d& place) {
 
 /// The deepest of a fixed set of places between the rows: half way and once more there, at both
 /// edges and once between them, by the golden ratio.
-double sampled(const CutWall& wall, const joint::TubeCutter& other) {
+double sampled(const CutWall& wall, const joint::TubeCutter& other, const std::stop_token& stop) {
   constexpr double kGolden = 0.6180339887498949;
   double deepest = 0.0, seed = 0.0;
   const auto next = [&] { return seed = seed + kGolden - std::floor(seed + kGolden); };
-  for (std::size_t i = 0; i < wall.gaps(); ++i)
+  for (std::size_t i = 0; i < wall.gaps() && !stop.stop_requested(); ++i)
     for (const double share : {0.5, next()}) {
       const auto j = (i + 1) % wall.gaps();
       const auto on = [&](const WallEdge& e) {
@@ -156,7 +156,7 @@ FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCu
   out.greatest_root_between = -std::numeric_limits<double>::infinity();
   out.nearest = nearest(spec, branch, cut, hole, stop);
   out.least_between = spec.gap - out.nearest.depth;
-  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < all.size() && !stop.stop_requested(); ++i) {
     for (const double t : kBetween) {
       const auto gaps = wall.at(mixed(all[i], all[i + 1], t));
       if (t == 0.0) {
@@ -185,14 +185,14 @@ void note_nearest(const HoleSpec& spec, HoleCut& cut) {
 }
 
 std::vector<Check> nearest_checks(const HoleSpec& spec, const joint::TubeCutter& branch,
-                                  const HoleCut& cut) {
+                                  const HoleCut& cut, const std::stop_token& stop) {
   constexpr double kStated = 1e-3;  // mm
   const auto other = other_member(spec, branch);
   double off = 0.0, deepest = 0.0;
   for (const auto& hole : cut.holes) {
     const auto& p = hole.fit.nearest;
     const double there = std::max(0.0, nearer(other, placed(p.radius, p.phi, p.z)));
-    const double found = sampled(facing_wall(spec, branch, cut, hole), other);
+    const double found = sampled(facing_wall(spec, branch, cut, hole), other, stop);
     off = std::max({off, std::abs(there - p.depth), found - p.depth});
     deepest = std::max({deepest, p.depth, found});
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <stop_token>
+
 #include "core/bevel/hole.hpp"
 
 namespace tubecut::bevel {
@@ -18,7 +20,7 @@ void note_nearest(const HoleSpec& spec, HoleCut& cut);
 /// What the fit-ups state of their nearest places, held against those and against others by the
 /// distance to an axis.
 [[nodiscard]] std::vector<Check> nearest_checks(const HoleSpec& spec,
-                                                const joint::TubeCutter& branch,
-                                                const HoleCut& cut);
+                                                const joint::TubeCutter& branch, const HoleCut& cut,
+                                                const std::stop_token& stop);
 
 }  // namespace tubecut::bevel

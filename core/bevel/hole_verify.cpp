@@ -106,14 +106,14 @@ void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Ax
 
 /// The branch's end against the chord, in the branch's own frame.
 void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const BranchEnd& end,
-               const FitUp& fit, Proof& p) {
+               const FitUp& fit, Proof& p, const std::stop_token& stop) {
   const auto line = joint::axis_of(end.chord);
   const Axis axis{line.point, line.direction};
   const double outer = branch.radius, inner = branch.radius - spec.branch_wall;
   const bool on = spec.kind == JointKind::set_on;
   const double seat = on ? spec.chord.outer_radius + spec.gap
                          : spec.chord.outer_radius - spec.depth.value_or(spec.chord.wall);
-  for (std::size_t i = 0; i < end.phi.size(); ++i) {
+  for (std::size_t i = 0; i < end.phi.size() && !stop.stop_requested(); ++i) {
     const Vector3d root = placed(inner, end.phi[i], end.z_inner[i]);
     const Vector3d face = placed(outer, end.phi[i], end.z_outer[i]);
     see(p.end, std::abs(axis.distance(root) - seat));
@@ -135,7 +135,7 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
 
 }  // namespace
 
-std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut) {
+std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::stop_token& stop) {
   const auto branch = branch_tube(spec.branch);
   if (!branch) return {};
   const auto line = joint::axis_of(*branch);
@@ -144,7 +144,7 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut) {
   const double rho = on ? branch->radius - spec.branch_wall : branch->radius + spec.gap;
   Proof p;
   for (const auto& h : cut.holes)
-    for (std::size_t i = 0; i < h.phi.size(); ++i) {
+    for (std::size_t i = 0; i < h.phi.size() && !stop.stop_requested(); ++i) {
       const auto r = row(spec, h, axis, i);
       see(p.root, std::abs(axis.distance(r.root) - rho));
       prove_wall(spec, h, r, i, p);
@@ -153,13 +153,13 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut) {
       else
         prove_clearance(spec, h, r, axis, branch->radius, i, p);
     }
-  if (cut.branch) prove_end(spec, *branch, *cut.branch, cut.holes.front().fit, p);
+  if (cut.branch) prove_end(spec, *branch, *cut.branch, cut.holes.front().fit, p, stop);
   std::vector<Check> out{
       {"on_branch", p.root, kLength, "mm"}, {"gap", p.gap, kLength, "mm"},
       {"fit_up", p.fit, kLength, "mm"},     {"dihedral", p.dihedral, kAngle, "deg"},
       {"groove", p.groove, kAngle, "deg"},  {"tilt", p.tilt, kAngle, "deg"},
       {"kerf", p.kerf, kLength, "mm"},      {"branch_end", p.end, kLength, "mm"}};
-  for (auto& check : nearest_checks(spec, *branch, cut)) out.push_back(std::move(check));
+  for (auto& check : nearest_checks(spec, *branch, cut, stop)) out.push_back(std::move(check));
   return out;
 }
 

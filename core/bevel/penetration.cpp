@@ -211,7 +211,7 @@ void search(const CutWall& wall, std::span<const Solid> solids, Aim& aim,
             const std::stop_token& stop) {
   for (std::size_t edge = 0; edge + 1 < wall.edges.size(); ++edge) {
     const auto ring = ring_of(wall, edge);
-    for (std::size_t solid = 0; solid < solids.size(); ++solid)
+    for (std::size_t solid = 0; solid < solids.size() && !stop.stop_requested(); ++solid)
       Search<Aim>(ring, solids, solid, aim).run(stop);
   }
 }

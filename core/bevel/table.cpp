@@ -72,12 +72,13 @@ Result<Table> build(const Ground& g, const std::vector<double>& also, const std:
   fill_angles(g, rows, out);
   if (auto ok = fill_zones(g.spec, rows, out); !ok) return tl::unexpected(ok.error());
   if (auto ok = detail::fill_smoothed(g, rows, out, stop); !ok) return tl::unexpected(ok.error());
-  detail::fill_surfaces(g, rows, out);
-  if (auto ok = detail::check_clearance(g, rows, out); !ok) return tl::unexpected(ok.error());
+  detail::fill_surfaces(g, rows, out, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (auto ok = detail::check_clearance(g, rows, out, stop); !ok) return tl::unexpected(ok.error());
   for (const auto* z : {&out.z_inner, &out.z_outer})
     if (auto ok = joint::check_length(g.spec.target, *z); !ok) return tl::unexpected(ok.error());
   detail::note_torch_binds(g, rows, out);
-  detail::note_overhang(g, out);
+  detail::note_overhang(g, out, stop);
   detail::note_root_opens(g.spec, out);
   if (!g.spec.sampling.tolerance) detail::note_events_between(g, out);
   return out;
@@ -89,7 +90,7 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   constexpr int kSwingRounds = 6;   // of halving
   constexpr int kTorchRounds = 3;   // the second sees what the first's own rows changed
   constexpr int kClearRounds = 10;  // each divides a depth by sixteen where the cut is smooth
-  const auto grounded = detail::ground(spec);
+  const auto grounded = detail::ground(spec, stop);
   if (!grounded) return tl::unexpected(grounded.error());
   const auto& g = *grounded;
   auto also = g.row_phases;

@@ -154,6 +154,7 @@ struct Table {
 
 /// The table proved from its own numbers by other formulas: 3D distances, normals from gradients,
 /// half tangents.
-[[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table);
+[[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table,
+                                        const std::stop_token& stop = {});
 
 }  // namespace tubecut::bevel

@@ -48,11 +48,12 @@ Result<void> check(const TableSpec& spec) {
 }
 
 /// Events that are no rows of the root's own contour: of the other wall, and of the land's edge.
-std::vector<double> row_phases(const Ground& g) {
+std::vector<double> row_phases(const Ground& g, const std::stop_token& stop) {
   std::vector<double> out;
   for (const auto& event : g.other_events) out.push_back(event.phi);
   if (g.spec.root_face > 0.0)
-    for (const auto& event : joint::divide(g.root.cutters, g.wall.inner + g.spec.root_face).events)
+    for (const auto& event :
+         joint::divide(g.root.cutters, g.wall.inner + g.spec.root_face, stop).events)
       out.push_back(event.phi);
   return out;
 }
@@ -87,13 +88,13 @@ Point larger(const Ground& g, const joint::Node& node) {
 
 }  // namespace
 
-Result<Ground> ground(const TableSpec& spec) {
+Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop) {
   if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());
   auto cutters = grown_partners(spec);
   if (!cutters) return tl::unexpected(cutters.error());
   const Wall wall{spec.target.inner_radius(), spec.target.outer_radius};
   const bool outer = spec.root_surface == RootSurface::outer;
-  auto root = joint::trace(*cutters, outer ? wall.outer : wall.inner);
+  auto root = joint::trace(*cutters, outer ? wall.outer : wall.inner, stop);
   if (!root) return tl::unexpected(root.error());
   Ground out{.spec = spec,
              .cutters = *std::move(cutters),
@@ -105,11 +106,12 @@ Result<Ground> ground(const TableSpec& spec) {
              .wall = wall,
              .rule = Rule(spec.groove, spec.dihedral),
              .flush = Rule(NoGroove{}, spec.dihedral)};
-  out.other_events = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer).events;
-  out.row_phases = row_phases(out);
+  out.other_events = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer, stop).events;
+  out.row_phases = row_phases(out, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   for (const auto& cutter : out.cutters) out.solids.emplace_back(cutter);
   if (outer) {
-    auto inner = joint::trace(out.cutters, wall.inner);
+    auto inner = joint::trace(out.cutters, wall.inner, stop);
     if (!inner) return tl::unexpected(inner.error());
     out.inner = *std::move(inner);
   }

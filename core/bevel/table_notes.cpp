@@ -40,9 +40,9 @@ void note_torch_binds(const Ground& g, const Rows& rows, Table& out) {
   }
 }
 
-void note_overhang(const Ground& g, Table& out) {
+void note_overhang(const Ground& g, Table& out, const std::stop_token& stop) {
   if (g.inner) return;  // with the root outside, both walls are met all round
-  for (const auto& [from, to] : joint::divide(g.root.cutters, g.wall.outer).open) {
+  for (const auto& [from, to] : joint::divide(g.root.cutters, g.wall.outer, stop).open) {
     double worst = 0.0;
     for (int k = 0; k <= kAcrossOpen; ++k) {
       const auto line =

@@ -30,7 +30,7 @@ struct Ground {
 
   [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
 };
-[[nodiscard]] Result<Ground> ground(const TableSpec& spec);
+[[nodiscard]] Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop);
 
 /// One side of one node before smoothing. Angles in rad.
 struct Point {
@@ -88,11 +88,12 @@ template <class F>
 [[nodiscard]] Result<void> check_torch(const Ground& g, const Rows& rows);
 
 /// Finished surface, root opening and metal in the beam.
-void fill_surfaces(const Ground& g, const Rows& rows, Table& out);
+void fill_surfaces(const Ground& g, const Rows& rows, Table& out, const std::stop_token& stop);
 /// The torch's own line and what it takes and leaves.
 void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop);
 /// Contact outer: does the cut stay clear of every partner across the wall?
-[[nodiscard]] Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out);
+[[nodiscard]] Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out,
+                                           const std::stop_token& stop);
 /// Phases of rows wanted in the gaps in which the finished wall may enter a partner by more than
 /// `tolerance`: the contours of the walls do not tell where it curves.
 [[nodiscard]] std::vector<double> entering_phases(const Ground& g, const Table& t, double tolerance,
@@ -103,7 +104,7 @@ void state_penetration(const Ground& g, Table& out, const std::stop_token& stop)
 
 void note_torch_binds(const Ground& g, const Rows& rows, Table& out);
 /// Where the outer wall reaches beyond all partners' sides while the inner one does not.
-void note_overhang(const Ground& g, Table& out);
+void note_overhang(const Ground& g, Table& out, const std::stop_token& stop);
 void note_root_opens(const TableSpec& spec, Table& out);
 /// On a bare grid events lie between nodes: by how much the straight line between them falls short.
 void note_events_between(const Ground& g, Table& out);

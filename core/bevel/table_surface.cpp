@@ -31,10 +31,10 @@ double lift_at(const Ground& g, const Rows& rows, std::size_t i, double slope) {
 
 }  // namespace
 
-void fill_surfaces(const Ground& g, const Rows& rows, Table& out) {
+void fill_surfaces(const Ground& g, const Rows& rows, Table& out, const std::stop_token& stop) {
   const auto& nodes = rows.samples.nodes;
   const double t = g.spec.target.wall, f = g.spec.root_face;
-  for (std::size_t i = 0; i < out.b.size(); ++i) {
+  for (std::size_t i = 0; i < out.b.size() && !stop.stop_requested(); ++i) {
     const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
     const bool outer = g.inner.has_value();
     const bool lifted = g.spec.contact == Contact::automatic;
@@ -67,12 +67,14 @@ void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop) {
   out.torch_line = beam_proof(beam_cut(spec, out), Places::everywhere, stop);
 }
 
-Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out) {
+Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out,
+                             const std::stop_token& stop) {
   if (g.spec.contact != Contact::outer) return {};
   constexpr double kEnters = 1e-9;  // of the radius
   std::vector<double> depth;
-  for (std::size_t i = 0; i < out.b.size(); ++i)
+  for (std::size_t i = 0; i < out.b.size() && !stop.stop_requested(); ++i)
     depth.push_back(lift_at(g, rows, i, elementary::tan(out.b[i])) - out.z_inner[i]);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   auto intervals =
       runs(rows.samples.nodes, [&](std::size_t i) { return depth[i] > kEnters * g.wall.outer; });
   if (intervals.empty()) return {};

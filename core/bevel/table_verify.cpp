@@ -181,8 +181,8 @@ Vector3d between_rows(const TableSpec& spec, const Table& t, std::size_t i, doub
 
 /// The deepest of a fixed set of places between the rows: half way, at every edge and once between
 /// them, and one place more anywhere in the gap, by the golden ratio.
-double sampled_depth(const TableSpec& spec, const Table& t,
-                     const std::vector<joint::Solid>& solids) {
+double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
+                     const std::stop_token& stop) {
   constexpr double kGolden = 0.6180339887498949;
   const double inner = spec.target.inner_radius(), wall = spec.target.wall;
   double deepest = 0.0, seed = 0.0;
@@ -194,7 +194,7 @@ double sampled_depth(const TableSpec& spec, const Table& t,
       deepest = depth > deepest || depth != depth ? depth : deepest;
     }
   };
-  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+  for (std::size_t i = 0; i < t.phi.size() && !stop.stop_requested(); ++i) {
     for (const double radius : {inner, inner + wall * next(), spec.target.outer_radius})
       see(i, 0.5, radius);
     if (!t.z_face.empty()) see(i, 0.5, inner + spec.root_face);
@@ -207,13 +207,13 @@ double sampled_depth(const TableSpec& spec, const Table& t,
 /// What the table states of its deepest place, held against that place and against others.
 void penetration_checks(const TableSpec& spec, const Table& t,
                         const std::vector<joint::Solid>& solids, double at_rows,
-                        std::vector<Check>& out) {
+                        std::vector<Check>& out, const std::stop_token& stop) {
   const auto& p = t.penetration;
   const auto turn = elementary::sincos(p.phi);
   const Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z);
   const double there = p.solid < solids.size() ? std::max(0.0, -solids[p.solid].distance(at))
                                                : std::numeric_limits<double>::infinity();
-  const double found = std::max(at_rows, sampled_depth(spec, t, solids));
+  const double found = std::max(at_rows, sampled_depth(spec, t, solids, stop));
   out.push_back(
       {"penetration_stated", std::max(std::abs(there - p.depth), found - p.depth), kStated, "mm"});
   if (promises_no_penetration(spec))
@@ -222,7 +222,7 @@ void penetration_checks(const TableSpec& spec, const Table& t,
 
 }  // namespace
 
-std::vector<Check> verify(const TableSpec& spec, const Table& t) {
+std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop_token& stop) {
   std::vector<joint::Solid> solids;
   if (const auto cutters = grown_partners(spec))
     for (const auto& cutter : *cutters) solids.emplace_back(cutter);
@@ -230,7 +230,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
   const bool lifted = spec.contact == Contact::automatic;
   const bool published = spec.dihedral == Dihedral::as_published;
   const bool square = std::holds_alternative<SquareCut>(spec.groove);
-  for (std::size_t i = 0; i < t.b.size(); ++i) {
+  for (std::size_t i = 0; i < t.b.size() && !stop.stop_requested(); ++i) {
     const auto r = row(spec, t, solids, i);
     const bool steep = std::abs(r.axial_normal) < kSilhouette;
     // Near a silhouette, at the limit of the torch, and with the paper's own gamma there is no such
@@ -262,8 +262,8 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t) {
   out.push_back({"torch_range", beyond, kAngle, "deg"});
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
   if (lifted) out.push_back({"touch", off, kPenetration, "mm"});
-  penetration_checks(spec, t, solids, deep, out);
-  for (auto& check : verify_torch_line(spec, t)) out.push_back(std::move(check));
+  penetration_checks(spec, t, solids, deep, out, stop);
+  for (auto& check : verify_torch_line(spec, t, stop)) out.push_back(std::move(check));
   return out;
 }
 

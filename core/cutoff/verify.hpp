@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -39,6 +40,7 @@ inline constexpr double kWallCut =
 ///
 /// Cost      about that of the answer.
 /// Source    docs/theory/feed-curves.md, sections 2 to 6.
-[[nodiscard]] std::vector<Check> verify(const FeedCurveSpec& spec, const FeedCurve& curve);
+[[nodiscard]] std::vector<Check> verify(const FeedCurveSpec& spec, const FeedCurve& curve,
+                                        const std::stop_token& stop = {});
 
 }  // namespace tubecut::cutoff

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "core/cutoff/arm_tip.hpp"
@@ -11,7 +12,7 @@ namespace tubecut::cutoff {
 void verify_command(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
                     std::vector<Check>& checks);
 void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
-                  std::vector<Check>& checks);
+                  const std::stop_token& stop, std::vector<Check>& checks);
 
 /// Scale of a feed at a place of the linkage: |x| + A/cos^2 psi.
 [[nodiscard]] inline double feed_scale(const Linkage& linkage, const TipFeed& here) {

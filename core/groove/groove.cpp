@@ -54,6 +54,7 @@ Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
   out.warnings = std::move(whole->warnings);
   if (spec.compare) out.compare = Comparison{fixed_height, {}, whole->fixed_volume};
   for (int i = 0; i < spec.sections; ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     const auto found = section(*joint, Angle::rad(kTwoPi * i / spec.sections));
     if (!found) return fail({.code = found.error(), .member = "branch/wall"});
     out.sections.push_back(report(*joint, *found));

@@ -61,6 +61,7 @@ struct Groove {
 /// Proves an answer by other formulas than those that made it.
 ///
 /// Cost    about 3 ms.
-[[nodiscard]] std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove);
+[[nodiscard]] std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,
+                                        const std::stop_token& stop = {});
 
 }  // namespace tubecut::groove

@@ -270,11 +270,12 @@ Extremes extremes_of_round(const GrooveSpec& spec, const Joint& joint) {
 
 }  // namespace
 
-std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove) {
+std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,
+                          const std::stop_token& stop) {
   const auto joint = joint_of(spec);
   if (!joint) return {{"joint", 1.0, 0.0, ""}};
   SectionDeviations worst;
-  for (std::size_t i = 0; i < groove.sections.size(); ++i)
+  for (std::size_t i = 0; i < groove.sections.size() && !stop.stop_requested(); ++i)
     add_section(spec, groove, *joint, i, worst);
   const RoundDeviations round = round_figures(spec, groove, *joint);
   const GrooveLimits limit = groove_limits(*joint);

@@ -82,6 +82,7 @@ inline constexpr double kRootFaceReject = -0.5;  // mm; below it the path is not
 /// cone's apex angle.
 ///
 /// Cost    about 0.1 ms per position.
-[[nodiscard]] std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path);
+[[nodiscard]] std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path,
+                                        const std::stop_token& stop = {});
 
 }  // namespace tubecut::groove

@@ -27,12 +27,13 @@ struct Worst {
 
 class Verifier {
  public:
-  Verifier(const MillPathSpec& spec, const MillPath& path, const Joint& joint)
-      : spec_(spec), path_(path), joint_(joint), machine_(spec) {}
+  Verifier(const MillPathSpec& spec, const MillPath& path, const Joint& joint,
+           const std::stop_token& stop)
+      : spec_(spec), path_(path), joint_(joint), stop_(stop), machine_(spec) {}
 
   std::vector<Check> run() {
     const std::size_t n = path_.positions.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n && !stop_.stop_requested(); ++i) {
       const MillPosition& p = path_.positions[i];
       start_on_ruling(p);
       contacts(p, machine_.before(p), p.before);
@@ -274,7 +275,7 @@ class Verifier {
         root.value));
     constexpr int kRulings = 24;
     const int last = spec_.check.points - 1;
-    for (int k = 0; k < 3 * kRulings; ++k) {
+    for (int k = 0; k < 3 * kRulings && !stop_.stop_requested(); ++k) {
       const double omega = kTwoPi * (k / 3) / kRulings;
       const double v =
           double(k % 3 * last / 2) / last;  // first, a middle and the last of the points looked at
@@ -304,6 +305,7 @@ class Verifier {
   const MillPathSpec& spec_;
   const MillPath& path_;
   const Joint& joint_;
+  const std::stop_token& stop_;
   Machine machine_;
   std::vector<Block> blocks_;
   std::vector<Tool> tools_;  // at the blocks, seen from the workpiece
@@ -312,10 +314,11 @@ class Verifier {
 
 }  // namespace
 
-std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path) {
+std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path,
+                          const std::stop_token& stop) {
   const auto joint = joint_of(spec.groove);
   if (!joint || path.positions.empty()) return {{"joint", 1.0, 0.0, ""}};
-  return Verifier{spec, path, *joint}.run();
+  return Verifier{spec, path, *joint, stop}.run();
 }
 
 }  // namespace tubecut::groove

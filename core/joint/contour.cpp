@@ -27,7 +27,7 @@ Result<std::vector<Prepared>> prepare_all(std::span<const Cutter> cutters) {
 
 }  // namespace
 
-Result<Contour> trace(std::span<const Cutter> cutters, double rho) {
+Result<Contour> trace(std::span<const Cutter> cutters, double rho, const std::stop_token& stop) {
   if (cutters.empty()) return fail({.code = ErrorCode::wrong_count, .member = "cutters"});
   auto prepared = prepare_all(cutters);
   if (!prepared) return tl::unexpected<Error>(prepared.error());
@@ -45,7 +45,8 @@ Result<Contour> trace(std::span<const Cutter> cutters, double rho) {
                  .limit = 1.0,
                  .hint = "none of " + std::to_string(cutters.size()) +
                          " partners is met on the surface of radius " + brief(rho) + " mm"});
-  auto division = divide(out.cutters, rho);
+  auto division = divide(out.cutters, rho, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (!division.open.empty())
     return fail(
         {.code = ErrorCode::open_profile,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -25,7 +26,8 @@ struct Contour {
 ///           no_contact, open_profile (cutters; got = phi intervals in deg, one that crosses 0 ends
 ///           above 360); unsupported_combination (an elbow that hides a part of itself; got = phi).
 /// Source    docs/theory/intersections-and-bevels.md, sections 1.2 and 3.
-[[nodiscard]] Result<Contour> trace(std::span<const Cutter> cutters, double rho);
+[[nodiscard]] Result<Contour> trace(std::span<const Cutter> cutters, double rho,
+                                    const std::stop_token& stop = {});
 
 /// The segment that holds phi (rad, [0, 2 pi)); at an event the one that begins there.
 [[nodiscard]] const Segment& segment_at(const Contour& contour, double phi);

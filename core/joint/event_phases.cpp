@@ -67,18 +67,21 @@ double phase_distance(double a, double b) {
   return std::min(d, kTwoPi - d);
 }
 
-EventPhases::EventPhases(std::span<const Prepared> cutters, double rho)
-    : cutters_(cutters), rho_(rho) {
-  for (const auto& cutter : cutters) sheets_.push_back(sheets(cutter, rho));
-  for (std::size_t i = 0; i < cutters.size(); ++i)
+EventPhases::EventPhases(std::span<const Prepared> cutters, double rho, const std::stop_token& stop)
+    : cutters_(cutters), rho_(rho), stop_(stop) {
+  for (const auto& cutter : cutters)
+    sheets_.push_back(stop.stop_requested() ? std::vector<Sheets>{} : sheets(cutter, rho));
+  for (std::size_t i = 0; i < cutters.size() && !stop.stop_requested(); ++i)
     if (!misses(cutters[i], rho) && !repeats_an_earlier(i)) active_.push_back(i);
   sizes_.resize(cutters.size());
   for (const auto i : active_) {
+    if (stop.stop_requested()) return;
     sizes_[i] = size(cutters[i], sheets_[i], rho);
     add_own(i);
   }
   for (std::size_t a = 0; a < active_.size(); ++a)
-    for (std::size_t b = a + 1; b < active_.size(); ++b) add_pair(active_[a], active_[b]);
+    for (std::size_t b = a + 1; b < active_.size() && !stop_.stop_requested(); ++b)
+      add_pair(active_[a], active_[b]);
   add_scanned();
   merge();
 }
@@ -156,6 +159,7 @@ void EventPhases::add_scanned() {
 
 /// Cells `from` to `to`: parts of them where many cutters may be on top.
 void EventPhases::add_cells(std::size_t from, std::size_t to, std::vector<std::size_t> cutters) {
+  if (stop_.stop_requested()) return;
   cutters = on_top(from, to, cutters);
   if (cutters.size() < 2) return;
   const std::size_t part = (to - from) / kParts;
@@ -210,7 +214,7 @@ std::vector<std::size_t> EventPhases::unlike(std::size_t k,
 void EventPhases::add_cell(std::size_t k, const std::vector<std::size_t>& cutters) {
   const auto some = unlike(k, cutters);
   for (std::size_t a = 0; a < some.size(); ++a)
-    for (std::size_t b = a + 1; b < some.size(); ++b)
+    for (std::size_t b = a + 1; b < some.size() && !stop_.stop_requested(); ++b)
       if (sheets_[some[a]].empty() || sheets_[some[b]].empty()) add_in_cell(some[a], some[b], k);
 }
 

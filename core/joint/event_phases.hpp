@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/joint/cutter.hpp"
@@ -29,7 +30,8 @@ class EventPhases {
     std::size_t cutter;
   };
 
-  EventPhases(std::span<const Prepared> cutters, double rho);
+  /// Stopped, some are missed.
+  EventPhases(std::span<const Prepared> cutters, double rho, const std::stop_token& stop);
 
   /// Hit somewhere, and no other description of an earlier one.
   [[nodiscard]] const std::vector<std::size_t>& active() const { return active_; }
@@ -66,6 +68,7 @@ class EventPhases {
 
   std::span<const Prepared> cutters_;
   double rho_;
+  const std::stop_token& stop_;
   std::vector<std::vector<Sheets>> sheets_;  // of each cutter, its pieces
   std::vector<std::size_t> active_;
   std::vector<double> sizes_;                         // of the active ones

@@ -15,11 +15,16 @@ constexpr double kBeside = 1e-9;      // rad
 
 class Divider {
  public:
-  Divider(std::span<const Prepared> cutters, double rho)
-      : cutters_(cutters), rho_(rho), found_(cutters, rho), phases_(found_.phases()) {}
+  Divider(std::span<const Prepared> cutters, double rho, const std::stop_token& stop)
+      : cutters_(cutters),
+        rho_(rho),
+        stop_(stop),
+        found_(cutters, rho, stop),
+        phases_(found_.phases()) {}
 
   Division divide() {
     label();
+    if (stop_.stop_requested()) return {};
     auto out = assemble();
     out.hidden = hidden();
     return out;
@@ -30,6 +35,7 @@ class Divider {
 
   std::optional<Division::Hidden> hidden() {
     for (const auto i : found_.active()) {
+      if (stop_.stop_requested()) break;
       if (!std::holds_alternative<PreparedElbow>(cutters_[i])) continue;
       if (std::ranges::find(labels_, Label(i)) == labels_.end()) continue;  // nowhere on top
       const auto phi = found_.hidden_at(i);
@@ -55,7 +61,7 @@ class Divider {
   /// labels_[k] holds between phase k and the next one around the circle.
   void label() {
     if (phases_.empty()) labels_.push_back(label_at(0.5));
-    for (std::size_t k = 0; k < phases_.size(); ++k) {
+    for (std::size_t k = 0; k < phases_.size() && !stop_.stop_requested(); ++k) {
       const double next = k + 1 < phases_.size() ? phases_[k + 1] : phases_[0] + kTwoPi;
       labels_.push_back(label_at(0.5 * (phases_[k] + next)));
     }
@@ -118,6 +124,7 @@ class Divider {
 
   std::span<const Prepared> cutters_;
   double rho_;
+  const std::stop_token& stop_;
   detail::EventPhases found_;
   const std::vector<double>& phases_;
   std::vector<Label> labels_;  // labels_[k] holds between phase k and the next one
@@ -134,8 +141,8 @@ std::optional<Contact> highest(std::span<const Prepared> cutters, const Generato
   return best;
 }
 
-Division divide(std::span<const Prepared> cutters, double rho) {
-  return Divider(cutters, rho).divide();
+Division divide(std::span<const Prepared> cutters, double rho, const std::stop_token& stop) {
+  return Divider(cutters, rho, stop).divide();
 }
 
 }  // namespace tubecut::joint

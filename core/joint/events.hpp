@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -69,6 +70,8 @@ struct Division {
 ///           curve is vertical there).
 /// Cost      quadratic in the number of cutters, about 20 us a pair.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
-[[nodiscard]] Division divide(std::span<const Prepared> cutters, double rho);
+/// Stopped, it tells nothing.
+[[nodiscard]] Division divide(std::span<const Prepared> cutters, double rho,
+                              const std::stop_token& stop = {});
 
 }  // namespace tubecut::joint

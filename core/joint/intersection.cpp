@@ -155,7 +155,7 @@ Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_tok
   for (const bool outer : {false, true}) {
     if (spec.surfaces == (outer ? Surfaces::inner : Surfaces::outer)) continue;
     const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
-    const auto contour = trace(*cutters, rho);
+    const auto contour = trace(*cutters, rho, stop);
     if (!contour) return tl::unexpected(contour.error());
     auto curve = profile(*contour, spec.sampling, outer, stop);
     if (!curve) return tl::unexpected(curve.error());
@@ -166,14 +166,16 @@ Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_tok
   return out;
 }
 
-std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer) {
+std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer,
+                          const std::stop_token& stop) {
   const auto cutters = resolve(spec.partners);
   std::vector<Solid> solids;
   if (cutters)
     for (const auto& cutter : *cutters) solids.emplace_back(cutter);
   Proof proof;
   for (const auto& p : answer.profiles) {
-    for (std::size_t i = 0; i < p.phi.size(); ++i) proof.node(solids, p, i);
+    for (std::size_t i = 0; i < p.phi.size() && !stop.stop_requested(); ++i)
+      proof.node(solids, p, i);
     for (const auto& e : p.events) proof.event(solids, p.radius, e);
   }
   std::vector<Check> out;

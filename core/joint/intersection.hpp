@@ -60,7 +60,8 @@ struct Intersection {
 
 /// The answer proved in 3D: distances by cross product, heights by the quadratic of line and
 /// cylinder.
-[[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer);
+[[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer,
+                                        const std::stop_token& stop = {});
 
 /// Notes on partners that are never met or nearly parallel.
 [[nodiscard]] std::vector<Warning> partner_warnings(const Contour& contour);

@@ -124,12 +124,13 @@ double arc_length(const Contour& contour, const Segment& segment, double from, d
   return integrate(stretched, 0.0, 0.5 * kPi, negligible, kHalvings);
 }
 
-std::vector<double> lengths_along(const Contour& contour, std::span<const double> phases) {
+std::vector<double> lengths_along(const Contour& contour, std::span<const double> phases,
+                                  const std::stop_token& stop) {
   Walk walk(contour);
   std::vector<double> out;
   out.reserve(phases.size() + 1);
-  for (const double phi : phases) out.push_back(walk.advance(phi));
-  out.push_back(walk.advance(kTwoPi));
+  for (const double phi : phases) out.push_back(stop.stop_requested() ? 0.0 : walk.advance(phi));
+  out.push_back(stop.stop_requested() ? 0.0 : walk.advance(kTwoPi));
   return out;
 }
 

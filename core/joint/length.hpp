@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/joint/contour.hpp"
@@ -17,10 +18,11 @@ namespace tubecut::joint {
 /// height difference counts after the first of two equal phases. One more entry than phases: the
 /// last is the length of the whole closed curve.
 /// Accuracy  as arc_length; the total does not depend on the phases beyond that.
-/// Cost      8 integrand values per smooth gap.
+/// Cost      8 integrand values per smooth gap. Stopped, the rest are 0.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
 [[nodiscard]] std::vector<double> lengths_along(const Contour& contour,
-                                                std::span<const double> phases);
+                                                std::span<const double> phases,
+                                                const std::stop_token& stop = {});
 
 /// True length of the whole contour, mm; its developed length is 2 pi radius.
 [[nodiscard]] double true_length(const Contour& contour);

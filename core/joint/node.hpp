@@ -139,6 +139,7 @@ struct EndJoint {
 
 /// The answer held against the centre-lines in the world: axes by cross products, angles by half
 /// tangents, who cuts whom by the rules alone.
-[[nodiscard]] std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes);
+[[nodiscard]] std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes,
+                                        const std::stop_token& stop = {});
 
 }  // namespace tubecut::joint

@@ -136,9 +136,10 @@ double wrong_cuts(const NodeSpec& spec, const Nodes& nodes) {
 
 }  // namespace
 
-std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes) {
+std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes, const std::stop_token& stop) {
   Worst worst;
   for (const auto& end : nodes.ends) {
+    if (stop.stop_requested()) return {};
     worst.frame = std::max(worst.frame, frame_error(spec, end));
     for (const auto& cut : end.cut_by) see(spec, end, cut, worst);
   }

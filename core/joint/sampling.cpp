@@ -22,8 +22,9 @@ struct Point {
 /// Refines one segment, or a part of it between phases that must be nodes.
 class Refiner {
  public:
-  Refiner(const Contour& contour, const Tolerance& tolerance, std::size_t max_nodes)
-      : contour_(contour), tolerance_(tolerance), max_nodes_(max_nodes) {}
+  Refiner(const Contour& contour, const Tolerance& tolerance, std::size_t max_nodes,
+          const std::stop_token& stop)
+      : contour_(contour), tolerance_(tolerance), max_nodes_(max_nodes), stop_(stop) {}
 
   /// Appends the points strictly between `from` and `to`.
   void refine(std::size_t cutter, Point from, Point to) {
@@ -39,7 +40,7 @@ class Refiner {
     }
   }
 
-  [[nodiscard]] bool full() const { return points.size() > max_nodes_; }
+  [[nodiscard]] bool ends() const { return points.size() > max_nodes_ || stop_.stop_requested(); }
   [[nodiscard]] Point at(std::size_t cutter, double phi) const {
     return {phi, continued_sheet(contour_.cutters[cutter], generator_at(contour_.radius, phi))};
   }
@@ -67,7 +68,7 @@ class Refiner {
   }
 
   void halve(const Point& a, const Point& b, int halvings) {
-    if (halvings == 0 || full() || straight(a, b)) return;
+    if (halvings == 0 || ends() || straight(a, b)) return;
     const Point mid = at(0.5 * (a.phi + b.phi));
     halve(a, mid, halvings - 1);
     points.push_back(mid);
@@ -77,6 +78,7 @@ class Refiner {
   const Contour& contour_;
   const Tolerance& tolerance_;
   std::size_t max_nodes_;
+  const std::stop_token& stop_;
   std::size_t cutter_ = 0;
 };
 
@@ -154,7 +156,7 @@ Result<std::vector<Node>> adaptive_nodes(const Contour& contour, const Sampling&
                                          std::span<const double> also,
                                          const std::stop_token& stop) {
   std::vector<Node> nodes;
-  Refiner refiner(contour, *sampling.tolerance, sampling.max_nodes);
+  Refiner refiner(contour, *sampling.tolerance, sampling.max_nodes, stop);
   for (std::size_t k = 0; k < contour.segments.size(); ++k) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!contour.events.empty()) append_event(nodes, contour.events[k]);
@@ -181,10 +183,11 @@ void mark_event(const Contour& contour, Node& node) {
   }
 }
 
-std::vector<Node> uniform_nodes(const Contour& contour, std::size_t n) {
+std::vector<Node> uniform_nodes(const Contour& contour, std::size_t n,
+                                const std::stop_token& stop) {
   std::vector<Node> nodes;
   nodes.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
     const double phi = uniform_phase(i, n);
     const auto contact = contact_at(contour, phi);
     nodes.push_back(smooth_node(phi, contact.z, contact.cutter));
@@ -194,7 +197,8 @@ std::vector<Node> uniform_nodes(const Contour& contour, std::size_t n) {
 }
 
 /// Adds the uniform points that are not already nodes, the circle's seam included.
-std::vector<Node> with_uniform(const Contour& contour, std::vector<Node> nodes, std::size_t n) {
+std::vector<Node> with_uniform(const Contour& contour, std::vector<Node> nodes, std::size_t n,
+                               const std::stop_token& stop) {
   const double apart = kSameNode / contour.radius;
   const auto taken = [&](double phi) {
     const auto near = std::ranges::lower_bound(nodes, phi - apart, {}, &Node::phi);
@@ -202,20 +206,22 @@ std::vector<Node> with_uniform(const Contour& contour, std::vector<Node> nodes, 
     return nodes.front().phi + kTwoPi <= phi + apart || nodes.back().phi - kTwoPi >= phi - apart;
   };
   std::vector<Node> added;
-  for (auto& node : uniform_nodes(contour, n))
+  for (auto& node : uniform_nodes(contour, n, stop))
     if (!taken(node.phi)) added.push_back(node);
   nodes.insert(nodes.end(), added.begin(), added.end());
   std::ranges::stable_sort(nodes, {}, &Node::phi);
   return nodes;
 }
 
-Samples measured(const Contour& contour, std::vector<Node> nodes) {
+Result<Samples> measured(const Contour& contour, std::vector<Node> nodes,
+                         const std::stop_token& stop) {
   std::vector<double> phases;
   phases.reserve(nodes.size());
   for (const auto& node : nodes) phases.push_back(node.phi);
-  const auto lengths = lengths_along(contour, phases);
+  const auto lengths = lengths_along(contour, phases, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].length = lengths[k];
-  return {std::move(nodes), lengths.back(), kTwoPi * contour.radius};
+  return Samples{std::move(nodes), lengths.back(), kTwoPi * contour.radius};
 }
 
 }  // namespace
@@ -227,12 +233,13 @@ Result<Samples> sample(const Contour& contour, const Sampling& sampling,
     return fail({.code = ErrorCode::out_of_range, .member = "sampling"});
   if (sampling.uniform_points > sampling.max_nodes)
     return too_many(sampling.uniform_points, sampling.max_nodes);
-  if (!tolerance) return measured(contour, uniform_nodes(contour, sampling.uniform_points));
+  if (!tolerance)
+    return measured(contour, uniform_nodes(contour, sampling.uniform_points, stop), stop);
   auto nodes = adaptive_nodes(contour, sampling, also, stop);
   if (!nodes) return tl::unexpected<Error>(nodes.error());
-  auto all = with_uniform(contour, *std::move(nodes), sampling.uniform_points);
+  auto all = with_uniform(contour, *std::move(nodes), sampling.uniform_points, stop);
   if (all.size() > sampling.max_nodes) return too_many(all.size(), sampling.max_nodes);
-  return measured(contour, std::move(all));
+  return measured(contour, std::move(all), stop);
 }
 
 BothSides hits_at(const Contour& contour, const Node& node) {

@@ -36,11 +36,11 @@ Segment segment(const Prepared& job, const std::vector<double>& s, std::size_t i
 
 }  // namespace
 
-Comparison comparison(const Prepared& job) {
+Comparison comparison(const Prepared& job, const std::stop_token& stop) {
   const std::vector<double> s = job.program.lengths();
   Comparison out;
   double share = 1.0;  // of the asked speed that the whole cut can keep
-  for (std::size_t i = 0; i + 1 < job.program.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < job.program.size() && !stop.stop_requested(); ++i) {
     const Segment seg = segment(job, s, i);
     const double asked = seg.length / seg.speed;
     const bool slow = seg.axis_time > asked;

@@ -8,14 +8,20 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr double kStrict = 1e-6;       // an integer must stay below its limit, not on it
-constexpr double kTravelSlack = 0.51;  // pulses: half of one, and rounding
+constexpr std::ptrdiff_t kAskEvery = 1024;  // periods
+constexpr double kStrict = 1e-6;            // an integer must stay below its limit, not on it
+constexpr double kTravelSlack = 0.51;       // pulses: half of one, and rounding
 
 struct AxisCounts {
   const Axis& axis;
   std::span<const std::int32_t> counts;
   double period;
+  const std::stop_token& stop;
 
+  /// Whether to go on with period `k`.
+  [[nodiscard]] bool goes_on(std::ptrdiff_t k) const {
+    return k % kAskEvery != 0 || !stop.stop_requested();
+  }
   [[nodiscard]] double pulses() const { return axis.pulses_per_axis_unit(); }
   /// Count of period `k`, at rest before and behind.
   [[nodiscard]] double at(std::ptrdiff_t k) const {
@@ -52,19 +58,20 @@ void see_rates(const AxisCounts& a, Worst& overflow, Worst& speed, Worst& accele
   const double v = a.axis.v_max * a.period * a.pulses() + 1.0 - kStrict;
   const double second = a.axis.a_max * a.period * a.period * a.pulses() + 2.0 - kStrict;
   const auto n = static_cast<std::ptrdiff_t>(a.counts.size());
-  for (std::ptrdiff_t k = 0; k < n; ++k) {
+  for (std::ptrdiff_t k = 0; k < n && a.goes_on(k); ++k) {
     const double count = std::abs(a.at(k));
     if (a.axis.n_max) overflow.see(count, static_cast<double>(*a.axis.n_max));
     speed.see(count, v);
   }
-  for (std::ptrdiff_t k = -1; k < n; ++k) acceleration.see(std::abs(a.at(k + 1) - a.at(k)), second);
+  for (std::ptrdiff_t k = -1; k < n && a.goes_on(k); ++k)
+    acceleration.see(std::abs(a.at(k + 1) - a.at(k)), second);
 }
 
 void see_jerk(const AxisCounts& a, Worst& worst) {
   if (!a.axis.j_max) return;
   const double limit = *a.axis.j_max * a.period * a.period * a.period * a.pulses() + 4.0 - kStrict;
   const auto n = static_cast<std::ptrdiff_t>(a.counts.size());
-  for (std::ptrdiff_t k = -2; k < n; ++k) {
+  for (std::ptrdiff_t k = -2; k < n && a.goes_on(k); ++k) {
     worst.see(std::abs(a.at(k + 2) - 2.0 * a.at(k + 1) + a.at(k)), limit);
   }
 }
@@ -73,6 +80,7 @@ void see_jerk(const AxisCounts& a, Worst& worst) {
 void see_travel(const AxisCounts& a, double start, Worst& worst) {
   std::int64_t sum = 0;
   for (std::size_t k = 0; k <= a.counts.size(); ++k) {
+    if (!a.goes_on(static_cast<std::ptrdiff_t>(k))) return;
     const double q = start + static_cast<double>(sum) / a.pulses();
     if (a.axis.soft_min) worst.see((*a.axis.soft_min - q) * a.pulses(), kTravelSlack);
     if (a.axis.soft_max) worst.see((q - *a.axis.soft_max) * a.pulses(), kTravelSlack);
@@ -119,11 +127,12 @@ void Worst::see(double value, double limit) {
   any_ = true;
 }
 
-std::vector<Check> count_invariants(const Prepared& job, const Counted& counted, bool jerk) {
+std::vector<Check> count_invariants(const Prepared& job, const Counted& counted, bool jerk,
+                                    const std::stop_token& stop) {
   Worst sum, closed, overflow, speed, acceleration, third, travel, reversal, begin;
-  for (std::size_t i = 0; i < counted.counts.size(); ++i) {
+  for (std::size_t i = 0; i < counted.counts.size() && !stop.stop_requested(); ++i) {
     const AxisFunction& f = job.course.axes[i];
-    const AxisCounts a{job.course.machine.axes[i], counted.counts[i], counted.period};
+    const AxisCounts a{job.course.machine.axes[i], counted.counts[i], counted.period, stop};
     see_sum(job, a, f, sum);
     if (job.program.closed) see_closure(job, a, f, closed);
     see_rates(a, overflow, speed, acceleration);

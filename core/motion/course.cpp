@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -21,7 +22,7 @@ Issue soft_limit(const Axis& axis, std::size_t index, bool upper, double value, 
 
 /// Travel at every knot of the path against the soft limits: the farthest place outside each of
 /// them.
-Result<void> check_travel(const Course& course, bool contour) {
+Result<void> check_travel(const Course& course, bool contour, const std::stop_token& stop) {
   std::vector<Issue> issues;
   for (std::size_t a = 0; a < course.axes.size(); ++a) {
     const Axis& axis = course.machine.axes[a];
@@ -29,7 +30,7 @@ Result<void> check_travel(const Course& course, bool contour) {
       const auto& bound = upper ? axis.soft_max : axis.soft_min;
       if (!bound) continue;
       double worst = 0.0, value = 0.0, at = 0.0;
-      for (std::size_t j = 0; j <= course.path.intervals(); ++j) {
+      for (std::size_t j = 0; j <= course.path.intervals() && !stops(stop, j); ++j) {
         const std::size_t i = j == course.path.intervals() ? j - 1 : j;
         const Coordinates x = course.path.at(i, j == i ? 0.0 : course.path.d);
         const double q = course.axes[a].at(x);
@@ -48,9 +49,9 @@ Result<void> check_travel(const Course& course, bool contour) {
 
 /// Length over speed, segment by segment with the fastest speed of each: a floor for any schedule
 /// of the polyline.
-void measure(Prepared& job) {
+void measure(Prepared& job, const std::stop_token& stop) {
   const std::vector<double> s = job.program.lengths();
-  for (std::size_t i = 1; i < job.program.size(); ++i) {
+  for (std::size_t i = 1; i < job.program.size() && !stops(stop, i); ++i) {
     const double step = tip_length(job.course.tip, job.program, i - 1, i);
     job.length += step;
     job.ideal += step / job.course.speed.greatest(s[i - 1], s[i]);
@@ -97,7 +98,7 @@ Result<Prepared> prepared(const ScheduleSpec& spec, std::stop_token stop) {
   if (auto ok = check(spec.machine); !ok) return passed_on(ok);
   auto axes = axis_functions(spec);
   if (!axes) return passed_on(axes);
-  auto polyline = program(spec);
+  auto polyline = program(spec, stop);
   if (!polyline) return passed_on(polyline);
   const auto growth = standoff_growth(spec, *polyline);
   if (!growth) return passed_on(growth);
@@ -106,16 +107,18 @@ Result<Prepared> prepared(const ScheduleSpec& spec, std::stop_token stop) {
   Prepared job{std::move(*polyline),
                {{}, std::move(*axes), speed_functions(spec), std::move(*speed), {}, spec.machine},
                *growth};
-  measure(job);
+  measure(job, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (auto ok = check_periods(job, spec.max_periods); !ok) return passed_on(ok);
   auto path = smooth_path(job.program, spec.motion.eps_tip, spec.motion.eps_b, stop);
   if (!path) return passed_on(path);
   Course& course = job.course;
   course.path = std::move(*path);
-  if (auto ok = check_travel(course, std::holds_alternative<Contour>(spec.cut)); !ok) {
+  if (auto ok = check_travel(course, std::holds_alternative<Contour>(spec.cut), stop); !ok) {
     return passed_on(ok);
   }
-  course.limits = limits(course.path, course.axes, course.tip, course.speed, course.machine);
+  course.limits = limits(course.path, course.axes, course.tip, course.speed, course.machine, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return job;
 }
 

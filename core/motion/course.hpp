@@ -31,7 +31,7 @@ struct Prepared {
 /// The comparison with slowing the whole cut and with slowing its segments.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 10.2.
-[[nodiscard]] Comparison comparison(const Prepared& job);
+[[nodiscard]] Comparison comparison(const Prepared& job, const std::stop_token& stop = {});
 
 /// What running every segment of the polyline at the asked speed would ask of one axis.
 struct Naive {

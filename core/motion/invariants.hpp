@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/motion/course.hpp"
@@ -35,7 +36,7 @@ class Worst {
 /// I2 to I9 and I16: sums, closure, limits per period, travel, reversals, the start. `jerk`: the
 /// schedule claims a jerk limit.
 [[nodiscard]] std::vector<Check> count_invariants(const Prepared& job, const Counted& counted,
-                                                  bool jerk);
+                                                  bool jerk, const std::stop_token& stop);
 
 struct Followed {
   std::vector<Check> checks = {};
@@ -44,6 +45,7 @@ struct Followed {
 
 /// I10 to I15 and, where a part border is given, `lead_clears_part`.
 [[nodiscard]] Followed path_invariants(const ScheduleSpec& spec, const Prepared& job,
-                                       const Counted& counted, bool with_lead);
+                                       const Counted& counted, bool with_lead,
+                                       const std::stop_token& stop);
 
 }  // namespace tubecut::motion

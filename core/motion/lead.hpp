@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "core/motion/contour.hpp"
@@ -45,6 +46,7 @@ struct SmoothTrack {
 /// How far, in mm, the beam at a point reaches into the finished part, over both wall surfaces and
 /// their middle. Negative: how far it stays away. Zero on the cut itself. Half the kerf is in the
 /// torch line already.
-[[nodiscard]] double intrusion(const PartBorder& part, const ContourPoint& point);
+[[nodiscard]] double intrusion(const PartBorder& part, const ContourPoint& point,
+                               const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

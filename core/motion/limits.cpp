@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.hpp"
+
 namespace tubecut::motion {
 namespace {
 
@@ -99,8 +101,8 @@ TipRate tip_rate(const std::vector<AxisFunction>& tip, const Jet& start, const J
 }  // namespace
 
 Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
-              const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
-              const Machine& machine) {
+              const std::vector<AxisFunction>& tip, const SpeedAlong& speed, const Machine& machine,
+              const std::stop_token& stop) {
   const std::size_t n = path.intervals();
   Limits out;
   out.d = path.d;
@@ -119,6 +121,7 @@ Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
               {knots, knots, intervals, axes[a].is_linear()}};
   }
   for (std::size_t i = 0; i < n; ++i) {
+    if (stop.stop_requested()) return out;
     const Jet start = path.jet(i, 0.0), middle = path.jet(i, 0.5 * path.d);
     const Jet end = path.jet(i, path.d);
     for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -144,10 +147,11 @@ Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
   return out;
 }
 
-std::vector<double> largest_profile(std::vector<double> x, double d, const Rows& rows) {
+std::vector<double> largest_profile(std::vector<double> x, double d, const Rows& rows,
+                                    const std::stop_token& stop) {
   const std::size_t n = x.size() - 1;
   std::vector<double> slope(rows.rows.size()), shift(rows.rows.size());
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n && !stops(stop, i); ++i) {
     for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
       const Row& row = rows.rows[r];
       const double below = row.alpha + 2.0 * d * row.beta;
@@ -165,16 +169,18 @@ std::vector<double> largest_profile(std::vector<double> x, double d, const Rows&
     }
     return most;
   };
-  for (std::size_t i = 0; i < n; ++i) x[i + 1] = std::min(x[i + 1], reach(i, x[i]));
-  for (std::size_t i = n; i-- > 0;) x[i] = std::min(x[i], reach(i, x[i + 1]));
+  for (std::size_t i = 0; i < n && !stops(stop, i); ++i)
+    x[i + 1] = std::min(x[i + 1], reach(i, x[i]));
+  for (std::size_t i = n; i-- > 0 && !stops(stop, i);) x[i] = std::min(x[i], reach(i, x[i + 1]));
   return x;
 }
 
-Conditions without_jerk(const Limits& limits) {
+Conditions without_jerk(const Limits& limits, const std::stop_token& stop) {
   const std::size_t n = limits.intervals();
   Conditions out;
   out.caps.assign(n + 1, kNoLimit);
   for (std::size_t i = 0; i < n; ++i) {
+    if (stops(stop, i)) return out;
     double fastest = limits.slowness[i] > 0.0 ? 1.0 / limits.slowness[i] : 1e150;
     for (const AxisBounds& axis : limits.axes) {
       if (axis.first[i] > 0.0) fastest = std::min(fastest, axis.v_max / axis.first[i]);

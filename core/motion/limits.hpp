@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <stop_token>
 #include <vector>
 
 #include "core/motion/kinematics.hpp"
@@ -71,7 +72,7 @@ struct Limits {
 /// Source  docs/theory/pulse-schedules.md, sections 5.1 and 5.2.
 [[nodiscard]] Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
                             const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
-                            const Machine& machine);
+                            const Machine& machine, const std::stop_token& stop = {});
 
 /// One condition alpha |u_ddot| + beta x <= c on an interval, x = u_dot^2.
 struct Row {
@@ -95,26 +96,28 @@ struct Rows {
 /// Cost    one multiply-add per row and pass.
 /// Source  docs/theory/pulse-schedules.md, section 6.1 (with the proof).
 [[nodiscard]] std::vector<double> largest_profile(std::vector<double> caps, double d,
-                                                  const Rows& rows);
+                                                  const Rows& rows,
+                                                  const std::stop_token& stop = {});
 
 /// Caps at the knots and rows of acceleration, without jerk; zero at both ends.
 struct Conditions {
   std::vector<double> caps = {};
   Rows rows = {};
 };
-[[nodiscard]] Conditions without_jerk(const Limits& limits);
+[[nodiscard]] Conditions without_jerk(const Limits& limits, const std::stop_token& stop = {});
 
 /// Caps of x at the knots by the speeds of axes and tip, on whole intervals; zero at both ends.
 ///
 /// Accuracy  as `limits`.
-[[nodiscard]] std::vector<double> speed_caps(const Limits& limits);
+[[nodiscard]] std::vector<double> speed_caps(const Limits& limits,
+                                             const std::stop_token& stop = {});
 
 /// |q' u_ddot + q'' x| <= a_max of every axis on whole intervals, signs kept. With u_ddot constant
 /// it is a quadratic along the interval, so that its three Bezier values bound it.
 ///
 /// Accuracy  exact for axes linear in the coordinates; else with 0.1 % margin.
 /// Source    docs/theory/pulse-schedules.md, section 6.2.
-[[nodiscard]] HalfPlanes acceleration_rows(const Limits& limits);
+[[nodiscard]] HalfPlanes acceleration_rows(const Limits& limits, const std::stop_token& stop = {});
 
 /// Time over a profile: sum of 2 d / (sqrt i_ + sqrt x_(i+1)), s.
 [[nodiscard]] double duration(const std::vector<double>& x, double d);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/motion/lead.hpp"
 
 namespace tubecut::motion {
@@ -34,12 +35,13 @@ bool crosses_above(Flat p, Flat a, Flat b) {
 }
 
 /// Signed distance to the border on one surface: positive inside the kept part.
-double depth(const PartBorder& part, const ContourPoint& point, double rho) {
+double depth(const PartBorder& part, const ContourPoint& point, double rho,
+             const std::stop_token& stop) {
   const Flat p = on_surface(part, point, rho);
   double nearest = 1e300;
   bool odd = false;
   Flat a = on_surface(part, part.cut.points.front(), rho);
-  for (std::size_t i = 1; i < part.cut.points.size(); ++i) {
+  for (std::size_t i = 1; i < part.cut.points.size() && !stops(stop, i); ++i) {
     const Flat b = on_surface(part, part.cut.points[i], rho);
     nearest = std::min(nearest, distance(p, a, b));
     odd = odd != crosses_above(p, a, b);
@@ -58,14 +60,15 @@ ContourPoint wrapped(const Track& cut, ContourPoint p) {
 }
 
 /// One turn of a ring seen from a point near its seam needs the neighbouring turn for the distance.
-double depth_on_ring(const PartBorder& part, const ContourPoint& p, double rho) {
-  const double here = depth(part, p, rho);
+double depth_on_ring(const PartBorder& part, const ContourPoint& p, double rho,
+                     const std::stop_token& stop) {
+  const double here = depth(part, p, rho, stop);
   if (part.cut.turns == 0) return here;
   double nearest = std::abs(here);
   for (const double turn : {-kTwoPi, kTwoPi}) {
     ContourPoint moved = p;
     moved.phi += turn;
-    nearest = std::min(nearest, std::abs(depth(part, moved, rho)));
+    nearest = std::min(nearest, std::abs(depth(part, moved, rho, stop)));
   }
   return here < 0.0 ? -nearest : nearest;
 }
@@ -155,12 +158,12 @@ SmoothTrack smooth_border(const Track& track) {
   return out;
 }
 
-double intrusion(const PartBorder& part, const ContourPoint& point) {
+double intrusion(const PartBorder& part, const ContourPoint& point, const std::stop_token& stop) {
   const ContourPoint p = wrapped(part.cut, point);
   const double middle = 0.5 * (part.inner_radius + part.outer_radius);
   double deepest = -1e300;
   for (const double rho : {part.inner_radius, middle, part.outer_radius}) {
-    deepest = std::max(deepest, depth_on_ring(part, p, rho));
+    deepest = std::max(deepest, depth_on_ring(part, p, rho, stop));
   }
   return deepest;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -28,10 +29,10 @@ std::vector<double> reflected(const std::vector<double>& x, std::size_t m) {
 }
 
 /// Sums differences to the centre, in pairs: little rounding, and none of the direction.
-std::vector<double> mean(const std::vector<double>& x, std::size_t m) {
+std::vector<double> mean(const std::vector<double>& x, std::size_t m, const std::stop_token& stop) {
   const std::vector<double> wide = reflected(x, m);
   std::vector<double> out(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  for (std::size_t i = 0; i < x.size() && !stop.stop_requested(); ++i) {
     double sum = 0.0;
     for (std::size_t j = 1; j <= m; ++j) {
       sum += (wide[i + m + j] - x[i]) + (wide[i + m - j] - x[i]);
@@ -53,13 +54,14 @@ struct Smoothed {
   double deviation = 0.0;                    // mm of generalised length
 };
 
-Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t m) {
+Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t m,
+                  const std::stop_token& stop) {
   Smoothed out;
   std::vector<double> square(r.x.front().size(), 0.0);
   for (std::size_t c = 0; c < r.x.size(); ++c) {
     if (p.coordinates[c].group != group) continue;
-    out.control.push_back(box2(r.x[c], m));
-    for (std::size_t j = 0; j < square.size(); ++j) {
+    out.control.push_back(box2(r.x[c], m, stop));
+    for (std::size_t j = 0; j < square.size() && !stops(stop, j); ++j) {
       const double off = p.coordinates[c].weight * (knot(out.control.back(), j) - r.x[c][j]);
       square[j] = group == Group::tip ? square[j] + off * off : std::max(square[j], off * off);
     }
@@ -69,16 +71,17 @@ Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t
 }
 
 /// The widest smoothing that keeps the tolerance; deviation above it only where even none does.
-Smoothed widest(const Program& p, const Resampled& r, Group group, double most, double tolerance) {
+Smoothed widest(const Program& p, const Resampled& r, Group group, double most, double tolerance,
+                const std::stop_token& stop) {
   auto fits = static_cast<std::size_t>(most / (2.0 * r.d));
-  Smoothed best = smoothed(p, r, group, fits);
+  Smoothed best = smoothed(p, r, group, fits, stop);
   if (best.deviation <= tolerance) return best;
   std::size_t fails = fits;
   fits = 0;
-  best = smoothed(p, r, group, 0);
-  while (best.deviation <= tolerance && fails - fits > 1) {
+  best = smoothed(p, r, group, 0, stop);
+  while (best.deviation <= tolerance && fails - fits > 1 && !stop.stop_requested()) {
     const std::size_t m = fits + (fails - fits) / 2;
-    Smoothed next = smoothed(p, r, group, m);
+    Smoothed next = smoothed(p, r, group, m, stop);
     if (next.deviation <= tolerance) {
       best = std::move(next);
       fits = m;
@@ -125,8 +128,8 @@ Cubic cubic(const std::vector<double>& p, std::size_t i, double d) {
 
 }  // namespace
 
-std::vector<double> box2(const std::vector<double>& x, std::size_t m) {
-  std::vector<double> out = mean(mean(x, m), m);
+std::vector<double> box2(const std::vector<double>& x, std::size_t m, const std::stop_token& stop) {
+  std::vector<double> out = mean(mean(x, m, stop), m, stop);
   out.front() = x.front();
   out.back() = x.back();
   return out;
@@ -183,8 +186,9 @@ Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b, std::sto
   for (double d = kSpacing;; d *= 0.5) {
     const auto samples = resample(p, d, eps_tip, eps_b.rad(), stop);
     if (!samples) return tl::unexpected<Error>(samples.error());
-    Smoothed tip = widest(p, *samples, Group::tip, kWidestTip, eps_tip);
-    Smoothed swing = widest(p, *samples, Group::bevel, kWidestBevel, bevel);
+    Smoothed tip = widest(p, *samples, Group::tip, kWidestTip, eps_tip, stop);
+    Smoothed swing = widest(p, *samples, Group::bevel, kWidestBevel, bevel, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (tip.deviation <= eps_tip && swing.deviation <= bevel) {
       return assembled(p, *samples, std::move(tip), std::move(swing));
     }

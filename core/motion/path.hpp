@@ -66,7 +66,8 @@ struct Resampled {
 /// Reversal of the input reverses the result bit by bit.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 2.4.
-[[nodiscard]] std::vector<double> box2(const std::vector<double>& x, std::size_t m);
+[[nodiscard]] std::vector<double> box2(const std::vector<double>& x, std::size_t m,
+                                       const std::stop_token& stop = {});
 
 /// The path: resampled, smoothed as far as the tolerances (mm, rad) allow.
 ///

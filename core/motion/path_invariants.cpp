@@ -60,10 +60,12 @@ class Walker {
 
 class Examination {
  public:
-  Examination(const ScheduleSpec& spec, const Prepared& job, const Counted& counted, bool with_lead)
+  Examination(const ScheduleSpec& spec, const Prepared& job, const Counted& counted, bool with_lead,
+              const std::stop_token& stop)
       : spec_(spec),
         job_(job),
         counted_(counted),
+        stop_(stop),
         torch_(spec),
         largest_b_(largest_bevel(job.program)),
         quantum_(torch_.quantum(largest_b_)) {
@@ -79,7 +81,7 @@ class Examination {
     const double look = kLook + 2.0 * allow_.tip + 2.0 * fastest() * counted_.period;
     Follower follower(job_.program, part, look);
     Walker walker(counted_, job_);
-    for (std::size_t k = 0; k <= counted_.periods; ++k) {
+    for (std::size_t k = 0; k <= counted_.periods && !stop_.stop_requested(); ++k) {
       if (k > 0) walker.step(k - 1);
       see(walker.values(), follower, k);
     }
@@ -229,7 +231,7 @@ class Examination {
     if (!lead || std::abs(at - lead_at_) < kLeadStep) return;
     lead_at_ = at;
     const ContourPoint point{x[0], x[1], x[2], false, 0.0};
-    lead_.see(intrusion(*border_, point),
+    lead_.see(intrusion(*border_, point, stop_),
               lead_touch(*border_, spec_.motion) + allow_.tip + allow_.thickness);
   }
 
@@ -254,6 +256,7 @@ class Examination {
   const ScheduleSpec& spec_;
   const Prepared& job_;
   const Counted& counted_;
+  const std::stop_token& stop_;
   Reconstruction torch_;
   double largest_b_;
   Coordinates quantum_;
@@ -276,9 +279,9 @@ bool any_tip_known(const Prepared& job, const Reconstruction& torch) {
 }  // namespace
 
 Followed path_invariants(const ScheduleSpec& spec, const Prepared& job, const Counted& counted,
-                         bool with_lead) {
+                         bool with_lead, const std::stop_token& stop) {
   if (!any_tip_known(job, Reconstruction(spec))) return {};
-  return Examination(spec, job, counted, with_lead).run();
+  return Examination(spec, job, counted, with_lead, stop).run();
 }
 
 }  // namespace tubecut::motion

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/stop.hpp"
 #include "core/motion/search.hpp"
 
 namespace tubecut::motion {
@@ -51,7 +52,7 @@ class Search {
   [[nodiscard]] double period() const { return course_.machine.period; }
 
   [[nodiscard]] Timing profile(double filter, const Optimism& optimism, int rounds) const {
-    return filtered_profile(course_.limits, without_jerk_, filter, optimism, rounds);
+    return filtered_profile(course_.limits, without_jerk_, filter, optimism, rounds, stop_);
   }
 
   /// Scouts every octave with one round, then offers the best and its neighbours.
@@ -80,8 +81,8 @@ class Search {
       const bool proven = std::ranges::all_of(optimism, [](double o) { return o <= 1.0; });
       if (timing.time >= bound || proven || stop_.stop_requested()) return timing;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
-      const std::vector<Place> places = sampled(timing, course_.limits.d, count);
-      const std::vector<double> ratio = ratios(course_, places).jerk;
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
+      const std::vector<double> ratio = ratios(course_, places, stop_).jerk;
       if (*std::ranges::max_element(ratio) <= kAccepted) return timing;
       if (pass >= kMostPasses) {
         std::ranges::fill(optimism, 1.0);
@@ -95,7 +96,7 @@ class Search {
              double filter, bool to_proven) const {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
     const Optimism before = optimism;
-    for (std::size_t k = 0; k < ratio.size(); ++k) {
+    for (std::size_t k = 0; k < ratio.size() && !stops(stop_, k); ++k) {
       if (ratio[k] <= kAccepted) continue;
       for_reach_of(places, k, reach, optimism.size(), [&](std::size_t i) {
         const double next = to_proven ? 1.0 : std::max(1.0, kRelief * before[i] / ratio[k]);
@@ -122,14 +123,16 @@ Error too_many(double periods, std::int64_t most) {
 
 /// Samples the plan and stretches it while a limit is broken; a stretch by K divides v, a, j by K,
 /// K^2, K^3.
-Result<void> settle(Plan& out, const Course& course, const PlanOptions& options, bool jerk) {
+Result<void> settle(Plan& out, const Course& course, const PlanOptions& options, bool jerk,
+                    const std::stop_token& stop) {
   for (;;) {
     const double periods = periods_of(out.timing.time * out.stretch, course.machine.period);
     if (!(periods <= static_cast<double>(options.max_periods))) {
       return tl::unexpected<Error>(too_many(periods, options.max_periods));
     }
-    out.places = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods));
-    out.uses = uses(course, out.places, jerk);
+    out.places = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods), stop);
+    out.uses = uses(course, out.places, jerk, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     const double worst = out.uses.worst();
     if (worst <= kLastCheck) return {};
     out.stretch *= std::min(1.5, worst * 1.0005);
@@ -158,10 +161,13 @@ double periods_of(double time, double period) {
 }
 
 Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_token stop) {
-  const Conditions base = without_jerk(course.limits);
-  const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows);
-  HalfPlanes acceleration = acceleration_rows(course.limits);
-  const Profile by_signs = fastest_profile(speed_caps(course.limits), acceleration);
+  const Conditions base = without_jerk(course.limits, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows, stop);
+  HalfPlanes acceleration = acceleration_rows(course.limits, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const Profile by_signs = fastest_profile(speed_caps(course.limits, stop), acceleration, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   Plan out;
   out.least = duration(by_signs.bound, course.limits.d);
   out.timing = fastest_of(x, by_signs.x, course.limits.d);
@@ -181,7 +187,7 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
     }
   }
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (auto ok = settle(out, course, options, jerk); !ok) {
+  if (auto ok = settle(out, course, options, jerk, stop); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   return out;

@@ -51,14 +51,16 @@ struct Uses {
 /// against the limits. Rounding of the axis values themselves is allowed for.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 6.6.
-[[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk);
+[[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
+                        const std::stop_token& stop = {});
 
 /// Ratios of differences to their limits at every place, the worst of the axes.
 struct Ratios {
   std::vector<double> acceleration = {};  // of the second difference that it is the middle of
   std::vector<double> jerk = {};          // of the third differences that it is a middle of
 };
-[[nodiscard]] Ratios ratios(const Course& course, const std::vector<Place>& places);
+[[nodiscard]] Ratios ratios(const Course& course, const std::vector<Place>& places,
+                            const std::stop_token& stop = {});
 
 struct PlanOptions {
   bool jerk = true;

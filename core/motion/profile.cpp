@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "core/base/stop.hpp"
+
 namespace tubecut::motion {
 namespace {
 
@@ -83,16 +85,18 @@ class Stage {
 };
 
 /// Largest value at every knot from which the last knot can be reached.
-std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows) {
-  for (std::size_t i = most.size() - 1; i-- > 0;) {
+std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows,
+                             const std::stop_token& stop) {
+  for (std::size_t i = most.size() - 1; i-- > 0 && !stops(stop, i);) {
     most[i] = Stage(rows, i, true).largest_near(most[i], most[i + 1]);
   }
   return most;
 }
 
 /// Of those, the largest that can be reached from the first knot too.
-std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows) {
-  for (std::size_t i = 0; i + 1 < most.size(); ++i) {
+std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows,
+                            const std::stop_token& stop) {
+  for (std::size_t i = 0; i + 1 < most.size() && !stops(stop, i); ++i) {
     most[i + 1] = Stage(rows, i, false).largest_near(most[i + 1], most[i]);
   }
   return most;
@@ -101,8 +105,8 @@ std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows) {
 /// A row that holds both knots down makes the faster choice at one of them the slower at the other.
 /// In its place stand two caps, the corner that it cuts from the box of `bound`, shrunk.
 std::vector<double> cornered(std::vector<double> caps, const std::vector<double>& bound,
-                             const HalfPlanes& rows) {
-  for (std::size_t i = 0; i + 1 < caps.size(); ++i) {
+                             const HalfPlanes& rows, const std::stop_token& stop) {
+  for (std::size_t i = 0; i + 1 < caps.size() && !stops(stop, i); ++i) {
     for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
       const HalfPlane& row = rows.rows[r];
       if (row.start <= 0.0 || row.end <= 0.0) continue;
@@ -118,18 +122,20 @@ std::vector<double> cornered(std::vector<double> caps, const std::vector<double>
 }  // namespace
 
 std::vector<double> fastest_within(const std::vector<double>& caps,
-                                   const std::vector<double>& bound, const HalfPlanes& rows) {
-  const std::vector<double> most = reaching(cornered(caps, bound, rows), rows);
+                                   const std::vector<double>& bound, const HalfPlanes& rows,
+                                   const std::stop_token& stop) {
+  const std::vector<double> most = reaching(cornered(caps, bound, rows, stop), rows, stop);
   std::vector<double> x = most;
-  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < x.size() && !stops(stop, i); ++i) {
     x[i + 1] = Stage(rows, i, true).largest_far(x[i], most[i + 1]);
   }
   return x;
 }
 
-Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows) {
-  std::vector<double> bound = reached(reaching(caps, rows), rows);
-  std::vector<double> x = fastest_within(caps, bound, rows);
+Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows,
+                        const std::stop_token& stop) {
+  std::vector<double> bound = reached(reaching(caps, rows, stop), rows, stop);
+  std::vector<double> x = fastest_within(caps, bound, rows, stop);
   return {std::move(x), std::move(bound)};
 }
 

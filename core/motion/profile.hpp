@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 namespace tubecut::motion {
@@ -38,11 +39,13 @@ struct Profile {
 /// Accuracy  rows hold to 1e-11. Time over that of `bound` at most 1.01 in 200 random short cuts.
 /// Cost      four passes; a multiply-add per row where a cap binds, about four where a row does.
 /// Source    docs/theory/pulse-schedules.md, section 6.2.
-[[nodiscard]] Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows);
+[[nodiscard]] Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows,
+                                      const std::stop_token& stop = {});
 
 /// The profile alone, its caps for rows that hold both knots down in the proportion of `bound`.
 [[nodiscard]] std::vector<double> fastest_within(const std::vector<double>& caps,
                                                  const std::vector<double>& bound,
-                                                 const HalfPlanes& rows);
+                                                 const HalfPlanes& rows,
+                                                 const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

@@ -38,9 +38,11 @@ Result<Track> stretch(const Track& whole, const Motion& motion) {
   return directed(whole, motion);
 }
 
-Result<void> check_lead(const Led& led, const PartBorder& part, double allowed) {
+Result<void> check_lead(const Led& led, const PartBorder& part, double allowed,
+                        const std::stop_token& stop) {
   const auto blocked = [&](const ContourPoint& p) -> Result<void> {
-    const double depth = intrusion(part, p);
+    const double depth = intrusion(part, p, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (depth <= allowed) return {};
     return fail({ErrorCode::lead_blocked, "motion/lead", depth, allowed, "mm",
                  "at phi " + std::to_string(p.phi * kDegPerRad) + " deg"});
@@ -53,7 +55,8 @@ Result<void> check_lead(const Led& led, const PartBorder& part, double allowed) 
   return {};
 }
 
-Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec) {
+Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec,
+                           const std::stop_token& stop) {
   auto whole = track(contour);
   if (!whole) return tl::unexpected<Error>(whole.error());
   const auto cut = stretch(*whole, spec.motion);
@@ -66,7 +69,7 @@ Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec) {
   }
   const Led led = with_lead(*cut, *spec.motion.lead, contour.scrap);
   const auto border = part_border(spec);
-  if (auto ok = check_lead(led, *border, lead_touch(*border, spec.motion)); !ok) {
+  if (auto ok = check_lead(led, *border, lead_touch(*border, spec.motion), stop); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   Program out = from_points(led.points, cut->radius);
@@ -218,9 +221,9 @@ double lead_touch(const PartBorder& border, const Motion& motion) {
   return kLeadTouch + std::min(border.sag, motion.eps_tip);
 }
 
-Result<Program> program(const ScheduleSpec& spec) {
+Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop) {
   if (const auto* const contour = std::get_if<Contour>(&spec.cut)) {
-    return of_contour(*contour, spec);
+    return of_contour(*contour, spec, stop);
   }
   return of_columns(std::get<AxisColumns>(spec.cut), spec);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 #include "core/motion/lead.hpp"
@@ -49,7 +50,7 @@ struct Program {
 ///         unsupported_combination, lead_blocked (a lead or pierce point lies in the finished
 ///         part).
 /// Source  docs/theory/pulse-schedules.md, sections 2.1, 2.2 and 2.6.
-[[nodiscard]] Result<Program> program(const ScheduleSpec& spec);
+[[nodiscard]] Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop = {});
 
 /// How far a lead may reach behind the border, mm: kLeadTouch and the contour's sag, this no more
 /// than the tolerance of the motion.

@@ -10,6 +10,7 @@ namespace tubecut::motion {
 namespace {
 
 constexpr double kMostCount = 2147483647.0;
+constexpr std::size_t kAskEvery = 1024;  // numbers
 
 /// The counts as integers, and how far the worst was from one.
 struct Integers {
@@ -17,12 +18,13 @@ struct Integers {
   double worst = 0.0;
 };
 
-Integers integers(const std::vector<std::vector<double>>& counts) {
+Integers integers(const std::vector<std::vector<double>>& counts, const std::stop_token& stop) {
   Integers out;
   for (const auto& column : counts) {
     std::vector<std::int32_t> whole;
     whole.reserve(column.size());
     for (const double n : column) {
+      if (whole.size() % kAskEvery == 0 && stop.stop_requested()) return out;
       const double nearest = std::floor(n + 0.5);
       out.worst = std::max(out.worst, std::abs(n - nearest));
       whole.push_back(static_cast<std::int32_t>(nearest));
@@ -57,22 +59,25 @@ Result<std::size_t> periods_of(const ReplaySpec& spec) {
 }
 
 std::vector<Check> examine(const ScheduleSpec& spec, const Prepared& job, const Counted& counted,
-                           double fraction, bool own, double* deviation) {
+                           double fraction, bool own, double* deviation,
+                           const std::stop_token& stop) {
   std::vector<Check> out{{"I1", fraction, 0.0, "pulses"}};
-  const std::vector<Check> counts = count_invariants(job, counted, spec.motion.jerk);
+  const std::vector<Check> counts = count_invariants(job, counted, spec.motion.jerk, stop);
   out.insert(out.end(), counts.begin(), counts.end());
-  const Followed followed = path_invariants(spec, job, counted, own);
+  const Followed followed = path_invariants(spec, job, counted, own, stop);
   out.insert(out.end(), followed.checks.begin(), followed.checks.end());
   if (deviation != nullptr) *deviation = followed.deviation;
   return out;
 }
 
-void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out) {
+void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
+             const std::stop_token& stop) {
   if (!std::holds_alternative<Contour>(spec.cut)) return;
   const Reconstruction torch(spec);
   std::vector<double> q = counted.start;
   std::vector<std::int64_t> sum(q.size(), 0);
   for (std::size_t k = 0; k <= counted.periods; ++k) {
+    if (k % kAskEvery == 0 && stop.stop_requested()) return;
     for (std::size_t a = 0; k > 0 && a < q.size(); ++a) {
       if (counted.counts[a].empty()) continue;
       sum[a] += counted.counts[a][k - 1];
@@ -88,22 +93,25 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out) {
 
 }  // namespace
 
-Result<Replay> replay(const ReplaySpec& spec) {
-  const auto job = prepared(spec.job, {});
+Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop) {
+  const auto job = prepared(spec.job, stop);
   if (!job) return tl::unexpected<Error>(job.error());
   const auto periods = periods_of(spec);
   if (!periods) return tl::unexpected<Error>(periods.error());
-  const Integers whole = integers(spec.counts);
+  const Integers whole = integers(spec.counts, stop);
   Counted counted{spec.period, *periods, {}, spec.start};
   for (const auto& column : whole.counts) counted.counts.emplace_back(column);
   Replay out;
-  rebuild(spec.job, counted, out);
-  out.invariants = examine(spec.job, *job, counted, whole.worst, false, &out.deviation);
+  rebuild(spec.job, counted, out, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  out.invariants = examine(spec.job, *job, counted, whole.worst, false, &out.deviation, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
-std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule) {
-  const auto job = prepared(spec, {});
+std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule,
+                          const std::stop_token& stop) {
+  const auto job = prepared(spec, stop);
   const bool fits = job && schedule.axes.size() == spec.machine.axes.size() &&
                     schedule.period == spec.machine.period && schedule.periods > 0;
   Counted counted{schedule.period, static_cast<std::size_t>(schedule.periods), {}, {}};
@@ -114,7 +122,7 @@ std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule) {
     counted.start.push_back(axis.start);
   }
   if (!fits || !sized) return {{"replayable", 1.0, 0.0, ""}};
-  return examine(spec, *job, counted, 0.0, true, nullptr);
+  return examine(spec, *job, counted, 0.0, true, nullptr, stop);
 }
 
 }  // namespace tubecut::motion

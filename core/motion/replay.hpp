@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "core/motion/schedule.hpp"
@@ -30,10 +31,11 @@ struct Replay {
 /// Errors  wrong_count, bad_number, and those of the job itself.
 /// Cost    one pass over the periods; per period the contour points within about a millimetre.
 /// Source  docs/theory/pulse-schedules.md, section 9.
-[[nodiscard]] Result<Replay> replay(const ReplaySpec& spec);
+[[nodiscard]] Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop = {});
 
 /// The same invariants on an own answer, and `lead_clears_part`. An answer that does not even fit
 /// its request fails the check `replayable`.
-[[nodiscard]] std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule);
+[[nodiscard]] std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule,
+                                        const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/stop.hpp"
 #include "core/motion/path.hpp"
 
 namespace tubecut::motion {
@@ -123,8 +124,9 @@ std::vector<bool> corners(const Program& p, const std::vector<double>& lengths) 
   return corner;
 }
 
-void measure_sag(const Program& p, const std::vector<Curve>& curves, Resampled& out) {
-  for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+void measure_sag(const Program& p, const std::vector<Curve>& curves, const std::stop_token& stop,
+                 Resampled& out) {
+  for (std::size_t i = 0; i + 1 < p.size() && !stop.stop_requested(); ++i) {
     for (int j = 1; j <= kInner; ++j) {
       const double h = static_cast<double>(j) / (kInner + 1);
       double tip = 0.0;
@@ -142,10 +144,10 @@ void measure_sag(const Program& p, const std::vector<Curve>& curves, Resampled& 
 }
 
 void sample(const Program& p, const std::vector<double>& s, const std::vector<Curve>& curves,
-            std::size_t n, Resampled& out) {
+            std::size_t n, const std::stop_token& stop, Resampled& out) {
   out.x.assign(p.x.size(), std::vector<double>(n + 1));
   std::size_t i = 0;
-  for (std::size_t k = 1; k < n; ++k) {
+  for (std::size_t k = 1; k < n && !stops(stop, k); ++k) {
     const double at = s.back() * static_cast<double>(k) / static_cast<double>(n);
     while (i + 2 < s.size() && s[i + 1] <= at) ++i;
     const double h = std::clamp((at - s[i]) / (s[i + 1] - s[i]), 0.0, 1.0);
@@ -179,8 +181,9 @@ Result<Resampled> resample(const Program& p, double d, double eps_tip, double ep
   Resampled out;
   const auto n = static_cast<std::size_t>(wanted);
   out.d = s.back() / static_cast<double>(n);
-  measure_sag(p, curves, out);
-  sample(p, s, curves, n, out);
+  measure_sag(p, curves, stop, out);
+  sample(p, s, curves, n, stop, out);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.hpp"
 #include "core/motion/timing.hpp"
 
 namespace tubecut::motion {
@@ -98,14 +99,15 @@ bool before(const Place& a, const Place& b) {
 
 }  // namespace
 
-std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods) {
+std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
+                           const std::stop_token& stop) {
   const Unfiltered u(timing.x, d);
   Averaged average(u, static_cast<Long>(d), static_cast<Long>(timing.filter));
   const Long total = u.end() + static_cast<Long>(timing.filter);
   std::vector<Place> places;
   places.reserve(static_cast<std::size_t>(periods) + 1);
   places.push_back({0, 0.0});
-  for (std::int64_t k = 1; k < periods; ++k) {
+  for (std::int64_t k = 1; k < periods && !stops(stop, static_cast<std::size_t>(k)); ++k) {
     const Place next = average.at(total * static_cast<Long>(k) / static_cast<Long>(periods));
     places.push_back(before(next, places.back()) ? places.back() : next);
   }

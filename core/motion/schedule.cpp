@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.hpp"
 #include "core/motion/course.hpp"
 #include "core/motion/pulses.hpp"
 #include "core/motion/slow.hpp"
@@ -24,7 +25,8 @@ std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& cour
   return total - rounded(ideal_pulses(axis, end, start));
 }
 
-AxisPulses pulses_of(const Prepared& job, const Plan& plan, std::size_t a) {
+AxisPulses pulses_of(const Prepared& job, const Plan& plan, std::size_t a,
+                     const std::stop_token& stop) {
   const Course& course = job.course;
   const Axis& axis = course.machine.axes[a];
   const AxisFunction& f = course.axes[a];
@@ -37,6 +39,7 @@ AxisPulses pulses_of(const Prepared& job, const Plan& plan, std::size_t a) {
   cumulative.reserve(plan.places.size());
   CourseCursor cursor(course);
   for (const Place& p : plan.places) {
+    if (stops(stop, cumulative.size())) return out;
     cumulative.push_back(ideal_pulses(axis, f.at(cursor.at(p)), out.start));
   }
   out.counts = increments(cumulative);
@@ -91,7 +94,8 @@ double closing_residual(const ScheduleSpec& spec) {
   return turn - std::floor(turn);
 }
 
-Report report(const ScheduleSpec& spec, const Prepared& job, const Plan& plan) {
+Report report(const ScheduleSpec& spec, const Prepared& job, const Plan& plan,
+              const std::stop_token& stop) {
   const Path& path = job.course.path;
   Report out;
   out.time = static_cast<double>(plan.places.size() - 1) * spec.machine.period;
@@ -110,7 +114,7 @@ Report report(const ScheduleSpec& spec, const Prepared& job, const Plan& plan) {
   out.standoff_growth = job.standoff_growth;
   out.closing_residual = closing_residual(spec);
   out.max_use = largest_uses(job.course, plan, spec.motion.jerk);
-  out.slow = slow_zones(job, plan.places);
+  out.slow = slow_zones(job, plan.places, stop);
   out.slow_time = 0.0;
   for (const SlowZone& zone : out.slow) {
     out.slow_time += static_cast<double>(zone.to - zone.from + 1) * spec.machine.period;
@@ -172,13 +176,14 @@ Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
   out.period = spec.machine.period;
   out.periods = static_cast<std::int64_t>(timed->places.size()) - 1;
   for (std::size_t a = 0; a < spec.machine.axes.size(); ++a) {
-    out.axes.push_back(pulses_of(*job, *timed, a));
+    out.axes.push_back(pulses_of(*job, *timed, a, stop));
   }
   out.events = events(*job, *timed);
-  out.report = report(spec, *job, *timed);
+  out.report = report(spec, *job, *timed, stop);
   out.report.edges = edge_deviation(spec, job->program, job->course.path, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (spec.motion.compare) out.comparison = comparison(*job);
+  if (spec.motion.compare) out.comparison = comparison(*job, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   out.warnings = warnings(spec, out.report);
   return out;
 }

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/stop.hpp"
+
 namespace tubecut::motion {
 namespace {
 
@@ -29,7 +31,7 @@ class SignedSearch {
     const double count = best_octave(
         course_,
         [&](double filter) {
-          return filtered_signed_profile(course_.limits, rows_, filter, level, 1).time;
+          return filtered_signed_profile(course_.limits, rows_, filter, level, 1, stop_).time;
         },
         stop_);
     Timing found{{}, 0.0, bound};
@@ -72,11 +74,12 @@ class SignedSearch {
     Optimism optimism(intervals(), kStart);
     rows_.share.assign(intervals(), 1.0);
     for (int pass = 0; pass < kMostPasses && !stop_.stop_requested(); ++pass) {
-      Timing timing = filtered_signed_profile(course_.limits, rows_, filter, optimism, kFullRounds);
-      if (timing.time >= bound) break;
+      Timing timing =
+          filtered_signed_profile(course_.limits, rows_, filter, optimism, kFullRounds, stop_);
+      if (timing.time >= bound || stop_.stop_requested()) break;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
-      const std::vector<Place> places = sampled(timing, course_.limits.d, count);
-      if (!lower(optimism, places, ratios(course_, places), filter)) return timing;
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
+      if (!lower(optimism, places, ratios(course_, places, stop_), filter)) return timing;
     }
     return {{}, filter, 1e300};
   }
@@ -87,7 +90,7 @@ class SignedSearch {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
     const std::vector<double> optimism_before = optimism, share_before = rows_.share;
     bool lowered = false;
-    for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t k = 0; k < places.size() && !stops(stop_, k); ++k) {
       const double jerk = ratio.jerk[k], acceleration = ratio.acceleration[k];
       if (jerk <= kAccepted && acceleration <= kAccepted) continue;
       lowered = true;

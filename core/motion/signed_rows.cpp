@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/stop.hpp"
 #include "core/motion/limits.hpp"
 
 namespace tubecut::motion {
@@ -72,9 +73,9 @@ Rate rate_of(const AxisBounds& axis, std::size_t i, double d) {
 
 }  // namespace
 
-std::vector<double> speed_caps(const Limits& limits) {
+std::vector<double> speed_caps(const Limits& limits, const std::stop_token& stop) {
   std::vector<double> caps(limits.intervals() + 1, kNoLimit);
-  for (std::size_t i = 0; i < limits.intervals(); ++i) {
+  for (std::size_t i = 0; i < limits.intervals() && !stops(stop, i); ++i) {
     const auto cap = [&](const Rate& rate, double v) {
       const auto [start, end] = interval_caps(rate, v);
       caps[i] = std::min(caps[i], start);
@@ -88,10 +89,10 @@ std::vector<double> speed_caps(const Limits& limits) {
   return caps;
 }
 
-HalfPlanes acceleration_rows(const Limits& limits) {
+HalfPlanes acceleration_rows(const Limits& limits, const std::stop_token& stop) {
   HalfPlanes out;
   out.rows.reserve(6 * limits.intervals() * limits.axes.size());
-  for (std::size_t i = 0; i < limits.intervals(); ++i) {
+  for (std::size_t i = 0; i < limits.intervals() && !stops(stop, i); ++i) {
     for (const AxisBounds& axis : limits.axes) {
       if (axis.first[i] == 0.0 && axis.second[i] == 0.0) continue;
       const double most = axis.along.linear ? axis.a_max : axis.a_max / kSampledMargin;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "core/motion/course.hpp"
@@ -12,6 +13,7 @@ namespace tubecut::motion {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 4.3.
 [[nodiscard]] std::vector<SlowZone> slow_zones(const Prepared& job,
-                                               const std::vector<Place>& places);
+                                               const std::vector<Place>& places,
+                                               const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

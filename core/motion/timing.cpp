@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.hpp"
+
 namespace tubecut::motion {
 namespace {
 
@@ -50,41 +52,43 @@ struct Hats {
   std::vector<double> speed;     // V, of u
 };
 
-std::vector<double> hat(const std::vector<double>& values, const Windows& w) {
-  return widened(values, w.low, w.high);
+std::vector<double> hat(const std::vector<double>& values, const Windows& w,
+                        const std::stop_token& stop) {
+  return widened(values, w.low, w.high, stop);
 }
 
 Hats hats(const Limits& limits, const std::vector<double>& fastest, const Optimism& optimism,
-          const Windows& w) {
+          const Windows& w, const std::stop_token& stop) {
   Hats out;
   for (const AxisBounds& axis : limits.axes) {
     out.axes.push_back({axis.axis,
-                        hat(axis.first, w),
-                        hat(axis.second, w),
-                        hat(axis.third, w),
+                        hat(axis.first, w, stop),
+                        hat(axis.second, w, stop),
+                        hat(axis.third, w, stop),
                         axis.v_max,
                         axis.a_max,
                         axis.j_max,
                         {}});
   }
-  out.slowness = hat(limits.slowness, w);
+  out.slowness = hat(limits.slowness, w, stop);
   std::vector<double> values(optimism.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = -optimism[i];
-  out.optimism = hat(values, w);
+  out.optimism = hat(values, w, stop);
   for (double& value : out.optimism) value = -value;
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = std::sqrt(std::max(fastest[i], fastest[i + 1]));
   }
-  out.speed = hat(values, w);
+  out.speed = hat(values, w, stop);
   return out;
 }
 
 enum class Acceleration : std::uint8_t { bounds, has_rows_of_its_own };
 
 /// W0: what filter edges and, by magnitudes, acceleration alone leave of |u_ddot|.
-std::vector<double> first_bound(const Hats& hats, double filter, Acceleration acceleration) {
+std::vector<double> first_bound(const Hats& hats, double filter, Acceleration acceleration,
+                                const std::stop_token& stop) {
   std::vector<double> bound(hats.slowness.size(), 1e150);
-  for (std::size_t i = 0; i < bound.size(); ++i) {
+  for (std::size_t i = 0; i < bound.size() && !stops(stop, i); ++i) {
     for (const AxisBounds& axis : hats.axes) {
       if (axis.j_max <= 0.0 || axis.first[i] <= 0.0) continue;
       const double jerk = hats.optimism[i] * axis.j_max;
@@ -97,11 +101,12 @@ std::vector<double> first_bound(const Hats& hats, double filter, Acceleration ac
   return bound;
 }
 
-void tighten(std::vector<double>& bound, const std::vector<double>& x, double d) {
+void tighten(std::vector<double>& bound, const std::vector<double>& x, double d,
+             const std::stop_token& stop) {
   std::vector<double> used(bound.size());
   for (std::size_t i = 0; i < used.size(); ++i) used[i] = std::abs(x[i + 1] - x[i]) / (2.0 * d);
   const Windows w = around(used.size(), kReach);
-  used = widened(used, w.low, w.high);
+  used = widened(used, w.low, w.high, stop);
   for (std::size_t i = 0; i < bound.size(); ++i) {
     bound[i] = std::min(bound[i], 1.1 * used[i] + 0.02 * bound[i]);
   }
@@ -140,10 +145,11 @@ void add_scaled(const HalfPlanes& rows, std::size_t i, double scale, HalfPlanes&
 
 /// Rows of acceleration as they are, without windows, and those of jerk with them.
 HalfPlanes signed_rows(const SignedRows& rows, const Hats& hats, const std::vector<double>& bound,
-                       const std::vector<double>& wide, double d, double filter) {
+                       const std::vector<double>& wide, double d, double filter,
+                       const std::stop_token& stop) {
   HalfPlanes out;
   out.rows.reserve(rows.acceleration.rows.size() + 8 * bound.size());
-  for (std::size_t i = 0; i < bound.size(); ++i) {
+  for (std::size_t i = 0; i < bound.size() && !stops(stop, i); ++i) {
     add_scaled(rows.acceleration, i, 1.0 / rows.share[i], out);
     Rows jerk;
     for (const AxisBounds& axis : hats.axes) {
@@ -162,10 +168,10 @@ HalfPlanes signed_rows(const SignedRows& rows, const Hats& hats, const std::vect
 }
 
 Rows round_rows(const Hats& hats, const std::vector<double>& bound, const std::vector<double>& wide,
-                double filter) {
+                double filter, const std::stop_token& stop) {
   Rows rows;
   rows.rows.reserve(bound.size() * (3 * hats.axes.size() + 1));
-  for (std::size_t i = 0; i < bound.size(); ++i) {
+  for (std::size_t i = 0; i < bound.size() && !stops(stop, i); ++i) {
     rows.add({1.0, 0.0, bound[i]});
     for (const AxisBounds& axis : hats.axes) {
       if (axis.first[i] <= 0.0 && axis.second[i] <= 0.0 && axis.third[i] <= 0.0) continue;
@@ -194,13 +200,15 @@ std::vector<double> round_caps(const Hats& hats, const std::vector<double>& fast
 /// Solves the rows round by round, each with the windows that the profile before leaves.
 template <class Solve>
 Timing refined(const Limits& limits, const std::vector<double>& without_jerk, double filter,
-               const Optimism& optimism, int rounds, const Solve& solve) {
+               const Optimism& optimism, int rounds, const Solve& solve,
+               const std::stop_token& stop) {
   Timing best{{}, filter, 1e300};
   std::vector<double> fastest = without_jerk;
   std::vector<double> x;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < rounds && !stop.stop_requested(); ++round) {
     const Windows reach = windows(fastest, limits.d, filter);
-    x = solve(hats(limits, fastest, optimism, reach), reach, x, fastest);
+    x = solve(hats(limits, fastest, optimism, reach, stop), reach, x, fastest);
+    if (stop.stop_requested()) break;
     const double time = duration(x, limits.d) + filter;
     if (time < best.time) best = {x, filter, time};
     for (std::size_t i = 1; i + 1 < x.size(); ++i) {
@@ -213,11 +221,11 @@ Timing refined(const Limits& limits, const std::vector<double>& without_jerk, do
 }  // namespace
 
 std::vector<double> widened(const std::vector<double>& values, const std::vector<std::size_t>& low,
-                            const std::vector<std::size_t>& high) {
+                            const std::vector<std::size_t>& high, const std::stop_token& stop) {
   std::vector<double> out(low.size());
   std::vector<std::size_t> queue(values.size());  // falling values, candidates of later windows
   std::size_t head = 0, tail = 0, next = 0;
-  for (std::size_t i = 0; i < out.size(); ++i) {
+  for (std::size_t i = 0; i < out.size() && !stops(stop, i); ++i) {
     for (; next <= high[i]; ++next) {
       while (tail > head && values[queue[tail - 1]] <= values[next]) --tail;
       queue[tail++] = next;
@@ -229,27 +237,32 @@ std::vector<double> widened(const std::vector<double>& values, const std::vector
 }
 
 Timing filtered_profile(const Limits& limits, const std::vector<double>& without_jerk,
-                        double filter, const Optimism& optimism, int rounds) {
+                        double filter, const Optimism& optimism, int rounds,
+                        const std::stop_token& stop) {
   const auto solve = [&](const Hats& hat_of, const Windows& reach,
                          const std::vector<double>& before, const std::vector<double>& fastest) {
-    std::vector<double> bound = first_bound(hat_of, filter, Acceleration::bounds);
-    if (!before.empty()) tighten(bound, before, limits.d);
-    const Rows rows = round_rows(hat_of, bound, hat(bound, reach), filter);
-    return largest_profile(round_caps(hat_of, fastest), limits.d, rows);
+    std::vector<double> bound = first_bound(hat_of, filter, Acceleration::bounds, stop);
+    if (!before.empty()) tighten(bound, before, limits.d, stop);
+    const Rows rows = round_rows(hat_of, bound, hat(bound, reach, stop), filter, stop);
+    if (stop.stop_requested()) return fastest;
+    return largest_profile(round_caps(hat_of, fastest), limits.d, rows, stop);
   };
-  return refined(limits, without_jerk, filter, optimism, rounds, solve);
+  return refined(limits, without_jerk, filter, optimism, rounds, solve, stop);
 }
 
 Timing filtered_signed_profile(const Limits& limits, const SignedRows& rows, double filter,
-                               const Optimism& optimism, int rounds) {
+                               const Optimism& optimism, int rounds, const std::stop_token& stop) {
   const auto solve = [&](const Hats& hat_of, const Windows& reach,
                          const std::vector<double>& before, const std::vector<double>& fastest) {
-    std::vector<double> bound = first_bound(hat_of, filter, Acceleration::has_rows_of_its_own);
-    if (!before.empty()) tighten(bound, before, limits.d);
-    const HalfPlanes all = signed_rows(rows, hat_of, bound, hat(bound, reach), limits.d, filter);
-    return fastest_within(round_caps(hat_of, fastest), rows.without_jerk.bound, all);
+    std::vector<double> bound =
+        first_bound(hat_of, filter, Acceleration::has_rows_of_its_own, stop);
+    if (!before.empty()) tighten(bound, before, limits.d, stop);
+    const HalfPlanes all =
+        signed_rows(rows, hat_of, bound, hat(bound, reach, stop), limits.d, filter, stop);
+    if (stop.stop_requested()) return fastest;
+    return fastest_within(round_caps(hat_of, fastest), rows.without_jerk.bound, all, stop);
   };
-  return refined(limits, rows.without_jerk.x, filter, optimism, rounds, solve);
+  return refined(limits, rows.without_jerk.x, filter, optimism, rounds, solve, stop);
 }
 
 }  // namespace tubecut::motion

@@ -27,7 +27,8 @@ struct Place {
 ///
 /// Accuracy  times, integrals and their differences in long double, summed over the window alone.
 /// Source    docs/theory/pulse-schedules.md, section 6.3.
-[[nodiscard]] std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods);
+[[nodiscard]] std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
+                                         const std::stop_token& stop = {});
 
 /// The widest optimism of the jerk rows on every interval; 1 is proven.
 using Optimism = std::vector<double>;
@@ -38,7 +39,8 @@ using Optimism = std::vector<double>;
 /// Cost    `rounds` (1..4) times 16 sliding maxima and two passes.
 /// Source  docs/theory/pulse-schedules.md, section 6.4 (with the proof).
 [[nodiscard]] Timing filtered_profile(const Limits& limits, const std::vector<double>& without_jerk,
-                                      double filter, const Optimism& optimism, int rounds);
+                                      double filter, const Optimism& optimism, int rounds,
+                                      const std::stop_token& stop = {});
 
 /// What the profile by signed rows starts from.
 struct SignedRows {
@@ -55,11 +57,13 @@ struct SignedRows {
 /// Cost    as `filtered_profile`, times about 4.
 /// Source  docs/theory/pulse-schedules.md, section 6.3.
 [[nodiscard]] Timing filtered_signed_profile(const Limits& limits, const SignedRows& rows,
-                                             double filter, const Optimism& optimism, int rounds);
+                                             double filter, const Optimism& optimism, int rounds,
+                                             const std::stop_token& stop = {});
 
 /// Largest value of `values` over each window [low[i], high[i]]; both bounds never decrease.
 [[nodiscard]] std::vector<double> widened(const std::vector<double>& values,
                                           const std::vector<std::size_t>& low,
-                                          const std::vector<std::size_t>& high);
+                                          const std::vector<std::size_t>& high,
+                                          const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

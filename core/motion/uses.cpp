@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/motion/plan.hpp"
 
 namespace tubecut::motion {
@@ -85,20 +86,21 @@ void note(const Watched& w, double period, bool jerk, AxisUse& use) {
 /// place.
 template <class See>
 void walk(const Course& course, const std::vector<Place>& places, std::vector<Watched>& axes,
-          const See& see) {
+          const std::stop_token& stop, const See& see) {
   CourseCursor cursor(course);
-  for (std::size_t k = 0; k < places.size() + kRest; ++k) {
+  for (std::size_t k = 0; k < places.size() + kRest && !stops(stop, k); ++k) {
     const Pose pose = cursor.at(places[std::min(k, places.size() - 1)]);
     for (Watched& w : axes) w.differences.push(w.function->at(pose));
     see(k);
   }
 }
 
-void note_tip(const Course& course, const std::vector<Place>& places, Uses& out) {
+void note_tip(const Course& course, const std::vector<Place>& places, const std::stop_token& stop,
+              Uses& out) {
   const double d = course.path.d, length = course.path.length(), period = course.machine.period;
   CourseCursor cursor(course);
   Pose from = cursor.at(places[0]);
-  for (std::size_t k = 1; k < places.size(); ++k) {
+  for (std::size_t k = 1; k < places.size() && !stops(stop, k); ++k) {
     const Pose to = cursor.at(places[k]);
     const double speed = tip_step(course, from, to) / period;
     const double start = places[k - 1].u(d), end = places[k].u(d);
@@ -134,11 +136,12 @@ double Uses::worst() const {
   return most;
 }
 
-Uses uses(const Course& course, const std::vector<Place>& places, bool jerk) {
+Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
+          const std::stop_token& stop) {
   Uses out;
   std::vector<Watched> axes = watched(course);
   out.axes.resize(axes.size());
-  walk(course, places, axes, [&](std::size_t) {
+  walk(course, places, axes, stop, [&](std::size_t) {
     for (std::size_t a = 0; a < axes.size(); ++a) {
       note(axes[a], course.machine.period, jerk, out.axes[a]);
     }
@@ -147,11 +150,11 @@ Uses uses(const Course& course, const std::vector<Place>& places, bool jerk) {
     use.acceleration = std::sqrt(use.acceleration);
     use.jerk = elementary::cbrt(use.jerk);
   }
-  note_tip(course, places, out);
+  note_tip(course, places, stop, out);
   return out;
 }
 
-Ratios ratios(const Course& course, const std::vector<Place>& places) {
+Ratios ratios(const Course& course, const std::vector<Place>& places, const std::stop_token& stop) {
   Ratios out{std::vector<double>(places.size(), 0.0), std::vector<double>(places.size(), 0.0)};
   const double period = course.machine.period;
   std::vector<Watched> axes = watched(course);
@@ -159,7 +162,7 @@ Ratios ratios(const Course& course, const std::vector<Place>& places) {
     double& at = ratio[std::min(k, places.size() - 1)];
     at = std::max(at, value);
   };
-  walk(course, places, axes, [&](std::size_t k) {
+  walk(course, places, axes, stop, [&](std::size_t k) {
     double acceleration = 0.0, jerk = 0.0;
     for (const Watched& w : axes) {
       acceleration = std::max(acceleration, acceleration_ratio(w, period));

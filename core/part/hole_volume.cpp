@@ -180,6 +180,7 @@ double holes_volume(const joint::Target& target, const Part& part, const std::st
   const auto rings = wall_rings(target);
   for (const auto& crowd : crowds(part))
     for (const auto& ring : rings) {
+      if (stop.stop_requested()) return 0.0;
       std::vector<Polygon> polygons;
       if (crowd.holes.size() == 1 && !crowd.at_end) {
         sum += ring.weight * math::area(slice(target, *crowd.holes.front(), ring.u));

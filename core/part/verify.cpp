@@ -53,7 +53,7 @@ struct Place {
 };
 
 /// Every row of the part's table holds the same points as the end's own.
-double misplaced(const End& end, bool finish, const Place& place) {
+double misplaced(const End& end, bool finish, const Place& place, const std::stop_token& stop) {
   const auto& target = end.spec.target;
   const auto n = end.own.phi.size();
   if (end.table.phi.size() != n) return 1.0;
@@ -79,7 +79,7 @@ double misplaced(const End& end, bool finish, const Place& place) {
     return off;
   };
   const auto zeros = static_cast<std::size_t>(std::ranges::count(end.own.phi, 0.0));
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < n && !stop.stop_requested(); ++k) {
     const auto i = !finish ? k : k < zeros ? zeros - 1 - k : n - 1 - (k - zeros);
     see(worst, row(k, i));
   }
@@ -157,8 +157,12 @@ double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token
   double sum = 0.0;
   for (const auto& ring : wall_rings(spec.target)) {
     std::vector<math::Polygon> all, crowded;
-    for (const auto& placed : p.holes) all.push_back(passing(placed.hole, spec.target, ring.rho));
+    for (const auto& placed : p.holes) {
+      if (stop.stop_requested()) return 0.0;
+      all.push_back(passing(placed.hole, spec.target, ring.rho));
+    }
     for (const auto& polygon : all) {
+      if (stop.stop_requested()) return 0.0;
       const auto [least, most] = std::ranges::minmax(polygon.y);
       const bool alone =
           least > from && most < to && std::ranges::all_of(all, [&](const math::Polygon& other) {
@@ -229,19 +233,20 @@ double dimensions_off(const PartSpec& spec, const Part& p) {
 
 std::vector<Check> verify(const PartSpec& spec, const Part& part, const std::stop_token& stop) {
   Worst all;
-  all.see(bevel::verify(part.start.spec, part.start.own), "");
-  all.see(bevel::verify(part.finish.spec, part.finish.own), "");
+  all.see(bevel::verify(part.start.spec, part.start.own, stop), "");
+  all.see(bevel::verify(part.finish.spec, part.finish.own, stop), "");
   for (std::size_t i = 0; i < part.hole_cuts.size(); ++i)
-    all.see(bevel::verify(part.hole_specs[i], part.hole_cuts[i]), "hole_");
+    all.see(bevel::verify(part.hole_specs[i], part.hole_cuts[i], stop), "hole_");
   auto out = all.take();
   const Vector3d start = spec.start_frame.rows * (part.frame.origin - spec.start_frame.origin);
   const double length = *spec.target.length;
   Eigen::Matrix3d over = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   const double scale = spec.target.outer_radius + length;
   double placed = 0.0;
-  see(placed, misplaced(part.start, false, {Eigen::Matrix3d::Identity(), start}));
-  see(placed, misplaced(part.finish, true, {over, {0.0, 0.0, length - start.z()}}));
+  see(placed, misplaced(part.start, false, {Eigen::Matrix3d::Identity(), start}, stop));
+  see(placed, misplaced(part.finish, true, {over, {0.0, 0.0, length - start.z()}}, stop));
   for (const auto& hole : part.holes) {
+    if (stop.stop_requested()) break;
     const auto& cut = part.hole_cuts[hole.asked];
     const auto& own = cut.holes[hole.hole.far && cut.holes.size() > 1 ? 1 : 0];
     see(placed, misplaced(hole.hole, own, -start.z()));

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+#include <stop_token>
+
+namespace tubecut {
+
+/// Asks in every 1024th turn, for loops whose turns take much less than a microsecond.
+[[nodiscard]] inline bool stops(const std::stop_token& stop, std::size_t turn) {
+  return turn % 1024 == 0 && stop.stop_requested();
+}
+
+}  // namespace tubecut
