@@ -14,14 +14,17 @@ namespace {
 /// Computing gives way to reading, refusing and sending, which take microseconds. Linux keeps the
 /// nice value per thread.
 constexpr int kNice = 5;
+constexpr int kLaneNice =
+    1;  // of the threads that do quick jobs alone: beside long ones they come first
 
 /// A job expected to take no longer is quick, where its body is small too.
 constexpr double kQuick = 0.02;
 constexpr std::size_t kQuickBytes = 64u << 10;
 /// One takes the lane when it has waited so long: while slots come free, nothing runs beside them.
 constexpr double kLaneAfter = 0.005;
-/// One that has the lane for longer is not quick.
+/// One that has had so much CPU in the lane, or has it for so long, is not quick.
 constexpr double kOutgrown = 0.05;
+constexpr double kHeld = 0.2;
 constexpr int kLane = 1;
 /// Jobs beyond the slots that may have outgrown the lane at a time.
 constexpr int kSpare = 1;
@@ -35,11 +38,12 @@ constexpr double kFall = 0.05;
 /// Clients whose means are kept.
 constexpr std::size_t kClients = 4096;
 
-void step_back() {
+void step_back(int by) {
   const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
-  static_cast<void>(
-      ::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + kNice));
+  static_cast<void>(::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + by));
 }
+
+double cpu_s(const Job& job) { return std::chrono::duration<double>(job.cpu.used()).count(); }
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -54,7 +58,8 @@ Slots::Slots(int count, std::size_t queue, Step work, Step done)
       most_(queue + static_cast<std::size_t>(count_)) {
   const auto all = threads(count_);
   running_.reserve(all);
-  while (threads_.size() < all) threads_.emplace_back([this] { run(); });
+  while (threads_.size() < all)
+    threads_.emplace_back([this, lane = threads_.size() < kLane] { run(lane); });
 }
 
 std::size_t Slots::threads(int slots) {
@@ -126,7 +131,7 @@ Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
     queue_.push(job);
     waiting_ = queue_.size();
   }
-  if (free) some_.notify_one();  // else whoever is done next takes it
+  if (free) some_.notify_all();  // else whoever is done next tells
   return out;
 }
 
@@ -141,15 +146,15 @@ void Slots::look(Job& job) {
   {
     const std::lock_guard lock(mutex_);
     const bool waits = job.began_s == 0.0 && job.claim.quick && in_lane_ < kLane;
-    const bool outgrown = job.in_lane && now_s() - job.began_s > kOutgrown;
+    const bool outgrown = job.in_lane && (cpu_s(job) > kOutgrown || now_s() - job.began_s > kHeld);
     if (!waits && (!outgrown || in_slots_ >= count_ + kSpare)) return;
     if (outgrown) leave_lane(job);
   }
-  some_.notify_one();
+  some_.notify_all();
 }
 
 void Slots::leave_lane(Job& job) {
-  learn(job, now_s() - job.began_s);
+  learn(job, std::max(cpu_s(job), kOutgrown));
   queue_.slow(job.kind, job.claim.client);
   job.in_lane = false;
   --in_lane_;
@@ -157,10 +162,11 @@ void Slots::leave_lane(Job& job) {
 }
 
 /// The job whose turn it is, if there is a place for it.
-std::shared_ptr<Job> Slots::next() {
+std::shared_ptr<Job> Slots::next(bool quick_only) {
   const bool slot = in_slots_ < count_;
   if (!slot && in_lane_ >= kLane) return nullptr;
-  auto job = slot ? queue_.pop() : queue_.pop_quick(now_s() - kLaneAfter);
+  auto job =
+      slot && !quick_only ? queue_.pop() : queue_.pop_quick(now_s() - (slot ? 0.0 : kLaneAfter));
   if (!job) return nullptr;
   job->in_lane = !slot;
   ++(slot ? in_slots_ : in_lane_);
@@ -189,25 +195,28 @@ void Slots::learn(const Job& job, double took) {
 void Slots::finish(Job& job) {
   const double took = now_s() - job.began_s;
   job.cpu.stop();
+  const double own = cpu_s(job);
   --(job.in_lane ? in_lane_ : in_slots_);
   queue_.done(job.claim, took);
-  learn(job, took);
+  learn(job, own);  // not what others made it wait
   std::erase_if(running_, [&job](const auto& one) { return one.get() == &job; });
   busy_ = static_cast<int>(running_.size());
 }
 
-void Slots::run() {
-  step_back();
+void Slots::run(bool quick_only) {
+  step_back(quick_only ? kLaneNice : kNice);
   std::unique_lock lock(mutex_);
   for (;;) {
     std::shared_ptr<Job> job;
-    some_.wait(lock, [&] { return ending_ || (job = next()); });
+    some_.wait(lock, [&] { return ending_ || (job = next(quick_only)); });
     if (!job) return;
     lock.unlock();
     work_(job);
     lock.lock();
     finish(*job);  // before the answer is out: its client's next request finds the slot free
+    const bool more = queue_.size() > 0;
     lock.unlock();
+    if (more) some_.notify_all();
     done_(std::move(job));
     lock.lock();
   }

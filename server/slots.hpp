@@ -91,8 +91,8 @@ class Slots {
   [[nodiscard]] int count() const { return count_; }
 
  private:
-  void run();
-  [[nodiscard]] std::shared_ptr<Job> next();
+  void run(bool quick_only);
+  [[nodiscard]] std::shared_ptr<Job> next(bool quick_only);
   void estimate(Job& job) const;
   void leave_lane(Job& job);
   void finish(Job& job);

@@ -312,6 +312,13 @@ class Agreement(unittest.TestCase):
         ingress = (DOCKER / "kubernetes/overlays/example/ingress.yaml").read_text()
         self.assertGreater(int(re.search(r"timeout-server: (\d+)s", ingress)[1]), max(long.values()))
 
+    def test_kubernetes_names_its_image_by_version(self):
+        version = re.search(r"project\(tubecut VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        images = [image for f in (DOCKER / "kubernetes").rglob("*.yaml") for image in re.findall(r"^ *(?:- )?image: (\S+)$", f.read_text(), re.M)]
+        self.assertTrue(images)
+        for image in images:
+            self.assertTrue(image.endswith(f":{version}") or re.search(r"@sha256:[0-9a-f]{64}$", image), image)
+
     def test_nothing_is_repeated_because_it_takes_long(self):
         told = [CONFIG, *(f.read_text() for f in (DOCKER / "kubernetes").rglob("*.yaml"))]
         repeats = [line for text in told for line in re.findall(r"^ *retry-on (.*)$", text, re.M)]

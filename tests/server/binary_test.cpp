@@ -266,6 +266,8 @@ TEST(Binary, IsNotOpenByAccident) {
   EXPECT_NE(open.port, 0);
   Program keyless({TUBECUT_BINARY, "--keys", "/nowhere/keys", "--port", "0", "--admin-port", "0"});
   EXPECT_EQ(keyless.exit_code(), 78);
+  Program folder({TUBECUT_BINARY, "--keys", "/tmp", "--port", "0", "--admin-port", "0"});
+  EXPECT_EQ(folder.exit_code(), 78);
 }
 
 TEST(Binary, AsksForKeysAndReadsThemAgain) {

@@ -24,8 +24,9 @@ struct Variable {
 };
 
 std::string file_with(const std::string& text) {
-  const std::string name =
-      ::testing::TempDir() + "tubecut_config_" + std::to_string(getpid()) + ".toml";
+  static int files = 0;
+  const std::string name = ::testing::TempDir() + "tubecut_config_" + std::to_string(getpid()) +
+                           "_" + std::to_string(++files) + ".toml";
   std::ofstream(name) << text;
   return name;
 }
@@ -67,7 +68,11 @@ TEST(Config, FindsItsFileByTheEnvironment) {
 
 TEST(Config, PassesOverNoMistake) {
   const std::string typo = file_with("prot = 1001\n");
+  const std::string nameless = file_with("port = 1001\n  = 3\n");
+  const std::string bare = file_with("=\n");
   for (const std::vector<const char*>& words : {std::vector<const char*>{"--config", typo.c_str()},
+                                                {"--config", nameless.c_str()},
+                                                {"--config", bare.c_str()},
                                                 {"--config", "/nowhere/tubecut.toml"},
                                                 {"--port", "65536"},
                                                 {"--port", "-1"},
