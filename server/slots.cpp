@@ -92,6 +92,7 @@ void Slots::estimate(Job& job) const {
   const double* const mean = mean_of(job);
   const bool known = mean != nullptr;
   job.claim.expected_s = known ? *mean : kUnknown;
+  job.claim.trial = mean == &kUnknown;
   job.claim.quick = job.request.line == 0 && job.claim.expected_s <= kQuick &&
                     job.request.body.size() <= (known ? kQuickBytes : 0);
 }
@@ -147,7 +148,7 @@ void Slots::look(Job& job) {
     const std::lock_guard lock(mutex_);
     const bool waits = job.began_s == 0.0 && job.claim.quick && in_lane_ < kLane;
     const bool outgrown = job.in_lane && (cpu_s(job) > kOutgrown || now_s() - job.began_s > kHeld);
-    if (!waits && (!outgrown || in_slots_ >= count_ + kSpare)) return;
+    if (!waits && (!outgrown || !has_spare())) return;
     if (outgrown) leave_lane(job);
   }
   some_.notify_all();
@@ -161,12 +162,16 @@ void Slots::leave_lane(Job& job) {
   ++in_slots_;
 }
 
+/// Whether a job that outgrows the lane can make room in it.
+bool Slots::has_spare() const { return in_slots_ < count_ + kSpare; }
+
 /// The job whose turn it is, if there is a place for it.
 std::shared_ptr<Job> Slots::next(bool quick_only) {
   const bool slot = in_slots_ < count_;
   if (!slot && in_lane_ >= kLane) return nullptr;
-  auto job =
-      slot && !quick_only ? queue_.pop() : queue_.pop_quick(now_s() - (slot ? 0.0 : kLaneAfter));
+  auto job = slot && !quick_only
+                 ? queue_.pop()
+                 : queue_.pop_quick(now_s() - (slot ? 0.0 : kLaneAfter), has_spare());
   if (!job) return nullptr;
   job->in_lane = !slot;
   ++(slot ? in_slots_ : in_lane_);

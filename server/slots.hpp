@@ -95,6 +95,7 @@ class Slots {
   [[nodiscard]] std::shared_ptr<Job> next(bool quick_only);
   void estimate(Job& job) const;
   void leave_lane(Job& job);
+  [[nodiscard]] bool has_spare() const;
   void finish(Job& job);
   void learn(const Job& job, double took);
   [[nodiscard]] const double* mean_of(const Job& job) const;

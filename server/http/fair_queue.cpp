@@ -56,8 +56,10 @@ std::shared_ptr<Job> FairQueue::pop() {
   return pop_where([](const Claim&) { return true; });
 }
 
-std::shared_ptr<Job> FairQueue::pop_quick(double since) {
-  return pop_where([since](const Claim& first) { return first.quick && first.since <= since; });
+std::shared_ptr<Job> FairQueue::pop_quick(double since, bool trials) {
+  return pop_where([since, trials](const Claim& first) {
+    return first.quick && first.since <= since && (trials || !first.trial);
+  });
 }
 
 template <class May>

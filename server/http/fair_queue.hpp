@@ -17,6 +17,7 @@ struct Claim {
   const void* flow = nullptr;  // of the client's: the connection it came by
   double expected_s = 0.0;     // in a slot
   bool quick = false;          // may take the lane that long jobs cannot fill
+  bool trial = false;          // but it is not known to be: its client's first of a kind
   std::size_t order = 0;       // in which it came; the queue's
   double since = 0.0;          // when it began to wait, in seconds
 };
@@ -32,8 +33,8 @@ class FairQueue {
   /// The next to run; nothing when none waits.
   [[nodiscard]] std::shared_ptr<Job> pop();
 
-  /// The next of the quick that have waited since then.
-  [[nodiscard]] std::shared_ptr<Job> pop_quick(double since);
+  /// The next of the quick that have waited since then; `trials`: or of those believed to be.
+  [[nodiscard]] std::shared_ptr<Job> pop_quick(double since, bool trials = true);
 
   /// `took` seconds were had by a job popped, and no more will be.
   void done(const Claim& claim, double took);

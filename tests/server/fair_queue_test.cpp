@@ -116,6 +116,17 @@ TEST(FairQueue, FindsTheQuickBehindTheLong) {
   EXPECT_EQ(queue.pop_quick(1.0), nullptr);
 }
 
+TEST(FairQueue, HoldsTrialsBackWhereTheyCouldBlockTheKnown) {
+  FairQueue queue;
+  const auto trial = job("new", 0.001), known = job("old", 0.001);
+  trial->claim.trial = true;
+  queue.push(trial);
+  queue.push(known);
+  EXPECT_EQ(queue.pop_quick(1.0, false), known);
+  EXPECT_EQ(queue.pop_quick(1.0, false), nullptr);
+  EXPECT_EQ(queue.pop_quick(1.0), trial);
+}
+
 TEST(FairQueue, GivesThePlaceOfWhoHasMostToWhoHasLess) {
   FairQueue queue;
   std::vector<std::shared_ptr<Job>> greedy;
