@@ -161,9 +161,10 @@ double periods_of(double time, double period) {
 }
 
 Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_token stop) {
-  const Conditions base = without_jerk(course.limits, stop);
+  Conditions base = without_jerk(course.limits, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows, stop);
+  base = {};  // to be freed at the end, with the rest, would hold up a stop
   HalfPlanes acceleration = acceleration_rows(course.limits, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   const Profile by_signs = fastest_profile(speed_caps(course.limits, stop), acceleration, stop);
@@ -180,6 +181,7 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
   if (jerk) {
     const double by_magnitudes = duration(x, course.limits.d);
     limit_jerk(out, Search(course, options, x, stop), course, options);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!options.filter && options.optimism > 1.0 && by_magnitudes > kCancels * out.least) {
       Timing faster =
           best_by_signed_rows(course, by_signs, std::move(acceleration), out.timing.time, stop);
