@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
@@ -16,16 +18,25 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTurn = 2.0 * kRadPerDeg;  // over which a helix is a parabola: 1e-6 of the radius
-constexpr double kPlaces = 2000.0;          // along the cut, beside the rows and their middles
-constexpr int kAcross = 2;                  // stretches across the wall
-constexpr double kArc = 1.01;               // no longer than that is an arc over its chord
-constexpr double kMostParts = 64.0;  // of the way from row to row, each no longer than four kerfs
+constexpr double kSwing =
+    3.0 * kRadPerDeg;               // over which the squared distance is all but a parabola
+constexpr double kPlaces = 2000.0;  // along the cut, beside the rows and their middles
+constexpr double kApart = 0.1;      // rad: leans that are apart
+constexpr double kFine = 0.25;      // of half a kerf: across the wall, where they are
+constexpr double kMostLines = 48;
+constexpr int kFewest = 2, kMost = 8;  // stretches across the wall
+constexpr double kArc = 1.01;          // no longer than that is an arc over its chord
+constexpr double kMostParts = 64.0;    // of the way from row to row, each no longer than four kerfs
 constexpr double kTiny = 1e-300;
 constexpr int kParabolas = 4;
 constexpr double kStill = 1e-4;      // of a stretch
 constexpr double kRounding = 2e-6;   // of the radius, of a parabola for a helix
-constexpr std::size_t kRefined = 6;  // of the worst stretches between rows
-constexpr double kFinest = 4e-3;  // of the distance between two places: where the worst one stands
+constexpr int kHalvings = 250;       // at most, of cells between places; most cuts need some ten
+constexpr int kHalvingsOfRows = 40;  // likewise, where no more than what is there is asked for
+constexpr double kKept = 0.8;        // of a cell's slope, by its halves
+constexpr double kMargin = 4.0;      // times a slope that corners show: a ridge between them
+constexpr double kTold = 2e-3;       // mm: a cell that promises no more than this is left alone,
+constexpr double kToldShare = 8e-3;  // nor one that promises only so much of what is known
 
 double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
 Vector3d mixed(const Vector3d& a, const Vector3d& b, double u) { return (1.0 - u) * a + u * b; }
@@ -91,8 +102,10 @@ class Beam {
       const double rise =
           std::max(std::abs(b.z_inner - a.z_inner), std::abs(b.z_outer - a.z_outer));
       const double way = std::min(rise + cut.outer * wide, 4.0 * kMostParts * cut.kerf);
-      const int parts =
-          1 + static_cast<int>(std::max(wide / kTurn, way / (4.0 * cut.kerf + kTiny)));
+      const auto from = axis(a), to = axis(b);
+      const double swing = elementary::atan2(from.cross(to).norm(), from.dot(to));
+      const int parts = 1 + static_cast<int>(std::max(
+                                {wide / kTurn, way / (4.0 * cut.kerf + kTiny), swing / kSwing}));
       for (int k = 0; k < parts; ++k)
         add(i, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts);
     }
@@ -120,6 +133,11 @@ class Beam {
  private:
   [[nodiscard]] AcrossWall torch(std::size_t row, double u) const {
     return between(cut_.torch, cut_.turn, row, u);
+  }
+
+  [[nodiscard]] Vector3d axis(const AcrossWall& at) const {
+    return placed(cut_.outer, at.phi_outer, at.z_outer) -
+           placed(cut_.inner, at.phi_inner, at.z_inner);
   }
 
   void add(std::size_t row, double from, double to) {
@@ -256,10 +274,18 @@ class Surface {
     return mixed(here.phi_inner, here.phi_outer, at.land ? 0.0 : share(at));
   }
   [[nodiscard]] std::size_t rows() const { return cut_.finished.size(); }
-  /// Length of the way from one row to the next on the outer wall.
+  [[nodiscard]] double across(std::size_t row, bool land) const {
+    return (point({row, 0.0, 1.0, land}) - point({row, 0.0, 0.0, land})).norm();
+  }
+  /// Length of the way from one row to the next, on the wall where it is longer.
   [[nodiscard]] double step(std::size_t row) const {
     const auto a = finished({row, 0.0}), b = finished({row, 1.0});
-    return elementary::hypot(cut_.outer * (b.phi_outer - a.phi_outer), b.z_outer - a.z_outer);
+    const double rise = b.z_inner - a.z_inner;
+    const double land = cut_.land.empty() ? rise : cut_.land[(row + 1) % rows()] - cut_.land[row];
+    const double steep = std::max(std::abs(rise), std::abs(land));
+    return std::max(
+        elementary::hypot(cut_.inner * (b.phi_inner - a.phi_inner), steep),
+        elementary::hypot(cut_.outer * (b.phi_outer - a.phi_outer), b.z_outer - a.z_outer));
   }
 
  private:
@@ -300,65 +326,217 @@ class Surface {
   std::vector<Vector3d> along_;  // after each row
 };
 
-/// A place and its figure: the distance beyond half a kerf, or short of it.
+/// How far the surface is short of half a kerf from the nearest axis (`sign` -1) or beyond it (1).
+struct Figure {
+  const Surface& surface;
+  double half, sign;
+
+  [[nodiscard]] double operator()(const Place& at) const {
+    return sign * (surface.distance(at) - half);
+  }
+};
+
+/// A place and its figure there.
 struct Seen {
   double value = -std::numeric_limits<double>::infinity();
   Place at;
 };
 
-/// The places where a figure is largest, one of each stretch between rows.
+/// A piece of the surface between four places; the corners: at `from`, at v1, at u1, at both.
+struct Cell {
+  Place from;
+  double u1, v1;
+  std::array<double, 4> value;
+  double along, across;                          // mm
+  double steep_along = 0.0, steep_across = 0.0;  // what a figure may change by, in mm a mm
+
+  [[nodiscard]] double grows_along() const { return steep_along * along; }
+  [[nodiscard]] double grows_across() const { return steep_across * across; }
+  [[nodiscard]] double most() const {
+    return *std::ranges::max_element(value) + 0.5 * (grows_along() + grows_across());
+  }
+};
+
+/// By how much a figure changes along the cell, and across it, from corner to corner, mm a mm.
+double slope_along(const Cell& c) {
+  const auto& [a, b, d, e] = c.value;
+  return std::max(std::abs(d - a), std::abs(e - b)) / (c.along + kTiny);
+}
+double slope_across(const Cell& c) {
+  const auto& [a, b, d, e] = c.value;
+  return std::max(std::abs(b - a), std::abs(e - d)) / (c.across + kTiny);
+}
+
+/// Sets how steep the cell may be from its corners; a ridge may stand between them, so it is no
+/// less than a share of what it was: of the cell before, or of the one it is a half of. A distance
+/// grows no faster than its point moves.
+Cell with_slopes(Cell c, double share) {
+  c.steep_along = std::min(1.0, std::max(share * c.steep_along, kMargin * slope_along(c)));
+  c.steep_across = std::min(1.0, std::max(share * c.steep_across, kMargin * slope_across(c)));
+  return c;
+}
+
+/// The largest figure: the cell that promises most is halved until none promises more than is
+/// known, or for as long as is granted.
 class Largest {
  public:
-  void see(const Seen& seen) {
-    if (!found_.empty() && found_.back().at.row == seen.at.row) {
-      if (seen.value > found_.back().value) found_.back() = seen;
-    } else {
-      found_.push_back(seen);
-    }
+  explicit Largest(const Figure& figure) : figure_(figure) {}
+
+  void see(const Cell& cell) {
+    cells_.push_back(with_slopes(cell, kMargin));
+    keep(cell);
   }
-  /// The largest of all, looked for around the largest ones along the cut and across the wall.
-  template <class Figure>
-  [[nodiscard]] Seen worst(std::size_t refined, const Figure& figure) {
-    const auto most = std::min(refined, found_.size());
-    std::ranges::partial_sort(found_, found_.begin() + static_cast<std::ptrdiff_t>(most),
-                              std::ranges::greater{}, &Seen::value);
-    Seen best;
-    for (std::size_t k = 0; k < most; ++k) {
-      const auto one = around(found_[k], figure);
-      if (one.value > best.value) best = one;
+
+  [[nodiscard]] Seen worst(int halvings) {
+    std::ranges::make_heap(cells_, {}, &Cell::most);
+    while (halvings-- > 0 && !cells_.empty()) {
+      std::ranges::pop_heap(cells_, {}, &Cell::most);
+      const Cell cell = cells_.back();
+      cells_.pop_back();
+      const double known = std::max(0.0, best_.value);
+      if (!(cell.most() > known + std::max(kTold, kToldShare * known))) break;
+      for (const auto& half :
+           cell.grows_along() > cell.grows_across() ? along(cell) : across(cell)) {
+        keep(half);
+        cells_.push_back(with_slopes(half, kKept));
+        std::ranges::push_heap(cells_, {}, &Cell::most);
+      }
     }
-    return best;
+    return best_;
   }
 
  private:
-  template <class Figure>
-  static Seen around(Seen best, const Figure& figure) {
-    const double wide = figure.apart(best.at.row);
-    for (double step = 0.5; step > kFinest; step *= 0.5)
-      for (const auto& [du, dv] : {std::pair{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}}) {
-        Place next = best.at;
-        next.u = std::clamp(next.u + du * step * wide, 0.0, 1.0);
-        next.v = std::clamp(next.v + dv * step / kAcross, 0.0, 1.0);
-        if (const double value = figure(next); value > best.value) best = {value, next};
+  void keep(const Cell& cell) {
+    const auto k =
+        static_cast<std::size_t>(std::ranges::max_element(cell.value) - cell.value.begin());
+    if (!(cell.value[k] > best_.value)) return;
+    best_ = {cell.value[k], cell.from};
+    if (k & 1U) best_.at.v = cell.v1;
+    if (k & 2U) best_.at.u = cell.u1;
+  }
+  [[nodiscard]] std::array<Cell, 2> along(Cell low) const {
+    Place at = low.from;
+    at.u = mixed(at.u, low.u1, 0.5);
+    const double near = figure_(at);
+    Place over = at;
+    over.v = low.v1;
+    const double far = figure_(over);
+    low.along *= 0.5;
+    Cell high = low;
+    high.from = at;
+    low.u1 = at.u;
+    high.value[0] = low.value[2] = near;
+    high.value[1] = low.value[3] = far;
+    return {low, high};
+  }
+  [[nodiscard]] std::array<Cell, 2> across(Cell low) const {
+    Place at = low.from;
+    at.v = mixed(at.v, low.v1, 0.5);
+    const double near = figure_(at);
+    Place over = at;
+    over.u = low.u1;
+    const double far = figure_(over);
+    low.across *= 0.5;
+    Cell high = low;
+    high.from = at;
+    low.v1 = at.v;
+    high.value[0] = low.value[1] = near;
+    high.value[2] = low.value[3] = far;
+    return {low, high};
+  }
+
+  const Figure& figure_;
+  std::vector<Cell> cells_;
+  Seen best_;
+};
+
+/// Runs of rows near which, within half a kerf, the torch leans in ways that are apart: there a
+/// place where the beam is in the part can be narrow across the wall.
+std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut,
+                                                        const Surface& surface) {
+  const auto n = surface.rows();
+  const auto lean = [&](std::size_t i) {
+    const auto& t = cut.torch[i % n];
+    return elementary::atan2(t.z_outer - t.z_inner, cut.outer - cut.inner);
+  };
+  const auto step = [&](std::size_t i) {
+    const auto &a = cut.torch[i % n], &b = cut.torch[(i + 1) % n];
+    const double turn = (i + 1) % n == 0 ? cut.turn : 0.0;
+    return cut.inner * std::abs(b.phi_inner + turn - a.phi_inner);
+  };
+  std::vector<bool> near(n, false);
+  for (std::size_t i = 0; i < n; ++i) {
+    double low = lean(i), high = low, left = 0.5 * cut.kerf;  // to look ahead
+    std::size_t k = i;
+    for (; k < i + n && left > 0.0; ++k) {
+      const double there = mixed(lean(k), lean(k + 1), std::min(1.0, left / (step(k) + kTiny)));
+      low = std::min(low, there);
+      high = std::max(high, there);
+      left -= step(k);
+    }
+    if (high - low < kApart) continue;
+    for (std::size_t m = i + n - 1; m < k + n; ++m) near[m % n] = true;
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!near[i]) continue;
+    if (out.empty() || out.back().second != i) out.emplace_back(i, i);
+    out.back().second = i + 1;
+  }
+  return out;
+}
+
+struct Grid {
+  double apart;            // mm, along the cut
+  int lines;               // stretches across the wall
+  std::size_t first, end;  // rows
+  bool land = false;
+};
+
+/// All cells of the grid, with their figures.
+template <class See>
+void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& stop,
+               const See& see) {
+  const auto& surface = figure.surface;
+  std::vector<double> before, here;
+  std::vector<Cell> last(static_cast<std::size_t>(grid.lines));
+  const auto share = [&](int m) { return static_cast<double>(m) / grid.lines; };
+  const auto line_up = [&](std::size_t row, double u) {
+    before.swap(here);
+    here.clear();
+    for (int m = 0; m <= grid.lines; ++m) here.push_back(figure({row, u, share(m), grid.land}));
+  };
+  line_up(grid.first, 0.0);
+  for (std::size_t i = grid.first; i < grid.end && !stop.stop_requested(); ++i) {
+    const double step = surface.step(i), wide = surface.across(i, grid.land) / grid.lines;
+    const int parts = std::max(1, static_cast<int>(std::ceil(step / grid.apart)));
+    for (int k = 0; k < parts; ++k) {
+      const double u = static_cast<double>(k) / parts, u1 = static_cast<double>(k + 1) / parts;
+      line_up(i, u1);
+      for (int m = 0; m < grid.lines; ++m) {
+        const auto a = static_cast<std::size_t>(m), b = a + 1;
+        const Cell cell{.from = {i, u, share(m), grid.land},
+                        .u1 = u1,
+                        .v1 = share(m + 1),
+                        .value = {before[a], before[b], here[a], here[b]},
+                        .along = step / parts,
+                        .across = wide,
+                        .steep_along = slope_along(last[a]),
+                        .steep_across = slope_across(last[a])};
+        last[a] = cell;
+        see(cell);
       }
-    return best;
+    }
   }
+}
 
-  std::vector<Seen> found_;
-};
-
-/// How far the surface is short of half a kerf from the nearest axis (`sign` -1) or beyond it (1).
-struct Figure {
-  const Surface& surface;
-  double half, apart_mm, sign;
-
-  [[nodiscard]] int parts(std::size_t row) const {
-    return std::max(1, static_cast<int>(std::ceil(surface.step(row) / apart_mm)));
-  }
-  [[nodiscard]] double apart(std::size_t row) const { return 1.0 / parts(row); }
-  [[nodiscard]] double of(double distance) const { return sign * (distance - half); }
-  [[nodiscard]] double operator()(const Place& at) const { return of(surface.distance(at)); }
-};
+/// Stretches across the wall: more in walls thick beside the kerf.
+int lines(const BeamCut& cut) {
+  constexpr double kKerfs = 4.0;
+  if (cut.kerf == 0.0) return kFewest;
+  const double parts = std::ceil((cut.outer - cut.inner) / (kKerfs * cut.kerf + kTiny));
+  return static_cast<int>(std::clamp(parts, 1.0 * kFewest, 1.0 * kMost));
+}
 
 }  // namespace
 
@@ -369,28 +547,42 @@ BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& s
   const bool rows_only = places == Places::rows;
   double length = 0.0;
   for (std::size_t i = 0; i < surface.rows(); ++i) length += surface.step(i);
-  const double apart = rows_only || half == 0.0 ? length : std::max(0.5 * half, length / kPlaces);
-  const Figure short_of{surface, half, apart, -1.0}, beyond{surface, half, apart, 1.0};
-  Largest gouges, lefts;
-  for (std::size_t i = 0; i < surface.rows() && !stop.stop_requested(); ++i) {
-    const int parts = beyond.parts(i);
-    for (int k = 0; k < parts; ++k)
-      for (int m = 0; m <= kAcross; m += rows_only ? kAcross : 1) {
-        const Place at{i, static_cast<double>(k) / parts, static_cast<double>(m) / kAcross};
-        const double distance = surface.distance(at);
-        gouges.see({short_of.of(distance), at});
-        lefts.see({beyond.of(distance), at});
-        if (cut.land.empty() || m == kAcross) continue;
-        const Place land{i, at.u, at.v, true};
-        gouges.see({short_of(land), land});
-      }
-  }
-  const auto refined = rows_only ? std::size_t{1} : kRefined;
-  const auto gouge = gouges.worst(refined, short_of), left = lefts.worst(refined, beyond);
-  return {.gouge = std::max(0.0, gouge.value),
-          .gouge_phi = surface.phase(gouge.at),
-          .left = std::max(0.0, left.value),
-          .left_phi = surface.phase(left.at)};
+  const Figure short_of{surface, half, -1.0}, beyond{surface, half, 1.0};
+  Largest gouges(short_of), lefts(beyond);
+  const auto see = [&](Cell cell) {
+    gouges.see(cell);
+    if (cell.from.land) return;
+    for (double& value : cell.value) value = -value;
+    lefts.see(cell);
+  };
+  Grid grid{.apart = rows_only || half == 0.0 ? length : std::max(0.5 * half, length / kPlaces),
+            .lines = rows_only ? 1 : lines(cut),
+            .first = 0,
+            .end = surface.rows()};
+  see_cells(short_of, grid, stop, see);
+  grid.land = true;
+  if (!cut.land.empty()) see_cells(short_of, grid, stop, see);
+  grid.land = false;
+  grid.lines = static_cast<int>(
+      std::clamp((cut.outer - cut.inner) / (kFine * half + kTiny), 1.0 * lines(cut), kMostLines));
+  if (!rows_only && half > 0.0)
+    for (const auto& [first, end] : swings(cut, surface)) {
+      grid.first = first;
+      grid.end = end;
+      see_cells(short_of, grid, stop, see);
+    }
+  const int halvings = rows_only ? kHalvingsOfRows : kHalvings;
+  const auto gouge = gouges.worst(halvings), left = lefts.worst(halvings);
+  BeamProof out{.gouge = std::max(0.0, gouge.value),
+                .gouge_phi = surface.phase(gouge.at),
+                .left = std::max(0.0, left.value),
+                .left_phi = surface.phase(left.at)};
+  if (rows_only) return out;
+  const auto rows = beam_proof(cut, Places::rows, stop);  // what is stated is no less than it
+  if (rows.gouge > out.gouge)
+    std::tie(out.gouge, out.gouge_phi) = std::tie(rows.gouge, rows.gouge_phi);
+  if (rows.left > out.left) std::tie(out.left, out.left_phi) = std::tie(rows.left, rows.left_phi);
+  return out;
 }
 
 }  // namespace tubecut::bevel

@@ -39,6 +39,13 @@ Result<void> check(const TableSpec& spec) {
                  .limit = spec.target.wall,
                  .unit = "mm",
                  .hint = "must be less than the wall"});
+  if (!(spec.kerf < spec.target.outer_radius))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "kerf",
+                 .got = spec.kerf,
+                 .limit = spec.target.outer_radius,
+                 .unit = "mm",
+                 .hint = "must be less than the tube's radius"});
   if (spec.root_face > 0.0 && spec.contact != Contact::inner)
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = "root_face",

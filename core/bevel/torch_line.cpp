@@ -11,10 +11,16 @@ namespace tubecut::bevel {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFlat = 5e-4;   // of kerf and a tenth of the wall, normal to the line: straight
-constexpr double kHollow = 4.0;  // times that: a stretch hollow by less
-constexpr int kNewton = 3;       // from the plane's own answer, which is second order off
-constexpr int kDeepest = 12;     // halvings of the stretch between two rows
+// No length stands here but as a share of another: tables scale exactly.
+constexpr double kFlat = 5e-4;  // of kerf and a tenth of the wall, normal to the line: straight,
+constexpr double kFlattest = 1.5e-5;  // and of the radius
+constexpr double kHollow = 4.0;       // times that: a stretch hollow by less
+constexpr double kWidest = 0.0125;    // of the radius, between places that are looked at
+constexpr int kNewton = 30;           // at most: halvings, where Newton leaves the range
+constexpr double kStill = 1e-6;       // of half the kerf: a step that raises what is needed by less
+constexpr double kLines = 0.25;       // of half a kerf: between finished lines across the wall,
+constexpr double kMostLines = 16.0;   // and no more from row to row
+constexpr int kDeepest = 12;          // halvings of the stretch between two rows
 
 double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
 
@@ -44,10 +50,12 @@ struct Circle {
 };
 
 /// Places across the wall, its edges first. Between them what is needed bends by
-/// w^2 k / (10 rho^2) where they are w apart: less than 1e-3 of the kerf.
-std::vector<double> shares(double inner, double outer) {
-  const double parts = 14.0 * (outer - inner) / inner;
-  const int n = static_cast<int>(std::clamp(std::ceil(parts), 2.0, 8.0));
+/// w^2 k / (10 rho^2) where they are w apart: less than 1e-3 of the kerf, and than 1e-5 of the
+/// radius.
+std::vector<double> shares(double inner, double outer, double kerf) {
+  const double wide = std::sqrt(std::max(1.0, 100.0 * kerf / outer));
+  const double parts = 14.0 * wide * (outer - inner) / inner;
+  const int n = static_cast<int>(std::clamp(std::ceil(parts), 2.0, 24.0));
   std::vector<double> out{0.0, 1.0};
   for (int k = 1; k < n; ++k) out.push_back(static_cast<double>(k) / n);
   return out;
@@ -67,14 +75,16 @@ class LeastDrop {
   LeastDrop(const TableSpec& spec, const Table& t)
       : half_(0.5 * spec.kerf),
         inner_(spec.target.inner_radius()),
-        flat_(kFlat * (spec.kerf + 0.1 * spec.target.wall)),
+        flat_(std::min(kFlattest * spec.target.outer_radius,
+                       kFlat * (spec.kerf + 0.1 * spec.target.wall))),
+        widest_(kWidest * spec.target.outer_radius),
         phi_(t.phi) {
     const double outer = spec.target.outer_radius;
     const bool land = !t.z_face.empty();
     const double edge = land ? inner_ + spec.root_face : inner_;
     const auto& from = land ? t.z_face : t.z_inner;
     if (land) circles_.emplace_back(inner_, half_, t.z_inner);
-    for (const double u : shares(inner_, outer)) {
+    for (const double u : shares(inner_, outer, spec.kerf)) {
       std::vector<double> z(from.size());
       for (std::size_t i = 0; i < z.size(); ++i) z[i] = mixed(from[i], t.z_outer[i], u);
       circles_.emplace_back(mixed(edge, outer, u), half_, std::move(z));
@@ -84,6 +94,12 @@ class LeastDrop {
       foot_.push_back(from[i] - (edge - inner_) * slope_[i]);
       turns_.push_back(elementary::sincos(phi_[i]));
     }
+    bands_.push_back(band(edge, outer, foot_, slope_));
+    if (!land) return;
+    std::vector<double> slope;
+    for (std::size_t i = 0; i < phi_.size(); ++i)
+      slope.push_back((t.z_face[i] - t.z_inner[i]) / spec.root_face);
+    bands_.push_back(band(inner_, edge, t.z_inner, slope));
   }
 
   /// Of the line the share u of the way from row i to the next.
@@ -93,6 +109,7 @@ class LeastDrop {
     for (const auto& circle : circles_)
       for (const double turn : {0.0, -kTwoPi, kTwoPi})
         best = search(axis, circle, turn, circle.least.size() - 1, 0, best);
+    for (const auto& band : bands_) best = past_lines(axis, band, best);
     return best;
   }
 
@@ -103,14 +120,21 @@ class LeastDrop {
   };
   [[nodiscard]] std::vector<Place> stretch(std::size_t i, double from, double to) const {
     int least = 0;
-    double wide = inner_ * width(i);
-    for (; least < kDeepest && half_ > 0.0 && wide > half_; ++least) wide *= 0.5;
+    double wide = way(i);
+    for (; least < kDeepest && half_ > 0.0 && wide > std::min(half_, widest_); ++least) wide *= 0.5;
     std::vector<Place> out{{0.0, from}};
     halve(i, {0.0, from}, {1.0, to}, {least, kDeepest}, out);
     out.push_back({1.0, to});
     return out;
   }
 
+  /// Length of the finished edges' way from row i to the next, the longer one's.
+  [[nodiscard]] double way(std::size_t i) const {
+    double rise = 0.0;
+    for (const auto& circle : circles_)
+      rise = std::max(rise, std::abs(circle.z[(i + 1) % circle.z.size()] - circle.z[i]));
+    return elementary::hypot(inner_ * width(i), rise);
+  }
   [[nodiscard]] double width(std::size_t i) const { return phase(i + 1) - phi_[i]; }
   [[nodiscard]] double foot(std::size_t i, double u) const { return axis_at(i, u).foot; }
 
@@ -120,14 +144,60 @@ class LeastDrop {
   }
 
   [[nodiscard]] Axis axis_at(std::size_t i, double u) const {
+    return mixed_line(i, u, foot_, slope_);
+  }
+
+  /// The finished lines of one part of the wall, at rows and between them.
+  struct Band {
+    double low, high;  // radii
+    std::vector<Axis> lines;
+  };
+  [[nodiscard]] Band band(double low, double high, const std::vector<double>& foot,
+                          const std::vector<double>& slope) const {
+    Band out{low, high, {}};
+    if (half_ == 0.0) return out;
+    for (std::size_t i = 0; i < phi_.size(); ++i) {
+      const double parts = std::ceil(high * width(i) / (kLines * half_));
+      const int n = static_cast<int>(std::clamp(parts, 1.0, kMostLines));
+      for (int k = 0; k < n; ++k)
+        out.lines.push_back(mixed_line(i, static_cast<double>(k) / n, foot, slope));
+    }
+    return out;
+  }
+
+  [[nodiscard]] Axis mixed_line(std::size_t i, double u, const std::vector<double>& foot,
+                                const std::vector<double>& slopes) const {
     const auto j = (i + 1) % phi_.size();
-    const double slope = mixed(slope_[i], slope_[j], u);
+    const double slope = mixed(slopes[i], slopes[j], u);
     const double phi = mixed(phi_[i], phase(i + 1), u);
     return {.phi = phi,
             .turn = u == 0.0 ? turns_[i] : elementary::sincos(phi),
-            .foot = mixed(foot_[i], foot_[j], u),
+            .foot = mixed(foot[i], foot[j], u),
             .slope = slope,
             .secant = elementary::hypot(1.0, slope)};
+  }
+
+  /// The larger of `best` and what the finished lines across the wall ask for within it. Where the
+  /// axis leans more than a line, most is needed where that all but leaves the beam: the sum of a
+  /// rising line and the beam's round, which has a closed form.
+  [[nodiscard]] double past_lines(const Axis& axis, const Band& band, double best) const {
+    const double reach = half_ < band.low ? elementary::asin(half_ / band.low) : 0.5 * kPi;
+    for (const double turn : {0.0, -kTwoPi, kTwoPi}) {
+      const double from = axis.phi - reach - turn, to = axis.phi + reach - turn;
+      auto line = std::ranges::lower_bound(band.lines, from, {}, &Axis::phi);
+      for (; line != band.lines.end() && line->phi <= to; ++line) {
+        const double sin = line->turn.sin * axis.turn.cos - line->turn.cos * axis.turn.sin;
+        const double cos = line->turn.cos * axis.turn.cos + line->turn.sin * axis.turn.sin;
+        const double leans = axis.slope * cos - line->slope, falls = axis.secant * std::abs(sin);
+        if (!(leans > 0.0 && falls > 0.0)) continue;
+        const double beside = half_ * leans / elementary::hypot(leans, falls);
+        const double rho = beside / std::abs(sin);
+        if (!(rho > band.low && rho < band.high)) continue;
+        best = std::max(best, axis.foot + (rho * cos - inner_) * axis.slope - line->foot -
+                                  (rho - inner_) * line->slope + round(axis, beside));
+      }
+    }
+    return best;
   }
 
   /// Row i seen from the axis: its distance to the side and ahead on the circle.
@@ -187,23 +257,37 @@ class LeastDrop {
     const bool a_in = from > -circle.reach, b_in = to < circle.reach;
     if (a_in && !(grows(a) > 0.0)) return needed(a, low);
     if (b_in && !(grows(b) < 0.0)) return needed(b, high);
-    const double first = std::max(from, -circle.reach), last = std::min(to, circle.reach);
-    const double slope = rate / circle.rho;
-    const double guess = -half_ * slope / elementary::hypot(axis.secant, slope);
-    double at = std::clamp(guess / circle.rho, first, last);
-    Side here{};
-    for (int k = 0; k <= kNewton; ++k) {
-      const auto turn = elementary::sincos(at);
-      here = {circle.rho * turn.sin, circle.rho * turn.cos};
-      const double root = std::sqrt(std::max(0.0, (half_ - here.beside) * (half_ + here.beside)));
-      if (k == kNewton || !(root > 0.0)) break;
-      const double x = here.beside, y = here.ahead;
-      const double bend = -y * axis.slope - axis.secant * ((y * y - x * x) / root +
-                                                           x * x * y * y / (root * root * root));
-      if (!(bend < 0.0)) break;
-      at = std::clamp(at - grows(here) / bend, first, last);
+    const auto angle = [&](double turn) {  // round the beam
+      const double x = circle.rho * elementary::sincos(turn).sin;
+      return elementary::asin(std::clamp(x / half_, -1.0, 1.0));
+    };
+    const double x = highest(axis, circle.rho, rate, angle(std::max(from, -circle.reach)),
+                             angle(std::min(to, circle.reach)));
+    const Side at{x, std::sqrt((circle.rho - x) * (circle.rho + x))};
+    return needed(at, low + rate * (elementary::asin(x / circle.rho) - from));
+  }
+
+  /// Distance to the side at which most is needed, between two angles round the beam: by Newton
+  /// from the plane's own answer. Over the angle nothing is steep where the beam ends.
+  [[nodiscard]] double highest(const Axis& axis, double rho, double rate, double first,
+                               double last) const {
+    const double slope = rate / rho;
+    const double plane = -slope / elementary::hypot(axis.secant, slope);
+    double angle = std::clamp(elementary::asin(plane), first, last);
+    for (int k = 0;; ++k) {
+      const auto [sin, cos] = elementary::sincos(angle);
+      const double x = half_ * sin, root = half_ * cos;
+      const double ahead = std::sqrt((rho - x) * (rho + x));
+      const double pull = (rate + x * axis.slope) / ahead;
+      const double grows = -pull * root - axis.secant * x;
+      const double bend = pull * x - axis.slope * root * root / ahead - axis.secant * root;
+      (grows > 0.0 ? first : last) = angle;
+      const double newton = angle - grows / bend;
+      const bool inside = bend < 0.0 && newton > first && newton < last;
+      const double next = inside ? newton : 0.5 * (first + last);
+      if (k == kNewton || !(std::abs(grows * (next - angle)) > kStill * half_)) return x;
+      angle = next;
     }
-    return needed(here, low + rate * (at - from));
   }
 
   struct Halvings {
@@ -222,11 +306,12 @@ class LeastDrop {
     if (deeper) halve(i, middle, to, next, out);
   }
 
-  double half_, inner_, flat_;
+  double half_, inner_, flat_, widest_;
   const std::vector<double>& phi_;
   std::vector<double> foot_, slope_;
   std::vector<elementary::SinCos> turns_;  // of the rows' phases
   std::vector<Circle> circles_;
+  std::vector<Band> bands_;
 };
 
 /// Raises the ends of a straight stretch until it is no lower than `value` at u: the lower end

@@ -9,7 +9,7 @@ from dxf_test import read
 from service import HOSTILE, FormatTest, examples, main
 from stl_test import admesh
 
-SIDES = {"kerf_mm": 3, "groove": {"rule": "half_dihedral"}, "root_surface": "inner", "smoothing": {"method": "none"}}
+SIDES = {"kerf_mm": 2.4, "groove": {"rule": "half_dihedral"}, "root_surface": "inner", "smoothing": {"method": "none"}}
 
 
 def tube(diameter, inclination, **more):

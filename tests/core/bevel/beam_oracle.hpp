@@ -83,9 +83,9 @@ class Scan {
         if (there < from - 1e-12 || there > to + 1e-12) continue;
         const bool jump = !(to > from);
         for (int k = 0; k <= (jump ? 64 : 0); ++k)
-          for (int m = 0; m <= 64; ++m) {
+          for (int m = 0; m <= kFine; ++m) {
             const double u = jump ? k / 64.0 : std::clamp((there - from) / (to - from), 0.0, 1.0);
-            const auto seen = see(i, u, m / 64.0, near);
+            const auto seen = see(i, u, static_cast<double>(m) / kFine, near);
             out.gouge = std::max(out.gouge, seen.gouge);
             out.left = std::max(out.left, seen.left);
           }
@@ -95,7 +95,7 @@ class Scan {
   }
 
  private:
-  static constexpr int kAcross = 4;
+  static constexpr int kAcross = 4, kFine = 512;
   struct Figures {
     double gouge, left;
   };
