@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
-#include "core/base/elementary.hpp"
+#include "core/base/angle.hpp"
 #include "core/joint/contour.hpp"
 #include "core/math/quadrature.hpp"
 #include "core/part/edge.hpp"
@@ -12,7 +13,9 @@
 namespace tubecut::part {
 namespace {
 
-constexpr int kAcross = 6;  // Gauss points across the wall
+constexpr int kAcross = 6;                   // Gauss points across the wall, or a part of it
+constexpr int kAlong = 3;                    // and along each piece of the way from row to row
+constexpr double kPiece = 3.0 * kRadPerDeg;  // no longer: a partner bends little over it
 
 /// Radii of the edges across the wall, and where they lie.
 struct Rings {
@@ -32,12 +35,37 @@ Rings rings(const bevel::TableSpec& spec, const bevel::Table& t) {
   return out;
 }
 
-/// The cut's z at radius rho of row i.
-double cut_at(const Rings& rings, std::size_t i, double rho) {
-  std::size_t k = 0;
-  while (k + 2 < rings.radii.size() && rho > rings.radii[k + 1]) ++k;
-  const double u = (rho - rings.radii[k]) / (rings.radii[k + 1] - rings.radii[k]);
-  return (1.0 - u) * rings.edges[k].z[i] + u * rings.edges[k + 1].z[i];
+/// Height of the cut over its partners' metal; 0 below it, and where there is none.
+class Depth {
+ public:
+  explicit Depth(const bevel::TableSpec& spec, std::vector<joint::Prepared> partners)
+      : spec_(spec), partners_(std::move(partners)) {}
+
+  [[nodiscard]] double operator()(double rho, double phi, double z) const {
+    const auto top = joint::highest(partners_, joint::generator_at(rho, phi));
+    if (!top) return 0.0;
+    const auto& stated = bevel::stated_joint(spec_, top->cutter);
+    if (stated && stated->kind == joint::JointKind::set_in) return 0.0;
+    return std::max(0.0, z - top->z);
+  }
+
+ private:
+  const bevel::TableSpec& spec_;
+  std::vector<joint::Prepared> partners_;
+};
+
+/// Integral of the depth over the area between two edges of the wall in one half plane, per radian:
+/// straight from z0 at rho0 to z1 at rho1.
+double across(const Depth& depth, double phi, const std::array<double, 2>& rho,
+              const std::array<double, 2>& z) {
+  static const auto rule = math::gauss_legendre(kAcross);
+  const double wide = rho[1] - rho[0];
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+    const double u = 0.5 * (1.0 + rule.nodes[k]), at = rho[0] + u * wide;
+    sum += 0.5 * rule.weights[k] * wide * at * depth(at, phi, (1.0 - u) * z[0] + u * z[1]);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -53,21 +81,27 @@ double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table) {
   std::vector<joint::Prepared> prepared;
   for (const auto& cutter : *cutters)
     if (auto one = joint::prepare(cutter, "")) prepared.push_back(*one);
+  static const auto rule = math::gauss_legendre(kAlong);
   const auto r = rings(spec, table);
-  const auto rule = math::gauss_legendre(kAcross);
-  Edge across{table.phi, std::vector<double>(table.phi.size(), 0.0)};
-  for (std::size_t i = 0; i < table.phi.size(); ++i)
-    for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-      const double rho =
-          spec.target.inner_radius() + 0.5 * (1.0 + rule.nodes[k]) * spec.target.wall;
-      const auto top = joint::highest(prepared, joint::generator_at(rho, table.phi[i]));
-      if (!top) continue;
-      const auto& stated = bevel::stated_joint(spec, top->cutter);
-      if (stated && stated->kind == joint::JointKind::set_in) continue;
-      across.z[i] += 0.5 * rule.weights[k] * spec.target.wall * rho *
-                     std::max(0.0, cut_at(r, i, rho) - top->z);
-    }
-  return across.turn_integral();
+  const Depth depth(spec, std::move(prepared));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < table.phi.size(); ++i) {
+    const auto j = (i + 1) % table.phi.size();
+    const double step = table.phi[j] - table.phi[i] + (j == 0 ? kTwoPi : 0.0);
+    const int pieces = static_cast<int>(std::ceil(step / kPiece));
+    for (int piece = 0; piece < pieces; ++piece)
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+        const double u = (piece + 0.5 * (1.0 + rule.nodes[k])) / pieces;
+        const auto z = [&](std::size_t ring) {
+          return (1.0 - u) * r.edges[ring].z[i] + u * r.edges[ring].z[j];
+        };
+        for (std::size_t ring = 0; ring + 1 < r.radii.size(); ++ring)
+          sum += 0.5 * rule.weights[k] * step / pieces *
+                 across(depth, table.phi[i] + u * step, {r.radii[ring], r.radii[ring + 1]},
+                        {z(ring), z(ring + 1)});
+      }
+  }
+  return sum;
 }
 
 }  // namespace tubecut::part

@@ -12,7 +12,8 @@ namespace tubecut::part {
 /// Volume between an end's cut and its partners' metal, within the wall's thickness: what is filled
 /// when the weld ends flush with the outside. In the end's own frame, mm^3. Where a generator
 /// meets no partner it counts nothing.
-/// Accuracy  of the trapezoidal rule around the table's own nodes.
+/// Accuracy  1e-3 of itself: Gauss' rules along the cut, straight from row to row, and across it.
+/// Cost      about 0.4 ms.
 [[nodiscard]] double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table);
 
 }  // namespace tubecut::part
