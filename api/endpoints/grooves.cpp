@@ -15,7 +15,7 @@ struct Grooves {
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 12> kChecks{{
+  static constexpr std::array<CheckLimit, 13> kChecks{{
       {"on_chord", "1e-13 (R + r)/sin(inclination)", "mm"},
       {"weld_width", "1e-13 (R + r)/sin(inclination)", "mm"},
       {"filler_area", "1e-10 area + rounding", "mm2"},
@@ -26,6 +26,7 @@ struct Grooves {
       {"least_area", "1e-9", "ratio"},
       {"filler_volume", "2e-5", "ratio"},
       {"weld_length", "1e-4", "ratio"},
+      {"normal_area", "1e-3", "ratio"},
       {"compare_area", "1e-10 area + rounding", "mm2"},
       {"compare_volume", "2e-5", "ratio"},
   }};
@@ -40,14 +41,13 @@ struct Grooves {
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
-  static void encode(const Spec& spec, const Out& out, Writer& w) {
+  static void encode(const Spec&, const Out& out, Writer& w) {
     w.object("sections", [&](Writer& o) { section_columns(out).write(o); });
     w.object("curves", [&](Writer& o) {
       for (const auto& [name, points] : kCurves)
         o.object(name, [&](Writer& c) { curve_columns(out, points).write(c); });
     });
     w.field("filler_area_mm2", out.area);
-    w.field("first_order", spec.area_in == groove::AreaIn::normal);
     w.field("least_area_mm2", out.least_area);
     w.field("height_min_mm", out.height_min);
     w.field("height_max_mm", out.height_max);

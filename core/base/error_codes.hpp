@@ -138,6 +138,8 @@
   X(root_width, no_solution, "The root face leaves no groove in the wall.",                        \
     "Make the root face narrower than the branch wall.")                                           \
   X(area, no_solution, "The filler area is not positive.", "Give a positive filler area.")         \
+  X(normal_area, no_solution, "The normal sections cannot all be made to have the asked area.",    \
+    "Ask for equal areas in axial sections: area_in axial.")                                       \
   X(angle, no_solution, "The intersecting angle is outside (0, 90] degrees.",                      \
     "Give an angle within (0, 90].")                                                               \
   X(no_pierce, no_solution, "The root cylinder does not pass wholly into the chord.",              \

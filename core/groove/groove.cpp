@@ -38,7 +38,7 @@ GrooveSection report(const Joint& joint, const Section& section) {
 }  // namespace
 
 Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
-  const auto joint = joint_of(spec);
+  const auto joint = joint_of(spec, stop);
   if (!joint) return tl::unexpected(joint.error());
   const double fixed_height =
       spec.compare ? joint->groove_width * elementary::tan(spec.compare->bevel.rad()) : 0.0;

@@ -9,6 +9,7 @@
 #include "core/base/elementary.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/groove_limits.hpp"
+#include "core/groove/normal_area.hpp"
 #include "core/groove/survey.hpp"
 #include "core/math/rotation.hpp"
 
@@ -127,17 +128,7 @@ class RegionIntegral {
   elementary::SinCos omega_, tilt_;
 };
 
-/// The axial area the asked filler means here; the seam's direction from the chord's normal in
-/// space.
-double asked_area(const GrooveSpec& spec, const Groove& groove, const ChordAxis& chord,
-                  const GrooveSection& section) {
-  if (spec.area_in == AreaIn::axial) return groove.area;
-  const Vector3d root = in_space(section.omega, section.p1);
-  const Vector3d turn = Vector3d::UnitZ().cross(root);  // C3' without its rise
-  const Vector3d normal = chord.normal(root);
-  const double rise = -normal.dot(turn) / normal.z();
-  return groove.area * elementary::hypot(turn.norm(), rise) / turn.norm();
-}
+constexpr int kNormalStations = 50;  // none but two of them a knot of the factor
 
 struct SectionDeviations {
   Worst on_chord, width, area, sum, curves, twist, compare;
@@ -193,7 +184,7 @@ void add_section(const GrooveSpec& spec, const Groove& groove, const Joint& join
   worst.on_chord.add(chord.off_surface(in_space(s.omega, s.p2)));
   worst.width.add((s.p2 - s.p1).norm() - 2.0 * (spec.branch.wall - spec.root_face.width));
   const RegionIntegral integral{spec, s.omega};
-  const double asked = asked_area(spec, groove, chord, s);
+  const double asked = groove.area * axial_factor(joint, direction(s.omega));
   worst.area.add(integral.over(s.p1, s.p2, s.p3).area - asked);
   worst.area.add(s.areas.d - asked);
   worst.sum.add(s.areas.a + s.areas.b + s.areas.c + s.areas.d - s.areas.e);
@@ -249,7 +240,7 @@ double flat_area(const GrooveSpec& spec, const Joint& joint, const Section& at) 
   const Vector2d p1 = {at.toe.x1, at.toe.y1}, p2 = {at.toe.x2, at.toe.y2};
   const RegionIntegral integral{spec, at.omega};
   const double flat = integral.over(p1, p2, {joint.branch_radius, p1.y()}).area;
-  return flat / axial_factor(joint, at.dir, at.toe);
+  return flat / axial_factor(joint, at.dir);
 }
 
 struct Extremes {
@@ -272,7 +263,7 @@ Extremes extremes_of_round(const GrooveSpec& spec, const Joint& joint) {
 
 std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,
                           const std::stop_token& stop) {
-  const auto joint = joint_of(spec);
+  const auto joint = joint_of(spec, stop);
   if (!joint) return {{"joint", 1.0, 0.0, ""}};
   SectionDeviations worst;
   for (std::size_t i = 0; i < groove.sections.size() && !stop.stop_requested(); ++i)
@@ -297,6 +288,9 @@ std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,
       {"filler_volume", ratio(groove.filler_volume, round.volume), kVolumeLimit, "ratio"},
       {"weld_length", ratio(groove.weld_length, round.length), kLengthLimit, "ratio"},
   };
+  if (spec.area_in == AreaIn::normal)
+    out.push_back({"normal_area", normal_area_off(*joint, groove.area, kNormalStations, stop),
+                   kNormalAreaLimit, "ratio"});
   if (groove.compare) {
     out.push_back({"compare_area", worst.compare.value(), limit.area, "mm2"});
     out.push_back({"compare_volume",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/groove/normal_area.hpp"
 #include "core/groove/section.hpp"
 
 namespace tubecut::groove {
@@ -138,39 +139,48 @@ Joint dimensions(const GrooveSpec& spec) {
   const Direction inclination = direction(spec.inclination);
   out.sin_a = inclination.sin;
   out.cos_a = inclination.cos;
-  out.area_in = spec.area_in;
   return out;
+}
+
+/// The axial area that a groove of this height has there.
+Result<double> area_of_height(const Joint& joint, const FillerHeight& reference) {
+  const Direction dir = direction(reference.at);
+  const auto found = toe(joint, dir);
+  if (!found)
+    return fail(
+        {.code = found.error(), .member = "filler/at", .got = reference.at.deg(), .unit = "deg"});
+  const double area = filler_area(joint, *found, reference.height);
+  if (area > 0.0) return area;
+  return fail({.code = ErrorCode::area,
+               .member = "filler/height",
+               .got = reference.height,
+               .limit = (2.0 * found->bow + joint.groove_width * found->dy) / found->D,
+               .unit = "mm",
+               .hint = "no filler is left at " + degrees_text(reference.at)});
 }
 
 }  // namespace
 
 std::string degrees_text(Angle angle) { return brief(angle.deg()) + " deg"; }
 
-Result<Joint> joint_of(const GrooveSpec& spec) {
+Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop) {
   if (auto issues = field_issues(spec); !issues.empty())
     return tl::unexpected(Error{std::move(issues)});
   if (auto issues = shape_issues(spec); !issues.empty())
     return tl::unexpected(Error{std::move(issues)});
   Joint out = dimensions(spec);
+  std::optional<KeptArea> kept;
   if (const auto* given = std::get_if<FillerArea>(&spec.filler)) {
     out.area = given->area;
-    return out;
+  } else {
+    kept = {std::get<FillerHeight>(spec.filler).at};
+    const auto area = area_of_height(out, std::get<FillerHeight>(spec.filler));
+    if (!area) return tl::unexpected(area.error());
+    out.area = kept->axial = *area;
   }
-  const auto& reference = std::get<FillerHeight>(spec.filler);
-  const Direction dir = direction(reference.at);
-  const auto found = toe(out, dir);
-  if (!found)
-    return fail(
-        {.code = found.error(), .member = "filler/at", .got = reference.at.deg(), .unit = "deg"});
-  out.area = filler_area(out, *found, reference.height) / axial_factor(out, dir, *found);
-  if (out.area > 0.0) return out;
-  const double least = (2.0 * found->bow + out.groove_width * found->dy) / found->D;
-  return fail({.code = ErrorCode::area,
-               .member = "filler/height",
-               .got = reference.height,
-               .limit = least,
-               .unit = "mm",
-               .hint = "no filler is left at " + degrees_text(reference.at)});
+  if (spec.area_in == AreaIn::axial) return out;
+  if (auto ok = equal_normal_areas(out, kept, stop); !ok) return tl::unexpected(ok.error());
+  return out;
 }
 
 }  // namespace tubecut::groove

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <variant>
 
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
+#include "core/groove/periodic_spline.hpp"
 
 namespace tubecut::groove {
 
@@ -25,7 +27,7 @@ struct RootFace {
 /// The section in which the filler area is the same everywhere.
 enum class AreaIn : std::uint8_t {
   axial,   // the half plane through the branch axis
-  normal,  // the plane normal to the seam, to first order in the seam's curvature
+  normal,  // the plane normal to the seam
 };
 
 struct FillerArea {
@@ -72,7 +74,8 @@ struct Joint {
   double sin_a = 1.0;  // of the inclination
   double cos_a = 0.0;
   double area = 0.0;  // filler area, mm^2, in the section that `area_in` names
-  AreaIn area_in = AreaIn::axial;
+  /// Of `area`, the area of the axial sections, at equal steps from omega = 0; none: 1.
+  std::optional<PeriodicSpline> area_factor = {};
 };
 
 inline constexpr int kMaxSections = 20000;
@@ -81,9 +84,10 @@ inline constexpr int kMaxSections = 20000;
 /// checked here; whether the groove exists all round is `survey`'s to say.
 ///
 /// Errors  not_finite, out_of_range, wall, root_width, angle, no_pierce, area; no_p2 and
-///         p2_ambiguous at the reference section of a filler height.
+///         p2_ambiguous at the reference section of a filler height; `area` also where normal
+///         sections cannot be made equal.
 /// Source  docs/theory/grooves-and-milling.md, sections 1 and 9.
-[[nodiscard]] Result<Joint> joint_of(const GrooveSpec& spec);
+[[nodiscard]] Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop = {});
 
 /// An angle as degrees with enough digits for a message.
 [[nodiscard]] std::string degrees_text(Angle angle);

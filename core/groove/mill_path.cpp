@@ -125,7 +125,7 @@ tl::expected<std::vector<MillPosition>, Error> emitted(const Shop& shop,
 }  // namespace
 
 Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
-  const auto joint = joint_of(spec.groove);
+  const auto joint = joint_of(spec.groove, stop);
   if (!joint) return tl::unexpected(nested(joint.error()));
   if (auto issues = check_issues(spec); !issues.empty())
     return tl::unexpected(Error{std::move(issues)});

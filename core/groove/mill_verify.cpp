@@ -316,7 +316,7 @@ class Verifier {
 
 std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path,
                           const std::stop_token& stop) {
-  const auto joint = joint_of(spec.groove);
+  const auto joint = joint_of(spec.groove, stop);
   if (!joint || path.positions.empty()) return {{"joint", 1.0, 0.0, ""}};
   return Verifier{spec, path, *joint, stop}.run();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace tubecut::groove {
@@ -9,12 +10,22 @@ class PeriodicSpline {
  public:
   explicit PeriodicSpline(std::vector<double> values);
 
+  [[nodiscard]] std::size_t count() const { return values_.size(); }
   /// Value at `station` steps from the first value; any real number.
   ///
   /// Accuracy  (5/384) of the fourth difference of a smooth function.
   [[nodiscard]] double operator()(double station) const;
+  /// Its derivative, per step.
+  [[nodiscard]] double slope(double station) const;
 
  private:
+  /// Where a station lies: between values i and j, the share t of the way.
+  struct Place {
+    std::size_t i, j;
+    double t;
+  };
+  [[nodiscard]] Place place(double station) const;
+
   std::vector<double> values_;
   std::vector<double> bends_;  // second derivatives, per step^2
 };

@@ -99,14 +99,16 @@ struct AreaAt {
   double slope = 0.0;  // its derivative by omega
 };
 
-AreaAt area_at(const ChordLine& chord, const Toe& toe) {
-  const Joint& joint = chord.joint;
-  if (joint.area_in == AreaIn::axial) return {joint.area, 0.0};
-  const double rho = joint.root_radius;
-  const double z3_d = chord.turn(toe.x1, toe.t1, toe.q1);
-  const double z3_dd = chord.turn2(toe.x1, toe.t1, toe.q1);
-  const double factor = axial_factor(joint, chord.dir, toe);
-  return {joint.area * factor, joint.area * z3_d * z3_dd / (rho * rho * factor)};
+/// Steps of the area's factors from omega = 0.
+double station(const PeriodicSpline& factors, Direction dir) {
+  return elementary::atan2(dir.sin, dir.cos) / kTwoPi * static_cast<double>(factors.count());
+}
+
+AreaAt area_at(const Joint& joint, Direction dir) {
+  if (!joint.area_factor) return {joint.area, 0.0};
+  const auto& factors = *joint.area_factor;
+  const double at = station(factors, dir), per_turn = static_cast<double>(factors.count());
+  return {joint.area * factors(at), joint.area * factors.slope(at) * per_turn / kTwoPi};
 }
 
 /// d S_C / d omega, given D' .
@@ -146,8 +148,11 @@ tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir) {
   return toe;
 }
 
-double axial_factor(const Joint& joint, Direction dir, const Toe& toe) {
-  if (joint.area_in == AreaIn::axial) return 1.0;
+double axial_factor(const Joint& joint, Direction dir) {
+  return joint.area_factor ? (*joint.area_factor)(station(*joint.area_factor, dir)) : 1.0;
+}
+
+double first_order_factor(const Joint& joint, Direction dir, const Toe& toe) {
   const double z3_d = ChordLine{joint, dir}.turn(toe.x1, toe.t1, toe.q1);
   return std::sqrt(1.0 + z3_d * z3_d / (joint.root_radius * joint.root_radius));
 }
@@ -164,7 +169,7 @@ tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega) {
   const Toe& p = out.toe;
   const ChordLine chord{joint, out.dir};
   const double H = joint.groove_width;
-  const auto [area, area_d] = area_at(chord, p);
+  const auto [area, area_d] = area_at(joint, out.dir);
   out.height = (2.0 * (area + p.bow) + H * p.dy) / p.D;
   out.y3 = p.y1 + out.height;
   out.z3_d = chord.turn(p.x1, p.t1, p.q1);

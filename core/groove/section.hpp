@@ -70,8 +70,12 @@ struct Section {
 
 [[nodiscard]] Areas areas(const Joint& joint, const Section& section);
 
-/// What an area in the normal section is multiplied by to give that of the axial section: 1 / cos
-/// psi, and 1 for `axial`.
-[[nodiscard]] double axial_factor(const Joint& joint, Direction dir, const Toe& toe);
+/// What the joint's area is multiplied by to give that of the axial section: 1 unless its areas are
+/// equal in normal sections.
+[[nodiscard]] double axial_factor(const Joint& joint, Direction dir);
+
+/// 1 / cos psi: the axial section's area over the normal one's, to first order in the seam's
+/// curvature.
+[[nodiscard]] double first_order_factor(const Joint& joint, Direction dir, const Toe& toe);
 
 }  // namespace tubecut::groove

@@ -51,7 +51,7 @@ class Surveyor {
     if (const auto code = fault(joint_, section); code && !bad_) bad_ = Bad{*code, section};
     const Toe& p = section.toe;
     const double least = -0.5 * joint_.groove_width * p.dy - p.bow;
-    sums_.least_area = std::max(sums_.least_area, least / axial_factor(joint_, section.dir, p));
+    sums_.least_area = std::max(sums_.least_area, least / axial_factor(joint_, section.dir));
     sums_.height_min = std::min(sums_.height_min, section.height);
     sums_.height_max = std::max(sums_.height_max, section.height);
     const double beta = groove_angle(joint_, section).rad();

@@ -185,12 +185,13 @@ TEST(GrooveSections, AreaFromAReferenceHeightInverts) {
     spec.area_in = i % 2 == 0 ? AreaIn::axial : AreaIn::normal;
     spec.sections = 16;
     const auto first = groove(spec);
-    if (!first) continue;  // an axial area that is too small as a normal one
+    if (!first) continue;  // too small as a normal area, or none that is equal all round
+    const double equal = spec.area_in == AreaIn::axial ? 1e-12 : 5e-4;
     const auto& reference = first->sections[std::size_t(i) % 16];
     spec.filler = FillerHeight{reference.height, reference.omega};
     const auto again = groove(spec);
     ASSERT_TRUE(again);
-    EXPECT_NEAR(again->area / first->area, 1.0, 1e-12);
+    EXPECT_NEAR(again->area / first->area, 1.0, equal);
     EXPECT_NEAR(again->sections[std::size_t(i) % 16].height / reference.height, 1.0, 1e-12);
   }
 }
@@ -201,8 +202,9 @@ TEST(GrooveSections, DerivativesAreThoseOfTheSections) {
     GrooveSpec spec = joints.next();
     spec.area_in = i % 2 == 0 ? AreaIn::axial : AreaIn::normal;
     const auto joint = joint_of(spec);
-    ASSERT_TRUE(joint);
     const double omega = joints.uniform(0.0, kTwoPi), step = 2e-4;
+    if (!joint && spec.area_in == AreaIn::normal) continue;  // none that is equal all round
+    ASSERT_TRUE(joint);
     const auto y = [&](int k) { return section(*joint, Angle::rad(omega + k * step)); };
     const auto middle = y(0);
     ASSERT_TRUE(middle);
