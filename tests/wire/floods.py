@@ -13,7 +13,7 @@ from service import Service, connect, exchange, get, head, post, receive
 
 LIMIT_MIB = 16
 BLOCK = 1 << 18
-CROWD = 120  # sockets, each with a body of 2 MB
+CROWD = 120  # sockets, each with a body of 1 MB
 CONTAINER = 256 << 20
 
 
@@ -54,9 +54,9 @@ def flood(service, first, blocks):
 def begin_body(service, number):
     """A socket with all of a body but its end, by its length or in chunks."""
     sock = connect(service.port, 1.0)
-    body = b" " * 2_000_000
-    start = head("Transfer-Encoding: chunked", target="/v1/nodes") + b"200000\r\n" if number % 2 else head(
-        "Content-Length: 2000001", target="/v1/nodes")
+    body = b" " * 1_000_000
+    start = head("Transfer-Encoding: chunked", target="/v1/nodes") + b"100000\r\n" if number % 2 else head(
+        "Content-Length: 1000001", target="/v1/nodes")
     try:
         sock.sendall(start + body)
     except OSError:
@@ -79,7 +79,7 @@ def crowd(binary):
         for sock in sockets:
             sock.close()
         most = service.bytes_per_byte() * (share / 2 / (1 << 20) + LIMIT_MIB)
-        print(f"{CROWD} bodies of 2 MB begun: {refused:.0f} turned away, peak grows {growth:.1f} MiB (limit {most:.0f}), "
+        print(f"{CROWD} bodies of 1 MB begun: {refused:.0f} turned away, peak grows {growth:.1f} MiB (limit {most:.0f}), "
               f"{statuses.count(200)} of {CROWD} good jobs meanwhile answered")
         return growth <= most and refused > 0 and statuses.count(200) == CROWD
 
