@@ -1,3 +1,7 @@
+#include <array>
+#include <string_view>
+#include <utility>
+
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
@@ -37,6 +41,14 @@ Schedule decode_schedule(Reader& in, const motion::Machine& machine) {
   });
   return out;
 }
+
+constexpr std::string_view kBlindSpot =
+    "Counts of one axis put in another order, their sum kept, are seen only where the torch leaves "
+    "the path, or its B the contour's, by more than this.";
+
+/// The limits from which on it is seen after all, by the invariants that have them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kSeenFrom{
+    {{"off_path_mm", "I10"}, {"b_deg", "I12"}}};
 
 struct Replays {
   struct Spec {
@@ -106,6 +118,12 @@ struct Replays {
       o.degrees_column("b_deg", b);
     });
     w.field("deviation_mm", out.replay.deviation);
+    w.object("blind_spot", [&](Writer& o) {
+      for (const auto& [field, name] : kSeenFrom)
+        for (const auto& check : out.replay.invariants)
+          if (check.name == name) o.field(field, check.limit);
+      o.field("detail", kBlindSpot);
+    });
     w.array("invariants", out.replay.invariants, [](Writer& each, const Check& check) {
       each.object([&](Writer& o) {
         o.field("name", check.name);
