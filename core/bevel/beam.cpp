@@ -395,8 +395,7 @@ class Largest {
       cells_.pop_back();
       const double known = std::max(0.0, best_.value);
       if (!(cell.most() > known + std::max(kTold, kToldShare * known))) break;
-      for (const auto& half :
-           cell.grows_along() > cell.grows_across() ? along(cell) : across(cell)) {
+      for (const auto& half : halved(cell, cell.grows_along() > cell.grows_across())) {
         keep(half);
         cells_.push_back(with_slopes(half, kKept));
         std::ranges::push_heap(cells_, {}, &Cell::most);
@@ -414,34 +413,23 @@ class Largest {
     if (k & 1U) best_.at.v = cell.v1;
     if (k & 2U) best_.at.u = cell.u1;
   }
-  [[nodiscard]] std::array<Cell, 2> along(Cell low) const {
+  /// Both halves, of its length along the cut or across the wall.
+  [[nodiscard]] std::array<Cell, 2> halved(Cell low, bool along) const {
+    const std::size_t next = along ? 2 : 1, beside = along ? 1 : 2;  // corners, from the first one
     Place at = low.from;
-    at.u = mixed(at.u, low.u1, 0.5);
+    double& middle = along ? at.u : at.v;
+    double& end = along ? low.u1 : low.v1;
+    middle = mixed(middle, end, 0.5);
     const double near = figure_(at);
     Place over = at;
-    over.v = low.v1;
+    (along ? over.v : over.u) = along ? low.v1 : low.u1;
     const double far = figure_(over);
-    low.along *= 0.5;
+    (along ? low.along : low.across) *= 0.5;
     Cell high = low;
     high.from = at;
-    low.u1 = at.u;
-    high.value[0] = low.value[2] = near;
-    high.value[1] = low.value[3] = far;
-    return {low, high};
-  }
-  [[nodiscard]] std::array<Cell, 2> across(Cell low) const {
-    Place at = low.from;
-    at.v = mixed(at.v, low.v1, 0.5);
-    const double near = figure_(at);
-    Place over = at;
-    over.u = low.u1;
-    const double far = figure_(over);
-    low.across *= 0.5;
-    Cell high = low;
-    high.from = at;
-    low.v1 = at.v;
-    high.value[0] = low.value[1] = near;
-    high.value[2] = low.value[3] = far;
+    end = middle;
+    high.value[0] = low.value[next] = near;
+    high.value[beside] = low.value[3] = far;
     return {low, high};
   }
 
@@ -452,27 +440,26 @@ class Largest {
 
 /// Runs of rows near which, within half a kerf, the torch leans in ways that are apart: there a
 /// place where the beam is in the part can be narrow across the wall.
-std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut,
-                                                        const Surface& surface) {
+std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut, const Surface& surface,
+                                                        const std::stop_token& stop) {
   const auto n = surface.rows();
-  const auto lean = [&](std::size_t i) {
-    const auto& t = cut.torch[i % n];
-    return elementary::atan2(t.z_outer - t.z_inner, cut.outer - cut.inner);
-  };
-  const auto step = [&](std::size_t i) {
-    const auto &a = cut.torch[i % n], &b = cut.torch[(i + 1) % n];
-    const double turn = (i + 1) % n == 0 ? cut.turn : 0.0;
-    return cut.inner * std::abs(b.phi_inner + turn - a.phi_inner);
-  };
-  std::vector<bool> near(n, false);
+  std::vector<double> leans, steps;
   for (std::size_t i = 0; i < n; ++i) {
-    double low = lean(i), high = low, left = 0.5 * cut.kerf;  // to look ahead
+    const auto &a = cut.torch[i], &b = cut.torch[(i + 1) % n];
+    const double turn = i + 1 == n ? cut.turn : 0.0;
+    leans.push_back(elementary::atan2(a.z_outer - a.z_inner, cut.outer - cut.inner));
+    steps.push_back(cut.inner * std::abs(b.phi_inner + turn - a.phi_inner));
+  }
+  std::vector<bool> near(n, false);
+  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+    double low = leans[i], high = low, left = 0.5 * cut.kerf;  // to look ahead
     std::size_t k = i;
     for (; k < i + n && left > 0.0; ++k) {
-      const double there = mixed(lean(k), lean(k + 1), std::min(1.0, left / (step(k) + kTiny)));
+      const double there =
+          mixed(leans[k % n], leans[(k + 1) % n], std::min(1.0, left / (steps[k % n] + kTiny)));
       low = std::min(low, there);
       high = std::max(high, there);
-      left -= step(k);
+      left -= steps[k % n];
     }
     if (high - low < kApart) continue;
     for (std::size_t m = i + n - 1; m < k + n; ++m) near[m % n] = true;
@@ -566,7 +553,7 @@ BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& s
   grid.lines = static_cast<int>(
       std::clamp((cut.outer - cut.inner) / (kFine * half + kTiny), 1.0 * lines(cut), kMostLines));
   if (!rows_only && half > 0.0)
-    for (const auto& [first, end] : swings(cut, surface)) {
+    for (const auto& [first, end] : swings(cut, surface, stop)) {
       grid.first = first;
       grid.end = end;
       see_cells(short_of, grid, stop, see);
