@@ -148,8 +148,9 @@ bool keep(const KeptArea& kept, Joint& joint, std::vector<double>& factors) {
 }
 
 /// One round: the areas that the factors give. False where there is none.
-bool areas_of(const Joint& joint, std::vector<double>& out, Furthest& none) {
-  for (int k = 0; k < kKnots; ++k) {
+bool areas_of(const Joint& joint, std::vector<double>& out, Furthest& none,
+              const std::stop_token& stop) {
+  for (int k = 0; k < kKnots && !stop.stop_requested(); ++k) {
     const auto area = normal_area(joint, station(k, kKnots));
     if (!area || !(*area > 0.0)) {
       none = nowhere(station(k, kKnots));
@@ -198,7 +199,7 @@ Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kep
     Joint tried = joint;
     tried.area_factor = PeriodicSpline(factors);
     if (kept && !keep(*kept, tried, factors)) return refuse(joint, nowhere(kept->at));
-    if (!areas_of(tried, found, worst)) break;
+    if (!areas_of(tried, found, worst, stop)) break;
     worst = {};
     for (std::size_t k = 0; k < kKnots; ++k) {
       const double share = found[k] / tried.area;

@@ -38,6 +38,8 @@ POINTS = {"uniform_points": 20000}
 
 
 def bevel_tables():
+    wide = {"outer_diameter_mm": 200, "wall_mm": 20}
+    yield "kerf-of-50-mm", TABLE | {"target": wide, "cutters": many_tubes(1), "sampling": POINTS, "kerf_mm": 50}
     yield "64-elbows", bent(TUBE, 64) | {"sampling": {"uniform_points": 8}}
     yield "6-elbows", bent(TUBE, 6)
     yield "fine", example("bevel-tables/table-1-torch-45-deg") | {"sampling": FINE}
@@ -202,6 +204,7 @@ def feed_curves():
 def grooves():
     for name in ("case-a-right-angle", "case-b-near-equal-diameters", "case-c-oblique-offset"):
         yield name, example("grooves/" + name) | {"sections": 20000}
+    yield "normal-sections", example("grooves/case-c-oblique-offset") | {"sections": 20000, "area_in": "normal"}
 
 
 def mill_paths():
