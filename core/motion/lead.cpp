@@ -112,22 +112,53 @@ void add_run(Away& way_in, const Join& j, const Lead& lead) {
   }
 }
 
-ContourPoint placed(const Track& t, Flat p, const ContourPoint& at_join) {
-  return {p.s / t.radius, p.z, at_join.b, false, at_join.beam};
+/// B and the beam's way through the wall.
+struct Line {
+  double b, beam;
+};
+
+/// What a closed cut has this far past its start, mm, or before it: no further than to where it
+/// turns a corner or swings on the spot.
+Line line_of(const Track& cut, double past_start) {
+  const auto n = cut.points.size();
+  const bool back = past_start < 0.0;
+  const auto index = [&](std::size_t k) { return back ? n - 1 - k : k; };
+  double left = std::abs(past_start);
+  Line out{cut.points.front().b, cut.points.front().beam};
+  for (std::size_t k = 0; k + 1 < n && left > 0.0; ++k) {
+    const auto &from = cut.points[index(k)], &to = cut.points[index(k + 1)];
+    const double step = cut.tip_step(index(k), index(k + 1));
+    if (step == 0.0 || (k > 0 && from.corner)) break;
+    const double u = std::min(1.0, left / step);
+    out = {from.b + u * (to.b - from.b), from.beam + u * (to.beam - from.beam)};
+    left -= step;
+  }
+  return out;
 }
 
-std::vector<ContourPoint> way_in(const Track& t, const Join& j, const Lead& lead) {
+/// Of the lead's place this far past the cut's start, or before it.
+Line line_of(const Track& cut, const Join& j, LeadBevel bevel, double past_start) {
+  const bool held = bevel == LeadBevel::held || !cut.closed;
+  return held ? Line{j.at.b, j.at.beam} : line_of(cut, past_start);
+}
+
+ContourPoint placed(const Track& t, Flat p, Line line) {
+  return {p.s / t.radius, p.z, line.b, false, line.beam};
+}
+
+std::vector<ContourPoint> way_in(const Track& t, const Join& j, const Lead& lead, LeadBevel bevel) {
   Away way = arc(j, lead, -1.0);
   add_run(way, j, lead);
-  const double most = lead.pierce_b ? lead.pierce_b->rad() : std::abs(j.at.b);
-  const double pierce = std::clamp(j.at.b, -most, most);
   const double fan = std::min(lead.fan, way.distance.back());
+  const Line first = line_of(t, j, bevel, -way.distance.back());
+  const double most = lead.pierce_b ? lead.pierce_b->rad() : std::abs(first.b);
+  const double pierce = std::clamp(first.b, -most, most);
   std::vector<ContourPoint> out;
   for (std::size_t i = way.points.size(); i-- > 0;) {
-    ContourPoint p = placed(t, way.points[i], j.at);
+    ContourPoint p = placed(t, way.points[i], line_of(t, j, bevel, -way.distance[i]));
     const double done =
         fan > 0.0 ? std::min(1.0, (way.distance.back() - way.distance[i]) / fan) : 1.0;
-    p.b = pierce + done * (j.at.b - pierce);
+    p.b += (1.0 - done) * (pierce - first.b);
     out.push_back(p);
   }
   return out;
@@ -135,7 +166,7 @@ std::vector<ContourPoint> way_in(const Track& t, const Join& j, const Lead& lead
 
 }  // namespace
 
-Led with_lead(const Track& cut, const Lead& lead, Scrap scrap) {
+Led with_lead(const Track& cut, const Lead& lead, Scrap scrap, LeadBevel bevel) {
   Track t = cut;
   if (t.closed) {
     std::vector<ContourPoint> again = first_stretch(cut, lead.overcut);
@@ -145,12 +176,15 @@ Led with_lead(const Track& cut, const Lead& lead, Scrap scrap) {
     }
   }
   Led out;
-  out.points = way_in(cut, join(cut, scrap, 0, true), lead);
+  out.points = way_in(cut, join(cut, scrap, 0, true), lead, bevel);
   out.cut_first = out.points.size();
   out.points.insert(out.points.end(), t.points.begin(), t.points.end());
   out.cut_last = out.points.size() - 1;
   const Join end = join(t, scrap, t.points.size() - 1, false);
-  for (const Flat p : arc(end, lead, 1.0).points) out.points.push_back(placed(t, p, end.at));
+  const Away way = arc(end, lead, 1.0);
+  for (std::size_t i = 0; i < way.points.size(); ++i)
+    out.points.push_back(
+        placed(t, way.points[i], line_of(cut, end, bevel, lead.overcut + way.distance[i])));
   return out;
 }
 

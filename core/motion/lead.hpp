@@ -25,12 +25,18 @@ struct PartBorder {
   double sag = 0.0;     // mm, largest distance of the contour's chords to `cut`
 };
 
+/// B on a lead: that of the join, or what the closed cut itself has as far before its start or past
+/// its end. A held beam enters the part by R (t dB/ds)^2 / 2 where B swings on a wall of t; the
+/// cut's own B runs beside its own surface.
+enum class LeadBevel { held, followed };
+
 /// Lead-in arc (after a straight run where the fan of B needs it), the cut, its overcut, lead-out
 /// arc. The arcs are tangent to the cut and lie on the scrap side of the developed surface; the fan
 /// ends before the cut begins.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 2.6.
-[[nodiscard]] Led with_lead(const Track& cut, const Lead& lead, Scrap scrap);
+[[nodiscard]] Led with_lead(const Track& cut, const Lead& lead, Scrap scrap,
+                            LeadBevel bevel = LeadBevel::held);
 
 /// A closed track with points of the smooth curve through its own put between them, so that chords
 /// leave the curve by no more than a few micrometres, and how far its own chords leave it. Corners

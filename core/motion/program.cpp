@@ -67,14 +67,21 @@ Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec,
     out.turns = cut->turns;
     return out;
   }
-  const Led led = with_lead(*cut, *spec.motion.lead, contour.scrap);
   const auto border = part_border(spec);
-  if (auto ok = check_lead(led, *border, lead_touch(*border, spec.motion), stop); !ok) {
-    return tl::unexpected<Error>(ok.error());
+  const double allowed = lead_touch(*border, spec.motion);
+  const auto lead = [&](LeadBevel bevel) {
+    Led out = with_lead(*cut, *spec.motion.lead, contour.scrap, bevel);
+    const auto ok = check_lead(out, *border, allowed, stop);
+    return ok ? Result<Led>(std::move(out)) : tl::unexpected<Error>(ok.error());
+  };
+  auto led = lead(LeadBevel::held);
+  if (!led && led.error().code() == ErrorCode::lead_blocked) {
+    if (auto followed = lead(LeadBevel::followed)) led = std::move(followed);
   }
-  Program out = from_points(led.points, cut->radius);
-  out.cut_first = led.cut_first;
-  out.cut_last = led.cut_last;
+  if (!led) return tl::unexpected<Error>(led.error());
+  Program out = from_points(led->points, cut->radius);
+  out.cut_first = led->cut_first;
+  out.cut_last = led->cut_last;
   return out;
 }
 
