@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <random>
@@ -494,6 +496,53 @@ TEST(Scaling, ByPowersOfTwoIsExactThroughTheWholeTable) {
         EXPECT_EQ(scaled(one->length), got->length);
         EXPECT_EQ(scaled(one->gap), got->gap);
       }
+    }
+}
+
+/// What the warnings `wall_overhangs` say: from, to in deg, and how far beside in mm.
+std::vector<std::array<double, 3>> overhangs(const Table& table) {
+  std::vector<std::array<double, 3>> out;
+  for (const auto& w : table.warnings) {
+    if (w.code != WarningCode::wall_overhangs) continue;
+    std::array<double, 3> said{};
+    EXPECT_EQ(std::sscanf(w.detail.c_str(),  // NOLINT(cert-err34-c): three are asked for
+                          "phi %lf to %lf deg, its outer surface passes up to %lf", &said[0],
+                          &said[1], &said[2]),
+              3)
+        << w.detail;
+    out.push_back(said);
+  }
+  std::ranges::sort(out, {}, [](const auto& said) { return said[2]; });
+  return out;
+}
+
+// A bore that meets its partner all round and a wall that does not: on each side it reaches beyond
+// the partner's by plain sums of radii, over the arc whose sine says so. One equally wide or wider
+// has nothing to say.
+TEST(Contact, AWallWiderThanItsPartnerSaysWhereItOverhangs) {
+  for (const double inclination : {45.0, 60.0, 90.0})
+    for (const double offset : {0.0, 0.6}) {
+      const double outer = 30.15, partner = 26.0;
+      TableSpec spec{.target = {.outer_radius = outer, .wall = 5.0},
+                     .partners = {joint::TubeCutter{partner, Angle::deg(inclination),
+                                                    Angle::deg(20), offset, 0.0}}};
+      spec.sampling.uniform_points = 180;
+      spec.smoothing = NoSmoothing{};
+      const auto got = table(spec);
+      ASSERT_TRUE(got);
+      const auto said = overhangs(*got);
+      ASSERT_EQ(said.size(), 2U);
+      for (std::size_t side = 0; side < 2; ++side) {
+        const double shift = side == 0 ? -offset : offset;
+        EXPECT_NEAR(said[side][2], outer - partner + shift, 2e-2);
+        const double silhouette = std::asin((partner - shift) / outer) * kDegPerRad;
+        EXPECT_NEAR(said[side][1] - said[side][0], 180.0 - 2.0 * silhouette, 1e-2);
+      }
+      spec.partners = {
+          joint::TubeCutter{outer + offset, Angle::deg(inclination), Angle::deg(20), offset, 0.0}};
+      const auto wide = table(spec);
+      ASSERT_TRUE(wide);
+      EXPECT_TRUE(overhangs(*wide).empty());
     }
 }
 
