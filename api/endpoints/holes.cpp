@@ -3,6 +3,7 @@
 
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
@@ -138,6 +139,7 @@ void encode_hole(const bevel::HoleSpec& spec, const bevel::Hole& hole, Writer& o
   o.field("scrap", "inside");
   o.field("turns", 0);
   o.field("length_mm", hole.length_total);
+  encode_torch_line(hole.torch_line, o);
   o.object("fit_up", [&](Writer& f) {
     fit_up_columns(hole).write(f);
     f.field("least_between_nodes_mm", hole.fit.least_between);
@@ -155,7 +157,7 @@ struct Holes {
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 2> kAccepts{"max_root_gap_mm", "max_b_deg"};
-  static constexpr std::array<CheckLimit, 10> kChecks{{
+  static constexpr std::array<CheckLimit, 13> kChecks{{
       {"on_branch", "1e-6", "mm"},
       {"gap", "1e-6", "mm"},
       {"fit_up", "1e-6", "mm"},
@@ -166,6 +168,9 @@ struct Holes {
       {"branch_end", "1e-6", "mm"},
       {"gap_stated", "1e-3", "mm"},
       {"gap_between", "sampling.tolerance_mm", "mm"},
+      {"gouge", "0.01", "mm"},
+      {"gouge_stated", "1e-3", "mm"},
+      {"left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
   }};
 
   static Spec decode(Reader& in) {

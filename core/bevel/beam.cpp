@@ -1,6 +1,5 @@
 #include "core/bevel/beam.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,28 +8,22 @@
 #include <tuple>
 #include <utility>
 
-#include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/bevel/beam_surface.hpp"
 
 namespace tubecut::bevel {
 namespace {
 
-using Eigen::Vector3d;
+using beam::mixed;
+using beam::Place;
+using beam::Surface;
 
-constexpr double kTurn = 2.0 * kRadPerDeg;  // over which a helix is a parabola: 1e-6 of the radius
-constexpr double kSwing =
-    3.0 * kRadPerDeg;               // over which the squared distance is all but a parabola
 constexpr double kPlaces = 2000.0;  // along the cut, beside the rows and their middles
 constexpr double kApart = 0.1;      // rad: leans that are apart
 constexpr double kFine = 0.25;      // of half a kerf: across the wall, where they are
 constexpr double kMostLines = 48;
 constexpr int kFewest = 2, kMost = 8;  // stretches across the wall
-constexpr double kArc = 1.01;          // no longer than that is an arc over its chord
-constexpr double kMostParts = 64.0;    // of the way from row to row, each no longer than four kerfs
 constexpr double kTiny = 1e-300;
-constexpr int kParabolas = 4;
-constexpr double kStill = 1e-4;      // of a stretch
-constexpr double kRounding = 2e-6;   // of the radius, of a parabola for a helix
 constexpr int kHalvings = 250;       // at most, of cells between places; most cuts need some ten
 constexpr int kHalvingsOfRows = 40;  // likewise, where no more than what is there is asked for
 constexpr double kKept = 0.8;        // of a cell's slope, by its halves
@@ -38,301 +31,25 @@ constexpr double kMargin = 4.0;      // times a slope that corners show: a ridge
 constexpr double kTold = 2e-3;       // mm: a cell that promises no more than this is left alone,
 constexpr double kToldShare = 8e-3;  // nor one that promises only so much of what is known
 
-double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
-Vector3d mixed(const Vector3d& a, const Vector3d& b, double u) { return (1.0 - u) * a + u * b; }
-
-Vector3d placed(double radius, double phi, double z) {
-  const auto at = elementary::sincos(phi);
-  return {radius * at.cos, radius * at.sin, z};
-}
-
-AcrossWall mixed(const AcrossWall& a, const AcrossWall& b, double u) {
-  return {mixed(a.phi_inner, b.phi_inner, u), mixed(a.z_inner, b.z_inner, u),
-          mixed(a.phi_outer, b.phi_outer, u), mixed(a.z_outer, b.z_outer, u)};
-}
-
-/// Rows are joined the last to the first.
-AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t i, double u) {
-  auto b = rows[(i + 1) % rows.size()];
-  if (i + 1 == rows.size()) {
-    b.phi_inner += turn;
-    b.phi_outer += turn;
-  }
-  return mixed(rows[i], b, u);
-}
-
-/// The nearest axis: its squared distance, and the share of the way after `row` where it stands.
-struct Nearest {
-  double square;
-  Vector3d point;  // of the axis, nearest
-  std::size_t row;
-  double u;
-};
-
-/// A straight stretch of the torch's way in phase and height, short enough to be a parabola in
-/// space: the axis at the share x of it is inner(x) + s across(x). It comes from outside and is
-/// looked at no further than the middle of the tube.
-struct Stretch {
-  std::size_t row;
-  double from, to;  // shares of the way from this row to the next
-  std::array<Vector3d, 3> inner, across;
-  double middle;  // s where the tube's middle is
-  double travel;  // no point of the axis moves further, as far beyond the walls as the kerf is wide
-
-  [[nodiscard]] Vector3d at(double x, const Vector3d& q) const {
-    const Vector3d p = inner[0] + x * (inner[1] + x * inner[2]);
-    const Vector3d d = across[0] + x * (across[1] + x * across[2]);
-    return p + std::max((q - p).dot(d) / d.squaredNorm(), middle) * d;
-  }
-  [[nodiscard]] double square(double x, const Vector3d& q) const {
-    return (q - at(x, q)).squaredNorm();
-  }
-};
-
-/// The axes along the torch's way; indices over two laps, so that half a lap either way is a run.
-class Beam {
- public:
-  Beam(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
-    const auto n = cut.torch.size();
-    for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-      first_.push_back(stretches_.size());
-      const auto a = torch(i, 0.0), b = torch(i, 1.0);
-      const double wide =
-          std::max(std::abs(b.phi_inner - a.phi_inner), std::abs(b.phi_outer - a.phi_outer));
-      const double rise =
-          std::max(std::abs(b.z_inner - a.z_inner), std::abs(b.z_outer - a.z_outer));
-      const double way = std::min(rise + cut.outer * wide, 4.0 * kMostParts * cut.kerf);
-      const auto from = axis(a), to = axis(b);
-      const double swing = elementary::atan2(from.cross(to).norm(), from.dot(to));
-      const int parts = 1 + static_cast<int>(std::max(
-                                {wide / kTurn, way / (4.0 * cut.kerf + kTiny), swing / kSwing}));
-      for (int k = 0; k < parts; ++k)
-        add(i, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts);
-    }
-    first_.push_back(stretches_.size());
-    travelled_.push_back(0.0);
-    for (std::size_t k = 0; k < 2 * stretches_.size(); ++k)
-      travelled_.push_back(travelled_.back() + stretches_[k % stretches_.size()].travel);
-  }
-
-  /// To q, from the axes less than half a lap from the share u of the way after `row`.
-  [[nodiscard]] Nearest nearest(std::size_t row, double u, const Vector3d& q) const {
-    const auto n = stretches_.size();
-    std::size_t start = first_[row];
-    while (start + 1 < first_[row + 1] && stretches_[start + 1].from <= u) ++start;
-    const auto& own = stretches_[start];
-    Best best{start, std::clamp((u - own.from) / (own.to - own.from), 0.0, 1.0)};
-    best.square = own.square(best.x, q);
-    best.distance = std::sqrt(best.square);
-    walk(start, start + n / 2, q, best);
-    walk_back(start + n, start + n - n / 2, q, best);
-    const auto& s = stretches_[best.stretch];
-    return {best.square, s.at(best.x, q), s.row, mixed(s.from, s.to, best.x)};
-  }
-
- private:
-  [[nodiscard]] AcrossWall torch(std::size_t row, double u) const {
-    return between(cut_.torch, cut_.turn, row, u);
-  }
-
-  [[nodiscard]] Vector3d axis(const AcrossWall& at) const {
-    return placed(cut_.outer, at.phi_outer, at.z_outer) -
-           placed(cut_.inner, at.phi_inner, at.z_inner);
-  }
-
-  void add(std::size_t row, double from, double to) {
-    Stretch out{.row = row, .from = from, .to = to};
-    std::array<Vector3d, 3> in, over;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto t = torch(row, mixed(from, to, 0.5 * static_cast<double>(k)));
-      in[k] = placed(cut_.inner, t.phi_inner, t.z_inner);
-      over[k] = placed(cut_.outer, t.phi_outer, t.z_outer) - in[k];
-    }
-    out.inner = {in[0], 4.0 * in[1] - 3.0 * in[0] - in[2], 2.0 * (in[0] - 2.0 * in[1] + in[2])};
-    out.across = {over[0], 4.0 * over[1] - 3.0 * over[0] - over[2],
-                  2.0 * (over[0] - 2.0 * over[1] + over[2])};
-    out.middle = -cut_.inner / (cut_.outer - cut_.inner);
-    const double inner = (in[2] - in[0]).norm(), outer = (in[2] + over[2] - in[0] - over[0]).norm();
-    const double beyond = cut_.kerf / over[0].norm() * (over[2] - over[0]).norm();
-    out.travel = kArc * (std::max(inner, outer) + beyond);
-    stretches_.push_back(out);
-  }
-
-  struct Best {
-    std::size_t stretch;
-    double x;
-    double square = 0.0, distance = 0.0;
-
-    void see(std::size_t k, double at, double value) {
-      if (value >= square) return;
-      *this = {k, at, value, std::sqrt(value)};
-    }
-  };
-  [[nodiscard]] const Stretch& stretch(std::size_t k) const {
-    return stretches_[k % stretches_.size()];
-  }
-
-  /// Stretches ahead. Where the axes are further away than the best one, none nearer comes before
-  /// they have travelled as much.
-  void walk(std::size_t k, std::size_t last, const Vector3d& q, Best& best) const {
-    double low = stretch(k).square(0.0, q);
-    while (k <= last) {
-      const double high = stretch(k).square(1.0, q), far = std::sqrt(high);
-      look(k, low, high, std::sqrt(low) + far, q, best);
-      const double clear = travelled_[k + 1] + std::max(0.0, far - best.distance);
-      if (travelled_[k + 2] > clear) {
-        ++k;
-        low = high;
-        continue;
-      }
-      const auto past = std::ranges::upper_bound(travelled_, clear) - travelled_.begin();
-      k = static_cast<std::size_t>(past) - 1;
-      low = stretch(k).square(0.0, q);
-    }
-  }
-  /// Stretches behind `end`, likewise.
-  void walk_back(std::size_t end, std::size_t first, const Vector3d& q, Best& best) const {
-    double high = stretch(end).square(0.0, q);
-    while (end > first) {
-      const auto k = end - 1;
-      const double low = stretch(k).square(0.0, q), far = std::sqrt(low);
-      look(k, low, high, far + std::sqrt(high), q, best);
-      const double clear = travelled_[k] - std::max(0.0, far - best.distance);
-      if (k == 0 || travelled_[k - 1] < clear) {
-        end = k;
-        high = low;
-        continue;
-      }
-      const auto from = std::ranges::lower_bound(travelled_, clear) - travelled_.begin();
-      end = static_cast<std::size_t>(from);
-      high = stretch(end).square(0.0, q);
-    }
-  }
-
-  /// Along one stretch, if a nearer axis could be in it: the squared distance is all but a
-  /// parabola. `both` is the sum of the distances at its ends.
-  void look(std::size_t index, double low, double high, double both, const Vector3d& q,
-            Best& best) const {
-    const auto k = index % stretches_.size();
-    const auto& s = stretches_[k];
-    best.see(k, 0.0, low);
-    best.see(k, 1.0, high);
-    if (0.5 * (both - s.travel) >= best.distance) return;
-    const double middle = s.square(0.5, q);
-    const double bend = low - 2.0 * middle + high;
-    const double x = 0.25 * (3.0 * low - 4.0 * middle + high) / bend;
-    if (!(bend > 0.0 && x > 0.0 && x < 1.0)) return best.see(k, 0.5, middle);
-    descend(k, x, q, best);
-  }
-
-  /// From near the least squared distance of a stretch to it, by parabolas through three places.
-  void descend(std::size_t k, double x, const Vector3d& q, Best& best) const {
-    const auto& s = stretches_[k];
-    double beside = 0.05;  // of the stretch
-    for (int round = 0; round < kParabolas; ++round, beside *= 0.2) {
-      const double here = s.square(x, q);
-      best.see(k, x, here);
-      const double before = s.square(x - beside, q), after = s.square(x + beside, q);
-      const double bend = before - 2.0 * here + after;
-      if (!(bend > 0.0)) return;
-      const double step = 0.5 * beside * (before - after) / bend;
-      x = std::clamp(x + step, 0.0, 1.0);
-      if (std::abs(step) < kStill) break;
-    }
-    best.see(k, x, s.square(x, q));
-  }
-
-  const BeamCut& cut_;
-  std::vector<Stretch> stretches_;
-  std::vector<std::size_t> first_;  // stretch of each row
-  std::vector<double> travelled_;   // to the start of the stretch, of all before it
-};
-
-/// A place of the finished surface: between rows, across the wall.
-struct Place {
-  std::size_t row = 0;
-  double u = 0.0, v = 0.0;
-  bool land = false;
-};
-
-class Surface {
- public:
-  Surface(const BeamCut& cut, const std::stop_token& stop) : cut_(cut), beam_(cut, stop) {
-    for (std::size_t i = 0; i < rows() && !stop.stop_requested(); ++i) along_.push_back(way(i));
-  }
-
-  /// Distance from the nearest axis; negative where that runs beyond the finished line of its own
-  /// row, in the part.
-  [[nodiscard]] double distance(const Place& at) const {
-    const auto near = beam_.nearest(at.row, at.u, point(at));
-    const double distance = std::sqrt(near.square);
-    return beyond(near) > kRounding * cut_.outer ? -distance : distance;
-  }
-
-  [[nodiscard]] double phase(const Place& at) const {
-    const auto here = finished(at);
-    return mixed(here.phi_inner, here.phi_outer, at.land ? 0.0 : share(at));
-  }
-  [[nodiscard]] std::size_t rows() const { return cut_.finished.size(); }
-  [[nodiscard]] double across(std::size_t row, bool land) const {
-    return (point({row, 0.0, 1.0, land}) - point({row, 0.0, 0.0, land})).norm();
-  }
-  /// Length of the way from one row to the next, on the wall where it is longer.
-  [[nodiscard]] double step(std::size_t row) const {
-    const auto a = finished({row, 0.0}), b = finished({row, 1.0});
-    const double rise = b.z_inner - a.z_inner;
-    const double land = cut_.land.empty() ? rise : cut_.land[(row + 1) % rows()] - cut_.land[row];
-    const double steep = std::max(std::abs(rise), std::abs(land));
-    return std::max(
-        elementary::hypot(cut_.inner * (b.phi_inner - a.phi_inner), steep),
-        elementary::hypot(cut_.outer * (b.phi_outer - a.phi_outer), b.z_outer - a.z_outer));
-  }
-
- private:
-  [[nodiscard]] double share(const Place& at) const { return mixed(cut_.from, 1.0, at.v); }
-  [[nodiscard]] AcrossWall finished(const Place& at) const {
-    return between(cut_.finished, cut_.turn, at.row, at.u);
-  }
-  [[nodiscard]] Vector3d point(const Place& at) const {
-    const auto here = finished(at);
-    const Vector3d inner = placed(cut_.inner, here.phi_inner, here.z_inner);
-    const Vector3d outer = placed(cut_.outer, here.phi_outer, here.z_outer);
-    if (!at.land) return mixed(inner, outer, share(at));
-    const double z = mixed(cut_.land[at.row], cut_.land[(at.row + 1) % rows()], at.u);
-    return mixed(placed(cut_.inner, here.phi_inner, z), mixed(inner, outer, cut_.from), at.v);
-  }
-  /// How far the axis runs beyond the finished line of its own row where it is nearest.
-  [[nodiscard]] double beyond(const Nearest& near) const {
-    const auto own = finished({near.row, near.u});
-    const Vector3d inner = placed(cut_.inner, own.phi_inner, own.z_inner);
-    const Vector3d across = placed(cut_.outer, own.phi_outer, own.z_outer) - inner;
-    const Vector3d from = near.point - inner;
-    const Vector3d off = from - from.dot(across) / across.squaredNorm() * across;
-    const Vector3d normal = along_[near.row].cross(across);
-    const double size = normal.norm();
-    return size > 0.0 ? (cut_.part_to_the_left ? -1.0 : 1.0) * normal.dot(off) / size : 0.0;
-  }
-  /// The finished surface's way from a row to the next, in the middle of the wall.
-  [[nodiscard]] Vector3d way(std::size_t row) const {
-    const auto a = finished({row, 0.0}), b = finished({row, 1.0});
-    return 0.5 * (placed(cut_.inner, b.phi_inner, b.z_inner) -
-                  placed(cut_.inner, a.phi_inner, a.z_inner) +
-                  placed(cut_.outer, b.phi_outer, b.z_outer) -
-                  placed(cut_.outer, a.phi_outer, a.z_outer));
-  }
-
-  const BeamCut& cut_;
-  Beam beam_;
-  std::vector<Vector3d> along_;  // after each row
-};
-
 /// How far the surface is short of half a kerf from the nearest axis (`sign` -1) or beyond it (1).
 struct Figure {
   const Surface& surface;
   double half, sign;
+  std::vector<double>* by_row = nullptr;  // the most of it, by the rows on whose way the axis is
 
   [[nodiscard]] double operator()(const Place& at) const {
-    return sign * (surface.distance(at) - half);
+    const auto seen = surface.seen(at);
+    const double value = sign * (seen.distance - half);
+    if (by_row != nullptr && value > 0.0) note(seen, value);
+    return value;
+  }
+
+ private:
+  void note(const Surface::Seen& seen, double value) const {
+    constexpr double kAtRow = 1e-6;  // of the way to the next
+    const auto see = [&](std::size_t row) { (*by_row)[row] = std::max((*by_row)[row], value); };
+    if (seen.u < 1.0 - kAtRow) see(seen.row);
+    if (seen.u > kAtRow) see((seen.row + 1) % by_row->size());
   }
 };
 
@@ -525,16 +242,28 @@ int lines(const BeamCut& cut) {
   return static_cast<int>(std::clamp(parts, 1.0 * kFewest, 1.0 * kMost));
 }
 
+/// What is found everywhere is no less than what rows alone show.
+void no_less_than(const BeamFound& rows, BeamFound& all) {
+  auto& [proof, gouged_from] = all;
+  if (rows.proof.gouge > proof.gouge)
+    std::tie(proof.gouge, proof.gouge_phi) = std::tie(rows.proof.gouge, rows.proof.gouge_phi);
+  if (rows.proof.left > proof.left)
+    std::tie(proof.left, proof.left_phi) = std::tie(rows.proof.left, rows.proof.left_phi);
+  std::ranges::transform(gouged_from, rows.gouged_from, gouged_from.begin(),
+                         [](double a, double b) { return std::max(a, b); });
+}
+
 }  // namespace
 
-BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& stop) {
+BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& stop) {
   const Surface surface(cut, stop);
-  if (stop.stop_requested()) return {};
+  BeamFound out{.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
+  if (stop.stop_requested()) return out;
   const double half = 0.5 * cut.kerf;
   const bool rows_only = places == Places::rows;
   double length = 0.0;
   for (std::size_t i = 0; i < surface.rows(); ++i) length += surface.step(i);
-  const Figure short_of{surface, half, -1.0}, beyond{surface, half, 1.0};
+  const Figure short_of{surface, half, -1.0, &out.gouged_from}, beyond{surface, half, 1.0};
   Largest gouges(short_of), lefts(beyond);
   const auto see = [&](Cell cell) {
     gouges.see(cell);
@@ -560,16 +289,30 @@ BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& s
     }
   const int halvings = rows_only ? kHalvingsOfRows : kHalvings;
   const auto gouge = gouges.worst(halvings), left = lefts.worst(halvings);
-  BeamProof out{.gouge = std::max(0.0, gouge.value),
-                .gouge_phi = surface.phase(gouge.at),
-                .left = std::max(0.0, left.value),
-                .left_phi = surface.phase(left.at)};
-  if (rows_only) return out;
-  const auto rows = beam_proof(cut, Places::rows, stop);  // what is stated is no less than it
-  if (rows.gouge > out.gouge)
-    std::tie(out.gouge, out.gouge_phi) = std::tie(rows.gouge, rows.gouge_phi);
-  if (rows.left > out.left) std::tie(out.left, out.left_phi) = std::tie(rows.left, rows.left_phi);
+  out.proof = {.gouge = std::max(0.0, gouge.value),
+               .gouge_phi = surface.phase(gouge.at),
+               .left = std::max(0.0, left.value),
+               .left_phi = surface.phase(left.at)};
+  if (!rows_only) no_less_than(beam_found(cut, Places::rows, stop), out);
   return out;
+}
+
+BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& stop) {
+  return beam_found(cut, places, stop).proof;
+}
+
+BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,
+                      const std::stop_token& stop) {
+  constexpr double kAimed = 0.5 * kGougeLimit;
+  constexpr double kMore = 1.25;  // moved off the line's own surface, that next to it gains less
+  constexpr int kRounds = 12;
+  Further further(rows, 0.0);
+  for (int round = 0;; ++round) {
+    const auto found = beam_found(cut(further), Places::everywhere, stop);
+    if (!(found.proof.gouge > kAimed) || round == kRounds || stop.stop_requested())
+      return found.proof;
+    for (std::size_t i = 0; i < rows; ++i) further[i] += kMore * found.gouged_from[i];
+  }
 }
 
 }  // namespace tubecut::bevel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <stop_token>
 #include <vector>
 
@@ -36,24 +37,51 @@ struct BeamProof {
 /// alone. Either way against the axes at rows and between them.
 enum class Places { everywhere, rows };
 
+/// The proof, and by torch row the most that the beam takes on its way from it or to it, mm: rows
+/// that stand off by as much more take nothing.
+struct BeamFound {
+  BeamProof proof;
+  std::vector<double> gouged_from;
+};
+
 /// Measured in space, by distances between points and axes. A line counts from outside as far as
 /// the tube's middle: what it does to the wall beyond is not seen.
 ///
 /// Accuracy  everywhere: gouge 1e-3 mm, left 5e-3 mm or 2 %. Rows: what is there, not all of it.
 /// Cost      about 5 us a row, at least 2 ms; rows alone 2 us a row.
 /// Source    docs/theory/intersections-and-bevels.md, section 5.6.
+[[nodiscard]] BeamFound beam_found(const BeamCut& cut, Places places,
+                                   const std::stop_token& stop = {});
 [[nodiscard]] BeamProof beam_proof(const BeamCut& cut, Places places,
                                    const std::stop_token& stop = {});
 
 inline constexpr double kGougeLimit = 0.01;  // mm
+
+/// By row, how much further the torch stands off than half a kerf, mm.
+using Further = std::vector<double>;
+/// Moves the torch's rows off the part until the beam takes no more than half of kGougeLimit of it
+/// anywhere, or no round gets there; `cut` is the cut with its rows moved, asked last for what it
+/// keeps. What is left to see is in the proof.
+[[nodiscard]] BeamProof clear_torch(std::size_t rows,
+                                    const std::function<BeamCut(const Further&)>& cut,
+                                    const std::stop_token& stop = {});
 
 struct TableSpec;
 struct Table;
 /// The cut of an end: with a root face the beam makes the bevel and must spare the land.
 [[nodiscard]] BeamCut beam_cut(const TableSpec& spec, const Table& table);
 
-/// `gouge` against its limit, and what the table states of its torch line against its rows.
-[[nodiscard]] std::vector<Check> verify_torch_line(const TableSpec& spec, const Table& table,
+struct HoleSpec;
+struct Hole;
+/// The cut of a hole: the part is all around it.
+[[nodiscard]] BeamCut beam_cut(const HoleSpec& spec, const Hole& hole);
+
+/// Errors  out_of_range (kerf): no row moved off could spare the part, where the wall bends tighter
+///         than the kerf.
+[[nodiscard]] Result<void> check_spared(const BeamCut& cut, const BeamProof& proof);
+
+/// `gouge` against its limit, and what is stated of the torch line against the cut's own rows.
+[[nodiscard]] std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated,
                                                    const std::stop_token& stop = {});
 
 }  // namespace tubecut::bevel

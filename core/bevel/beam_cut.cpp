@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/bevel/beam.hpp"
+#include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::bevel {
@@ -26,12 +27,37 @@ BeamCut beam_cut(const TableSpec& spec, const Table& table) {
   return out;
 }
 
-std::vector<Check> verify_torch_line(const TableSpec& spec, const Table& table,
+BeamCut beam_cut(const HoleSpec& spec, const Hole& hole) {
+  BeamCut out{
+      .inner = spec.chord.inner_radius(), .outer = spec.chord.outer_radius, .kerf = spec.kerf};
+  double area = 0.0;  // twice, within the outer edge, in (phi, z)
+  for (std::size_t i = 0; i < hole.phi.size(); ++i) {
+    const auto j = (i + 1) % hole.phi.size();
+    area += hole.phi[i] * hole.z[j] - hole.phi[j] * hole.z[i];
+    out.finished.push_back({hole.phi_inner[i], hole.z_inner[i], hole.phi[i], hole.z[i]});
+    out.torch.push_back(
+        {hole.torch_phi_inner[i], hole.torch_z_inner[i], hole.torch_phi[i], hole.torch_z[i]});
+  }
+  out.part_to_the_left = area < 0.0;
+  return out;
+}
+
+Result<void> check_spared(const BeamCut& cut, const BeamProof& proof) {
+  if (!(proof.gouge > kGougeLimit)) return {};
+  return fail({.code = ErrorCode::out_of_range,
+               .member = "kerf",
+               .got = cut.kerf,
+               .unit = "mm",
+               .hint = "a beam as wide would take " + brief(proof.gouge) +
+                       " mm from the finished part, at phi " + brief(proof.gouge_phi * kDegPerRad) +
+                       " deg: the wall bends tighter there than the kerf"});
+}
+
+std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated,
                                      const std::stop_token& stop) {
   constexpr double kGouge = 1e-3;                // mm: what beam_proof promises
   constexpr double kLeft = 5e-3, kShare = 0.02;  // mm, and of what is left
-  const auto seen = beam_proof(beam_cut(spec, table), Places::rows, stop);
-  const auto& stated = table.torch_line;
+  const auto seen = beam_proof(cut, Places::rows, stop);
   return {{"gouge", std::max(seen.gouge, stated.gouge), kGougeLimit, "mm"},
           {"gouge_stated", std::max(0.0, seen.gouge - stated.gouge), kGouge, "mm"},
           {"left_stated", std::max(0.0, seen.left - stated.left),

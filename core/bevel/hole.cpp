@@ -191,13 +191,11 @@ void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
        .detail = "its outer surface passes up to " + brief(over) + " mm beside the chord"});
 }
 
-Hole tabulate(const HoleSpec& spec, const WallLines& walls, const joint::Contour& root,
-              const std::vector<Node>& nodes, bool far, const std::stop_token& stop) {
+Hole tabulate(const HoleSpec& spec, const WallLines& walls, const std::vector<Node>& nodes,
+              bool far) {
   Hole out;
   out.far = far;
-  std::vector<double> phases;
   for (const auto& [phase, w] : nodes) {
-    phases.push_back(phase);
     // The far side's branch frame is mirrored: its phase runs the other way.
     out.branch_phi.push_back(far ? wrapped(kPi - phase) : phase);
     out.phi.push_back(walls.phi(w.outer));
@@ -215,10 +213,37 @@ Hole tabulate(const HoleSpec& spec, const WallLines& walls, const joint::Contour
     out.torch_phi_inner.push_back(walls.phi(w.torch_inner));
     out.torch_z_inner.push_back(w.torch_inner.z());
   }
+  return out;
+}
+
+/// Half a kerf off the wall, and further where a beam that wide would take from it: beside its own
+/// line, where the wall turns, and between nodes.
+Hole cleared(const HoleSpec& spec, const WallLines& walls, std::vector<Node>& nodes, bool far,
+             const std::stop_token& stop) {
+  auto out = tabulate(spec, walls, nodes, far);
+  if (spec.kerf == 0.0) return out;
+  const auto moved = [&](const Further& further) {
+    bool any = false;
+    for (std::size_t i = 0; i < nodes.size() && !stop.stop_requested(); ++i) {
+      if (further[i] == 0.0) continue;
+      nodes[i].line = walls.at(nodes[i].phase, 0.5 * spec.kerf + further[i]);
+      any = true;
+    }
+    if (any) out = tabulate(spec, walls, nodes, far);
+    return beam_cut(spec, out);
+  };
+  const auto proof = clear_torch(nodes.size(), moved, stop);
+  out.torch_line = proof;
+  return out;
+}
+
+void fill_lengths(const joint::Contour& root, const std::vector<Node>& nodes, Hole& out,
+                  const std::stop_token& stop) {
+  std::vector<double> phases;
+  for (const auto& node : nodes) phases.push_back(node.phase);
   out.length = joint::lengths_along(root, phases, stop);
   out.length_total = out.length.back();
   out.length.pop_back();
-  return out;
 }
 
 Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, bool far,
@@ -235,13 +260,19 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
       joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho);
   if (!root) return tl::unexpected(root.error());
   const WallLines walls(spec, branch, rho, root->cutters.front());
-  const auto nodes = sample(spec, walls, stop);
+  auto nodes = sample(spec, walls, stop);
   if (!nodes) return tl::unexpected(nodes.error());
   if (auto ok = check_lines(spec, *nodes); !ok) return tl::unexpected(ok.error());
+  auto out = cleared(spec, walls, *nodes, far, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (auto ok = check_lines(spec, *nodes); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_spared(beam_cut(spec, out), out.torch_line); !ok)
+    return tl::unexpected(ok.error());
+  fill_lengths(*root, *nodes, out, stop);
   if (!root->near_parallel.empty() && !far)
     warnings.push_back({.code = WarningCode::near_parallel, .member = "branch"});
   note_lost(spec, *nodes, warnings);
-  return tabulate(spec, walls, *root, *nodes, far, stop);
+  return out;
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ struct Hole {
   std::vector<double> torch_phi, torch_z;  // torch axis on the outer surface
   std::vector<double> torch_phi_inner, torch_z_inner;
   double length_total = 0.0;  // of the root curve
+  BeamProof torch_line;       // what the kerf takes and leaves along it
   FitUp fit;
 };
 
@@ -80,6 +81,9 @@ struct HoleCut {
 };
 
 /// The hole in a chord for a branch, the branch's end that goes with it, and how they fit.
+///
+/// The torch's axis runs half a kerf off the wall, and as much further as a round beam of the
+/// kerf's width needs to stay out of the chord, at nodes and between them (`torch_line`).
 ///
 /// Frame   z along the chord, phi from x towards y. B > 0: the outer edge lies further towards +z.
 /// Errors  open_profile (branch; phi intervals of the branch: it reaches beyond the chord's side),

@@ -74,8 +74,8 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
   if (cut.dot(r.branch_normal) < 0.0) cut = -cut;
   const double side = wall.dot(r.branch_normal) < 0.0 ? -1.0 : 1.0;
   see(p.groove, std::abs(side * between(cut, r.branch_normal) - h.groove[i]) * kDegPerRad);
-  see(p.kerf, std::abs((r.outer - r.torch_outer).dot(cut) - 0.5 * spec.kerf));
-  see(p.kerf, std::abs((r.inner - r.torch_inner).dot(cut) - 0.5 * spec.kerf));
+  see(p.kerf, 0.5 * spec.kerf - (r.outer - r.torch_outer).dot(cut));
+  see(p.kerf, 0.5 * spec.kerf - (r.inner - r.torch_inner).dot(cut));
   const Vector3d torch = r.torch_outer - r.torch_inner;
   const auto at = elementary::sincos(h.torch_phi[i]);
   const double height = torch.x() * at.cos + torch.y() * at.sin;
@@ -133,6 +133,22 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
   }
 }
 
+/// Of the torch's lines, the worst of each check over the holes.
+std::vector<Check> torch_checks(const HoleSpec& spec, const HoleCut& cut,
+                                const std::stop_token& stop) {
+  std::vector<Check> out;
+  for (const auto& h : cut.holes) {
+    auto checks = verify_torch_line(beam_cut(spec, h), h.torch_line, stop);
+    if (out.empty()) {
+      out = std::move(checks);
+      continue;
+    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (checks[i].value * out[i].limit > out[i].value * checks[i].limit) out[i] = checks[i];
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::stop_token& stop) {
@@ -160,6 +176,7 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::s
       {"groove", p.groove, kAngle, "deg"},  {"tilt", p.tilt, kAngle, "deg"},
       {"kerf", p.kerf, kLength, "mm"},      {"branch_end", p.end, kLength, "mm"}};
   for (auto& check : nearest_checks(spec, *branch, cut, stop)) out.push_back(std::move(check));
+  for (auto& check : torch_checks(spec, cut, stop)) out.push_back(std::move(check));
   return out;
 }
 

@@ -143,7 +143,7 @@ WallLines::Direction WallLines::axial_direction(const Corner& c, const Vector3d&
   return out;
 }
 
-WallLine WallLines::at(double phase) const {
+WallLine WallLines::at(double phase, double off) const {
   const auto line = joint::generator_at(radius_, phase);
   Corner c;
   c.branch = line.cos_phi * frame_.x + line.sin_phi * frame_.y;
@@ -156,16 +156,16 @@ WallLine WallLines::at(double phase) const {
   c.rise = (c.chord - facing * c.branch) / c.sine;
   out.dihedral = c.dihedral;
 
-  // The torch line runs half a kerf inside the wall; its own axial plane is the one that counts.
+  // The torch line runs inside the wall; its own axial plane is the one that counts.
   Vector3d base = out.root;
   Direction d;
   for (int round = 0; round < kKerfRounds; ++round) {
     d = spec_.tilt == Tilt::free ? free_direction(c) : axial_direction(c, radial_at(base));
     const double up = d.unit.dot(c.rise);
-    const double off = d.unit.dot(c.branch);
-    const Vector3d normal = (up * c.branch - off * c.rise) / elementary::hypot(up, off);
-    out.groove = elementary::atan2(off, up);
-    const Vector3d next = out.root - 0.5 * spec_.kerf * normal;
+    const double out_of = d.unit.dot(c.branch);
+    const Vector3d normal = (up * c.branch - out_of * c.rise) / elementary::hypot(up, out_of);
+    out.groove = elementary::atan2(out_of, up);
+    const Vector3d next = out.root - off * normal;
     const bool settled = (next - base).norm() <= kSettled * spec_.chord.outer_radius;
     base = next;
     if (settled || spec_.tilt == Tilt::free) break;

@@ -34,7 +34,9 @@ class WallLines {
   WallLines(const HoleSpec& spec, const joint::TubeCutter& branch, double radius,
             const joint::Prepared& chord);
 
-  [[nodiscard]] WallLine at(double phase) const;
+  [[nodiscard]] WallLine at(double phase) const { return at(phase, 0.5 * spec_.kerf); }
+  /// With the torch's axis as far off the wall, mm.
+  [[nodiscard]] WallLine at(double phase, double off) const;
   [[nodiscard]] const BranchFrame& frame() const { return frame_; }
   /// Phase on the chord, continuous around the branch's side.
   [[nodiscard]] double phi(const Eigen::Vector3d& point) const;

@@ -117,6 +117,8 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   detail::state_penetration(g, *out, stop);
   detail::lay_torch(spec, *out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (auto ok = check_spared(beam_cut(spec, *out), out->torch_line); !ok)
+    return tl::unexpected(ok.error());
   return out;
 }
 

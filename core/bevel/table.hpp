@@ -128,8 +128,8 @@ struct Table {
 /// outer edge further into the part.
 /// Errors  open_profile, no_contact, parallel_axes,
 /// member_consumed, torch_range, sampling_not_uniform, smoothing_not_converged,
-///         smoothing_enters, cut_enters (contact outer), out_of_range (groove/zones, root_face),
-///         joint_contradicts (root_gap), transition_too_long, unsupported_combination,
+///         smoothing_enters, cut_enters (contact outer), out_of_range (groove/zones, root_face,
+///         kerf), joint_contradicts (root_gap), transition_too_long, unsupported_combination,
 ///         too_many_nodes, cancelled.
 /// Accuracy  `penetration` is stated within 3e-4 mm, by an enclosure.
 /// Source  docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.

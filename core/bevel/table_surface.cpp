@@ -57,14 +57,21 @@ void fill_surfaces(const Ground& g, const Rows& rows, Table& out, const std::sto
 
 void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop) {
   const auto drop = torch_drops(spec, out, stop);
-  for (std::size_t i = 0; i < out.b.size(); ++i) {
-    const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
-    const double foot =
-        out.z_face.empty() ? out.z_inner[i] : out.z_face[i] - spec.root_face * slope;
-    out.torch_inner.push_back(foot - drop[i]);
-    out.torch_outer.push_back(out.z_outer[i] - drop[i]);
-  }
-  out.torch_line = beam_proof(beam_cut(spec, out), Places::everywhere, stop);
+  const auto n = out.b.size();
+  out.torch_inner.resize(n);
+  out.torch_outer.resize(n);
+  const auto lowered = [&](const Further& further) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
+      const double foot =
+          out.z_face.empty() ? out.z_inner[i] : out.z_face[i] - spec.root_face * slope;
+      const double by = drop[i] + further[i] * elementary::hypot(1.0, slope);
+      out.torch_inner[i] = foot - by;
+      out.torch_outer[i] = out.z_outer[i] - by;
+    }
+    return beam_cut(spec, out);
+  };
+  out.torch_line = clear_torch(n, lowered, stop);
 }
 
 Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out,

@@ -263,7 +263,8 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
   if (lifted) out.push_back({"touch", off, kPenetration, "mm"});
   penetration_checks(spec, t, solids, deep, out, stop);
-  for (auto& check : verify_torch_line(spec, t, stop)) out.push_back(std::move(check));
+  for (auto& check : verify_torch_line(beam_cut(spec, t), t.torch_line, stop))
+    out.push_back(std::move(check));
   return out;
 }
 

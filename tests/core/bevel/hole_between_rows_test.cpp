@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <map>
 #include <string_view>
 
+#include "core/bevel/beam.hpp"
 #include "core/bevel/hole.hpp"
 #include "tests/support/cut_oracle.hpp"
 #include "tests/support/random_cut.hpp"
@@ -122,6 +124,109 @@ TEST(HoleBetweenRows, NoRandomHoleComesNearerThanItsToleranceAllows) {
             << " of the tolerance, stated within " << worst_stated << " mm\n";
   for (const auto& [code, count] : refused) std::cout << code << ' ' << count << '\n';
   EXPECT_GE(answered, holes * 3 / 4);
+}
+
+using Point = std::array<double, 3>;
+
+Point on_wall(double radius, double phi, double z) {
+  return {radius * std::cos(phi), radius * std::sin(phi), z};
+}
+
+/// Of the straight way in phase and height from each row to the next, `parts` places.
+std::vector<std::array<double, 4>> along(const std::array<const std::vector<double>*, 4>& columns,
+                                         int parts) {
+  std::vector<std::array<double, 4>> out;
+  const auto n = columns[0]->size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (int k = 0; k < parts; ++k) {
+      std::array<double, 4> at{};
+      for (std::size_t c = 0; c < 4; ++c)
+        at[c] = std::lerp((*columns[c])[i], (*columns[c])[(i + 1) % n], 1.0 * k / parts);
+      out.push_back(at);
+    }
+  return out;
+}
+
+/// What a round beam of the kerf's width takes of the finished wall, mm: places of the wall against
+/// straight axes, every one against every one.
+double taken(const HoleSpec& spec, const Hole& hole) {
+  const double inner = spec.chord.inner_radius(), outer = spec.chord.outer_radius;
+  const int parts = std::max(1, 1500 / static_cast<int>(hole.phi.size()));
+  std::vector<Point> wall;
+  for (const auto& [pi, zi, po, zo] :
+       along({&hole.phi_inner, &hole.z_inner, &hole.phi, &hole.z}, parts))
+    for (int m = 0; m <= 8; ++m) {
+      const auto a = on_wall(inner, pi, zi), b = on_wall(outer, po, zo);
+      wall.push_back({std::lerp(a[0], b[0], m / 8.0), std::lerp(a[1], b[1], m / 8.0),
+                      std::lerp(a[2], b[2], m / 8.0)});
+    }
+  double nearest = 1e300;
+  for (const auto& [pi, zi, po, zo] :
+       along({&hole.torch_phi_inner, &hole.torch_z_inner, &hole.torch_phi, &hole.torch_z}, parts)) {
+    const auto foot = on_wall(inner, pi, zi), top = on_wall(outer, po, zo);
+    const Point way{top[0] - foot[0], top[1] - foot[1], top[2] - foot[2]};
+    const double square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+    for (const auto& q : wall) {
+      const Point off{q[0] - foot[0], q[1] - foot[1], q[2] - foot[2]};
+      const double s = (off[0] * way[0] + off[1] * way[1] + off[2] * way[2]) / square;
+      nearest =
+          std::min(nearest, off[0] * off[0] + off[1] * off[1] + off[2] * off[2] - s * s * square);
+    }
+  }
+  return 0.5 * spec.kerf - std::sqrt(std::max(0.0, nearest));
+}
+
+// Half a kerf off the wall's own line took up to 0.85 mm from beside it. TUBECUT_HOLES=600: all.
+TEST(HoleTorchLine, StaysOutOfTheChord) {
+  oracle::Random random{std::mt19937_64(77)};
+  std::vector<double> lefts;
+  double worst = 0.0, apart = 0.0;
+  int withheld = 0;
+  for (int n = 0; n < count_of("TUBECUT_HOLES", 25); ++n) {
+    auto spec = random_hole(random);
+    if (spec.kerf == 0.0) spec.kerf = random.any(0.5, 4);
+    const auto cut = hole(spec);
+    if (!cut) continue;
+    for (const auto& check : verify(spec, *cut)) {
+      withheld += check.passed() ? 0 : 1;
+      EXPECT_TRUE(check.passed()) << n << ' ' << check.name << ' ' << check.value;
+    }
+    for (const auto& one : cut->holes) {
+      const double found = taken(spec, one);
+      worst = std::max(worst, found);
+      apart = std::max(apart, found - one.torch_line.gouge);
+      EXPECT_LE(found, kGougeLimit) << n;
+      EXPECT_LE(found, one.torch_line.gouge + 1e-3) << n;
+      lefts.push_back(one.torch_line.left);
+    }
+  }
+  std::ranges::sort(lefts);
+  std::cout << lefts.size() << " holes: at most " << worst << " mm taken, " << apart
+            << " more than stated; left median " << lefts[lefts.size() / 2] << ", 90 % "
+            << lefts[lefts.size() * 9 / 10] << ", most " << lefts.back() << '\n';
+}
+
+// An axis moved towards the chord, or the wall towards the axis.
+TEST(HoleTorchLine, ACorruptedRowIsSeen) {
+  oracle::Random random{std::mt19937_64(77)};
+  int tried = 0;
+  for (int n = 0; n < 12; ++n) {
+    auto spec = random_hole(random);
+    spec.kerf = 2.0;
+    const auto cut = hole(spec);
+    if (!cut) continue;
+    ++tried;
+    auto bad = *cut;
+    auto& h = bad.holes.front();
+    const auto row = h.phi.size() / 3;
+    h.torch_phi[row] += 0.1 * (h.phi[row] - h.torch_phi[row]);
+    h.torch_z[row] += 0.1 * (h.z[row] - h.torch_z[row]);
+    const auto checks = verify(spec, bad);
+    EXPECT_TRUE(std::ranges::any_of(checks, [](const Check& check) {
+      return check.name == "gouge" && !check.passed();
+    })) << n;
+  }
+  EXPECT_GE(tried, 8);
 }
 
 // Twelve points round a hole cut the corners: said, with where and how much.

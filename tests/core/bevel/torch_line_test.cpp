@@ -96,9 +96,9 @@ TEST(TorchLine, ACorruptedRowIsSeen) {
     const auto good = table(spec);
     ASSERT_TRUE(good);
     const auto fails = [&](const Table& t, std::string_view name) {
-      return std::ranges::any_of(verify_torch_line(spec, t), [&](const Check& check) {
-        return check.name == name && !check.passed();
-      });
+      return std::ranges::any_of(
+          verify_torch_line(beam_cut(spec, t), t.torch_line),
+          [&](const Check& check) { return check.name == name && !check.passed(); });
     };
     for (const auto row : {std::size_t{0}, good->phi.size() / 3, good->phi.size() - 1}) {
       auto bad = *good;
@@ -214,7 +214,7 @@ TEST(TorchLine, StaysOutOfRandomTables) {
                 << s.proof.gouge_phi * kDegPerRad << "; left " << s.found.left << " at "
                 << s.found.left_phi * kDegPerRad << ", stated " << s.proof.left << " at "
                 << s.proof.left_phi * kDegPerRad << "; " << described(spec, *got) << '\n';
-    for (const auto& check : verify_torch_line(spec, *got))
+    for (const auto& check : verify_torch_line(beam_cut(spec, *got), got->torch_line))
       EXPECT_TRUE(check.passed()) << n << ' ' << check.name << ' ' << check.value;
   }
   std::ranges::sort(lefts);
@@ -264,7 +264,7 @@ TEST(TorchLine, StaysOutWithWideKerfs) {
     const auto got = table(spec);
     if (!got) continue;
     ++cut;
-    for (const auto& check : verify_torch_line(spec, *got))
+    for (const auto& check : verify_torch_line(beam_cut(spec, *got), got->torch_line))
       EXPECT_TRUE(check.passed()) << n << ' ' << check.name << ' ' << check.value << ", "
                                   << described(spec, *got);
   }

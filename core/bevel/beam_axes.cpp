@@ -1,0 +1,182 @@
+#include "core/bevel/beam_axes.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+
+namespace tubecut::bevel::beam {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTurn = 2.0 * kRadPerDeg;  // over which a helix is a parabola: 1e-6 of the radius
+constexpr double kSwing =
+    3.0 * kRadPerDeg;                // over which the squared distance is all but a parabola
+constexpr double kArc = 1.01;        // no longer than that is an arc over its chord
+constexpr double kMostParts = 64.0;  // of the way from row to row, each no longer than four kerfs
+constexpr double kTiny = 1e-300;
+constexpr int kParabolas = 4;
+constexpr double kStill = 1e-4;  // of a stretch
+
+}  // namespace
+
+Vector3d placed(double radius, double phi, double z) {
+  const auto at = elementary::sincos(phi);
+  return {radius * at.cos, radius * at.sin, z};
+}
+
+AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t i, double u) {
+  auto b = rows[(i + 1) % rows.size()];
+  if (i + 1 == rows.size()) {
+    b.phi_inner += turn;
+    b.phi_outer += turn;
+  }
+  const auto& a = rows[i];
+  return {mixed(a.phi_inner, b.phi_inner, u), mixed(a.z_inner, b.z_inner, u),
+          mixed(a.phi_outer, b.phi_outer, u), mixed(a.z_outer, b.z_outer, u)};
+}
+
+Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
+  const auto n = cut.torch.size();
+  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+    first_.push_back(stretches_.size());
+    const auto a = torch(i, 0.0), b = torch(i, 1.0);
+    const double wide =
+        std::max(std::abs(b.phi_inner - a.phi_inner), std::abs(b.phi_outer - a.phi_outer));
+    const double rise = std::max(std::abs(b.z_inner - a.z_inner), std::abs(b.z_outer - a.z_outer));
+    const double way = std::min(rise + cut.outer * wide, 4.0 * kMostParts * cut.kerf);
+    const auto from = axis(a), to = axis(b);
+    const double swing = elementary::atan2(from.cross(to).norm(), from.dot(to));
+    const int parts =
+        1 +
+        static_cast<int>(std::max({wide / kTurn, way / (4.0 * cut.kerf + kTiny), swing / kSwing}));
+    for (int k = 0; k < parts; ++k)
+      add(i, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts);
+  }
+  first_.push_back(stretches_.size());
+  travelled_.push_back(0.0);
+  for (std::size_t k = 0; k < 2 * stretches_.size(); ++k)
+    travelled_.push_back(travelled_.back() + stretches_[k % stretches_.size()].travel);
+}
+
+Nearest Axes::nearest(std::size_t row, double u, const Vector3d& q) const {
+  const auto n = stretches_.size();
+  std::size_t start = first_[row];
+  while (start + 1 < first_[row + 1] && stretches_[start + 1].from <= u) ++start;
+  const auto& own = stretches_[start];
+  Best best{start, std::clamp((u - own.from) / (own.to - own.from), 0.0, 1.0)};
+  best.square = own.square(best.x, q);
+  best.distance = std::sqrt(best.square);
+  walk(start, start + n / 2, q, best);
+  walk_back(start + n, start + n - n / 2, q, best);
+  const auto& s = stretches_[best.stretch];
+  return {best.square, s.at(best.x, q), s.row, mixed(s.from, s.to, best.x)};
+}
+
+AcrossWall Axes::torch(std::size_t row, double u) const {
+  return between(cut_.torch, cut_.turn, row, u);
+}
+
+Vector3d Axes::axis(const AcrossWall& at) const {
+  return placed(cut_.outer, at.phi_outer, at.z_outer) -
+         placed(cut_.inner, at.phi_inner, at.z_inner);
+}
+
+void Axes::add(std::size_t row, double from, double to) {
+  Stretch out{.row = row, .from = from, .to = to};
+  std::array<Vector3d, 3> in, over;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto t = torch(row, mixed(from, to, 0.5 * static_cast<double>(k)));
+    in[k] = placed(cut_.inner, t.phi_inner, t.z_inner);
+    over[k] = placed(cut_.outer, t.phi_outer, t.z_outer) - in[k];
+  }
+  out.inner = {in[0], 4.0 * in[1] - 3.0 * in[0] - in[2], 2.0 * (in[0] - 2.0 * in[1] + in[2])};
+  out.across = {over[0], 4.0 * over[1] - 3.0 * over[0] - over[2],
+                2.0 * (over[0] - 2.0 * over[1] + over[2])};
+  out.middle = -cut_.inner / (cut_.outer - cut_.inner);
+  const double inner = (in[2] - in[0]).norm(), outer = (in[2] + over[2] - in[0] - over[0]).norm();
+  const double beyond = cut_.kerf / over[0].norm() * (over[2] - over[0]).norm();
+  out.travel = kArc * (std::max(inner, outer) + beyond);
+  stretches_.push_back(out);
+}
+
+void Axes::Best::see(std::size_t k, double at, double value) {
+  if (value >= square) return;
+  *this = {k, at, value, std::sqrt(value)};
+}
+
+/// Stretches ahead. Where the axes are further away than the best one, none nearer comes before
+/// they have travelled as much.
+void Axes::walk(std::size_t k, std::size_t last, const Vector3d& q, Best& best) const {
+  double low = stretch(k).square(0.0, q);
+  while (k <= last) {
+    const double high = stretch(k).square(1.0, q), far = std::sqrt(high);
+    look(k, low, high, std::sqrt(low) + far, q, best);
+    const double clear = travelled_[k + 1] + std::max(0.0, far - best.distance);
+    if (travelled_[k + 2] > clear) {
+      ++k;
+      low = high;
+      continue;
+    }
+    const auto past = std::ranges::upper_bound(travelled_, clear) - travelled_.begin();
+    k = static_cast<std::size_t>(past) - 1;
+    low = stretch(k).square(0.0, q);
+  }
+}
+
+/// Stretches behind `end`, likewise.
+void Axes::walk_back(std::size_t end, std::size_t first, const Vector3d& q, Best& best) const {
+  double high = stretch(end).square(0.0, q);
+  while (end > first) {
+    const auto k = end - 1;
+    const double low = stretch(k).square(0.0, q), far = std::sqrt(low);
+    look(k, low, high, far + std::sqrt(high), q, best);
+    const double clear = travelled_[k] - std::max(0.0, far - best.distance);
+    if (k == 0 || travelled_[k - 1] < clear) {
+      end = k;
+      high = low;
+      continue;
+    }
+    const auto from = std::ranges::lower_bound(travelled_, clear) - travelled_.begin();
+    end = static_cast<std::size_t>(from);
+    high = stretch(end).square(0.0, q);
+  }
+}
+
+/// Along one stretch, if a nearer axis could be in it: the squared distance is all but a parabola.
+/// `both` is the sum of the distances at its ends.
+void Axes::look(std::size_t index, double low, double high, double both, const Vector3d& q,
+                Best& best) const {
+  const auto k = index % stretches_.size();
+  const auto& s = stretches_[k];
+  best.see(k, 0.0, low);
+  best.see(k, 1.0, high);
+  if (0.5 * (both - s.travel) >= best.distance) return;
+  const double middle = s.square(0.5, q);
+  const double bend = low - 2.0 * middle + high;
+  const double x = 0.25 * (3.0 * low - 4.0 * middle + high) / bend;
+  if (!(bend > 0.0 && x > 0.0 && x < 1.0)) return best.see(k, 0.5, middle);
+  descend(k, x, q, best);
+}
+
+/// From near the least squared distance of a stretch to it, by parabolas through three places.
+void Axes::descend(std::size_t k, double x, const Vector3d& q, Best& best) const {
+  const auto& s = stretches_[k];
+  double beside = 0.05;  // of the stretch
+  for (int round = 0; round < kParabolas; ++round, beside *= 0.2) {
+    const double here = s.square(x, q);
+    best.see(k, x, here);
+    const double before = s.square(x - beside, q), after = s.square(x + beside, q);
+    const double bend = before - 2.0 * here + after;
+    if (!(bend > 0.0)) return;
+    const double step = 0.5 * beside * (before - after) / bend;
+    x = std::clamp(x + step, 0.0, 1.0);
+    if (std::abs(step) < kStill) break;
+  }
+  best.see(k, x, s.square(x, q));
+}
+
+}  // namespace tubecut::bevel::beam

@@ -1,0 +1,86 @@
+#include "core/bevel/beam_surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::bevel::beam {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRounding = 2e-6;  // of the radius, of a parabola for a helix
+
+Vector3d mixed_points(const Vector3d& a, const Vector3d& b, double u) {
+  return (1.0 - u) * a + u * b;
+}
+
+}  // namespace
+
+Surface::Surface(const BeamCut& cut, const std::stop_token& stop) : cut_(cut), axes_(cut, stop) {
+  for (std::size_t i = 0; i < rows() && !stop.stop_requested(); ++i) along_.push_back(way(i));
+}
+
+Surface::Seen Surface::seen(const Place& at) const {
+  const auto near = axes_.nearest(at.row, at.u, point(at));
+  const double distance = std::sqrt(near.square);
+  const bool in_part = beyond(near) > kRounding * cut_.outer;
+  return {in_part ? -distance : distance, near.row, near.u};
+}
+
+double Surface::phase(const Place& at) const {
+  const auto here = finished(at);
+  return mixed(here.phi_inner, here.phi_outer, at.land ? 0.0 : share(at));
+}
+
+double Surface::across(std::size_t row, bool land) const {
+  return (point({row, 0.0, 1.0, land}) - point({row, 0.0, 0.0, land})).norm();
+}
+
+double Surface::step(std::size_t row) const {
+  const auto a = finished({row, 0.0}), b = finished({row, 1.0});
+  const double rise = b.z_inner - a.z_inner;
+  const double land = cut_.land.empty() ? rise : cut_.land[(row + 1) % rows()] - cut_.land[row];
+  const double steep = std::max(std::abs(rise), std::abs(land));
+  return std::max(
+      elementary::hypot(cut_.inner * (b.phi_inner - a.phi_inner), steep),
+      elementary::hypot(cut_.outer * (b.phi_outer - a.phi_outer), b.z_outer - a.z_outer));
+}
+
+AcrossWall Surface::finished(const Place& at) const {
+  return between(cut_.finished, cut_.turn, at.row, at.u);
+}
+
+Vector3d Surface::point(const Place& at) const {
+  const auto here = finished(at);
+  const Vector3d inner = placed(cut_.inner, here.phi_inner, here.z_inner);
+  const Vector3d outer = placed(cut_.outer, here.phi_outer, here.z_outer);
+  if (!at.land) return mixed_points(inner, outer, share(at));
+  const double z = mixed(cut_.land[at.row], cut_.land[(at.row + 1) % rows()], at.u);
+  return mixed_points(placed(cut_.inner, here.phi_inner, z), mixed_points(inner, outer, cut_.from),
+                      at.v);
+}
+
+/// How far the axis runs beyond the finished line of its own row where it is nearest.
+double Surface::beyond(const Nearest& near) const {
+  const auto own = finished({near.row, near.u});
+  const Vector3d inner = placed(cut_.inner, own.phi_inner, own.z_inner);
+  const Vector3d across = placed(cut_.outer, own.phi_outer, own.z_outer) - inner;
+  const Vector3d from = near.point - inner;
+  const Vector3d off = from - from.dot(across) / across.squaredNorm() * across;
+  const Vector3d normal = along_[near.row].cross(across);
+  const double size = normal.norm();
+  return size > 0.0 ? (cut_.part_to_the_left ? -1.0 : 1.0) * normal.dot(off) / size : 0.0;
+}
+
+/// The finished surface's way from a row to the next, in the middle of the wall.
+Vector3d Surface::way(std::size_t row) const {
+  const auto a = finished({row, 0.0}), b = finished({row, 1.0});
+  return 0.5 *
+         (placed(cut_.inner, b.phi_inner, b.z_inner) - placed(cut_.inner, a.phi_inner, a.z_inner) +
+          placed(cut_.outer, b.phi_outer, b.z_outer) - placed(cut_.outer, a.phi_outer, a.z_outer));
+}
+
+}  // namespace tubecut::bevel::beam
