@@ -69,9 +69,8 @@ struct Cell {
 
   [[nodiscard]] double grows_along() const { return steep_along * along; }
   [[nodiscard]] double grows_across() const { return steep_across * across; }
-  [[nodiscard]] double most() const {
-    return *std::ranges::max_element(value) + 0.5 * (grows_along() + grows_across());
-  }
+  [[nodiscard]] double highest() const { return *std::ranges::max_element(value); }
+  [[nodiscard]] double most() const { return highest() + 0.5 * (grows_along() + grows_across()); }
 };
 
 /// By how much a figure changes along the cell, and across it, from corner to corner, mm a mm.
@@ -93,8 +92,8 @@ Cell with_slopes(Cell c, double share) {
   return c;
 }
 
-/// The largest figure: the cell that promises most is halved until none promises more than is
-/// known, or for as long as is granted.
+/// The largest figure: from the best places uphill, then the cell that promises most is halved
+/// until none promises more than is known, or for as long as is granted.
 class Largest {
  public:
   explicit Largest(const Figure& figure) : figure_(figure) {}
@@ -105,6 +104,7 @@ class Largest {
   }
 
   [[nodiscard]] Seen worst(int halvings) {
+    for (const Cell* start : best_cells()) climb(*start);
     std::ranges::make_heap(cells_, {}, &Cell::most);
     while (halvings-- > 0 && !cells_.empty()) {
       std::ranges::pop_heap(cells_, {}, &Cell::most);
@@ -122,14 +122,59 @@ class Largest {
   }
 
  private:
-  void keep(const Cell& cell) {
+  void keep(const Cell& cell) { keep(highest(cell)); }
+  void keep(const Seen& seen) {
+    if (seen.value > best_.value) best_ = seen;
+  }
+  static Seen highest(const Cell& cell) {
     const auto k =
         static_cast<std::size_t>(std::ranges::max_element(cell.value) - cell.value.begin());
-    if (!(cell.value[k] > best_.value)) return;
-    best_ = {cell.value[k], cell.from};
-    if (k & 1U) best_.at.v = cell.v1;
-    if (k & 2U) best_.at.u = cell.u1;
+    Seen out{cell.value[k], cell.from};
+    if (k & 1U) out.at.v = cell.v1;
+    if (k & 2U) out.at.u = cell.u1;
+    return out;
   }
+
+  /// Few cells that are not neighbours and show nearly as much as any.
+  [[nodiscard]] std::vector<const Cell*> best_cells() const {
+    constexpr std::size_t kPool = 64, kClimbs = 6;
+    constexpr double kNearly = 0.85;
+    std::vector<const Cell*> pool;
+    for (const Cell& cell : cells_)
+      if (cell.highest() > std::max(kTold, kNearly * best_.value)) pool.push_back(&cell);
+    const auto top = pool.begin() + static_cast<std::ptrdiff_t>(std::min(kPool, pool.size()));
+    std::ranges::partial_sort(pool, top, std::ranges::greater{}, &Cell::highest);
+    std::vector<const Cell*> out;
+    for (auto cell = pool.begin(); cell != top && out.size() < kClimbs; ++cell)
+      if (std::ranges::none_of(out, [&](const Cell* other) { return neighbours(*other, **cell); }))
+        out.push_back(*cell);
+    return out;
+  }
+  static bool neighbours(const Cell& a, const Cell& b) {
+    const auto [low, high] = std::minmax(a.from.row, b.from.row);
+    return high - low <= 1;
+  }
+
+  /// From a cell's best corner to a place from which no step of a hundredth of the cell leads up.
+  void climb(const Cell& cell) {
+    constexpr int kSteps = 100;
+    Seen here = highest(cell);
+    double along = 0.5 * cell.along, across = 0.5 * cell.across;
+    for (int step = 0; step < kSteps && along > 0.01 * cell.along; ++step) {
+      const std::array<Place, 4> beside{figure_.surface.moved(here.at, along, 0.0),
+                                        figure_.surface.moved(here.at, -along, 0.0),
+                                        figure_.surface.moved(here.at, 0.0, across),
+                                        figure_.surface.moved(here.at, 0.0, -across)};
+      const Seen before = here;
+      for (const Place& at : beside)
+        if (const double value = figure_(at); value > here.value) here = {value, at};
+      if (here.value > before.value) continue;
+      along *= 0.5;
+      across *= 0.5;
+    }
+    keep(here);
+  }
+
   /// Both halves, of its length along the cut or across the wall.
   [[nodiscard]] std::array<Cell, 2> halved(Cell low, bool along) const {
     const std::size_t next = along ? 2 : 1, beside = along ? 1 : 2;  // corners, from the first one
@@ -303,7 +348,7 @@ BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& s
 
 BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,
                       const std::stop_token& stop) {
-  constexpr double kAimed = 0.5 * kGougeLimit;
+  constexpr double kAimed = kGougeLimit - 1e-3;  // by as much may be taken more than is found
   constexpr double kMore = 1.25;  // moved off the line's own surface, that next to it gains less
   constexpr int kRounds = 12;
   Further further(rows, 0.0);

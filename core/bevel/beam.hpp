@@ -59,7 +59,7 @@ inline constexpr double kGougeLimit = 0.01;  // mm
 
 /// By row, how much further the torch stands off than half a kerf, mm.
 using Further = std::vector<double>;
-/// Moves the torch's rows off the part until the beam takes no more than half of kGougeLimit of it
+/// Moves the torch's rows off the part until the beam takes no more than kGougeLimit of it
 /// anywhere, or no round gets there; `cut` is the cut with its rows moved, asked last for what it
 /// keeps. What is left to see is in the proof.
 [[nodiscard]] BeamProof clear_torch(std::size_t rows,

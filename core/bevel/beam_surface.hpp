@@ -35,6 +35,8 @@ class Surface {
   [[nodiscard]] double across(std::size_t row, bool land) const;
   /// Length of the way from one row to the next, on the wall where it is longer.
   [[nodiscard]] double step(std::size_t row) const;
+  /// A place so far along the cut and across the wall from another, mm; no further than the edges.
+  [[nodiscard]] Place moved(Place from, double along, double across) const;
 
  private:
   [[nodiscard]] double share(const Place& at) const { return mixed(cut_.from, 1.0, at.v); }

@@ -74,8 +74,10 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
   if (cut.dot(r.branch_normal) < 0.0) cut = -cut;
   const double side = wall.dot(r.branch_normal) < 0.0 ? -1.0 : 1.0;
   see(p.groove, std::abs(side * between(cut, r.branch_normal) - h.groove[i]) * kDegPerRad);
-  see(p.kerf, 0.5 * spec.kerf - (r.outer - r.torch_outer).dot(cut));
-  see(p.kerf, 0.5 * spec.kerf - (r.inner - r.torch_inner).dot(cut));
+  const double off_outer = (r.outer - r.torch_outer).dot(cut);
+  const double off_inner = (r.inner - r.torch_inner).dot(cut);
+  see(p.kerf, 0.5 * spec.kerf - std::min(off_outer, off_inner));
+  see(p.kerf, std::abs(off_outer - off_inner));
   const Vector3d torch = r.torch_outer - r.torch_inner;
   const auto at = elementary::sincos(h.torch_phi[i]);
   const double height = torch.x() * at.cos + torch.y() * at.sin;

@@ -491,8 +491,16 @@ TEST(Scaling, ByPowersOfTwoIsExactThroughTheWholeTable) {
         };
         EXPECT_EQ(scaled(one->z_inner), got->z_inner);
         EXPECT_EQ(scaled(one->z_outer), got->z_outer);
-        EXPECT_EQ(scaled(one->torch_inner), got->torch_inner);
-        EXPECT_EQ(scaled(one->torch_outer), got->torch_outer);
+        // What may be taken of the part is 0.01 mm at any size: a large one's torch is lower.
+        const auto inner = scaled(one->torch_inner), outer = scaled(one->torch_outer);
+        for (std::size_t i = 0; i < inner.size(); ++i) {
+          EXPECT_LE(got->torch_inner[i], inner[i]);
+          EXPECT_LE(got->torch_outer[i], outer[i]);
+        }
+        if (k <= 8.0) {
+          EXPECT_EQ(inner, got->torch_inner);
+          EXPECT_EQ(outer, got->torch_outer);
+        }
         EXPECT_EQ(scaled(one->length), got->length);
         EXPECT_EQ(scaled(one->gap), got->gap);
       }
