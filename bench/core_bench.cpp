@@ -181,7 +181,7 @@ BENCHMARK(mill_path_whole)->ArgName("positions")->Arg(90)->Arg(360)->Unit(benchm
 motion::ScheduleSpec schedule_spec(double period_us) {
   const auto table = bevel::table(spec(true)).value();
   motion::ScheduleSpec out;
-  motion::Contour contour;
+  motion::CutPath contour;
   contour.phi = table.phi;
   contour.z = table.torch_inner;
   contour.b = table.b;

@@ -8,8 +8,8 @@
 
 #include "api/api.hpp"
 #include "core/base/elementary.hpp"
-#include "core/motion/course.hpp"
-#include "core/motion/pulses.hpp"
+#include "core/motion/plan.hpp"
+#include "core/motion/schedule.hpp"
 
 namespace tubecut {
 namespace {
@@ -52,7 +52,7 @@ std::string request(bool long_one) {
 /// A contour of the same kind in closed form, so that core's stages stand alone.
 motion::ScheduleSpec spec(bool long_one) {
   motion::ScheduleSpec out;
-  motion::Contour c;
+  motion::CutPath c;
   c.outer_radius = long_one ? 95.0 : 35.0;
   const double partner = long_one ? 162.5 : 36.0;
   for (int i = 0; i < 360; ++i) {
@@ -70,14 +70,14 @@ motion::ScheduleSpec spec(bool long_one) {
 
 struct Stages {
   motion::ScheduleSpec spec;
-  motion::Prepared job;
+  motion::PreparedCut job;
   motion::Plan plan;
 };
 
 const Stages& stages(bool long_one) {
   static const auto make = [](bool which) {
     Stages out{spec(which), {}, {}};
-    out.job = motion::prepared(out.spec, {}).value();
+    out.job = motion::prepare_cut(out.spec, {}).value();
     out.plan = motion::plan(out.job.course, {}, {}).value();
     return out;
   };
@@ -95,7 +95,7 @@ void share_of_cut(benchmark::State& state, const Stages& s) {
 
 void path(benchmark::State& state) {
   const auto& s = stages(state.range(0) != 0);
-  for (auto _ : state) benchmark::DoNotOptimize(motion::prepared(s.spec, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(motion::prepare_cut(s.spec, {}));
   share_of_cut(state, s);
 }
 BENCHMARK(path)->ArgName("60_s_at_1_ms")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);

@@ -36,7 +36,7 @@ struct TorchLines {
 };
 
 /// A bevel table's own points, unchanged: the torch line on the asked surface.
-TorchLines decode_table_points(Reader& in, Surface surface, motion::Contour& out) {
+TorchLines decode_table_points(Reader& in, Surface surface, motion::CutPath& out) {
   for (const auto* other :
        {"developed_mm", "length_mm", "cutter", "zone", "z_inner_mm", "z_outer_mm", "z_face_mm",
         "b_face_deg", "dihedral_deg", "groove_deg", "tau_deg", "gamma_deg", "flush_deg",
@@ -82,7 +82,7 @@ void check_b_sign(Reader& in, BSign sign, Scrap scrap) {
 
 /// A torch swung by B passes both walls at heights wall tan B apart: points that say otherwise are
 /// of another wall, or count B the other way.
-void check_torch_lines(Reader& in, const motion::Contour& contour, const TorchLines& lines) {
+void check_torch_lines(Reader& in, const motion::CutPath& contour, const TorchLines& lines) {
   constexpr double kApart = 1e-3;  // mm; rounding of what was printed is far below
   const auto n = std::min({contour.b.size(), lines.inner.size(), lines.outer.size()});
   for (std::size_t i = 0; i < n; ++i) {
@@ -101,8 +101,8 @@ void check_torch_lines(Reader& in, const motion::Contour& contour, const TorchLi
   }
 }
 
-motion::Contour decode_contour(Reader& in) {
-  motion::Contour out;
+motion::CutPath decode_contour(Reader& in) {
+  motion::CutPath out;
   out.surface = in.choice("surface", kSurfaces);
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
   const Range wall{.min = kWall.min,
@@ -210,7 +210,7 @@ void decode_course(Reader& in, bool hole, motion::Motion& out) {
 
 motion::Motion decode_motion(Reader& in, const CutSource& cut) {
   motion::Motion out;
-  const auto* contour = std::get_if<motion::Contour>(&cut);
+  const auto* contour = std::get_if<motion::CutPath>(&cut);
   const bool has_contour = contour != nullptr || std::holds_alternative<BevelTableRequest>(cut);
   out.speed = in.object("speed", decode_speed);
   if (has_contour) out.speed_on = in.choice("speed_on", kSurfaces, Surface::outer);
@@ -235,7 +235,7 @@ tl::unexpected<Error> under(const Result<T>& result, const std::string& parent) 
 
 /// Rows but those at which the torch stands where it stood before: at a jump of the finished edge
 /// it waits below both.
-std::vector<std::size_t> distinct_rows(const motion::Contour& c) {
+std::vector<std::size_t> distinct_rows(const motion::CutPath& c) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < c.phi.size(); ++i)
     if (i == 0 || c.phi[i] != c.phi[i - 1] || c.z[i] != c.z[i - 1] || c.b[i] != c.b[i - 1])
@@ -243,7 +243,7 @@ std::vector<std::size_t> distinct_rows(const motion::Contour& c) {
   return out;
 }
 
-void keep_distinct_rows(motion::Contour& c) {
+void keep_distinct_rows(motion::CutPath& c) {
   const auto rows = distinct_rows(c);
   if (rows.size() == c.phi.size()) return;
   std::vector<bool> corner(rows.size(), false);  // a row left out hands its corner on
@@ -258,9 +258,9 @@ void keep_distinct_rows(motion::Contour& c) {
 }
 
 /// The torch line of a table on its root surface, a corner at each event that is a node.
-motion::Contour contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
+motion::CutPath contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
   const bool outer = spec.root_surface == bevel::RootSurface::outer;
-  motion::Contour out;
+  motion::CutPath out;
   out.phi = table.phi;
   out.z = outer ? table.torch_outer : table.torch_inner;
   out.b = table.b;
@@ -341,7 +341,7 @@ struct CutOf {
     if (!columns) return tl::unexpected(columns.error());
     return motion::Cut{*std::move(columns)};
   }
-  Result<motion::Cut> operator()(const motion::Contour& contour) const {
+  Result<motion::Cut> operator()(const motion::CutPath& contour) const {
     return motion::Cut{motion::as_machine_counts(contour, request.machine.b_positive)};
   }
   Result<motion::Cut> operator()(const motion::AxisColumns& columns) const {
@@ -377,7 +377,7 @@ JobRequest decode_job(Reader& in) {
       break;
   }
   out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
-  const auto* contour = std::get_if<motion::Contour>(&out.cut);
+  const auto* contour = std::get_if<motion::CutPath>(&out.cut);
   const auto* body = in.find("contour");
   if (contour != nullptr && in.understood("contour") && out.motion.lead &&
       body->find("scrap") == nullptr && body->find("points") == nullptr)

@@ -15,7 +15,7 @@ namespace tubecut::api {
 
 /// Where a schedule's cut comes from: computed here (a bevel table, a mill path), or given.
 using CutSource =
-    std::variant<BevelTableRequest, groove::MillPathSpec, motion::Contour, motion::AxisColumns>;
+    std::variant<BevelTableRequest, groove::MillPathSpec, motion::CutPath, motion::AxisColumns>;
 
 struct JobRequest {
   CutSource cut;

@@ -22,7 +22,7 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
   const auto path = motion::replay(again);
   std::vector<double> out;
   if (!path) return out;
-  const auto& contour = std::get<motion::Contour>(spec.cut);
+  const auto& contour = std::get<motion::CutPath>(spec.cut);
   const bool outer = spec.motion.speed_on == motion::Surface::outer;
   const double radius = outer ? contour.outer_radius : contour.inner_radius();
   const double rise = spec.machine.sigma() * (radius - contour.radius());
@@ -66,7 +66,7 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
     pulses.marks.push_back(
         {s.period * static_cast<double>(event.period), std::string(motion::name_of(event.what))});
   std::vector<Chart> charts{std::move(pulses)};
-  if (std::holds_alternative<motion::Contour>(spec.cut)) {
+  if (std::holds_alternative<motion::CutPath>(spec.cut)) {
     Chart speed{.title = std::string("Speed of the cut on the ") +
                          (spec.motion.speed_on == motion::Surface::outer ? "outer" : "inner") +
                          " surface, mean of 25 periods",

@@ -1,14 +1,42 @@
 #pragma once
 
+#include <cstddef>
 #include <stop_token>
+#include <vector>
 
-#include "core/motion/plan.hpp"
-#include "core/motion/schedule.hpp"
+#include "core/motion/limits.hpp"
+#include "core/motion/timing.hpp"
 
 namespace tubecut::motion {
 
+/// What a plan is measured against, and how its places become axis values.
+struct Course {
+  Path path = {};
+  std::vector<AxisFunction> axes = {};  // all axes of the machine
+  std::vector<AxisFunction> tip = {};
+  SpeedAlong speed;
+  Limits limits = {};
+  Machine machine = {};
+
+  /// Some axis or the tip needs sin B and cos B.
+  [[nodiscard]] bool bends() const;
+};
+
+/// Evaluates a course at its places, one after another.
+class CourseCursor {
+ public:
+  explicit CourseCursor(const Course& course) : path_(course.path, course.bends()) {}
+  [[nodiscard]] Pose at(const Place& place) { return path_.at(place.interval, place.offset); }
+
+ private:
+  PathCursor path_;
+};
+
+/// Way of the tip between two poses, mm.
+[[nodiscard]] double tip_step(const Course& course, const Pose& from, const Pose& to);
+
 /// A checked request, ready to be timed.
-struct Prepared {
+struct PreparedCut {
   Program program = {};
   Course course;
   double standoff_growth = 0.0;
@@ -16,10 +44,11 @@ struct Prepared {
   double length = 0.0;  // mm of the tip's path along the polyline
 };
 
-/// Machine, program, speed and axes without the smoothed path: what a replay needs as well.
+/// Machine, program, speed, axes, the smoothed path and its limits: what planning and a replay
+/// start from.
 ///
 /// Errors  as `schedule`, except those of planning.
-[[nodiscard]] Result<Prepared> prepared(const ScheduleSpec& spec, std::stop_token stop);
+[[nodiscard]] Result<PreparedCut> prepare_cut(const ScheduleSpec& spec, std::stop_token stop);
 
 /// Tip path of the polyline between two of its points, mm.
 [[nodiscard]] double tip_length(const std::vector<AxisFunction>& tip, const Program& program,
@@ -28,17 +57,33 @@ struct Prepared {
 /// Point `i` of the program.
 [[nodiscard]] Coordinates coordinates_of(const Program& program, std::size_t i);
 
-/// The comparison with slowing the whole cut and with slowing its segments.
-///
-/// Source  docs/theory/pulse-schedules.md, section 10.2.
-[[nodiscard]] Comparison comparison(const Prepared& job, const std::stop_token& stop = {});
-
-/// What running every segment of the polyline at the asked speed would ask of one axis.
-struct Naive {
-  std::int64_t peak = 0;          // pulses in a period, rounded
-  std::int64_t periods_over = 0;  // periods above n_max
+/// Share of each limit that the ideal samples use; 1 is the limit.
+struct AxisUse {
+  double velocity = 0.0;
+  double acceleration = 0.0;  // square root of the ratio, so that a stretch of time divides it once
+  double jerk = 0.0;          // cube root of the ratio
+  double pulses = 0.0;        // of n_max
 };
-/// Source  docs/theory/pulse-schedules.md, section 10.1.
-[[nodiscard]] Naive naive_pulses(const Prepared& job, std::size_t axis);
+struct Uses {
+  std::vector<AxisUse> axes = {};  // as Limits::axes
+  double tip = 0.0;
+  double least_tip = 1e300;  // mm/s, away from the ends; 1e300: nothing is away from them
+  [[nodiscard]] double worst() const;
+};
+
+/// Differences of the axis values at the places, with three resting samples before and after,
+/// against the limits. Rounding of the axis values themselves is allowed for.
+///
+/// Source  docs/theory/pulse-schedules.md, section 6.6.
+[[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
+                        const std::stop_token& stop = {});
+
+/// Ratios of differences to their limits at every place, the worst of the axes.
+struct Ratios {
+  std::vector<double> acceleration = {};  // of the second difference that it is the middle of
+  std::vector<double> jerk = {};          // of the third differences that it is a middle of
+};
+[[nodiscard]] Ratios ratios(const Course& course, const std::vector<Place>& places,
+                            const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

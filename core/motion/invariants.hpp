@@ -1,22 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <stop_token>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/motion/course.hpp"
 #include "core/motion/reconstruction.hpp"
 
 namespace tubecut::motion {
-
-/// Counts under examination, one span per axis of the machine; empty where the axis stands.
-struct Counted {
-  double period = 0.0;
-  std::size_t periods = 0;
-  std::vector<std::span<const std::int32_t>> counts = {};
-  std::vector<double> start = {};
-};
 
 /// The worst of several values, each against its own limit. Limits are positive or zero.
 class Worst {
@@ -35,7 +27,9 @@ class Worst {
 
 /// I2 to I9 and I16: sums, closure, limits per period, travel, reversals, the start. `jerk`: the
 /// schedule claims a jerk limit.
-[[nodiscard]] std::vector<Check> count_invariants(const Prepared& job, const Counted& counted,
+///
+/// Source  docs/theory/pulse-schedules.md, section 9.
+[[nodiscard]] std::vector<Check> count_invariants(const PreparedCut& job, const Counted& counted,
                                                   bool jerk, const std::stop_token& stop);
 
 struct Followed {
@@ -43,8 +37,10 @@ struct Followed {
   double deviation = 0.0;
 };
 
-/// I10 to I15 and, where a part border is given, `lead_clears_part`.
-[[nodiscard]] Followed path_invariants(const ScheduleSpec& spec, const Prepared& job,
+/// I10 to I15 and, `with_lead` of a closed cut, `lead_clears_part`.
+///
+/// Source  docs/theory/pulse-schedules.md, section 9.
+[[nodiscard]] Followed path_invariants(const ScheduleSpec& spec, const PreparedCut& job,
                                        const Counted& counted, bool with_lead,
                                        const std::stop_token& stop);
 

@@ -25,9 +25,9 @@ AxisFunction coordinate(std::size_t c, double k = 1.0) {
   return f;
 }
 
-struct ContourAxes {
+struct CutPathAxes {
   const Machine& machine;
-  const Contour& contour;
+  const CutPath& cut_path;
 
   Result<std::vector<AxisFunction>> operator()(const FiveAxisCutter& cutter) const {
     std::vector<AxisFunction> out;
@@ -64,7 +64,7 @@ struct ContourAxes {
   }
 
  private:
-  [[nodiscard]] double past_radius() const { return contour.outer_radius - contour.radius(); }
+  [[nodiscard]] double past_radius() const { return cut_path.outer_radius - cut_path.radius(); }
 
   [[nodiscard]] AxisFunction of(const FiveAxisCutter& cutter, const std::string& name) const {
     const double length = cutter.pivot_length + cutter.standoff;
@@ -76,7 +76,7 @@ struct ContourAxes {
       f.sin_b = -machine.sigma() * length;
       f.tan_b = -machine.sigma() * past_radius();
     } else if (name == "Z1") {
-      f.constant = contour.outer_radius + cutter.z2_share * length;
+      f.constant = cut_path.outer_radius + cutter.z2_share * length;
       f.cos_b = (1.0 - cutter.z2_share) * length;
     } else if (cutter.z2_share > 0.0) {
       f.constant = -cutter.z2_share * length;
@@ -86,7 +86,7 @@ struct ContourAxes {
   }
 
   [[nodiscard]] AxisFunction of(const Crawler& crawler, const std::string& name) const {
-    if (name == "S") return linear(contour.outer_radius + crawler.wheel_offset, 0.0, 0.0);
+    if (name == "S") return linear(cut_path.outer_radius + crawler.wheel_offset, 0.0, 0.0);
     if (name == "B") return linear(0.0, 0.0, kDegPerRad);
     const bool pivot = crawler.swing_center == SwingCenter::pivot;
     AxisFunction f = linear(0.0, 1.0, 0.0);
@@ -159,18 +159,18 @@ std::array<double, 3> AxisFunction::derivatives(const Jet& jet) const {
 }
 
 Result<std::vector<AxisFunction>> axis_functions(const ScheduleSpec& spec) {
-  if (const auto* const contour = std::get_if<Contour>(&spec.cut)) {
-    return std::visit(ContourAxes{spec.machine, *contour}, spec.machine.kinematics);
+  if (const auto* const cut_path = std::get_if<CutPath>(&spec.cut)) {
+    return std::visit(CutPathAxes{spec.machine, *cut_path}, spec.machine.kinematics);
   }
   return column_axes(spec.machine);
 }
 
 std::vector<AxisFunction> speed_functions(const ScheduleSpec& spec) {
-  if (const auto* const contour = std::get_if<Contour>(&spec.cut)) {
+  if (const auto* const cut_path = std::get_if<CutPath>(&spec.cut)) {
     const double rho =
-        spec.motion.speed_on == Surface::outer ? contour->outer_radius : contour->inner_radius();
+        spec.motion.speed_on == Surface::outer ? cut_path->outer_radius : cut_path->inner_radius();
     AxisFunction along = linear(0.0, 1.0, 0.0);
-    along.tan_b = -spec.machine.sigma() * (rho - contour->radius());
+    along.tan_b = -spec.machine.sigma() * (rho - cut_path->radius());
     return {linear(rho, 0.0, 0.0), along};
   }
   const auto& columns = std::get<AxisColumns>(spec.cut);

@@ -1,9 +1,14 @@
 #include "core/motion/lead.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -11,7 +16,7 @@ namespace {
 constexpr double kArcStep = 3.0 * kRadPerDeg;  // between points of a lead arc
 constexpr double kRunStep = 0.5;               // mm between points of a straight run
 
-/// A point or direction of the developed surface: s = radius * phi, and z.
+/// A point or direction of a developed surface: s = radius * phi, and z.
 struct Flat {
   double s = 0.0;
   double z = 0.0;
@@ -20,13 +25,13 @@ Flat operator+(Flat a, Flat b) { return {a.s + b.s, a.z + b.z}; }
 Flat operator*(double k, Flat a) { return {k * a.s, k * a.z}; }
 
 struct Join {
-  ContourPoint at;
+  CutPoint at;
   Flat point;
   Flat tangent;
   Flat normal;  // unit, towards the scrap
 };
 
-Flat flat(const Track& t, const ContourPoint& p) { return {t.radius * p.phi, p.z}; }
+Flat flat(const Track& t, const CutPoint& p) { return {t.radius * p.phi, p.z}; }
 
 Flat unit(Flat a) {
   const double length = elementary::hypot(a.s, a.z);
@@ -142,20 +147,20 @@ Line line_of(const Track& cut, const Join& j, LeadBevel bevel, double past_start
   return held ? Line{j.at.b, j.at.beam} : line_of(cut, past_start);
 }
 
-ContourPoint placed(const Track& t, Flat p, Line line) {
+CutPoint placed(const Track& t, Flat p, Line line) {
   return {p.s / t.radius, p.z, line.b, false, line.beam};
 }
 
-std::vector<ContourPoint> way_in(const Track& t, const Join& j, const Lead& lead, LeadBevel bevel) {
+std::vector<CutPoint> way_in(const Track& t, const Join& j, const Lead& lead, LeadBevel bevel) {
   Away way = arc(j, lead, -1.0);
   add_run(way, j, lead);
   const double fan = std::min(lead.fan, way.distance.back());
   const Line first = line_of(t, j, bevel, -way.distance.back());
   const double most = lead.pierce_b ? lead.pierce_b->rad() : std::abs(first.b);
   const double pierce = std::clamp(first.b, -most, most);
-  std::vector<ContourPoint> out;
+  std::vector<CutPoint> out;
   for (std::size_t i = way.points.size(); i-- > 0;) {
-    ContourPoint p = placed(t, way.points[i], line_of(t, j, bevel, -way.distance[i]));
+    CutPoint p = placed(t, way.points[i], line_of(t, j, bevel, -way.distance[i]));
     const double done =
         fan > 0.0 ? std::min(1.0, (way.distance.back() - way.distance[i]) / fan) : 1.0;
     p.b += (1.0 - done) * (pierce - first.b);
@@ -164,18 +169,165 @@ std::vector<ContourPoint> way_in(const Track& t, const Join& j, const Lead& lead
   return out;
 }
 
+/// Where the beam through a point of the contour's surface meets the surface of radius `rho`.
+Flat on_surface(const PartBorder& part, const CutPoint& p, double rho) {
+  return {rho * p.phi, p.z - part.sigma * (rho - part.cut.radius) * elementary::tan(p.b)};
+}
+
+double distance(Flat p, Flat a, Flat b) {
+  const double s = b.s - a.s, z = b.z - a.z;
+  const double square = s * s + z * z;
+  const double along = square > 0.0 ? ((p.s - a.s) * s + (p.z - a.z) * z) / square : 0.0;
+  const double k = std::clamp(along, 0.0, 1.0);
+  return elementary::hypot(p.s - a.s - k * s, p.z - a.z - k * z);
+}
+
+bool crosses_above(Flat p, Flat a, Flat b) {
+  if ((a.s <= p.s) == (b.s <= p.s)) return false;
+  return a.z + (b.z - a.z) * (p.s - a.s) / (b.s - a.s) > p.z;
+}
+
+/// Signed distance to the border on one surface: positive inside the kept part.
+double depth(const PartBorder& part, const CutPoint& point, double rho,
+             const std::stop_token& stop) {
+  const Flat p = on_surface(part, point, rho);
+  double nearest = 1e300;
+  bool odd = false;
+  Flat a = on_surface(part, part.cut.points.front(), rho);
+  for (std::size_t i = 1; i < part.cut.points.size() && !stops(stop, i); ++i) {
+    const Flat b = on_surface(part, part.cut.points[i], rho);
+    nearest = std::min(nearest, distance(p, a, b));
+    odd = odd != crosses_above(p, a, b);
+    a = b;
+  }
+  const bool kept = part.scrap == Scrap::plus_z ? odd : !odd;
+  return kept ? nearest : -nearest;
+}
+
+/// The point turned by whole turns into the span of the border.
+CutPoint wrapped(const Track& cut, CutPoint p) {
+  const auto [low, high] = std::ranges::minmax(cut.points, {}, &CutPoint::phi);
+  const double from = cut.turns == 0 ? 0.5 * (low.phi + high.phi) - kPi : low.phi;
+  p.phi -= kTwoPi * std::floor((p.phi - from) / kTwoPi);
+  return p;
+}
+
+/// One turn of a ring seen from a point near its seam needs the neighbouring turn for the distance.
+double depth_on_ring(const PartBorder& part, const CutPoint& p, double rho,
+                     const std::stop_token& stop) {
+  const double here = depth(part, p, rho, stop);
+  if (part.cut.turns == 0) return here;
+  double nearest = std::abs(here);
+  for (const double turn : {-kTwoPi, kTwoPi}) {
+    CutPoint moved = p;
+    moved.phi += turn;
+    nearest = std::min(nearest, std::abs(depth(part, moved, rho, stop)));
+  }
+  return here < 0.0 ? -nearest : nearest;
+}
+
+/// A point of a track as (s, z, b), and differences of such points.
+using Spot = std::array<double, 3>;
+
+Spot mixed(double p, const Spot& a, double q, const Spot& b) {
+  return {p * a[0] + q * b[0], p * a[1] + q * b[1], p * a[2] + q * b[2]};
+}
+
+double tip_length(const Spot& a) { return elementary::hypot(a[0], a[1]); }
+
+/// Chords of a closed track, segment by segment, and the tangents per mm of the tip at their ends.
+class BorderCurve {
+ public:
+  explicit BorderCurve(const Track& track) : track_(track) {
+    for (const CutPoint& p : track.points) {
+      spots_.push_back({track.radius * p.phi, p.z, p.b});
+    }
+  }
+
+  /// Segment `i` at share `w`.
+  [[nodiscard]] CutPoint at(std::size_t i, double w) const {
+    const double l = length(i);
+    const Spot start = tangent(i, i), end = tangent(i + 1, i);
+    const double v = 1.0 - w;
+    const Spot ends =
+        mixed(v * v * (1.0 + 2.0 * w), spots_[i], w * w * (3.0 - 2.0 * w), spots_[i + 1]);
+    const Spot bends = mixed(l * w * v * v, start, -l * w * w * v, end);
+    const Spot x = mixed(1.0, ends, 1.0, bends);
+    return {x[0] / track_.radius, x[1], x[2], false, 0.0};
+  }
+
+  /// Distance of segment `i`'s chord to the curve in its middle.
+  [[nodiscard]] double sag(std::size_t i) const {
+    if (length(i) == 0.0) return 0.0;
+    return 0.125 * length(i) * tip_length(mixed(1.0, tangent(i, i), -1.0, tangent(i + 1, i)));
+  }
+
+ private:
+  static constexpr double kCorner = 0.94;  // cosine of 20 deg
+
+  [[nodiscard]] std::size_t segments() const { return spots_.size() - 1; }
+  [[nodiscard]] Spot chord(std::size_t i) const {
+    return mixed(1.0, spots_[i + 1], -1.0, spots_[i]);
+  }
+  [[nodiscard]] double length(std::size_t i) const { return tip_length(chord(i)); }
+  [[nodiscard]] Spot slope(std::size_t i) const {
+    return mixed(1.0 / length(i), chord(i), 0.0, {});
+  }
+
+  /// Tangent at knot `k` for the segment `own` beside it.
+  [[nodiscard]] Spot tangent(std::size_t k, std::size_t own) const {
+    const std::size_t before = k == 0 ? segments() - 1 : k - 1;
+    const std::size_t after = k == segments() ? 0 : k;
+    const double a = length(before), b = length(after);
+    if (a == 0.0 || b == 0.0 || track_.points[k].corner) return slope(own);
+    const Spot m = slope(before), n = slope(after);
+    if (m[0] * n[0] + m[1] * n[1] < kCorner) return slope(own);
+    return mixed(b / (a + b), m, a / (a + b), n);
+  }
+
+  const Track& track_;
+  std::vector<Spot> spots_;
+};
+
+/// A closed track with points of the smooth curve through its own put between them, and how far its
+/// own chords leave it.
+struct SmoothTrack {
+  Track track = {};
+  double sag = 0.0;  // mm
+};
+
+SmoothTrack smooth_border(const Track& track) {
+  constexpr double kSag = 0.002;  // mm
+  constexpr double kMostPieces = 32.0;
+  SmoothTrack out{track, 0.0};
+  if (!track.closed) return out;
+  const BorderCurve curve(track);
+  out.track.points.clear();
+  for (std::size_t i = 0; i + 1 < track.points.size(); ++i) {
+    const double sag = curve.sag(i);
+    out.sag = std::max(out.sag, sag);
+    out.track.points.push_back(track.points[i]);
+    const auto pieces = static_cast<int>(std::min(kMostPieces, std::ceil(std::sqrt(sag / kSag))));
+    for (int k = 1; k < pieces; ++k) {
+      out.track.points.push_back(curve.at(i, static_cast<double>(k) / pieces));
+    }
+  }
+  out.track.points.push_back(track.points.back());
+  return out;
+}
+
 }  // namespace
 
-Led with_lead(const Track& cut, const Lead& lead, Scrap scrap, LeadBevel bevel) {
+CutWithLead with_lead(const Track& cut, const Lead& lead, Scrap scrap, LeadBevel bevel) {
   Track t = cut;
   if (t.closed) {
-    std::vector<ContourPoint> again = first_stretch(cut, lead.overcut);
+    std::vector<CutPoint> again = first_stretch(cut, lead.overcut);
     for (auto p = again.begin() + 1; p != again.end(); ++p) {
       p->phi += kTwoPi * cut.turns;
       t.points.push_back(*p);
     }
   }
-  Led out;
+  CutWithLead out;
   out.points = way_in(cut, join(cut, scrap, 0, true), lead, bevel);
   out.cut_first = out.points.size();
   out.points.insert(out.points.end(), t.points.begin(), t.points.end());
@@ -186,6 +338,44 @@ Led with_lead(const Track& cut, const Lead& lead, Scrap scrap, LeadBevel bevel) 
     out.points.push_back(
         placed(t, way.points[i], line_of(cut, end, bevel, lead.overcut + way.distance[i])));
   return out;
+}
+
+Result<PartBorder> part_border(const CutPath& cut_path, double sigma) {
+  auto whole = track(cut_path);
+  if (!whole) return tl::unexpected<Error>(whole.error());
+  SmoothTrack border = smooth_border(*whole);
+  return PartBorder{std::move(border.track), cut_path.scrap, cut_path.outer_radius,
+                    cut_path.inner_radius(), sigma,          border.sag};
+}
+
+double intrusion(const PartBorder& part, const CutPoint& point, const std::stop_token& stop) {
+  const CutPoint p = wrapped(part.cut, point);
+  const double middle = 0.5 * (part.inner_radius + part.outer_radius);
+  double deepest = -1e300;
+  for (const double rho : {part.inner_radius, middle, part.outer_radius}) {
+    deepest = std::max(deepest, depth_on_ring(part, p, rho, stop));
+  }
+  return deepest;
+}
+
+double lead_touch(const PartBorder& border, double eps_tip) {
+  return kLeadTouch + std::min(border.sag, eps_tip);
+}
+
+Result<void> check_clear(const CutWithLead& cut, const PartBorder& part, double eps_tip,
+                         const std::stop_token& stop) {
+  if (!part.cut.closed) return {};
+  const double allowed = lead_touch(part, eps_tip);
+  for (std::size_t i = 0; i < cut.points.size(); ++i) {
+    if (i >= cut.cut_first && i <= cut.cut_last) continue;
+    const CutPoint& p = cut.points[i];
+    const double depth = intrusion(part, p, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (depth <= allowed) continue;
+    return fail({ErrorCode::lead_blocked, "motion/lead", depth, allowed, "mm",
+                 "at phi " + std::to_string(p.phi * kDegPerRad) + " deg"});
+  }
+  return {};
 }
 
 }  // namespace tubecut::motion

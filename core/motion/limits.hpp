@@ -7,32 +7,9 @@
 #include "core/motion/kinematics.hpp"
 #include "core/motion/path.hpp"
 #include "core/motion/profile.hpp"
+#include "core/motion/speed.hpp"
 
 namespace tubecut::motion {
-
-/// The speed asked for along a path, by its parameter.
-class SpeedAlong {
- public:
-  /// Errors  bad_number, wrong_count, out_of_range (the table itself), speed_table_range (with phi
-  /// and beam).
-  static Result<SpeedAlong> of(const Motion& motion, const Program& program);
-
-  /// Least and greatest speed between two parameters of the path, mm/s. Beam and table are
-  /// piecewise linear, so the extremes lie at the ends, at a point of the program or at a pair of
-  /// the table.
-  [[nodiscard]] double least(double from, double to) const { return extreme(from, to, true); }
-  [[nodiscard]] double greatest(double from, double to) const { return extreme(from, to, false); }
-  /// Speed at point `i` of the program.
-  [[nodiscard]] double at_point(std::size_t i) const;
-
- private:
-  [[nodiscard]] double extreme(double from, double to, bool least) const;
-  [[nodiscard]] double of_beam(double beam) const;
-  double number_ = 0.0;
-  std::vector<std::pair<double, double>> pairs_ = {};
-  std::vector<double> lengths_ = {};
-  std::vector<double> beam_ = {};
-};
 
 /// An axis' derivatives where intervals meet.
 struct SignedDerivatives {
@@ -58,8 +35,8 @@ struct AxisBounds {
 struct Limits {
   double d = 0.1;
   std::vector<AxisBounds> axes = {};  // moving axes only
-  std::vector<double> slowness =
-      {};  // per interval: tip path per mm of u over the speed asked, s/mm
+  /// Per interval: tip path per mm of u over the speed asked, s/mm.
+  std::vector<double> slowness = {};
   /// The same at an interval's start, as inner Bezier value and at its end.
   std::vector<std::array<double, 3>> slowness_along = {};
 
@@ -67,37 +44,11 @@ struct Limits {
 };
 
 /// Accuracy  exact for axes linear in the coordinates; else sampled at three points of each
-/// interval with 0.1 % margin,
-///           the last check covers the rest.
-/// Source  docs/theory/pulse-schedules.md, sections 5.1 and 5.2.
+///           interval with 0.1 % margin, the last check covers the rest.
+/// Source    docs/theory/pulse-schedules.md, sections 5.1 and 5.2.
 [[nodiscard]] Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
                             const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
                             const Machine& machine, const std::stop_token& stop = {});
-
-/// One condition alpha |u_ddot| + beta x <= c on an interval, x = u_dot^2.
-struct Row {
-  double alpha = 0.0;
-  double beta = 0.0;
-  double c = 0.0;
-};
-
-/// Rows of all intervals, one after another; those of interval i are first[i] .. first[i+1].
-struct Rows {
-  std::vector<Row> rows = {};
-  std::vector<std::size_t> first = {0};
-
-  void add(const Row& row) { rows.push_back(row); }
-  void close_interval() { first.push_back(rows.size()); }
-};
-
-/// The largest x at the knots within `caps` under the rows, u_ddot constant on each interval of `d`
-/// mm. It exists, is the fastest profile, and is found by one pass each way.
-///
-/// Cost    one multiply-add per row and pass.
-/// Source  docs/theory/pulse-schedules.md, section 6.1 (with the proof).
-[[nodiscard]] std::vector<double> largest_profile(std::vector<double> caps, double d,
-                                                  const Rows& rows,
-                                                  const std::stop_token& stop = {});
 
 /// Caps at the knots and rows of acceleration, without jerk; zero at both ends.
 struct Conditions {
@@ -118,8 +69,5 @@ struct Conditions {
 /// Accuracy  exact for axes linear in the coordinates; else with 0.1 % margin.
 /// Source    docs/theory/pulse-schedules.md, section 6.2.
 [[nodiscard]] HalfPlanes acceleration_rows(const Limits& limits, const std::stop_token& stop = {});
-
-/// Time over a profile: sum of 2 d / (sqrt i_ + sqrt x_(i+1)), s.
-[[nodiscard]] double duration(const std::vector<double>& x, double d);
 
 }  // namespace tubecut::motion

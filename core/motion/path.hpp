@@ -47,21 +47,6 @@ class PathCursor {
   std::array<Cubic, kMostCoordinates> cubic_ = {};
 };
 
-/// Samples of the Hermite curve through a polyline at equal steps.
-struct Resampled {
-  double d = 0.0;
-  std::vector<std::vector<double>> x = {};
-  double sag_tip = 0.0;
-  double sag_b = 0.0;
-};
-
-/// Hermite through the points, corners kept, with its limiter, sampled about every `d` mm.
-///
-/// Errors  too_many_nodes, cancelled.
-/// Source  docs/theory/pulse-schedules.md, section 2.3.
-[[nodiscard]] Result<Resampled> resample(const Program& program, double d, double eps_tip,
-                                         double eps_b, std::stop_token stop);
-
 /// Two centred means of width 2m+1 with odd reflection at the ends; the ends are kept exactly.
 /// Reversal of the input reverses the result bit by bit.
 ///
@@ -69,11 +54,12 @@ struct Resampled {
 [[nodiscard]] std::vector<double> box2(const std::vector<double>& x, std::size_t m,
                                        const std::stop_token& stop = {});
 
-/// The path: resampled, smoothed as far as the tolerances (mm, rad) allow.
+/// The path: Hermite through the program's points, corners kept, with its limiter, sampled about
+/// every 0.1 mm, then smoothed as far as the tolerances (mm, rad) allow.
 ///
-/// Errors  out_of_range (tolerances below 1e-3 mm, 0.01 deg), too_many_nodes, cancelled.
+/// Errors    out_of_range (tolerances below 1e-3 mm, 0.01 deg), too_many_nodes, cancelled.
 /// Accuracy  knots within eps_tip and eps_b of the unsmoothed path, measured at every knot.
-/// Source  docs/theory/pulse-schedules.md, sections 2.3 to 2.5.
+/// Source    docs/theory/pulse-schedules.md, sections 2.3 to 2.5.
 [[nodiscard]] Result<Path> smooth_path(const Program& program, double eps_tip, Angle eps_b,
                                        std::stop_token stop);
 

@@ -2,29 +2,70 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <utility>
 
 #include "core/base/stop.hpp"
-#include "core/motion/search.hpp"
 
 namespace tubecut::motion {
 namespace {
 
 constexpr int kFullRounds = 4;
-constexpr int kProvenAfter =
-    7;  // passes; from then on a violated place goes to the proven rows at once
-constexpr int kMostPasses = 40;  // then every interval does
 constexpr double kAccepted = 1.0 + 1e-9;
-constexpr double kRelief = 0.97;
-constexpr double kLastCheck = 1.0 + 1e-8;
+constexpr double kJerkRelief = 0.97;
+
+// Of the ladder of filters.
+constexpr int kProvenAfter = 7;  // passes; then a violated place goes to the proven rows at once
+constexpr int kMostPasses = 40;  // then every interval does
 constexpr double kNothingToGain = 1.0 + 1e-4;  // over the optimum without jerk limits
-constexpr double kCancels = 1.01;              // from here on, sums of magnitudes forbid too much
+
+// Of the plan by signed rows.
+constexpr int kMostSignedPasses = 20;  // then the filter is given up
+constexpr double kStart = 3.0;         // optimism of the jerk rows
+constexpr double kLeast = 0.3;         // at most this much below the rows a proof would ask for
+constexpr double kShareRelief = 0.995;
+constexpr double kWorthwhile = 0.999;  // of the time before, to go on to the next filter
+constexpr double kCancels = 1.01;      // from here on, sums of magnitudes forbid too much
+
+constexpr double kLastCheck = 1.0 + 1e-8;
+
+/// Length in periods of the filter with which `time_of` is least: every octave is tried, from the
+/// longest that any axis can use down to one period.
+double best_octave(const Course& course, const std::function<double(double)>& time_of,
+                   const std::stop_token& stop) {
+  const double period = course.machine.period;
+  double longest = 0.0;
+  for (const AxisBounds& axis : course.limits.axes) {
+    if (axis.j_max > 0.0) longest = std::max(longest, 2.0 * axis.a_max / axis.j_max);
+  }
+  double best_count = 1.0, best_time = 1e300;
+  for (double ideal = longest / period;; ideal *= 0.5) {
+    const double count = std::max(1.0, std::floor(ideal + 0.5));
+    const double time = time_of(count * period);
+    if (time < best_time) {
+      best_time = time;
+      best_count = count;
+    }
+    if (count <= 1.0 || stop.stop_requested()) return best_count;
+  }
+}
+
+/// Calls `lower(i)` for every interval that the filter window of sample `k` can reach.
+void for_reach_of(const std::vector<Place>& places, std::size_t k, std::size_t reach,
+                  std::size_t intervals, const std::function<void(std::size_t)>& lower) {
+  const std::size_t from = places[k < reach ? 0 : k - reach].interval;
+  const std::size_t to = places[std::min(places.size() - 1, k + reach)].interval;
+  for (std::size_t i = from == 0 ? 0 : from - 1; i <= std::min(intervals - 1, to + 1); ++i) {
+    lower(i);
+  }
+}
 
 /// One search over the ladder of filters for one optimism.
-class Search {
+class LadderSearch {
  public:
-  Search(const Course& course, const PlanOptions& options, const std::vector<double>& without_jerk,
-         std::stop_token stop)
+  LadderSearch(const Course& course, const PlanOptions& options,
+               const std::vector<double>& without_jerk, std::stop_token stop)
       : course_(course),
         options_(options),
         without_jerk_(without_jerk),
@@ -99,7 +140,7 @@ class Search {
     for (std::size_t k = 0; k < ratio.size() && !stops(stop_, k); ++k) {
       if (ratio[k] <= kAccepted) continue;
       for_reach_of(places, k, reach, optimism.size(), [&](std::size_t i) {
-        const double next = to_proven ? 1.0 : std::max(1.0, kRelief * before[i] / ratio[k]);
+        const double next = to_proven ? 1.0 : std::max(1.0, kJerkRelief * before[i] / ratio[k]);
         optimism[i] = std::min(optimism[i], next);
       });
     }
@@ -111,6 +152,108 @@ class Search {
   double least_;
   std::stop_token stop_;
 };
+
+/// Repairs plans by signed rows, filter by filter.
+class SignedSearch {
+ public:
+  SignedSearch(const Course& course, SignedRows rows, const std::stop_token& stop)
+      : course_(course), rows_(std::move(rows)), stop_(stop) {}
+
+  Timing best(double bound) {
+    const Optimism level(intervals(), kStart);
+    rows_.share.assign(intervals(), 1.0);
+    const double count = best_octave(
+        course_,
+        [&](double filter) {
+          return filtered_signed_profile(course_.limits, rows_, filter, level, 1, stop_).time;
+        },
+        stop_);
+    Timing found{{}, 0.0, bound};
+    step_to(count, found);
+    climb(count, longer, found);
+    climb(count, shorter, found);
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::size_t intervals() const { return course_.limits.intervals(); }
+  [[nodiscard]] double period() const { return course_.machine.period; }
+
+  static double longer(double count) {
+    return std::max(count + 1.0, std::floor(count * std::numbers::sqrt2 + 0.5));
+  }
+  static double shorter(double count) {
+    return std::min(count - 1.0, std::floor(count / std::numbers::sqrt2 + 0.5));
+  }
+
+  /// True where a filter of `count` periods is worth going on from.
+  bool step_to(double count, Timing& found) {
+    Timing next = repaired(count * period(), found.time);
+    const bool better = next.time < kWorthwhile * found.time;
+    if (next.time < found.time) found = std::move(next);
+    return better;
+  }
+
+  /// Goes on until two filters in a row save nothing.
+  void climb(double count, double (*next)(double), Timing& found) {
+    for (int idle = 0; idle < 2 && !stop_.stop_requested();) {
+      count = next(count);
+      if (count < 1.0) return;
+      idle = step_to(count, found) ? 0 : idle + 1;
+    }
+  }
+
+  /// Lowers what the rows allow where a sample breaks a limit, until none does.
+  Timing repaired(double filter, double bound) {
+    Optimism optimism(intervals(), kStart);
+    rows_.share.assign(intervals(), 1.0);
+    for (int pass = 0; pass < kMostSignedPasses && !stop_.stop_requested(); ++pass) {
+      Timing timing =
+          filtered_signed_profile(course_.limits, rows_, filter, optimism, kFullRounds, stop_);
+      if (timing.time >= bound || stop_.stop_requested()) break;
+      const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
+      if (!lower(optimism, places, ratios(course_, places, stop_), filter)) return timing;
+    }
+    return {{}, filter, 1e300};
+  }
+
+  /// False where nothing had to be lowered.
+  bool lower(Optimism& optimism, const std::vector<Place>& places, const Ratios& ratio,
+             double filter) {
+    const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
+    const std::vector<double> optimism_before = optimism, share_before = rows_.share;
+    bool lowered = false;
+    for (std::size_t k = 0; k < places.size() && !stops(stop_, k); ++k) {
+      const double jerk = ratio.jerk[k], acceleration = ratio.acceleration[k];
+      if (jerk <= kAccepted && acceleration <= kAccepted) continue;
+      lowered = true;
+      for_reach_of(places, k, reach, intervals(), [&](std::size_t i) {
+        if (jerk > kAccepted) {
+          const double next = std::max(kLeast, kJerkRelief * optimism_before[i] / jerk);
+          optimism[i] = std::min(optimism[i], next);
+        }
+        if (acceleration > kAccepted) {
+          rows_.share[i] = std::min(rows_.share[i], kShareRelief * share_before[i] / acceleration);
+        }
+      });
+    }
+    return lowered;
+  }
+
+  const Course& course_;
+  SignedRows rows_;
+  std::stop_token stop_;
+};
+
+/// The fastest plan by signed rows that is faster than `bound` seconds and whose samples hold every
+/// limit of acceleration and jerk; empty x where none is found.
+///
+/// Source  docs/theory/pulse-schedules.md, section 6.3.
+Timing best_by_signed_rows(const Course& course, const Profile& without_jerk,
+                           HalfPlanes acceleration, double bound, const std::stop_token& stop) {
+  return SignedSearch(course, {std::move(acceleration), without_jerk, {}}, stop).best(bound);
+}
 
 bool any_jerk(const Limits& limits) {
   return std::ranges::any_of(limits.axes, [](const AxisBounds& axis) { return axis.j_max > 0.0; });
@@ -145,7 +288,7 @@ Timing fastest_of(const std::vector<double>& a, const std::vector<double>& b, do
 }
 
 /// The proven plan, and the faster of it and the optimistic one.
-void limit_jerk(Plan& out, Search search, const Course& course, const PlanOptions& options) {
+void limit_jerk(Plan& out, LadderSearch search, const Course& course, const PlanOptions& options) {
   out.timing = search.best(1.0, 1e300);
   out.proven = out.timing.time;
   if (options.optimism <= 1.0 || search.good_enough(out.timing)) return;
@@ -155,10 +298,6 @@ void limit_jerk(Plan& out, Search search, const Course& course, const PlanOption
 }
 
 }  // namespace
-
-double periods_of(double time, double period) {
-  return std::max(1.0, std::ceil(time / period - 1e-6));
-}
 
 Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_token stop) {
   Conditions base = without_jerk(course.limits, stop);
@@ -180,7 +319,7 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
   const bool jerk = options.jerk && any_jerk(course.limits);
   if (jerk) {
     const double by_magnitudes = duration(x, course.limits.d);
-    limit_jerk(out, Search(course, options, x, stop), course, options);
+    limit_jerk(out, LadderSearch(course, options, x, stop), course, options);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!options.filter && options.optimism > 1.0 && by_magnitudes > kCancels * out.least) {
       Timing faster =

@@ -1,6 +1,7 @@
 #include "core/motion/profile.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -9,6 +10,7 @@
 namespace tubecut::motion {
 namespace {
 
+constexpr double kNoLimit = 1e300;
 constexpr double kInside = 1.0 - 1e-12;  // rounding must not leave a row
 
 /// The rows of one interval seen from one of its knots: near * a + far * b <= 1.
@@ -121,6 +123,34 @@ std::vector<double> cornered(std::vector<double> caps, const std::vector<double>
 
 }  // namespace
 
+std::vector<double> largest_profile(std::vector<double> x, double d, const Rows& rows,
+                                    const std::stop_token& stop) {
+  const std::size_t n = x.size() - 1;
+  std::vector<double> slope(rows.rows.size()), shift(rows.rows.size());
+  for (std::size_t i = 0; i < n && !stops(stop, i); ++i) {
+    for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
+      const Row& row = rows.rows[r];
+      const double below = row.alpha + 2.0 * d * row.beta;
+      slope[r] = below > 0.0 ? row.alpha / below : 1.0;
+      shift[r] = below > 0.0 ? 2.0 * d * row.c / below : kNoLimit;
+      if (row.beta <= 0.0) continue;
+      x[i] = std::min(x[i], row.c / row.beta);
+      x[i + 1] = std::min(x[i + 1], row.c / row.beta);
+    }
+  }
+  const auto reach = [&](std::size_t i, double from) {
+    double most = kNoLimit;
+    for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
+      most = std::min(most, slope[r] * from + shift[r]);
+    }
+    return most;
+  };
+  for (std::size_t i = 0; i < n && !stops(stop, i); ++i)
+    x[i + 1] = std::min(x[i + 1], reach(i, x[i]));
+  for (std::size_t i = n; i-- > 0 && !stops(stop, i);) x[i] = std::min(x[i], reach(i, x[i + 1]));
+  return x;
+}
+
 std::vector<double> fastest_within(const std::vector<double>& caps,
                                    const std::vector<double>& bound, const HalfPlanes& rows,
                                    const std::stop_token& stop) {
@@ -137,6 +167,14 @@ Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows,
   std::vector<double> bound = reached(reaching(caps, rows, stop), rows, stop);
   std::vector<double> x = fastest_within(caps, bound, rows, stop);
   return {std::move(x), std::move(bound)};
+}
+
+double duration(const std::vector<double>& x, double d) {
+  double time = 0.0;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    time += 2.0 * d / (std::sqrt(x[i]) + std::sqrt(x[i + 1]));
+  }
+  return time;
 }
 
 }  // namespace tubecut::motion

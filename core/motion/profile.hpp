@@ -6,6 +6,31 @@
 
 namespace tubecut::motion {
 
+/// One condition alpha |u_ddot| + beta x <= c on an interval, x = u_dot^2.
+struct Row {
+  double alpha = 0.0;
+  double beta = 0.0;
+  double c = 0.0;
+};
+
+/// Rows of all intervals, one after another; those of interval i are first[i] .. first[i+1].
+struct Rows {
+  std::vector<Row> rows = {};
+  std::vector<std::size_t> first = {0};
+
+  void add(const Row& row) { rows.push_back(row); }
+  void close_interval() { first.push_back(rows.size()); }
+};
+
+/// The largest x at the knots within `caps` under the rows, u_ddot constant on each interval of `d`
+/// mm. It exists, is the fastest profile, and is found by one pass each way.
+///
+/// Cost    one multiply-add per row and pass.
+/// Source  docs/theory/pulse-schedules.md, section 6.1 (with the proof).
+[[nodiscard]] std::vector<double> largest_profile(std::vector<double> caps, double d,
+                                                  const Rows& rows,
+                                                  const std::stop_token& stop = {});
+
 /// One condition start x_i + end x_(i+1) <= 1 on an interval; x = u_dot^2 at its two knots.
 /// Rest, x = 0, always holds it.
 struct HalfPlane {
@@ -47,5 +72,8 @@ struct Profile {
                                                  const std::vector<double>& bound,
                                                  const HalfPlanes& rows,
                                                  const std::stop_token& stop = {});
+
+/// Time over a profile: sum of 2 d / (sqrt x_i + sqrt x_(i+1)), s.
+[[nodiscard]] double duration(const std::vector<double>& x, double d);
 
 }  // namespace tubecut::motion

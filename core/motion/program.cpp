@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kRadOfDeg = kBevelWeight * kRadPerDeg;  // weight of a coordinate in degrees
 
-Program from_points(const std::vector<ContourPoint>& points, double radius) {
+Program from_points(const std::vector<CutPoint>& points, double radius) {
   Program out;
   out.coordinates = {{radius, Coordinate::Group::tip},
                      {1.0, Coordinate::Group::tip},
                      {kBevelWeight, Coordinate::Group::bevel}};
   out.x.assign(3, {});
-  for (const ContourPoint& p : points) {
+  for (const CutPoint& p : points) {
     out.x[0].push_back(p.phi);
     out.x[1].push_back(p.z);
     out.x[2].push_back(p.b);
@@ -30,34 +30,15 @@ Program from_points(const std::vector<ContourPoint>& points, double radius) {
 /// The contour in its direction and, for a sector, only that stretch of it.
 Result<Track> stretch(const Track& whole, const Motion& motion) {
   if (motion.sector) {
-    Motion direction_only = motion;
-    direction_only.start = {};
-    const auto turned = directed(whole, direction_only);
-    return turned ? sector_of(*turned, *motion.sector) : turned;
+    const auto in_direction = directed(whole, motion.direction, {});
+    return in_direction ? sector_of(*in_direction, *motion.sector) : in_direction;
   }
-  return directed(whole, motion);
+  return directed(whole, motion.direction, motion.start);
 }
 
-Result<void> check_lead(const Led& led, const PartBorder& part, double allowed,
-                        const std::stop_token& stop) {
-  const auto blocked = [&](const ContourPoint& p) -> Result<void> {
-    const double depth = intrusion(part, p, stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    if (depth <= allowed) return {};
-    return fail({ErrorCode::lead_blocked, "motion/lead", depth, allowed, "mm",
-                 "at phi " + std::to_string(p.phi * kDegPerRad) + " deg"});
-  };
-  if (!part.cut.closed) return {};
-  for (std::size_t i = 0; i < led.points.size(); ++i) {
-    if (i >= led.cut_first && i <= led.cut_last) continue;
-    if (auto ok = blocked(led.points[i]); !ok) return ok;
-  }
-  return {};
-}
-
-Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec,
-                           const std::stop_token& stop) {
-  auto whole = track(contour);
+Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
+                            const std::stop_token& stop) {
+  auto whole = track(cut_path);
   if (!whole) return tl::unexpected<Error>(whole.error());
   const auto cut = stretch(*whole, spec.motion);
   if (!cut) return tl::unexpected<Error>(cut.error());
@@ -67,21 +48,21 @@ Result<Program> of_contour(const Contour& contour, const ScheduleSpec& spec,
     out.turns = cut->turns;
     return out;
   }
-  const auto border = part_border(spec);
-  const double allowed = lead_touch(*border, spec.motion);
+  const auto border = part_border(cut_path, spec.machine.sigma());
+  if (!border) return tl::unexpected<Error>(border.error());
   const auto lead = [&](LeadBevel bevel) {
-    Led out = with_lead(*cut, *spec.motion.lead, contour.scrap, bevel);
-    const auto ok = check_lead(out, *border, allowed, stop);
-    return ok ? Result<Led>(std::move(out)) : tl::unexpected<Error>(ok.error());
+    CutWithLead out = with_lead(*cut, *spec.motion.lead, cut_path.scrap, bevel);
+    const auto ok = check_clear(out, *border, spec.motion.eps_tip, stop);
+    return ok ? Result<CutWithLead>(std::move(out)) : tl::unexpected<Error>(ok.error());
   };
-  auto led = lead(LeadBevel::held);
-  if (!led && led.error().code() == ErrorCode::lead_blocked) {
-    if (auto followed = lead(LeadBevel::followed)) led = std::move(followed);
+  auto whole_way = lead(LeadBevel::held);
+  if (!whole_way && whole_way.error().code() == ErrorCode::lead_blocked) {
+    if (auto followed = lead(LeadBevel::followed)) whole_way = std::move(followed);
   }
-  if (!led) return tl::unexpected<Error>(led.error());
-  Program out = from_points(led->points, cut->radius);
-  out.cut_first = led->cut_first;
-  out.cut_last = led->cut_last;
+  if (!whole_way) return tl::unexpected<Error>(whole_way.error());
+  Program out = from_points(whole_way->points, cut->radius);
+  out.cut_first = whole_way->cut_first;
+  out.cut_last = whole_way->cut_last;
   return out;
 }
 
@@ -214,23 +195,9 @@ std::vector<double> Program::lengths() const {
   return s;
 }
 
-Result<PartBorder> part_border(const ScheduleSpec& spec) {
-  const auto* const contour = std::get_if<Contour>(&spec.cut);
-  if (contour == nullptr) return fail({.code = ErrorCode::unsupported_combination});
-  auto whole = track(*contour);
-  if (!whole) return tl::unexpected<Error>(whole.error());
-  SmoothTrack border = smooth_border(*whole);
-  return PartBorder{std::move(border.track), contour->scrap,       contour->outer_radius,
-                    contour->inner_radius(), spec.machine.sigma(), border.sag};
-}
-
-double lead_touch(const PartBorder& border, const Motion& motion) {
-  return kLeadTouch + std::min(border.sag, motion.eps_tip);
-}
-
 Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop) {
-  if (const auto* const contour = std::get_if<Contour>(&spec.cut)) {
-    return of_contour(*contour, spec, stop);
+  if (const auto* const cut_path = std::get_if<CutPath>(&spec.cut)) {
+    return of_cut_path(*cut_path, spec, stop);
   }
   return of_columns(std::get<AxisColumns>(spec.cut), spec);
 }

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <stop_token>
 #include <vector>
 
-#include "core/motion/lead.hpp"
 #include "core/motion/spec.hpp"
 
 namespace tubecut::motion {
@@ -12,10 +12,6 @@ namespace tubecut::motion {
 /// Weight of B in the generalised length, mm per rad: of 5, 10, 20 and 50 the one that is never
 /// bad.
 inline constexpr double kBevelWeight = 10.0;
-
-/// A lead may reach this far behind the border, mm: rounding of the tangent at the join. Where the
-/// contour's chords leave its curve, join and tangent are no better than that: see `lead_touch`.
-inline constexpr double kLeadTouch = 0.02;
 
 /// One coordinate of the path. `weight` turns its unit into mm of generalised length.
 struct Coordinate {
@@ -27,8 +23,8 @@ struct Coordinate {
 /// The polyline to be followed, coordinate by coordinate: phi, z, B of a contour, or axis columns.
 struct Program {
   std::vector<Coordinate> coordinates = {};
-  std::vector<std::vector<double>> x =
-      {};                         // [coordinate][point], rad and mm (axis units for columns)
+  /// [coordinate][point], rad and mm (axis units for columns).
+  std::vector<std::vector<double>> x = {};
   std::vector<bool> corner = {};  // a point where the direction jumps
   std::vector<double> beam = {};  // mm per point; empty when the speed is one number
   std::size_t cut_first = 0;      // points before it are the lead-in
@@ -45,18 +41,10 @@ struct Program {
 
 /// The contract of the input, then start point, direction, sector, lead and overcut.
 ///
-/// Errors  bad_number, wrong_count, angle_out_of_range (|B| > 85 deg), duplicate_point, not_closed,
-/// out_of_range,
-///         unsupported_combination, lead_blocked (a lead or pierce point lies in the finished
-///         part).
+/// Errors  bad_number, wrong_count, angle_out_of_range (|B| > 85 deg), duplicate_point, turns_back,
+///         not_closed, out_of_range, unsupported_combination, lead_blocked (a lead or pierce point
+///         lies in the finished part).
 /// Source  docs/theory/pulse-schedules.md, sections 2.1, 2.2 and 2.6.
 [[nodiscard]] Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop = {});
-
-/// How far a lead may reach behind the border, mm: kLeadTouch and the contour's sag, this no more
-/// than the tolerance of the motion.
-[[nodiscard]] double lead_touch(const PartBorder& border, const Motion& motion);
-
-/// The finished part's border, of a cut given as a contour.
-[[nodiscard]] Result<PartBorder> part_border(const ScheduleSpec& spec);
 
 }  // namespace tubecut::motion

@@ -58,7 +58,7 @@ Result<std::size_t> periods_of(const ReplaySpec& spec) {
   return periods;
 }
 
-std::vector<Check> examine(const ScheduleSpec& spec, const Prepared& job, const Counted& counted,
+std::vector<Check> examine(const ScheduleSpec& spec, const PreparedCut& job, const Counted& counted,
                            double fraction, bool own, double* deviation,
                            const std::stop_token& stop) {
   std::vector<Check> out{{"I1", fraction, 0.0, "pulses"}};
@@ -72,19 +72,13 @@ std::vector<Check> examine(const ScheduleSpec& spec, const Prepared& job, const 
 
 void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
              const std::stop_token& stop) {
-  if (!std::holds_alternative<Contour>(spec.cut)) return;
+  if (!std::holds_alternative<CutPath>(spec.cut)) return;
   const Reconstruction torch(spec);
-  std::vector<double> q = counted.start;
-  std::vector<std::int64_t> sum(q.size(), 0);
+  AxisValues values(counted, spec.machine);
   for (std::size_t k = 0; k <= counted.periods; ++k) {
     if (k % kAskEvery == 0 && stop.stop_requested()) return;
-    for (std::size_t a = 0; k > 0 && a < q.size(); ++a) {
-      if (counted.counts[a].empty()) continue;
-      sum[a] += counted.counts[a][k - 1];
-      q[a] = counted.start[a] +
-             static_cast<double>(sum[a]) / spec.machine.axes[a].pulses_per_axis_unit();
-    }
-    const Coordinates x = torch.at(q);
+    if (k > 0) values.step(k - 1);
+    const Coordinates x = torch.at(values.now());
     out.phi.push_back(x[0]);
     out.z.push_back(x[1]);
     out.b.push_back(x[2]);
@@ -94,7 +88,7 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
 }  // namespace
 
 Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop) {
-  const auto job = prepared(spec.job, stop);
+  const auto job = prepare_cut(spec.job, stop);
   if (!job) return tl::unexpected<Error>(job.error());
   const auto periods = periods_of(spec);
   if (!periods) return tl::unexpected<Error>(periods.error());
@@ -111,7 +105,7 @@ Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop) {
 
 std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule,
                           const std::stop_token& stop) {
-  const auto job = prepared(spec, stop);
+  const auto job = prepare_cut(spec, stop);
   const bool fits = job && schedule.axes.size() == spec.machine.axes.size() &&
                     schedule.period == spec.machine.period && schedule.periods > 0;
   Counted counted{schedule.period, static_cast<std::size_t>(schedule.periods), {}, {}};

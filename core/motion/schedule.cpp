@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "core/base/stop.hpp"
-#include "core/motion/course.hpp"
-#include "core/motion/pulses.hpp"
-#include "core/motion/slow.hpp"
+#include "core/motion/plan.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -25,7 +23,7 @@ std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& cour
   return total - rounded(ideal_pulses(axis, end, start));
 }
 
-AxisPulses pulses_of(const Prepared& job, const Plan& plan, std::size_t a,
+AxisPulses pulses_of(const PreparedCut& job, const Plan& plan, std::size_t a,
                      const std::stop_token& stop) {
   const Course& course = job.course;
   const Axis& axis = course.machine.axes[a];
@@ -60,7 +58,7 @@ std::int64_t passes(const Course& course, const std::vector<Place>& places, std:
   return at - places.begin();
 }
 
-std::vector<Event> events(const Prepared& job, const Plan& plan) {
+std::vector<Event> events(const PreparedCut& job, const Plan& plan) {
   const auto periods = static_cast<std::int64_t>(plan.places.size()) - 1;
   return {{0, EventKind::pierce},
           {0, EventKind::torch_on},
@@ -68,58 +66,6 @@ std::vector<Event> events(const Prepared& job, const Plan& plan) {
           {std::min(periods, passes(job.course, plan.places, job.program.cut_last)),
            EventKind::cut_end},
           {periods, EventKind::torch_off}};
-}
-
-std::vector<Use> largest_uses(const Course& course, const Plan& plan, bool jerk) {
-  std::vector<Use> out;
-  for (std::size_t i = 0; i < plan.uses.axes.size(); ++i) {
-    const Axis& axis = course.machine.axes[course.limits.axes[i].axis];
-    const AxisUse& use = plan.uses.axes[i];
-    out.push_back({axis.name, 'v', use.velocity});
-    out.push_back({axis.name, 'a', use.acceleration * use.acceleration});
-    if (jerk && axis.j_max) out.push_back({axis.name, 'j', use.jerk * use.jerk * use.jerk});
-    if (axis.n_max) out.push_back({axis.name, 'n', use.pulses});
-  }
-  return out;
-}
-
-/// Pulses by which one turn of a crawler misses a whole count: a second lap must go on from the
-/// ideal position.
-double closing_residual(const ScheduleSpec& spec) {
-  const auto* const crawler = std::get_if<Crawler>(&spec.machine.kinematics);
-  const auto* const contour = std::get_if<Contour>(&spec.cut);
-  if (crawler == nullptr || contour == nullptr || !contour->closed) return 0.0;
-  const auto s = std::ranges::find(spec.machine.axes, "S", &Axis::name);
-  const double turn = kTwoPi * (contour->outer_radius + crawler->wheel_offset) * s->pulses_per_unit;
-  return turn - std::floor(turn);
-}
-
-Report report(const ScheduleSpec& spec, const Prepared& job, const Plan& plan,
-              const std::stop_token& stop) {
-  const Path& path = job.course.path;
-  Report out;
-  out.time = static_cast<double>(plan.places.size() - 1) * spec.machine.period;
-  out.ideal = job.ideal;
-  out.no_jerk = plan.no_jerk;
-  out.optimality = out.time / plan.least;
-  out.proven = plan.proven;
-  out.filter = plan.timing.filter;
-  out.stretch = plan.stretch;
-  out.length = job.length;
-  out.deviation_tip = path.deviation_tip;
-  out.deviation_b = path.deviation_b;
-  out.sag_tip = path.sag_tip;
-  out.sag_b = path.sag_b;
-  out.least_tip = plan.uses.least_tip < 1e300 ? plan.uses.least_tip : 0.0;
-  out.standoff_growth = job.standoff_growth;
-  out.closing_residual = closing_residual(spec);
-  out.max_use = largest_uses(job.course, plan, spec.motion.jerk);
-  out.slow = slow_zones(job, plan.places, stop);
-  out.slow_time = 0.0;
-  for (const SlowZone& zone : out.slow) {
-    out.slow_time += static_cast<double>(zone.to - zone.from + 1) * spec.machine.period;
-  }
-  return out;
 }
 
 std::string mm(double value) { return std::to_string(value) + " mm"; }
@@ -149,6 +95,28 @@ std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
 
 }  // namespace
 
+double ideal_pulses(const Axis& axis, double q, double start) {
+  if (axis.pulses_per_turn > 0) {
+    return (q - start) / 360.0 * static_cast<double>(axis.pulses_per_turn);
+  }
+  return (q - start) * axis.pulses_per_unit;
+}
+
+std::int64_t rounded(double pulses) { return static_cast<std::int64_t>(std::floor(pulses + 0.5)); }
+
+std::vector<std::int32_t> increments(std::span<const double> cumulative) {
+  std::vector<std::int32_t> out;
+  if (cumulative.empty()) return out;
+  out.reserve(cumulative.size() - 1);
+  std::int64_t before = rounded(cumulative.front());
+  for (const double p : cumulative.subspan(1)) {
+    const std::int64_t now = rounded(p);
+    out.push_back(static_cast<std::int32_t>(now - before));
+    before = now;
+  }
+  return out;
+}
+
 std::string_view name_of(EventKind kind) {
   switch (kind) {
     case EventKind::pierce:
@@ -166,7 +134,7 @@ std::string_view name_of(EventKind kind) {
 }
 
 Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
-  const auto job = prepared(spec, stop);
+  const auto job = prepare_cut(spec, stop);
   if (!job) return tl::unexpected<Error>(job.error());
   const PlanOptions options{spec.motion.jerk, spec.motion.expert.optimism,
                             spec.motion.expert.filter, spec.max_periods};

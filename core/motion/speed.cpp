@@ -1,7 +1,10 @@
+#include "core/motion/speed.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
-#include "core/motion/limits.hpp"
+#include "core/motion/program.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -47,16 +50,16 @@ Result<void> check_covered(const SpeedTable& table, const Program& program) {
 
 }  // namespace
 
-Result<SpeedAlong> SpeedAlong::of(const Motion& motion, const Program& program) {
+Result<SpeedAlong> SpeedAlong::of(const Speed& speed, const Program& program) {
   SpeedAlong out;
-  if (const auto* const number = std::get_if<double>(&motion.speed)) {
+  if (const auto* const number = std::get_if<double>(&speed)) {
     if (auto ok = check_speed(*number, "motion/speed"); !ok) {
       return tl::unexpected<Error>(ok.error());
     }
     out.number_ = *number;
     return out;
   }
-  const auto& table = std::get<SpeedTable>(motion.speed);
+  const auto& table = std::get<SpeedTable>(speed);
   if (auto ok = check_table(table); !ok) return tl::unexpected<Error>(ok.error());
   if (auto ok = check_covered(table, program); !ok) return tl::unexpected<Error>(ok.error());
   out.pairs_ = table.pairs;

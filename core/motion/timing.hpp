@@ -23,6 +23,9 @@ struct Place {
   [[nodiscard]] double u(double d) const { return d * interval + offset; }
 };
 
+/// Periods of `period` seconds that a time of `time` seconds takes.
+[[nodiscard]] double periods_of(double time, double period);
+
 /// u at the ends of `periods` equal periods, 0 first and the path's end last, never decreasing.
 ///
 /// Accuracy  times, integrals and their differences in long double, summed over the window alone.
@@ -59,11 +62,5 @@ struct SignedRows {
 [[nodiscard]] Timing filtered_signed_profile(const Limits& limits, const SignedRows& rows,
                                              double filter, const Optimism& optimism, int rounds,
                                              const std::stop_token& stop = {});
-
-/// Largest value of `values` over each window [low[i], high[i]]; both bounds never decrease.
-[[nodiscard]] std::vector<double> widened(const std::vector<double>& values,
-                                          const std::vector<std::size_t>& low,
-                                          const std::vector<std::size_t>& high,
-                                          const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

@@ -8,8 +8,8 @@
 #include <ostream>
 
 #include "core/motion/course.hpp"
-#include "core/motion/pulses.hpp"
 #include "core/motion/reconstruction.hpp"
+#include "core/motion/schedule.hpp"
 #include "tests/core/motion/jobs.hpp"
 
 namespace tubecut::motion::testing {
@@ -103,7 +103,7 @@ TEST(Golden, TorchCentrePoint) {
   const api::Json& golden = golden_case("tcp");
   ScheduleSpec spec;
   spec.machine = source_machine();
-  Contour contour;
+  CutPath contour;
   contour.outer_radius = 50.0;
   spec.cut = contour;
   expect_axes(axes_at(spec, kPi / 2, 10, kPi / 6), numbers(golden, "expect/a"));
@@ -144,7 +144,7 @@ TEST(Golden, KinkThroughTwoMeans) {
 TEST(Golden, Ring) {
   const api::Json& golden = golden_case("ring");
   ScheduleSpec spec;
-  Contour contour;
+  CutPath contour;
   contour.outer_radius = number(golden, "given/r");
   for (int i = 0; i <= 72; ++i) {
     contour.phi.push_back(kTwoPi * i / 72);
@@ -167,7 +167,7 @@ TEST(Golden, Ring) {
 TEST(Golden, JumpOfTheSourceWrapsAnInt16) {
   const api::Json& golden = golden_case("source_jump");
   const ScheduleSpec spec = table1(0);
-  const auto& b = std::get<Contour>(spec.cut).b;
+  const auto& b = std::get<CutPath>(spec.cut).b;
   const auto i = static_cast<std::size_t>(number(golden, "expect/index"));
   const double jump = (b[i + 1] - b[i]) * kDegPerRad;
   EXPECT_NEAR(jump, number(golden, "expect/dB_deg"), 1e-6);
@@ -212,7 +212,7 @@ class Claim : public ::testing::TestWithParam<Published> {};
 
 TEST_P(Claim, NaivePulses) {
   const Published& p = GetParam();
-  const auto job = prepared(table1(p.points), {});
+  const auto job = prepare_cut(table1(p.points), {});
   ASSERT_TRUE(job);
   const std::array<std::size_t, 3> axes{4, 1, 2};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -311,9 +311,9 @@ TEST(Golden, NaivePeaksInOtherPeriods) {
        {std::tuple{0, 610, 6095}, std::tuple{10, 112, 1124}, std::tuple{20, 62, 616}}) {
     ScheduleSpec spec = table1(points);
     spec.machine.period = 0.001;
-    EXPECT_EQ(naive_pulses(*prepared(spec, {}), 4).peak, at_1ms);
+    EXPECT_EQ(naive_pulses(*prepare_cut(spec, {}), 4).peak, at_1ms);
     spec.machine.period = 0.010;
-    EXPECT_EQ(naive_pulses(*prepared(spec, {}), 4).peak, at_10ms);
+    EXPECT_EQ(naive_pulses(*prepare_cut(spec, {}), 4).peak, at_10ms);
   }
 }
 
@@ -323,7 +323,7 @@ TEST(Golden, OtherSignOfSigma) {
        {std::tuple{0, 5043}, std::tuple{10, 993}, std::tuple{20, 549}}) {
     ScheduleSpec spec = table1(points);
     spec.machine.b_positive = BPositive::outer_edge_into_part;
-    EXPECT_EQ(naive_pulses(*prepared(spec, {}), 1).peak, peak);
+    EXPECT_EQ(naive_pulses(*prepare_cut(spec, {}), 1).peak, peak);
   }
 }
 

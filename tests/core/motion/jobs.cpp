@@ -32,7 +32,7 @@ ScheduleSpec table1(int transition_points, double speed) {
   const api::Json& columns = tubecut::testing::at(corpus(), "table1_contour");
   const std::string b = "b_deg_by_transition_points/" + std::to_string(transition_points);
   ScheduleSpec spec;
-  Contour contour;
+  CutPath contour;
   contour.phi = radians(tubecut::testing::numbers(columns, "phi_deg"));
   contour.z = tubecut::testing::numbers(columns, "z_mm");
   contour.b = radians(tubecut::testing::numbers(columns, b));
@@ -52,7 +52,7 @@ const api::Json& golden_case(std::string_view name) {
 
 ScheduleSpec straight_line(const Axis& axis, double length, double speed, double period) {
   ScheduleSpec spec;
-  Contour contour;
+  CutPath contour;
   contour.phi = {0.0, 0.0, 0.0};
   contour.z = {0.0, 0.5 * length, length};
   contour.b = {0.0, 0.0, 0.0};
@@ -75,6 +75,14 @@ Schedule planned(const ScheduleSpec& spec) {
     return {};
   }
   return std::move(*result);
+}
+
+CutPath& contour_of(ScheduleSpec& spec) { return std::get<CutPath>(spec.cut); }
+
+Issue refusal(const ScheduleSpec& spec) {
+  const auto s = schedule(spec);
+  EXPECT_FALSE(s);
+  return s ? Issue{} : s.error().issues.front();
 }
 
 const AxisPulses& axis(const Schedule& schedule, std::string_view name) {

@@ -14,6 +14,8 @@ inline constexpr double kFeed = 10.0;  // mm/s = 600 mm/min
 [[nodiscard]] Machine source_machine();
 /// Table 1 of source 000 with a transition of 0, 10 or 20 points.
 [[nodiscard]] ScheduleSpec table1(int transition_points, double speed = kFeed);
+/// Its contour.
+[[nodiscard]] CutPath& contour_of(ScheduleSpec& spec);
 /// The golden file's case of that name.
 [[nodiscard]] const api::Json& golden_case(std::string_view name);
 /// A one-axis machine following z, and a straight line of `length` mm along z.
@@ -22,6 +24,8 @@ inline constexpr double kFeed = 10.0;  // mm/s = 600 mm/min
 
 /// The schedule, or a failed test and an empty one.
 [[nodiscard]] Schedule planned(const ScheduleSpec& spec);
+/// The first issue of a schedule that must be refused.
+[[nodiscard]] Issue refusal(const ScheduleSpec& spec);
 [[nodiscard]] const AxisPulses& axis(const Schedule& schedule, std::string_view name);
 
 }  // namespace tubecut::motion::testing

@@ -20,7 +20,7 @@ TEST(Laws, SameRequestSameCounts) {
 TEST(Laws, MirrorNegatesTheTurn) {
   ScheduleSpec spec = table1(0);
   const Schedule a = planned(spec);
-  for (double& phi : std::get<Contour>(spec.cut).phi) phi = -phi;
+  for (double& phi : std::get<CutPath>(spec.cut).phi) phi = -phi;
   const Schedule b = planned(spec);
   ASSERT_EQ(a.periods, b.periods);
   EXPECT_EQ(axis(b, "C").total, -360000);
@@ -37,7 +37,7 @@ TEST(Laws, ReversedContourTakesAsLong) {
   for (const int points : {0, 20}) {
     ScheduleSpec spec = table1(points);
     const Schedule a = planned(spec);
-    auto& c = std::get<Contour>(spec.cut);
+    auto& c = std::get<CutPath>(spec.cut);
     std::ranges::reverse(c.phi);
     std::ranges::reverse(c.z);
     std::ranges::reverse(c.b);
@@ -81,7 +81,7 @@ TEST(Laws, FivePulsesAPeriodAreEnough) {
 
 TEST(Laws, TwiceThePulsesTwiceTheTotals) {
   ScheduleSpec spec = table1(20);
-  auto& contour = std::get<Contour>(spec.cut);
+  auto& contour = std::get<CutPath>(spec.cut);
   contour.phi.resize(181);
   contour.z.resize(181);
   contour.b.resize(181);
@@ -109,7 +109,7 @@ TEST(Laws, PeriodDoesNotChangeTheTime) {
 
 TEST(Laws, ATableOfOneSpeedIsTheNumber) {
   ScheduleSpec spec = table1(0);
-  auto& contour = std::get<Contour>(spec.cut);
+  auto& contour = std::get<CutPath>(spec.cut);
   contour.wall = 5.0;
   const Schedule number = planned(spec);
   spec.motion.speed = SpeedTable{{{1.0, kFeed}, {10.0, kFeed}, {50.0, kFeed}}};

@@ -23,8 +23,8 @@ struct EverydayCut {
   bevel::TableSpec spec;
   bevel::Table table;
 
-  [[nodiscard]] Contour contour() const {
-    Contour out;
+  [[nodiscard]] CutPath contour() const {
+    CutPath out;
     out.phi = table.phi;
     out.z = table.torch_inner;
     out.b = table.b;
@@ -94,17 +94,18 @@ std::vector<Point> net(const EverydayCut& cut) {
 
 /// How far a beam as wide as the kerf on its lead reaches beyond the finished surface, mm; a net
 /// of points 0.1 mm apart shows it within 0.002.
-double deepest(const EverydayCut& cut, const Contour& contour, const ScheduleSpec& spec,
+double deepest(const EverydayCut& cut, const CutPath& contour, const ScheduleSpec& spec,
                LeadBevel bevel) {
   const auto points = net(cut);
   const auto whole = track(contour);
-  const Led led =
-      with_lead(*directed(*whole, spec.motion), *spec.motion.lead, contour.scrap, bevel);
+  const CutWithLead cut_with_lead =
+      with_lead(*directed(*whole, spec.motion.direction, spec.motion.start), *spec.motion.lead,
+                contour.scrap, bevel);
   const double inner = cut.spec.target.inner_radius();
   double out = -1e300;
-  for (std::size_t i = 0; i < led.points.size(); ++i) {
-    if (i >= led.cut_first && i <= led.cut_last) continue;
-    const auto& p = led.points[i];
+  for (std::size_t i = 0; i < cut_with_lead.points.size(); ++i) {
+    if (i >= cut_with_lead.cut_first && i <= cut_with_lead.cut_last) continue;
+    const auto& p = cut_with_lead.points[i];
     const double tilt = -spec.machine.sigma() * std::tan(p.b);
     const Point foot{inner * std::cos(p.phi), inner * std::sin(p.phi), p.z};
     const Point way{std::cos(p.phi), std::sin(p.phi), tilt};
@@ -133,7 +134,7 @@ TEST(LeadsOnTables, OfThreeHundredEverydayCutsNoneIsBlockedFalsely) {
     ++cuts;
     ScheduleSpec spec;
     spec.machine = catalogue().front().machine;
-    const Contour contour = cut->contour();
+    const CutPath contour = cut->contour();
     spec.cut = contour;
     spec.motion.lead = Lead{};
     const auto p = program(spec);

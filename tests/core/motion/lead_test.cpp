@@ -66,8 +66,8 @@ struct Solid {
   }
 };
 
-Contour contour_of(const Solid& solid, double sigma) {
-  Contour c;
+CutPath contour_of(const Solid& solid, double sigma) {
+  CutPath c;
   c.outer_radius = solid.outer;
   c.wall = solid.wall;
   c.scrap = solid.hole ? Scrap::inside : Scrap::minus_z;
@@ -186,7 +186,7 @@ TEST(Leads, OnTheWrongSideAreSeen) {
     Solid solid = random_solid(dice);
     solid.hole = false;
     ScheduleSpec spec = led_job(solid, dice);
-    std::get<Contour>(spec.cut).scrap = Scrap::plus_z;
+    std::get<CutPath>(spec.cut).scrap = Scrap::plus_z;
     const auto p = program(spec);
     if (!p) continue;
     ++made;
@@ -306,8 +306,8 @@ Cope everyday(Dice& dice) {
 }
 
 /// Points whose chords leave the cope by `tolerance`, no farther apart than 5 deg.
-Contour sampled_cope(const Cope& cope, double tolerance) {
-  Contour c;
+CutPath sampled_cope(const Cope& cope, double tolerance) {
+  CutPath c;
   c.outer_radius = cope.outer;
   c.wall = 0.07 * cope.outer;
   const auto sag = [&](double from, double to) {
@@ -334,13 +334,14 @@ Contour sampled_cope(const Cope& cope, double tolerance) {
 /// How deep the lead of a job reaches into the cope's own surface on the outside, mm: along the
 /// nearest of many places of it.
 double deepest_in(const Cope& cope, const ScheduleSpec& spec) {
-  const auto& contour = std::get<Contour>(spec.cut);
+  const auto& contour = std::get<CutPath>(spec.cut);
   const auto whole = track(contour);
-  const Led led = with_lead(*directed(*whole, spec.motion), *spec.motion.lead, contour.scrap);
+  const CutWithLead cut = with_lead(*directed(*whole, spec.motion.direction, spec.motion.start),
+                                    *spec.motion.lead, contour.scrap);
   double deepest = 0.0;
-  for (std::size_t i = 0; i < led.points.size(); ++i) {
-    if (i >= led.cut_first && i <= led.cut_last) continue;
-    const ContourPoint& p = led.points[i];
+  for (std::size_t i = 0; i < cut.points.size(); ++i) {
+    if (i >= cut.cut_first && i <= cut.cut_last) continue;
+    const CutPoint& p = cut.points[i];
     if (p.z <= cope.z(p.phi)) continue;
     double nearest = 1e300;
     for (int k = -2000; k <= 2000; ++k) {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/motion/course.hpp"
+#include "core/motion/plan.hpp"
 #include "core/motion/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
@@ -153,7 +153,7 @@ double lower_bound(Relaxation& limits, std::vector<double> x, double d, double g
 ScheduleSpec bound_job(std::uint64_t seed) {
   Dice dice(9000 + seed);
   ScheduleSpec spec = random_job(seed);
-  Contour c;
+  CutPath c;
   c.outer_radius = dice.uniform(20.0, 80.0);
   c.wall = 0.1 * c.outer_radius;
   c.closed = false;
@@ -185,7 +185,7 @@ TEST(LowerBound, IsReachedWithoutJerkToOnePercent) {
   int bound = 0;
   for (int seed = 1; seed <= jobs; ++seed) {
     const ScheduleSpec spec = bound_job(static_cast<std::uint64_t>(seed));
-    const auto job = prepared(spec, {});
+    const auto job = prepare_cut(spec, {});
     ASSERT_TRUE(job) << seed;
     const Course& course = job->course;
     const auto made = plan(course, {.jerk = false}, {});
@@ -213,7 +213,7 @@ TEST(LowerBound, IsReachedWithoutJerkToOnePercent) {
 /// C and Z over an open wave; `per_s` is jerk over acceleration.
 ScheduleSpec wave(std::optional<double> per_s) {
   ScheduleSpec spec;
-  Contour c;
+  CutPath c;
   c.outer_radius = 57.15;
   c.wall = 5.0;
   c.closed = false;
@@ -258,7 +258,7 @@ TEST(LowerBound, WaveWhoseTermsCancel) {
 TEST(LowerBound, WaveWithJerkBeatsMagnitudesWithout) {
   for (const double per_s : {20.0, 100.0, 500.0}) {
     const ScheduleSpec spec = wave(per_s);
-    const auto job = prepared(spec, {});
+    const auto job = prepare_cut(spec, {});
     ASSERT_TRUE(job);
     const Limits& limits = job->course.limits;
     const Conditions base = without_jerk(limits);

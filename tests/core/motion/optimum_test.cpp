@@ -72,7 +72,7 @@ class LargestVector {
 /// A short open cut with the random job's machine: few knots, all kinds of spoilt contour.
 ScheduleSpec short_job(std::uint64_t seed) {
   ScheduleSpec spec = random_job(seed);
-  auto& c = std::get<Contour>(spec.cut);
+  auto& c = std::get<CutPath>(spec.cut);
   const std::size_t n = 12;
   c.phi.resize(n);
   c.z.resize(n);
@@ -88,7 +88,7 @@ TEST(Optimum, OfTheMagnitudesIsALinearProgramme) {
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const ScheduleSpec spec = short_job(seed);
-    const auto job = prepared(spec, {});
+    const auto job = prepare_cut(spec, {});
     ASSERT_TRUE(job) << seed;
     const Limits& limits = job->course.limits;
     const std::vector<double> x = LargestVector(without_jerk(limits), limits.d).solve();

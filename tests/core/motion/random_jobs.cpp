@@ -41,7 +41,7 @@ void add_kinks(Dice& dice, const std::vector<double>& phi, double height,
   }
 }
 
-void spoil(Dice& dice, double radius, Contour& c) {
+void spoil(Dice& dice, double radius, CutPath& c) {
   const int kind = dice.below(6);
   const auto jump = [&] { return dice.uniform(-50.0, 50.0) * kRadPerDeg; };
   if (kind == 1 || kind == 5) {
@@ -53,8 +53,8 @@ void spoil(Dice& dice, double radius, Contour& c) {
   for (double& b : c.b) b = std::clamp(b, -75.0 * kRadPerDeg, 75.0 * kRadPerDeg);
 }
 
-Contour random_contour(Dice& dice) {
-  Contour c;
+CutPath random_contour(Dice& dice) {
+  CutPath c;
   c.outer_radius = dice.log_uniform(20.0, 100.0);
   c.wall = dice.below(2) == 0 ? 0.0 : dice.uniform(0.05, 0.2) * c.outer_radius;
   c.surface = dice.below(2) == 0 ? Surface::outer : Surface::inner;
@@ -94,7 +94,7 @@ Machine random_machine(Dice& dice) {
   return m;
 }
 
-double length(const Contour& c) {
+double length(const CutPath& c) {
   double sum = 0.0;
   for (std::size_t i = 1; i < c.phi.size(); ++i) {
     sum += std::hypot(c.outer_radius * (c.phi[i] - c.phi[i - 1]), c.z[i] - c.z[i - 1]);
@@ -111,7 +111,7 @@ double Dice::log_uniform(double low, double high) {
 ScheduleSpec random_job(std::uint64_t seed) {
   Dice dice(seed);
   ScheduleSpec spec;
-  const Contour contour = random_contour(dice);
+  const CutPath contour = random_contour(dice);
   spec.machine = random_machine(dice);
   // Cutting speeds, but no more than some ten thousand periods of the shortest.
   const double least = length(contour) / (60000.0 * spec.machine.period);

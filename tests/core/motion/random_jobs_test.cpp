@@ -25,7 +25,7 @@ int job_count() {
 /// Length of the tip's path that the counts alone prove: chords over many periods, less the quantum
 /// at both ends.
 double proven_length(const ScheduleSpec& spec, const Schedule& s) {
-  const auto& contour = std::get<Contour>(spec.cut);
+  const auto& contour = std::get<CutPath>(spec.cut);
   const Reconstruction torch(spec);
   const double rho =
       spec.motion.speed_on == Surface::outer ? contour.outer_radius : contour.inner_radius();

@@ -206,7 +206,7 @@ TEST(Replay, GivesThePathBack) {
   const ScheduleSpec spec = table1(20);
   const auto result = replay(as_sent(spec, planned(spec)));
   ASSERT_TRUE(result);
-  const auto& contour = std::get<Contour>(spec.cut);
+  const auto& contour = std::get<CutPath>(spec.cut);
   ASSERT_FALSE(result->phi.empty());
   EXPECT_EQ(result->phi.size(), result->z.size());
   EXPECT_NEAR(result->phi.back() - result->phi.front(), kTwoPi, 1e-12);

@@ -42,8 +42,8 @@ bevel::TableSpec random_table(std::mt19937_64& random, int n) {
   return out;
 }
 
-Contour contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
-  Contour out;
+CutPath contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
+  CutPath out;
   out.phi = table.phi;
   out.z = table.torch_inner;
   out.b = table.b;
@@ -59,7 +59,7 @@ Contour contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
   return out;
 }
 
-std::optional<Schedule> cut(const Contour& contour) {
+std::optional<Schedule> cut(const CutPath& contour) {
   ScheduleSpec spec;
   spec.cut = contour;
   spec.machine = machine();
@@ -82,7 +82,7 @@ bool meet(const SlowZone& a, const SlowZone& b) {
 std::optional<int> zones_by_swinging(const bevel::TableSpec& spec) {
   const auto table = bevel::table(spec);
   if (!table) return std::nullopt;  // refused: this node is beyond the torch
-  Contour contour = contour_of(spec, *table);
+  CutPath contour = contour_of(spec, *table);
   const auto swung = cut(contour);
   std::ranges::fill(contour.b, 0.0);
   const auto held = cut(contour);

@@ -1,0 +1,361 @@
+#include "core/motion/cut_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kBack = 3e-3;     // rad, of a turn by half a round
+constexpr double kClosing = 1e-6;  // mm and rad between the two ends
+constexpr double kMostBevel = 85.0 * kRadPerDeg + 1e-12;
+constexpr double kMostPhi = 3600.0 * kRadPerDeg;
+constexpr double kMostLength = 1e6;  // mm
+
+Result<void> check_columns(const CutPath& c) {
+  const std::size_t n = c.phi.size();
+  const auto sized = [&](std::size_t got, bool may_be_empty) {
+    return got == n || (may_be_empty && got == 0);
+  };
+  if (n < 3) {
+    return fail({ErrorCode::wrong_count, "contour/phi", static_cast<double>(n), 3.0, {}, {}});
+  }
+  if (!sized(c.z.size(), false))
+    return fail({.code = ErrorCode::wrong_count, .member = "contour/z"});
+  if (!sized(c.b.size(), false))
+    return fail({.code = ErrorCode::wrong_count, .member = "contour/b"});
+  if (!sized(c.corner.size(), true)) {
+    return fail({.code = ErrorCode::wrong_count, .member = "contour/corner"});
+  }
+  if (!sized(c.beam.size(), true)) {
+    return fail({.code = ErrorCode::wrong_count, .member = "contour/beam"});
+  }
+  if (!(c.outer_radius > 0.0 && c.outer_radius < kMostLength)) {
+    return fail({.code = ErrorCode::bad_number, .member = "contour/outer_radius"});
+  }
+  if (!(c.wall >= 0.0 && c.wall < c.outer_radius)) {
+    return fail({.code = ErrorCode::bad_number, .member = "contour/wall"});
+  }
+  return {};
+}
+
+std::string member(const char* column, std::size_t i) {
+  return std::string("contour/") + column + "/" + std::to_string(i);
+}
+
+Result<void> check_numbers(const CutPath& c) {
+  for (std::size_t i = 0; i < c.phi.size(); ++i) {
+    if (!(std::abs(c.phi[i]) <= kMostPhi)) {
+      return fail({.code = ErrorCode::bad_number, .member = member("phi", i)});
+    }
+    if (!(std::abs(c.z[i]) <= kMostLength)) {
+      return fail({.code = ErrorCode::bad_number, .member = member("z", i)});
+    }
+    if (!std::isfinite(c.b[i])) {
+      return fail({.code = ErrorCode::bad_number, .member = member("b", i)});
+    }
+    if (std::abs(c.b[i]) > kMostBevel) {
+      return fail(
+          {ErrorCode::angle_out_of_range, member("b", i), c.b[i] * kDegPerRad, 85.0, "deg", {}});
+    }
+    if (!c.beam.empty() && !(c.beam[i] >= 0.0 && c.beam[i] <= kMostLength)) {
+      return fail({.code = ErrorCode::bad_number, .member = member("beam", i)});
+    }
+  }
+  return {};
+}
+
+std::vector<CutPoint> rows(const CutPath& c) {
+  std::vector<CutPoint> points(c.phi.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double beam = c.beam.empty() ? c.wall / elementary::cos(c.b[i]) : c.beam[i];
+    points[i] = {c.phi[i], c.z[i], c.b[i], !c.corner.empty() && c.corner[i], beam};
+  }
+  return points;
+}
+
+bool agree(const CutPoint& a, const CutPoint& b) {
+  return std::abs(a.z - b.z) <= kClosing && std::abs(a.b - b.b) <= kClosing;
+}
+
+double largest_phi_step(const std::vector<CutPoint>& points) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    largest = std::max(largest, std::abs(points[i].phi - points[i - 1].phi));
+  }
+  return largest;
+}
+
+/// Makes the end the first point one turn on, appending it where a whole turn comes open; `gap` is
+/// what is missing to it, in rad of phi.
+Result<void> close(Track& t, double gap) {
+  auto& points = t.points;
+  const bool there = std::abs(gap) <= kClosing;
+  if (there && !agree(points.front(), points.back())) {
+    return fail({ErrorCode::not_closed, "contour", points.back().z - points.front().z, kClosing,
+                 "mm", "the ends differ in z or b"});
+  }
+  const double most = t.turns == 0 ? 0.0 : 3.0 * largest_phi_step(points);
+  if (!there && (gap < -kClosing || gap > most + kClosing)) {
+    return fail({ErrorCode::not_closed, "contour", gap * kDegPerRad, 0.0, "deg",
+                 "phi misses the whole turn by this"});
+  }
+  CutPoint end = points.front();
+  end.phi += kTwoPi * t.turns;
+  if (there) {
+    points.back() = end;
+  } else {
+    points.push_back(end);
+  }
+  return {};
+}
+
+Result<void> close(Track& t, Scrap scrap) {
+  const double span = t.points.back().phi - t.points.front().phi;
+  if (scrap == Scrap::inside) {
+    t.turns = 0;
+    return close(t, std::abs(span));
+  }
+  t.turns = span < 0.0 ? -1 : 1;
+  return close(t, kTwoPi - std::abs(span));
+}
+
+Result<void> check_duplicates(const Track& t) {
+  for (std::size_t i = 1; i < t.points.size(); ++i) {
+    const CutPoint& a = t.points[i - 1];
+    const CutPoint& b = t.points[i];
+    if (a.phi == b.phi && a.z == b.z && a.b == b.b) {
+      return fail(
+          {ErrorCode::duplicate_point, member("phi", i), a.phi * kDegPerRad, {}, "deg", {}});
+    }
+  }
+  return {};
+}
+
+/// A track that runs straight back over itself: on the way back nobody can tell, from where the tip
+/// is, which of the two it is on.
+Result<void> check_turns(const Track& t) {
+  struct Way {
+    double x, z;
+    std::size_t from;
+  };
+  std::vector<Way> ways;  // of the tip: a swing in place is none
+  for (std::size_t i = 1; i < t.points.size(); ++i) {
+    const CutPoint& a = t.points[i - 1];
+    const CutPoint& b = t.points[i];
+    if (a.phi != b.phi || a.z != b.z)
+      ways.push_back({t.radius * (b.phi - a.phi), b.z - a.z, i - 1});
+  }
+  for (std::size_t k = t.closed ? 0 : 1; k < ways.size(); ++k) {  // closed: across the join too
+    const Way& there = ways[(k + ways.size() - 1) % ways.size()];
+    const Way& on = ways[k];
+    const double along = there.x * on.x + there.z * on.z;
+    if (along < 0.0 && std::abs(there.x * on.z - there.z * on.x) <= kBack * -along)
+      return fail({.code = ErrorCode::turns_back,
+                   .member = member("phi", on.from),
+                   .got = t.points[on.from].phi * kDegPerRad,
+                   .unit = "deg"});
+  }
+  return {};
+}
+
+constexpr double kSamePhi = 1e-9;          // rad; nearer than this a point is the asked one
+constexpr double kFromJunction = 5.0;      // mm an automatic start keeps from a corner, if it can
+constexpr double kCornerCos = 0.93969262;  // cos 20 deg: beyond it two steps make a corner
+
+CutPoint between(const CutPoint& a, const CutPoint& b, double share) {
+  const auto mix = [share](double from, double to) { return from + share * (to - from); };
+  return {mix(a.phi, b.phi), mix(a.z, b.z), mix(a.b, b.b), false, mix(a.beam, b.beam)};
+}
+
+/// Makes point `first` of a closed track its start.
+Track rotated(const Track& t, std::size_t first) {
+  Track out = t;
+  out.points.clear();
+  const std::size_t n = t.points.size() - 1;
+  for (std::size_t j = 0; j <= n; ++j) {
+    CutPoint p = t.points[(first + j) % n];
+    if (first + j >= n) p.phi += kTwoPi * t.turns;
+    out.points.push_back(p);
+  }
+  return out;
+}
+
+/// The first place of the track at angle `phi`, modulo whole turns: a point there, inserted if need
+/// be.
+std::optional<std::size_t> at_phi(Track& t, double phi) {
+  for (std::size_t i = 0; i + 1 < t.points.size(); ++i) {
+    const CutPoint a = t.points[i];
+    const CutPoint b = t.points[i + 1];
+    const double low = std::min(a.phi, b.phi);
+    const double target = phi + kTwoPi * std::ceil((low - kSamePhi - phi) / kTwoPi);
+    if (std::abs(target - a.phi) <= kSamePhi) return i;
+    if (std::abs(target - b.phi) <= kSamePhi) return i + 1;
+    if (target > std::max(a.phi, b.phi)) continue;
+    const double share = (target - a.phi) / (b.phi - a.phi);
+    t.points.insert(t.points.begin() + static_cast<std::ptrdiff_t>(i) + 1, between(a, b, share));
+    return i + 1;
+  }
+  return std::nullopt;
+}
+
+bool is_corner(const Track& t, std::size_t i) {
+  if (t.points[i].corner) return true;
+  const std::size_t n = t.points.size() - 1;
+  const CutPoint& o = t.points[i];
+  const CutPoint& a = t.points[i == 0 ? n - 1 : i - 1];
+  const CutPoint& b = t.points[i + 1];
+  const double wrap = i == 0 ? kTwoPi * t.turns : 0.0;
+  const double ax = t.radius * (o.phi - a.phi + wrap), az = o.z - a.z, ab = 10.0 * (o.b - a.b);
+  const double bx = t.radius * (b.phi - o.phi), bz = b.z - o.z, bb = 10.0 * (b.b - o.b);
+  const double lengths = elementary::hypot(ax, az, ab) * elementary::hypot(bx, bz, bb);
+  return ax * bx + az * bz + ab * bb < kCornerCos * lengths;
+}
+
+/// Distance along the track from each point to its nearest corner.
+std::vector<double> from_corner(const Track& t) {
+  const std::size_t n = t.points.size() - 1;
+  std::vector<double> distance(n, 1e300);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_corner(t, i)) distance[i] = 0.0;
+  }
+  for (std::size_t twice = 0; twice < 2; ++twice) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t next = (i + 1) % n;
+      distance[next] = std::min(distance[next], distance[i] + t.tip_step(i, i + 1));
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      distance[i] = std::min(distance[i], distance[(i + 1) % n] + t.tip_step(i, i + 1));
+    }
+  }
+  return distance;
+}
+
+/// Least |B| among the points well away from corners; without such, the point farthest from them.
+std::size_t automatic_start(const Track& t) {
+  const std::vector<double> distance = from_corner(t);
+  std::size_t best = 0;
+  const auto better = [&](std::size_t a, std::size_t b) {
+    const bool a_clear = distance[a] >= kFromJunction, b_clear = distance[b] >= kFromJunction;
+    if (a_clear != b_clear) return a_clear;
+    if (!a_clear) return distance[a] > distance[b];
+    return std::abs(t.points[a].b) < std::abs(t.points[b].b);
+  };
+  for (std::size_t i = 1; i < distance.size(); ++i) {
+    if (better(i, best)) best = i;
+  }
+  return best;
+}
+
+Track reversed(Track t) {
+  std::ranges::reverse(t.points);
+  t.turns = -t.turns;
+  return t;
+}
+
+Result<Track> started(Track t, const Start& start) {
+  if (start.at == Start::At::first_point) return t;
+  if (!t.closed) {
+    return fail({.code = ErrorCode::unsupported_combination, .member = "motion/start"});
+  }
+  if (start.at == Start::At::automatic) return rotated(t, automatic_start(t));
+  const auto first = at_phi(t, start.phi.rad());
+  if (!first) {
+    return fail({ErrorCode::out_of_range,
+                 "motion/start",
+                 start.phi.deg(),
+                 {},
+                 "deg",
+                 "the contour does not reach this angle"});
+  }
+  return rotated(t, *first % (t.points.size() - 1));
+}
+
+}  // namespace
+
+double Track::tip_step(std::size_t from, std::size_t to) const {
+  return elementary::hypot(radius * (points[to].phi - points[from].phi),
+                           points[to].z - points[from].z);
+}
+
+int Track::orientation() const {
+  if (turns != 0) return turns;
+  if (!closed) return points.back().phi < points.front().phi ? -1 : 1;
+  double twice_area = 0.0;
+  const CutPoint& o = points.front();
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const CutPoint& a = points[i - 1];
+    const CutPoint& b = points[i];
+    twice_area += (a.phi - o.phi) * (b.z - o.z) - (b.phi - o.phi) * (a.z - o.z);
+  }
+  return twice_area < 0.0 ? -1 : 1;
+}
+
+Result<Track> track(const CutPath& cut_path) {
+  if (auto ok = check_columns(cut_path); !ok) return tl::unexpected<Error>(ok.error());
+  if (auto ok = check_numbers(cut_path); !ok) return tl::unexpected<Error>(ok.error());
+  Track t{rows(cut_path), cut_path.radius(), cut_path.closed, 0};
+  if (t.closed) {
+    if (auto ok = close(t, cut_path.scrap); !ok) return tl::unexpected<Error>(ok.error());
+  }
+  if (auto ok = check_duplicates(t); !ok) return tl::unexpected<Error>(ok.error());
+  if (auto ok = check_turns(t); !ok) return tl::unexpected<Error>(ok.error());
+  return t;
+}
+
+CutPath as_machine_counts(CutPath cut_path, BPositive b_positive) {
+  if (b_positive == BPositive::outer_edge_to_waste) {
+    for (double& b : cut_path.b) b = -b;
+  }
+  return cut_path;
+}
+
+std::vector<CutPoint> first_stretch(const Track& t, double length) {
+  std::vector<CutPoint> out{t.points.front()};
+  for (std::size_t i = 1; i < t.points.size() && length > 0.0; ++i) {
+    const double step = t.tip_step(i - 1, i);
+    const bool whole = step <= length;
+    out.push_back(whole ? t.points[i] : between(t.points[i - 1], t.points[i], length / step));
+    length -= step;
+  }
+  return out;
+}
+
+Result<Track> directed(Track t, Direction direction, const Start& start) {
+  const bool against = (direction == Direction::ccw && t.orientation() < 0) ||
+                       (direction == Direction::cw && t.orientation() > 0);
+  return started(against ? reversed(std::move(t)) : std::move(t), start);
+}
+
+Result<Track> sector_of(const Track& whole, const Sector& sector) {
+  if (!whole.closed || whole.turns == 0) {
+    return fail({.code = ErrorCode::unsupported_combination, .member = "motion/sector"});
+  }
+  Track t = whole;
+  const auto from = at_phi(t, sector.from.rad());
+  if (!from) return fail({.code = ErrorCode::out_of_range, .member = "motion/sector/from"});
+  t = rotated(t, *from % (t.points.size() - 1));
+  const double turn = whole.turns * (sector.to - sector.from).rad();
+  const double span = turn - kTwoPi * std::floor(turn / kTwoPi);
+  Track cut = t;
+  const auto to = at_phi(cut, t.points.front().phi + whole.turns * span);
+  if (!to || *to == 0) {
+    return fail({ErrorCode::out_of_range, "motion/sector/to", sector.to.deg(), {}, "deg", {}});
+  }
+  cut.points.resize(*to + 1);
+  std::vector<CutPoint> before = first_stretch(reversed(t), std::max(0.0, sector.back_up));
+  for (auto p = before.begin() + 1; p != before.end(); ++p) {
+    p->phi -= kTwoPi * whole.turns;
+    cut.points.insert(cut.points.begin(), *p);
+  }
+  cut.closed = false;
+  cut.turns = 0;
+  return cut;
+}
+
+}  // namespace tubecut::motion
