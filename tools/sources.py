@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Our own source files by kind, one per line: `tools/sources.py c++|headers|shell`. Also the module the other tools share."""
+"""Our own source files by kind, one per line: `tools/sources.py c++|headers|shell|typescript|python`. Also the module the other tools share."""
 
 import pathlib
 import re
@@ -30,9 +30,26 @@ def shell(root=ROOT):
     return [p for p in _files(root, SCRIPTS) if re.match(rb"#!.*\b(ba)?sh\b", p.open("rb").readline())]
 
 
+def typescript(root=ROOT, folders=("web/src", "clients/typescript", "tests/e2e", "tests/front", "tests/contract")):
+    return [p for p in _files(root, folders) if p.suffix == ".ts"]
+
+
+def python(root=ROOT):
+    """Modules and scripts; what another tool made is none of ours."""
+    return [p for p in _files(root, (*SCRIPTS, "clients"))
+            if p.suffix == ".py" or re.match(rb"#!.*\bpython3\b", p.open("rb").readline())]
+
+
 def includes(text):
     """(quoted?, name) of every include in the text."""
     return [(mark == '"', name) for mark, name in INCLUDE.findall(text)]
+
+
+def modules(path, text):
+    """Files of ours that a TypeScript module imports by a relative name, types included."""
+    for name in re.findall(r"""(?:\bfrom|\bimport)\s*\(?\s*['"](\.[^'"]+)['"]""", text):
+        at = (path.parent / name).resolve()
+        yield from [p for p in (at, at.with_name(at.name + ".ts"), at / "index.ts") if p.is_file()][:1]
 
 
 def without_comments(text):
@@ -42,7 +59,7 @@ def without_comments(text):
 
 
 if __name__ == "__main__":
-    kinds = {"c++": cpp, "headers": headers, "shell": shell}
+    kinds = {"c++": cpp, "headers": headers, "shell": shell, "typescript": typescript, "python": python}
     if len(sys.argv) != 2 or sys.argv[1] not in kinds:
         sys.exit("usage: tools/sources " + "|".join(kinds))
     for path in kinds[sys.argv[1]]():

@@ -41,6 +41,9 @@ BAD = {
     "a circle": (
         {"core/a.hpp": '#pragma once\n#include "core/b.hpp"\n', "core/b.hpp": '#pragma once\n#include "core/a.hpp"\n'},
         "include each other"),
+    "a circle of the console's": (
+        {"web/src/a.ts": "import {b} from './pictures/b';\n", "web/src/pictures/b.ts": "import type {A} from '../a';\n"},
+        "include each other"),
     "no such file": ({"core/x.cpp": '#include "angle.hpp"\n'}, "is no file"),
     "no guard": ({"core/x.hpp": "int x;\n"}, "#pragma once"),
 }

@@ -3,7 +3,7 @@ import {label, sentence, short4, unit} from '../names';
 import {column, type Chart, type Picture, type Table} from '../picture';
 import type {Answer} from '../service';
 import {bevelTable} from './cut';
-import {facts} from './machine';
+import {facts} from './facts';
 import type {Context} from './context';
 
 const text = (value: Json | undefined): string =>

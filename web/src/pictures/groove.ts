@@ -2,7 +2,7 @@ import type {Row} from '../json';
 import {label, short4, unit} from '../names';
 import {column, type Chart, type Picture, type Ribbon, type Vector} from '../picture';
 import type {Answer} from '../service';
-import {facts} from './machine';
+import {facts} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
 

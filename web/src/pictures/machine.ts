@@ -5,6 +5,7 @@ import type {Answer} from '../service';
 import {bevelTable} from './cut';
 import {groove} from './groove';
 import {without, type Context} from './context';
+import {facts} from './facts';
 
 const tones = ['series-0', 'series-1', 'series-2', 'series-3', 'series-4', 'series-5'];
 const most = 3000;  // points that a chart is drawn with; a schedule may have 400 000 periods
@@ -138,10 +139,6 @@ export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
     ],
     readout: (i) => [['time', `${short4(t[i] as number)} s`], ['cylinder', `${short4(speed[i] as number)} mm/s`], ['feed', `${short4(column(table['feed_mm'])[i] as number)} mm`], ['stroke', `${short4(column(table['stroke_mm'])[i] as number)} mm`]],
   };
-}
-
-export function facts(title: string, row: Row) {
-  return {title, head: ['', '', ''], rows: Object.entries(row).filter(([, v]) => typeof v !== 'object').map(([k, v]) => [label(k), typeof v === 'number' ? short4(v) : String(v), unit(k)])};
 }
 
 const polynomial = (c: number[], t: number) => c.reduceRight((sum, each) => sum * t + each, 0);
