@@ -1,20 +1,29 @@
+import {readFileSync} from 'node:fs';
 import {fileURLToPath} from 'node:url';
-import {defineConfig} from 'vite';
+import {defineConfig, type Plugin} from 'vite';
+import {html} from './glossary/markdown';
 
 const page = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 
 // `npm run dev` beside a service started with ./dev serve.
 const service = process.env['TUBECUT'] ?? 'http://127.0.0.1:8080';
 
+// Its page needs no script.
+const glossary: Plugin = {
+  name: 'glossary',
+  transformIndexHtml: (text) => text.replace('<!-- docs/glossary.md -->', () => html(readFileSync(page('../docs/glossary.md'), 'utf8'))),
+};
+
 export default defineConfig({
   base: '/',
-  // Two pages: the console, and the API reference that shares nothing with it.
+  plugins: [glossary],
+  // Three pages: the console, the API reference that shares nothing with it, the words of both.
   build: {
     target: 'es2021',
     assetsInlineLimit: 0, // a data: address would need a wider Content-Security-Policy
     modulePreload: {polyfill: false},
     chunkSizeWarningLimit: 1600,
-    rollupOptions: {input: {console: page('index.html'), docs: page('docs/index.html')}},
+    rollupOptions: {input: {console: page('index.html'), docs: page('docs/index.html'), glossary: page('glossary/index.html')}},
   },
   server: {proxy: {'/v1': service, '/openapi': service}},
 });

@@ -1,4 +1,5 @@
 import {strict as assert} from 'node:assert';
+import {readFileSync} from 'node:fs';
 import {open} from '../browser.mjs';
 
 export const checks = {
@@ -19,5 +20,21 @@ export const checks = {
     assert.deepEqual(page.faults, []);
     assert.deepEqual(page.strangers, []);
     await page.context().close();
+  },
+  'the words of docs/glossary.md stand on a page that console and reference lead to': async ({browser, origin}) => {
+    const page = await open(browser, origin, '', {at: '/docs'});
+    await page.getByRole('link', {name: 'Words'}).click();
+    await page.locator('table').first().waitFor();
+    const told = readFileSync(new URL('../../../docs/glossary.md', import.meta.url), 'utf8');
+    const rows = told.split('\n').filter((line) => /^\| (?!symbol|word \|)/.test(line)).length;
+    assert.ok(rows > 60);
+    assert.equal(await page.locator('tbody tr').count(), rows);
+    assert.match(await page.locator('tbody').first().innerText(), /目标管/);
+    assert.deepEqual(page.faults, []);
+    assert.deepEqual(page.strangers, []);
+    await page.context().close();
+    const console = await open(browser, origin, '', {at: '/'});
+    assert.equal(await console.getByRole('link', {name: 'Words'}).getAttribute('href'), '/glossary');
+    await console.context().close();
   },
 };

@@ -1,0 +1,31 @@
+"""What docs/architecture.md and docs/glossary.md name stands in the tree."""
+
+import re
+import unittest
+
+from tool import TOOLS
+
+ROOT = TOOLS.parent
+PLACE = re.compile(r"`((?:core|api|server|web|tools)/[\w./-]+)`")
+
+
+class Docs(unittest.TestCase):
+    def test_every_place_named_is_there(self):
+        for page in ("architecture.md", "glossary.md", *(f"adr/{p.name}" for p in (ROOT / "docs/adr").glob("*.md"))):
+            places = set(PLACE.findall((ROOT / "docs" / page).read_text()))
+            if not page.startswith("adr"):
+                self.assertGreater(len(places), 10, page)
+            for place in places:
+                with self.subTest(page=page, place=place):
+                    path = ROOT / place
+                    self.assertTrue(path.exists() or list(path.parent.glob(path.name + ".*")), place)
+
+    def test_every_file_of_motion_stands_in_the_map(self):
+        words = set(re.findall(r"`([\w/]+)`", (ROOT / "docs/architecture.md").read_text()))
+        for header in (ROOT / "core/motion").glob("*.hpp"):
+            if header.stem != "spec":
+                self.assertIn(header.stem, words)
+
+
+if __name__ == "__main__":
+    unittest.main()
