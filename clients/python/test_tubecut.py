@@ -22,8 +22,8 @@ EXAMPLES = HERE.parents[1] / "examples"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE))
 
-import tubecut
-from tubecut import Answer, BatchItem, Client, HashError, ProblemError, ProtocolError, UnreachableError
+import tubecut  # noqa: E402
+from tubecut import Answer, BatchItem, Client, HashError, ProblemError, ProtocolError, UnreachableError  # noqa: E402
 
 BINARY = ""
 

@@ -159,7 +159,7 @@ class PartGcode(FormatTest):
                         self.assertEqual((lines.count("M3 S1"), lines.count("M5")), (1, 1))
                         got = moves("\n".join(line for line in lines if line != "M2"))
                         if lead:
-                            (before, _), (_, length) = got[0], got[1]
+                            length = got[1][1]
                             middle = [sum(r[k] for r in rows[:-1]) / (len(rows) - 1) for k in (0, 1)]
                             to = way or unit(radius * math.radians(middle[0] - rows[0][0]), middle[1] - rows[0][1])
                             for at, row in ((got[0][0], rows[0]), (got[-1][0], rows[-1])):

@@ -10,8 +10,8 @@ import gi
 gi.require_version("Rsvg", "2.0")
 from gi.repository import Rsvg  # noqa: E402
 
-from dxf_test import polylines, read
-from service import HOSTILE, FormatTest, examples, main, off_curve, rolled, seam_row
+from dxf_test import polylines, read  # noqa: E402
+from service import HOSTILE, FormatTest, examples, main, off_curve, rolled, seam_row  # noqa: E402
 
 DPI = 254  # ten pixels a millimetre
 SVG = "{http://www.w3.org/2000/svg}"

@@ -3,7 +3,6 @@ may not be printed at all."""
 
 import copy
 import csv
-import io
 import json
 import re
 import struct

@@ -17,7 +17,7 @@ import tempfile
 import threading
 import time
 
-from service import ROOT, Service, connect, exchange, get, head, post
+from service import ROOT, Service, connect, exchange, head, post
 
 SHARE = 0.6  # of the container, see server/capacity.cpp
 KEPT_MIB = 48  # resident once all is over: the program, its threads' heaps

@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 
-from service import BODY, ROOT, Service, connect, exchange, get, head, post, receive
+from service import BODY, ROOT, Service, connect, exchange, get, head, post
 
 HOGS = 8
 

@@ -5,7 +5,6 @@ the rest is 429 or 503 with Retry-After, and 99 of 100 refusals take at most 10 
 a machine others use too (no loss, Retry-After everywhere, no other status)."""
 
 import json
-import pathlib
 import subprocess
 import sys
 import tempfile

@@ -27,7 +27,7 @@ def run(port, case, ours):
             replies, rest, ended = receive(sock, enough=1, patience=patience)
             sock.sendall(case.then)
         more, rest, ended = receive(sock, enough=None if case.shut else len(wanted) - len(replies), bodiless=case.bodiless,
-                                   patience=patience)
+                                    patience=patience)
         replies += more
         statuses = [r.status for r in replies]
         if case.extra.get("or100") and statuses[:1] == [100]:

@@ -192,7 +192,7 @@ def measure(request, result):
         line = np.stack([radius * line_phi, at_points.at(radius)[1]], -1)
         edges[f"{name}_edge_mm"] = nearest(line, np.stack([radius * phi, far.at(radius)[1]], -1)[cut])[0].max()
     out = edges | {"contour_mm": distance.max(), "b_deg": np.degrees(np.abs(beam.b[cut] - wanted_b)).max(),
-           "other_wall_mm": np.hypot(distance, (other_z - z)[cut] - (other_wanted - wanted_z)).max()}
+                   "other_wall_mm": np.hypot(distance, (other_z - z)[cut] - (other_wanted - wanted_z)).max()}
     if arm is not None:
         out["standoff_mm"] = np.abs(beam.at(tube.outer)[2] - arm)[cut].max()
     return out

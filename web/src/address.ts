@@ -2,19 +2,26 @@ import type {Row} from './json';
 
 /** The whole state of the page in its hash, so that a link is a job:
  *  `#/bevel-tables/source-000-table-1?view=before`, or `#/bevel-tables/~<deflated body>` once edited. */
-export interface Place {endpoint: string; example?: string; body?: Row; view: Record<string, string>}
+export interface Place {
+  endpoint: string;
+  example?: string;
+  body?: Row;
+  view: Record<string, string>;
+}
 
 const toText = (bytes: Uint8Array) =>
-  btoa(String.fromCharCode(...bytes)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
-const toBytes = (text: string) =>
-  Uint8Array.from(atob(text.replace(/-/g, '+').replace(/_/g, '/')), (c) => c.charCodeAt(0));
+  btoa(String.fromCharCode(...bytes))
+    .replace(/\+/g, '-')
+    .replace(/\//g, '_')
+    .replace(/=+$/, '');
+const toBytes = (text: string) => Uint8Array.from(atob(text.replace(/-/g, '+').replace(/_/g, '/')), (c) => c.charCodeAt(0));
 
 async function through(bytes: Uint8Array, stream: GenericTransformStream): Promise<Uint8Array> {
   const piped = new Blob([bytes]).stream().pipeThrough(stream as ReadableWritablePair);
   return new Uint8Array(await new Response(piped).arrayBuffer());
 }
 
-const largest = 24000;  // characters; longer addresses do not survive mail and chat
+const largest = 24000; // characters; longer addresses do not survive mail and chat
 
 export async function written(place: Place): Promise<string> {
   const view = new URLSearchParams(place.view).toString();
@@ -38,6 +45,6 @@ export async function read(hash: string): Promise<Place | null> {
     const bytes = await through(toBytes(job.slice(1)), new DecompressionStream('deflate-raw'));
     return {...place, body: JSON.parse(new TextDecoder().decode(bytes)) as Row};
   } catch {
-    return place;  // a link cut short: the endpoint's first example
+    return place; // a link cut short: the endpoint's first example
   }
 }

@@ -5,7 +5,9 @@ import {listen, point, pointed} from './links';
 import {short4} from './names';
 import type {Chart} from './picture';
 
-const left = 56, right = 12, ribbon = 7;
+const left = 56,
+  right = 12,
+  ribbon = 7;
 
 /** A column of charts; one whose kind did not change is given new data instead of being made anew. */
 export class Board {
@@ -42,10 +44,13 @@ class Plot {
   private readonly forget: () => void;
   private width = 0;
 
-  constructor(root: HTMLElement, public chart: Chart) {
-    this.frame = el('div', {'class': 'plot', 'tabindex': '0', 'role': 'img'});
+  constructor(
+    root: HTMLElement,
+    public chart: Chart,
+  ) {
+    this.frame = el('div', {class: 'plot', tabindex: '0', role: 'img'});
     this.caption = el('figcaption');
-    this.figure = el('figure', {'id': `chart-${chart.id}`, 'class': 'chart'}, this.caption, this.frame);
+    this.figure = el('figure', {id: `chart-${chart.id}`, class: 'chart'}, this.caption, this.frame);
     root.append(this.figure);
     this.width = this.frame.clientWidth;
     this.plot = new uPlot(this.options(), this.data(), this.frame);
@@ -55,8 +60,11 @@ class Plot {
   }
 
   takes(chart: Chart): boolean {
-    return chart.id === this.chart.id && chart.link === this.chart.link
-      && chart.series.map((s) => s.name + s.tone).join() === this.chart.series.map((s) => s.name + s.tone).join();
+    return (
+      chart.id === this.chart.id &&
+      chart.link === this.chart.link &&
+      chart.series.map((s) => s.name + s.tone).join() === this.chart.series.map((s) => s.name + s.tone).join()
+    );
   }
 
   update(chart: Chart): void {
@@ -98,24 +106,31 @@ class Plot {
   private describe(): void {
     const {chart} = this;
     this.frame.dataset['points'] = String(chart.x.values.length);
-    this.frame.setAttribute('aria-label', `${chart.title}: ${chart.series.map((s) => s.name).join(', ')} over ${chart.x.name}; ${chart.x.values.length} points. Left and right move the cursor.`);
+    this.frame.setAttribute(
+      'aria-label',
+      `${chart.title}: ${chart.series.map((s) => s.name).join(', ')} over ${chart.x.name}; ${chart.x.values.length} points. Left and right move the cursor.`,
+    );
     const keys = chart.series.map((s) => {
-      const line = el('i', {'class': s.dash ? 'dashed' : ''});
+      const line = el('i', {class: s.dash ? 'dashed' : ''});
       line.style.borderColor = colour(s.tone);
-      return el('span', {'class': 'key'}, line, s.name);
+      return el('span', {class: 'key'}, line, s.name);
     });
     const others = [...new Map([...(chart.bands ?? []), ...(chart.marks ?? [])].map((b) => [b.text, b.tone])).entries()].map(([text, tone]) => {
-      const patch = el('i', {'class': 'patch'});
+      const patch = el('i', {class: 'patch'});
       patch.style.background = colour(tone);
-      return el('span', {'class': 'key'}, patch, text);
+      return el('span', {class: 'key'}, patch, text);
     });
-    this.caption.replaceChildren(el('b', {}, chart.title, el('small', {}, ` over ${chart.x.name}`)), el('span', {'class': 'keys'}, ...keys, ...others));
+    this.caption.replaceChildren(el('b', {}, chart.title, el('small', {}, ` over ${chart.x.name}`)), el('span', {class: 'keys'}, ...keys, ...others));
   }
 
   private options(): uPlot.Options {
     const {chart} = this;
-    const axis = {stroke: () => colour('ink-soft'), grid: {stroke: () => colour('grid'), width: 1}, ticks: {show: false},
-      font: '11px Inter, system-ui, sans-serif'};
+    const axis = {
+      stroke: () => colour('ink-soft'),
+      grid: {stroke: () => colour('grid'), width: 1},
+      ticks: {show: false},
+      font: '11px Inter, system-ui, sans-serif',
+    };
     const numbers = (_: uPlot, values: number[]) => values.map(short4);
     return {
       ...this.size(),
@@ -126,18 +141,28 @@ class Plot {
         x: {time: false, range: () => this.across()},
         y: {range: (_, low, high) => this.room(low, high)},
       },
-      axes: [{...axis, size: 26, gap: 3, values: (u, v) => numbers(u, v).map((t, i) => i === v.length - 1 ? `${t} ${chart.x.unit}` : t)},
-        {...axis, size: left, gap: 4, values: (u, v) => numbers(u, v).map((t, i) => i === v.length - 1 ? `${t} ${chart.unit}` : t)}],
-      series: [{}, ...chart.series.map((s) => ({
-        stroke: () => colour(s.tone), width: s.width ?? 1.5, points: {show: s.dots ?? false, size: 4}, ...(s.dash ? {dash: s.dash} : {}),
-      }))],
+      axes: [
+        {...axis, size: 26, gap: 3, values: (u, v) => numbers(u, v).map((t, i) => (i === v.length - 1 ? `${t} ${chart.x.unit}` : t))},
+        {...axis, size: left, gap: 4, values: (u, v) => numbers(u, v).map((t, i) => (i === v.length - 1 ? `${t} ${chart.unit}` : t))},
+      ],
+      series: [
+        {},
+        ...chart.series.map((s) => ({
+          stroke: () => colour(s.tone),
+          width: s.width ?? 1.5,
+          points: {show: s.dots ?? false, size: 4},
+          ...(s.dash ? {dash: s.dash} : {}),
+        })),
+      ],
       hooks: {
         drawClear: [(u) => this.under(u)],
         draw: [(u) => this.over(u)],
-        setCursor: [(u) => {
-          if (u.cursor.left !== undefined && u.cursor.left >= 0 && u.cursor.idx !== null && u.cursor.idx !== undefined) point(this.chart.link, u.cursor.idx);
-          else if (u.cursor.left !== undefined && u.cursor.left < 0) point(this.chart.link, null);
-        }],
+        setCursor: [
+          (u) => {
+            if (u.cursor.left !== undefined && u.cursor.left >= 0 && u.cursor.idx !== null && u.cursor.idx !== undefined) point(this.chart.link, u.cursor.idx);
+            else if (u.cursor.left !== undefined && u.cursor.left < 0) point(this.chart.link, null);
+          },
+        ],
       },
     };
   }
@@ -157,7 +182,7 @@ class Plot {
       return [from, from + (this.size().height - 34) * scale];
     }
     if (this.chart.zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
-    const flat = high - low < 1e-6 * Math.max(1, Math.abs(high));  // a straight line, not the rounding it is made of
+    const flat = high - low < 1e-6 * Math.max(1, Math.abs(high)); // a straight line, not the rounding it is made of
     const space = flat ? 0.5 : (high - low) * 0.08;
     return [low - space * (this.chart.partners ? 1.8 : 1), high + space];
   }
@@ -167,7 +192,8 @@ class Plot {
     ctx.save();
     if (this.chart.wrap) this.wrapped(u);
     for (const band of this.chart.bands ?? []) {
-      const from = u.valToPos(band.from, 'x', true), to = u.valToPos(band.to, 'x', true);
+      const from = u.valToPos(band.from, 'x', true),
+        to = u.valToPos(band.to, 'x', true);
       ctx.globalAlpha = 0.2;
       ctx.fillStyle = colour(band.tone);
       ctx.fillRect(from, bbox.top, Math.max(to - from, 1), bbox.height);
@@ -286,14 +312,15 @@ class Plot {
 
 function extent(chart: Chart): [number, number] {
   const all = chart.series.flatMap((s) => s.values).filter((v): v is number => v !== null);
-  const low = all.reduce((a, b) => Math.min(a, b), Infinity), high = all.reduce((a, b) => Math.max(a, b), -Infinity);
+  const low = all.reduce((a, b) => Math.min(a, b), Infinity),
+    high = all.reduce((a, b) => Math.max(a, b), -Infinity);
   const space = Math.max((high - low) * 0.15, 0.02 * span(chart));
   return [low - space, high + space];
 }
 
 function span(chart: Chart): number {
   const {values} = chart.x;
-  const last = chart.wrap?.lines.length ? Math.max(...chart.wrap.lines.map((line) => line.x)) : values[values.length - 1] ?? 1;
+  const last = chart.wrap?.lines.length ? Math.max(...chart.wrap.lines.map((line) => line.x)) : (values[values.length - 1] ?? 1);
   return Math.max(last, values[values.length - 1] ?? 0) - (values[0] ?? 0);
 }
 

@@ -2,8 +2,7 @@ type Child = Node | string | null | undefined | false;
 type Attributes = Record<string, unknown>;
 
 /** An element with attributes; `on…` members are listeners, booleans are present or not. */
-export function el<K extends keyof HTMLElementTagNameMap>(
-  tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
   const node = document.createElement(tag);
   set(node, attributes, children);
   return node;
@@ -31,7 +30,7 @@ export const byId = <T extends HTMLElement>(id: string) => document.getElementBy
 export function colour(name: string): string {
   const key = `${name} ${document.documentElement.dataset['theme']}`;
   const found = colours.get(key) ?? getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-  colours.set(key, found);  // a chart asks for hundreds, and each question is a computation of styles
+  colours.set(key, found); // a chart asks for hundreds, and each question is a computation of styles
   return found;
 }
 const colours = new Map<string, string>();

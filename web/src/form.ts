@@ -5,11 +5,14 @@ import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
 
 /** Names that a field can be filled with, besides what the contract says. */
-export interface Choices {machines: string[]; sizes: string[]}
+export interface Choices {
+  machines: string[];
+  sizes: string[];
+}
 
-const aside = new Set(['log', 'numerics']);  // belong to programs
-const folded = new Set(['sampling', 'reference', 'accept', 'expert', 'check', 'table']);  // closed until opened
-const inlineList = 6;  // longer lists of numbers get a text area
+const aside = new Set(['log', 'numerics']); // belong to programs
+const folded = new Set(['sampling', 'reference', 'accept', 'expert', 'check', 'table']); // closed until opened
+const inlineList = 6; // longer lists of numbers get a text area
 
 /** The request as a form, drawn from the contract's schema. Values are never checked here: the service is
  *  asked, and names the field. */
@@ -18,10 +21,14 @@ export class Form {
   private echo: Row = {};
   private schema: Schema = {};
   private inputs = new Map<string, HTMLElement>();
-  private folds = new Map<string, boolean>();  // what was opened or closed by hand, by pointer
+  private folds = new Map<string, boolean>(); // what was opened or closed by hand, by pointer
 
-  constructor(private readonly root: HTMLElement, private readonly contract: Contract,
-              private readonly choices: Choices, private readonly changed: () => void) {
+  constructor(
+    private readonly root: HTMLElement,
+    private readonly contract: Contract,
+    private readonly choices: Choices,
+    private readonly changed: () => void,
+  ) {
     root.addEventListener('submit', (event) => event.preventDefault());
     root.append(el('datalist', {id: 'tube-sizes'}, ...choices.sizes.map((size) => el('option', {value: size}))));
   }
@@ -57,10 +64,10 @@ export class Form {
         lost += 1;
         return;
       }
-      const note = el('p', {'class': 'complaint', 'id': `complaint-${index}`}, said(issue));
+      const note = el('p', {class: 'complaint', id: `complaint-${index}`}, said(issue));
       input.setAttribute('aria-invalid', 'true');
       input.setAttribute('aria-describedby', note.id);
-      (input.closest('.field, .group, tr') ?? input).after(input.closest('tr') ? el('tr', {'class': 'complaint'}, el('td', {colspan: '20'}, note)) : note);
+      (input.closest('.field, .group, tr') ?? input).after(input.closest('tr') ? el('tr', {class: 'complaint'}, el('td', {colspan: '20'}, note)) : note);
     });
     return lost;
   }
@@ -106,17 +113,24 @@ export class Form {
     const branches = this.contract.branches(schema);
     if (branches.length < 2 || schema.properties) return this.fields(schema, value, pointer);
     const chosen = this.contract.branchOf(branches, value);
-    const select = el('select', {'aria-label': pointer ? label(lastKey(pointer)) : 'Given by', onchange: () => {
-      const next = this.contract.make(branches[select.selectedIndex] as Schema, value, lastKey(pointer));
-      if (pointer) put(this.body, pointer, next);
-      else {
-        for (const key of Object.keys(this.body)) delete this.body[key];
-        Object.assign(this.body, next);
-      }
-      this.redraw();
-    }}, ...branches.map((branch, index) => el('option', {selected: index === chosen}, sentence(this.contract.branchName(branches, branch)))));
+    const select = el(
+      'select',
+      {
+        'aria-label': pointer ? label(lastKey(pointer)) : 'Given by',
+        onchange: () => {
+          const next = this.contract.make(branches[select.selectedIndex] as Schema, value, lastKey(pointer));
+          if (pointer) put(this.body, pointer, next);
+          else {
+            for (const key of Object.keys(this.body)) delete this.body[key];
+            Object.assign(this.body, next);
+          }
+          this.redraw();
+        },
+      },
+      ...branches.map((branch, index) => el('option', {selected: index === chosen}, sentence(this.contract.branchName(branches, branch)))),
+    );
     if (pointer) this.inputs.set(pointer, select);
-    const row = el('div', {'class': 'field branch'}, pointer ? null : el('span', {'class': 'name'}, 'Given by'), select);
+    const row = el('div', {class: 'field branch'}, pointer ? null : el('span', {class: 'name'}, 'Given by'), select);
     return [row, ...this.fields(branches[chosen] as Schema, value, pointer)];
   }
 
@@ -129,7 +143,9 @@ export class Form {
   }
 
   private members(schema: Schema, value: Row, pointer: string): HTMLElement[] {
-    const small: HTMLElement[] = [], large: HTMLElement[] = [], absent: HTMLElement[] = [];
+    const small: HTMLElement[] = [],
+      large: HTMLElement[] = [],
+      absent: HTMLElement[] = [];
     const offered = Object.entries(schema.properties ?? {}).filter(([key, inner]) => key in value || (!aside.has(key) && typeof inner !== 'boolean'));
     for (const [key, inner] of offered) {
       const to = join(pointer, key);
@@ -141,12 +157,12 @@ export class Form {
       else absent.push(this.offer(key, member, to));
     }
     const out: HTMLElement[] = [];
-    if (small.length) out.push(el('div', {'class': 'grid'}, ...small));
+    if (small.length) out.push(el('div', {class: 'grid'}, ...small));
     // Tubes first: they are what people change.
     if (pointer === '') out.reverse();
     out.unshift(...(pointer === '' ? large : []));
     if (pointer !== '') out.push(...large);
-    if (absent.length) out.push(el('div', {'class': 'offers'}, ...absent));
+    if (absent.length) out.push(el('div', {class: 'offers'}, ...absent));
     return out;
   }
 
@@ -162,24 +178,52 @@ export class Form {
   }
 
   private offer(key: string, schema: Schema, pointer: string): HTMLElement {
-    return el('button', {type: 'button', title: schema.description, onclick: () => {
-      put(this.body, pointer, this.contract.make(schema, undefined, key));
-      this.folds.set(pointer, true);
-      this.redraw();
-    }}, `+ ${label(key)}`);
+    return el(
+      'button',
+      {
+        type: 'button',
+        title: schema.description,
+        onclick: () => {
+          put(this.body, pointer, this.contract.make(schema, undefined, key));
+          this.folds.set(pointer, true);
+          this.redraw();
+        },
+      },
+      `+ ${label(key)}`,
+    );
   }
 
   private group(key: string, schema: Schema, value: Json | undefined, pointer: string, required: boolean): HTMLElement {
-    const inner = value === undefined ? [this.offer(key, schema, pointer)]
-      : schema.type === 'array' ? this.list(schema, value, pointer) : this.parts(schema, value, pointer);
-    const remove = required ? null : el('button', {'type': 'button', 'class': 'remove', 'aria-label': `Remove ${label(key)}`, onclick: () => {
-      put(this.body, pointer, undefined);
-      this.redraw();
-    }}, '×');
+    const inner =
+      value === undefined
+        ? [this.offer(key, schema, pointer)]
+        : schema.type === 'array'
+          ? this.list(schema, value, pointer)
+          : this.parts(schema, value, pointer);
+    const remove = required
+      ? null
+      : el(
+          'button',
+          {
+            type: 'button',
+            class: 'remove',
+            'aria-label': `Remove ${label(key)}`,
+            onclick: () => {
+              put(this.body, pointer, undefined);
+              this.redraw();
+            },
+          },
+          '×',
+        );
     const title = el('summary', {title: schema.description}, sentence(label(key)));
-    const node: HTMLDetailsElement = el('details', {'open': this.folds.get(pointer) ?? !folded.has(key), 'ontoggle': () => this.folds.set(pointer, node.open)}, title, ...inner);
+    const node: HTMLDetailsElement = el(
+      'details',
+      {open: this.folds.get(pointer) ?? !folded.has(key), ontoggle: () => this.folds.set(pointer, node.open)},
+      title,
+      ...inner,
+    );
     if (!this.inputs.has(pointer)) this.inputs.set(pointer, title);
-    return el('div', {'class': 'group'}, node, remove);
+    return el('div', {class: 'group'}, node, remove);
   }
 
   private list(schema: Schema, value: Json, pointer: string): HTMLElement[] {
@@ -188,7 +232,8 @@ export class Form {
     if (!item.properties && !item.oneOf) return [this.leaf(schema, value, pointer, label(lastKey(pointer)))];
     const branches = item.oneOf ? this.contract.branches(item) : [item];
     const kinds = items.map((each) => branches[this.contract.branchOf(branches, each)] as Schema);
-    const flat = items.length > 0 && kinds.every((kind) => kind === kinds[0] && Object.values(kind.properties ?? {}).every((p) => this.simple(this.contract.resolve(p))));
+    const flat =
+      items.length > 0 && kinds.every((kind) => kind === kinds[0] && Object.values(kind.properties ?? {}).every((p) => this.simple(this.contract.resolve(p))));
     const rows = flat ? [this.table(kinds[0] as Schema, items, pointer)] : items.map((each, i) => this.card(item, each, join(pointer, i), i));
     const add = (branch: Schema) => {
       items.push(this.contract.make(branch, branch === kinds[kinds.length - 1] ? items[items.length - 1] : undefined));
@@ -196,63 +241,92 @@ export class Form {
       this.redraw();
     };
     const names = branches.map((branch) => this.contract.branchName(branches, branch));
-    const adder = branches.length === 1
-      ? el('button', {type: 'button', onclick: () => add(item)}, '+ add')
-      : el('select', {'class': 'adder', 'aria-label': `Add to ${label(lastKey(pointer))}`, onchange: (event: Event) => {
-        const index = (event.target as HTMLSelectElement).selectedIndex - 1;
-        if (index >= 0) add(branches[index] as Schema);
-      }}, el('option', {}, '+ add …'), ...names.map((name) => el('option', {}, sentence(name))));
-    return [...rows, el('div', {'class': 'offers'}, adder)];
+    const adder =
+      branches.length === 1
+        ? el('button', {type: 'button', onclick: () => add(item)}, '+ add')
+        : el(
+            'select',
+            {
+              class: 'adder',
+              'aria-label': `Add to ${label(lastKey(pointer))}`,
+              onchange: (event: Event) => {
+                const index = (event.target as HTMLSelectElement).selectedIndex - 1;
+                if (index >= 0) add(branches[index] as Schema);
+              },
+            },
+            el('option', {}, '+ add …'),
+            ...names.map((name) => el('option', {}, sentence(name))),
+          );
+    return [...rows, el('div', {class: 'offers'}, adder)];
   }
 
   private table(kind: Schema, items: Json[], pointer: string): HTMLElement {
     const columns = Object.entries(kind.properties ?? {})
       .map(([key, inner]) => ({key, schema: this.contract.resolve(inner)}))
       .filter(({schema}) => !('const' in schema));
-    const head = columns.map(({key, schema}) =>
-      el('th', {scope: 'col', title: schema.description}, brief(key), el('small', {}, unit(key))));
+    const head = columns.map(({key, schema}) => el('th', {scope: 'col', title: schema.description}, brief(key), el('small', {}, unit(key))));
     const rows = items.map((item, index) => {
       const to = join(pointer, index);
       const cells = columns.map(({key, schema}) =>
-        el('td', {'class': schema.type === 'string' ? 'text' : ''},
-          this.input(schema, isRow(item) ? item[key] : undefined, join(to, key), `${label(key)} ${index + 1}`)));
+        el(
+          'td',
+          {class: schema.type === 'string' ? 'text' : ''},
+          this.input(schema, isRow(item) ? item[key] : undefined, join(to, key), `${label(key)} ${index + 1}`),
+        ),
+      );
       return el('tr', {}, this.swatch(index), ...cells, el('td', {}, this.remover(to, index)));
     });
-    return el('div', {'class': 'scroll', 'tabindex': '0', 'role': 'group', 'aria-label': label(lastKey(pointer))}, el('table', {'class': 'tubes'},
-      el('thead', {}, el('tr', {}, el('td'), ...head, el('td'))), el('tbody', {}, ...rows)));
+    return el(
+      'div',
+      {class: 'scroll', tabindex: '0', role: 'group', 'aria-label': label(lastKey(pointer))},
+      el('table', {class: 'tubes'}, el('thead', {}, el('tr', {}, el('td'), ...head, el('td'))), el('tbody', {}, ...rows)),
+    );
   }
 
   private swatch(index: number): HTMLElement {
-    const dot = el('span', {'class': 'swatch'});
+    const dot = el('span', {class: 'swatch'});
     dot.style.background = partnerColour(index);
-    return el('td', {'class': 'dot'}, dot);
+    return el('td', {class: 'dot'}, dot);
   }
 
   private remover(pointer: string, index: number): HTMLElement {
-    return el('button', {'type': 'button', 'class': 'remove', 'aria-label': `Remove row ${index + 1}`, onclick: () => {
-      put(this.body, pointer, undefined);
-      this.redraw();
-    }}, '×');
+    return el(
+      'button',
+      {
+        type: 'button',
+        class: 'remove',
+        'aria-label': `Remove row ${index + 1}`,
+        onclick: () => {
+          put(this.body, pointer, undefined);
+          this.redraw();
+        },
+      },
+      '×',
+    );
   }
 
   private card(schema: Schema, value: Json, pointer: string, index: number): HTMLElement {
-    const dot = el('span', {'class': 'swatch'});
+    const dot = el('span', {class: 'swatch'});
     dot.style.background = partnerColour(index);
     const name = isRow(value) && typeof value['id'] === 'string' ? value['id'] : String(index + 1);
-    const head = el('div', {'class': 'card-head', 'tabindex': '-1'}, dot, el('b', {}, name), this.remover(pointer, index));
-    const node = el('div', {'class': 'card'}, head, ...this.parts(schema, value, pointer));
+    const head = el('div', {class: 'card-head', tabindex: '-1'}, dot, el('b', {}, name), this.remover(pointer, index));
+    const node = el('div', {class: 'card'}, head, ...this.parts(schema, value, pointer));
     if (!this.inputs.has(pointer)) this.inputs.set(pointer, head);
     return node;
   }
 
   private leaf(schema: Schema, value: Json | undefined, pointer: string, name: string, required = false): HTMLElement {
-    const wide = schema.type === 'array' || !(this.simple(schema));
+    const wide = schema.type === 'array' || !this.simple(schema);
     const input = this.input(schema, value, pointer, name);
     const mark = unit(lastKey(pointer));
-    const grip = mark ? el('span', {'class': 'unit', 'title': 'Drag to change'}, mark) : null;
+    const grip = mark ? el('span', {class: 'unit', title: 'Drag to change'}, mark) : null;
     if (grip && input instanceof HTMLInputElement) this.scrub(grip, input);
-    return el('label', {'class': `field${wide ? ' wide' : ''}${required ? ' required' : ''}`, 'title': schema.description},
-      el('span', {'class': 'name'}, name), el('span', {'class': 'box'}, input, grip));
+    return el(
+      'label',
+      {class: `field${wide ? ' wide' : ''}${required ? ' required' : ''}`, title: schema.description},
+      el('span', {class: 'name'}, name),
+      el('span', {class: 'box'}, input, grip),
+    );
   }
 
   private input(schema: Schema, value: Json | undefined, pointer: string, name: string): HTMLElement {
@@ -275,8 +349,12 @@ export class Form {
     if (isRow(value) || Array.isArray(value)) return this.numbers(value, pointer);
     const textual = schema.type === 'string' && !schema.oneOf;
     const node = el('input', {
-      type: 'text', inputmode: textual ? 'text' : 'decimal', spellcheck: 'false', list: key === 'size' ? 'tube-sizes' : null,
-      placeholder: schema.default === undefined ? null : String(schema.default), value: value ?? '',
+      type: 'text',
+      inputmode: textual ? 'text' : 'decimal',
+      spellcheck: 'false',
+      list: key === 'size' ? 'tube-sizes' : null,
+      placeholder: schema.default === undefined ? null : String(schema.default),
+      value: value ?? '',
       oninput: () => this.write(pointer, typed(node.value, textual)),
     });
     if (!textual) node.addEventListener('keydown', (event) => this.nudge(event, node));
@@ -284,10 +362,13 @@ export class Form {
   }
 
   private select(choices: Json[], value: Json | undefined, schema: Schema, pointer: string): HTMLElement {
-    const options = choices.map((choice) =>
-      el('option', {value: JSON.stringify(choice), selected: choice === value}, String(choice).replace(/_/g, ' ')));
-    const none = el('option', {value: '', selected: value === undefined}, schema.default === undefined ? '' : `${String(schema.default).replace(/_/g, ' ')} (default)`);
-    const node = el('select', {onchange: () => this.write(pointer, node.value === '' ? undefined : JSON.parse(node.value) as Json)}, none, ...options);
+    const options = choices.map((choice) => el('option', {value: JSON.stringify(choice), selected: choice === value}, String(choice).replace(/_/g, ' ')));
+    const none = el(
+      'option',
+      {value: '', selected: value === undefined},
+      schema.default === undefined ? '' : `${String(schema.default).replace(/_/g, ' ')} (default)`,
+    );
+    const node = el('select', {onchange: () => this.write(pointer, node.value === '' ? undefined : (JSON.parse(node.value) as Json))}, none, ...options);
     return node;
   }
 
@@ -320,7 +401,8 @@ export class Form {
   }
 
   private scrub(grip: HTMLElement, input: HTMLInputElement): void {
-    let from = 0, taken = 0;
+    let from = 0,
+      taken = 0;
     grip.addEventListener('pointerdown', (event) => {
       event.preventDefault();
       grip.setPointerCapture(event.pointerId);

@@ -2,16 +2,15 @@
 export type Json = null | boolean | number | string | Json[] | {[key: string]: Json};
 export type Row = {[key: string]: Json};
 
-export const isRow = (value: unknown): value is Row =>
-  typeof value === 'object' && value !== null && !Array.isArray(value);
+export const isRow = (value: unknown): value is Row => typeof value === 'object' && value !== null && !Array.isArray(value);
 
 export const clone = <T>(value: T): T => JSON.parse(JSON.stringify(value)) as T;
 
-const escape = (key: string) => key.replace(/~/g, '~0').replace(/\//g, '~1');
-const unescape = (key: string) => key.replace(/~1/g, '/').replace(/~0/g, '~');
+const escaped = (key: string) => key.replace(/~/g, '~0').replace(/\//g, '~1');
+const unescaped = (key: string) => key.replace(/~1/g, '/').replace(/~0/g, '~');
 
-export const join = (pointer: string, key: string | number) => `${pointer}/${escape(String(key))}`;
-export const keys = (pointer: string) => pointer.split('/').slice(1).map(unescape);
+export const join = (pointer: string, key: string | number) => `${pointer}/${escaped(String(key))}`;
+export const keys = (pointer: string) => pointer.split('/').slice(1).map(unescaped);
 
 export function at(root: Json | undefined, pointer: string): Json | undefined {
   let value: Json | undefined = root;

@@ -14,16 +14,30 @@ import {Contract} from './schema';
 import {ask, fetched, Latest, path, type Answer, type Endpoint, type Example, type Reply} from './service';
 import type {Stage} from './scene/stage';
 
-interface State {endpoint: string; example: string | undefined; body: Row; edited: boolean; view: 'before' | 'after'; partners: boolean; tab: string}
+interface State {
+  endpoint: string;
+  example: string | undefined;
+  body: Row;
+  edited: boolean;
+  view: 'before' | 'after';
+  partners: boolean;
+  tab: string;
+}
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
-const tabs: [string, string][] = [['proof', 'Proof'], ['motion', 'Pulses and speed'], ['table', 'Table'], ['json', 'JSON'], ['downloads', 'Downloads']];
+const tabs: [string, string][] = [
+  ['proof', 'Proof'],
+  ['motion', 'Pulses and speed'],
+  ['table', 'Table'],
+  ['json', 'JSON'],
+  ['downloads', 'Downloads'],
+];
 
 class Console {
   private readonly latest = new Latest();
   private readonly form: Form;
   private readonly charts = new Board(byId('charts'));
-  private readonly motion = {root: el('div', {'class': 'motion'}), board: null as Board | null, of: ''};
+  private readonly motion = {root: el('div', {class: 'motion'}), board: null as Board | null, of: ''};
   private readonly context: Context;
   private state: State = {...firstJob, body: {}, edited: false, view: 'after', partners: true, tab: 'proof'};
   private stage: Promise<Stage | null> | null = null;
@@ -34,17 +48,26 @@ class Console {
   private writing = 0;
   private unlisten: (() => void) | null = null;
 
-  constructor(private readonly contract: Contract, private readonly examples: Example[], private readonly endpoints: Endpoint[],
-              machines: {name: string; machine: Row}[], tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[]) {
+  constructor(
+    private readonly contract: Contract,
+    private readonly examples: Example[],
+    private readonly endpoints: Endpoint[],
+    machines: {name: string; machine: Row}[],
+    tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[],
+  ) {
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     const known = new Map<string, Promise<Answer | undefined>>();
-    this.context = {sizes, machines: new Map(machines.map((m) => [m.name, m.machine])), ask: (endpoint, body) => {
-      const key = endpoint + JSON.stringify(body);
-      if (known.size > 20) known.clear();
-      const found = known.get(key) ?? ask(endpoint, body).then((reply) => reply.answer);
-      known.set(key, found);
-      return found;
-    }};
+    this.context = {
+      sizes,
+      machines: new Map(machines.map((m) => [m.name, m.machine])),
+      ask: (endpoint, body) => {
+        const key = endpoint + JSON.stringify(body);
+        if (known.size > 20) known.clear();
+        const found = known.get(key) ?? ask(endpoint, body).then((reply) => reply.answer);
+        known.set(key, found);
+        return found;
+      },
+    };
     this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
@@ -56,7 +79,7 @@ class Console {
   async arrive(): Promise<void> {
     clearTimeout(this.writing);
     const place = await address.read(location.hash);
-    const endpoint = this.endpoints.some((e) => e.id === place?.endpoint) ? place?.endpoint as string : firstJob.endpoint;
+    const endpoint = this.endpoints.some((e) => e.id === place?.endpoint) ? (place?.endpoint as string) : firstJob.endpoint;
     this.state.view = place?.view['view'] === 'before' ? 'before' : 'after';
     this.state.partners = place?.view['partners'] !== 'off';
     this.state.tab = place?.view['tab'] ?? 'proof';
@@ -68,7 +91,7 @@ class Console {
     const own = this.examples.filter((example) => example.endpoint === endpoint);
     const example = own.find((each) => each.name === name) ?? own.find((each) => each.name === firstJob.example) ?? own[0];
     const schema = this.contract.request(path(endpoint));
-    this.begin(endpoint, example?.name, example ? clone(example.body) : this.contract.make(schema ?? {}) as Row, false);
+    this.begin(endpoint, example?.name, example ? clone(example.body) : (this.contract.make(schema ?? {}) as Row), false);
   }
 
   private begin(endpoint: string, example: string | undefined, body: Row, edited: boolean): void {
@@ -142,7 +165,8 @@ class Console {
     const root = byId('solid');
     root.hidden = !picture.solid;
     if (!picture.solid) return;
-    const stage = await (this.stage ??= this.build(root));
+    this.stage ??= this.build(root);
+    const stage = await this.stage;
     if (!stage || picture !== this.picture) return;
     this.drawSwitches(picture);
     stage.show(picture.solid, this.state.view === 'before' && picture.beforeAfter === true, `${endpointName(this.state.endpoint)} in 3D`);
@@ -151,32 +175,79 @@ class Console {
 
   /** The 3D code is large and comes when it is first needed. */
   private async build(root: HTMLElement): Promise<Stage | null> {
-    const canvas = el('div', {'class': 'canvas'});
-    root.replaceChildren(canvas, el('div', {'class': 'switches', 'id': 'switches'}), el('div', {'class': 'scale', 'aria-hidden': 'true'}, 'B −30°', el('i'), '60°'),
-      el('dl', {id: 'readout'}));
+    const canvas = el('div', {class: 'canvas'});
+    root.replaceChildren(
+      canvas,
+      el('div', {class: 'switches', id: 'switches'}),
+      el('div', {class: 'scale', 'aria-hidden': 'true'}, 'B −30°', el('i'), '60°'),
+      el('dl', {id: 'readout'}),
+    );
     try {
       const {Stage: Made} = await import('./scene/stage');
       return new Made(canvas);
     } catch (failure) {
-      canvas.append(el('p', {'class': 'waiting'}, `No 3D here: ${String(failure)}`));
+      canvas.append(el('p', {class: 'waiting'}, `No 3D here: ${String(failure)}`));
       return null;
     }
   }
 
   private drawSwitches(picture: Picture): void {
     const toggle = (text: string, pressed: boolean, act: () => void, id: string) =>
-      el('button', {'type': 'button', 'id': id, 'aria-pressed': String(pressed), 'onclick': () => {
-        act();
-        this.draw();
-        this.remember();
-        byId(id)?.focus();
-      }}, text);
+      el(
+        'button',
+        {
+          type: 'button',
+          id: id,
+          'aria-pressed': String(pressed),
+          onclick: () => {
+            act();
+            this.draw();
+            this.remember();
+            byId(id)?.focus();
+          },
+        },
+        text,
+      );
     const {state} = this;
     byId('switches').replaceChildren(
-      ...(picture.beforeAfter ? [el('span', {'class': 'pair', 'role': 'group', 'aria-label': 'Bevel before or after smoothing'},
-        toggle('Before', state.view === 'before', () => { state.view = 'before'; }, 'view-before'), toggle('After', state.view === 'after', () => { state.view = 'after'; }, 'view-after'))] : []),
-      ...(picture.solid?.partners.length ? [toggle('Partners', state.partners, () => { state.partners = !state.partners; }, 'view-partners')] : []),
-      el('button', {type: 'button', title: 'Back to the first view', onclick: () => void this.stage?.then((stage) => stage?.reset())}, 'Reset view'));
+      ...(picture.beforeAfter
+        ? [
+            el(
+              'span',
+              {class: 'pair', role: 'group', 'aria-label': 'Bevel before or after smoothing'},
+              toggle(
+                'Before',
+                state.view === 'before',
+                () => {
+                  state.view = 'before';
+                },
+                'view-before',
+              ),
+              toggle(
+                'After',
+                state.view === 'after',
+                () => {
+                  state.view = 'after';
+                },
+                'view-after',
+              ),
+            ),
+          ]
+        : []),
+      ...(picture.solid?.partners.length
+        ? [
+            toggle(
+              'Partners',
+              state.partners,
+              () => {
+                state.partners = !state.partners;
+              },
+              'view-partners',
+            ),
+          ]
+        : []),
+      el('button', {type: 'button', title: 'Back to the first view', onclick: () => void this.stage?.then((stage) => stage?.reset())}, 'Reset view'),
+    );
     document.querySelector<HTMLElement>('#solid .scale')?.toggleAttribute('hidden', !picture.solid?.tubes.some((t) => t.b) && !picture.solid?.holed);
   }
 
@@ -190,9 +261,10 @@ class Console {
     const write = (index: number | null) => {
       const root = byId('readout');
       if (!root) return;
-      const rows = index === null ? [] : picture.readout?.(index) ?? [];
+      const rows = index === null ? [] : (picture.readout?.(index) ?? []);
       root.replaceChildren(...rows.flatMap(([name, value]) => [el('div', {}, el('dt', {}, name), el('dd', {}, value))]));
-      if (!rows.length) root.replaceChildren(el('div', {'class': 'soft'}, el('dt', {}, 'Point at a chart or the cut end to read its values; the cursor moves in every view.')));
+      if (!rows.length)
+        root.replaceChildren(el('div', {class: 'soft'}, el('dt', {}, 'Point at a chart or the cut end to read its values; the cursor moves in every view.')));
     };
     this.unlisten = listen(link, write);
     write(null);
@@ -201,7 +273,9 @@ class Console {
   private drawNavigation(): void {
     const rank = (id: string) => (endpointOrder.indexOf(id) + 100) % 100;
     const offered = this.endpoints.filter((e) => this.contract.request(e.path)).sort((a, b) => rank(a.id) - rank(b.id));
-    byId('endpoints').replaceChildren(...offered.map((e) => el('a', {'href': `#/${e.id}`, 'data-endpoint': e.id, 'title': this.contract.summary(e.path)}, endpointName(e.id))));
+    byId('endpoints').replaceChildren(
+      ...offered.map((e) => el('a', {href: `#/${e.id}`, 'data-endpoint': e.id, title: this.contract.summary(e.path)}, endpointName(e.id))),
+    );
   }
 
   private drawPick(): void {
@@ -209,14 +283,17 @@ class Console {
     const own = this.examples.filter((each) => each.endpoint === endpoint);
     byId<HTMLSelectElement>('example').replaceChildren(
       ...(example ? [] : [el('option', {selected: true, value: ''}, 'From a link')]),
-      ...own.map((each) => el('option', {value: each.name, selected: each.name === example}, exampleName(each.name))));
+      ...own.map((each) => el('option', {value: each.name, selected: each.name === example}, exampleName(each.name))),
+    );
     byId('reset').hidden = !edited || example === undefined;
     for (const link of byId('endpoints').querySelectorAll('a')) link.toggleAttribute('aria-current', link.dataset['endpoint'] === endpoint);
     document.title = `${endpointName(endpoint)} – tubecut`;
   }
 
   private drawDetails(): void {
-    const offered = tabs.filter(([id]) => id !== 'motion' || (this.state.endpoint === 'bevel-tables' && this.endpoints.some((e) => e.id === 'pulse-schedules')));
+    const offered = tabs.filter(
+      ([id]) => id !== 'motion' || (this.state.endpoint === 'bevel-tables' && this.endpoints.some((e) => e.id === 'pulse-schedules')),
+    );
     if (!offered.some(([id]) => id === this.state.tab)) this.state.tab = 'proof';
     const choose = (id: string) => {
       this.state.tab = id;
@@ -224,15 +301,30 @@ class Console {
       this.remember();
       byId(`tab-${id}`).focus();
     };
-    const bar = el('div', {'role': 'tablist', 'class': 'tabs', 'aria-label': 'Details'}, ...offered.map(([id, name], i) => el('button', {
-      'type': 'button', 'role': 'tab', 'id': `tab-${id}`, 'aria-selected': String(id === this.state.tab), 'aria-controls': 'panel', 'tabindex': id === this.state.tab ? '0' : '-1',
-      'onclick': () => choose(id),
-      'onkeydown': (event: KeyboardEvent) => {
-        const by = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
-        if (by) choose((offered[(i + by + offered.length) % offered.length] as [string, string])[0]);
-      },
-    }, name)));
-    const panel = el('div', {'role': 'tabpanel', 'id': 'panel', 'aria-labelledby': `tab-${this.state.tab}`});
+    const bar = el(
+      'div',
+      {role: 'tablist', class: 'tabs', 'aria-label': 'Details'},
+      ...offered.map(([id, name], i) =>
+        el(
+          'button',
+          {
+            type: 'button',
+            role: 'tab',
+            id: `tab-${id}`,
+            'aria-selected': String(id === this.state.tab),
+            'aria-controls': 'panel',
+            tabindex: id === this.state.tab ? '0' : '-1',
+            onclick: () => choose(id),
+            onkeydown: (event: KeyboardEvent) => {
+              const by = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+              if (by) choose((offered[(i + by + offered.length) % offered.length] as [string, string])[0]);
+            },
+          },
+          name,
+        ),
+      ),
+    );
+    const panel = el('div', {role: 'tabpanel', id: 'panel', 'aria-labelledby': `tab-${this.state.tab}`});
     byId('details').replaceChildren(bar, panel);
     this.fill(panel);
   }
@@ -241,8 +333,9 @@ class Console {
     const {answer, state, reply} = this;
     const name = state.example ?? state.endpoint;
     if (state.tab === 'json') panel.append(panels.exchange(state.endpoint, state.body, (reply?.answer ?? reply?.problem) as never));
-    else if (!answer) panel.append(el('p', {'class': 'soft'}, 'Nothing yet: the request was refused.'));
-    else if (state.tab === 'proof') panel.append(...(this.picture?.tables?.length ? [el('div', {'class': 'columns'}, ...this.picture.tables.map(panels.table))] : []), panels.proof(answer));
+    else if (!answer) panel.append(el('p', {class: 'soft'}, 'Nothing yet: the request was refused.'));
+    else if (state.tab === 'proof')
+      panel.append(...(this.picture?.tables?.length ? [el('div', {class: 'columns'}, ...this.picture.tables.map(panels.table))] : []), panels.proof(answer));
     else if (state.tab === 'table') panel.append(panels.columns(answer));
     else if (state.tab === 'downloads') panel.append(this.offers(name));
     else if (state.tab === 'motion') void this.fillMotion(panel);
@@ -256,10 +349,26 @@ class Console {
   /** The pulses of this cut on a machine, at a speed: the next job in line, shown without leaving this one. */
   private async fillMotion(panel: HTMLElement): Promise<void> {
     const body = {cut: without(this.state.body), machine: 'five_axis_cutter', motion: {speed: {mm_min: 600}}};
-    panel.append(el('p', {'class': 'soft'}, 'On the five-axis cutter at 600 mm/min. ', el('button', {'type': 'button', 'id': 'open-pulses', 'onclick': () => {
-      this.state.tab = 'proof';
-      this.begin('pulse-schedules', undefined, clone(body) as unknown as Row, true);
-    }}, 'Change machine, speed, lead …')), this.motion.root);
+    panel.append(
+      el(
+        'p',
+        {class: 'soft'},
+        'On the five-axis cutter at 600 mm/min. ',
+        el(
+          'button',
+          {
+            type: 'button',
+            id: 'open-pulses',
+            onclick: () => {
+              this.state.tab = 'proof';
+              this.begin('pulse-schedules', undefined, clone(body) as unknown as Row, true);
+            },
+          },
+          'Change machine, speed, lead …',
+        ),
+      ),
+      this.motion.root,
+    );
     const key = JSON.stringify(body);
     if (this.motion.of === key) return;
     this.motion.of = key;
@@ -268,12 +377,12 @@ class Console {
     if (this.motion.of !== key) return;
     this.motion.root.querySelectorAll('.extra').forEach((node) => node.remove());
     this.motion.board.show(reply.answer ? scheduleCharts(reply.answer.result, this.context.machines.get(body.machine)) : []);
-    const extra = el('div', {'class': 'extra'});
+    const extra = el('div', {class: 'extra'});
     if (reply.answer) {
       const facts = motionFacts(reply.answer.result);
-      const figures = el('div', {'class': 'figures'});
+      const figures = el('div', {class: 'figures'});
       panels.figures(figures, {charts: [], ...facts});
-      extra.append(figures, el('div', {'class': 'columns'}, ...(facts.tables ?? []).map(panels.table)));
+      extra.append(figures, el('div', {class: 'columns'}, ...(facts.tables ?? []).map(panels.table)));
     } else panels.verdict(extra, undefined, reply.problem, 0, (pointer) => this.form.focus(pointer.replace(/^\/cut/, '')));
     this.motion.root.append(extra);
   }
@@ -289,10 +398,11 @@ class Console {
     const shown = {...(view === 'before' ? {view} : {}), ...(partners ? {} : {partners: 'off'}), ...(tab === 'proof' ? {} : {tab})};
     const was = location.hash;
     const hash = await address.written({endpoint, view: shown, ...(edited || !example ? {body} : {example})});
-    if (location.hash !== was) return;  // somebody went elsewhere meanwhile
+    if (location.hash !== was) return; // somebody went elsewhere meanwhile
     this.written = hash;
     if (location.hash === hash) return;
-    const before = location.hash.split(/[~?]/)[0], now = hash.split(/[~?]/)[0];
+    const before = location.hash.split(/[~?]/)[0],
+      now = hash.split(/[~?]/)[0];
     // Another job is a step to go back to; a change of this one is not.
     history[before === now || edited ? 'replaceState' : 'pushState'](null, '', hash);
   }
@@ -302,7 +412,9 @@ class Console {
     const done = await panels.copied(location.href);
     const button = byId('share');
     button.textContent = done ? 'Link copied' : 'Copy the address';
-    setTimeout(() => { button.textContent = 'Copy link'; }, 1500);
+    setTimeout(() => {
+      button.textContent = 'Copy link';
+    }, 1500);
   }
 
   recolour(): void {
@@ -323,7 +435,9 @@ function themed(page: () => Console | undefined): void {
     let chosen: string | null = null;
     try {
       chosen = localStorage.getItem('theme');
-    } catch { /* no storage: the system's */ }
+    } catch {
+      /* no storage: the system's */
+    }
     const dark = chosen ? chosen === 'dark' : system.matches;
     document.documentElement.dataset['theme'] = dark ? 'dark' : 'light';
     button.textContent = dark ? 'Light' : 'Dark';
@@ -333,7 +447,9 @@ function themed(page: () => Console | undefined): void {
   button.addEventListener('click', () => {
     try {
       localStorage.setItem('theme', document.documentElement.dataset['theme'] === 'dark' ? 'light' : 'dark');
-    } catch { /* not remembered */ }
+    } catch {
+      /* not remembered */
+    }
     apply();
   });
   system.addEventListener('change', apply);
@@ -345,14 +461,16 @@ async function begin(): Promise<void> {
   themed(() => page);
   try {
     const [contract, examples, version, machines, tubes] = await Promise.all([
-      fetched<ConstructorParameters<typeof Contract>[0]>('/openapi.json'), fetched<{examples: Example[]}>('/v1/examples'),
-      fetched<{endpoints: Endpoint[]}>('/v1/version'), fetched<{machines: {name: string; machine: Row}[]}>('/v1/machines'),
+      fetched<ConstructorParameters<typeof Contract>[0]>('/openapi.json'),
+      fetched<{examples: Example[]}>('/v1/examples'),
+      fetched<{endpoints: Endpoint[]}>('/v1/version'),
+      fetched<{machines: {name: string; machine: Row}[]}>('/v1/machines'),
       fetched<{tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[]}>('/v1/tubes'),
     ]);
     page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes.tubes);
     await page.arrive();
   } catch (failure) {
-    byId('verdict').replaceChildren(el('div', {'class': 'verdict bad'}, el('p', {}, `The console could not start: ${String(failure)}`)));
+    byId('verdict').replaceChildren(el('div', {class: 'verdict bad'}, el('p', {}, `The console could not start: ${String(failure)}`)));
   }
 }
 

@@ -1,16 +1,50 @@
 /** How wire names read on the page: `max_slope_deg_per_mm` is "max slope" in "°/mm". */
 const units: [string, string][] = [
-  ['_deg_per_mm2', '°/mm²'], ['_deg_per_mm', '°/mm'], ['_rad_per_mm', 'rad/mm'], ['_per_hour', '1/h'],
-  ['_rev_min', '1/min'], ['_mm_min', 'mm/min'], ['_m_min', 'm/min'], ['_mm_s3', 'mm/s³'], ['_mm_s2', 'mm/s²'],
-  ['_mm_s', 'mm/s'], ['_mm3_s', 'mm³/s'], ['_mm3', 'mm³'], ['_mm2', 'mm²'], ['_mm', 'mm'], ['_deg', '°'], ['_rad', 'rad'],
-  ['_ms', 'ms'], ['_us', 'µs'], ['_um', 'µm'], ['_kg', 'kg'], ['_pulses', 'pulses'], ['_s', 's'],
+  ['_deg_per_mm2', '°/mm²'],
+  ['_deg_per_mm', '°/mm'],
+  ['_rad_per_mm', 'rad/mm'],
+  ['_per_hour', '1/h'],
+  ['_rev_min', '1/min'],
+  ['_mm_min', 'mm/min'],
+  ['_m_min', 'm/min'],
+  ['_mm_s3', 'mm/s³'],
+  ['_mm_s2', 'mm/s²'],
+  ['_mm_s', 'mm/s'],
+  ['_mm3_s', 'mm³/s'],
+  ['_mm3', 'mm³'],
+  ['_mm2', 'mm²'],
+  ['_mm', 'mm'],
+  ['_deg', '°'],
+  ['_rad', 'rad'],
+  ['_ms', 'ms'],
+  ['_us', 'µs'],
+  ['_um', 'µm'],
+  ['_kg', 'kg'],
+  ['_pulses', 'pulses'],
+  ['_s', 's'],
 ];
 const words: Record<string, string> = {
-  outer_diameter: 'outer Ø', id: 'name', cap: 'groove cap', mm_min: 'speed', b: 'B', b_raw: 'B raw', b_required: 'B required',
-  eps_b: 'B tolerance', eps_tip: 'tip tolerance', weld: 'weld length', long: 'long side', short: 'short side',
+  outer_diameter: 'outer Ø',
+  id: 'name',
+  cap: 'groove cap',
+  mm_min: 'speed',
+  b: 'B',
+  b_raw: 'B raw',
+  b_required: 'B required',
+  eps_b: 'B tolerance',
+  eps_tip: 'tip tolerance',
+  weld: 'weld length',
+  long: 'long side',
+  short: 'short side',
 };
 const short: Record<string, string> = {
-  outer_diameter: 'Ø', inclination: 'incl.', clocking: 'clock', offset: 'offset', height: 'height', id: 'name', wall: 'wall',
+  outer_diameter: 'Ø',
+  inclination: 'incl.',
+  clocking: 'clock',
+  offset: 'offset',
+  height: 'height',
+  id: 'name',
+  wall: 'wall',
 };
 
 export function unit(name: string): string {
@@ -30,8 +64,16 @@ export const brief = (name: string) => short[stem(name)] ?? label(name);
 export const spelled = (text: string) => unit(`_${text}`) || (text === 'deg' ? '°' : text);
 
 export const endpointNames: Record<string, string> = {
-  'bevel-tables': 'Cut and bevel', 'intersections': 'Intersection', 'nodes': 'Node', 'holes': 'Hole', 'parts': 'Part',
-  'pulse-schedules': 'Pulses', 'replays': 'Replay', 'feed-curves': 'Feed curve', 'grooves': 'Groove', 'mill-paths': 'Mill path',
+  'bevel-tables': 'Cut and bevel',
+  intersections: 'Intersection',
+  nodes: 'Node',
+  holes: 'Hole',
+  parts: 'Part',
+  'pulse-schedules': 'Pulses',
+  replays: 'Replay',
+  'feed-curves': 'Feed curve',
+  grooves: 'Groove',
+  'mill-paths': 'Mill path',
 };
 export const endpointOrder = Object.keys(endpointNames);
 export const endpointName = (id: string) => endpointNames[id] ?? sentence(id.replace(/-/g, ' '));
@@ -39,7 +81,11 @@ export const endpointName = (id: string) => endpointNames[id] ?? sentence(id.rep
 export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
 const kept: [RegExp, string][] = [
-  [/^case ([a-z]) /, 'case $1: '],  [/^source (\d+) /, 'Source $1: '], [/(\d+) mm min/g, '$1 mm/min'], [/(\d+) deg\b/g, '$1°'], [/(as printed|as published|as solved)/, '($1)'],
+  [/^case ([a-z]) /, 'case $1: '],
+  [/^source (\d+) /, 'Source $1: '],
+  [/(\d+) mm min/g, '$1 mm/min'],
+  [/(\d+) deg\b/g, '$1°'],
+  [/(as printed|as published|as solved)/, '($1)'],
 ];
 export function exampleName(name: string): string {
   return sentence(kept.reduce((text, [from, to]) => text.replace(from, to), name.replace(/-/g, ' ')));

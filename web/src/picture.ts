@@ -12,19 +12,38 @@ export interface Picture {
   beforeAfter?: boolean;
 }
 
-export interface Figure {name: string; value: string; unit?: string}
-export interface Table {title: string; head: string[]; rows: string[][]; id?: string}
+export interface Figure {
+  name: string;
+  value: string;
+  unit?: string;
+}
+export interface Table {
+  title: string;
+  head: string[];
+  rows: string[][];
+  id?: string;
+}
 
 export interface Series {
   name: string;
   values: (number | null)[];
-  tone: string;  // a colour of the style sheet
+  tone: string; // a colour of the style sheet
   dash?: number[];
   width?: number;
   dots?: boolean;
 }
-export interface Band {from: number; to: number; tone: string; text: string}
-export interface Mark {x: number; y?: number; tone: string; text: string}
+export interface Band {
+  from: number;
+  to: number;
+  tone: string;
+  text: string;
+}
+export interface Mark {
+  x: number;
+  y?: number;
+  tone: string;
+  text: string;
+}
 
 /** Charts of one `link` share their points: the cursor is an index into them. */
 export interface Chart {
@@ -43,16 +62,21 @@ export interface Chart {
   partnerNames?: string[];
   /** Millimetre for millimetre, kept side filled: the wrap. */
   wrap?: {lines: {x: number; text: string}[]};
-  zero?: boolean;  // the axis shows zero
+  zero?: boolean; // the axis shows zero
 }
 
 export type Vector = [number, number, number];
-export interface Frame {origin: Vector; x: Vector; y: Vector; z: Vector}
+export interface Frame {
+  origin: Vector;
+  x: Vector;
+  y: Vector;
+  z: Vector;
+}
 
 /** One cut end, in its own frame: z along the axis into the kept member, phi from x towards y. Degrees, mm. */
 export interface CutTube {
   frame?: Frame;
-  outer: number;  // radii
+  outer: number; // radii
   inner: number;
   phi: number[];
   zInner: number[];
@@ -76,7 +100,11 @@ export type Partner =
   | {kind: 'box'; point: Vector; direction: Vector; up: Vector; width: number; height: number; corner: number; half: number; tone: number}
   | {kind: 'elbow'; point: Vector; direction: Vector; inwards: Vector; radius: number; bend: number; angle: number; half: number; tone: number}
   | {kind: 'plane'; point: Vector; normal: Vector; half: number; tone: number};
-export interface Ribbon {a: Vector[]; b: Vector[]; tone: string}
+export interface Ribbon {
+  a: Vector[];
+  b: Vector[];
+  tone: string;
+}
 export interface Solid {
   link: string;
   tubes: CutTube[];
@@ -92,4 +120,4 @@ export interface Solid {
 }
 
 /** Columns of the answer as numbers. */
-export const column = (value: Json | undefined): number[] => (Array.isArray(value) ? value as number[] : []);
+export const column = (value: Json | undefined): number[] => (Array.isArray(value) ? (value as number[]) : []);

@@ -2,33 +2,89 @@ import {isRow, type Json, type Row} from './json';
 import {label} from './names';
 
 /** A format of an answer, its drawings (the first is the default) and the query parameters it reads. */
-export interface Format {media: string; views: string[]; options: {name: string; description: string; schema: Schema}[]}
+export interface Format {
+  media: string;
+  views: string[];
+  options: {name: string; description: string; schema: Schema}[];
+}
 
 export interface Schema {
-  $ref?: string; type?: string; const?: Json; enum?: Json[]; default?: Json; description?: string; title?: string;
-  minimum?: number; maximum?: number; exclusiveMinimum?: number; exclusiveMaximum?: number;
-  minItems?: number; maxItems?: number; items?: Schema; oneOf?: Schema[]; required?: string[];
-  properties?: Record<string, Schema>; additionalProperties?: boolean | Schema;
+  $ref?: string;
+  type?: string;
+  const?: Json;
+  enum?: Json[];
+  default?: Json;
+  description?: string;
+  title?: string;
+  minimum?: number;
+  maximum?: number;
+  exclusiveMinimum?: number;
+  exclusiveMaximum?: number;
+  minItems?: number;
+  maxItems?: number;
+  items?: Schema;
+  oneOf?: Schema[];
+  required?: string[];
+  properties?: Record<string, Schema>;
+  additionalProperties?: boolean | Schema;
 }
 interface Document {
   info: {version: string};
-  paths: Record<string, {post?: {
-    summary: string; description?: string;
-    requestBody: {content: Record<string, {schema: Schema}>};
-    parameters?: {$ref: string}[];
-    responses: Record<string, {content: Record<string, {'x-views'?: string[]; 'x-options'?: string[]}>}>;
-  }}>;
+  paths: Record<
+    string,
+    {
+      post?: {
+        summary: string;
+        description?: string;
+        requestBody: {content: Record<string, {schema: Schema}>};
+        parameters?: {$ref: string}[];
+        responses: Record<string, {content: Record<string, {'x-views'?: string[]; 'x-options'?: string[]}>}>;
+      };
+    }
+  >;
   components: {schemas: Record<string, Schema>; parameters: Record<string, {name: string; description?: string; schema: Schema}>};
 }
 
 // What a new field starts with, where the contract leaves it open: a joint that can be computed.
 const beginnings: Record<string, Json> = {
-  outer_diameter_mm: 60, wall_mm: 4, inclination_deg: 60, size: 'CHS 60.3x4', point_mm: [0, 0, 0], direction: [1, 0, 0],
-  normal: [0, 0, 1], up: [0, 1, 0], inwards: [0, 1, 0], width_mm: 80, height_mm: 80, corner_radius_mm: 8, half_angle_deg: 15,
-  bend_radius_mm: 120, bend_deg: 90, start_mm: [0, 0, 0], end_mm: [0, 0, 1000], within_mm: 50, kerf_mm: 1.5, angle_deg: 30,
-  max_slope_deg_per_mm: 5, max_curvature_deg_per_mm2: 1, speed_mm_min: 600, mm_min: 600, machine: 'five_axis_cutter',
-  uniform_points: 360, tolerance_mm: 0.05, min_deg: -80, max_deg: 80, transition_points: 15, gap_mm: 2, bevel_deg: 45, area_mm2: 120,
-  dihedral_deg: [90, 180], groove_deg: [45, 45], degree: 2, period_s: 0.002, id: 'new',
+  outer_diameter_mm: 60,
+  wall_mm: 4,
+  inclination_deg: 60,
+  size: 'CHS 60.3x4',
+  point_mm: [0, 0, 0],
+  direction: [1, 0, 0],
+  normal: [0, 0, 1],
+  up: [0, 1, 0],
+  inwards: [0, 1, 0],
+  width_mm: 80,
+  height_mm: 80,
+  corner_radius_mm: 8,
+  half_angle_deg: 15,
+  bend_radius_mm: 120,
+  bend_deg: 90,
+  start_mm: [0, 0, 0],
+  end_mm: [0, 0, 1000],
+  within_mm: 50,
+  kerf_mm: 1.5,
+  angle_deg: 30,
+  max_slope_deg_per_mm: 5,
+  max_curvature_deg_per_mm2: 1,
+  speed_mm_min: 600,
+  mm_min: 600,
+  machine: 'five_axis_cutter',
+  uniform_points: 360,
+  tolerance_mm: 0.05,
+  min_deg: -80,
+  max_deg: 80,
+  transition_points: 15,
+  gap_mm: 2,
+  bevel_deg: 45,
+  area_mm2: 120,
+  dihedral_deg: [90, 180],
+  groove_deg: [45, 45],
+  degree: 2,
+  period_s: 0.002,
+  id: 'new',
 };
 
 /** The service's own description of itself: forms and downloads are drawn from it, not from a list here. */
@@ -44,7 +100,8 @@ export class Contract {
   formats(path: string): Format[] {
     const post = this.document.paths[path]?.post;
     return Object.entries(post?.responses['200']?.content ?? {}).map(([media, about]) => ({
-      media, views: about['x-views'] ?? [],
+      media,
+      views: about['x-views'] ?? [],
       options: (about['x-options'] ?? []).flatMap((name) => {
         const found = this.document.components.parameters[name];
         return found ? [{name: found.name, description: found.description ?? '', schema: this.resolve(found.schema)}] : [];
@@ -53,7 +110,7 @@ export class Contract {
   }
 
   resolve(schema: Schema | boolean): Schema {
-    if (typeof schema === 'boolean') return {};  // anything
+    if (typeof schema === 'boolean') return {}; // anything
     if (!schema.$ref) return schema;
     const {$ref, ...beside} = schema;
     return {...this.resolve(this.document.components.schemas[$ref.split('/').pop() as string] ?? {}), ...beside};
@@ -100,7 +157,7 @@ export class Contract {
     if (branch.title) return branch.title;
     if ('const' in branch) return String(branch.const);
     if (branch.enum) return branch.enum.join(' / ');
-    if (!branch.properties) return branch.type === 'null' ? 'none' : branch.type ?? 'value';
+    if (!branch.properties) return branch.type === 'null' ? 'none' : (branch.type ?? 'value');
     const kind = this.kind(branch);
     const like = branches.filter((other) => other.properties && this.kind(other) === kind);
     const alike = like.length === branches.length;
@@ -129,7 +186,7 @@ export class Contract {
     if ('const' in schema) return schema.const as Json;
     const branches = this.branches(schema);
     if (branches.length > 0 && !schema.properties) return this.make(branches[0] as Schema, old, name);
-    if (schema.enum) return (old !== undefined && schema.enum.includes(old) ? old : schema.default ?? schema.enum[0]) as Json;
+    if (schema.enum) return (old !== undefined && schema.enum.includes(old) ? old : (schema.default ?? schema.enum[0])) as Json;
     if (schema.properties) return this.makeRow(schema, isRow(old) ? old : {});
     if (old !== undefined && typeof old === (schema.type === 'integer' ? 'number' : schema.type)) return old;
     if (name in beginnings) return beginnings[name] as Json;
@@ -139,7 +196,7 @@ export class Contract {
     if (schema.default !== undefined) return schema.default;
     if (schema.type === 'null') return null;
     if (schema.type === 'boolean') return false;
-    return schema.type === 'string' ? '' : schema.minimum ?? 1;
+    return schema.type === 'string' ? '' : (schema.minimum ?? 1);
   }
 
   private makeRow(schema: Schema, old: Row): Row {

@@ -1,9 +1,34 @@
 import type {Json, Row} from './json';
 
-export interface Issue {code: string; pointer: string; got: Json; limit: Json; unit: string; hint: string}
-export interface Problem {code: string; title: string; status: number; detail?: string; action?: string; request_id?: string; errors?: Issue[]}
-export interface Check {name: string; value: number; limit: number; unit: string}
-export interface Warning {code: string; severity: 'cut' | 'note'; pointer: string; detail: string}
+export interface Issue {
+  code: string;
+  pointer: string;
+  got: Json;
+  limit: Json;
+  unit: string;
+  hint: string;
+}
+export interface Problem {
+  code: string;
+  title: string;
+  status: number;
+  detail?: string;
+  action?: string;
+  request_id?: string;
+  errors?: Issue[];
+}
+export interface Check {
+  name: string;
+  value: number;
+  limit: number;
+  unit: string;
+}
+export interface Warning {
+  code: string;
+  severity: 'cut' | 'note';
+  pointer: string;
+  detail: string;
+}
 export interface Answer {
   job: Row & {id: string; endpoint: string; engine: string; input_sha256: string; result_sha256: string};
   request: Row;
@@ -12,25 +37,39 @@ export interface Answer {
   verdict: {status: 'ok' | 'review' | 'reject'; reasons: string[]};
   warnings: Warning[];
 }
-export interface Example {endpoint: string; name: string; body: Row}
-export interface Endpoint {id: string; path: string; formats: string[]}
+export interface Example {
+  endpoint: string;
+  name: string;
+  body: Row;
+}
+export interface Endpoint {
+  id: string;
+  path: string;
+  formats: string[];
+}
 
 /** What the service said, either way, and how long it took. */
-export interface Reply {answer?: Answer; problem?: Problem; milliseconds: number}
+export interface Reply {
+  answer?: Answer;
+  problem?: Problem;
+  milliseconds: number;
+}
 
 export const path = (endpoint: string) => `/v1/${endpoint}`;
 
 export async function fetched<T>(address: string): Promise<T> {
   const reply = await fetch(address);
   if (!reply.ok) throw new Error(`${address} answered ${reply.status}`);
-  return await reply.json() as T;
+  return (await reply.json()) as T;
 }
 
 export async function ask(endpoint: string, body: Json, signal?: AbortSignal): Promise<Reply> {
   const start = performance.now();
   const reply = await fetch(path(endpoint), {
-    method: 'POST', signal: signal ?? null, body: JSON.stringify(body),
-    headers: {'Content-Type': 'application/json', 'Accept': 'application/json'},
+    method: 'POST',
+    signal: signal ?? null,
+    body: JSON.stringify(body),
+    headers: {'Content-Type': 'application/json', Accept: 'application/json'},
   });
   const text = await reply.text();
   const milliseconds = performance.now() - start;
@@ -38,7 +77,8 @@ export async function ask(endpoint: string, body: Json, signal?: AbortSignal): P
     const json = JSON.parse(text) as Json;
     if (reply.ok) return {answer: json as unknown as Answer, milliseconds};
     return {problem: json as unknown as Problem, milliseconds};
-  } catch {  // a proxy's page, say
+  } catch {
+    // a proxy's page, say
     return {problem: {code: 'unreadable_answer', title: `The answer (status ${reply.status}) is no JSON.`, status: reply.status}, milliseconds};
   }
 }

@@ -12,5 +12,4 @@ export interface Context {
 export type Draw = (body: Row, answer: Answer, context: Context) => Promise<import('../picture').Picture>;
 
 export const common = new Set(['reference', 'log', 'numerics', 'accept']);
-export const without = (body: Row, names = common): Row =>
-  Object.fromEntries(Object.entries(body).filter(([key]) => !names.has(key)));
+export const without = (body: Row, names = common): Row => Object.fromEntries(Object.entries(body).filter(([key]) => !names.has(key)));

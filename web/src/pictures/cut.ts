@@ -5,7 +5,12 @@ import type {Answer} from '../service';
 import type {Context} from './context';
 import {bounds, partner, radians, tube, type Sizes} from './geometry';
 
-interface Joint {outer: number; wall: number; cutters: Row[]; names: string[]}
+interface Joint {
+  outer: number;
+  wall: number;
+  cutters: Row[];
+  names: string[];
+}
 
 /** Target and cutters in the target's frame; those of a node come from where the service places them. */
 export async function joint(request: Row, context: Context): Promise<Joint> {
@@ -21,10 +26,20 @@ export async function joint(request: Row, context: Context): Promise<Joint> {
   const answer = await context.ask('nodes', {members, connect: node['connect'] as Json});
   const ends = (answer?.result['ends'] ?? []) as Row[];
   const end = ends.find((each) => each['member'] === node['member'] && each['end'] === node['end']);
-  const cutters = ((end?.['cut_by'] ?? []) as Row[]).map((cut): Row => isRow(cut['plane'])  // of a mitre
-    ? {kind: 'plane', id: cut['member'] as Json, ...cut['plane']}
-    : {kind: 'tube', id: cut['member'] as Json, outer_diameter_mm: tube(members.find((m) => m['id'] === cut['member']), context.sizes).outer,
-      ...(cut['placement'] as Row)});
+  const cutters = ((end?.['cut_by'] ?? []) as Row[]).map(
+    (cut): Row =>
+      isRow(cut['plane']) // of a mitre
+        ? {kind: 'plane', id: cut['member'] as Json, ...cut['plane']}
+        : {
+            kind: 'tube',
+            id: cut['member'] as Json,
+            outer_diameter_mm: tube(
+              members.find((m) => m['id'] === cut['member']),
+              context.sizes,
+            ).outer,
+            ...(cut['placement'] as Row),
+          },
+  );
   return {outer, wall, cutters, names: cutters.map((each) => String(each['id']))};
 }
 
@@ -36,35 +51,59 @@ export async function bevelTable(_: Row, answer: Answer, context: Context): Prom
 export function tablePicture(request: Row, result: Row, given: Joint, sizes: Sizes, link: string): Picture {
   const points = result['points'] as Row;
   const cut = cutOf(request, result, given);
-  const phi = column(points['phi_deg']), developed = column(points['developed_mm']), partners = column(points['cutter']);
-  const b = column(points['b_deg']), raw = column(points['b_raw_deg']), required = column(points['b_required_deg']);
+  const phi = column(points['phi_deg']),
+    developed = column(points['developed_mm']),
+    partners = column(points['cutter']);
+  const b = column(points['b_deg']),
+    raw = column(points['b_raw_deg']),
+    required = column(points['b_required_deg']);
   const whole = Number(result['developed_length_mm']);
-  const along = (angle: number) => whole * angle / 360;
+  const along = (angle: number) => (whole * angle) / 360;
   const torch = isRow(request['torch']) ? request['torch'] : {};
   const z = (name: string) => column(points[name]);
   const events = onRoot(request, result);
   const shared = {link, partners, partnerNames: given.names};
   const charts: Chart[] = [
     {
-      ...shared, id: 'bevel', title: 'Cutting angle B', unit: '°', x: {name: 'developed length', unit: 'mm', values: developed}, height: 205,
+      ...shared,
+      id: 'bevel',
+      title: 'Cutting angle B',
+      unit: '°',
+      x: {name: 'developed length', unit: 'mm', values: developed},
+      height: 205,
       series: [
         {name: 'before', values: raw, tone: 'before', dash: [5, 4]},
         {name: 'least that clears', values: required, tone: 'floor', width: 1},
         {name: 'after', values: b, tone: 'after', width: 2.2},
       ],
-      bands: bandsOf(result, along), marks: mutationsOf(result, along, phi, raw),
-      limits: [{y: Number(torch['min_deg'] ?? NaN), text: 'torch'}, {y: Number(torch['max_deg'] ?? NaN), text: 'torch'}].filter((l) => Number.isFinite(l.y)),
+      bands: bandsOf(result, along),
+      marks: mutationsOf(result, along, phi, raw),
+      limits: [
+        {y: Number(torch['min_deg'] ?? NaN), text: 'torch'},
+        {y: Number(torch['max_deg'] ?? NaN), text: 'torch'},
+      ].filter((l) => Number.isFinite(l.y)),
     },
     {
-      ...shared, id: 'height', title: 'Height z of the cut', unit: 'mm', x: {name: 'φ', unit: '°', values: phi}, height: 150,
-      series: [{name: 'outer edge', values: z('z_outer_mm'), tone: 'outer', width: 2}, {name: 'inner edge', values: z('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]}],
+      ...shared,
+      id: 'height',
+      title: 'Height z of the cut',
+      unit: 'mm',
+      x: {name: 'φ', unit: '°', values: phi},
+      height: 150,
+      series: [
+        {name: 'outer edge', values: z('z_outer_mm'), tone: 'outer', width: 2},
+        {name: 'inner edge', values: z('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]},
+      ],
       marks: events.map((event) => ({x: Number(event['phi_deg']), tone: 'mark', text: 'junction'})),
     },
     wrapChart(phi, z('z_outer_mm'), z('z_inner_mm'), partners, given.outer / 2, link, given.names),
   ];
   return {
-    solid: solidOf(cut, given, sizes, link), charts, beforeAfter: true,
-    figures: figuresOf(result, events.length, b, raw), tables: tablesOf(result, given.names),
+    solid: solidOf(cut, given, sizes, link),
+    charts,
+    beforeAfter: true,
+    figures: figuresOf(result, events.length, b, raw),
+    tables: tablesOf(result, given.names),
     readout: (i) => readout(points, given.names, i),
   };
 }
@@ -72,9 +111,17 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
 export function wrapChart(phi: number[], outer: number[], inner: number[], partners: number[], radius: number, link: string, names: string[]): Chart {
   const scale = radius * radians;
   return {
-    id: 'wrap', title: 'Wrap', link, unit: 'mm', partners, partnerNames: names,
+    id: 'wrap',
+    title: 'Wrap',
+    link,
+    unit: 'mm',
+    partners,
+    partnerNames: names,
     x: {name: 'the outside, mm for mm', unit: 'mm', values: phi.map((p) => p * scale)},
-    series: [{name: 'outside', values: outer, tone: 'outer', width: 2}, {name: 'inside', values: inner, tone: 'inner', width: 1, dash: [4, 3]}],
+    series: [
+      {name: 'outside', values: outer, tone: 'outer', width: 2},
+      {name: 'inside', values: inner, tone: 'inner', width: 1, dash: [4, 3]},
+    ],
     wrap: {lines: [0, 90, 180, 270, 360].map((p) => ({x: p * scale, text: p === 360 ? '' : p === 0 ? 'φ 0° seam' : `${p}°`}))},
   };
 }
@@ -82,28 +129,37 @@ export function wrapChart(phi: number[], outer: number[], inner: number[], partn
 /** The end before smoothing keeps its root edge; the other edge follows from B: z_outer = z_inner + t tan B (or its mirror). */
 function cutOf(request: Row, result: Row, given: Joint): CutTube {
   const points = result['points'] as Row;
-  const zInner = column(points['z_inner_mm']), zOuter = column(points['z_outer_mm']);
-  const b = column(points['b_deg']), raw = column(points['b_raw_deg']);
+  const zInner = column(points['z_inner_mm']),
+    zOuter = column(points['z_outer_mm']);
+  const b = column(points['b_deg']),
+    raw = column(points['b_raw_deg']);
   const sign = result['b_sign'] === 'inward' ? -1 : 1;
   const shift = b.map((angle, i) => sign * given.wall * (Math.tan(angle * radians) - Math.tan((raw[i] as number) * radians)));
   const atInner = request['root_surface'] === 'inner';
   return {
-    outer: given.outer / 2, inner: given.outer / 2 - given.wall, phi: column(points['phi_deg']), zInner, zOuter, b,
+    outer: given.outer / 2,
+    inner: given.outer / 2 - given.wall,
+    phi: column(points['phi_deg']),
+    zInner,
+    zOuter,
+    b,
     before: {
       b: raw,
       zInner: atInner ? zInner : zInner.map((z, i) => z + (shift[i] as number)),
       zOuter: atInner ? zOuter.map((z, i) => z - (shift[i] as number)) : zOuter,
     },
-    far: farEnd(zInner, zOuter, given.outer), tone: 'target',
+    far: farEnd(zInner, zOuter, given.outer),
+    tone: 'target',
     marks: onRoot(request, result).map((event) => ({
-      phi: Number(event['phi_deg']), z: Number(event['z_from_mm']), radius: event['surface'] === 'inner' ? given.outer / 2 - given.wall : given.outer / 2,
+      phi: Number(event['phi_deg']),
+      z: Number(event['z_from_mm']),
+      radius: event['surface'] === 'inner' ? given.outer / 2 - given.wall : given.outer / 2,
     })),
   };
 }
 
 /** The other wall's junctions lie on its own curve, which the bevel may leave behind. */
-const onRoot = (request: Row, result: Row) =>
-  ((result['events'] ?? []) as Row[]).filter((event) => event['surface'] === request['root_surface']);
+const onRoot = (request: Row, result: Row) => ((result['events'] ?? []) as Row[]).filter((event) => event['surface'] === request['root_surface']);
 
 export const farEnd = (zInner: number[], zOuter: number[], diameter: number) => bounds([...zInner, ...zOuter])[1] + 0.9 * diameter;
 
@@ -112,19 +168,24 @@ export function solidOf(cut: CutTube, given: Joint, sizes: Sizes, link: string):
   const middle = (low + high) / 2;
   const reach = Math.max(1.3 * given.outer, high - low);
   return {
-    link, tubes: [cut], partners: given.cutters.map((row, i) => partner(row, i, [0, 0, middle], reach, sizes)),
-    centre: [0, 0, middle + 0.2 * given.outer], size: Math.max(1.35 * given.outer, 0.8 * (high - low + given.outer)),
-    eye: [0.95, -0.75, -0.95], up: [0, 0, -1],
+    link,
+    tubes: [cut],
+    partners: given.cutters.map((row, i) => partner(row, i, [0, 0, middle], reach, sizes)),
+    centre: [0, 0, middle + 0.2 * given.outer],
+    size: Math.max(1.35 * given.outer, 0.8 * (high - low + given.outer)),
+    eye: [0.95, -0.75, -0.95],
+    up: [0, 0, -1],
   };
 }
 
 function bandsOf(result: Row, along: (phi: number) => number): Band[] {
   const bands: Band[] = [];
   const span = (row: Row, tone: string, text: string) => {
-    const from = along(Number(row['from_phi_deg'])), to = along(Number(row['to_phi_deg']));
+    const from = along(Number(row['from_phi_deg'])),
+      to = along(Number(row['to_phi_deg']));
     if (to > along(360)) bands.push({from, to: along(360), tone, text}, {from: 0, to: to - along(360), tone, text});
     else if (from <= to) bands.push({from, to, tone, text});
-    else bands.push({from, to: along(360), tone, text}, {from: 0, to, tone, text});  // across the seam
+    else bands.push({from, to: along(360), tone, text}, {from: 0, to, tone, text}); // across the seam
   };
   for (const row of (result['windows'] ?? []) as Row[]) span(row, 'window', 'smoothed window');
   for (const row of (result['torch_binds'] ?? []) as Row[]) span(row, 'bad', 'torch range binds');
@@ -143,7 +204,8 @@ function figuresOf(result: Row, junctions: number, b: number[], raw: number[]): 
   const [low, high] = bounds(b);
   const extra = b.reduce((most, angle, i) => Math.max(most, Math.abs(angle - (raw[i] as number))), 0);
   return [
-    {name: 'B from', value: short4(low), unit: '°'}, {name: 'to', value: short4(high), unit: '°'},
+    {name: 'B from', value: short4(low), unit: '°'},
+    {name: 'to', value: short4(high), unit: '°'},
     {name: 'smoothing moved B by at most', value: short4(extra), unit: '°'},
     {name: 'mutations', value: String(((result['mutations'] ?? []) as Row[]).length)},
     {name: 'junctions', value: String(junctions)},
@@ -164,55 +226,103 @@ function tablesOf(result: Row, names: string[]): Picture['tables'] {
 
 export function eventTable(events: Row[], names: string[]) {
   const name = (value: Json | undefined) => names[Number(value)] ?? String(value);
-  return {title: 'Junctions', head: ['kind', 'wall', 'φ °', 'z mm', 'from', 'to'], rows: events.map((row) => [
-    String(row['kind']), String(row['surface']), short4(Number(row['phi_deg'])), short4(Number(row['z_from_mm'])), name(row['from']), name(row['to'])])};
+  return {
+    title: 'Junctions',
+    head: ['kind', 'wall', 'φ °', 'z mm', 'from', 'to'],
+    rows: events.map((row) => [
+      String(row['kind']),
+      String(row['surface']),
+      short4(Number(row['phi_deg'])),
+      short4(Number(row['z_from_mm'])),
+      name(row['from']),
+      name(row['to']),
+    ]),
+  };
 }
 
 function readout(points: Row, names: string[], i: number): [string, string][] {
   const value = (name: string) => short4(column(points[name])[i] as number);
   return [
-    ['φ', `${value('phi_deg')}°`], ['L', `${value('developed_mm')} mm`], ['partner', names[column(points['cutter'])[i] as number] ?? ''],
-    ['B before', `${value('b_raw_deg')}°`], ['B after', `${value('b_deg')}°`], ['dihedral', `${value('dihedral_deg')}°`],
-    ['z outer', `${value('z_outer_mm')} mm`], ['z inner', `${value('z_inner_mm')} mm`], ['root gap', `${value('gap_mm')} mm`], ['metal in beam', `${value('beam_mm')} mm`],
+    ['φ', `${value('phi_deg')}°`],
+    ['L', `${value('developed_mm')} mm`],
+    ['partner', names[column(points['cutter'])[i] as number] ?? ''],
+    ['B before', `${value('b_raw_deg')}°`],
+    ['B after', `${value('b_deg')}°`],
+    ['dihedral', `${value('dihedral_deg')}°`],
+    ['z outer', `${value('z_outer_mm')} mm`],
+    ['z inner', `${value('z_inner_mm')} mm`],
+    ['root gap', `${value('gap_mm')} mm`],
+    ['metal in beam', `${value('beam_mm')} mm`],
   ];
 }
 
 export async function intersection(_: Row, answer: Answer, context: Context): Promise<Picture> {
   const given = await joint(answer.request, context);
   const profiles = answer.result['profiles'] as Row[];
-  const bySurface = (surface: string) => profiles.find((p) => p['surface'] === surface) ?? profiles[0] as Row;
-  const outer = bySurface('outer'), inner = bySurface('inner');
+  const bySurface = (surface: string) => profiles.find((p) => p['surface'] === surface) ?? (profiles[0] as Row);
+  const outer = bySurface('outer'),
+    inner = bySurface('inner');
   const outerPoints = outer['points'] as Row;
-  const phi = column(outerPoints['phi_deg']), zOuter = column(outerPoints['z_mm']);
+  const phi = column(outerPoints['phi_deg']),
+    zOuter = column(outerPoints['z_mm']);
   const zInner = atPhi(inner['points'] as Row, phi);
   const partners = column(outerPoints['cutter']);
   const events = profiles.flatMap((p) => p['events'] as Row[]);
   const cut: CutTube = {
-    outer: given.outer / 2, inner: given.outer / 2 - given.wall, phi, zInner, zOuter, far: farEnd(zInner, zOuter, given.outer), tone: 'target',
-    marks: events.map((e) => ({phi: Number(e['phi_deg']), z: Number(e['z_from_mm']), radius: e['surface'] === 'inner' ? given.outer / 2 - given.wall : given.outer / 2})),
+    outer: given.outer / 2,
+    inner: given.outer / 2 - given.wall,
+    phi,
+    zInner,
+    zOuter,
+    far: farEnd(zInner, zOuter, given.outer),
+    tone: 'target',
+    marks: events.map((e) => ({
+      phi: Number(e['phi_deg']),
+      z: Number(e['z_from_mm']),
+      radius: e['surface'] === 'inner' ? given.outer / 2 - given.wall : given.outer / 2,
+    })),
   };
   return {
     solid: solidOf(cut, given, context.sizes, 'cut'),
     charts: [
-      {id: 'height', title: 'Height z of the cut', link: 'cut', unit: 'mm', x: {name: 'φ', unit: '°', values: phi}, partners, partnerNames: given.names, height: 240,
-        series: [{name: 'outside', values: zOuter, tone: 'outer', width: 2}, {name: 'inside', values: zInner, tone: 'inner', dash: [5, 4]}],
-        marks: events.map((e) => ({x: Number(e['phi_deg']), tone: 'mark', text: 'junction'}))},
+      {
+        id: 'height',
+        title: 'Height z of the cut',
+        link: 'cut',
+        unit: 'mm',
+        x: {name: 'φ', unit: '°', values: phi},
+        partners,
+        partnerNames: given.names,
+        height: 240,
+        series: [
+          {name: 'outside', values: zOuter, tone: 'outer', width: 2},
+          {name: 'inside', values: zInner, tone: 'inner', dash: [5, 4]},
+        ],
+        marks: events.map((e) => ({x: Number(e['phi_deg']), tone: 'mark', text: 'junction'})),
+      },
       wrapChart(phi, zOuter, zInner, partners, given.outer / 2, 'cut', given.names),
     ],
     figures: profiles.flatMap((p) => [{name: `${label(String(p['surface']))} length`, value: short4(Number(p['length_mm'])), unit: 'mm'}]),
     tables: events.length ? [eventTable(events, given.names)] : [],
-    readout: (i) => [['φ', `${short4(phi[i] as number)}°`], ['z outside', `${short4(zOuter[i] as number)} mm`], ['z inside', `${short4(zInner[i] as number)} mm`], ['partner', given.names[partners[i] as number] ?? '']],
+    readout: (i) => [
+      ['φ', `${short4(phi[i] as number)}°`],
+      ['z outside', `${short4(zOuter[i] as number)} mm`],
+      ['z inside', `${short4(zInner[i] as number)} mm`],
+      ['partner', given.names[partners[i] as number] ?? ''],
+    ],
   };
 }
 
 /** A profile read at other angles; the walls are sampled each at its own. */
 export function atPhi(points: Row, phi: number[]): number[] {
-  const from = column(points['phi_deg']), z = column(points['z_mm']);
+  const from = column(points['phi_deg']),
+    z = column(points['z_mm']);
   let i = 0;
   return phi.map((angle) => {
     while (i + 1 < from.length && (from[i + 1] as number) <= angle) ++i;
-    const a = from[i] as number, next = (i + 1) % from.length;
-    const b = next === 0 ? (from[0] as number) + 360 : from[next] as number;
+    const a = from[i] as number,
+      next = (i + 1) % from.length;
+    const b = next === 0 ? (from[0] as number) + 360 : (from[next] as number);
     const t = b > a ? Math.min(1, Math.max(0, (angle - a) / (b - a))) : 0;
     return (z[i] as number) * (1 - t) + (z[next] as number) * t;
   });

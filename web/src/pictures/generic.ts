@@ -31,7 +31,12 @@ function walk(row: Row, path: string, picture: Picture): void {
 
 export function table(key: string, rows: Row[]): Table {
   const names = [...new Set(rows.flatMap((row) => Object.keys(row)))].filter((name) => rows.some((row) => typeof row[name] !== 'object'));
-  return {id: key, title: sentence(label(key)), head: names.map((n) => `${label(n)} ${unit(n)}`.trim()), rows: rows.map((row) => names.map((n) => text(row[n])))};
+  return {
+    id: key,
+    title: sentence(label(key)),
+    head: names.map((n) => `${label(n)} ${unit(n)}`.trim()),
+    rows: rows.map((row) => names.map((n) => text(row[n]))),
+  };
 }
 
 function columns(key: string, row: Row): Chart | undefined {
@@ -40,7 +45,11 @@ function columns(key: string, row: Row): Chart | undefined {
   if (lists.length < 2 || length < 3 || lists.some(([, v]) => (v as Json[]).length !== length)) return undefined;
   const [first, ...others] = lists as [[string, Json], ...[string, Json][]];
   return {
-    id: key, title: sentence(label(key)), link: key, unit: '', x: {name: label(first[0]), unit: unit(first[0]), values: column(first[1])},
+    id: key,
+    title: sentence(label(key)),
+    link: key,
+    unit: '',
+    x: {name: label(first[0]), unit: unit(first[0]), values: column(first[1])},
     series: others.slice(0, 6).map(([name, values], i) => ({name: label(name), values: column(values), tone: `series-${i}`})),
   };
 }
@@ -55,7 +64,8 @@ export async function part(_: Row, answer: Answer, context: Context): Promise<Pi
   for (const key of ['check_dimensions', 'sequence']) {
     const rows = result[key];
     if (Array.isArray(rows) && isRow(rows[0])) picture.tables?.push(table(key, rows as Row[]));
-    else if (Array.isArray(rows) && rows.length) picture.tables?.push({id: key, title: sentence(label(key)), head: ['', ''], rows: rows.map((r, i) => [String(i + 1), text(r)])});
+    else if (Array.isArray(rows) && rows.length)
+      picture.tables?.push({id: key, title: sentence(label(key)), head: ['', ''], rows: rows.map((r, i) => [String(i + 1), text(r)])});
   }
   const ends = isRow(result['ends']) ? result['ends'] : {};
   const given = isRow(request['ends']) ? request['ends'] : {};

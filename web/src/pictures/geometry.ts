@@ -2,8 +2,7 @@ import {isRow, type Json, type Row} from '../json';
 import type {CutTube, Frame, Partner, Vector} from '../picture';
 
 export const radians = Math.PI / 180;
-export const vector = (value: Json | undefined): Vector =>
-  (Array.isArray(value) && value.length === 3 ? value.map(Number) : [0, 0, 1]) as Vector;
+export const vector = (value: Json | undefined): Vector => (Array.isArray(value) && value.length === 3 ? value.map(Number) : [0, 0, 1]) as Vector;
 export const add = (a: Vector, b: Vector, s = 1): Vector => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 export const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const unitVector = (a: Vector): Vector => {
@@ -22,8 +21,10 @@ export function tube(given: Json | undefined, sizes: Sizes): {outer: number; wal
 
 /** The axis line of a tube given by angles: docs/theory/intersections-and-bevels.md, section 1. */
 export function axisByAngles(row: Row): {point: Vector; direction: Vector} {
-  const a = Number(row['inclination_deg'] ?? 90) * radians, b = Number(row['clocking_deg'] ?? 0) * radians;
-  const s = Number(row['offset_mm'] ?? 0), h = Number(row['height_mm'] ?? 0);
+  const a = Number(row['inclination_deg'] ?? 90) * radians,
+    b = Number(row['clocking_deg'] ?? 0) * radians;
+  const s = Number(row['offset_mm'] ?? 0),
+    h = Number(row['height_mm'] ?? 0);
   return {
     point: [-s * Math.cos(b), -s * Math.sin(b), h],
     direction: [Math.sin(a) * Math.sin(b), -Math.sin(a) * Math.cos(b), Math.cos(a)],
@@ -37,7 +38,16 @@ export function partner(row: Row, tone: number, near: Vector, reach: number, siz
   const {outer} = tube(row, sizes);
   const half = reach * 0.7 + outer * 0.35;
   if (row['kind'] === 'elbow') {
-    return {kind: 'elbow', ...given, inwards: vector(row['inwards']), radius: outer / 2, bend: Number(row['bend_radius_mm']), angle: Number(row['bend_deg']) * radians, half: reach * 0.5, tone};
+    return {
+      kind: 'elbow',
+      ...given,
+      inwards: vector(row['inwards']),
+      radius: outer / 2,
+      bend: Number(row['bend_radius_mm']),
+      angle: Number(row['bend_deg']) * radians,
+      half: reach * 0.5,
+      tone,
+    };
   }
   const along = dot(add(near, given.point, -1), given.direction);
   const point = add(given.point, given.direction, along);
@@ -46,7 +56,17 @@ export function partner(row: Row, tone: number, near: Vector, reach: number, siz
     return {kind: 'cone', point, direction: given.direction, radius: outer / 2 + slope * along, slope, half, tone};
   }
   if (row['kind'] === 'rectangular_tube') {
-    return {kind: 'box', point, direction: given.direction, up: vector(row['up']), width: Number(row['width_mm']), height: Number(row['height_mm']), corner: Number(row['corner_radius_mm']), half, tone};
+    return {
+      kind: 'box',
+      point,
+      direction: given.direction,
+      up: vector(row['up']),
+      width: Number(row['width_mm']),
+      height: Number(row['height_mm']),
+      corner: Number(row['corner_radius_mm']),
+      half,
+      tone,
+    };
   }
   return {kind: 'tube', point, direction: given.direction, radius: outer / 2, half, tone};
 }
@@ -60,11 +80,9 @@ export function frame(value: Json | undefined): Frame | undefined {
   return isRow(value) ? {origin: vector(value['origin_mm']), x: vector(value['x']), y: vector(value['y']), z: vector(value['z'])} : undefined;
 }
 
-export const placed = (to: Frame | undefined, p: Vector): Vector =>
-  to ? add(add(add(to.origin, to.x, p[0]), to.y, p[1]), to.z, p[2]) : p;
+export const placed = (to: Frame | undefined, p: Vector): Vector => (to ? add(add(add(to.origin, to.x, p[0]), to.y, p[1]), to.z, p[2]) : p);
 
-export const onTube = (radius: number, phi: number, z: number): Vector =>
-  [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
+export const onTube = (radius: number, phi: number, z: number): Vector => [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
 
 export function bounds(values: number[]): [number, number] {
   return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];

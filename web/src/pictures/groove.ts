@@ -6,7 +6,7 @@ import {facts} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
 
-const round = 180;  // sections of the picture, whatever number was asked for
+const round = 180; // sections of the picture, whatever number was asked for
 
 export async function groove(_: Row, answer: Answer, context: Context): Promise<Picture> {
   const {request, result} = answer;
@@ -14,20 +14,40 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
   const omega = column(sections['omega_deg']);
   const x = {name: 'ω', unit: '°', values: omega};
   const chart = (id: string, title: string, names: [string, string][], more: Partial<Chart> = {}): Chart => ({
-    id, title, link: 'groove', unit: unit(names[0]?.[0] ?? ''), x, ...more,
+    id,
+    title,
+    link: 'groove',
+    unit: unit(names[0]?.[0] ?? ''),
+    x,
+    ...more,
     series: names.filter(([name]) => name in sections).map(([name, tone]) => ({name: label(name), values: column(sections[name]), tone, width: 2})),
   });
   return {
     solid: await solid(request, result, context),
     charts: [
       chart('height', 'Height of the groove', [['height_mm', 'after']], {zero: true}),
-      chart('area', 'Areas of the section', [['area_a_mm2', 'series-0'], ['area_b_mm2', 'series-1'], ['area_c_mm2', 'series-2'], ['area_d_mm2', 'series-3'], ['area_e_mm2', 'series-4']], {zero: true}),
+      chart(
+        'area',
+        'Areas of the section',
+        [
+          ['area_a_mm2', 'series-0'],
+          ['area_b_mm2', 'series-1'],
+          ['area_c_mm2', 'series-2'],
+          ['area_d_mm2', 'series-3'],
+          ['area_e_mm2', 'series-4'],
+        ],
+        {zero: true},
+      ),
       chart('angle', 'Groove angle', [['groove_angle_deg', 'after']], {height: 160}),
       chart('twist', 'Twist of the ruling', [['twist_deg', 'outer']], {height: 150, zero: true}),
     ].filter((each) => each.series.length > 0),
-    figures: ['filler_area_mm2', 'height_min_mm', 'height_max_mm', 'weld_length_mm', 'filler_volume_mm3'].filter((key) => key in result)
+    figures: ['filler_area_mm2', 'height_min_mm', 'height_max_mm', 'weld_length_mm', 'filler_volume_mm3']
+      .filter((key) => key in result)
       .map((key) => ({name: label(key), value: short4(Number(result[key])), unit: unit(key)})),
-    readout: (i) => Object.keys(sections).slice(0, 10).map((key): [string, string] => [label(key), `${short4(column(sections[key])[i] as number)} ${unit(key)}`]),
+    readout: (i) =>
+      Object.keys(sections)
+        .slice(0, 10)
+        .map((key): [string, string] => [label(key), `${short4(column(sections[key])[i] as number)} ${unit(key)}`]),
   };
 }
 
@@ -40,18 +60,43 @@ async function solid(request: Row, result: Row, context: Context): Promise<Pictu
     return xs.map((x, i) => [x, ys[i] as number, zs[i] as number]);
   };
   const [c1, c2, c3, c4] = ['c1', 'c2', 'c3', 'c4'].map(points) as [Vector[], Vector[], Vector[], Vector[]];
-  const ribbons: Ribbon[] = [{a: c1, b: c2, tone: 'inner'}, {a: c2, b: c3, tone: 'inner'}, {a: c3, b: c4, tone: 'bevel'}];
+  const ribbons: Ribbon[] = [
+    {a: c1, b: c2, tone: 'inner'},
+    {a: c2, b: c3, tone: 'inner'},
+    {a: c3, b: c4, tone: 'bevel'},
+  ];
   const all = [...c1, ...c2, ...c3, ...c4];
   const [low, high] = bounds(all.map((p) => p[2]));
-  const branch = tube(request['branch'], context.sizes), chord = tube(request['chord'], context.sizes);
-  const inclination = Number(request['inclination_deg'] ?? 90), eccentricity = Number(request['eccentricity_mm'] ?? 0);
+  const branch = tube(request['branch'], context.sizes),
+    chord = tube(request['chord'], context.sizes);
+  const inclination = Number(request['inclination_deg'] ?? 90),
+    eccentricity = Number(request['eccentricity_mm'] ?? 0);
   const middle: Vector = [0, 0, (low + high) / 2];
   return {
-    link: 'groove', tubes: [], ribbons,
+    link: 'groove',
+    tubes: [],
+    ribbons,
     lines: [c1, c2, c3, c4].map((line, i) => ({points: line, tone: i === 3 ? 'after' : 'ink'})),
-    partners: [partner({kind: 'tube', outer_diameter_mm: branch.outer, axis: {point_mm: [0, 0, 0], direction: [0, 0, 1]}}, 0, [0, 0, high + 0.2 * branch.outer], 0.4 * branch.outer, context.sizes),
-      partner({kind: 'tube', outer_diameter_mm: chord.outer, inclination_deg: inclination, clocking_deg: 180, offset_mm: eccentricity}, 1, middle, 0.9 * branch.outer, context.sizes)],
-    centre: middle, size: 1.1 * branch.outer, eye: [0.7, -0.9, 0.75], up: [0, 0, 1],
+    partners: [
+      partner(
+        {kind: 'tube', outer_diameter_mm: branch.outer, axis: {point_mm: [0, 0, 0], direction: [0, 0, 1]}},
+        0,
+        [0, 0, high + 0.2 * branch.outer],
+        0.4 * branch.outer,
+        context.sizes,
+      ),
+      partner(
+        {kind: 'tube', outer_diameter_mm: chord.outer, inclination_deg: inclination, clocking_deg: 180, offset_mm: eccentricity},
+        1,
+        middle,
+        0.9 * branch.outer,
+        context.sizes,
+      ),
+    ],
+    centre: middle,
+    size: 1.1 * branch.outer,
+    eye: [0.7, -0.9, 0.75],
+    up: [0, 0, 1],
   };
 }
 
@@ -63,21 +108,59 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
   const shape = cut ? await groove(inner, cut, context) : undefined;
   const x = {name: 'ω', unit: '°', values: column(p['omega_deg'])};
   const chart = (id: string, title: string, names: [string, string, boolean?][], more: Partial<Chart> = {}): Chart => ({
-    id, title, link: 'mill', unit: unit(names[0]?.[0] ?? ''), x, ...more,
-    series: names.filter(([name]) => name in p).map(([name, tone, dashed]) => ({name: label(name), values: column(p[name]), tone, ...(dashed ? {dash: [5, 4]} : {}), width: dashed ? 1.5 : 2})),
+    id,
+    title,
+    link: 'mill',
+    unit: unit(names[0]?.[0] ?? ''),
+    x,
+    ...more,
+    series: names
+      .filter(([name]) => name in p)
+      .map(([name, tone, dashed]) => ({name: label(name), values: column(p[name]), tone, ...(dashed ? {dash: [5, 4]} : {}), width: dashed ? 1.5 : 2})),
   });
   return {
     ...(shape?.solid ? {solid: {...shape.solid, link: 'mill-groove'}} : {}),
     charts: [
-      chart('overcut', 'Overcut and undercut, before and after', [['overcut_before_mm', 'before', true], ['undercut_before_mm', 'floor', true], ['overcut_mm', 'after'], ['undercut_mm', 'outer']], {zero: true, height: 220}),
-      chart('xz', 'X and Z of the mill', [['x_mm', 'outer'], ['z_mm', 'inner']]),
+      chart(
+        'overcut',
+        'Overcut and undercut, before and after',
+        [
+          ['overcut_before_mm', 'before', true],
+          ['undercut_before_mm', 'floor', true],
+          ['overcut_mm', 'after'],
+          ['undercut_mm', 'outer'],
+        ],
+        {zero: true, height: 220},
+      ),
+      chart('xz', 'X and Z of the mill', [
+        ['x_mm', 'outer'],
+        ['z_mm', 'inner'],
+      ]),
       chart('b', 'B of the mill', [['b_deg', 'after']], {height: 150}),
-      chart('correction', 'Correction found', [['dz_mm', 'series-2'], ['db_deg', 'series-3']], {height: 150, zero: true}),
+      chart(
+        'correction',
+        'Correction found',
+        [
+          ['dz_mm', 'series-2'],
+          ['db_deg', 'series-3'],
+        ],
+        {height: 150, zero: true},
+      ),
     ],
-    figures: [{name: 'positions', value: String(x.values.length)}, {name: 'qualified', value: result['qualified'] ? 'yes' : 'no'},
-      ...['flank_min_mm', 'flank_max_mm', 'stock_left_max_mm', 'root_face_min_mm'].map((key) => ({name: label(key), value: short4(Number((result['swept'] as Row)[key])), unit: 'mm'}))],
+    figures: [
+      {name: 'positions', value: String(x.values.length)},
+      {name: 'qualified', value: result['qualified'] ? 'yes' : 'no'},
+      ...['flank_min_mm', 'flank_max_mm', 'stock_left_max_mm', 'root_face_min_mm'].map((key) => ({
+        name: label(key),
+        value: short4(Number((result['swept'] as Row)[key])),
+        unit: 'mm',
+      })),
+    ],
     tables: [facts('Swept', result['swept'] as Row)],
-    readout: (i) => ['omega_deg', 'c_deg', 'x_mm', 'z_mm', 'b_deg', 'overcut_before_mm', 'overcut_mm', 'undercut_mm', 'certificate_mm']
-      .map((key): [string, string] => [label(key), `${short4(column(p[key])[i] as number)} ${unit(key)}`]),
+    readout: (i) =>
+      ['omega_deg', 'c_deg', 'x_mm', 'z_mm', 'b_deg', 'overcut_before_mm', 'overcut_mm', 'undercut_mm', 'certificate_mm'].map((key): [string, string] => [
+        label(key),
+        `${short4(column(p[key])[i] as number)} ${unit(key)}`,
+      ]),
   };
 }

@@ -15,31 +15,50 @@ export async function hole(_: Row, answer: Answer, context: Context): Promise<Pi
   const [low, high] = bounds(z);
   const first = points[0] as Row;
   const holed: HoledTube = {
-    outer: chord.outer / 2, inner: chord.outer / 2 - chord.wall, from: low - 0.8 * chord.outer, to: high + 0.8 * chord.outer,
+    outer: chord.outer / 2,
+    inner: chord.outer / 2 - chord.wall,
+    from: low - 0.8 * chord.outer,
+    to: high + 0.8 * chord.outer,
     holes: points.map((p) => ({
-      outer: {phi: column(p['phi_deg']), z: column(p['z_mm'])}, inner: {phi: column(p['phi_inner_deg']), z: column(p['z_inner_mm'])}, b: column(p['b_deg']),
+      outer: {phi: column(p['phi_deg']), z: column(p['z_mm'])},
+      inner: {phi: column(p['phi_inner_deg']), z: column(p['z_inner_mm'])},
+      b: column(p['b_deg']),
     })),
   };
   const middle = (low + high) / 2;
-  const at = bounds(column(first['phi_deg'])).reduce((a, b) => a + b) / 2 * radians;
+  const at = (bounds(column(first['phi_deg'])).reduce((a, b) => a + b) / 2) * radians;
   const charts = holes.flatMap((each, i) => holeCharts(each, i, holes.length, chord.outer / 2));
   return {
     solid: {
-      link: 'hole-0', tubes: [], holed: [holed], partners: [partner({kind: 'tube', ...branch}, 0, [0, 0, middle], 1.4 * chord.outer, context.sizes)],
-      centre: [0, 0, middle], size: 1.35 * chord.outer, eye: [Math.cos(at - 0.5), Math.sin(at - 0.5), 0.45], up: [0, 0, 1],
+      link: 'hole-0',
+      tubes: [],
+      holed: [holed],
+      partners: [partner({kind: 'tube', ...branch}, 0, [0, 0, middle], 1.4 * chord.outer, context.sizes)],
+      centre: [0, 0, middle],
+      size: 1.35 * chord.outer,
+      eye: [Math.cos(at - 0.5), Math.sin(at - 0.5), 0.45],
+      up: [0, 0, 1],
     },
     charts,
     figures: holes.flatMap((each) => {
       const fit = each['fit_up'] as Row | undefined;
       return [
         {name: `${String(each['side'])} hole, length`, value: short4(Number(each['length_mm'])), unit: 'mm'},
-        ...(fit ? [{name: 'least gap', value: short4(Number(fit['least_between_nodes_mm'])), unit: 'mm'}, {name: 'greatest root gap', value: short4(Number(fit['greatest_root_between_nodes_mm'])), unit: 'mm'}] : []),
+        ...(fit
+          ? [
+              {name: 'least gap', value: short4(Number(fit['least_between_nodes_mm'])), unit: 'mm'},
+              {name: 'greatest root gap', value: short4(Number(fit['greatest_root_between_nodes_mm'])), unit: 'mm'},
+            ]
+          : []),
       ];
     }),
     readout: (i) => [
-      ['branch φ', `${short4(column(first['branch_phi_deg'])[i] as number)}°`], ['φ', `${short4(column(first['phi_deg'])[i] as number)}°`],
-      ['z', `${short4(column(first['z_mm'])[i] as number)} mm`], ['B', `${short4(column(first['b_deg'])[i] as number)}°`],
-      ['dihedral', `${short4(column(first['dihedral_deg'])[i] as number)}°`], ['metal in beam', `${short4(column(first['beam_mm'])[i] as number)} mm`],
+      ['branch φ', `${short4(column(first['branch_phi_deg'])[i] as number)}°`],
+      ['φ', `${short4(column(first['phi_deg'])[i] as number)}°`],
+      ['z', `${short4(column(first['z_mm'])[i] as number)} mm`],
+      ['B', `${short4(column(first['b_deg'])[i] as number)}°`],
+      ['dihedral', `${short4(column(first['dihedral_deg'])[i] as number)}°`],
+      ['metal in beam', `${short4(column(first['beam_mm'])[i] as number)} mm`],
     ],
   };
 }
@@ -52,12 +71,45 @@ function holeCharts(each: Row, i: number, count: number, radius: number): Chart[
   const fit = each['fit_up'] as Row | undefined;
   const scale = radius * radians;
   return [
-    {id: `bevel-${i}`, title: `Cutting angle B round the hole${which}`, link, unit: '°', x,
-      series: [{name: 'B', values: column(p['b_deg']), tone: 'after', width: 2.2}, {name: 'groove', values: column(p['groove_deg']), tone: 'before', dash: [5, 4]}]},
-    {id: `place-${i}`, title: `Where it lies on the chord${which}`, link, unit: 'mm', x,
-      series: [{name: 'z', values: column(p['z_mm']), tone: 'outer', width: 2}, {name: 'around', values: column(p['phi_deg']).map((v) => v * scale), tone: 'inner'}]},
-    ...(fit ? [{id: `fit-${i}`, title: `Gap to the branch${which}`, link, unit: 'mm', x, zero: true, height: 150,
-      series: [{name: 'at the root', values: column(fit['root_mm']), tone: 'after', width: 2}, {name: 'at the face', values: column(fit['face_mm']), tone: 'before'},
-        {name: 'least across the wall', values: column(fit['least_mm']), tone: 'floor'}]}] : []),
+    {
+      id: `bevel-${i}`,
+      title: `Cutting angle B round the hole${which}`,
+      link,
+      unit: '°',
+      x,
+      series: [
+        {name: 'B', values: column(p['b_deg']), tone: 'after', width: 2.2},
+        {name: 'groove', values: column(p['groove_deg']), tone: 'before', dash: [5, 4]},
+      ],
+    },
+    {
+      id: `place-${i}`,
+      title: `Where it lies on the chord${which}`,
+      link,
+      unit: 'mm',
+      x,
+      series: [
+        {name: 'z', values: column(p['z_mm']), tone: 'outer', width: 2},
+        {name: 'around', values: column(p['phi_deg']).map((v) => v * scale), tone: 'inner'},
+      ],
+    },
+    ...(fit
+      ? [
+          {
+            id: `fit-${i}`,
+            title: `Gap to the branch${which}`,
+            link,
+            unit: 'mm',
+            x,
+            zero: true,
+            height: 150,
+            series: [
+              {name: 'at the root', values: column(fit['root_mm']), tone: 'after', width: 2},
+              {name: 'at the face', values: column(fit['face_mm']), tone: 'before'},
+              {name: 'least across the wall', values: column(fit['least_mm']), tone: 'floor'},
+            ],
+          },
+        ]
+      : []),
   ];
 }

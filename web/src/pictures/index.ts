@@ -7,8 +7,16 @@ import {feedCurve, replay, schedule} from './machine';
 import {node} from './node';
 
 const known: Record<string, Draw> = {
-  'bevel-tables': bevelTable, intersections: intersection, nodes: node, holes: hole, parts: part,
-  'pulse-schedules': schedule, replays: replay, 'feed-curves': feedCurve, grooves: groove, 'mill-paths': millPath,
+  'bevel-tables': bevelTable,
+  intersections: intersection,
+  nodes: node,
+  holes: hole,
+  parts: part,
+  'pulse-schedules': schedule,
+  replays: replay,
+  'feed-curves': feedCurve,
+  grooves: groove,
+  'mill-paths': millPath,
 };
 
 /** The pictures of an endpoint; one that this console does not know yet is shown as figures, tables and columns. */

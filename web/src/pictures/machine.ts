@@ -8,7 +8,7 @@ import {without, type Context} from './context';
 import {facts} from './facts';
 
 const tones = ['series-0', 'series-1', 'series-2', 'series-3', 'series-4', 'series-5'];
-const most = 3000;  // points that a chart is drawn with; a schedule may have 400 000 periods
+const most = 3000; // points that a chart is drawn with; a schedule may have 400 000 periods
 
 export async function schedule(body: Row, answer: Answer, context: Context): Promise<Picture> {
   const picture = await source(body, context);
@@ -19,7 +19,10 @@ export async function schedule(body: Row, answer: Answer, context: Context): Pro
 
 /** What is being cut, where the request tells: shown beside the pulses. */
 async function source(body: Row, context: Context): Promise<Picture | undefined> {
-  for (const [key, endpoint, draw] of [['cut', 'bevel-tables', bevelTable], ['mill_path', 'grooves', groove]] as const) {
+  for (const [key, endpoint, draw] of [
+    ['cut', 'bevel-tables', bevelTable],
+    ['mill_path', 'grooves', groove],
+  ] as const) {
     const inner = body[key];
     if (!isRow(inner)) continue;
     const request = key === 'mill_path' && isRow(inner['groove']) ? inner['groove'] : inner;
@@ -40,14 +43,16 @@ export function scheduleCharts(result: Row, machine: Row | undefined): Chart[] {
   const events = ((result['events'] ?? []) as Row[]).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: String(e['what']).replace(/_/g, ' ')}));
   const each = (make: (pulses: number[]) => (number | null)[]): Series[] =>
     axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: make(column(counts[axis]))}));
-  const mean = (pulses: number[]) => indices.map((i) => {
-    let sum = 0;
-    const end = Math.min(i + every, pulses.length);
-    for (let k = i; k < end; ++k) sum += pulses[k] as number;
-    return sum / (end - i);
-  });
+  const mean = (pulses: number[]) =>
+    indices.map((i) => {
+      let sum = 0;
+      const end = Math.min(i + every, pulses.length);
+      for (let k = i; k < end; ++k) sum += pulses[k] as number;
+      return sum / (end - i);
+    });
   const position = (pulses: number[]) => {
-    let sum = 0, k = 0;
+    let sum = 0,
+      k = 0;
     return indices.map((i) => {
       for (; k <= i; ++k) sum += pulses[k] as number;
       return sum;
@@ -55,9 +60,32 @@ export function scheduleCharts(result: Row, machine: Row | undefined): Chart[] {
   };
   const shared = {link: 'motion', x: seconds, unit: ''};
   return [
-    {...shared, id: 'pulses', title: every > 1 ? `Pulses per period, mean of ${every}` : 'Pulses per period', series: each(mean), marks: events, height: 230, zero: true},
-    ...(machine ? [{...shared, id: 'speed', title: 'Speed, share of each axis’s limit', unit: '%', marks: events, zero: true,
-      series: axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: shares(mean(column(counts[axis])), machine, axis, period)}))}] : []),
+    {
+      ...shared,
+      id: 'pulses',
+      title: every > 1 ? `Pulses per period, mean of ${every}` : 'Pulses per period',
+      series: each(mean),
+      marks: events,
+      height: 230,
+      zero: true,
+    },
+    ...(machine
+      ? [
+          {
+            ...shared,
+            id: 'speed',
+            title: 'Speed, share of each axis’s limit',
+            unit: '%',
+            marks: events,
+            zero: true,
+            series: axes.map((axis, i) => ({
+              name: axis,
+              tone: tones[i % tones.length] as string,
+              values: shares(mean(column(counts[axis])), machine, axis, period),
+            })),
+          },
+        ]
+      : []),
     {...shared, id: 'positions', title: 'Pulses since the start', series: each(position), marks: events, zero: true, height: 150},
   ];
 }
@@ -66,7 +94,7 @@ export function scheduleCharts(result: Row, machine: Row | undefined): Chart[] {
 function shares(pulses: number[], machine: Row, axis: string, period: number): number[] {
   const given = ((machine['axes'] ?? []) as Row[]).find((each) => each['name'] === axis) ?? {};
   const perUnit = Number(given['pulses_per_unit'] ?? Number(given['pulses_per_turn']) / 360);
-  return pulses.map((count) => 100 * Math.abs(count) / perUnit / period / Number(given['v_max']));
+  return pulses.map((count) => (100 * Math.abs(count)) / perUnit / period / Number(given['v_max']));
 }
 
 export function motionFacts(result: Row): Pick<Picture, 'figures' | 'tables' | 'readout'> {
@@ -82,11 +110,21 @@ export function motionFacts(result: Row): Pick<Picture, 'figures' | 'tables' | '
   return {
     figures: names.filter((key) => key in report).map((key) => ({name: label(key), value: short4(Number(report[key])), unit: unit(key)})),
     tables: [
-      {title: 'Use of the machine’s limits', head: ['axis', ...Object.values(what)],
-        rows: axes.map((axis) => [axis, ...Object.keys(what).map((key) => `${(100 * (use[`${key}_${axis}`] ?? 0)).toFixed(1)} %`)])},
-      {title: 'Events', head: ['period', 'time s', 'what'], rows: ((result['events'] ?? []) as Row[]).map((e) => [String(e['period']), short4(Number(e['period']) * period), String(e['what']).replace(/_/g, ' ')])},
+      {
+        title: 'Use of the machine’s limits',
+        head: ['axis', ...Object.values(what)],
+        rows: axes.map((axis) => [axis, ...Object.keys(what).map((key) => `${(100 * (use[`${key}_${axis}`] ?? 0)).toFixed(1)} %`)]),
+      },
+      {
+        title: 'Events',
+        head: ['period', 'time s', 'what'],
+        rows: ((result['events'] ?? []) as Row[]).map((e) => [String(e['period']), short4(Number(e['period']) * period), String(e['what']).replace(/_/g, ' ')]),
+      },
     ],
-    readout: (i) => [['time', `${short4(i * every * period)} s`], ...Object.keys(counts).map((axis): [string, string] => [axis, `${column(counts[axis])[i * every] ?? 0} pulses`])],
+    readout: (i) => [
+      ['time', `${short4(i * every * period)} s`],
+      ...Object.keys(counts).map((axis): [string, string] => [axis, `${column(counts[axis])[i * every] ?? 0} pulses`]),
+    ],
   };
 }
 
@@ -97,47 +135,122 @@ export async function replay(_: Row, answer: Answer): Promise<Picture> {
   const every = Math.max(1, Math.ceil(z.length / most));
   const thin = (values: number[]) => values.filter((_v, i) => i % every === 0);
   const x = {name: 'period', unit: '', values: thin(z.map((_v, i) => i))};
-  const one = (id: string, title: string, name: string, tone: string): Chart[] => name in path
-    ? [{id, title, link: 'replay', unit: unit(name), x, series: [{name: label(name), values: thin(column(path[name])), tone, width: 2}]}] : [];
+  const one = (id: string, title: string, name: string, tone: string): Chart[] =>
+    name in path ? [{id, title, link: 'replay', unit: unit(name), x, series: [{name: label(name), values: thin(column(path[name])), tone, width: 2}]}] : [];
   const invariants = result['invariants'] as Row[];
   return {
-    charts: [...one('z', 'z of the torch', 'z_mm', 'outer'), ...one('b', 'B of the torch', 'b_deg', 'after'), ...one('phi', 'φ of the tube', 'phi_deg', 'inner')],
-    figures: [{name: 'deviation', value: short4(Number(result['deviation_mm'])), unit: 'mm'},
-      {name: 'invariants held', value: `${invariants.filter((i) => i['passed']).length} of ${invariants.length}`}],
-    tables: [{title: 'Invariants', head: ['name', 'held', 'value', 'limit', 'unit'],
-      rows: invariants.map((i) => [String(i['name']), i['passed'] ? 'yes' : 'NO', short4(Number(i['value'])), short4(Number(i['limit'])), String(i['unit'])])}],
+    charts: [
+      ...one('z', 'z of the torch', 'z_mm', 'outer'),
+      ...one('b', 'B of the torch', 'b_deg', 'after'),
+      ...one('phi', 'φ of the tube', 'phi_deg', 'inner'),
+    ],
+    figures: [
+      {name: 'deviation', value: short4(Number(result['deviation_mm'])), unit: 'mm'},
+      {name: 'invariants held', value: `${invariants.filter((i) => i['passed']).length} of ${invariants.length}`},
+    ],
+    tables: [
+      {
+        title: 'Invariants',
+        head: ['name', 'held', 'value', 'limit', 'unit'],
+        rows: invariants.map((i) => [String(i['name']), i['passed'] ? 'yes' : 'NO', short4(Number(i['value'])), short4(Number(i['limit'])), String(i['unit'])]),
+      },
+    ],
   };
 }
 
 export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
   const {request, result} = answer;
-  const table = result['table'] as Row, fit = result['fit'] as Row | undefined;
-  const t = column(table['t_s']), speed = column(table['cylinder_speed_mm_s']);
+  const table = result['table'] as Row,
+    fit = result['fit'] as Row | undefined;
+  const t = column(table['t_s']),
+    speed = column(table['cylinder_speed_mm_s']);
   const fitted = fit ? t.map((time) => polynomial(column(fit['seconds']), time)) : [];
   const x = {name: 'time', unit: 's', values: t};
   const work = result['work'] as Row;
   const charts: Chart[] = [
-    {id: 'speed', title: 'Cylinder speed that keeps the feed constant', link: 'feed', unit: 'mm/s', x, height: 250,
-      series: [{name: 'exact', values: speed, tone: 'before', width: 4}, ...(fit ? [{name: `polynomial of degree ${fit['degree']}`, values: fitted, tone: 'after', width: 1.5}] : [])]},
-    ...(fit ? [{id: 'error', title: 'Relative error of the polynomial', link: 'feed', unit: '', x, zero: true, height: 170,
-      series: [{name: 'error', values: speed.map((v, i) => (fitted[i] as number) / v - 1), tone: 'after'}]}] : []),
-    {id: 'stroke', title: 'Stroke of the cylinder and feed of the tool', link: 'feed', unit: 'mm', x, height: 170,
-      series: [{name: 'stroke', values: column(table['stroke_mm']), tone: 'outer', width: 2}, {name: 'feed', values: column(table['feed_mm']), tone: 'inner'}]},
+    {
+      id: 'speed',
+      title: 'Cylinder speed that keeps the feed constant',
+      link: 'feed',
+      unit: 'mm/s',
+      x,
+      height: 250,
+      series: [
+        {name: 'exact', values: speed, tone: 'before', width: 4},
+        ...(fit ? [{name: `polynomial of degree ${fit['degree']}`, values: fitted, tone: 'after', width: 1.5}] : []),
+      ],
+    },
+    ...(fit
+      ? [
+          {
+            id: 'error',
+            title: 'Relative error of the polynomial',
+            link: 'feed',
+            unit: '',
+            x,
+            zero: true,
+            height: 170,
+            series: [{name: 'error', values: speed.map((v, i) => (fitted[i] as number) / v - 1), tone: 'after'}],
+          },
+        ]
+      : []),
+    {
+      id: 'stroke',
+      title: 'Stroke of the cylinder and feed of the tool',
+      link: 'feed',
+      unit: 'mm',
+      x,
+      height: 170,
+      series: [
+        {name: 'stroke', values: column(table['stroke_mm']), tone: 'outer', width: 2},
+        {name: 'feed', values: column(table['feed_mm']), tone: 'inner'},
+      ],
+    },
   ];
-  const rows = (from: Row | undefined, names: string[]) => names.filter((n) => from && n in from).map((n) => ({name: label(n), value: short4(Number(from?.[n])), unit: unit(n)}));
+  const rows = (from: Row | undefined, names: string[]) =>
+    names.filter((n) => from && n in from).map((n) => ({name: label(n), value: short4(Number(from?.[n])), unit: unit(n)}));
   const comparison = (result['comparison'] ?? []) as Row[];
   return {
     charts,
-    figures: [...rows(work, ['duration_s', 'min_cylinder_speed_mm_s', 'max_cylinder_speed_mm_s']), ...rows(fit, ['degree', 'max_relative_error', 'tool_position_error_mm']),
-      ...rows(result['cycle'] as Row | undefined, ['cycle_s', 'pieces_per_hour']), ...rows(result['tool'] as Row | undefined, ['feed_per_blade_mm', 'cutting_speed_outside_m_min'])],
+    figures: [
+      ...rows(work, ['duration_s', 'min_cylinder_speed_mm_s', 'max_cylinder_speed_mm_s']),
+      ...rows(fit, ['degree', 'max_relative_error', 'tool_position_error_mm']),
+      ...rows(result['cycle'] as Row | undefined, ['cycle_s', 'pieces_per_hour']),
+      ...rows(result['tool'] as Row | undefined, ['feed_per_blade_mm', 'cutting_speed_outside_m_min']),
+    ],
     tables: [
-      ...(fit ? [{title: 'Polynomial in seconds, as the controller gets it', head: ['power', 'coefficient'], rows: column(fit['seconds_rounded']).map((c, i) => [`t^${i}`, String(c)])}] : []),
-      ...(comparison.length ? [{title: 'Methods compared', head: ['method', 'degree', 'greatest relative error', 'tool position error mm'],
-        rows: comparison.map((c) => [String(c['method']).replace(/_/g, ' '), String(c['degree']), short4(Number(c['max_relative_error'])), short4(Number(c['tool_position_error_mm']))])}] : []),
+      ...(fit
+        ? [
+            {
+              title: 'Polynomial in seconds, as the controller gets it',
+              head: ['power', 'coefficient'],
+              rows: column(fit['seconds_rounded']).map((c, i) => [`t^${i}`, String(c)]),
+            },
+          ]
+        : []),
+      ...(comparison.length
+        ? [
+            {
+              title: 'Methods compared',
+              head: ['method', 'degree', 'greatest relative error', 'tool position error mm'],
+              rows: comparison.map((c) => [
+                String(c['method']).replace(/_/g, ' '),
+                String(c['degree']),
+                short4(Number(c['max_relative_error'])),
+                short4(Number(c['tool_position_error_mm'])),
+              ]),
+            },
+          ]
+        : []),
       ...['geometry', 'cycle', 'tool'].filter((key) => isRow(result[key])).map((key) => facts(sentence(key), result[key] as Row)),
       ...(isRow(request['linkage']) ? [facts('Linkage as understood', request['linkage'])] : []),
     ],
-    readout: (i) => [['time', `${short4(t[i] as number)} s`], ['cylinder', `${short4(speed[i] as number)} mm/s`], ['feed', `${short4(column(table['feed_mm'])[i] as number)} mm`], ['stroke', `${short4(column(table['stroke_mm'])[i] as number)} mm`]],
+    readout: (i) => [
+      ['time', `${short4(t[i] as number)} s`],
+      ['cylinder', `${short4(speed[i] as number)} mm/s`],
+      ['feed', `${short4(column(table['feed_mm'])[i] as number)} mm`],
+      ['stroke', `${short4(column(table['stroke_mm'])[i] as number)} mm`],
+    ],
   };
 }
 

@@ -10,7 +10,8 @@ import {atPhi} from './cut';
 export async function node(body: Row, answer: Answer, context: Context): Promise<Picture> {
   const members = body['members'] as Row[];
   let ends = answer.result['ends'] as Row[];
-  if (!body['include']) {  // the curves are for the picture only
+  if (!body['include']) {
+    // the curves are for the picture only
     const whole = await context.ask('nodes', {...body, include: ['profiles']});
     ends = (whole?.result['ends'] ?? ends) as Row[];
   }
@@ -21,15 +22,30 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   return {
     solid: {link: 'node', tubes, partners: [], centre, size: 2.7 * biggest, eye: [0.3, -1, 0.4], up: [0, 0, 1]},
     charts: [],
-    figures: [{name: 'members', value: String(members.length)}, {name: 'cut ends', value: String(cut.length)},
-      {name: 'free ends', value: String(ends.filter((e) => e['free']).length)}],
-    tables: [{title: 'Who cuts whom', head: ['member', 'end', 'cut by', 'inclination °', 'clocking °', 'offset mm', 'height mm', 'gap mm', 'eccentricity mm'],
-      rows: cut.flatMap((end) => (end['cut_by'] as Row[]).map((by) => {
-        const p = by['placement'];  // a mitre is by a plane
-        return [String(end['member']), String(end['end']), String(by['member']),
-          ...['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'].map((key) => isRow(p) ? short4(Number(p[key])) : '–'),
-          short4(Number(by['gap_mm'])), short4(Number(by['eccentricity_mm']))];
-      }))}],
+    figures: [
+      {name: 'members', value: String(members.length)},
+      {name: 'cut ends', value: String(cut.length)},
+      {name: 'free ends', value: String(ends.filter((e) => e['free']).length)},
+    ],
+    tables: [
+      {
+        title: 'Who cuts whom',
+        head: ['member', 'end', 'cut by', 'inclination °', 'clocking °', 'offset mm', 'height mm', 'gap mm', 'eccentricity mm'],
+        rows: cut.flatMap((end) =>
+          (end['cut_by'] as Row[]).map((by) => {
+            const p = by['placement']; // a mitre is by a plane
+            return [
+              String(end['member']),
+              String(end['end']),
+              String(by['member']),
+              ...['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'].map((key) => (isRow(p) ? short4(Number(p[key])) : '–')),
+              short4(Number(by['gap_mm'])),
+              short4(Number(by['eccentricity_mm'])),
+            ];
+          }),
+        ),
+      },
+    ],
   };
 }
 
@@ -40,13 +56,25 @@ function endTube(end: Row, members: Row[], context: Context): CutTube {
   const length = Math.hypot(...add(vector(member['end_mm']), vector(member['start_mm']), -1));
   const to = frame(end['frame']);
   const profiles = (end['profiles'] ?? []) as Row[];
-  const outside = profiles.find((p) => p['surface'] === 'outer'), inside = profiles.find((p) => p['surface'] === 'inner');
-  const far = length / 2;  // half a member belongs to each of its ends
+  const outside = profiles.find((p) => p['surface'] === 'outer'),
+    inside = profiles.find((p) => p['surface'] === 'inner');
+  const far = length / 2; // half a member belongs to each of its ends
   if (!outside || !inside) return plainTube(outer, wall, far, index, to);
   const points = outside['points'] as Row;
-  const phi = column(points['phi_deg']), zOuter = column(points['z_mm']), zInner = atPhi(inside['points'] as Row, phi);
-  return {...(to ? {frame: to} : {}), outer: outer / 2, inner: outer / 2 - wall, phi, zOuter, zInner,
-    far: Math.max(far, bounds([...zOuter, ...zInner])[1] + outer * 0.2), marks: [], tone: index};
+  const phi = column(points['phi_deg']),
+    zOuter = column(points['z_mm']),
+    zInner = atPhi(inside['points'] as Row, phi);
+  return {
+    ...(to ? {frame: to} : {}),
+    outer: outer / 2,
+    inner: outer / 2 - wall,
+    phi,
+    zOuter,
+    zInner,
+    far: Math.max(far, bounds([...zOuter, ...zInner])[1] + outer * 0.2),
+    marks: [],
+    tone: index,
+  };
 }
 
 function middle(ends: Row[]): Vector {

@@ -1,7 +1,29 @@
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, CylinderGeometry, DoubleSide, ExtrudeGeometry, Float32BufferAttribute,
-  Group, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PlaneGeometry, Quaternion,
-  ShaderMaterial, Shape, SphereGeometry, TubeGeometry, Vector3, type Material,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  CatmullRomCurve3,
+  Color,
+  CylinderGeometry,
+  DoubleSide,
+  ExtrudeGeometry,
+  Float32BufferAttribute,
+  Group,
+  Line,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  PlaneGeometry,
+  Quaternion,
+  ShaderMaterial,
+  Shape,
+  SphereGeometry,
+  TubeGeometry,
+  Vector3,
+  type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
 import type {CutTube, Frame, HoledTube, Partner, Ribbon, Vector} from '../picture';
@@ -33,7 +55,10 @@ const around = (radius: number, phi: number, z: number): Vector => [radius * Mat
 
 /** Quads between two rows of points, closed round; normals as given or from the faces. */
 function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], Vector[]], tint?: (i: number) => Color): BufferGeometry {
-  const positions: number[] = [], directions: number[] = [], colours: number[] = [], index: number[] = [];
+  const positions: number[] = [],
+    directions: number[] = [],
+    colours: number[] = [],
+    index: number[] = [];
   a.forEach((p, i) => {
     positions.push(...p, ...(b[i] as Vector));
     if (normals) directions.push(...(normals[0][i] as Vector), ...(normals[1][i] as Vector));
@@ -65,11 +90,13 @@ function kept<M extends Material>(name: string, make: () => M): M {
   return found as M;
 }
 
-const metal = (name: string, hue: string) =>
-  kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide}));
+const metal = (name: string, hue: string) => kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide}));
 const steel = (tone: string) => metal(tone, colour(tone));
-const face = (tinted: boolean) => kept(`face ${tinted}`, () => new MeshLambertMaterial(
-  {color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, side: DoubleSide, flatShading: true}));
+const face = (tinted: boolean) =>
+  kept(
+    `face ${tinted}`,
+    () => new MeshLambertMaterial({color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, side: DoubleSide, flatShading: true}),
+  );
 const ink = (tone: string) => kept(`line ${tone}`, () => new LineBasicMaterial({color: colour(tone)}));
 /** Seen through everything: the cursor. */
 const signal = () => kept('signal', () => new MeshBasicMaterial({color: colour('mark'), depthTest: false, transparent: true}));
@@ -86,8 +113,10 @@ export function cutTube(tube: CutTube, before: boolean): Group {
   const chosen = before && tube.before ? tube.before : tube;
   const innerEdge = phi.map((p, i) => around(tube.inner, p, chosen.zInner[i] as number));
   const outerEdge = phi.map((p, i) => around(tube.outer, p, chosen.zOuter[i] as number));
-  const innerFar = phi.map((p) => around(tube.inner, p, tube.far)), outerFar = phi.map((p) => around(tube.outer, p, tube.far));
-  const out = phi.map((p) => around(1, p, 0)), into = phi.map((p) => around(-1, p, 0));
+  const innerFar = phi.map((p) => around(tube.inner, p, tube.far)),
+    outerFar = phi.map((p) => around(tube.outer, p, tube.far));
+  const out = phi.map((p) => around(1, p, 0)),
+    into = phi.map((p) => around(-1, p, 0));
   const wall = tube.tone === 'target' ? steel('steel') : metal(`member ${tube.tone}`, partnerColour(tube.tone));
   const outside = new Mesh(strip(outerEdge, outerFar, true, [out, out]), wall);
   outside.name = 'wall';
@@ -101,7 +130,10 @@ export function cutTube(tube: CutTube, before: boolean): Group {
   if (tube.tone === 'target') group.add(outline(outerFar, 'edge'));
   const ball = new SphereGeometry(tube.outer * 0.035, 16, 12);
   for (const mark of tube.marks) {
-    const dot = new Mesh(ball, kept('mark', () => new MeshBasicMaterial({color: colour('mark')})));
+    const dot = new Mesh(
+      ball,
+      kept('mark', () => new MeshBasicMaterial({color: colour('mark')})),
+    );
     dot.position.set(...around(mark.radius, mark.phi, mark.z));
     group.add(dot);
   }
@@ -112,19 +144,49 @@ export function cutTube(tube: CutTube, before: boolean): Group {
 /** A chord with its holes: each wall in columns of constant phi, each column open where a hole is. */
 export function holedTube(tube: HoledTube): Group {
   const group = new Group();
-  for (const [side, radius, tone] of [['outer', tube.outer, 'steel'], ['inner', tube.inner, 'bore']] as const) {
-    group.add(new Mesh(openWall(radius, tube.from, tube.to, tube.holes.map((hole) => hole[side])), steel(tone)));
+  for (const [side, radius, tone] of [
+    ['outer', tube.outer, 'steel'],
+    ['inner', tube.inner, 'bore'],
+  ] as const) {
+    group.add(
+      new Mesh(
+        openWall(
+          radius,
+          tube.from,
+          tube.to,
+          tube.holes.map((hole) => hole[side]),
+        ),
+        steel(tone),
+      ),
+    );
   }
   for (const hole of tube.holes) {
     const inside = hole.inner.phi.map((p, i) => around(tube.inner, p, hole.inner.z[i] as number));
     const outside = hole.outer.phi.map((p, i) => around(tube.outer, p, hole.outer.z[i] as number));
-    const bevel = new Mesh(strip(inside, outside, true, undefined, (i) => ramp(hole.b[i] as number, new Color())), face(true));
+    const bevel = new Mesh(
+      strip(inside, outside, true, undefined, (i) => ramp(hole.b[i] as number, new Color())),
+      face(true),
+    );
     group.add(bevel, outline(inside, 'edge'), outline(outside, 'edge'));
   }
   for (const z of [tube.from, tube.to]) {
     const ring = Array.from({length: 96}, (_, i) => i * 3.75);
-    group.add(new Mesh(strip(ring.map((p) => around(tube.inner, p, z)), ring.map((p) => around(tube.outer, p, z)), true), steel('bore')));
-    group.add(outline(ring.map((p) => around(tube.outer, p, z)), 'edge'));
+    group.add(
+      new Mesh(
+        strip(
+          ring.map((p) => around(tube.inner, p, z)),
+          ring.map((p) => around(tube.outer, p, z)),
+          true,
+        ),
+        steel('bore'),
+      ),
+    );
+    group.add(
+      outline(
+        ring.map((p) => around(tube.outer, p, z)),
+        'edge',
+      ),
+    );
   }
   return group;
 }
@@ -134,16 +196,28 @@ function openWall(radius: number, from: number, to: number, holes: {phi: number[
   const stops = new Set(Array.from({length: 181}, (_, i) => 2 * i));
   for (const hole of holes) for (const p of hole.phi) stops.add(turn(p));
   const columns = [...stops].sort((a, b) => a - b);
-  const positions: number[] = [], normals: number[] = [];
+  const positions: number[] = [],
+    normals: number[] = [];
   const quad = (p: number, q: number, low: [number, number], high: [number, number]) => {
-    const corners = [around(radius, p, low[0]), around(radius, q, low[1]), around(radius, q, high[1]), around(radius, p, low[0]), around(radius, q, high[1]), around(radius, p, high[0])];
+    const corners = [
+      around(radius, p, low[0]),
+      around(radius, q, low[1]),
+      around(radius, q, high[1]),
+      around(radius, p, low[0]),
+      around(radius, q, high[1]),
+      around(radius, p, high[0]),
+    ];
     for (const corner of corners) positions.push(...corner);
     for (const angle of [p, q, q, p, q, p]) normals.push(...around(1, angle, 0));
   };
   for (let i = 0; i + 1 < columns.length; ++i) {
-    const p = columns[i] as number, q = columns[i + 1] as number;
+    const p = columns[i] as number,
+      q = columns[i + 1] as number;
     let low: [number, number] = [from, from];
-    const gaps = holes.map((hole) => openings(hole, (p + q) / 2)).filter((gap): gap is [number, number] => gap !== null).sort((a, b) => a[0] - b[0]);
+    const gaps = holes
+      .map((hole) => openings(hole, (p + q) / 2))
+      .filter((gap): gap is [number, number] => gap !== null)
+      .sort((a, b) => a[0] - b[0]);
     for (const gap of gaps) {
       quad(p, q, low, [gap[0], gap[0]]);
       low = [gap[1], gap[1]];
@@ -162,8 +236,9 @@ function openings(hole: {phi: number[]; z: number[]}, phi: number): [number, num
   hole.phi.forEach((a, i) => {
     const j = (i + 1) % hole.phi.length;
     for (const turn of [-360, 0, 360]) {
-      const p = phi + turn, b = hole.phi[j] as number;
-      if ((a <= p) === (b <= p)) continue;
+      const p = phi + turn,
+        b = hole.phi[j] as number;
+      if (a <= p === b <= p) continue;
       const t = (p - a) / (b - a);
       hits.push((hole.z[i] as number) * (1 - t) + (hole.z[j] as number) * t);
     }
@@ -174,7 +249,9 @@ function openings(hole: {phi: number[]; z: number[]}, phi: number): [number, num
 /** Seen through where one looks straight at it, solid where it turns away: a partner that hides nothing. */
 function glass(tone: number): ShaderMaterial {
   return new ShaderMaterial({
-    transparent: true, depthWrite: false, side: DoubleSide,
+    transparent: true,
+    depthWrite: false,
+    side: DoubleSide,
     uniforms: {tint: {value: new Color(partnerColour(tone))}},
     vertexShader: `varying vec3 n; varying vec3 eye;
       void main() { vec4 p = modelViewMatrix * vec4(position, 1.0); n = normalMatrix * normal; eye = -p.xyz; gl_Position = projectionMatrix * p; }`,
@@ -199,8 +276,22 @@ export function partnerMesh(partner: Partner): Group {
 
 function shapeOf(partner: Partner, material: ShaderMaterial, line: LineBasicMaterial): (Mesh | Line | LineSegments)[] {
   if (partner.kind === 'plane') {
-    const plane = new Mesh(new PlaneGeometry(2 * partner.half, 2 * partner.half), kept(`plane ${partner.tone}`, () => new MeshBasicMaterial({color: partnerColour(partner.tone), transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false})));
-    const edge = outlineOf([[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [Number(x) * partner.half, Number(y) * partner.half, 0]), line);
+    const plane = new Mesh(
+      new PlaneGeometry(2 * partner.half, 2 * partner.half),
+      kept(
+        `plane ${partner.tone}`,
+        () => new MeshBasicMaterial({color: partnerColour(partner.tone), transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false}),
+      ),
+    );
+    const edge = outlineOf(
+      [
+        [-1, -1],
+        [1, -1],
+        [1, 1],
+        [-1, 1],
+      ].map(([x, y]) => [Number(x) * partner.half, Number(y) * partner.half, 0]),
+      line,
+    );
     const q = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), toVector(partner.normal).normalize());
     for (const each of [plane, edge]) each.quaternion.copy(q);
     return [plane, edge];
@@ -208,40 +299,74 @@ function shapeOf(partner: Partner, material: ShaderMaterial, line: LineBasicMate
   if (partner.kind === 'box') return box(partner, material, line);
   if (partner.kind === 'elbow') return elbow(partner, material);
   const slope = partner.kind === 'cone' ? partner.slope : 0;
-  const top = Math.max(0, partner.radius + slope * partner.half), bottom = Math.max(0, partner.radius - slope * partner.half);
+  const top = Math.max(0, partner.radius + slope * partner.half),
+    bottom = Math.max(0, partner.radius - slope * partner.half);
   const body = new Mesh(new CylinderGeometry(top, bottom, 2 * partner.half, 96, 1, true), material);
-  const rings = [[top, partner.half], [bottom, -partner.half]].map(([r, y]) =>
-    outlineOf(Array.from({length: 96}, (_, i) => [Number(r) * Math.cos(i * Math.PI / 48), Number(y), Number(r) * Math.sin(i * Math.PI / 48)]), line));
+  const rings = [
+    [top, partner.half],
+    [bottom, -partner.half],
+  ].map(([r, y]) =>
+    outlineOf(
+      Array.from({length: 96}, (_, i) => [Number(r) * Math.cos((i * Math.PI) / 48), Number(y), Number(r) * Math.sin((i * Math.PI) / 48)]),
+      line,
+    ),
+  );
   const all = [body, ...rings];
   for (const each of all) each.quaternion.copy(turned(partner.direction));
   return all;
 }
 
 function box(partner: Extract<Partner, {kind: 'box'}>, material: ShaderMaterial, line: LineBasicMaterial): (Mesh | Line)[] {
-  const w = partner.width / 2, h = partner.height / 2, r = partner.corner;
-  const section = new Shape().moveTo(-w + r, -h).lineTo(w - r, -h).absarc(w - r, -h + r, r, -Math.PI / 2, 0, false).lineTo(w, h - r)
-    .absarc(w - r, h - r, r, 0, Math.PI / 2, false).lineTo(-w + r, h).absarc(-w + r, h - r, r, Math.PI / 2, Math.PI, false)
-    .lineTo(-w, -h + r).absarc(-w + r, -h + r, r, Math.PI, 1.5 * Math.PI, false);
-  const body = new Mesh(new ExtrudeGeometry(section, {depth: 2 * partner.half, bevelEnabled: false, curveSegments: 8}).translate(0, 0, -partner.half), material);
+  const w = partner.width / 2,
+    h = partner.height / 2,
+    r = partner.corner;
+  const section = new Shape()
+    .moveTo(-w + r, -h)
+    .lineTo(w - r, -h)
+    .absarc(w - r, -h + r, r, -Math.PI / 2, 0, false)
+    .lineTo(w, h - r)
+    .absarc(w - r, h - r, r, 0, Math.PI / 2, false)
+    .lineTo(-w + r, h)
+    .absarc(-w + r, h - r, r, Math.PI / 2, Math.PI, false)
+    .lineTo(-w, -h + r)
+    .absarc(-w + r, -h + r, r, Math.PI, 1.5 * Math.PI, false);
+  const body = new Mesh(
+    new ExtrudeGeometry(section, {depth: 2 * partner.half, bevelEnabled: false, curveSegments: 8}).translate(0, 0, -partner.half),
+    material,
+  );
   const z = toVector(partner.direction).normalize();
   const y = toVector(partner.up);
   y.addScaledVector(z, -y.dot(z)).normalize();
   const q = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(new Vector3().crossVectors(y, z), y, z));
-  const ends = [-partner.half, partner.half].map((at) => outlineOf(section.getPoints(8).map((p): Vector => [p.x, p.y, at]), line));
+  const ends = [-partner.half, partner.half].map((at) =>
+    outlineOf(
+      section.getPoints(8).map((p): Vector => [p.x, p.y, at]),
+      line,
+    ),
+  );
   const all = [body, ...ends];
   for (const each of all) each.quaternion.copy(q);
   return all;
 }
 
 function elbow(partner: Extract<Partner, {kind: 'elbow'}>, material: ShaderMaterial): Mesh[] {
-  const along = toVector(partner.direction).normalize(), start = toVector(partner.point);
+  const along = toVector(partner.direction).normalize(),
+    start = toVector(partner.point);
   const inwards = toVector(partner.inwards);
   inwards.addScaledVector(along, -inwards.dot(along)).normalize();
-  const onArc = (t: number) => start.clone().addScaledVector(inwards, partner.bend * (1 - Math.cos(t))).addScaledVector(along, partner.bend * Math.sin(t));
-  const arc = Array.from({length: 49}, (_, i) => onArc(partner.angle * i / 48));
+  const onArc = (t: number) =>
+    start
+      .clone()
+      .addScaledVector(inwards, partner.bend * (1 - Math.cos(t)))
+      .addScaledVector(along, partner.bend * Math.sin(t));
+  const arc = Array.from({length: 49}, (_, i) => onArc((partner.angle * i) / 48));
   const out = along.clone().multiplyScalar(Math.cos(partner.angle)).addScaledVector(inwards, Math.sin(partner.angle));
-  const leg = Array.from({length: 8}, (_, i) => (i + 1) * partner.half / 8);
-  const path = [...leg.map((s) => start.clone().addScaledVector(along, -s)).reverse(), ...arc, ...leg.map((s) => (arc[48] as Vector3).clone().addScaledVector(out, s))];
+  const leg = Array.from({length: 8}, (_, i) => ((i + 1) * partner.half) / 8);
+  const path = [
+    ...leg.map((s) => start.clone().addScaledVector(along, -s)).reverse(),
+    ...arc,
+    ...leg.map((s) => (arc[48] as Vector3).clone().addScaledVector(out, s)),
+  ];
   return [new Mesh(new TubeGeometry(new CatmullRomCurve3(path), 160, partner.radius, 64, false), material)];
 }
 
@@ -258,7 +383,10 @@ export const drawnLine = (points: Vector[], tone: string) => outline(points, ton
 /** The torch's line at one point: through both edges, and out to where the torch would be. */
 export class Beam extends LineSegments {
   constructor() {
-    super(new BufferGeometry(), kept('beam', () => new LineBasicMaterial({color: colour('mark'), depthTest: false, transparent: true})));
+    super(
+      new BufferGeometry(),
+      kept('beam', () => new LineBasicMaterial({color: colour('mark'), depthTest: false, transparent: true})),
+    );
     this.renderOrder = 1;
     this.geometry.setAttribute('position', new BufferAttribute(new Float32Array(6), 3));
     this.visible = false;
@@ -271,7 +399,8 @@ export class Beam extends LineSegments {
   put(tube: CutTube, before: boolean, i: number): void {
     const chosen = before && tube.before ? tube.before : tube;
     const phi = tube.phi[i] as number;
-    const a = toVector(around(tube.inner, phi, chosen.zInner[i] as number)), b = toVector(around(tube.outer, phi, chosen.zOuter[i] as number));
+    const a = toVector(around(tube.inner, phi, chosen.zInner[i] as number)),
+      b = toVector(around(tube.outer, phi, chosen.zOuter[i] as number));
     const out = b.clone().sub(a).normalize();
     const tip = b.clone().addScaledVector(out, tube.outer * 0.75);
     const back = a.clone().addScaledVector(out, -tube.outer * 0.08);

@@ -1,6 +1,17 @@
 import {
-  AmbientLight, DirectionalLight, Group, HemisphereLight, Mesh, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
-  type BufferGeometry, type Object3D,
+  AmbientLight,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  type Mesh,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+  type BufferGeometry,
+  type Object3D,
 } from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {listen, point, pointed} from '../links';
@@ -9,8 +20,9 @@ import {Beam, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from '
 
 // Pixels drawn for one of the page, each way. Without a graphics card one takes 30 ms and four take 90: what changes is
 // drawn coarse, and once more fine when nothing changed for a moment.
-const coarse = 1, fine = 2;
-const settled = 250;  // ms
+const coarse = 1,
+  fine = 2;
+const settled = 250; // ms
 
 /** The joint in 3D. Draws only when something changed. */
 export class Stage {
@@ -27,7 +39,7 @@ export class Stage {
   private forget: (() => void) | null = null;
   private waiting = false;
   private settling = 0;
-  private turned = false;  // by hand; until then the view fits the frame
+  private turned = false; // by hand; until then the view fits the frame
 
   constructor(private readonly root: HTMLElement) {
     // Kept, so that the picture can be read back (copied, tested) after it was shown.
@@ -36,7 +48,8 @@ export class Stage {
     domElement.tabIndex = 0;
     domElement.setAttribute('role', 'img');
     root.append(domElement);
-    const key = new DirectionalLight(0xffffff, 1.7), fill = new DirectionalLight(0xffffff, 0.55);
+    const key = new DirectionalLight(0xffffff, 1.7),
+      fill = new DirectionalLight(0xffffff, 0.55);
     key.position.set(0.6, 0.9, 1);
     fill.position.set(-1, -0.3, 0.4);
     this.camera.add(key, fill);
@@ -52,7 +65,9 @@ export class Stage {
   private control(): OrbitControls {
     const controls = new OrbitControls(this.camera, this.renderer.domElement);
     controls.addEventListener('change', () => this.draw());
-    controls.addEventListener('start', () => { this.turned = true; });
+    controls.addEventListener('start', () => {
+      this.turned = true;
+    });
     return controls;
   }
 
@@ -64,8 +79,13 @@ export class Stage {
     this.scene.remove(this.content);
     this.content = new Group();
     this.partners = new Group();
-    this.content.add(...solid.tubes.map((tube) => cutTube(tube, before)), ...(solid.holed ?? []).map(holedTube),
-      ...(solid.ribbons ?? []).map(ribbon), ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)), this.partners);
+    this.content.add(
+      ...solid.tubes.map((tube) => cutTube(tube, before)),
+      ...(solid.holed ?? []).map(holedTube),
+      ...(solid.ribbons ?? []).map(ribbon),
+      ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)),
+      this.partners,
+    );
     if (solid.partners.length) this.partners.add(...solid.partners.map(partnerMesh));
     this.beam = new Beam();
     this.content.add(this.beam);
@@ -102,7 +122,7 @@ export class Stage {
     this.controls = this.control();
     this.controls.target.set(...centre);
     const narrow = Math.min(1, this.camera.aspect);
-    const distance = size / Math.tan(this.camera.fov * Math.PI / 360) / narrow * 0.72;
+    const distance = (size / Math.tan((this.camera.fov * Math.PI) / 360) / narrow) * 0.72;
     this.camera.position.copy(new Vector3(...eye).normalize().multiplyScalar(distance).add(this.controls.target));
     this.camera.near = distance / 50;
     this.camera.far = distance * 50;
@@ -140,7 +160,7 @@ export class Stage {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.turned) this.reset();
-    this.now();  // before the page is painted: another size has cleared the canvas
+    this.now(); // before the page is painted: another size has cleared the canvas
   }
 
   private follow(index: number | null): void {
@@ -154,15 +174,18 @@ export class Stage {
     const tube = this.solid?.tubes[0];
     if (!tube || !this.solid || this.solid.tubes.length !== 1 || event.buttons !== 0) return;
     const box = this.renderer.domElement.getBoundingClientRect();
-    const at = new Vector2(2 * (event.clientX - box.left) / box.width - 1, 1 - 2 * (event.clientY - box.top) / box.height);
+    const at = new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
     const ray = new Raycaster();
     ray.setFromCamera(at, this.camera);
     const walls: Object3D[] = [];
     this.content.traverse((node) => node.name === 'wall' && walls.push(node));
     const hit = ray.intersectObjects(walls)[0];
-    if (!hit) return point(this.solid.link, null);
+    if (!hit) {
+      point(this.solid.link, null);
+      return;
+    }
     const local = hit.point.applyMatrix4(matrix(tube.frame).invert());
-    point(this.solid.link, nearest(tube.phi, Math.atan2(local.y, local.x) * 180 / Math.PI));
+    point(this.solid.link, nearest(tube.phi, (Math.atan2(local.y, local.x) * 180) / Math.PI));
   }
 
   private turn(event: KeyboardEvent): void {
@@ -175,8 +198,10 @@ export class Stage {
     else if (event.key === 'ArrowDown') offset.applyAxisAngle(side, step);
     else if (event.key === '+' || event.key === '=') offset.multiplyScalar(0.9);
     else if (event.key === '-') offset.multiplyScalar(1.1);
-    else if (event.key === 'Home') return this.reset();
-    else return;
+    else {
+      if (event.key === 'Home') this.reset();
+      return;
+    }
     event.preventDefault();
     this.turned = true;
     this.camera.position.copy(offset.add(this.controls.target));
@@ -186,7 +211,7 @@ export class Stage {
 }
 
 function nearest(phi: number[], angle: number): number {
-  const turn = (a: number) => Math.abs(((a - angle + 180) % 360 + 360) % 360 - 180);
+  const turn = (a: number) => Math.abs(((((a - angle + 180) % 360) + 360) % 360) - 180);
   let best = 0;
   phi.forEach((p, i) => {
     if (turn(p) < turn(phi[best] as number)) best = i;
@@ -201,4 +226,3 @@ function release(group: Group): void {
     geometry?.dispose();
   });
 }
-
