@@ -74,7 +74,7 @@ class Day {
   std::size_t bytes_ = 0;
 };
 
-/// A folder that does not answer shall not keep the process from ending.
+/// A folder that does not answer must not keep the process from ending.
 constexpr auto kPatience = std::chrono::seconds(1);
 
 }  // namespace

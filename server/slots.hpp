@@ -56,7 +56,7 @@ class Slots {
  public:
   using Step = std::function<void(std::shared_ptr<Job>)>;
 
-  /// `work`, then `done` run in a slot's thread and shall not throw; at `done` the slot is free.
+  /// `work`, then `done` run in a slot's thread and must not throw; at `done` the slot is free.
   Slots(int count, std::size_t queue, Step work, Step done);
   ~Slots() { join(); }
   Slots(const Slots&) = delete;
