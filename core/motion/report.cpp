@@ -232,27 +232,6 @@ Comparison comparison(const PreparedCut& job, const std::stop_token& stop) {
   return out;
 }
 
-Naive naive_pulses(const PreparedCut& job, std::size_t a) {
-  const Axis& axis = job.course.machine.axes[a];
-  const std::vector<double> s = job.program.lengths();
-  double peak = 0.0;
-  Naive out;
-  for (std::size_t i = 0; i + 1 < job.program.size(); ++i) {
-    const double length = tip_length(job.course.tip, job.program, i, i + 1);
-    if (length <= 0.0) continue;  // a pure swing has no time of its own to divide by
-    const double step = job.course.speed.least(s[i], s[i + 1]) * job.course.machine.period;
-    const double way = job.course.axes[a].at(coordinates_of(job.program, i + 1)) -
-                       job.course.axes[a].at(coordinates_of(job.program, i));
-    const double pulses = std::abs(way) * axis.pulses_per_axis_unit() * step / length;
-    peak = std::max(peak, pulses);
-    if (axis.n_max && pulses > static_cast<double>(*axis.n_max)) {
-      out.periods_over += static_cast<std::int64_t>(std::ceil(length / step));
-    }
-  }
-  out.peak = static_cast<std::int64_t>(std::floor(peak + 0.5));
-  return out;
-}
-
 Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan,
               const std::stop_token& stop) {
   const Path& path = job.course.path;

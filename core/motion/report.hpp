@@ -101,12 +101,4 @@ struct Report {
 /// Source  docs/theory/pulse-schedules.md, section 10.2.
 [[nodiscard]] Comparison comparison(const PreparedCut& job, const std::stop_token& stop = {});
 
-/// What running every segment of the polyline at the asked speed would ask of one axis.
-struct Naive {
-  std::int64_t peak = 0;          // pulses in a period, rounded
-  std::int64_t periods_over = 0;  // periods above n_max
-};
-/// Source  docs/theory/pulse-schedules.md, section 10.1.
-[[nodiscard]] Naive naive_pulses(const PreparedCut& job, std::size_t axis);
-
 }  // namespace tubecut::motion

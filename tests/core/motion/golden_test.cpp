@@ -197,6 +197,33 @@ INSTANTIATE_TEST_SUITE_P(Golden, Table1Case,
                          ::testing::Values(std::pair{"table1_raw", 0},
                                            std::pair{"table1_smoothed", 20}));
 
+/// What running every segment of the polyline at the asked speed would ask of one axis: section
+/// 10.1 of the theory.
+struct Naive {
+  std::int64_t peak = 0;          // pulses in a period, rounded
+  std::int64_t periods_over = 0;  // periods above n_max
+};
+Naive naive_pulses(const PreparedCut& job, std::size_t a) {
+  const Axis& axis = job.course.machine.axes[a];
+  const std::vector<double> s = job.program.lengths();
+  double peak = 0.0;
+  Naive out;
+  for (std::size_t i = 0; i + 1 < job.program.size(); ++i) {
+    const double length = tip_length(job.course.tip, job.program, i, i + 1);
+    if (length <= 0.0) continue;  // a pure swing has no time of its own to divide by
+    const double step = job.course.speed.least(s[i], s[i + 1]) * job.course.machine.period;
+    const double way = job.course.axes[a].at(coordinates_of(job.program, i + 1)) -
+                       job.course.axes[a].at(coordinates_of(job.program, i));
+    const double pulses = std::abs(way) * axis.pulses_per_axis_unit() * step / length;
+    peak = std::max(peak, pulses);
+    if (axis.n_max && pulses > static_cast<double>(*axis.n_max)) {
+      out.periods_over += static_cast<std::int64_t>(std::ceil(length / step));
+    }
+  }
+  out.peak = static_cast<std::int64_t>(std::floor(peak + 0.5));
+  return out;
+}
+
 /// One column of the tables of section 10.1 and 10.2.
 struct Published {
   int points;
