@@ -36,7 +36,7 @@ struct Job {
 [[nodiscard]] JobRequest decode_job(Reader& in);
 
 /// Errors  those of the nested request, their members under `cut` or `mill_path`;
-/// unsupported_combination.
+///         unsupported_combination.
 [[nodiscard]] Result<Job> compute_job(const JobRequest& request, const std::stop_token& stop);
 
 }  // namespace tubecut::api

@@ -57,8 +57,9 @@ struct TorchWords {
 /// With a pivot length the linear axes are the pivot's, and the one square to the tube moves too;
 /// without, the control must know the tip. The torch is lit only by the option `torch`, for each
 /// cut anew; with a pivot length it is lifted between them. Where a hole's torch tilts across, C is
-/// that tilt and, with a pivot length, Y the pivot's way across. Accuracy  X, Y, Z 1e-5 mm, A 1e-7
-/// deg, B, C 1e-6 deg.
+/// that tilt and, with a pivot length, Y the pivot's way across.
+///
+/// Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
 [[nodiscard]] std::string print_gcode(const TorchJob& job, const Caption& caption);
 
 }  // namespace tubecut::api

@@ -31,7 +31,7 @@ struct TorchReach {
 
 /// The ends of moves from one place to another, the last of them `to`, so short that each sags by
 /// at most `limit`; where they end, both edges are on their lines.
-/// Cost  linear in the moves, about |to - from| sqrt(reach / (8 limit)); at most 2^16.
+/// Cost    linear in the moves, about |to - from| sqrt(reach / (8 limit)); at most 2^16.
 [[nodiscard]] std::vector<TorchPlace> straight_moves(const TorchReach& reach,
                                                      const TorchPlace& from, const TorchPlace& to,
                                                      double limit);

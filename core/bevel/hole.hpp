@@ -85,23 +85,26 @@ struct HoleCut {
 /// The torch's axis runs half a kerf off the wall, and as much further as a round beam of the
 /// kerf's width needs to stay out of the chord, at nodes and between them (`torch_line`).
 ///
-/// Frame   z along the chord, phi from x towards y. B > 0: the outer edge lies further towards +z.
-/// Errors  open_profile (branch; phi intervals of the branch: it reaches beyond the chord's side),
-///         no_contact, parallel_axes, zero_length, out_of_range, torch_range, too_many_nodes,
-///         cancelled.
+/// Frame     z along the chord, phi from x towards y. B > 0: the outer edge lies further towards
+///           +z.
+/// Errors    open_profile (branch; phi intervals of the branch: it reaches beyond the chord's
+///           side), no_contact, parallel_axes, zero_length, out_of_range, torch_range,
+///           too_many_nodes, cancelled.
 /// Accuracy  the root's gap within 1e-9 mm of the asked one at the nodes, nowhere less across the
 ///           wall; between nodes, where both edges run straight in (phi, z), nowhere less than it
 ///           by more than the sampling's tolerance (worst seen 0.994 of it). A bare grid promises
 ///           that at its nodes alone: by more than joint::Tolerance's it is the warning
 ///           `enters_partner`.
-/// Source  docs/theory/intersections-and-bevels.md, section 8.
+/// Source    docs/theory/intersections-and-bevels.md, section 8.
 [[nodiscard]] Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop = {});
 
 /// The answer proved in 3D: distances of its own points to the axes, by cross products.
 [[nodiscard]] std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut,
                                         const std::stop_token& stop = {});
 
-/// The branch's four numbers. Errors  as joint::place, at branch/axis.
+/// The branch's four numbers.
+///
+/// Errors  as joint::place, at branch/axis.
 [[nodiscard]] Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch);
 
 }  // namespace tubecut::bevel

@@ -9,8 +9,9 @@
 namespace tubecut::bevel {
 
 /// The curve in which the cylinder `rho` about the branch's axis meets a cylinder about the
-/// chord's, over the branch's phase. Errors  those of joint::trace, about the branch; open_profile
-/// where the two are tangent.
+/// chord's, over the branch's phase.
+///
+/// Errors  those of joint::trace, about the branch; open_profile where the two are tangent.
 [[nodiscard]] Result<joint::Contour> joint_curve(const joint::TubeCutter& branch,
                                                  double chord_radius, double rho);
 

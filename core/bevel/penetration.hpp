@@ -44,7 +44,8 @@ struct Penetration {
 ///
 /// Errors  none; with `stop` requested the search ends early and the bound does not hold.
 /// Cost    one line a row and solid, and those of the parts that come within `slack` of the
-/// deepest. Source  docs/theory/intersections-and-bevels.md, section 5.7.
+///         deepest.
+/// Source  docs/theory/intersections-and-bevels.md, section 5.7.
 [[nodiscard]] Penetration deepest(const CutWall& wall, std::span<const joint::Solid> solids,
                                   double slack, const std::stop_token& stop = {});
 

@@ -28,8 +28,10 @@ struct SwingLimits {
 
 /// Limits of a swing axis (rad/s, rad/s^2) whose path is cut at `speed` mm/s with the share `use`
 /// of the axis: slope = use v / speed, curvature = use a / speed^2, along the true length of the
-/// cut. Errors  zero_limit (axis not above zero), out_of_range (speed not above zero, use outside
-/// (0, 1]).
+/// cut.
+///
+/// Errors  zero_limit (axis not above zero), out_of_range (speed not above zero, use outside (0,
+///         1]).
 [[nodiscard]] Result<SwingLimits> swing_limits(double velocity, double acceleration, double speed,
                                                double use);
 
@@ -106,9 +108,8 @@ struct HermiteSmoothed {
 /// limit, largest first, the larger sample kept. Promises neither f >= B nor any slope.
 ///
 /// Errors  wrong_count, not_finite, out_of_range (order, period, limit, transition),
-/// sampling_not_uniform,
-///         smoothing_not_converged (200 windows), transition_too_long (no T of its own fits),
-///         cancelled.
+///         sampling_not_uniform, smoothing_not_converged (200 windows), transition_too_long (no T
+///         of its own fits), cancelled.
 /// Cost    linear in the samples for each window, at most 200 windows.
 /// Source  section 6.1.
 [[nodiscard]] Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec,

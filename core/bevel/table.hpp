@@ -124,15 +124,14 @@ struct Table {
 /// of the finished part, rows and what lies between them (`torch_line`). With a tolerance it also
 /// has the rows that its own bends need.
 ///
-/// Frame   z along the target from the cut end into the kept member, phi from x towards y; B > 0:
-/// outer edge further into the part.
-/// Errors  open_profile, no_contact, parallel_axes,
-/// member_consumed, torch_range, sampling_not_uniform, smoothing_not_converged,
-///         smoothing_enters, cut_enters (contact outer), out_of_range (groove/zones, root_face,
-///         kerf), joint_contradicts (root_gap), transition_too_long, unsupported_combination,
-///         too_many_nodes, cancelled.
+/// Frame     z along the target from the cut end into the kept member, phi from x towards y; B > 0:
+///           outer edge further into the part.
+/// Errors    open_profile, no_contact, parallel_axes, member_consumed, torch_range,
+///           sampling_not_uniform, smoothing_not_converged, smoothing_enters, cut_enters (contact
+///           outer), out_of_range (groove/zones, root_face, kerf), joint_contradicts (root_gap),
+///           transition_too_long, unsupported_combination, too_many_nodes, cancelled.
 /// Accuracy  `penetration` is stated within 3e-4 mm, by an enclosure.
-/// Source  docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
+/// Source    docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
 [[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
 
 /// Errors  wrong_count, out_of_range (groove/zones/i).

@@ -81,7 +81,9 @@ template <class F>
 /// Radians to degrees.
 [[nodiscard]] Intervals degrees(std::vector<std::pair<double, double>> intervals);
 
-/// Mutations, windows and B of the table. Errors  those of the smoothing chosen.
+/// Mutations, windows and B of the table.
+///
+/// Errors  those of the smoothing chosen.
 [[nodiscard]] Result<void> fill_smoothed(const Ground& g, const Rows& rows, Table& out,
                                          const std::stop_token& stop);
 /// B required beyond the torch: an error, with the root gap that lifting the cut would open.

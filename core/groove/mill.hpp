@@ -119,7 +119,7 @@ struct Cone {
 /// Whether tool and setup are possible at all, and fit the groove.
 ///
 /// Errors  not_finite, out_of_range, tool, setup, tool_short, root_collision; `member` from
-/// "mill/..." and "setup/...".
+///         "mill/..." and "setup/...".
 [[nodiscard]] std::optional<Error> tool_fault(const Joint& joint, const Survey& survey,
                                               const Mill& mill, const Setup& setup);
 

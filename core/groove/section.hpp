@@ -51,8 +51,8 @@ struct Section {
 /// P1, P2 and the bow of the section in direction `dir`.
 ///
 /// Errors    no_p2, p2_ambiguous.
-/// Accuracy  |P1 P2| = c and both points on the chord within 1e-13 (R + r) / sin(alpha); worst
-///           seen 5e-16.
+/// Accuracy  |P1 P2| = c and both points on the chord within 1e-13 (R + r) / sin(alpha); worst seen
+///           5e-16.
 /// Cost      about 4 Newton steps, never more than 120 (50 Newton, then bisection).
 /// Source    docs/theory/grooves-and-milling.md, 4.1 and 4.2.
 [[nodiscard]] tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir);

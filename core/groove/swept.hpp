@@ -54,8 +54,8 @@ struct SweptPoints {
 ///
 /// Errors    of `section`; cancelled.
 /// Accuracy  at each point looked at, the least distance over the motion within 1e-7 mm; between
-/// the
-///           points nothing is said (a ruling per degree misses less than 4 % of a case's figure).
+///           the points nothing is said (a ruling per degree misses less than 4 % of a case's
+///           figure).
 /// Cost      3 to 5 us per point: 40-90 ms.
 /// Source    docs/theory/grooves-and-milling.md, 7 and 8.4.
 [[nodiscard]] tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone,

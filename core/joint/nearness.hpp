@@ -36,8 +36,8 @@ struct Touch {
 /// Every end within the reach of another stretch, ascending by end, then by the other.
 ///
 /// Errors    wrong_count (members/i/start or end: more than `most` others at one end), cancelled.
-/// Cost      memory linear; time linear for members of like size (ends in a grid of the mean
-///           length and reach), at worst one distance for each end and stretch.
+/// Cost      memory linear; time linear for members of like size (ends in a grid of the mean length
+///           and reach), at worst one distance for each end and stretch.
 [[nodiscard]] Result<std::vector<Touch>> touches(std::span<const Stretch> stretches,
                                                  std::size_t most,
                                                  const std::stop_token& stop = {});

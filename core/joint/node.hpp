@@ -132,7 +132,9 @@ struct EndJoint {
 [[nodiscard]] std::vector<Partner> seats(const EndJoint& joint);
 
 /// The curves of every end that is cut all round: the others, and those whose member is consumed,
-/// have none. Errors  too_many_nodes (of all ends together), cancelled.
+/// have none.
+///
+/// Errors  too_many_nodes (of all ends together), cancelled.
 [[nodiscard]] Result<std::vector<std::optional<Intersection>>> profiles(
     const NodeSpec& spec, const Nodes& nodes, const Sampling& sampling,
     const std::stop_token& stop = {});

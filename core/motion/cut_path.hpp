@@ -17,9 +17,9 @@ enum class Scrap : std::uint8_t { minus_z, plus_z, inside };
 /// The line the torch follows on one wall surface, a request's `contour`. Columns of one length,
 /// rad and mm.
 ///
-/// Frame  z along the tube into the kept part, phi from x towards y, unwrapped. `b` is the beam's
-///        angle to the radial direction in the axial plane *as the machine counts it* (positive
-///        towards sigma * z): see `as_machine_counts`.
+/// Frame   z along the tube into the kept part, phi from x towards y, unwrapped. `b` is the beam's
+///         angle to the radial direction in the axial plane *as the machine counts it* (positive
+///         towards sigma * z): see `as_machine_counts`.
 struct CutPath {
   std::vector<double> phi = {};
   std::vector<double> z = {};

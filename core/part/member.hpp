@@ -51,12 +51,12 @@ struct FoundMember {
 
 /// Finds who cuts the member's ends, who stands on it, and its frame in the world.
 ///
-/// Errors  those of joint::solve (members/...); bad_reference_direction (up, datum); no_contact
-///         (holes/i/member: that member neither ends on this one nor passes through it);
-///         joint_contradicts (holes/i/joint: the members state another).
+/// Errors    those of joint::solve (members/...); bad_reference_direction (up, datum); no_contact
+///           (holes/i/member: that member neither ends on this one nor passes through it);
+///           joint_contradicts (holes/i/joint: the members state another).
 /// Warnings  joint_not_stated (the hole is for a joint that the branch's own part would not be cut
-///         for), hole_missing (a branch that is set in, or passes through, has no hole).
-/// Source  docs/theory/parts.md, section 1.
+///           for), hole_missing (a branch that is set in, or passes through, has no hole).
+/// Source    docs/theory/parts.md, section 1.
 [[nodiscard]] Result<FoundMember> find_member(const MemberSpec& spec,
                                               const std::stop_token& stop = {});
 
