@@ -194,7 +194,7 @@ Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kep
   }
   Furthest worst;
   double best = std::numeric_limits<double>::infinity();
-  for (int round = 0, since = 0; best > kEqual && since < kPatience; ++round, ++since) {
+  for (int since = 0; best > kEqual && since < kPatience; ++since) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     Joint tried = joint;
     tried.area_factor = PeriodicSpline(factors);
