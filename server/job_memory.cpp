@@ -12,7 +12,8 @@ thread_local JobMemory* t_job = nullptr;  // NOLINT: operator new has no other w
 
 }  // namespace
 
-JobMemory::JobMemory(std::size_t given, Grow grow) : given_(given), grow_(std::move(grow)) {
+JobMemory::JobMemory(std::size_t given, Grow grow, std::atomic<std::size_t>* live)
+    : given_(given), live_(live != nullptr ? live : &own_), grow_(std::move(grow)) {
   t_job = this;
 }
 
@@ -25,12 +26,14 @@ void JobMemory::take(std::size_t bytes) {
 }
 
 void JobMemory::give(std::size_t bytes) noexcept {
-  if (t_job != nullptr && !t_job->asking_) t_job->live_ -= std::min(t_job->live_, bytes);
+  if (t_job != nullptr && !t_job->asking_)
+    t_job->set_live(t_job->live() - std::min(t_job->live(), bytes));
 }
 
 void JobMemory::ask(std::size_t bytes) {
-  if (live_ + bytes > given_) {
-    const std::size_t least = live_ + bytes - given_, most = std::max(least, kStep);
+  const std::size_t held = live() + bytes;
+  if (held > given_) {
+    const std::size_t least = held - given_, most = std::max(least, kStep);
     asking_ = true;
     std::size_t more = most;
     Grant grant = grow_(more);
@@ -39,8 +42,8 @@ void JobMemory::ask(std::size_t bytes) {
     if (grant != Grant::given) throw NoRoom(grant == Grant::in_use);
     given_ += more;
   }
-  live_ += bytes;
-  peak_ = std::max(peak_, live_);
+  set_live(held);
+  peak_ = std::max(peak_, held);
 }
 
 }  // namespace tubecut::server

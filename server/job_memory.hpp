@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <new>
@@ -23,8 +24,9 @@ class JobMemory {
   /// Gives so many bytes more, or says why not.
   using Grow = std::function<Grant(std::size_t bytes)>;
 
-  /// `given`: bytes to begin with. One at a time in a thread.
-  JobMemory(std::size_t given, Grow grow);
+  /// `given`: bytes to begin with. One at a time in a thread. `live`: where other threads read how
+  /// many bytes it holds; nullptr: none do.
+  JobMemory(std::size_t given, Grow grow, std::atomic<std::size_t>* live = nullptr);
   ~JobMemory();
   JobMemory(const JobMemory&) = delete;
   JobMemory& operator=(const JobMemory&) = delete;
@@ -42,9 +44,13 @@ class JobMemory {
 
  private:
   void ask(std::size_t bytes);
+  /// One thread writes: no other can come between reading and writing.
+  void set_live(std::size_t bytes) noexcept { live_->store(bytes, std::memory_order_relaxed); }
+  [[nodiscard]] std::size_t live() const noexcept { return live_->load(std::memory_order_relaxed); }
 
   std::size_t given_;
-  std::size_t live_ = 0;
+  std::atomic<std::size_t> own_ = 0;
+  std::atomic<std::size_t>* live_;
   std::size_t peak_ = 0;
   Grow grow_;
   bool asking_ = false;  // what asking takes is not the job's

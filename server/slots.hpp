@@ -38,10 +38,11 @@ struct Job {
       std::chrono::steady_clock::time_point::max();  // when the port has to look at it
   std::string_view kind = {};                        // jobs of a kind take about as long
   Claim claim = {};
-  bool in_lane = false;    // of the slots' mutex
-  double began_s = 0.0;    // of the slots' mutex; 0: it waits
-  CpuClock cpu = {};       // of the slots' mutex; its thread's while it runs
-  bool displaced = false;  // known to the port: it lost its place in the queue
+  bool in_lane = false;               // of the slots' mutex
+  double began_s = 0.0;               // of the slots' mutex; 0: it waits
+  CpuClock cpu = {};                  // of the slots' mutex; its thread's while it runs
+  std::atomic<std::size_t> held = 0;  // bytes of memory, while it runs
+  bool displaced = false;             // known to the port: it lost its place in the queue
   Printed answer = {};
   bool refused = false;            // of a batch's line: its answer is a problem
   bool malformed = false;          // of a batch's line: it is no job

@@ -172,15 +172,20 @@ Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
   std::vector<AxisBounds> all(axes.size());
   for (std::size_t a = 0; a < axes.size(); ++a) {
     const Axis& axis = machine.axes[a];
-    const std::vector<double> intervals(n), knots(n + 1);
     all[a] = {a,
-              intervals,
-              intervals,
-              intervals,
+              {},
+              {},
+              {},
               kUnderCap * velocity_limit(axis, machine.period),
               axis.a_max,
               axis.j_max.value_or(0.0),
-              {knots, knots, intervals, axes[a].is_linear()}};
+              {{}, {}, {}, axes[a].is_linear()}};
+    auto& [first, second, third, linear] = all[a].along;
+    for (auto* const values : {&all[a].first, &all[a].second, &all[a].third, &third}) {
+      if (stop.stop_requested()) return out;  // memory is touched for the first time
+      values->resize(n);
+    }
+    for (auto* const values : {&first, &second}) values->resize(n + 1);
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (stop.stop_requested()) return out;

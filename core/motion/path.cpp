@@ -286,7 +286,8 @@ Path assembled(const Program& p, const Resampled& r, Smoothed tip, Smoothed beve
   path.coordinates = p.coordinates;
   std::size_t t = 0, b = 0;
   for (const Coordinate& c : p.coordinates) {
-    path.control.push_back(c.group == Group::tip ? tip.control[t++] : bevel.control[b++]);
+    path.control.push_back(
+        std::move(c.group == Group::tip ? tip.control[t++] : bevel.control[b++]));
   }
   path.deviation_tip = tip.deviation;
   path.deviation_b = bevel.deviation / kBevelWeight;

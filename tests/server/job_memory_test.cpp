@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -248,6 +249,19 @@ TEST(JobMemory, EndsWhereNoMoreIsGiven) {
   EXPECT_LE(memory.peak(), 4'010'000U);
   held.clear();  // what is free again may be taken again
   EXPECT_NO_THROW(held.push_back(std::make_unique<char[]>(2'000'000)));
+}
+
+TEST(JobMemory, TellsOthersWhatItHolds) {
+  std::atomic<std::size_t> live = 0;
+  {
+    const JobMemory memory(
+        kPlenty, [](std::size_t) { return Grant::never; }, &live);
+    auto block = std::make_unique<char[]>(1'000'000);
+    EXPECT_GE(live, 1'000'000U);
+    EXPECT_LT(live, 1'100'000U);
+    block = nullptr;
+    EXPECT_LT(live, 100'000U);
+  }
 }
 
 std::vector<Costly> everyday() {
