@@ -33,6 +33,16 @@ std::vector<Issue> check_issues(const MillPathSpec& spec) {
     refuse(ErrorCode::out_of_range, "positions", spec.positions, kMinPositions, "");
   if (spec.positions > kMaxPositions)
     refuse(ErrorCode::out_of_range, "positions", spec.positions, kMaxPositions, "");
+  else if (issues.empty())
+    if (const int most = most_positions(check, spec.optimise.method); spec.positions > most)
+      issues.push_back(
+          {.code = ErrorCode::out_of_range,
+           .member = "positions",
+           .got = double(spec.positions),
+           .limit = double(most),
+           .hint =
+               "so many may be looked at by the check's points, pitch and window" +
+               std::string(spec.optimise.method == Method::annealing ? " with annealing" : "")});
   if (spec.optimise.hold != Hold::tip && spec.optimise.hold != Hold::pivot)
     refuse(ErrorCode::setup, "optimise/hold", double(spec.optimise.hold), 1.0, "");
   return issues;
@@ -122,7 +132,28 @@ tl::expected<std::vector<MillPosition>, Error> emitted(const Shop& shop,
   return out;
 }
 
+int most_within(double bound, double each) {
+  return int(std::clamp(std::floor(bound / each), 0.0, double(kMaxPositions)));
+}
+
 }  // namespace
+
+GapWork gap_work(const GapCheck& check) {
+  const double n = check.points;
+  return {.samples = n * double(2 * ruling_reach(check) + 1),
+          .triples = n * (n - 1.0) * (n - 2.0) / 6.0};
+}
+
+int most_emitted(const GapCheck& check) {
+  const GapWork work = gap_work(check);
+  return std::min(most_within(kMaxSamples, work.samples), most_within(kMaxTriples, work.triples));
+}
+
+int most_positions(const GapCheck& check, Method method) {
+  const int most = most_emitted(check);
+  if (method != Method::annealing) return most;
+  return std::min(most, most_within(kMaxAnnealedSamples, gap_work(check).samples));
+}
 
 Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
   const auto joint = joint_of(spec.groove, stop);

@@ -62,16 +62,29 @@ struct MillPath {
 
 inline constexpr int kMinPositions = 4, kMaxPositions = 20000;
 inline constexpr int kMaxPoints = 101;  // per ruling; the minimax looks at every triple
+/// Of all positions together, what they are looked at by: points of their rulings, triples of the
+/// points of a ruling, and points for the annealing, which looks at each 2401 times.
+inline constexpr double kMaxSamples = 4e7, kMaxTriples = 1e8, kMaxAnnealedSamples = 2e6;
 inline constexpr double kAxisSag =
     1e-3;  // mm, of the tool between emitted positions, at mid interval
 inline constexpr double kRootFaceCut = -0.005;   // mm; below it a warning
 inline constexpr double kRootFaceReject = -0.5;  // mm; below it the path is not qualified
 
+/// Points of rulings that one position is looked at by, and triples of the points of a ruling.
+struct GapWork {
+  double samples = 0.0, triples = 0.0;
+};
+[[nodiscard]] GapWork gap_work(const GapCheck& check);
+
+/// The most positions that may be optimised so, and the most that may be emitted.
+[[nodiscard]] int most_positions(const GapCheck& check, Method method);
+[[nodiscard]] int most_emitted(const GapCheck& check);
+
 /// The cone mill's path round the groove on a C, X, Z, B machine.
 ///
 /// Errors    of `groove` (member "groove/..."), of `tool_fault`; sampling, setup, out_of_range,
-///           window, contact, z_ineffective, travel, too_many_nodes (more than 20 000 positions
-///           for the sag), not_converged, cancelled.
+///           window, contact, z_ineffective, travel, too_many_nodes (more positions for the sag
+///           than `most_emitted`), not_converged, cancelled.
 /// Accuracy  increments 1e-9 mm and deg; certificate 1e-9 mm; swept figures as `swept`.
 /// Cost      0.4 ms per optimised and 0.2 ms per further position, 0.15 s for the swept figures;
 ///           annealing 15 ms per position.

@@ -27,7 +27,7 @@ std::mt19937_64 generator(std::uint64_t seed, int index) {
 tl::expected<Optimum, ErrorCode> improve(const Shop& shop, const Task& task, Gap initial, int index,
                                          std::stop_token stop) {
   const Optimise& how = shop.spec.optimise;
-  if (how.method == Method::chebyshev) return chebyshev(task, how.bias, std::move(initial));
+  if (how.method == Method::chebyshev) return chebyshev(task, how.bias, std::move(initial), stop);
   if (how.method == Method::none) return certified(task, {}, 0.0, 1, std::move(initial));
   auto random = generator(how.seed, index);
   return annealing(task, random, stop);
@@ -72,7 +72,7 @@ tl::expected<MillPosition, ErrorCode> position(const Shop& shop, double station,
                                                std::stop_token stop) {
   const MillPathSpec& spec = shop.spec;
   const Angle omega = Angle::rad(shop.omega(station));
-  const auto near = neighbourhood(shop.joint, omega, spec.check);
+  const auto near = neighbourhood(shop.joint, omega, spec.check, stop);
   const auto here = section(shop.joint, omega);
   if (!near || !here) return tl::unexpected(here ? near.error() : here.error());
   const Task task{*near, shop.cone, spec.setup,

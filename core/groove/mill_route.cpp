@@ -14,17 +14,21 @@ class Route {
   /// Stations to emit: the optima, and between each two as many equal parts as keep the sag small.
   [[nodiscard]] Result<std::vector<double>> stations(std::stop_token stop) const {
     std::vector<double> out;
+    const int most = most_emitted(shop_.spec.check);
     for (int i = 0; i < shop_.spec.positions; ++i) {
       if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
       const auto count = parts(i);
       if (!count) return failed(count.error(), shop_.omega(i));
       for (int k = 0; k < *count; ++k) out.push_back(i + double(k) / *count);
-      if (out.size() > std::size_t(kMaxPositions))
+      if (out.size() > std::size_t(most))
         return fail({.code = ErrorCode::too_many_nodes,
-                     .member = "setup/pivot_length",
+                     .member = most < kMaxPositions ? "check" : "setup/pivot_length",
                      .got = double(out.size()),
-                     .limit = double(kMaxPositions),
-                     .hint = "positions that keep the axes' sag below 0.001 mm"});
+                     .limit = double(most),
+                     .hint = "positions that keep the axes' sag below 0.001 mm" +
+                             std::string(most < kMaxPositions
+                                             ? ", each looked at by so many points and rulings"
+                                             : "")});
     }
     return out;
   }

@@ -63,12 +63,13 @@ struct Optimum {
 /// Sequential linear minimax from the initial position.
 ///
 /// Errors    of `gap`; z_ineffective (no contact moves by sin 5 deg per unit of Z); not_converged
-///           (cap 50 steps).
+///           (cap 50 steps); cancelled.
 /// Accuracy  certificate <= 1e-9 mm; worst of 2000 random positions 3.2e-13.
 /// Cost      2-7 evaluations in 2000 random positions, 4.7 on average; with `no_overcut` about 12.
 /// Source    docs/theory/grooves-and-milling.md, 8.3; there a step that does not help is halved at
 ///           once, here it is taken once on trust (9 and 11 evaluations became 7).
-[[nodiscard]] tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap initial);
+[[nodiscard]] tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap initial,
+                                                         std::stop_token stop = {});
 
 /// The published method: simulated annealing of the grid objective (16), 80 levels of 30 moves, T
 /// from F(0) by 0.93. The source gives no schedule and no moves; those are ours. For comparison

@@ -109,11 +109,17 @@ tl::expected<Contact, ErrorCode> contact_at(const Neighbourhood& near, const Con
 
 }  // namespace
 
+int ruling_reach(const GapCheck& check) {
+  return int(std::floor(check.window.rad() / check.pitch.rad() * (1.0 + 1e-12)));
+}
+
 tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle omega,
-                                                     const GapCheck& check) {
+                                                     const GapCheck& check,
+                                                     const std::stop_token& stop) {
   Neighbourhood out{&joint, omega, check.points, {}, {}};
-  const int reach = int(std::floor(check.window.rad() / check.pitch.rad() * (1.0 + 1e-12)));
+  const int reach = ruling_reach(check);
   for (int m = -reach; m <= reach; ++m) {
+    if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
     const auto found = neighbour(joint, omega, m * check.pitch.rad());
     if (!found) return tl::unexpected(found.error());
     out.rulings.push_back(*found);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stop_token>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct GapCheck {
   double qualify = 0.5;           // over- and undercut must stay below, mm
 };
 
+/// Rulings to either side of the section's own.
+[[nodiscard]] int ruling_reach(const GapCheck& check);
+
 /// The rulings around a section, placed in its half plane; made once and read by every trial
 /// position.
 struct Neighbourhood {
@@ -32,9 +36,9 @@ struct Neighbourhood {
   std::vector<Eigen::Vector3d> samples;  // points of all rulings, ruling by ruling
 };
 
-/// Errors  those of `section`.
-[[nodiscard]] tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle omega,
-                                                                   const GapCheck& check);
+/// Errors  those of `section`; cancelled.
+[[nodiscard]] tl::expected<Neighbourhood, ErrorCode> neighbourhood(
+    const Joint& joint, Angle omega, const GapCheck& check, const std::stop_token& stop = {});
 
 /// The source's figures: the ruling that holds the deepest point, read at its points. They miss
 /// what lies between rulings.

@@ -122,8 +122,9 @@ std::array<double, 3> walls(const Finished& m) {
 }
 
 /// Does any of the wall come into the other's outer cylinder, prolonged without end?
-bool enters(const Finished& m, const Finished& other) {
+bool enters(const Finished& m, const Finished& other, const std::stop_token& stop) {
   for (const double rho : walls(m)) {
+    if (stop.stop_requested()) return false;
     const auto near = [&](double phi) { return -reach(m, other, rho, m.side(phi)).clearance; };
     std::array<double, kGenerators> sampled{};
     for (std::size_t k = 0; k < kGenerators; ++k)
@@ -165,11 +166,12 @@ void see(const Finished& m, const Finished& other, const Place& place, Deepest& 
 }
 
 /// From the deepest of the sampled places on, by steps that halve.
-void climb(const Finished& m, const Finished& other, Place from, Deepest& out) {
+void climb(const Finished& m, const Finished& other, Place from, const std::stop_token& stop,
+           Deepest& out) {
   double turn = kTwoPi / kGenerators, along = 1.0 / kAlong;
   for (int k = 0; k < kHalvings; ++k, turn *= 0.5, along *= 0.5) {
     bool better = true;
-    for (int moves = 0; better && moves < kMoves; ++moves) {
+    for (int moves = 0; better && moves < kMoves && !stop.stop_requested(); ++moves) {
       better = false;
       for (const auto& [dphi, dshare] : {std::pair{turn, 0.0}, std::pair{-turn, 0.0},
                                          std::pair{0.0, along}, std::pair{0.0, -along}}) {
@@ -184,18 +186,18 @@ void climb(const Finished& m, const Finished& other, Place from, Deepest& out) {
   }
 }
 
-void look(const Finished& m, const Finished& other, Deepest& out) {
+void look(const Finished& m, const Finished& other, const std::stop_token& stop, Deepest& out) {
   for (const double rho : walls(m)) {
     Deepest own;
     Place best{rho, 0.0, 0.0};
-    for (int i = 0; i < kGenerators; ++i)
+    for (int i = 0; i < kGenerators && !stop.stop_requested(); ++i)
       for (int k = 0; k <= kAlong; ++k) {
         const Place place{rho, kTwoPi * i / kGenerators, static_cast<double>(k) / kAlong};
         const double before = own.solid;
         see(m, other, place, own);
         if (own.solid > before) best = place;
       }
-    if (own.solid > 0.0) climb(m, other, best, own);
+    if (own.solid > 0.0) climb(m, other, best, stop, own);
     out.metal = std::max(out.metal, own.metal);
     if (own.solid <= out.solid) continue;
     out.solid = own.solid;
@@ -203,44 +205,62 @@ void look(const Finished& m, const Finished& other, Deepest& out) {
   }
 }
 
+using Pair = std::pair<std::size_t, std::size_t>;  // of members, the earlier first
+
+/// Pairs that by what is stated are set in, pass through or are mitred; sorted.
+std::vector<Pair> stated_apart(const NodeSpec& spec) {
+  std::vector<Pair> out;
+  for (const auto& one : spec.joints)
+    if (one.joint.kind != JointKind::set_on) out.emplace_back(std::minmax(one.member, one.with));
+  std::ranges::sort(out);
+  return out;
+}
+
 /// Pairs that cannot share metal, for the one is cut by the other wherever it meets that; or that
 /// share it by what is stated.
-bool settled(const NodeSpec& spec, const Nodes& nodes, std::size_t a, std::size_t b) {
-  for (const auto& [member, other] : {std::pair{a, b}, std::pair{b, a}})
+bool settled(const Nodes& nodes, const std::vector<Pair>& stated, std::size_t a, std::size_t b) {
+  for (const auto& [member, other] : {Pair{a, b}, Pair{b, a}})
     for (const auto end : {2 * member, 2 * member + 1})
       if (std::ranges::find(nodes.ends[end].cut_by, other, &CutBy::member) !=
           nodes.ends[end].cut_by.end())
         return true;
-  const auto* stated = stated_joint(spec, a, b);
-  return stated != nullptr && stated->kind != JointKind::set_on;
+  return std::ranges::binary_search(stated, Pair{a, b});
 }
 
 Stretch stretch(const Member& m) { return {m.start, m.finish, m.outer_radius}; }
 
-/// Calls `visit(a, b)` for the pairs of members whose axes come nearer than their radii: along x,
-/// those whose boxes have begun and not ended. False where it was stopped.
+struct Box {
+  Vector3d low, high;
+
+  [[nodiscard]] bool misses(const Box& other) const {
+    return (low.array() > other.high.array()).any() || (high.array() < other.low.array()).any();
+  }
+};
+
+Box box_of(const Member& m) {
+  return {m.start.cwiseMin(m.finish).array() - m.outer_radius,
+          m.start.cwiseMax(m.finish).array() + m.outer_radius};
+}
+
+/// Calls `visit(a, b)` for the pairs of members whose axes come nearer than their radii, until it
+/// says false: along x, those whose boxes have begun and not ended. False where it was stopped.
 template <class F>
 bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std::stop_token& stop,
                 F visit) {
   const auto& m = spec.members;
+  std::vector<Box> boxes;
+  for (const auto& one : m) boxes.push_back(box_of(one));
   std::vector<std::size_t> order(m.size()), open;
   std::iota(order.begin(), order.end(), 0U);
-  const auto low = [&](std::size_t i) -> Vector3d {
-    return m[i].start.cwiseMin(m[i].finish).array() - m[i].outer_radius;
-  };
-  const auto high = [&](std::size_t i) -> Vector3d {
-    return m[i].start.cwiseMax(m[i].finish).array() + m[i].outer_radius;
-  };
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return low(i).x(); });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return boxes[i].low.x(); });
   for (const auto i : order) {
-    const Vector3d from = low(i), to = high(i);
-    std::erase_if(open, [&](std::size_t j) { return high(j).x() < from.x(); });
+    std::erase_if(open, [&](std::size_t j) { return boxes[j].high.x() < boxes[i].low.x(); });
     for (const auto j : open) {
       if (stop.stop_requested()) return false;
-      if (only && *only != i && *only != j) continue;
-      if ((low(j).array() > to.array()).any() || (high(j).array() < from.array()).any()) continue;
-      if (nearness(stretch(m[i]), stretch(m[j])) < m[i].outer_radius + m[j].outer_radius)
-        visit(std::min(i, j), std::max(i, j));
+      if ((only && *only != i && *only != j) || boxes[j].misses(boxes[i])) continue;
+      if (!(nearness(stretch(m[i]), stretch(m[j])) < m[i].outer_radius + m[j].outer_radius))
+        continue;
+      if (!visit(std::min(i, j), std::max(i, j))) return true;
     }
     open.push_back(i);
   }
@@ -248,15 +268,23 @@ bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std
 }
 
 std::optional<Overlap> overlap(const NodeSpec& spec, const Nodes& nodes, std::size_t a,
-                               std::size_t b) {
-  if (settled(spec, nodes, a, b)) return std::nullopt;
+                               std::size_t b, const std::stop_token& stop) {
   const auto one = finished(spec, nodes, a), two = finished(spec, nodes, b);
-  if (!enters(one, two) || !enters(two, one)) return std::nullopt;
+  if (!enters(one, two, stop) || !enters(two, one, stop)) return std::nullopt;
   Deepest deepest;
-  look(one, two, deepest);
-  look(two, one, deepest);
+  look(one, two, stop, deepest);
+  look(two, one, stop, deepest);
   if (!(deepest.solid > kLeast && deepest.metal > kLeast)) return std::nullopt;
   return Overlap{a, b, deepest.solid, deepest.at};
+}
+
+tl::unexpected<Error> too_many(std::size_t pairs, std::size_t most, const char* what) {
+  return fail({.code = ErrorCode::wrong_count,
+               .member = "members",
+               .got = static_cast<double>(pairs),
+               .limit = static_cast<double>(most),
+               .hint = std::string("pairs of members that ") + what +
+                       ": give each member once, and fewer at a time"});
 }
 
 }  // namespace
@@ -264,11 +292,19 @@ std::optional<Overlap> overlap(const NodeSpec& spec, const Nodes& nodes, std::si
 Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
                                       std::optional<std::size_t> only,
                                       const std::stop_token& stop) {
+  const auto stated = stated_apart(spec);
   std::vector<Overlap> out;
+  std::size_t near = 0;
   const bool whole = near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
-    if (const auto one = overlap(spec, nodes, a, b)) out.push_back(*one);
+    if (settled(nodes, stated, a, b)) return true;
+    if (++near > kMostNearPairs) return false;
+    if (const auto one = overlap(spec, nodes, a, b, stop)) out.push_back(*one);
+    return out.size() <= kMostOverlaps;
   });
   if (!whole) return fail({.code = ErrorCode::cancelled});
+  if (near > kMostNearPairs)
+    return too_many(near, kMostNearPairs, "come nearer than their radii and do not cut each other");
+  if (out.size() > kMostOverlaps) return too_many(out.size(), kMostOverlaps, "share metal");
   std::ranges::sort(out, {}, [](const Overlap& o) { return std::pair{o.a, o.b}; });
   return out;
 }

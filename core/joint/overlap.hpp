@@ -16,13 +16,18 @@ struct Overlap {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  // there, in the world
 };
 
+/// Pairs of members whose axes come nearer than their radii that are looked at, and pairs that may
+/// be found to share metal: both grow with the square of the members.
+inline constexpr std::size_t kMostNearPairs = 1'000'000, kMostOverlaps = 5'000;
+
 /// The members that share metal once cut: modelled twice, crossing, or beside each other at a node
 /// with neither cutting the other. Ends are flush with their seats as `nodes` tells, one that
 /// nobody cuts is square at its work point; grooves and holes are not counted out, nor pairs looked
 /// at that by what is stated are set in, pass through, or are mitred. `only`: the pairs of this
 /// one.
 ///
-/// Errors    cancelled.
+/// Errors    wrong_count (members: more pairs than may be looked at, or than may overlap),
+///           cancelled.
 /// Accuracy  depth within 0.01 mm and 1e-3 radii; reported above 0.01 mm.
 /// Cost      5 us for a pair whose axes come nearer than their radii, 1 ms for one that overlaps.
 /// Source    docs/theory/intersections-and-bevels.md, section 1.4.

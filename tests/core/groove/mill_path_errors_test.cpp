@@ -63,6 +63,27 @@ const std::vector<Refusal>& refusals() {
       {"positions", ErrorCode::out_of_range, "positions", [](MillPathSpec& s) { s.positions = 3; }},
       {"many_positions", ErrorCode::out_of_range, "positions",
        [](MillPathSpec& s) { s.positions = 20001; }},
+      {"many_annealed", ErrorCode::out_of_range, "positions",
+       [](MillPathSpec& s) {
+         s.positions = most_positions(s.check, Method::annealing) + 1;
+         s.optimise.method = Method::annealing;
+       }},
+      {"many_samples", ErrorCode::out_of_range, "positions",
+       [](MillPathSpec& s) {
+         s.check.pitch = Angle::deg(0.05);
+         s.positions = 3000;
+       }},
+      {"many_triples", ErrorCode::out_of_range, "positions",
+       [](MillPathSpec& s) {
+         s.check.points = 101;
+         s.positions = 601;
+       }},
+      {"many_to_emit", ErrorCode::too_many_nodes, "check",
+       [](MillPathSpec& s) {
+         s.check.points = 101;
+         s.check.window = Angle::deg(90);
+         s.check.pitch = Angle::deg(0.05);
+       }},
       {"pivot", ErrorCode::setup, "setup/pivot_length",
        [](MillPathSpec& s) { s.setup.pivot_length = -1; }},
       {"mount", ErrorCode::setup, "setup/mount",

@@ -176,6 +176,32 @@ TEST(Overlap, RandomPairsAgainstThrownPoints) {
   EXPECT_GT(apart, 10);
 }
 
+/// Members that all run through one point, and join nowhere.
+NodeSpec crossed(std::size_t count) {
+  NodeSpec spec{.members = {}, .connect = Within{0.0}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto y = 100.0 * static_cast<double>(i);  // ends apart, so that none joins another
+    spec.members.push_back(tube("", {-1000, y, -1000}, {1000, -y, 1000}, 60.3, 4));
+  }
+  return spec;
+}
+
+TEST(Overlap, TellsNoMorePairsThanItMay) {
+  constexpr std::size_t kMembers = 101;
+  static_assert(kMembers * (kMembers - 1) / 2 > kMostOverlaps);
+  const auto spec = crossed(kMembers);
+  const auto nodes = solve(spec);
+  ASSERT_TRUE(nodes);
+  const auto all = overlaps(spec, *nodes);
+  ASSERT_FALSE(all);
+  const auto& issue = all.error().issues.front();
+  EXPECT_EQ(issue.code, ErrorCode::wrong_count);
+  EXPECT_EQ(issue.member, "members");
+  EXPECT_EQ(std::get<double>(issue.limit), double{kMostOverlaps});
+  EXPECT_EQ(std::get<double>(issue.got), double{kMostOverlaps} + 1.0);
+  EXPECT_EQ(found(crossed(20)).size(), 190U);
+}
+
 TEST(Overlap, StopsWhenAsked) {
   std::stop_source stop;
   stop.request_stop();
