@@ -1,6 +1,7 @@
 #include "api/catalogue.hpp"
 
 #include "api/api.hpp"
+#include "api/cost.hpp"
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
@@ -52,6 +53,13 @@ std::string limits_page(const Context& context) {
           each.field("cpu_s", cpu);
           each.field("wall_s", kWallPerCpu * cpu);
         });
+    });
+    w.array("costs", kCosts, [](Writer& each, const CostInfo& cost) {
+      each.object([&](Writer& o) {
+        o.field("name", cost.name);
+        o.field("cpu_s", cost.seconds);
+        o.field("per", cost.per);
+      });
     });
     w.object("verification", [](Writer& o) {
       for (const auto& endpoint : endpoints())

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "api/api.hpp"
 #include "api/catalogue.hpp"
@@ -136,6 +137,7 @@ class Job {
 
  private:
   Outcome work(const Endpoint& endpoint);
+  Outcome over_budget();
   Outcome answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                  const Choice& choice, const Query& query);
   void lap(std::string_view stage = {}) {
@@ -150,6 +152,7 @@ class Job {
   Outcome out_;
   double begun_ = 0.0;
   double mark_ = 0.0;
+  std::optional<double> estimate_;  // s of CPU, once it is known what there is to do
 };
 
 Outcome Job::compute(const Endpoint& endpoint) {
@@ -161,8 +164,21 @@ Outcome Job::compute(const Endpoint& endpoint) {
             .body = {},
             .headers = {},
             .job = {.endpoint = std::string(endpoint.id), .stages = std::move(out_.job.stages)}};
-    return refuse(ErrorCode::over_budget);
+    return over_budget();
   }
+}
+
+/// Says what would be enough.
+Outcome Job::over_budget() {
+  Problem out{.code = ErrorCode::over_budget};
+  if (estimate_)
+    out.issues = {{.code = ErrorCode::over_budget,
+                   .pointer = "",
+                   .limit = Json{*estimate_},
+                   .unit = "s",
+                   .hint = "the estimate of the whole job's CPU; it may take three times as long, "
+                           "and GET /v1/limits tells what the endpoint gives"}};
+  return refuse(out);
 }
 
 Outcome Job::work(const Endpoint& endpoint) {
@@ -209,11 +225,15 @@ Outcome Job::work(const Endpoint& endpoint) {
                       .options = query.options},
           .accepted = common.accept,
           .stage = [this](std::string_view stage) { lap(stage); },
-          .forget_body = [&body] { *body = Json{}; }};
+          .forget_body = [&body] { *body = Json{}; },
+          .foresee =
+              [this](Work work) {
+                work.add(Cost::body_byte, static_cast<double>(call_.body.size()));
+                estimate_ = std::round(work.seconds() * 1e4) / 1e4;
+              }};
   auto reply = endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {
-    if (problem->code == ErrorCode::cancelled) problem->code = ErrorCode::over_budget;
-    return refuse(*problem);
+    return problem->code == ErrorCode::cancelled ? over_budget() : refuse(*problem);
   }
   return answer(endpoint, common, std::move(std::get<Answer>(reply)), *choice, query);
 }
@@ -302,6 +322,8 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
       o.column("reasons", verdict.reasons);
     });
     write_warnings(w, answer);
+    if (query.validate_only && estimate_)
+      w.object("estimate", [&](Writer& o) { o.field("cpu_s", *estimate_); });
     if (common.inline_log) write_events(w, context_, begun_, job.stages);
   });
   const bool cbor = choice.body == Body::cbor;

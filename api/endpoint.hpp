@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "api/api.hpp"
+#include "api/cost.hpp"
 #include "api/format.hpp"
 #include "api/limits.hpp"
 #include "api/problem.hpp"
@@ -58,6 +59,7 @@ struct Run {
   std::vector<Measure> accepted = {};                // the request's `accept`
   std::function<void(std::string_view)> stage = {};  // called when a stage ends
   std::function<void()> forget_body = [] {};         // called when all of it is read
+  std::function<void(const Work&)> foresee = {};     // called when it is known what there is to do
 };
 
 struct Endpoint {
@@ -80,6 +82,8 @@ struct Endpoint {
 ///     types, units, ranges
 ///   static Result<Spec> resolve(Spec, const std::stop_token&);
 ///     optional: what only core can tell of the input
+///   static void count(const Spec&, Work&);
+///     what there is to do, for the estimate of its CPU
 ///   static Result<Out> compute(const Spec&, const std::stop_token&);
 ///     pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);
@@ -99,10 +103,16 @@ Reply run(Reader& in, Run& run) {
   run.stage("decode");
   if constexpr (requires { E::resolve(spec, run.stop); }) {
     auto resolved = E::resolve(std::move(spec), run.stop);
-    ask(run.stop);
-    if (!resolved) return core_problem(resolved.error(), answer.request);
+    if (!resolved) {
+      ask(run.stop);
+      return core_problem(resolved.error(), answer.request);
+    }
     spec = *std::move(resolved);
   }
+  Work work;
+  E::count(spec, work);
+  run.foresee(work);
+  ask(run.stop);
   auto out = E::compute(spec, run.stop);
   run.stage("compute");
   ask(run.stop);  // what it found may not be all

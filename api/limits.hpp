@@ -5,7 +5,8 @@
 namespace tubecut::api {
 
 /// The numbers a request may hold. One table: the reader's checks, `GET /v1/limits` and
-/// openapi.yaml all show it. X(name, value): names carry their unit.
+/// openapi.yaml all show it. X(name, value): names carry their unit. Those of pairs, samples and
+/// triples bound what grows worse than a request: core holds to them.
 #define TUBECUT_LIMITS(X)            \
   X(uniform_points_min, 8)           \
   X(uniform_points_max, 20'000)      \
@@ -25,6 +26,11 @@ namespace tubecut::api {
   X(body_max_bytes, 1'048'576)       \
   X(body_large_max_bytes, 8'388'608) \
   X(nesting_max, 32)                 \
+  X(near_pairs_max, 1'000'000)       \
+  X(overlaps_max, 5'000)             \
+  X(mill_samples_max, 4e7)           \
+  X(mill_triples_max, 1e8)           \
+  X(mill_annealed_samples_max, 2e6)  \
   X(problems_named_max, 32)          \
   X(reference_characters_max, 64)
 

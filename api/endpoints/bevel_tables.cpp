@@ -7,6 +7,7 @@
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/gcode.hpp"
 #include "core/bevel/table.hpp"
@@ -36,6 +37,7 @@ struct BevelTables {
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
     return api::resolve(std::move(spec), stop);
   }
+  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto out = bevel::table(spec, stop);
     if (!out) return tl::unexpected(on_node(spec.source, out.error()));

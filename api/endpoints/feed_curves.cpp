@@ -1,5 +1,6 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/endpoints/work.hpp"
 #include "api/formats/feed_curve_formats.hpp"
 #include "api/tables.hpp"
 #include "core/cutoff/feed_curve.hpp"
@@ -302,6 +303,7 @@ struct FeedCurves {
     return out;
   }
 
+  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     return cutoff::feed_curve(spec, stop);
   }

@@ -6,6 +6,10 @@
 namespace tubecut::api {
 namespace {
 
+static_assert(limit::mill_samples_max == groove::kMaxSamples &&
+              limit::mill_triples_max == groove::kMaxTriples &&
+              limit::mill_annealed_samples_max == groove::kMaxAnnealedSamples);
+
 constexpr Range kSmallLength{.min = 0.0, .max = 1'000.0};
 constexpr Range kArea{.min = 0.01, .max = 1e6};
 constexpr Range kTravelMm{.min = -limit::offset_max_mm, .max = limit::offset_max_mm};

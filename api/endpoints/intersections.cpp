@@ -2,6 +2,7 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/endpoints/work.hpp"
 #include "api/formats/intersection_formats.hpp"
 #include "core/joint/intersection.hpp"
 
@@ -42,6 +43,7 @@ struct Intersections {
     spec.partners = spec.source.node ? joint::seats(spec.source.found) : spec.source.partners;
     return spec;
   }
+  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto out = joint::intersect(spec, stop);
     if (!out) return tl::unexpected(on_node(spec.source, out.error()));

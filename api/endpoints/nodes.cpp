@@ -6,12 +6,16 @@
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/endpoints/work.hpp"
 #include "core/bevel/end_tables.hpp"
 #include "core/joint/node.hpp"
 #include "core/joint/overlap.hpp"
 
 namespace tubecut::api {
 namespace {
+
+static_assert(limit::near_pairs_max == double{joint::kMostNearPairs} &&
+              limit::overlaps_max == double{joint::kMostOverlaps});
 
 struct NodesRequest {
   joint::NodeSpec node;
@@ -147,6 +151,10 @@ struct Nodes {
     return out;
   }
 
+  static void count(const Spec& spec, Work& work) {
+    add_work(spec.node, spec.profiles ? &spec.sampling : nullptr,
+             spec.tables ? &*spec.tables : nullptr, work);
+  }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto nodes = joint::solve(spec.node, stop);
     if (!nodes) return tl::unexpected(nodes.error());

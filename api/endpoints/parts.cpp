@@ -9,6 +9,7 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/part_request.hpp"
+#include "api/endpoints/work.hpp"
 #include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
 #include "api/formats/work_order.hpp"
@@ -67,6 +68,10 @@ struct Parts {
   static Spec decode(Reader& in) { return decode_part_request(in); }
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
     return api::resolve(std::move(spec), stop);
+  }
+  static void count(const Spec& spec, Work& work) {
+    for (const auto* end : {&spec.part.start, &spec.part.finish}) add_work(end->cut, work);
+    for (const auto& one : spec.part.holes) add_work(one.hole, work);
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto out = part::part(spec.part, stop);

@@ -1,6 +1,7 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
+#include "api/endpoints/work.hpp"
 #include "api/formats/schedule_formats.hpp"
 #include "api/formats/schedule_gcode.hpp"
 #include "api/machines.hpp"
@@ -90,6 +91,7 @@ struct PulseSchedules {
 
   static Spec decode(Reader& in) { return decode_job(in); }
 
+  static void count(const Spec& spec, Work& work) { add_schedule_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto job = compute_job(spec, stop);
     if (!job) return tl::unexpected(job.error());

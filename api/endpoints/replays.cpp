@@ -5,6 +5,7 @@
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
+#include "api/endpoints/work.hpp"
 #include "core/motion/replay.hpp"
 
 namespace tubecut::api {
@@ -76,6 +77,11 @@ struct Replays {
     return out;
   }
 
+  static void count(const Spec& spec, Work& work) {
+    add_cut_work(spec.job, work);
+    for (const auto& counts : spec.schedule.counts)
+      work.add(Cost::period, static_cast<double>(counts.size()));
+  }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     auto job = compute_job(spec.job, stop);
     if (!job) return tl::unexpected(job.error());

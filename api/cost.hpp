@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace tubecut::api {
+
+/// What makes jobs long: the CPU that one of them takes, and what it is counted by. One table:
+/// `GET /v1/limits` shows it, `validate_only` and `over_budget` reckon by it. Measured by
+/// `bench/estimates`, on one core of the machine in docs/promises.md. What grows worse than the
+/// request does says "for each" twice, and has a bound of its own in limits.hpp.
+/// X(name, seconds, per)
+#define TUBECUT_COSTS(X)                                                                     \
+  X(job, 0.5e-3, "job")                                                                      \
+  X(body_byte, 60e-9, "byte of the body")                                                    \
+  X(curve_point, 0.8e-6, "point of an intersection, on each wall")                           \
+  X(curve_point_of_cutter, 0.06e-6, "point of an intersection, for each cutter")             \
+  X(table, 12e-3, "bevel table")                                                             \
+  X(table_point, 40e-6, "point of a bevel table")                                            \
+  X(table_point_of_cutter, 0.4e-6, "point of a bevel table, for each cutter")                \
+  X(elbow, 6e-3, "elbow among the cutters of a table or an intersection")                    \
+  X(hole_point, 6e-6, "point of a hole")                                                     \
+  X(member, 15e-6, "member of a node")                                                       \
+  X(near_pair, 60e-6,                                                                        \
+    "pair of members nearer than their radii of which neither cuts the other; not foreseen") \
+  X(path, 20e-3, "pulse schedule")                                                           \
+  X(path_knot, 3e-6, "0.1 mm of a schedule's path")                                          \
+  X(contour_point, 2e-6, "point of a contour or of axis columns")                            \
+  X(period, 1.5e-6, "period of a schedule, or of a replay")                                  \
+  X(feed_curve, 12e-3, "feed curve")                                                         \
+  X(feed_row, 0.6e-6, "row of a feed curve's table")                                         \
+  X(feed_sample, 1.5e-6, "servo sample of a cycle")                                          \
+  X(feed_degree, 3e-3, "degree compared")                                                    \
+  X(groove_section, 8e-6, "section of a groove")                                             \
+  X(normal_area, 0.2, "groove of equal normal sections")                                     \
+  X(mill_path, 0.15, "mill path")                                                            \
+  X(mill_position, 0.1e-3, "position of a mill path")                                        \
+  X(mill_sample, 0.1e-6, "position, for each point of each ruling it is looked at by")       \
+  X(mill_triple, 0.06e-6, "position, for each triple of a ruling's points")                  \
+  X(annealed_sample, 7.5e-6, "position annealed, for each point of each ruling")
+
+enum class Cost {
+#define X(name, seconds, per) name,
+  TUBECUT_COSTS(X)
+#undef X
+};
+
+struct CostInfo {
+  std::string_view name;
+  double seconds;
+  std::string_view per;
+};
+
+inline constexpr auto kCosts = std::to_array<CostInfo>({
+#define X(name, seconds, per) {#name, seconds, per},
+    TUBECUT_COSTS(X)
+#undef X
+});
+
+/// What a job has to do, counted before it is begun.
+class Work {
+ public:
+  Work() { add(Cost::job); }
+  void add(Cost cost, double count = 1.0) { counts_[static_cast<std::size_t>(cost)] += count; }
+  [[nodiscard]] double of(Cost cost) const { return counts_[static_cast<std::size_t>(cost)]; }
+
+  /// Seconds of CPU.
+  [[nodiscard]] double seconds() const {
+    double out = 0.0;
+    for (std::size_t i = 0; i < kCosts.size(); ++i) out += counts_[i] * kCosts[i].seconds;
+    return out;
+  }
+
+ private:
+  std::array<double, kCosts.size()> counts_{};
+};
+
+}  // namespace tubecut::api

@@ -1,0 +1,170 @@
+#include "api/endpoints/work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <variant>
+
+#include "core/base/angle.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kLeastNodes = 36.0;  // of a curve sampled by a tolerance
+constexpr double kNodes = 2.8;        // times sqrt(radius / tolerance), of joints of all kinds
+constexpr double kCutLength = 1.3;    // of a cut, in its tube's girths
+constexpr double kSpacing = 0.1;      // mm between the knots of a path
+constexpr double kMotions = 2.5;      // a cycle's whole motion, in times of its work feed
+
+/// Points of one curve round a tube.
+double points_of(const joint::Sampling& sampling, double radius) {
+  auto out = static_cast<double>(sampling.uniform_points);
+  if (sampling.tolerance)
+    out += kLeastNodes + kNodes * std::sqrt(radius / sampling.tolerance->value);
+  return std::min(out, static_cast<double>(sampling.max_nodes));
+}
+
+template <class Partners>
+double elbows_of(const Partners& partners) {
+  return static_cast<double>(std::ranges::count_if(partners, [](const joint::Partner& partner) {
+    return std::holds_alternative<joint::ElbowCutter>(partner);
+  }));
+}
+
+/// mm
+double length_of(const motion::CutPath& contour) {
+  double out = 0.0;
+  const auto n = std::min({contour.phi.size(), contour.z.size()});
+  for (std::size_t i = 1; i < n; ++i) {
+    const double turned = contour.radius() * (contour.phi[i] - contour.phi[i - 1]);
+    const double along = contour.z[i] - contour.z[i - 1];
+    out += std::sqrt(turned * turned + along * along);
+  }
+  return out;
+}
+
+double length_of(const CutSource& cut) {
+  return std::visit(
+      [](const auto& of) -> double {
+        using Of = std::decay_t<decltype(of)>;
+        if constexpr (std::is_same_v<Of, BevelTableRequest>)
+          return kCutLength * kTwoPi * of.target.outer_radius;
+        if constexpr (std::is_same_v<Of, groove::MillPathSpec>)
+          return kCutLength * kPi * of.groove.branch.outer_diameter;
+        if constexpr (std::is_same_v<Of, motion::CutPath>) return length_of(of);
+        if constexpr (std::is_same_v<Of, motion::AxisColumns>)
+          return of.length.empty() ? 0.0 : std::abs(of.length.back() - of.length.front());
+      },
+      cut);
+}
+
+/// mm/s
+double mean_speed(const motion::Speed& speed) {
+  const auto* const table = std::get_if<motion::SpeedTable>(&speed);
+  if (table == nullptr) return std::get<double>(speed);
+  double sum = 0.0;
+  for (const auto& pair : table->pairs) sum += pair.second;
+  return table->pairs.empty() ? 0.0 : sum / static_cast<double>(table->pairs.size());
+}
+
+/// s
+double work_feed_of(const cutoff::Cut& cut) {
+  const auto* const window = std::get_if<cutoff::FeedWindow>(&cut.range);
+  if (window != nullptr) return (window->end_feed - window->start_feed) / cut.feed;
+  const auto& by = std::get<cutoff::CutDistances>(cut.range);
+  return (by.slowdown + by.wall + by.overcut) / cut.feed;
+}
+
+/// Sections of the groove, and of the survey round it.
+void add_sections(const groove::GrooveSpec& spec, Work& work) {
+  work.add(Cost::groove_section, spec.sections);
+  if (spec.area_in == groove::AreaIn::normal) work.add(Cost::normal_area);
+}
+
+}  // namespace
+
+void add_work(const joint::IntersectionSpec& spec, Work& work) {
+  const double walls = spec.surfaces == joint::Surfaces::both ? 2.0 : 1.0;
+  const double points = walls * points_of(spec.sampling, spec.target.outer_radius);
+  work.add(Cost::curve_point, points);
+  work.add(Cost::curve_point_of_cutter, points * static_cast<double>(spec.partners.size()));
+  work.add(Cost::elbow, elbows_of(spec.partners));
+}
+
+void add_work(const bevel::TableSpec& spec, Work& work) {
+  const double points = points_of(spec.sampling, spec.target.outer_radius);
+  work.add(Cost::table);
+  work.add(Cost::table_point, points);
+  work.add(Cost::table_point_of_cutter, points * static_cast<double>(spec.partners.size()));
+  work.add(Cost::elbow, elbows_of(spec.partners));
+}
+
+void add_work(const bevel::HoleSpec& spec, Work& work) {
+  const double sides = spec.kind == bevel::JointKind::through ? 2.0 : 1.0;
+  work.add(Cost::hole_point, sides * points_of(spec.sampling, spec.chord.outer_radius));
+}
+
+void add_work(const joint::NodeSpec& node, const joint::Sampling* profiles,
+              const bevel::TableSpec* tables, Work& work) {
+  work.add(Cost::member, static_cast<double>(node.members.size()));
+  for (const auto& member : node.members) {
+    for (int end = 0; end < 2; ++end) {
+      if (profiles != nullptr)
+        work.add(Cost::curve_point, 2.0 * points_of(*profiles, member.outer_radius));
+      if (tables == nullptr) continue;
+      work.add(Cost::table);
+      work.add(Cost::table_point, points_of(tables->sampling, member.outer_radius));
+    }
+  }
+}
+
+void add_work(const groove::GrooveSpec& spec, Work& work) { add_sections(spec, work); }
+
+void add_work(const groove::MillPathSpec& spec, Work& work) {
+  const double n = spec.positions;
+  const auto each = groove::gap_work(spec.check);
+  add_sections(spec.groove, work);
+  work.add(Cost::mill_path);
+  work.add(Cost::mill_position, n);
+  work.add(Cost::mill_sample, n * each.samples);
+  work.add(Cost::mill_triple, n * each.triples);
+  if (spec.optimise.method == groove::Method::annealing)
+    work.add(Cost::annealed_sample, n * each.samples);
+}
+
+void add_work(const cutoff::FeedCurveSpec& spec, Work& work) {
+  const double duration = work_feed_of(spec.cut);
+  work.add(Cost::feed_curve);
+  if (const auto* const rows = std::get_if<cutoff::TablePoints>(&spec.table))
+    work.add(Cost::feed_row, rows->points);
+  else
+    work.add(Cost::feed_row,
+             duration * spec.cut.feed / std::get<cutoff::TableStep>(spec.table).step);
+  if (spec.cycle)
+    work.add(Cost::feed_sample, (kMotions * duration + spec.cycle->dwell) / spec.cycle->period);
+  if (spec.comparison)
+    work.add(Cost::feed_degree, 1 + spec.comparison->last_degree - spec.comparison->first_degree);
+}
+
+void add_cut_work(const JobRequest& request, Work& work) {
+  if (const auto* const table = std::get_if<BevelTableRequest>(&request.cut)) {
+    add_work(static_cast<const bevel::TableSpec&>(*table), work);
+    work.add(Cost::elbow, elbows_of(table->source.partners));
+  }
+  if (const auto* const path = std::get_if<groove::MillPathSpec>(&request.cut))
+    add_work(*path, work);
+  if (const auto* const contour = std::get_if<motion::CutPath>(&request.cut))
+    work.add(Cost::contour_point, static_cast<double>(contour->phi.size()));
+  if (const auto* const axes = std::get_if<motion::AxisColumns>(&request.cut))
+    work.add(Cost::contour_point, static_cast<double>(axes->length.size()));
+}
+
+void add_schedule_work(const JobRequest& request, Work& work) {
+  const double length = length_of(request.cut), speed = mean_speed(request.motion.speed);
+  add_cut_work(request, work);
+  work.add(Cost::path);
+  work.add(Cost::path_knot, length / kSpacing);
+  if (speed > 0.0) work.add(Cost::period, length / speed / request.machine.period);
+}
+
+}  // namespace tubecut::api
