@@ -9,7 +9,8 @@ namespace tubecut::api {
 /// What makes jobs long: the CPU that one of them takes, and what it is counted by. One table:
 /// `GET /v1/limits` shows it, `validate_only` and `over_budget` reckon by it. Measured by
 /// `bench/estimates`, on one core of the machine in docs/promises.md. What grows worse than the
-/// request does says "for each" twice, and has a bound of its own in limits.hpp.
+/// request does (pairs, triples, "for each") has a bound of its own in limits.hpp, but for the
+/// pairs of points within a kerf, which the budget bounds.
 /// X(name, seconds, per)
 #define TUBECUT_COSTS(X)                                                                     \
   X(job, 0.5e-3, "job")                                                                      \
@@ -19,23 +20,26 @@ namespace tubecut::api {
   X(table, 12e-3, "bevel table")                                                             \
   X(table_point, 40e-6, "point of a bevel table")                                            \
   X(table_point_of_cutter, 0.4e-6, "point of a bevel table, for each cutter")                \
+  X(beam_pair, 0.5e-6, "two points of a bevel table no further apart than its kerf")         \
+  X(rectangular_tube, 1.5e-3, "rectangular tube among the cutters")                          \
   X(elbow, 6e-3, "elbow among the cutters of a table or an intersection")                    \
   X(hole_point, 6e-6, "point of a hole")                                                     \
   X(member, 15e-6, "member of a node")                                                       \
   X(near_pair, 60e-6,                                                                        \
     "pair of members nearer than their radii of which neither cuts the other; not foreseen") \
-  X(path, 20e-3, "pulse schedule")                                                           \
-  X(path_knot, 3e-6, "0.1 mm of a schedule's path")                                          \
-  X(contour_point, 2e-6, "point of a contour or of axis columns")                            \
+  X(path, 5e-3, "pulse schedule")                                                            \
+  X(path_knot, 40e-6, "0.1 mm of a schedule's path")                                         \
+  X(contour_point, 10e-6, "point of a contour or of axis columns")                           \
   X(period, 1.5e-6, "period of a schedule, or of a replay")                                  \
   X(feed_curve, 12e-3, "feed curve")                                                         \
   X(feed_row, 0.6e-6, "row of a feed curve's table")                                         \
-  X(feed_sample, 1.5e-6, "servo sample of a cycle")                                          \
+  X(feed_sample, 0.12e-6, "servo sample of a cycle")                                         \
   X(feed_degree, 3e-3, "degree compared")                                                    \
+  X(groove, 4e-3, "groove")                                                                  \
   X(groove_section, 8e-6, "section of a groove")                                             \
   X(normal_area, 0.2, "groove of equal normal sections")                                     \
   X(mill_path, 0.15, "mill path")                                                            \
-  X(mill_position, 0.1e-3, "position of a mill path")                                        \
+  X(mill_position, 0.4e-3, "position of a mill path")                                        \
   X(mill_sample, 0.1e-6, "position, for each point of each ruling it is looked at by")       \
   X(mill_triple, 0.06e-6, "position, for each triple of a ruling's points")                  \
   X(annealed_sample, 7.5e-6, "position annealed, for each point of each ruling")

@@ -22,9 +22,9 @@ struct NodesRequest {
   bool profiles = false;
   joint::Sampling sampling;
   std::optional<bevel::TableSpec> tables;  // how, if asked for
+  joint::Nodes solved;                     // once resolved
 };
 struct NodesAnswer {
-  joint::Nodes nodes;
   std::vector<joint::Overlap> overlaps;
   // Of each end, if asked for; else there are none.
   std::vector<std::optional<joint::Intersection>> profiles;
@@ -151,24 +151,28 @@ struct Nodes {
     return out;
   }
 
+  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
+    auto nodes = joint::solve(spec.node, stop);
+    if (!nodes) return tl::unexpected(nodes.error());
+    spec.solved = *std::move(nodes);
+    return spec;
+  }
   static void count(const Spec& spec, Work& work) {
-    add_work(spec.node, spec.profiles ? &spec.sampling : nullptr,
+    add_work(spec.node, spec.solved, spec.profiles ? &spec.sampling : nullptr,
              spec.tables ? &*spec.tables : nullptr, work);
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    auto nodes = joint::solve(spec.node, stop);
-    if (!nodes) return tl::unexpected(nodes.error());
-    Out out{.nodes = *std::move(nodes), .overlaps = {}, .profiles = {}, .tables = {}};
-    auto overlaps = joint::overlaps(spec.node, out.nodes, {}, stop);
+    Out out;
+    auto overlaps = joint::overlaps(spec.node, spec.solved, {}, stop);
     if (!overlaps) return tl::unexpected(overlaps.error());
     out.overlaps = *std::move(overlaps);
     if (spec.profiles) {
-      auto profiles = joint::profiles(spec.node, out.nodes, spec.sampling, stop);
+      auto profiles = joint::profiles(spec.node, spec.solved, spec.sampling, stop);
       if (!profiles) return tl::unexpected(profiles.error());
       out.profiles = *std::move(profiles);
     }
     if (!spec.tables) return out;
-    auto tables = bevel::end_tables(spec.node, out.nodes, *spec.tables, stop);
+    auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, stop);
     if (!tables) return tl::unexpected(in_tables(tables.error()));
     out.tables = *std::move(tables);
     return out;
@@ -182,10 +186,10 @@ struct Nodes {
   }
 
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    auto checks = joint::verify(spec.node, out.nodes, stop);
+    auto checks = joint::verify(spec.node, spec.solved, stop);
     for (std::size_t i = 0; i < out.profiles.size(); ++i)
       if (out.profiles[i]) {
-        const auto joint = joint::joint_of(spec.node, out.nodes.ends[i]);
+        const auto joint = joint::joint_of(spec.node, spec.solved.ends[i]);
         keep_worst(checks, joint::verify(joint::IntersectionSpec{.target = joint.target,
                                                                  .partners = joint::seats(joint),
                                                                  .surfaces = joint::Surfaces::both,
@@ -198,12 +202,12 @@ struct Nodes {
   }
 
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
-    auto all = out.nodes.warnings;
+    auto all = spec.solved.warnings;
     for (auto& warning : joint::warnings_of(spec.node, out.overlaps))
       all.push_back(std::move(warning));
     for (std::size_t i = 0; i < out.tables.size(); ++i) {
       if (!out.tables[i]) continue;
-      const auto at = joint::place_of(out.nodes.ends[i].member, out.nodes.ends[i].end);
+      const auto at = joint::place_of(spec.solved.ends[i].member, spec.solved.ends[i].end);
       if (const auto& why = out.tables[i]->refused)
         all.push_back({.code = WarningCode::no_table,
                        .member = at,
@@ -242,7 +246,7 @@ struct Nodes {
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
-    w.array("ends", out.nodes.ends, [&](Writer& each, const joint::MemberEnd& end) {
+    w.array("ends", spec.solved.ends, [&](Writer& each, const joint::MemberEnd& end) {
       each.object([&](Writer& o) { encode_end(spec, out, end, o); });
     });
     w.array("overlaps", out.overlaps, [&](Writer& each, const joint::Overlap& one) {

@@ -24,11 +24,11 @@ double points_of(const joint::Sampling& sampling, double radius) {
   return std::min(out, static_cast<double>(sampling.max_nodes));
 }
 
-template <class Partners>
-double elbows_of(const Partners& partners) {
-  return static_cast<double>(std::ranges::count_if(partners, [](const joint::Partner& partner) {
-    return std::holds_alternative<joint::ElbowCutter>(partner);
-  }));
+void add_partners(const std::vector<joint::Partner>& partners, Work& work) {
+  for (const auto& partner : partners) {
+    if (std::holds_alternative<joint::ElbowCutter>(partner)) work.add(Cost::elbow);
+    if (std::holds_alternative<joint::BoxCutter>(partner)) work.add(Cost::rectangular_tube);
+  }
 }
 
 /// mm
@@ -77,6 +77,7 @@ double work_feed_of(const cutoff::Cut& cut) {
 
 /// Sections of the groove, and of the survey round it.
 void add_sections(const groove::GrooveSpec& spec, Work& work) {
+  work.add(Cost::groove);
   work.add(Cost::groove_section, spec.sections);
   if (spec.area_in == groove::AreaIn::normal) work.add(Cost::normal_area);
 }
@@ -88,7 +89,7 @@ void add_work(const joint::IntersectionSpec& spec, Work& work) {
   const double points = walls * points_of(spec.sampling, spec.target.outer_radius);
   work.add(Cost::curve_point, points);
   work.add(Cost::curve_point_of_cutter, points * static_cast<double>(spec.partners.size()));
-  work.add(Cost::elbow, elbows_of(spec.partners));
+  add_partners(spec.partners, work);
 }
 
 void add_work(const bevel::TableSpec& spec, Work& work) {
@@ -96,7 +97,9 @@ void add_work(const bevel::TableSpec& spec, Work& work) {
   work.add(Cost::table);
   work.add(Cost::table_point, points);
   work.add(Cost::table_point_of_cutter, points * static_cast<double>(spec.partners.size()));
-  work.add(Cost::elbow, elbows_of(spec.partners));
+  work.add(Cost::beam_pair,
+           points * points * std::min(1.0, spec.kerf / (kTwoPi * spec.target.outer_radius)));
+  add_partners(spec.partners, work);
 }
 
 void add_work(const bevel::HoleSpec& spec, Work& work) {
@@ -104,17 +107,24 @@ void add_work(const bevel::HoleSpec& spec, Work& work) {
   work.add(Cost::hole_point, sides * points_of(spec.sampling, spec.chord.outer_radius));
 }
 
-void add_work(const joint::NodeSpec& node, const joint::Sampling* profiles,
-              const bevel::TableSpec* tables, Work& work) {
+void add_work(const joint::NodeSpec& node, const joint::Nodes& solved,
+              const joint::Sampling* profiles, const bevel::TableSpec* tables, Work& work) {
   work.add(Cost::member, static_cast<double>(node.members.size()));
-  for (const auto& member : node.members) {
-    for (int end = 0; end < 2; ++end) {
-      if (profiles != nullptr)
-        work.add(Cost::curve_point, 2.0 * points_of(*profiles, member.outer_radius));
-      if (tables == nullptr) continue;
-      work.add(Cost::table);
-      work.add(Cost::table_point, points_of(tables->sampling, member.outer_radius));
+  for (const auto& end : solved.ends) {
+    const auto cutters = static_cast<double>(end.cut_by.size());
+    const double radius = node.members[end.member].outer_radius;
+    work.add(Cost::near_pair, cutters * (cutters - 1.0) / 4.0);  // half of them see the other half
+    if (end.cut_by.empty()) continue;
+    if (profiles != nullptr) {
+      const double points = 2.0 * points_of(*profiles, radius);
+      work.add(Cost::curve_point, points);
+      work.add(Cost::curve_point_of_cutter, points * cutters);
     }
+    if (tables == nullptr) continue;
+    const double points = points_of(tables->sampling, radius);
+    work.add(Cost::table);
+    work.add(Cost::table_point, points);
+    work.add(Cost::table_point_of_cutter, points * cutters);
   }
 }
 
@@ -149,7 +159,7 @@ void add_work(const cutoff::FeedCurveSpec& spec, Work& work) {
 void add_cut_work(const JobRequest& request, Work& work) {
   if (const auto* const table = std::get_if<BevelTableRequest>(&request.cut)) {
     add_work(static_cast<const bevel::TableSpec&>(*table), work);
-    work.add(Cost::elbow, elbows_of(table->source.partners));
+    add_partners(table->source.partners, work);  // of a node: not yet resolved
   }
   if (const auto* const path = std::get_if<groove::MillPathSpec>(&request.cut))
     add_work(*path, work);

@@ -22,9 +22,10 @@ void add_work(const groove::GrooveSpec& spec, Work& work);
 void add_work(const groove::MillPathSpec& spec, Work& work);
 void add_work(const cutoff::FeedCurveSpec& spec, Work& work);
 
-/// The members; the ends' profiles and tables where they are asked for.
-void add_work(const joint::NodeSpec& node, const joint::Sampling* profiles,
-              const bevel::TableSpec* tables, Work& work);
+/// The members; the ends' profiles and tables where they are asked for. Which pairs of members come
+/// near each other elsewhere than at an end is not known yet.
+void add_work(const joint::NodeSpec& node, const joint::Nodes& solved,
+              const joint::Sampling* profiles, const bevel::TableSpec* tables, Work& work);
 
 /// The cut of a job, if it is computed here; and its schedule.
 void add_cut_work(const JobRequest& request, Work& work);

@@ -217,6 +217,32 @@ class Proxy(unittest.TestCase):
                 self.assertEqual(stubs[0].asked, [])
             self.assertEqual(ask(url, body=b" " * small)[0], 200)
 
+    def test_an_address_has_so_many_connections(self):
+        most = int(re.search(r"sc0_conn_cur gt (\d+)", CONFIG)[1])
+        with proxied(lambda h: reply(h, 200)) as (url, _), contextlib.ExitStack() as stack:
+            port = int(url.rsplit(":", 1)[1])
+            silent, closed = [], 0
+            for _ in range(most + 40):
+                try:
+                    silent.append(stack.enter_context(socket.create_connection(("127.0.0.1", port), 5, ("127.0.0.11", 0))))
+                except ConnectionError:
+                    closed += 1
+            time.sleep(0.3)
+            for one in silent:
+                one.setblocking(False)
+                try:
+                    closed += one.recv(1) == b""
+                except BlockingIOError:
+                    pass  # it is open
+                except ConnectionError:
+                    closed += 1
+            self.assertEqual(closed, 40)  # of those that say nothing; others have their own
+            for other in ("127.0.0.12", "127.0.0.13"):
+                with socket.create_connection(("127.0.0.1", port), 5, (other, 0)) as raw:
+                    with ssl._create_unverified_context().wrap_socket(raw) as sock:
+                        sock.sendall(b"POST /v1/intersections HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\n{}")
+                        self.assertIn(b" 200 ", sock.recv(4096))
+
     def test_headers(self):
         with proxied(lambda h: reply(h, 200, headers=[("Tubecut-Replica", "a")])) as (url, stubs):
             status, back, _ = ask(url, headers={"X-Forwarded-For": "9.9.9.9", "X-Forwarded-Host": "x", "Forwarded": "for=9.9.9.9",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The costliest jobs and the slowest readers within a container's memory: `confined.py BINARY [--mib 256,512,768] [--group]`. One slot;
 replays as large as the replica takes, drawings of many samples, long answers in every format, all of them several at a time, and 17
-clients that take nothing of 12 MB answers. The process lives, its peak stays within the container, afterwards it has given the memory
+clients that take nothing of 12 MB answers. With --group, or --heaviest, also all of heaviest.py and costly.py. The process lives, its peak stays within the container, afterwards it has given the memory
 back, and small jobs are answered. With --group it runs in a control group of that size (as root; version 1 or 2) and the kernel is the
 judge; without, --memory-bytes is what it would find there, and its peak (VmHWM) is held against the size."""
 
@@ -17,12 +17,15 @@ import tempfile
 import threading
 import time
 
+import costly
+import heaviest
 from service import ROOT, Service, connect, exchange, head, post
 
 SHARE = 0.6  # of the container, see server/capacity.cpp
 KEPT_MIB = 48  # resident once all is over: the program, its threads' heaps
 SLOW_READERS = 17
 AT_ONCE = 4
+HEAVIEST_MS = 2000
 
 
 def example(name):
@@ -104,6 +107,15 @@ def long_answers():
     yield post(json.dumps(slow).encode(), target="/v1/pulse-schedules?format=cbor")
 
 
+def heaviest_requests():
+    """What was thought of and what was found, with an everyday budget: what a job needs it has taken by then."""
+    budget = f"Tubecut-Budget-Ms: {HEAVIEST_MS}"
+    for endpoint, _, body in heaviest.requests():
+        yield post(heaviest.text(body), budget, target=f"/v1/{endpoint}?format=cbor")
+    for target, body in costly.requests():
+        yield post(heaviest.text(body), budget, target=target)
+
+
 def slow_readers(service):
     request = post(edited("holes/through-brace", sampling={"uniform_points": 20000}), target="/v1/holes")
     socks = []
@@ -147,7 +159,7 @@ def of_group(folder):
     return int((folder / peak).read_text()) / 2**20, kills
 
 
-def run(command, mib, options, folder=None):
+def run(command, mib, options, folder=None, heavy=False):
     """What is wrong."""
     wrong = []
     with Service(command, "--slots", "1", "--budget-s", "120", "--write-s", "4", *options) as service:
@@ -166,6 +178,11 @@ def run(command, mib, options, folder=None):
         everything = list(long_answers())
         for at in range(0, len(everything), AT_ONCE):
             part("long answers", together(service, everything[at:at + AT_ONCE]))
+        if heavy:
+            everything, told = list(heaviest_requests()), collections.Counter()
+            for at in range(0, len(everything), AT_ONCE):
+                told += collections.Counter(together(service, everything[at:at + AT_ONCE]))
+            part(f"{len(everything)} heaviest", dict(told))
         part("slow readers hold", f"{slow_readers(service):.0f} MiB")
         time.sleep(1.0)
         part("small jobs", together(service, [post()] * AT_ONCE))
@@ -190,17 +207,18 @@ def main():
     parser.add_argument("binary")
     parser.add_argument("--mib", default="256")
     parser.add_argument("--group", action="store_true")
+    parser.add_argument("--heaviest", action="store_true")
     a = parser.parse_args()
     wrong = []
     for mib in (int(word) for word in a.mib.split(",")):
         if not a.group:
-            wrong += run(a.binary, mib, ["--memory-bytes", str(int(SHARE * (mib << 20)))])
+            wrong += run(a.binary, mib, ["--memory-bytes", str(int(SHARE * (mib << 20)))], heavy=a.heaviest)
             continue
         with group_of(mib) as folder, tempfile.TemporaryDirectory() as own:
             joins = pathlib.Path(own) / "joins"
             joins.write_text(f"#!/bin/sh\necho $$ >{folder}/cgroup.procs && exec {pathlib.Path(a.binary).resolve()} \"$@\"\n")
             joins.chmod(joins.stat().st_mode | stat.S_IXUSR)
-            wrong += run(str(joins), mib, [], folder)
+            wrong += run(str(joins), mib, [], folder, heavy=True)
     print("\n".join(wrong) or "within the memory")
     sys.exit(bool(wrong))
 
