@@ -163,6 +163,7 @@ class Answer:
     warnings: List[Json]
     result: Json  # empty with validate_only
     log: List[Json]
+    estimate: Json  # {"cpu_s": ...} with validate_only, else empty
     text: str = dataclasses.field(repr=False)
 
     @classmethod
@@ -174,7 +175,7 @@ class Answer:
         values = {name: value for name, (value, _, _) in members.items()}
         answer = cls(job=values["job"], request=values["request"], verification=values["verification"],
                      verdict=values["verdict"], warnings=values["warnings"], result=values.get("result", {}),
-                     log=values.get("log", []), text=text)
+                     log=values.get("log", []), estimate=values.get("estimate", {}), text=text)
         if check_hashes:
             answer._check_hashes(members)
         return answer

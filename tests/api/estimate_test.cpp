@@ -16,7 +16,38 @@ using api::Json;
 Json object(Json::Object members) { return Json{std::move(members)}; }
 Json points(double n) { return object({{"uniform_points", Json{n}}}); }
 
+/// Stopped where so many stages are behind it.
+Posted stopped(const std::string& endpoint, const std::string& body, int stages) {
+  std::stop_source source;
+  int laps = 0;
+  const auto path = "/v1/" + endpoint;
+  const api::Call call{.method = "POST",
+                       .path = path,
+                       .query = {},
+                       .accept = {},
+                       .content_type = "application/json",
+                       .body = body,
+                       .job_id = {},
+                       .request_id = "test"};
+  const api::Context context{.stop = source.get_token(),
+                             .clock =
+                                 [&] {
+                                   if (++laps > stages) source.request_stop();
+                                   return 0.0;
+                                 },
+                             .status = [](ErrorKind) { return 504; }};
+  Posted out{api::dispatch(call, context), {}};
+  out.body = *api::parse(out.outcome.body);
+  return out;
+}
+
+/// By a job that is stopped before it is begun, which has the estimate already; what is of a node
+/// is to be resolved first.
 double estimate(const std::string& endpoint, const Json& body) {
+  const auto late = stopped(endpoint, api::dump(body), 2);
+  EXPECT_EQ(text(late.body, "code"), "over_budget") << endpoint << ": " << late.outcome.body;
+  if (!at(late.body, "errors").as<Json::Array>()->empty())
+    return number(late.body, "errors/0/limit");
   const auto dry = post("/v1/" + endpoint, api::dump(body), "validate_only=true");
   EXPECT_FALSE(dry.outcome.error) << endpoint << ": " << dry.outcome.body.substr(0, 300);
   return dry.outcome.error ? 0.0 : number(dry.body, "estimate/cpu_s");
@@ -57,7 +88,7 @@ std::vector<Growth> growths() {
       {"nodes/k-joint-with-tables", "sampling", points(100), points(1'000), 1.5},
       {"parts/chord-with-holes", "sampling", points(100), points(1'000), 1.5},
       {"pulse-schedules/square-cut-from-a-bare-contour", "motion/speed",
-       object({{"mm_min", Json{3'000.0}}}), object({{"mm_min", Json{30.0}}}), 3},
+       object({{"mm_min", Json{3'000.0}}}), object({{"mm_min", Json{30.0}}}), 2},
       {"pulse-schedules/table-1-on-the-five-axis-cutter", "cut/sampling", points(100),
        points(2'000), 1.5},
       {"pulse-schedules/source-001-mill-path", "mill_path/positions", Json{24.0}, Json{2'000.0},
@@ -88,31 +119,6 @@ TEST(Estimate, GrowsWithWhatIsAskedFor) {
     const double after = estimate(endpoint, with(body, one.path, one.after));
     EXPECT_GT(after, one.times * before) << one.example << ", " << one.path;
   }
-}
-
-/// Stopped where so many stages are behind it.
-Posted stopped(const std::string& endpoint, const std::string& body, int stages) {
-  std::stop_source source;
-  int laps = 0;
-  const auto path = "/v1/" + endpoint;
-  const api::Call call{.method = "POST",
-                       .path = path,
-                       .query = {},
-                       .accept = {},
-                       .content_type = "application/json",
-                       .body = body,
-                       .job_id = {},
-                       .request_id = "test"};
-  const api::Context context{.stop = source.get_token(),
-                             .clock =
-                                 [&] {
-                                   if (++laps > stages) source.request_stop();
-                                   return 0.0;
-                                 },
-                             .status = [](ErrorKind) { return 504; }};
-  Posted out{api::dispatch(call, context), {}};
-  out.body = *api::parse(out.outcome.body);
-  return out;
 }
 
 TEST(Estimate, OfAJobOverItsBudgetIsInTheProblem) {
