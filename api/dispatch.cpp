@@ -5,7 +5,6 @@
 #include "api/catalogue.hpp"
 #include "api/common_fields.hpp"
 #include "api/endpoint.hpp"
-#include "api/memory.hpp"
 #include "api/query.hpp"
 
 namespace tubecut::api {
@@ -369,47 +368,6 @@ Outcome problem(ErrorCode code, std::string_view detail, std::string_view reques
                   .job_id = {},
                   .request_id = std::string(request_id)};
   return Job(call, context).refuse(code, std::string(detail));
-}
-
-std::vector<std::string_view> endpoint_ids() {
-  std::vector<std::string_view> out;
-  for (const auto& endpoint : endpoints()) out.push_back(endpoint.id);
-  return out;
-}
-
-std::size_t max_body(std::string_view path) {
-  for (const auto& endpoint : endpoints())
-    if (endpoint.path == path) return endpoint.max_body;
-  if (path == kBatchesPath) return static_cast<std::size_t>(limit::body_large_max_bytes);
-  return static_cast<std::size_t>(limit::body_max_bytes);
-}
-
-double budget_s(std::string_view path, const Context& context) {
-  if (context.budget_s > 0.0) return context.budget_s;
-  for (const auto& endpoint : endpoints())
-    if (endpoint.path == path) return endpoint.budget_s;
-  return kBudgetS;
-}
-
-CallMemory call_memory(std::string_view path) {
-  for (const auto& endpoint : endpoints())
-    if (endpoint.path == path) return {.per_byte = job_bytes(endpoint.id, {}).per_byte};
-  return {.per_byte = most_per_byte()};
-}
-
-std::size_t line_memory(std::string_view line) {
-  std::size_t per_byte = job_bytes({}, {}).per_byte;
-  const bool escaped = line.find("\\u") != line.npos;  // a letter so could hide the name
-  for (const auto& endpoint : endpoints())
-    if (escaped || line.find(endpoint.id) != line.npos)
-      per_byte = std::max(per_byte, job_bytes(endpoint.id, {}).per_byte);
-  return line.size() * per_byte;
-}
-
-std::string_view endpoint_at(std::string_view path) {
-  for (const auto& endpoint : endpoints())
-    if (endpoint.path == path) return endpoint.id;
-  return path == kBatchesPath ? kBatchesId : std::string_view{};
 }
 
 std::string_view event_of(std::string_view stage) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "api/api.hpp"
+#include "api/check_limit.hpp"
 #include "api/cost.hpp"
 #include "api/format.hpp"
 #include "api/limits.hpp"
@@ -22,22 +21,6 @@
 #include "core/base/error.hpp"
 
 namespace tubecut::api {
-
-/// How a check's limit is stated in `GET /v1/limits`.
-struct CheckLimit {
-  std::string_view name;
-  std::string_view limit;  // a number, or the formula it follows
-  std::string_view unit;
-};
-
-/// Lists of checks as one list.
-template <std::size_t... N>
-[[nodiscard]] constexpr auto all_checks(const std::array<CheckLimit, N>&... lists) {
-  std::array<CheckLimit, (N + ...)> out{};
-  auto at = out.begin();
-  ((at = std::copy(lists.begin(), lists.end(), at)), ...);
-  return out;
-}
 
 /// A request as understood and its answer; or why there is none.
 struct Answer {

@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/memory.hpp"
 
 namespace tubecut::api {
 
@@ -9,6 +12,47 @@ std::span<const Endpoint> endpoints() {
       pulse_schedules(), replays(), feed_curves(),  grooves(), mill_paths(),
   };
   return kTable;
+}
+
+std::vector<std::string_view> endpoint_ids() {
+  std::vector<std::string_view> out;
+  for (const auto& endpoint : endpoints()) out.push_back(endpoint.id);
+  return out;
+}
+
+std::size_t max_body(std::string_view path) {
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return endpoint.max_body;
+  if (path == kBatchesPath) return static_cast<std::size_t>(limit::body_large_max_bytes);
+  return static_cast<std::size_t>(limit::body_max_bytes);
+}
+
+double budget_s(std::string_view path, const Context& context) {
+  if (context.budget_s > 0.0) return context.budget_s;
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return endpoint.budget_s;
+  return kBudgetS;
+}
+
+CallMemory call_memory(std::string_view path) {
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return {.per_byte = job_bytes(endpoint.id, {}).per_byte};
+  return {.per_byte = most_per_byte()};
+}
+
+std::size_t line_memory(std::string_view line) {
+  std::size_t per_byte = job_bytes({}, {}).per_byte;
+  const bool escaped = line.find("\\u") != line.npos;  // a letter so could hide the name
+  for (const auto& endpoint : endpoints())
+    if (escaped || line.find(endpoint.id) != line.npos)
+      per_byte = std::max(per_byte, job_bytes(endpoint.id, {}).per_byte);
+  return line.size() * per_byte;
+}
+
+std::string_view endpoint_at(std::string_view path) {
+  for (const auto& endpoint : endpoints())
+    if (endpoint.path == path) return endpoint.id;
+  return path == kBatchesPath ? kBatchesId : std::string_view{};
 }
 
 }  // namespace tubecut::api
