@@ -251,18 +251,6 @@ void write_checks(Writer& w, const std::vector<Check>& checks) {
   });
 }
 
-void write_warnings(Writer& w, const Answer& answer) {
-  w.array("warnings", answer.warnings, [&](Writer& each, const Warning& warning) {
-    const auto& about = info(warning.code);
-    each.object([&](Writer& o) {
-      o.field("code", about.code);
-      o.field("severity", about.severity == Severity::cut ? "cut" : "note");
-      o.field("pointer", pointer_of(warning.member, answer.request));
-      o.field("detail", warning.detail.empty() ? std::string(about.meaning) : warning.detail);
-    });
-  });
-}
-
 /// What has happened so far, counted from the request's first byte.
 void write_events(Writer& w, const Context& context, double begun,
                   const std::vector<Stage>& stages) {
@@ -320,7 +308,8 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
       o.field("status", verdict.status);
       o.column("reasons", verdict.reasons);
     });
-    write_warnings(w, answer);
+    write_warnings(w, answer.warnings,
+                   [&](const std::string& member) { return pointer_of(member, answer.request); });
     if (query.validate_only && estimate_)
       w.object("estimate", [&](Writer& o) { o.field("cpu_s", *estimate_); });
     if (common.inline_log) write_events(w, context_, begun_, job.stages);

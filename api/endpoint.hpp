@@ -80,15 +80,19 @@ struct Endpoint {
 template <class E>
 Reply run(Reader& in, Run& run) {
   auto spec = E::decode(in);
-  if (auto issues = in.finish_root(); !issues.empty()) return field_problem(std::move(issues));
+  auto issues = in.finish_root();
   Answer answer{.request = Json{in.take_echo()}};
+  const auto suspecting = [&](Problem problem) {
+    return with_suspicions(std::move(problem), answer.request, run.stop);
+  };
+  if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
   run.forget_body();
   run.stage("decode");
   if constexpr (requires { E::resolve(spec, run.stop); }) {
     auto resolved = E::resolve(std::move(spec), run.stop);
     if (!resolved) {
       ask(run.stop);
-      return core_problem(resolved.error(), answer.request);
+      return suspecting(core_problem(resolved.error(), answer.request));
     }
     spec = *std::move(resolved);
   }
@@ -99,7 +103,7 @@ Reply run(Reader& in, Run& run) {
   auto out = E::compute(spec, run.stop);
   run.stage("compute");
   ask(run.stop);  // what it found may not be all
-  if (!out) return core_problem(out.error(), answer.request);
+  if (!out) return suspecting(core_problem(out.error(), answer.request));
   if constexpr (requires { E::verify(spec, *out, run.stop); }) {
     answer.checks = E::verify(spec, *out, run.stop);
     ask(run.stop);

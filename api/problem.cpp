@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/suspicion.hpp"
 #include "api/writer.hpp"
 
 namespace tubecut::api {
@@ -115,6 +116,26 @@ std::optional<Problem> failed_check(const std::vector<Check>& checks) {
   return std::nullopt;
 }
 
+Problem with_suspicions(Problem problem, const Json& request, const std::stop_token& stop) {
+  problem.suspicions = unit_suspicions(request, stop);
+  for (auto& suspicion : problem.suspicions)
+    suspicion.member = pointer_of(suspicion.member, request);
+  return problem;
+}
+
+void write_warnings(Writer& w, const std::vector<Warning>& warnings,
+                    const std::function<std::string(const std::string&)>& pointer) {
+  w.array("warnings", warnings, [&](Writer& each, const Warning& warning) {
+    const auto& about = info(warning.code);
+    each.object([&](Writer& o) {
+      o.field("code", about.code);
+      o.field("severity", about.severity == Severity::cut ? "cut" : "note");
+      o.field("pointer", pointer(warning.member));
+      o.field("detail", warning.detail.empty() ? std::string(about.meaning) : warning.detail);
+    });
+  });
+}
+
 std::string print(const Problem& problem, std::string_view request_id, int status) {
   const auto& about = info(problem.code);
   Writer out;
@@ -137,6 +158,8 @@ std::string print(const Problem& problem, std::string_view request_id, int statu
         o.field("hint", issue.hint);
       });
     });
+    if (!problem.suspicions.empty())
+      write_warnings(w, problem.suspicions, [](const std::string& pointer) { return pointer; });
   });
   return out.take();
 }

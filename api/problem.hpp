@@ -1,12 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "api/api.hpp"
 #include "api/reader.hpp"
+#include "api/writer.hpp"
 #include "core/base/error.hpp"
 
 namespace tubecut::api {
@@ -16,6 +19,7 @@ struct Problem {
   ErrorCode code = ErrorCode::internal_error;
   std::string detail = {};
   std::vector<FieldIssue> issues = {};
+  std::vector<Warning> suspicions = {};  // of units that may be why; members are pointers
 };
 
 /// Field issues as one problem: their own code when they agree on it, else `invalid_request`.
@@ -29,6 +33,14 @@ struct Problem {
 
 /// "cutters/1/offset" -> "/cutters/1/offset_mm", by the names the request has.
 [[nodiscard]] std::string pointer_of(std::string_view member, const Json& request);
+
+/// The same problem, with what the request's numbers look like in other units.
+[[nodiscard]] Problem with_suspicions(Problem problem, const Json& request,
+                                      const std::stop_token& stop);
+
+/// Member `warnings` of an answer or a problem; `pointer` makes one of a warning's member.
+void write_warnings(Writer& w, const std::vector<Warning>& warnings,
+                    const std::function<std::string(const std::string&)>& pointer);
 
 /// application/problem+json (RFC 9457).
 [[nodiscard]] std::string print(const Problem& problem, std::string_view request_id, int status);

@@ -81,6 +81,10 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   std::string best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
   if (name.size() > 64) return best;
+  for (const auto& candidate : known)  // all but its unit
+    if (candidate.size() > name.size() + 1 && candidate.starts_with(name) &&
+        candidate[name.size()] == '_')
+      return candidate;
   for (const auto& candidate : known) {
     const auto d = distance(name, candidate);
     if (d < least) {
@@ -220,7 +224,7 @@ std::optional<double> Reader::checked(std::string_view name, const Json& value, 
   bad.hint = low ? (range.open_min ? "must be greater than " : "must be at least ")
                  : (range.open_max ? "must be less than " : "must be at most ");
   bad.hint += tubecut::shown(low ? range.min : range.max) + (unit.empty() ? "" : " " + unit);
-  if (unit == "mm") bad.hint += other_unit_hint(*d, range.min, range.max);
+  bad.hint += other_unit_hint(*d, unit, range.min, range.max);
   issue(std::move(bad), &value);
   return std::nullopt;
 }

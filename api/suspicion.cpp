@@ -1,6 +1,7 @@
 #include "api/suspicion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -19,19 +20,25 @@ constexpr double kMmPerMetre = 1000.0;
 constexpr double kSameSize = 1e-3;     // relative: catalogues round inches to 0.1 mm
 constexpr double kSameAngle = 2e-3;    // relative: 1.57 and 1.5708 are 90 deg, as 1.5 is not
 constexpr double kRoundAngleDeg = 15;  // people mean multiples of it
-constexpr double kShortest = 0.05;     // of its diameter: a tube shorter than that is a ring
+constexpr double kExactAngle = 1e-4;   // relative: with as many digits also multiples of
+constexpr double kFineAngleDeg = 5;
+constexpr double kShortest = 0.05;  // of its diameter: a tube shorter than that is a ring
 
 /// For people: to the micrometre, or the thousandth of a degree.
 double brief(double value) { return std::floor(1e3 * value + 0.5) / 1e3; }
 
+double tenths(double value) { return std::floor(10.0 * value + 0.5) / 10.0; }
+double degrees_of(double rad) { return rad * 180.0 / std::numbers::pi; }
+
+bool is_sold(double diameter) {
+  return std::ranges::any_of(tube_sizes(), [diameter](const TubeSize& tube) {
+    return std::abs(tube.outer_diameter - diameter) <= kSameSize * diameter;
+  });
+}
+
 /// A size sold in inches, of which the same number in mm is none.
 bool is_size_in_inches(double diameter) {
-  const auto sold = [](double mm) {
-    return std::ranges::any_of(tube_sizes(), [mm](const TubeSize& tube) {
-      return std::abs(tube.outer_diameter - mm) <= kSameSize * mm;
-    });
-  };
-  return sold(diameter * kMmPerInch) && !sold(diameter);
+  return is_sold(diameter * kMmPerInch) && !is_sold(diameter);
 }
 
 /// A wall sold in inches on a tube of this diameter, which in mm would be a foil.
@@ -45,11 +52,23 @@ bool is_wall_in_inches(double diameter, double wall) {
   return sold(wall * kMmPerInch) && !sold(wall);
 }
 
+bool is_near_multiple(double value, double of, double relative) {
+  const double nearest = of * std::floor(value / of + 0.5);
+  return nearest > 0.0 && std::abs(value - nearest) <= relative * nearest;
+}
+
 bool is_round_angle_in_radians(double value) {
-  const double degrees = std::abs(value) * 180.0 / std::numbers::pi;
-  const double nearest = kRoundAngleDeg * std::floor(degrees / kRoundAngleDeg + 0.5);
-  const bool round = nearest > 0.0 && std::abs(degrees - nearest) <= kSameAngle * nearest;
+  const double degrees = degrees_of(std::abs(value));
+  const bool round = is_near_multiple(degrees, kRoundAngleDeg, kSameAngle) ||
+                     is_near_multiple(degrees, kFineAngleDeg, kExactAngle);
   return round && degrees <= 360.0 && std::abs(value) != std::floor(std::abs(value));
+}
+
+/// Fields whose angles people give in radians by mistake; those of a torch are as often small.
+bool is_suspected_angle(std::string_view name) {
+  static constexpr std::array<std::string_view, 5> kNames{
+      "inclination_deg", "clocking_deg", "bend_deg", "half_angle_deg", "angle_deg"};
+  return std::ranges::find(kNames, name) != kNames.end();
 }
 
 const double* number(const Json& object, std::string_view name) {
@@ -104,10 +123,8 @@ class Walk {
     tube(json, path);
     for (const auto& [name, value] : *members) {
       const auto* angle = value.as<double>();
-      const bool turns = name == "inclination_deg" || name == "clocking_deg";
-      if (turns && angle != nullptr && is_round_angle_in_radians(*angle)) {
-        const double degrees = *angle * 180.0 / std::numbers::pi;
-        suspect(path + name, *angle, "rad", std::floor(10.0 * degrees + 0.5) / 10.0, "deg");
+      if (is_suspected_angle(name) && angle != nullptr && is_round_angle_in_radians(*angle)) {
+        suspect(path + name, *angle, "rad", tenths(degrees_of(*angle)), "deg");
       }
       if (holds_more(value)) object(value, path + name + "/");
     }
@@ -155,16 +172,27 @@ std::vector<Warning> unit_suspicions(const Json& request, const std::stop_token&
   return std::move(walk.found);
 }
 
-std::string other_unit_hint(double value, double min, double max) {
-  const std::pair<double, std::string_view> units[] = {
-      {kMmPerInch, "inches"}, {kMmPerMetre, "metres"}, {1.0 / kMmPerMetre, "micrometres"}};
-  for (const auto& [factor, unit] : units) {
-    const double meant = value * factor;
-    if (value > 0.0 && std::isfinite(max) && min > 0.0 && meant >= min && meant <= max) {
-      return "; were it " + std::string(unit) + ": " + shown(brief(meant)) + " mm";
-    }
+std::string other_unit_hint(double value, std::string_view unit, double min, double max) {
+  if (!(value > 0.0 && std::isfinite(max))) return {};
+  const auto within = [&](double meant) { return meant >= min && meant <= max; };
+  if (unit == "deg" && is_round_angle_in_radians(value) && within(tenths(degrees_of(value))))
+    return "; were it radians: " + shown(tenths(degrees_of(value))) + " deg";
+  if (unit == "rad" && within(value * std::numbers::pi / 180.0))
+    return "; were it degrees: " + shown(brief(value * std::numbers::pi / 180.0)) + " rad";
+  if (unit != "mm" || !(min > 0.0)) return {};
+  constexpr std::array<std::pair<double, std::string_view>, 3> kUnits{
+      {{kMmPerMetre, "metres"}, {kMmPerInch, "inches"}, {1.0 / kMmPerMetre, "micrometres"}}};
+  const auto says = [&](const auto& one) {
+    return std::string(one.second) + ": " + shown(brief(value * one.first)) + " mm";
+  };
+  std::string out;
+  for (const auto& one : kUnits) {
+    const double meant = value * one.first;
+    if (!within(meant)) continue;
+    if (is_sold(meant)) return "; were it " + says(one);
+    out += (out.empty() ? "; were it " : ", or ") + says(one);
   }
-  return {};
+  return out;
 }
 
 }  // namespace tubecut::api

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <stop_token>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/json.hpp"
@@ -15,8 +17,10 @@ namespace tubecut::api {
 [[nodiscard]] std::vector<Warning> unit_suspicions(const Json& request,
                                                    const std::stop_token& stop = {});
 
-/// What an out-of-range value in mm would be were it inches, metres or micrometres, when that is
-/// within [min, max]; empty otherwise.
-[[nodiscard]] std::string other_unit_hint(double value, double min, double max);
+/// What an out-of-range value would be were it given in another unit, when that is within
+/// [min, max]: mm in metres, inches or micrometres (the one that makes it a size that is sold, else
+/// each), deg in radians, rad in degrees; empty otherwise.
+[[nodiscard]] std::string other_unit_hint(double value, std::string_view unit, double min,
+                                          double max);
 
 }  // namespace tubecut::api

@@ -1,7 +1,9 @@
 #include "api/tube_sizes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "api/json.hpp"
@@ -274,6 +276,39 @@ std::vector<TubeSize> all_sizes() {
   return out;
 }
 
+/// The nominal diameters of ISO 6708 beside those of ASME B36.10M.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 21> kNominalDiameters{
+    {{"15", "1/2"}, {"20", "3/4"},   {"25", "1"},   {"32", "1-1/4"}, {"40", "1-1/2"},
+     {"50", "2"},   {"65", "2-1/2"}, {"80", "3"},   {"90", "3-1/2"}, {"100", "4"},
+     {"125", "5"},  {"150", "6"},    {"200", "8"},  {"250", "10"},   {"300", "12"},
+     {"350", "14"}, {"400", "16"},   {"450", "18"}, {"500", "20"},   {"600", "24"},
+     {"750", "30"}}};
+
+/// "DN100 SCH 40", "DN 100 SCH 40" and "4\" SCH 40" as "NPS 4 SCH 40"; other names as they are.
+std::string as_nps(std::string_view name) {
+  if (const auto quote = name.find('"'); quote != std::string_view::npos && quote > 0)
+    return "NPS " + std::string(name.substr(0, quote)) + std::string(name.substr(quote + 1));
+  if (!name.starts_with("DN")) return std::string(name);
+  const auto from = name.find_first_of("0123456789");
+  if (from == std::string_view::npos) return std::string(name);
+  const auto digits = name.substr(from);
+  const auto end = std::min(digits.find_first_not_of("0123456789"), digits.size());
+  const auto* found = std::ranges::find(kNominalDiameters, digits.substr(0, end),
+                                        [](const auto& pair) { return pair.first; });
+  if (found == kNominalDiameters.end()) return std::string(name);
+  return "NPS " + std::string(found->second) + std::string(digits.substr(end));
+}
+
+/// A few names, and how many more there are.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kNamed = 6;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i)
+    out += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > kNamed) out += " and " + std::to_string(names.size() - kNamed) + " more";
+  return out;
+}
+
 }  // namespace
 
 std::span<const TubeSize> tube_sizes() {
@@ -287,10 +322,17 @@ const TubeSize* find_tube_size(std::string_view name) {
   return found == sizes.end() ? nullptr : &*found;
 }
 
-std::string nearest_tube_size(std::string_view name) {
-  std::vector<std::string> names;
-  for (const auto& size : tube_sizes()) names.push_back(size.name);
-  return nearest_name(name, names);
+std::string tube_size_hint(std::string_view name) {
+  const auto meant = as_nps(name);
+  std::vector<std::string> names, begun;
+  for (const auto& size : tube_sizes()) {
+    names.push_back(size.name);
+    if (size.name.starts_with(meant + " ") || size.name.starts_with(meant + "x"))
+      begun.push_back(size.name);
+  }
+  if (!begun.empty()) return "did you mean one of " + listed(begun) + "?";
+  const auto near = nearest_name(meant, names);
+  return near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?";
 }
 
 }  // namespace tubecut::api

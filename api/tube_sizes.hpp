@@ -21,7 +21,8 @@ struct TubeSize {
 /// The size of that very name, or nullptr.
 [[nodiscard]] const TubeSize* find_tube_size(std::string_view name);
 
-/// The name most like this one, for a hint; empty when none is near.
-[[nodiscard]] std::string nearest_tube_size(std::string_view name);
+/// For a name that is none: the sizes it begins, or the one most like it, a DN or inches read as
+/// their NPS; else where all names are.
+[[nodiscard]] std::string tube_size_hint(std::string_view name);
 
 }  // namespace tubecut::api

@@ -122,13 +122,9 @@ Section decode_section(Reader& in, bool with_wall) {
     const auto name = in.text("size");
     const auto* size = find_tube_size(name);
     if (size == nullptr) {
-      const auto near = nearest_tube_size(name);
       if (!name.empty())
-        in.issue(
-            {.code = ErrorCode::unknown_size,
-             .pointer = "size",
-             .hint = near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?"},
-            in.find("size"));
+        in.issue({.code = ErrorCode::unknown_size, .pointer = "size", .hint = tube_size_hint(name)},
+                 in.find("size"));
       return out;
     }
     if (with_wall && in.has("wall_mm"))

@@ -54,7 +54,7 @@ MemberIds decode_ids(Reader& in, const std::vector<joint::Member>& members) {
     if (!members[i].name.empty() && !out.places.emplace(members[i].name, i).second)
       in.issue({.code = ErrorCode::bad_text,
                 .pointer = "members/" + std::to_string(i) + "/id",
-                .hint = "another member has this id"});
+                .hint = "duplicate: another member has this id"});
   return out;
 }
 

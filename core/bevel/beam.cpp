@@ -200,21 +200,12 @@ class Largest {
   Seen best_;
 };
 
-/// Runs of rows near which, within half a kerf, the torch leans in ways that are apart: there a
-/// place where the beam is in the part can be narrow across the wall.
-std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut, const Surface& surface,
-                                                        const std::stop_token& stop) {
-  const auto n = surface.rows();
-  std::vector<double> leans, steps;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto &a = cut.torch[i], &b = cut.torch[(i + 1) % n];
-    const double turn = i + 1 == n ? cut.turn : 0.0;
-    leans.push_back(elementary::atan2(a.z_outer - a.z_inner, cut.outer - cut.inner));
-    steps.push_back(cut.inner * std::abs(b.phi_inner + turn - a.phi_inner));
-  }
-  std::vector<bool> near(n, false);
+/// Rows near which, within half a kerf, these leans are apart.
+void mark_swings(const std::vector<double>& leans, const std::vector<double>& steps, double reach,
+                 std::vector<bool>& near, const std::stop_token& stop) {
+  const auto n = leans.size();
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-    double low = leans[i], high = low, left = 0.5 * cut.kerf;  // to look ahead
+    double low = leans[i], high = low, left = reach;  // to look ahead
     std::size_t k = i;
     for (; k < i + n && left > 0.0; ++k) {
       const double there =
@@ -226,6 +217,28 @@ std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut, cons
     if (high - low < kApart) continue;
     for (std::size_t m = i + n - 1; m < k + n; ++m) near[m % n] = true;
   }
+}
+
+/// Runs of rows near which, within half a kerf, the torch leans in ways that are apart: there a
+/// place where the beam is in the part can be narrow across the wall. Beams of an end pass one
+/// another by phase, those of a hole any way.
+std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut, const Surface& surface,
+                                                        const std::stop_token& stop) {
+  const auto n = surface.rows();
+  const bool hole = cut.turn == 0.0;
+  const double wall = cut.outer - cut.inner;
+  std::vector<double> along_tube, round_tube, steps;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto &a = cut.torch[i], &b = cut.torch[(i + 1) % n];
+    const double turn = i + 1 == n ? cut.turn : 0.0;
+    along_tube.push_back(elementary::atan2(a.z_outer - a.z_inner, wall));
+    round_tube.push_back(elementary::atan2(cut.outer * (a.phi_outer - a.phi_inner), wall));
+    const double round = cut.inner * (b.phi_inner + turn - a.phi_inner);
+    steps.push_back(hole ? elementary::hypot(round, b.z_inner - a.z_inner) : std::abs(round));
+  }
+  std::vector<bool> near(n, false);
+  mark_swings(along_tube, steps, 0.5 * cut.kerf, near, stop);
+  if (hole) mark_swings(round_tube, steps, 0.5 * cut.kerf, near, stop);
   std::vector<std::pair<std::size_t, std::size_t>> out;
   for (std::size_t i = 0; i < n; ++i) {
     if (!near[i]) continue;

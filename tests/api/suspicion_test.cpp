@@ -106,11 +106,16 @@ TEST(Suspicion, IsInTheAnswer) {
 }
 
 TEST(Suspicion, HelpsWhereAValueIsOutOfRange) {
-  EXPECT_EQ(other_unit_hint(4.5, 5, 5000), "; were it inches: 114.3 mm");
-  EXPECT_EQ(other_unit_hint(0.1143, 5, 5000), "; were it metres: 114.3 mm");
-  EXPECT_EQ(other_unit_hint(114300, 5, 5000), "; were it micrometres: 114.3 mm");
-  EXPECT_EQ(other_unit_hint(-4.5, 5, 5000), "");
-  EXPECT_EQ(other_unit_hint(0, 5, 5000), "");
+  EXPECT_EQ(other_unit_hint(4.5, "mm", 5, 5000), "; were it inches: 114.3 mm");
+  EXPECT_EQ(other_unit_hint(0.1143, "mm", 5, 5000), "; were it metres: 114.3 mm");
+  EXPECT_EQ(other_unit_hint(114300, "mm", 5, 5000), "; were it micrometres: 114.3 mm");
+  EXPECT_EQ(other_unit_hint(0.2191, "mm", 5, 5000), "; were it metres: 219.1 mm");
+  EXPECT_EQ(other_unit_hint(0.323, "mm", 1, 5000), "; were it metres: 323 mm, or inches: 8.204 mm");
+  EXPECT_EQ(other_unit_hint(1.5708, "deg", 5, 90), "; were it radians: 90 deg");
+  EXPECT_EQ(other_unit_hint(1.4, "deg", 5, 90), "");
+  EXPECT_EQ(other_unit_hint(67.0, "rad", 0, 3.14), "; were it degrees: 1.169 rad");
+  EXPECT_EQ(other_unit_hint(-4.5, "mm", 5, 5000), "");
+  EXPECT_EQ(other_unit_hint(0, "mm", 5, 5000), "");
 }
 
 }  // namespace

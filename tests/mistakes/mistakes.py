@@ -1,0 +1,89 @@
+"""Plausible mistakes of a caller, each against the service: does it name the field, and say what a
+user needs to hear? Rows of mistakes.jsonl: an example with edits (pointer, value; null takes the
+member out, "metres" divides the ends of all members by 1000), the field to be named, words of its hint.
+
+usage: mistakes.py SERVER (the binary)"""
+
+import copy
+import json
+import pathlib
+import sys
+import urllib.error
+import urllib.request
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "wire"))
+from service import Service  # noqa: E402
+
+HERE = pathlib.Path(__file__).parent
+EXAMPLES = HERE.parent.parent / "examples"
+LEAST_RIGHT = 190  # of 200
+
+
+def edited(body, edits):
+    body = copy.deepcopy(body)
+    if edits == "metres":
+        for member in body["members"]:
+            for end in ("start_mm", "end_mm"):
+                member[end] = [x / 1000 for x in member[end]]
+        return body
+    for pointer, value in edits:
+        *way, last = pointer.strip("/").split("/")
+        at = body
+        for step in way:
+            at = at[int(step)] if isinstance(at, list) else at[step]
+        if isinstance(at, list):
+            last = int(last)
+        if value is None:
+            del at[last]
+        else:
+            at[last] = value
+    return body
+
+
+def told(base, path, body):
+    """What an answer says of each field."""
+    request = urllib.request.Request(
+        base + path, json.dumps(body).encode(), {"content-type": "application/json"}
+    )
+    try:
+        with urllib.request.urlopen(request) as answer:
+            told_by = json.load(answer)
+    except urllib.error.HTTPError as refused:
+        told_by = json.load(refused)
+    said = {}
+    for one in told_by.get("errors", []) + told_by.get("warnings", []):
+        text = " ".join(str(one.get(part, "")) for part in ("code", "limit", "hint", "detail"))
+        said.setdefault(one["pointer"], []).append(text)
+    return said
+
+
+def main(binary):
+    with Service(binary) as service:
+        judge(f"http://127.0.0.1:{service.port}")
+
+
+def judge(base):
+    rows = [json.loads(line) for line in (HERE / "mistakes.jsonl").read_text().splitlines()]
+    assert len(rows) >= 200, "the table holds at least 200 mistakes"
+    silent, unhelpful = [], []
+    for row in rows:
+        example = json.loads((EXAMPLES / (row["post"] + ".json")).read_text())
+        path = "/v1/" + row["post"].split("/")[0]
+        said = told(base, path, edited(example, row["edit"]))
+        words = said.get(row["names"], [])
+        if not words:
+            silent.append((row, said))
+        elif not any(row["says"].lower() in text.lower() for text in words):
+            unhelpful.append((row, said))
+    right = len(rows) - len(silent) - len(unhelpful)
+    for what, which in (("does not name it", silent), ("names it without the hint", unhelpful)):
+        for row, said in which:
+            print(f"{what}: {row['mistake']} {row['names']} ({row['says']}) of {row['post']}: {said}")
+    print(f"{right} of {len(rows)} mistakes are named with their hint")
+    wrong = [row for row, said in silent if said]
+    if right * 200 < LEAST_RIGHT * len(rows) or wrong:
+        sys.exit(f"too few, or another field is named instead ({len(wrong)})")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
