@@ -23,6 +23,7 @@ constexpr double kApart = 0.1;      // rad: leans that are apart
 constexpr double kFine = 0.25;      // of half a kerf: across the wall, where they are
 constexpr double kMostLines = 48;
 constexpr int kFewest = 2, kMost = 8;  // stretches across the wall
+constexpr int kFiner = 3;              // each way, for cuts that bend
 constexpr double kTiny = 1e-300;
 constexpr int kHalvings = 250;       // at most, of cells between places; most cuts need some ten
 constexpr int kHalvingsOfRows = 40;  // likewise, where no more than what is there is asked for
@@ -329,10 +330,12 @@ BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& s
     for (double& value : cell.value) value = -value;
     lefts.see(cell);
   };
-  Grid grid{.apart = rows_only || half == 0.0 ? length : std::max(0.5 * half, length / kPlaces),
-            .lines = rows_only ? 1 : lines(cut),
-            .first = 0,
-            .end = surface.rows()};
+  const int finer = places == Places::finely ? kFiner : 1;
+  Grid grid{
+      .apart = rows_only || half == 0.0 ? length : std::max(0.5 * half, length / kPlaces) / finer,
+      .lines = rows_only ? 1 : finer * lines(cut),
+      .first = 0,
+      .end = surface.rows()};
   see_cells(short_of, grid, stop, see);
   grid.land = true;
   if (!cut.land.empty()) see_cells(short_of, grid, stop, see);
@@ -361,15 +364,17 @@ BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& s
 
 BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,
                       const std::stop_token& stop) {
-  constexpr double kAimed = kGougeLimit - 1e-3;  // by as much may be taken more than is found
+  constexpr double kAimed = 0.7 * kGougeLimit;  // a little more may be taken than is found
   constexpr double kMore = 1.25;  // moved off the line's own surface, that next to it gains less
   constexpr int kRounds = 12;
   Further further(rows, 0.0);
   for (int round = 0;; ++round) {
-    const auto found = beam_found(cut(further), Places::everywhere, stop);
+    const auto moved = cut(further);
+    const auto found = beam_found(moved, round == 0 ? Places::everywhere : Places::finely, stop);
     if (!(found.proof.gouge > kAimed) || round == kRounds || stop.stop_requested())
       return found.proof;
     for (std::size_t i = 0; i < rows; ++i) further[i] += kMore * found.gouged_from[i];
+    if (std::ranges::max(further) > moved.kerf) return found.proof;
   }
 }
 

@@ -34,8 +34,8 @@ struct BeamProof {
 };
 
 /// Which places of the finished surface are looked at: every half kerf along the cut, or its rows
-/// alone. Either way against the axes at rows and between them.
-enum class Places { everywhere, rows };
+/// alone, or three times as many each way. Always against the axes at rows and between them.
+enum class Places { everywhere, rows, finely };
 
 /// The proof, and by torch row the most that the beam takes on its way from it or to it, mm: rows
 /// that stand off by as much more take nothing.
@@ -60,8 +60,8 @@ inline constexpr double kGougeLimit = 0.01;  // mm
 /// By row, how much further the torch stands off than half a kerf, mm.
 using Further = std::vector<double>;
 /// Moves the torch's rows off the part until the beam takes no more than kGougeLimit of it
-/// anywhere, or no round gets there; `cut` is the cut with its rows moved, asked last for what it
-/// keeps. What is left to see is in the proof.
+/// anywhere, or a kerf is not enough; `cut` is the cut with its rows moved, asked last for what it
+/// keeps. Where any was moved the wall bends, and the proof looks three times as finely.
 [[nodiscard]] BeamProof clear_torch(std::size_t rows,
                                     const std::function<BeamCut(const Further&)>& cut,
                                     const std::stop_token& stop = {});
