@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """The costliest jobs and the slowest readers within a container's memory: `confined.py BINARY [--mib 256,512,768] [--group]`. One slot;
 replays as large as the replica takes, drawings of many samples, long answers in every format, all of them several at a time, and 17
-clients that take nothing of 12 MB answers. With --group, or --heaviest, also all of heaviest.py and costly.py. The process lives, its peak stays within the container, afterwards it has given the memory
-back, and small jobs are answered. With --group it runs in a control group of that size (as root; version 1 or 2) and the kernel is the
-judge; without, --memory-bytes is what it would find there, and its peak (VmHWM) is held against the size."""
+clients that take nothing of 12 MB answers. With --group, or --heaviest, also all of heaviest.py and costly.py. The process lives, its
+peak stays within the container, afterwards it has given the memory back, and small jobs are answered. With --group it runs in a control
+group of that size (as root; version 1 or 2) and the kernel is the judge; without, --memory-bytes is what it would find there, and its
+peak (VmHWM) is held against the size."""
 
 import argparse
 import collections
