@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/bevel/table.hpp"
@@ -146,7 +147,7 @@ class Scan {
     const double phi = mix(t_.phi[i], turned(i + 1), u), z = height(i, u, rho);
     const auto n = static_cast<std::ptrdiff_t>(torch_.size());
     double best = std::abs(off(at(i, u), rho, phi, z));
-    std::ptrdiff_t found = -1;
+    std::vector<std::pair<std::ptrdiff_t, double>> looked;
     const auto pose = [&](std::ptrdiff_t k) {
       auto p = torch_[static_cast<std::size_t>((k % n + n) % n)];
       p.phi += kTwoPi * std::floor(static_cast<double>(k) / static_cast<double>(n));
@@ -156,7 +157,7 @@ class Scan {
       const auto p = pose(k);
       if (rho * std::sin(std::min(kPi / 2, std::abs(phi - p.phi))) > best) return false;
       const double d = std::abs(off(p, rho, phi, z));
-      if (d < best || found < 0) found = k;
+      looked.emplace_back(k, d);
       best = std::min(best, d);
       return true;
     };
@@ -166,8 +167,11 @@ class Scan {
     for (auto k = start - 1; k > start - n / 2 && look(k); --k) {
     }
     double sign = off(at(i, u), rho, phi, z) < 0.0 ? -1.0 : 1.0;
-    if (found >= 0) {  // between its two neighbours
-      for (const auto from : {found - 1, found}) {
+    // Beside all that are nearly as near: half / 8 apart, the nearest may lie half / 128 nearer.
+    const double nearly = best + half_ / 64;
+    for (const auto& [k, d0] : looked) {
+      if (d0 > nearly) continue;
+      for (const auto from : {k - 1, k}) {
         const auto a = pose(from), b = pose(from + 1);
         const double end = b.row == a.row && b.u > a.u ? b.u : 1.0;
         double low = a.u, high = end;
