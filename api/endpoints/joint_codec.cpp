@@ -42,7 +42,7 @@ joint::Partner decode_plane(Reader& in) {
 }
 
 joint::Partner decode_rectangular_tube(Reader& in) {
-  joint::BoxCutter out{.width = in.number("width_mm", kDiameter),
+  joint::RectangularTubeCutter out{.width = in.number("width_mm", kDiameter),
                        .height = in.number("height_mm", kDiameter)};
   const bool sized = in.understood("width_mm") && in.understood("height_mm");
   const double widest = 0.5 * (sized ? std::min(out.width, out.height) : kDiameter.max);
