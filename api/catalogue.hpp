@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,13 +19,13 @@ struct Embedded {
 
 struct Context;
 
-/// A catalogue that a GET asks for (`/v1/errors`, `/openapi.yaml`, ...).
 struct Page {
-  std::string_view path;
-  std::string_view content_type;
-  std::string (*print)(const Context& context);  // of limits, those in force on this replica
+  std::string content_type;
+  std::string body;
 };
-/// nullptr for other paths.
-[[nodiscard]] const Page* find_page(std::string_view path);
+
+/// The answer to a GET of a catalogue (`/v1/errors`, `/openapi.yaml`, ...); nothing for other
+/// paths. Of limits, those in force on this replica.
+[[nodiscard]] std::optional<Page> catalogue(std::string_view path, const Context& context);
 
 }  // namespace tubecut::api

@@ -4,7 +4,6 @@
 
 #include "api/api.hpp"
 #include "api/endpoint.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -20,9 +19,11 @@ constexpr Range kArm{.min = 0.0, .max = 10'000.0};
 enum class Type { five_axis_cutter, crawler, cone_mill, generic };
 
 motion::Axis decode_axis(Reader& in) {
+  static constexpr std::array kUnits{Option<AxisUnit>{"deg", AxisUnit::deg},
+                                     Option<AxisUnit>{"mm", AxisUnit::mm}};
   motion::Axis out;
   out.name = in.text("name", 16);
-  out.unit = in.choice("unit", kNames<AxisUnit>);
+  out.unit = in.choice("unit", kUnits);
   const auto which = in.exactly_one({"pulses_per_unit", "pulses_per_turn"});
   if (which == 0) out.pulses_per_unit = in.number("pulses_per_unit", kLimit);
   if (which == 1) out.pulses_per_turn = in.integer("pulses_per_turn", 1, 1'000'000'000);
@@ -36,6 +37,8 @@ motion::Axis decode_axis(Reader& in) {
 }
 
 motion::Kinematics decode_kinematics(Reader& in, Type type) {
+  static constexpr std::array kCenters{Option<SwingCenter>{"remote", SwingCenter::remote},
+                                       Option<SwingCenter>{"pivot", SwingCenter::pivot}};
   switch (type) {
     case Type::five_axis_cutter: {
       motion::FiveAxisCutter out;
@@ -47,7 +50,7 @@ motion::Kinematics decode_kinematics(Reader& in, Type type) {
     case Type::crawler: {
       motion::Crawler out;
       out.wheel_offset = in.number("wheel_offset_mm", kArm);
-      out.swing_center = in.choice("swing_center", kNames<SwingCenter>);
+      out.swing_center = in.choice("swing_center", kCenters);
       if (!in.understood("swing_center")) in.silence();
       if (out.swing_center == SwingCenter::pivot)
         out.pivot_length = in.number("pivot_length_mm", kArm);
@@ -108,7 +111,7 @@ struct KinematicFields {
   }
   void operator()(const motion::Crawler& m) const {
     w.field("wheel_offset_mm", m.wheel_offset);
-    w.field("swing_center", name_of(m.swing_center));
+    w.field("swing_center", m.swing_center == SwingCenter::pivot ? "pivot" : "remote");
     if (m.swing_center == SwingCenter::pivot) w.field("pivot_length_mm", m.pivot_length);
     optional_field("standoff_max_mm", m.standoff_max, w);
   }
@@ -154,11 +157,14 @@ motion::Machine decode_machine(Reader& in) {
                                      Option<Type>{"crawler", Type::crawler},
                                      Option<Type>{"cone_mill", Type::cone_mill},
                                      Option<Type>{"generic", Type::generic}};
+  static constexpr std::array kSigns{
+      Option<BPositive>{"outer_edge_into_part", BPositive::outer_edge_into_part},
+      Option<BPositive>{"outer_edge_to_waste", BPositive::outer_edge_to_waste}};
   motion::Machine out;
   if (auto name = in.optional_text("name", 64)) out.name = *name;
   const auto type = in.tag("type", kTypes);
   out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
-  out.b_positive = in.choice("b_positive", kNames<BPositive>);
+  out.b_positive = in.choice("b_positive", kSigns);
   if (type) out.kinematics = decode_kinematics(in, *type);
   out.axes = in.array("axes", {.min = 1, .max = 8}, decode_axis);
   return out;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "api/suspicion.hpp"
-#include "api/wire_names.hpp"
 #include "api/writer.hpp"
 
 namespace tubecut::api {
@@ -130,7 +129,7 @@ void write_warnings(Writer& w, const std::vector<Warning>& warnings,
     const auto& about = info(warning.code);
     each.object([&](Writer& o) {
       o.field("code", about.code);
-      o.field("severity", name_of(about.severity));
+      o.field("severity", about.severity == Severity::cut ? "cut" : "note");
       o.field("pointer", pointer(warning.member));
       o.field("detail", warning.detail.empty() ? std::string(about.meaning) : warning.detail);
     });

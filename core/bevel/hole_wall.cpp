@@ -67,7 +67,7 @@ struct WallLines::Corner {
 };
 
 WallLines::WallLines(const HoleSpec& spec, const joint::TubeCutter& branch, double radius,
-                     const joint::PreparedCutter& chord)
+                     const joint::Prepared& chord)
     : spec_(spec),
       frame_(branch_frame(branch)),
       radius_(radius),

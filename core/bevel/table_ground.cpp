@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "core/base/elementary.hpp"
-#include "core/base/try.hpp"
 #include "core/bevel/table_parts.hpp"
 
 namespace tubecut::bevel::detail {
@@ -97,14 +96,16 @@ Point larger(const Ground& g, const joint::Node& node) {
 }  // namespace
 
 Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop) {
-  TRY(check(spec));
-  TRY(auto cutters, grown_partners(spec));
+  if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());
+  auto cutters = grown_partners(spec);
+  if (!cutters) return tl::unexpected(cutters.error());
   const Wall wall{spec.target.inner_radius(), spec.target.outer_radius};
   const bool outer = spec.root_surface == RootSurface::outer;
-  TRY(auto root, joint::trace(cutters, outer ? wall.outer : wall.inner, stop));
+  auto root = joint::trace(*cutters, outer ? wall.outer : wall.inner, stop);
+  if (!root) return tl::unexpected(root.error());
   Ground out{.spec = spec,
-             .cutters = std::move(cutters),
-             .root = std::move(root),
+             .cutters = *std::move(cutters),
+             .root = *std::move(root),
              .inner = {},
              .other_events = {},
              .row_phases = {},
@@ -117,8 +118,9 @@ Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop) {
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   for (const auto& cutter : out.cutters) out.solids.emplace_back(cutter);
   if (outer) {
-    TRY(auto inner, joint::trace(out.cutters, wall.inner, stop));
-    out.inner = std::move(inner);
+    auto inner = joint::trace(out.cutters, wall.inner, stop);
+    if (!inner) return tl::unexpected(inner.error());
+    out.inner = *std::move(inner);
   }
   return out;
 }
@@ -149,8 +151,9 @@ bool Rows::jump_pair(std::size_t i) const {
 }
 
 Result<Rows> rows(const Ground& g, const std::vector<double>& also, const std::stop_token& stop) {
-  TRY(auto samples, joint::sample(g.root, g.spec.sampling, also, stop));
-  Rows out{.samples = std::move(samples), .points = {}};
+  auto samples = joint::sample(g.root, g.spec.sampling, also, stop);
+  if (!samples) return tl::unexpected(samples.error());
+  Rows out{.samples = *std::move(samples), .points = {}};
   out.points.reserve(out.samples.nodes.size());
   for (const auto& node : out.samples.nodes) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -173,7 +176,10 @@ namespace tubecut::bevel {
 Result<void> check_groove(const GrooveRule& groove) {
   const auto* zoned = std::get_if<ZonedGroove>(&groove);
   if (zoned == nullptr) return {};
-  return under("groove", check_zones(*zoned));
+  auto ok = check_zones(*zoned);
+  if (!ok)
+    for (auto& issue : ok.error().issues) issue.member = "groove/" + issue.member;
+  return ok;
 }
 
 const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size_t i) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "core/base/try.hpp"
 #include "core/joint/node_parts.hpp"
 
 namespace tubecut::joint {
@@ -195,12 +194,12 @@ double between_axes(const Member& a, const Member& b) {
 }
 
 Result<Applied> apply_joints(const NodeSpec& spec, Joined& joined) {
-  TRY(check_sides(spec));
+  if (auto ok = check_sides(spec); !ok) return tl::unexpected(ok.error());
   Applied out;
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {
     const auto pair = std::minmax(spec.joints[i].member, spec.joints[i].with);
     if (!out.joints.emplace(pair, spec.joints[i].joint).second) continue;
-    TRY(apply(spec, i, joined, out));
+    if (auto ok = apply(spec, i, joined, out); !ok) return tl::unexpected(ok.error());
   }
   return out;
 }
