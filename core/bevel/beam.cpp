@@ -366,11 +366,12 @@ BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Furthe
                       const std::stop_token& stop) {
   constexpr double kAimed = 0.7 * kGougeLimit;  // a little more may be taken than is found
   constexpr double kMore = 1.25;  // moved off the line's own surface, that next to it gains less
-  constexpr int kRounds = 12;
+  constexpr int kRounds = 8;
   Further further(rows, 0.0);
   for (int round = 0;; ++round) {
     const auto moved = cut(further);
-    const auto found = beam_found(moved, round == 0 ? Places::everywhere : Places::finely, stop);
+    const bool bends = round > 0 && moved.turn == 0.0;  // an end's drop is the least already
+    const auto found = beam_found(moved, bends ? Places::finely : Places::everywhere, stop);
     if (!(found.proof.gouge > kAimed) || round == kRounds || stop.stop_requested())
       return found.proof;
     for (std::size_t i = 0; i < rows; ++i) further[i] += kMore * found.gouged_from[i];

@@ -61,7 +61,7 @@ inline constexpr double kGougeLimit = 0.01;  // mm
 using Further = std::vector<double>;
 /// Moves the torch's rows off the part until the beam takes no more than kGougeLimit of it
 /// anywhere, or a kerf is not enough; `cut` is the cut with its rows moved, asked last for what it
-/// keeps. Where any was moved the wall bends, and the proof looks three times as finely.
+/// keeps. Where any of a hole was moved its wall bends, and the proof looks three times as finely.
 [[nodiscard]] BeamProof clear_torch(std::size_t rows,
                                     const std::function<BeamCut(const Further&)>& cut,
                                     const std::stop_token& stop = {});
