@@ -1,18 +1,22 @@
 #include "api/catalogue.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "api/api.hpp"
 #include "api/cost.hpp"
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
 #include "api/tube_sizes.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
 
 constexpr std::string_view kJson = "application/json";
 
-std::string errors_page() {
+std::string errors_page(const Context& /*context*/) {
   Writer out;
   out.object([](Writer& w) {
     w.array("errors", all_errors(), [](Writer& each, const ErrorInfo& error) {
@@ -25,7 +29,7 @@ std::string errors_page() {
     w.array("warnings", all_warnings(), [](Writer& each, const WarningInfo& warning) {
       each.object([&](Writer& o) {
         o.field("code", warning.code);
-        o.field("severity", warning.severity == Severity::cut ? "cut" : "note");
+        o.field("severity", name_of(warning.severity));
         o.field("meaning", warning.meaning);
       });
     });
@@ -75,7 +79,7 @@ std::string limits_page(const Context& context) {
   return out.take();
 }
 
-std::string version_page() {
+std::string version_page(const Context& /*context*/) {
   Writer out;
   out.object([](Writer& w) {
     w.field("engine", "tubecut " + std::string(version()));
@@ -98,7 +102,7 @@ std::string version_page() {
   return out.take();
 }
 
-std::string tubes_page() {
+std::string tubes_page(const Context& /*context*/) {
   Writer out;
   out.object([](Writer& w) {
     w.array("tubes", tube_sizes(), [](Writer& each, const TubeSize& tube) {
@@ -113,7 +117,7 @@ std::string tubes_page() {
   return out.take();
 }
 
-std::string examples_page() {
+std::string examples_page(const Context& /*context*/) {
   Writer out;
   out.object([](Writer& w) {
     w.array("examples", examples(), [](Writer& each, const Example& example) {
@@ -125,6 +129,10 @@ std::string examples_page() {
     });
   });
   return out.take();
+}
+
+std::string embedded(std::string_view name) {
+  return std::string(std::ranges::find(embedded_files(), name, &Embedded::name)->text);
 }
 
 }  // namespace
@@ -145,25 +153,19 @@ std::vector<Example> examples() {
   return out;
 }
 
-std::optional<Page> catalogue(std::string_view path, const Context& context) {
-  static const struct {
-    std::string_view path;
-    std::string (*print)();
-  } kPages[] = {{"/v1/errors", errors_page},
-                {"/v1/version", version_page},
-                {"/v1/tubes", tubes_page},
-                {"/v1/machines", machines_page},
-                {"/v1/examples", examples_page}};
-  if (path == "/v1/limits") return Page{std::string(kJson), limits_page(context)};
-  for (const auto& page : kPages)
-    if (page.path == path) return Page{std::string(kJson), page.print()};
-  for (const auto& file : embedded_files()) {
-    if (path == "/openapi.yaml" && file.name == "openapi.yaml")
-      return Page{"application/yaml", std::string(file.text)};
-    if (path == "/openapi.json" && file.name == "openapi.json")
-      return Page{std::string(kJson), std::string(file.text)};
-  }
-  return std::nullopt;
+const Page* find_page(std::string_view path) {
+  static constexpr auto kPages = std::to_array<Page>(
+      {{"/v1/errors", kJson, errors_page},
+       {"/v1/limits", kJson, limits_page},
+       {"/v1/version", kJson, version_page},
+       {"/v1/machines", kJson, [](const Context&) { return machines_page(); }},
+       {"/v1/tubes", kJson, tubes_page},
+       {"/v1/examples", kJson, examples_page},
+       {"/openapi.yaml", "application/yaml",
+        [](const Context&) { return embedded("openapi.yaml"); }},
+       {"/openapi.json", kJson, [](const Context&) { return embedded("openapi.json"); }}});
+  const auto found = std::ranges::find(kPages, path, &Page::path);
+  return found == kPages.end() ? nullptr : &*found;
 }
 
 }  // namespace tubecut::api

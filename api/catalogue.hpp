@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,13 +18,13 @@ struct Embedded {
 
 struct Context;
 
+/// A catalogue that a GET asks for (`/v1/errors`, `/openapi.yaml`, ...).
 struct Page {
-  std::string content_type;
-  std::string body;
+  std::string_view path;
+  std::string_view content_type;
+  std::string (*print)(const Context& context);  // of limits, those in force on this replica
 };
-
-/// The answer to a GET of a catalogue (`/v1/errors`, `/openapi.yaml`, ...); nothing for other
-/// paths. Of limits, those in force on this replica.
-[[nodiscard]] std::optional<Page> catalogue(std::string_view path, const Context& context);
+/// nullptr for other paths.
+[[nodiscard]] const Page* find_page(std::string_view path);
 
 }  // namespace tubecut::api

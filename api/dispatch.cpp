@@ -13,9 +13,6 @@ namespace {
 constexpr std::string_view kJsonMedia = "application/json";
 constexpr std::string_view kCborMedia = "application/cbor";
 constexpr std::string_view kProblemMedia = "application/problem+json";
-constexpr std::string_view kAllPaths[] = {"/v1/errors",    "/v1/limits",   "/v1/version",
-                                          "/v1/machines",  "/v1/tubes",    "/v1/examples",
-                                          "/openapi.yaml", "/openapi.json"};
 
 /// Media type without parameters, in lower case.
 std::string media_of(std::string_view header) {
@@ -127,9 +124,9 @@ class Job {
   Outcome refuse(ErrorCode code, std::string detail = {}) {
     return refuse(Problem{.code = code, .detail = std::move(detail), .issues = {}});
   }
-  Outcome page(Page page) {
-    out_.content_type = std::move(page.content_type);
-    out_.body = std::move(page.body);
+  Outcome page(const Page& page, const Context& context) {
+    out_.content_type = page.content_type;
+    out_.body = page.print(context);
     return std::move(out_);
   }
   Outcome compute(const Endpoint& endpoint);
@@ -268,9 +265,8 @@ void write_events(Writer& w, const Context& context, double begun,
 Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                     const Choice& choice, const Query& query) {
   const auto& stop = context_.stop;
-  const auto request_text = dump(answer.request, stop);
   auto& job = out_.job;
-  job.input_sha256 = sha256(request_text, stop);
+  job.input_sha256 = answer.input_sha256;
   job.id = call_.job_id.empty() ? job.input_sha256.substr(0, 16) : call_.job_id;
   job.reference = common.reference;
   const auto& verdict = answer.verdict;
@@ -278,20 +274,19 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
   job.reasons = verdict.reasons;
   out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
   for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
-  const auto result_sha256 = sha256(answer.result, stop);
-  job.result_sha256 = result_sha256;
+  job.result_sha256 = answer.result_sha256;
   if (choice.body == Body::text && !query.validate_only) {
     out_.content_type = choice.format->media;
     out_.body = std::move(answer.text);
     out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
-    out_.headers.emplace_back("Tubecut-Result-Sha256", result_sha256);
+    out_.headers.emplace_back("Tubecut-Result-Sha256", job.result_sha256);
     return std::move(out_);
   }
   Json& echo = answer.request;
   auto& members = *echo.as<Json::Object>();
   if (!common.reference.empty()) members.emplace_back("reference", common.reference_echo);
   if (common.inline_log) members.emplace_back("log", Json{"inline"});
-  Writer out(answer.result.size() + request_text.size() + 4096, stop);
+  Writer out(answer.result.size() + call_.body.size() + 4096, stop);
   out.object([&](Writer& w) {
     w.object("job", [&](Writer& o) {
       o.field("id", job.id);
@@ -299,7 +294,7 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
       o.field("engine", "tubecut " + std::string(version()));
       o.field("numerics", numerics());
       o.field("input_sha256", job.input_sha256);
-      o.field("result_sha256", result_sha256);
+      o.field("result_sha256", job.result_sha256);
     });
     w.field("request", echo);
     if (!query.validate_only) w.raw("result", answer.result);
@@ -337,13 +332,12 @@ Outcome dispatch(const Call& call, const Context& context) {
                : job.refuse(
                      Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
                      "POST");
-  if (std::find(std::begin(kAllPaths), std::end(kAllPaths), call.path) == std::end(kAllPaths))
-    return job.refuse(ErrorCode::not_found);
+  const auto* page = find_page(call.path);
+  if (page == nullptr) return job.refuse(ErrorCode::not_found);
   if (call.method != "GET" && call.method != "HEAD")
     return job.refuse(Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
                       "GET, HEAD");
-  auto page = catalogue(call.path, context);
-  return page ? job.page(std::move(*page)) : job.refuse(ErrorCode::not_found);
+  return job.page(*page, context);
 }
 
 Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,

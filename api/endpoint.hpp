@@ -26,6 +26,7 @@ namespace tubecut::api {
 struct Answer {
   Json request = {};  // echo without reference and log
   std::string result = {};
+  std::string input_sha256 = {}, result_sha256 = {};  // of these two as text
   std::vector<Check> checks = {};
   std::vector<Warning> warnings = {};
   std::vector<Measure> measures = {};
@@ -120,11 +121,13 @@ Reply run(Reader& in, Run& run) {
   Writer writer(1 << 16, run.stop);
   writer.object([&](Writer& w) { E::encode(spec, *out, w); });
   answer.result = writer.take();
+  answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
+  answer.result_sha256 = sha256(answer.result, run.stop);
   if (run.format != nullptr) {
     if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
       return *std::move(refused);
-    run.caption.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
-    run.caption.result_sha256 = sha256(answer.result, run.stop);
+    run.caption.input_sha256 = answer.input_sha256;
+    run.caption.result_sha256 = answer.result_sha256;
     run.caption.stop = run.stop;
     run.caption.verdict = answer.verdict;
     for (const auto& format : E::formats())

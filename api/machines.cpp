@@ -4,6 +4,7 @@
 
 #include "api/api.hpp"
 #include "api/endpoint.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -19,11 +20,9 @@ constexpr Range kArm{.min = 0.0, .max = 10'000.0};
 enum class Type { five_axis_cutter, crawler, cone_mill, generic };
 
 motion::Axis decode_axis(Reader& in) {
-  static constexpr std::array kUnits{Option<AxisUnit>{"deg", AxisUnit::deg},
-                                     Option<AxisUnit>{"mm", AxisUnit::mm}};
   motion::Axis out;
   out.name = in.text("name", 16);
-  out.unit = in.choice("unit", kUnits);
+  out.unit = in.choice("unit", kNames<AxisUnit>);
   const auto which = in.exactly_one({"pulses_per_unit", "pulses_per_turn"});
   if (which == 0) out.pulses_per_unit = in.number("pulses_per_unit", kLimit);
   if (which == 1) out.pulses_per_turn = in.integer("pulses_per_turn", 1, 1'000'000'000);
@@ -37,8 +36,6 @@ motion::Axis decode_axis(Reader& in) {
 }
 
 motion::Kinematics decode_kinematics(Reader& in, Type type) {
-  static constexpr std::array kCenters{Option<SwingCenter>{"remote", SwingCenter::remote},
-                                       Option<SwingCenter>{"pivot", SwingCenter::pivot}};
   switch (type) {
     case Type::five_axis_cutter: {
       motion::FiveAxisCutter out;
@@ -50,7 +47,7 @@ motion::Kinematics decode_kinematics(Reader& in, Type type) {
     case Type::crawler: {
       motion::Crawler out;
       out.wheel_offset = in.number("wheel_offset_mm", kArm);
-      out.swing_center = in.choice("swing_center", kCenters);
+      out.swing_center = in.choice("swing_center", kNames<SwingCenter>);
       if (!in.understood("swing_center")) in.silence();
       if (out.swing_center == SwingCenter::pivot)
         out.pivot_length = in.number("pivot_length_mm", kArm);
@@ -111,7 +108,7 @@ struct KinematicFields {
   }
   void operator()(const motion::Crawler& m) const {
     w.field("wheel_offset_mm", m.wheel_offset);
-    w.field("swing_center", m.swing_center == SwingCenter::pivot ? "pivot" : "remote");
+    w.field("swing_center", name_of(m.swing_center));
     if (m.swing_center == SwingCenter::pivot) w.field("pivot_length_mm", m.pivot_length);
     optional_field("standoff_max_mm", m.standoff_max, w);
   }
@@ -157,14 +154,11 @@ motion::Machine decode_machine(Reader& in) {
                                      Option<Type>{"crawler", Type::crawler},
                                      Option<Type>{"cone_mill", Type::cone_mill},
                                      Option<Type>{"generic", Type::generic}};
-  static constexpr std::array kSigns{
-      Option<BPositive>{"outer_edge_into_part", BPositive::outer_edge_into_part},
-      Option<BPositive>{"outer_edge_to_waste", BPositive::outer_edge_to_waste}};
   motion::Machine out;
   if (auto name = in.optional_text("name", 64)) out.name = *name;
   const auto type = in.tag("type", kTypes);
   out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
-  out.b_positive = in.choice("b_positive", kSigns);
+  out.b_positive = in.choice("b_positive", kNames<BPositive>);
   if (type) out.kinematics = decode_kinematics(in, *type);
   out.axes = in.array("axes", {.min = 1, .max = 8}, decode_axis);
   return out;

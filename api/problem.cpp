@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/suspicion.hpp"
+#include "api/wire_names.hpp"
 #include "api/writer.hpp"
 
 namespace tubecut::api {
@@ -129,7 +130,7 @@ void write_warnings(Writer& w, const std::vector<Warning>& warnings,
     const auto& about = info(warning.code);
     each.object([&](Writer& o) {
       o.field("code", about.code);
-      o.field("severity", about.severity == Severity::cut ? "cut" : "note");
+      o.field("severity", name_of(about.severity));
       o.field("pointer", pointer(warning.member));
       o.field("detail", warning.detail.empty() ? std::string(about.meaning) : warning.detail);
     });

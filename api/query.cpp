@@ -6,13 +6,13 @@
 #include <cmath>
 #include <optional>
 
+#include "api/wire_names.hpp"
+
 namespace tubecut::api {
 namespace {
 
 constexpr std::array kSwitch{Option<bool>{"on", true}, Option<bool>{"off", false}};
 constexpr std::array kAxial{Option<bool>{"x", false}, Option<bool>{"z", true}};
-constexpr std::array kDialects{Option<Dialect>{"linuxcnc", Dialect::linuxcnc},
-                               Option<Dialect>{"qtplasmac", Dialect::qtplasmac}};
 constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};        // mm/min
 constexpr Range kLead{.min = 0.0, .max = 1'000.0};          // mm
 constexpr Range kPivotLength{.min = 0.0, .max = 10'000.0};  // mm
@@ -106,7 +106,7 @@ FormatOptions read_options(Reader& in) {
   out.mirror = in.flag("mirror", false);
   out.torch = in.choice("torch", kSwitch, false);
   out.acknowledged = read_acknowledged(in, out.torch);
-  out.dialect = in.choice("dialect", kDialects, Dialect::linuxcnc);
+  out.dialect = in.choice("dialect", Dialect::linuxcnc);
   out.axial_z = in.choice("axial", kAxial, false);
   out.speed = in.optional_number("speed_mm_min", kSpeed);
   out.lead = in.number("lead_mm", kLead, 0.0);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "api/json.hpp"
+#include "api/names.hpp"
 #include "api/stop.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
@@ -43,12 +44,6 @@ struct FieldIssue {
   Json limit = {};
   std::string unit = {};
   std::string hint = {};
-};
-
-template <class E>
-struct Option {
-  std::string_view name;
-  E value;
 };
 
 /// Reads one object of a request: the only reader of request fields.
@@ -112,6 +107,11 @@ class Reader {
       if (options[i].value == *fallback) back = i;
     const auto index = choose(name, names, back);
     return index ? options[*index].value : options[0].value;
+  }
+
+  template <Named E>
+  E choice(std::string_view name, E fallback) {
+    return choice(name, kNames<E>, fallback);
   }
 
   /// The choice that tells what the other members are. Without a valid one nothing more of this

@@ -7,6 +7,7 @@
 #include "api/limits.hpp"
 #include "api/machines.hpp"
 #include "api/tables.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -18,8 +19,6 @@ using bevel::RootSurface;
 
 constexpr std::size_t kMostZones = 16;
 constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
-
-enum class RuleName { half_dihedral, fixed, none, square, zones };
 
 /// Two angles of an array [from, to], each within 0..180 or less than 90 deg.
 std::pair<Angle, Angle> decode_pair(Reader& in, std::string_view name, Range range) {
@@ -44,20 +43,21 @@ bevel::ZonedGroove decode_zones(Reader& in) {
   return out;
 }
 
-GrooveRule decode_groove(Reader& in) {
-  static constexpr std::array kRules{
-      Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
-      Option<RuleName>{"fixed", RuleName::fixed}, Option<RuleName>{"none", RuleName::none},
-      Option<RuleName>{"square", RuleName::square}, Option<RuleName>{"zones", RuleName::zones}};
-  const auto rule = in.tag("rule", kRules);
-  if (rule == RuleName::half_dihedral)
-    return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
-  if (rule == RuleName::fixed)
-    return bevel::FixedGroove{in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
-  if (rule == RuleName::square) return bevel::SquareCut{};
-  if (rule == RuleName::zones) return decode_zones(in);
-  return bevel::NoGroove{};
-}
+using DecodeGroove = GrooveRule (*)(Reader&);
+constexpr std::array kRules{
+    Option<DecodeGroove>{"half_dihedral",
+                         [](Reader& in) -> GrooveRule {
+                           return bevel::HalfDihedral{
+                               in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
+                         }},
+    Option<DecodeGroove>{"fixed",
+                         [](Reader& in) -> GrooveRule {
+                           return bevel::FixedGroove{
+                               in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
+                         }},
+    Option<DecodeGroove>{"none", [](Reader&) -> GrooveRule { return bevel::NoGroove{}; }},
+    Option<DecodeGroove>{"square", [](Reader&) -> GrooveRule { return bevel::SquareCut{}; }},
+    Option<DecodeGroove>{"zones", [](Reader& in) -> GrooveRule { return decode_zones(in); }}};
 
 /// What the swing axis B of a machine follows at a cutting speed.
 bevel::SwingLimits decode_swing(Reader& in) {
@@ -85,8 +85,6 @@ struct Smoothing {
 };
 
 bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
-  static constexpr std::array kAlong{Option<bevel::Along>{"developed", bevel::Along::developed},
-                                     Option<bevel::Along>{"length", bevel::Along::length}};
   bevel::EnvelopeSmoothing out;
   bool by_machine = false;
   in.object("limits", [&](Reader& l) {
@@ -103,8 +101,7 @@ bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
     }
     return 0;
   });
-  out.along =
-      in.choice("along", kAlong, by_machine ? bevel::Along::length : bevel::Along::developed);
+  out.along = in.choice("along", by_machine ? bevel::Along::length : bevel::Along::developed);
   if (by_machine && out.along != bevel::Along::length)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "along",
@@ -128,28 +125,16 @@ bevel::HermiteSmoothing decode_hermite(Reader& in) {
 }
 
 Smoothing decode_smoothing(Reader& in) {
-  static constexpr std::array kMethods{Option<int>{"envelope", 0}, Option<int>{"hermite", 1},
-                                       Option<int>{"none", 2}};
+  using Decode = bevel::Smoothing (*)(Reader&);
+  static constexpr std::array kMethods{
+      Option<Decode>{"envelope", [](Reader& m) -> bevel::Smoothing { return decode_envelope(m); }},
+      Option<Decode>{"hermite", [](Reader& m) -> bevel::Smoothing { return decode_hermite(m); }},
+      Option<Decode>{"none", [](Reader&) -> bevel::Smoothing { return bevel::NoSmoothing{}; }}};
   Smoothing out;
   const auto method = in.tag("method", kMethods);
   out.mutation_limit =
       in.angle("mutation_limit_deg", {.min = 0.0, .max = 180.0, .open_min = true}, Angle::deg(10));
-  if (method == 0) out.method = decode_envelope(in);
-  if (method == 1) out.method = decode_hermite(in);
-  return out;
-}
-
-bevel::TorchRange decode_torch(Reader& in) {
-  bevel::TorchRange out;
-  out.min = in.angle("min_deg", kTorchDeg, Angle::deg(-80));
-  out.max = in.angle("max_deg", kTorchDeg, Angle::deg(80));
-  if (!(out.min < out.max))
-    in.issue({.code = ErrorCode::out_of_range,
-              .pointer = "max_deg",
-              .limit = Json{out.min.deg()},
-              .unit = "deg",
-              .hint = "must be greater than min_deg"},
-             in.find("max_deg"));
+  if (method) out.method = (*method)(in);
   return out;
 }
 
@@ -219,6 +204,25 @@ void encode_limits(const bevel::TableSpec& spec, Writer& o) {
 
 }  // namespace
 
+GrooveRule decode_groove(Reader& in, bool zones) {
+  const auto rule = zones ? in.tag("rule", kRules) : in.tag("rule", first<4>(kRules));
+  return rule ? (*rule)(in) : bevel::NoGroove{};
+}
+
+bevel::TorchRange decode_torch(Reader& in) {
+  bevel::TorchRange out;
+  out.min = in.angle("min_deg", kTorchDeg, Angle::deg(-80));
+  out.max = in.angle("max_deg", kTorchDeg, Angle::deg(80));
+  if (!(out.min < out.max))
+    in.issue({.code = ErrorCode::out_of_range,
+              .pointer = "max_deg",
+              .limit = Json{out.min.deg()},
+              .unit = "deg",
+              .hint = "must be greater than min_deg"},
+             in.find("max_deg"));
+  return out;
+}
+
 void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out) {
   out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
   out.torch = in.defaulted_object("torch", decode_torch);
@@ -227,18 +231,10 @@ void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out) {
 void decode_table_options(Reader& in, bevel::TableSpec& out) { decode_cut(in, true, out); }
 
 void decode_cut(Reader& in, bool whole, bevel::TableSpec& out) {
-  static constexpr std::array kRoots{Option<RootSurface>{"inner", RootSurface::inner},
-                                     Option<RootSurface>{"outer", RootSurface::outer}};
-  static constexpr std::array kDihedrals{Option<Dihedral>{"weld_side", Dihedral::weld_side},
-                                         Option<Dihedral>{"inside", Dihedral::inside},
-                                         Option<Dihedral>{"as_published", Dihedral::as_published}};
-  static constexpr std::array kContacts{
-      Option<Contact>{"inner", Contact::inner}, Option<Contact>{"outer", Contact::outer},
-      Option<Contact>{"auto", Contact::automatic}, Option<Contact>{"none", Contact::none}};
-  out.root_surface = in.choice("root_surface", kRoots);
-  out.groove = in.object("groove", decode_groove);
-  if (whole) out.dihedral = in.choice("dihedral", kDihedrals, Dihedral::weld_side);
-  out.contact = in.choice("contact", kContacts, Contact::inner);
+  out.root_surface = in.choice("root_surface", kNames<RootSurface>);
+  out.groove = in.object("groove", [](Reader& g) { return decode_groove(g, true); });
+  if (whole) out.dihedral = in.choice("dihedral", Dihedral::weld_side);
+  out.contact = in.choice("contact", Contact::inner);
   const bool known = in.understood("root_surface") && (!whole || in.understood("dihedral")) &&
                      in.understood("contact");
   if (known) check_combination(out, in);

@@ -16,6 +16,10 @@ namespace tubecut::api {
 /// smoothing.
 void decode_table_options(Reader& in, bevel::TableSpec& out);
 
+/// The rule of a groove; `zones`: that rule too.
+[[nodiscard]] bevel::GrooveRule decode_groove(Reader& in, bool zones);
+[[nodiscard]] bevel::TorchRange decode_torch(Reader& in);
+
 /// The members of a table's `result`.
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
 

@@ -10,6 +10,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/gcode.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
@@ -39,9 +40,7 @@ struct BevelTables {
   }
   static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    auto out = bevel::table(spec, stop);
-    if (!out) return tl::unexpected(on_node(spec.source, out.error()));
-    return out;
+    return on_node(spec.source, bevel::table(spec, stop));
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
     return bevel::verify(spec, out, stop);
@@ -93,9 +92,8 @@ struct BevelTables {
 BevelTableRequest decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
 
 Result<BevelTableRequest> resolve(BevelTableRequest request, const std::stop_token& stop) {
-  auto source = resolve(std::move(request.source), stop);
-  if (!source) return tl::unexpected(source.error());
-  request.source = *std::move(source);
+  TRY(auto source, resolve(std::move(request.source), stop));
+  request.source = std::move(source);
   request.target = request.source.target;
   request.partners = request.source.partners;
   request.stated = request.source.stated;

@@ -3,6 +3,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/feed_curve_formats.hpp"
 #include "api/tables.hpp"
+#include "api/wire_names.hpp"
 #include "core/cutoff/feed_curve.hpp"
 #include "core/cutoff/verify.hpp"
 
@@ -19,10 +20,7 @@ constexpr Range kAxisLimit{.min = 1e-3, .max = 1e6};
 constexpr Range kJerkLimit{.min = 1e-3, .max = 1e9};
 constexpr Range kTime{.min = 0.0, .max = 86'400.0};
 
-constexpr std::array kMethods{Option<FitMethod>{"minimax", FitMethod::minimax},
-                              Option<FitMethod>{"least_squares", FitMethod::least_squares},
-                              Option<FitMethod>{"three_point", FitMethod::three_point},
-                              Option<FitMethod>{"auto", FitMethod::automatic}};
+constexpr auto kMethods = first<4>(kNames<FitMethod>);  // equispaced only in comparisons
 
 cutoff::Linkage decode_linkage(Reader& in) {
   cutoff::Linkage out;
@@ -183,13 +181,6 @@ void encode_work(const cutoff::Work& v, Writer& o) {
   o.field("max_cylinder_acceleration_mm_s2", v.max_cylinder_acceleration);
   o.field("max_cylinder_jerk_mm_s3", v.max_cylinder_jerk);
   if (v.time_at_peak) o.field("time_at_peak_s", *v.time_at_peak);
-}
-
-const char* name_of(FitMethod method) {
-  if (method == FitMethod::equispaced) return "equispaced";
-  for (const auto& option : kMethods)
-    if (option.value == method) return option.name.data();
-  return "";
 }
 
 void encode_command(const cutoff::Command& c, Writer& o) {

@@ -2,6 +2,7 @@
 
 #include "api/common_fields.hpp"
 #include "api/limits.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -71,11 +72,8 @@ std::optional<groove::Range> decode_range(Reader& in, std::string_view name, Ran
 }
 
 groove::Setup decode_setup(Reader& in) {
-  using groove::Mount;
-  static constexpr std::array kMounts{Option<Mount>{"end_up", Mount::end_up},
-                                      Option<Mount>{"end_down", Mount::end_down}};
   groove::Setup out;
-  out.mount = in.choice("mount", kMounts);
+  out.mount = in.choice("mount", kNames<groove::Mount>);
   out.pivot_length = in.number("pivot_length_mm", {.min = 0.0, .max = 10'000.0}, 0.0);
   out.z_zero = in.number("z_zero_mm", kTravelMm, 0.0);
   out.c_zero = in.angle("c_zero_deg", kAnyAngleDeg, Angle{});
@@ -94,21 +92,11 @@ groove::Setup decode_setup(Reader& in) {
 }
 
 groove::Optimise decode_optimise(Reader& in) {
-  using groove::Bias;
-  using groove::Hold;
-  using groove::Method;
-  static constexpr std::array kMethods{Option<Method>{"chebyshev", Method::chebyshev},
-                                       Option<Method>{"annealing", Method::annealing},
-                                       Option<Method>{"none", Method::none}};
-  static constexpr std::array kHolds{Option<Hold>{"tip", Hold::tip},
-                                     Option<Hold>{"pivot", Hold::pivot}};
-  static constexpr std::array kBiases{Option<Bias>{"centred", Bias::centred},
-                                      Option<Bias>{"no_overcut", Bias::no_overcut}};
   groove::Optimise out;
-  out.method = in.choice("method", kMethods, Method::chebyshev);
-  out.hold = in.choice("hold", kHolds, Hold::tip);
-  if (out.method == Method::chebyshev) out.bias = in.choice("bias", kBiases, Bias::centred);
-  if (out.method == Method::annealing)
+  out.method = in.choice("method", groove::Method::chebyshev);
+  out.hold = in.choice("hold", groove::Hold::tip);
+  if (out.method == groove::Method::chebyshev) out.bias = in.choice("bias", groove::Bias::centred);
+  if (out.method == groove::Method::annealing)
     out.seed = static_cast<std::uint64_t>(in.integer("seed", 0, 2'147'483'647, 1));
   return out;
 }
@@ -125,9 +113,6 @@ groove::GapCheck decode_check(Reader& in) {
 }  // namespace
 
 groove::GrooveSpec decode_groove_request(Reader& in) {
-  using groove::AreaIn;
-  static constexpr std::array kSections{Option<AreaIn>{"axial", AreaIn::axial},
-                                        Option<AreaIn>{"normal", AreaIn::normal}};
   groove::GrooveSpec out;
   out.chord = in.object("chord", decode_pipe);
   out.branch = in.object("branch", decode_pipe);
@@ -135,7 +120,7 @@ groove::GrooveSpec decode_groove_request(Reader& in) {
   out.inclination = in.angle("inclination_deg", {.min = 5.0, .max = 90.0});
   out.eccentricity = in.number("eccentricity_mm", {.min = -5'000.0, .max = 5'000.0}, 0.0);
   out.filler = in.object("filler", decode_filler);
-  out.area_in = in.choice("area_in", kSections, AreaIn::axial);
+  out.area_in = in.choice("area_in", groove::AreaIn::axial);
   out.sections = in.integer("sections", 4, groove::kMaxSections, 24);
   out.compare = in.optional_object("compare", decode_compare);
   return out;

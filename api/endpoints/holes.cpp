@@ -10,6 +10,7 @@
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/hole_formats.hpp"
 #include "api/tables.hpp"
+#include "api/wire_names.hpp"
 #include "core/bevel/hole.hpp"
 
 namespace tubecut::api {
@@ -19,7 +20,6 @@ using bevel::JointKind;
 using bevel::Tilt;
 
 constexpr Range kGap{.min = 0.0, .max = 50.0};
-constexpr Range kTorchDeg{.min = -89.0, .max = 89.0};
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 
@@ -51,18 +51,10 @@ HoleBranch decode_hole_branch(Reader& in) {
   return out;
 }
 
-namespace {
-
-constexpr std::array kKinds{
-    Option<JointKind>{"set_on", JointKind::set_on}, Option<JointKind>{"set_in", JointKind::set_in},
-    Option<JointKind>{"through", JointKind::through}, Option<JointKind>{"mitre", JointKind::mitre}};
-
-}  // namespace
-
 joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members) {
-  static constexpr std::array kOfHoles{kKinds[0], kKinds[1], kKinds[2]};
   joint::Joint out;
-  const auto kind = of_members ? in.tag("kind", kKinds) : in.tag("kind", kOfHoles);
+  const auto kind =
+      of_members ? in.tag("kind", kNames<JointKind>) : in.tag("kind", first<3>(kNames<JointKind>));
   out.kind = kind.value_or(JointKind::set_in);
   out.gap = in.number("gap_mm", kGap, 0.0);
   if (out.kind != JointKind::set_in && in.has("depth_mm"))
@@ -77,50 +69,13 @@ joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members)
 }
 
 void encode_joint_kind(const joint::Joint& joint, Writer& o) {
-  for (const auto& kind : kKinds)
-    if (kind.value == joint.kind) o.field("kind", kind.name);
+  o.field("kind", name_of(joint.kind));
   o.field("gap_mm", joint.gap);
   if (joint.depth) o.field("depth_mm", *joint.depth);
 }
 
-namespace {
-
-enum class RuleName { half_dihedral, fixed, none, square };
-
-bevel::GrooveRule decode_rule(Reader& in) {
-  static constexpr std::array kRules{Option<RuleName>{"half_dihedral", RuleName::half_dihedral},
-                                     Option<RuleName>{"fixed", RuleName::fixed},
-                                     Option<RuleName>{"none", RuleName::none},
-                                     Option<RuleName>{"square", RuleName::square}};
-  const auto rule = in.tag("rule", kRules);
-  if (rule == RuleName::half_dihedral)
-    return bevel::HalfDihedral{in.angle("cap_deg", {.min = 0.0, .max = 90.0}, Angle::deg(45))};
-  if (rule == RuleName::fixed)
-    return bevel::FixedGroove{in.angle("angle_deg", {.min = 0.0, .max = 90.0, .open_max = true})};
-  if (rule == RuleName::square) return bevel::SquareCut{};
-  return bevel::NoGroove{};
-}
-
-bevel::TorchRange decode_range(Reader& in) {
-  bevel::TorchRange out;
-  out.min = in.angle("min_deg", kTorchDeg, Angle::deg(-80));
-  out.max = in.angle("max_deg", kTorchDeg, Angle::deg(80));
-  if (!(out.min < out.max))
-    in.issue({.code = ErrorCode::out_of_range,
-              .pointer = "max_deg",
-              .limit = Json{out.min.deg()},
-              .unit = "deg",
-              .hint = "must be greater than min_deg"},
-             in.find("max_deg"));
-  return out;
-}
-
-}  // namespace
-
 void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated,
                      bevel::HoleSpec& out) {
-  static constexpr std::array kTilts{Option<Tilt>{"axial", Tilt::axial},
-                                     Option<Tilt>{"free", Tilt::free}};
   in.note("joint");
   const bool told = stated != nullptr && !in.has("joint");
   const auto joint = told ? *stated : in.object("joint", [&](Reader& j) {
@@ -129,8 +84,8 @@ void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated
   out.kind = joint.kind;
   out.gap = joint.gap;
   out.depth = joint.depth;
-  out.groove = in.object("groove", decode_rule);
-  out.tilt = in.choice("tilt", kTilts, Tilt::axial);
+  out.groove = in.object("groove", [](Reader& g) { return decode_groove(g, false); });
+  out.tilt = in.choice("tilt", Tilt::axial);
 }
 
 void encode_hole(const bevel::HoleSpec& spec, const bevel::Hole& hole, Writer& o) {
@@ -183,7 +138,7 @@ struct Holes {
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
     decode_hole_cut(in, deepest, nullptr, out);
-    out.torch = in.defaulted_object("torch", decode_range);
+    out.torch = in.defaulted_object("torch", decode_torch);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
     out.sampling = decode_sampling(in);
     return out;

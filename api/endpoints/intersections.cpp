@@ -4,6 +4,8 @@
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/intersection_formats.hpp"
+#include "api/wire_names.hpp"
+#include "core/base/try.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::api {
@@ -24,30 +26,23 @@ struct Intersections {
   static constexpr auto kChecks = kProfileChecks;
 
   static Spec decode(Reader& in) {
-    using joint::Surfaces;
-    static constexpr std::array kSurfaces{Option<Surfaces>{"inner", Surfaces::inner},
-                                          Option<Surfaces>{"outer", Surfaces::outer},
-                                          Option<Surfaces>{"both", Surfaces::both}};
     Spec out;
     out.source = decode_joint(in);
-    out.surfaces = in.choice("surfaces", kSurfaces, Surfaces::both);
+    out.surfaces = in.choice("surfaces", joint::Surfaces::both);
     out.sampling = decode_sampling(in);
     return out;
   }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    auto source = api::resolve(std::move(spec.source), stop);
-    if (!source) return tl::unexpected(source.error());
-    spec.source = *std::move(source);
+    TRY(auto source, api::resolve(std::move(spec.source), stop));
+    spec.source = std::move(source);
     spec.target = spec.source.target;
     spec.partners = spec.source.node ? joint::seats(spec.source.found) : spec.source.partners;
     return spec;
   }
   static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    auto out = joint::intersect(spec, stop);
-    if (!out) return tl::unexpected(on_node(spec.source, out.error()));
-    return out;
+    return on_node(spec.source, joint::intersect(spec, stop));
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
     return joint::verify(spec, out, stop);

@@ -5,6 +5,7 @@
 #include "api/limits.hpp"
 #include "api/tables.hpp"
 #include "api/tube_sizes.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -42,8 +43,8 @@ joint::Partner decode_plane(Reader& in) {
 }
 
 joint::Partner decode_rectangular_tube(Reader& in) {
-  joint::BoxCutter out{.width = in.number("width_mm", kDiameter),
-                       .height = in.number("height_mm", kDiameter)};
+  joint::RectangularTubeCutter out{.width = in.number("width_mm", kDiameter),
+                                   .height = in.number("height_mm", kDiameter)};
   const bool sized = in.understood("width_mm") && in.understood("height_mm");
   const double widest = 0.5 * (sized ? std::min(out.width, out.height) : kDiameter.max);
   out.corner = in.number("corner_radius_mm", {.min = 0.0, .max = widest, .open_min = true});
@@ -76,40 +77,17 @@ joint::Partner decode_elbow(Reader& in) {
   return out;
 }
 
-enum class Kind { tube, plane, rectangular_tube, cone, elbow };
+using Decode = joint::Partner (*)(Reader&);
+constexpr std::array kKinds{
+    Option<Decode>{"tube", decode_tube}, Option<Decode>{"plane", decode_plane},
+    Option<Decode>{"rectangular_tube", decode_rectangular_tube},
+    Option<Decode>{"cone", decode_cone}, Option<Decode>{"elbow", decode_elbow}};
+static_assert(kKinds.size() == std::variant_size_v<joint::Cutter>, "every kind is read");
 
 joint::Partner decode_cutter(Reader& in) {
-  static constexpr std::array kKinds{
-      Option<Kind>{"tube", Kind::tube}, Option<Kind>{"plane", Kind::plane},
-      Option<Kind>{"rectangular_tube", Kind::rectangular_tube}, Option<Kind>{"cone", Kind::cone},
-      Option<Kind>{"elbow", Kind::elbow}};
-  const auto kind = in.tag("kind", kKinds);
+  const auto decode = in.tag("kind", kKinds);
   in.optional_text("id");
-  switch (kind.value_or(Kind::tube)) {
-    case Kind::plane:
-      return decode_plane(in);
-    case Kind::rectangular_tube:
-      return decode_rectangular_tube(in);
-    case Kind::cone:
-      return decode_cone(in);
-    case Kind::elbow:
-      return decode_elbow(in);
-    case Kind::tube:
-      break;
-  }
-  return decode_tube(in);
-}
-
-const char* name_of(joint::EventKind kind) {
-  switch (kind) {
-    case joint::EventKind::junction:
-      return "junction";
-    case joint::EventKind::jump:
-      return "jump";
-    case joint::EventKind::kink:
-      return "kink";
-  }
-  return "";
+  return decode.value_or(decode_tube)(in);
 }
 
 }  // namespace
@@ -172,8 +150,6 @@ std::vector<joint::Partner> decode_cutters(Reader& in) {
 }
 
 joint::Sampling decode_sampling(Reader& in) {
-  static constexpr std::array kMetrics{Option<joint::Metric>{"developed", joint::Metric::developed},
-                                       Option<joint::Metric>{"chord", joint::Metric::chord}};
   return in.defaulted_object("sampling", [](Reader& s) {
     joint::Sampling out;
     s.note("uniform_points");
@@ -192,7 +168,7 @@ joint::Sampling decode_sampling(Reader& in) {
     if (s.has("tolerance_mm") || !s.has("uniform_points")) {
       joint::Tolerance tolerance;
       tolerance.value = s.number("tolerance_mm", kTolerance, 0.05);
-      tolerance.metric = s.choice("metric", kMetrics, joint::Metric::developed);
+      tolerance.metric = s.choice("metric", joint::Metric::developed);
       out.tolerance = tolerance;
     }
     out.max_nodes = static_cast<std::size_t>(limit::nodes_max);
@@ -203,7 +179,7 @@ joint::Sampling decode_sampling(Reader& in) {
 void encode_event(const joint::Event& event, bool outer, Writer& w) {
   w.object([&](Writer& o) {
     o.field("kind", name_of(event.kind));
-    o.field("surface", outer ? "outer" : "inner");
+    o.field("surface", wall_name(outer));
     o.degrees("phi_deg", event.phi);
     o.field("z_from_mm", event.z_from);
     o.field("z_to_mm", event.z_to);
@@ -213,7 +189,7 @@ void encode_event(const joint::Event& event, bool outer, Writer& w) {
 }
 
 void encode_profile(const joint::Profile& profile, const joint::Sampling& sampling, Writer& w) {
-  w.field("surface", profile.outer ? "outer" : "inner");
+  w.field("surface", wall_name(profile.outer));
   w.field("radius_mm", profile.radius);
   w.object("points", [&](Writer& c) { profile_columns(profile, sampling).write(c); });
   w.array("events", profile.events,

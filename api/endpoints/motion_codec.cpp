@@ -7,7 +7,9 @@
 #include "api/endpoints/groove_codec.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
+#include "api/wire_names.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -20,15 +22,6 @@ constexpr Range kUnwrappedDeg{.min = -36'000.0, .max = 36'000.0};
 constexpr Range kBevelDeg{.min = -85.0, .max = 85.0};
 constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};  // mm/min
 constexpr Range kBeam{.min = 0.0, .max = 1e5};
-
-constexpr std::array kSurfaces{Option<Surface>{"outer", Surface::outer},
-                               Option<Surface>{"inner", Surface::inner}};
-constexpr std::array kScraps{Option<Scrap>{"-z", Scrap::minus_z},
-                             Option<Scrap>{"+z", Scrap::plus_z},
-                             Option<Scrap>{"inside", Scrap::inside}};
-
-/// How a contour counts B.
-enum class BSign { outer_edge_into_part, outer_edge_to_plus_z, inward };
 
 /// What of a table's points tells their sign of B.
 struct TorchLines {
@@ -55,11 +48,7 @@ TorchLines decode_table_points(Reader& in, Surface surface, motion::CutPath& out
 
 /// The sign must be stated: swung the other way, the torch cuts another joint.
 std::optional<BSign> decode_b_sign(Reader& in) {
-  static constexpr std::array kSigns{
-      Option<BSign>{"outer_edge_into_part", BSign::outer_edge_into_part},
-      Option<BSign>{"outer_edge_to_plus_z", BSign::outer_edge_to_plus_z},
-      Option<BSign>{"inward", BSign::inward}};
-  const auto sign = in.choice("b_sign", kSigns);
+  const auto sign = in.choice("b_sign", kNames<BSign>);
   if (!in.understood("b_sign")) return std::nullopt;
   if (sign == BSign::inward)
     in.issue({.code = ErrorCode::comparison_only,
@@ -103,7 +92,7 @@ void check_torch_lines(Reader& in, const motion::CutPath& contour, const TorchLi
 
 motion::CutPath decode_contour(Reader& in) {
   motion::CutPath out;
-  out.surface = in.choice("surface", kSurfaces);
+  out.surface = in.choice("surface", kNames<Surface>);
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
   const Range wall{.min = kWall.min,
                    .max = std::min(kWall.max, out.outer_radius),
@@ -115,7 +104,7 @@ motion::CutPath decode_contour(Reader& in) {
   if (in.exactly_one({"phi_deg", "points"}) == 1) {
     const auto lines =
         in.object("points", [&](Reader& p) { return decode_table_points(p, out.surface, out); });
-    out.scrap = in.choice("scrap", kScraps, Scrap::minus_z);
+    out.scrap = in.choice("scrap", Scrap::minus_z);
     if (sign && sign != BSign::inward && in.understood("scrap")) check_b_sign(in, *sign, out.scrap);
     if (sign && sign != BSign::inward && in.understood("wall_mm"))
       check_torch_lines(in, out, lines);
@@ -128,7 +117,7 @@ motion::CutPath decode_contour(Reader& in) {
   if (in.has("corner")) out.corner = in.flag_column("corner", kPoints);
   in.note("beam_mm");
   if (in.has("beam_mm")) out.beam = in.column("beam_mm", kPoints, kBeam);
-  if (in.has("scrap")) out.scrap = in.choice("scrap", kScraps);
+  if (in.has("scrap")) out.scrap = in.choice("scrap", kNames<Scrap>);
   if (sign && in.understood("scrap")) check_b_sign(in, *sign, out.scrap);
   return out;
 }
@@ -192,9 +181,6 @@ motion::Expert decode_expert(Reader& in) {
 
 /// What only a contour has: where to start, which way round, leads, a sector.
 void decode_course(Reader& in, bool hole, motion::Motion& out) {
-  using motion::Direction;
-  static constexpr std::array kDirections{Option<Direction>{"ccw", Direction::ccw},
-                                          Option<Direction>{"cw", Direction::cw}};
   if (in.find("start_phi_deg") != nullptr && *in.find("start_phi_deg") == Json{"auto"}) {
     in.note("start_phi_deg");
     in.put("start_phi_deg", Json{"auto"});
@@ -203,7 +189,7 @@ void decode_course(Reader& in, bool hole, motion::Motion& out) {
     out.start = {motion::Start::At::phi, in.angle("start_phi_deg", kAnyAngleDeg, Angle{})};
   }
   in.note("start_phi_deg");
-  out.direction = in.choice("direction", kDirections, Direction::ccw);
+  out.direction = in.choice("direction", motion::Direction::ccw);
   if (!in.is_null("lead")) out.lead = in.optional_object("lead", decode_lead);
   if (!in.is_null("sector")) out.sector = in.optional_object("sector", decode_sector);
 }
@@ -213,7 +199,7 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut) {
   const auto* contour = std::get_if<motion::CutPath>(&cut);
   const bool has_contour = contour != nullptr || std::holds_alternative<BevelTableRequest>(cut);
   out.speed = in.object("speed", decode_speed);
-  if (has_contour) out.speed_on = in.choice("speed_on", kSurfaces, Surface::outer);
+  if (has_contour) out.speed_on = in.choice("speed_on", Surface::outer);
   out.eps_tip = in.number("eps_tip_mm", {.min = 1e-3, .max = 10.0}, 0.1);
   out.eps_b = in.angle("eps_b_deg", {.min = 0.01, .max = 10.0}, Angle::deg(0.5));
   out.jerk = in.flag("jerk", true);
@@ -223,14 +209,6 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut) {
     decode_course(in, !closed || (contour != nullptr && contour->scrap == Scrap::inside), out);
   out.expert = in.defaulted_object("expert", decode_expert);
   return out;
-}
-
-template <class T>
-tl::unexpected<Error> under(const Result<T>& result, const std::string& parent) {
-  auto error = result.error();
-  for (auto& issue : error.issues)
-    issue.member = parent + (issue.member.empty() ? "" : "/" + issue.member);
-  return tl::unexpected(std::move(error));
 }
 
 /// Rows but those at which the torch stands where it stood before: at a jump of the finished edge
@@ -279,9 +257,8 @@ Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec,
                                        const groove::MillPath& path,
                                        const motion::Machine& machine) {
   motion::AxisColumns out{.tip_radius = 0.0, .closed = true};
-  const auto joint = groove::joint_of(spec.groove);
-  if (!joint) return tl::unexpected(joint.error());
-  out.tip_radius = joint->root_radius;
+  TRY(const auto joint, groove::joint_of(spec.groove));
+  out.tip_radius = joint.root_radius;
   std::vector<double> c, x, z, b;
   for (std::size_t i = 0; i <= path.positions.size(); ++i) {
     const auto& at = path.positions[i % path.positions.size()].at;
@@ -315,31 +292,23 @@ struct CutOf {
   Job& job;
 
   Result<motion::Cut> operator()(const BevelTableRequest& asked) const {
-    const auto found = resolve(asked, stop);
-    if (!found) return under(found, "cut");
-    const auto& spec = *found;
-    auto table = bevel::table(spec, stop);
-    if (!table) {
-      table = tl::unexpected(on_node(spec.source, table.error()));
-      return under(table, "cut");
-    }
-    if (table->inward)
+    TRY(const auto spec, under("cut", resolve(asked, stop)));
+    TRY(const auto table, under("cut", on_node(spec.source, bevel::table(spec, stop))));
+    if (table.inward)
       return fail(
           {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
-    job.checks = bevel::verify(spec, *table, stop);
-    job.warnings = on_node(spec.source, table->warnings);
+    job.checks = bevel::verify(spec, table, stop);
+    job.warnings = on_node(spec.source, table.warnings);
     for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;
-    return (*this)(contour_of(spec, *table));
+    return (*this)(contour_of(spec, table));
   }
   Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
-    const auto path = groove::mill_path(spec, stop);
-    if (!path) return under(path, "mill_path");
-    job.checks = groove::verify(spec, *path, stop);
-    job.warnings = path->warnings;
+    TRY(const auto path, under("mill_path", groove::mill_path(spec, stop)));
+    job.checks = groove::verify(spec, path, stop);
+    job.warnings = path.warnings;
     for (auto& warning : job.warnings) warning.member = "mill_path/" + warning.member;
-    auto columns = columns_of(spec, *path, request.machine);
-    if (!columns) return tl::unexpected(columns.error());
-    return motion::Cut{*std::move(columns)};
+    TRY(auto columns, columns_of(spec, path, request.machine));
+    return motion::Cut{std::move(columns)};
   }
   Result<motion::Cut> operator()(const motion::CutPath& contour) const {
     return motion::Cut{motion::as_machine_counts(contour, request.machine.b_positive)};
@@ -395,9 +364,8 @@ Result<Job> compute_job(const JobRequest& request, const std::stop_token& stop) 
   out.spec.machine = request.machine;
   out.spec.motion = request.motion;
   out.spec.max_periods = request.max_periods;
-  auto cut = std::visit(CutOf{request, stop, out}, request.cut);
-  if (!cut) return tl::unexpected(cut.error());
-  out.spec.cut = *std::move(cut);
+  TRY(auto cut, std::visit(CutOf{request, stop, out}, request.cut));
+  out.spec.cut = std::move(cut);
   return out;
 }
 

@@ -3,17 +3,16 @@
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/limits.hpp"
+#include "api/wire_names.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::api {
 namespace {
-
-using joint::End;
 
 constexpr Range kDistance{.min = 0.0, .max = limit::offset_max_mm};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 constexpr int kPriorities = 1'000;
 constexpr auto kMembers = static_cast<std::size_t>(limit::members_max);
-constexpr std::array kEnds{Option<End>{"start", End::start}, Option<End>{"finish", End::finish}};
 
 constexpr std::size_t kMostJoints = 1'000;  // of one member, with others
 
@@ -82,7 +81,7 @@ joint::Link decode_link(Reader& in, const MemberIds& ids) {
   joint::Link out;
   const auto own = in.text("member");
   out.member = known_member(in, ids, own, "member");
-  out.end = in.choice("end", kEnds);
+  out.end = in.choice("end", kNames<joint::End>);
   const auto to = in.text_column("to", {.min = 1, .max = joint::kMostCutters});
   for (std::size_t i = 0; i < to.size(); ++i) {
     const auto pointer = "to/" + std::to_string(i);
@@ -101,7 +100,7 @@ NodeEnd decode_end(Reader& in) {
   auto node = decode_named_node(in);
   NodeEnd out{.node = std::move(node.spec)};
   out.member = known_member(in, node.ids, in.text("member"), "member");
-  out.end = in.choice("end", kEnds);
+  out.end = in.choice("end", kNames<joint::End>);
   return out;
 }
 
@@ -174,13 +173,8 @@ JointSource decode_joint(Reader& in) {
 
 Result<JointSource> resolve(JointSource source, const std::stop_token& stop) {
   if (!source.node) return source;
-  auto found = joint::joint_at(source.node->node, source.node->member, source.node->end, stop);
-  if (!found) {
-    auto error = found.error();
-    for (auto& issue : error.issues) issue.member = "node/" + issue.member;
-    return tl::unexpected(std::move(error));
-  }
-  source.found = *std::move(found);
+  const auto& asked = *source.node;
+  TRY(source.found, under("node", joint::joint_at(asked.node, asked.member, asked.end, stop)));
   source.target = source.found.target;
   source.partners = source.found.partners;
   source.stated = source.found.stated;

@@ -51,6 +51,11 @@ struct JointSource {
 
 /// The same issue or warning, naming the node's members instead of target and cutters.
 [[nodiscard]] Error on_node(const JointSource& source, Error error);
+template <class T>
+[[nodiscard]] Result<T> on_node(const JointSource& source, Result<T> of) {
+  if (!of) of.error() = on_node(source, std::move(of).error());
+  return of;
+}
 [[nodiscard]] std::vector<Warning> on_node(const JointSource& source,
                                            std::vector<Warning> warnings);
 

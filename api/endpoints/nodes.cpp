@@ -7,6 +7,8 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/work.hpp"
+#include "api/wire_names.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/end_tables.hpp"
 #include "core/joint/node.hpp"
 #include "core/joint/overlap.hpp"
@@ -152,9 +154,7 @@ struct Nodes {
   }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    auto nodes = joint::solve(spec.node, stop);
-    if (!nodes) return tl::unexpected(nodes.error());
-    spec.solved = *std::move(nodes);
+    TRY(spec.solved, joint::solve(spec.node, stop));
     return spec;
   }
   static void count(const Spec& spec, Work& work) {
@@ -163,13 +163,9 @@ struct Nodes {
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     Out out;
-    auto overlaps = joint::overlaps(spec.node, spec.solved, {}, stop);
-    if (!overlaps) return tl::unexpected(overlaps.error());
-    out.overlaps = *std::move(overlaps);
+    TRY(out.overlaps, joint::overlaps(spec.node, spec.solved, {}, stop));
     if (spec.profiles) {
-      auto profiles = joint::profiles(spec.node, spec.solved, spec.sampling, stop);
-      if (!profiles) return tl::unexpected(profiles.error());
-      out.profiles = *std::move(profiles);
+      TRY(out.profiles, joint::profiles(spec.node, spec.solved, spec.sampling, stop));
     }
     if (!spec.tables) return out;
     auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, stop);
@@ -225,7 +221,7 @@ struct Nodes {
   static void encode_end(const Spec& spec, const Out& out, const joint::MemberEnd& end, Writer& w) {
     const bool start = end.end == joint::End::start;
     w.field("member", spec.node.members[end.member].name);
-    w.field("end", start ? "start" : "finish");
+    w.field("end", name_of(end.end));
     w.array("cut_by", end.cut_by, [&](Writer& each, const joint::CutBy& cut) {
       each.object([&](Writer& o) { encode_cut(spec.node, cut, o); });
     });

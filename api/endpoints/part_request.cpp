@@ -7,6 +7,8 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/limits.hpp"
+#include "api/wire_names.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -34,11 +36,8 @@ struct DatumChoice {
 };
 
 DatumChoice decode_datum(Reader& in, Datum fallback, bool has_up) {
-  static constexpr std::array kData{Option<Datum>{"up", Datum::up},
-                                    Option<Datum>{"seam", Datum::seam},
-                                    Option<Datum>{"first_cutter", Datum::first_cutter}};
   DatumChoice out;
-  out.datum = in.choice("datum", kData, fallback);
+  out.datum = in.choice("datum", fallback);
   in.note("seam_deg");
   const bool known = in.understood("datum");
   if (known && out.datum == Datum::seam) {
@@ -235,23 +234,21 @@ PartRequest decode_part_request(Reader& in) {
 
 Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
   if (!r.member) {
-    const auto zero =
-        part::datum_angle(r.datum, r.seam, r.part.start.cut.partners, r.part.finish.cut.partners);
-    if (!zero) return tl::unexpected(zero.error());
-    r.part.zero = *zero;
+    TRY(const auto zero,
+        part::datum_angle(r.datum, r.seam, r.part.start.cut.partners, r.part.finish.cut.partners));
+    r.part.zero = zero;
     return r;
   }
   r.member->clamping = r.part.clamping;
   r.member->facing = r.part.facing;
   r.member->density = r.part.density;
-  auto found = part::find_member(*r.member, stop);
-  if (!found) return tl::unexpected(found.error());
-  r.part = std::move(found->part);
-  r.start_cutters = std::move(found->start_cutters);
-  r.finish_cutters = std::move(found->finish_cutters);
+  TRY(auto found, part::find_member(*r.member, stop));
+  r.part = std::move(found.part);
+  r.start_cutters = std::move(found.start_cutters);
+  r.finish_cutters = std::move(found.finish_cutters);
   r.start_ids = names(r.member->node, r.start_cutters);
   r.finish_ids = names(r.member->node, r.finish_cutters);
-  r.warnings = std::move(found->warnings);
+  r.warnings = std::move(found.warnings);
   return r;
 }
 

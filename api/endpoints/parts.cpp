@@ -14,6 +14,7 @@
 #include "api/formats/part_formats.hpp"
 #include "api/formats/work_order.hpp"
 #include "api/tables.hpp"
+#include "api/wire_names.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::api {
@@ -23,18 +24,6 @@ using part::Mark;
 using part::Step;
 
 std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-const char* name_of(Mark::Kind kind) {
-  return kind == Mark::Kind::datum_line ? "datum_line"
-         : kind == Mark::Kind::partner  ? "partner"
-                                        : "part_mark";
-}
-const char* name_of(Step::What what) {
-  return what == Step::What::mark     ? "mark"
-         : what == Step::What::hole   ? "hole"
-         : what == Step::What::finish ? "finish"
-                                      : "start";
-}
 
 struct Parts {
   using Spec = PartRequest;
@@ -145,8 +134,8 @@ struct Parts {
     const auto& end = finish ? out.finish : out.start;
     w.object("points", [&](Writer& p) { bevel_columns(end.spec, end.table).write(p); });
     w.field("b_sign", kBSignInPart);
-    w.field("scrap", finish ? "+z" : "-z");
-    w.field("surface", end.spec.root_surface == bevel::RootSurface::outer ? "outer" : "inner");
+    w.field("scrap", name_of(finish ? motion::Scrap::plus_z : motion::Scrap::minus_z));
+    w.field("surface", name_of(end.spec.root_surface));
     encode_bevel_lists(end.table, w);
     encode_torch_binds(end.table, w);
     encode_penetration(end.table.penetration, w);
@@ -180,10 +169,10 @@ struct Parts {
   static void encode_dimension(Writer& each, const part::CheckDimension& d) {
     each.object([&](Writer& o) {
       std::vector<std::string> mistakes;
-      for (const auto m : d.changes_with) mistakes.emplace_back(name_of_mistake(m));
+      for (const auto m : d.changes_with) mistakes.emplace_back(name_of(m));
       o.field("name", d.name);
       o.field("value_mm", d.value);
-      o.field("tool", name_of_tool(d.tool));
+      o.field("tool", name_of(d.tool));
       o.field("measured_from", d.measured_from);
       o.column("changes_with", mistakes);
     });

@@ -5,6 +5,7 @@
 #include "api/formats/schedule_formats.hpp"
 #include "api/formats/schedule_gcode.hpp"
 #include "api/machines.hpp"
+#include "core/base/try.hpp"
 #include "core/motion/replay.hpp"
 
 namespace tubecut::api {
@@ -93,11 +94,9 @@ struct PulseSchedules {
 
   static void count(const Spec& spec, Work& work) { add_schedule_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    auto job = compute_job(spec, stop);
-    if (!job) return tl::unexpected(job.error());
-    auto schedule = motion::schedule(job->spec, stop);
-    if (!schedule) return tl::unexpected(schedule.error());
-    return Out{*std::move(job), *std::move(schedule)};
+    TRY(auto job, compute_job(spec, stop));
+    TRY(auto schedule, motion::schedule(job.spec, stop));
+    return Out{std::move(job), std::move(schedule)};
   }
 
   static std::vector<Check> verify(const Spec&, const Out& out, const std::stop_token& stop) {

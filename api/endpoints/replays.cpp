@@ -6,6 +6,7 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
 #include "api/endpoints/work.hpp"
+#include "core/base/try.hpp"
 #include "core/motion/replay.hpp"
 
 namespace tubecut::api {
@@ -83,15 +84,13 @@ struct Replays {
       work.add(Cost::period, static_cast<double>(counts.size()));
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    auto job = compute_job(spec.job, stop);
-    if (!job) return tl::unexpected(job.error());
-    auto replay = motion::replay({.job = std::move(job->spec),
-                                  .period = spec.schedule.period,
-                                  .counts = spec.schedule.counts,
-                                  .start = spec.schedule.start},
-                                 stop);
-    if (!replay) return tl::unexpected(replay.error());
-    Out out{*std::move(replay), std::move(job->checks), std::move(job->warnings)};
+    TRY(auto job, compute_job(spec.job, stop));
+    TRY(auto replay, motion::replay({.job = std::move(job.spec),
+                                     .period = spec.schedule.period,
+                                     .counts = spec.schedule.counts,
+                                     .start = spec.schedule.start},
+                                    stop));
+    Out out{std::move(replay), std::move(job.checks), std::move(job.warnings)};
     for (const auto& invariant : out.replay.invariants)
       if (!invariant.passed())
         out.warnings.push_back({.code = WarningCode::invariant_broken,

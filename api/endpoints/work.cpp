@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -24,11 +25,21 @@ double points_of(const joint::Sampling& sampling, double radius) {
   return std::min(out, static_cast<double>(sampling.max_nodes));
 }
 
+/// What a partner costs beside the joint itself: one case for every kind.
+struct CostOf {
+  using Some = std::optional<Cost>;
+
+  Some operator()(const joint::TubeCutter&) const { return {}; }
+  Some operator()(const joint::AxisTube&) const { return {}; }
+  Some operator()(const joint::PlaneCutter&) const { return {}; }
+  Some operator()(const joint::RectangularTubeCutter&) const { return Cost::rectangular_tube; }
+  Some operator()(const joint::ConeCutter&) const { return {}; }
+  Some operator()(const joint::ElbowCutter&) const { return Cost::elbow; }
+};
+
 void add_partners(const std::vector<joint::Partner>& partners, Work& work) {
-  for (const auto& partner : partners) {
-    if (std::holds_alternative<joint::ElbowCutter>(partner)) work.add(Cost::elbow);
-    if (std::holds_alternative<joint::BoxCutter>(partner)) work.add(Cost::rectangular_tube);
-  }
+  for (const auto& partner : partners)
+    if (const auto cost = joint::by_kind(partner, CostOf{})) work.add(*cost);
 }
 
 /// mm

@@ -12,6 +12,7 @@
 #include "api/formats/sections.hpp"
 #include "api/formats/wrap_template.hpp"
 #include "api/tables.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -34,7 +35,7 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
       before[i] = std::max(before[i], table.b_required[i]);
   Chart out{.title = "Cutting angle B before and after smoothing",
             .x_label = "developed length, mm",
-            .y_label = std::string("B, deg, ") + name_of_b_sign(table),
+            .y_label = "B, deg, " + std::string(name_of_b_sign(table)),
             .series = {{.name = "before",
                         .x = table.developed,
                         .y = degrees(std::move(before)),
@@ -89,8 +90,8 @@ Chart zone_chart(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
 
 }  // namespace
 
-const char* name_of_b_sign(const bevel::Table& table) {
-  return table.inward ? "inward" : "outer_edge_into_part";
+std::string_view name_of_b_sign(const bevel::Table& table) {
+  return name_of(table.inward ? BSign::inward : BSign::outer_edge_into_part);
 }
 
 std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& table) {
@@ -106,7 +107,7 @@ std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& tabl
 std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& table,
                             const Caption& caption) {
   return Csv(caption)
-      .remark(std::string("b_sign: ") + name_of_b_sign(table))
+      .remark("b_sign: " + std::string(name_of_b_sign(table)))
       .table(bevel_columns(spec, table))
       .print();
 }

@@ -8,7 +8,7 @@
 namespace tubecut::api {
 
 /// How B counts, in the answer and in every file that names it.
-[[nodiscard]] const char* name_of_b_sign(const bevel::Table& table);
+[[nodiscard]] std::string_view name_of_b_sign(const bevel::Table& table);
 /// Of whatever lies in a part's frame: its ends, its holes.
 inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
 

@@ -7,6 +7,7 @@
 #include "api/formats/sections.hpp"
 #include "api/formats/wrap_template.hpp"
 #include "api/tables.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -35,7 +36,7 @@ std::string intersection_csv(const joint::IntersectionSpec& spec, const joint::I
                              const Caption& caption) {
   std::vector<std::pair<std::string, Columns>> walls;
   for (const auto& p : cut.profiles)
-    walls.emplace_back(p.outer ? "outer" : "inner", profile_columns(p, spec.sampling));
+    walls.emplace_back(wall_name(p.outer), profile_columns(p, spec.sampling));
   return Csv(caption).stacked("surface", walls).print();
 }
 

@@ -7,6 +7,7 @@
 #include "api/formats/dxf.hpp"
 #include "api/formats/gcode.hpp"
 #include "api/tables.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -36,7 +37,7 @@ Columns dimensions(const part::Part& part) {
   for (const auto& d : part.check_dimensions) {
     names.push_back(d.name);
     values.push_back(d.value);
-    tools.emplace_back(name_of_tool(d.tool));
+    tools.emplace_back(name_of(d.tool));
     from.push_back(d.measured_from);
   }
   return Columns()
@@ -47,38 +48,6 @@ Columns dimensions(const part::Part& part) {
 }
 
 }  // namespace
-
-std::string_view name_of_mistake(part::Mistake mistake) {
-  switch (mistake) {
-    case part::Mistake::diameter:
-      return "diameter";
-    case part::Mistake::wall:
-      return "wall";
-    case part::Mistake::clocking:
-      return "clocking";
-    case part::Mistake::mirror:
-      return "mirror";
-    case part::Mistake::b_sign:
-      return "b_sign";
-    case part::Mistake::pivot_length:
-      return "pivot_length";
-  }
-  return "";
-}
-
-std::string_view name_of_tool(part::Tool tool) {
-  switch (tool) {
-    case part::Tool::wrap:
-      return "wrap";
-    case part::Tool::tape:
-      return "tape";
-    case part::Tool::rule:
-      return "rule";
-    case part::Tool::caliper:
-      return "caliper";
-  }
-  return "";
-}
 
 std::string part_csv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   return Csv(caption)

@@ -7,9 +7,6 @@
 
 namespace tubecut::api {
 
-[[nodiscard]] std::string_view name_of_mistake(part::Mistake mistake);
-[[nodiscard]] std::string_view name_of_tool(part::Tool tool);
-
 /// Both ends and the holes in the part's frame, one row a point, in the order they are cut; then
 /// the check dimensions, in columns of their own.
 [[nodiscard]] std::string part_csv(const part::PartSpec& spec, const part::Part& part,

@@ -5,6 +5,7 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/wire_names.hpp"
 #include "core/base/elementary.hpp"
 #include "core/motion/replay.hpp"
 
@@ -68,7 +69,7 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
   std::vector<Chart> charts{std::move(pulses)};
   if (std::holds_alternative<motion::CutPath>(spec.cut)) {
     Chart speed{.title = std::string("Speed of the cut on the ") +
-                         (spec.motion.speed_on == motion::Surface::outer ? "outer" : "inner") +
+                         std::string(name_of(spec.motion.speed_on)) +
                          " surface, mean of 25 periods",
                 .x_label = "time, s",
                 .y_label = "mm/min",

@@ -6,6 +6,7 @@
 #include "api/formats/part_formats.hpp"
 #include "api/formats/sheet.hpp"
 #include "api/formats/text.hpp"
+#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -132,8 +133,7 @@ class Development {
 
 std::string joined(const std::vector<part::Mistake>& mistakes) {
   std::string out;
-  for (const auto one : mistakes)
-    out += (out.empty() ? "" : ", ") + std::string(name_of_mistake(one));
+  for (const auto one : mistakes) out += (out.empty() ? "" : ", ") + std::string(name_of(one));
   return out.empty() ? "none by more than 1 mm" : out;
 }
 
@@ -150,7 +150,7 @@ double checks(Canvas& canvas, double y, const part::Part& part) {
     value.anchor = Anchor::end;
     canvas.text({left, y - 3.2}, d.name, {.height = 2.6, .bold = true});
     canvas.text({left + 60.0, y - 3.2}, fixed(d.value, 1), value);
-    canvas.text({left + 64.0, y - 3.2}, name_of_tool(d.tool), kSmall);
+    canvas.text({left + 64.0, y - 3.2}, name_of(d.tool), kSmall);
     canvas.text({left + 80.0, y - 3.2}, "changes with: " + joined(d.changes_with), kGrey);
     canvas.text({left, y - 6.4}, d.measured_from, kGrey);
     canvas.rectangle({right - 22.0, y - kCheckRow + 1.0}, {right, y - 0.8}, kLine);

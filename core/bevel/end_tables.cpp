@@ -1,5 +1,7 @@
 #include "core/bevel/end_tables.hpp"
 
+#include "core/base/try.hpp"
+
 namespace tubecut::bevel {
 namespace {
 
@@ -32,16 +34,15 @@ Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& s
                                                         const joint::Nodes& nodes,
                                                         const TableSpec& asked,
                                                         const std::stop_token& stop) {
-  if (auto ok = check_groove(asked.groove); !ok) return tl::unexpected(ok.error());
+  TRY(check_groove(asked.groove));
   std::vector<std::optional<EndTable>> out(nodes.ends.size());
   auto left = asked;
   for (std::size_t i = 0; i < nodes.ends.size(); ++i) {
     const auto& end = nodes.ends[i];
     if (end.cut_by.empty() || end.open || end.consumed) continue;
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    auto one = end_table(spec, end, left, stop);
-    if (!one) return tl::unexpected(one.error());
-    const auto used = one->table ? one->table->phi.size() : 0;
+    TRY(auto one, end_table(spec, end, left, stop));
+    const auto used = one.table ? one.table->phi.size() : 0;
     if (used > left.sampling.max_nodes)
       return fail(
           {.code = ErrorCode::too_many_nodes,
@@ -49,7 +50,7 @@ Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& s
            .got = static_cast<double>(asked.sampling.max_nodes - left.sampling.max_nodes + used),
            .limit = static_cast<double>(asked.sampling.max_nodes)});
     left.sampling.max_nodes -= used;
-    out[i] = *std::move(one);
+    out[i] = std::move(one);
   }
   return out;
 }

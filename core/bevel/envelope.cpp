@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/angle.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/envelope_parts.hpp"
 
 namespace tubecut::bevel {
@@ -250,8 +251,8 @@ std::vector<double> kept_below(std::vector<double> f, double highest) {
 
 Result<std::vector<double>> envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
                                      std::stop_token stop) {
-  if (auto sound = check_profile(profile); !sound) return tl::unexpected(sound.error());
-  if (auto sound = check_limits(profile, spec); !sound) return tl::unexpected(sound.error());
+  TRY(check_profile(profile));
+  TRY(check_limits(profile, spec));
   auto turn = detail::make_turn(profile, spec);
   auto plain = detail::make_envelope(turn);
   if (!spec.refine) return kept_below(std::move(plain.f), spec.highest);

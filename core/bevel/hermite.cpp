@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/angle.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/smoothing.hpp"
 
 namespace tubecut::bevel {
@@ -119,7 +120,7 @@ std::vector<std::size_t> junctions_of(const std::vector<double>& b, const Hermit
 
 Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec,
                                 std::stop_token stop) {
-  if (auto sound = check(profile, spec); !sound) return tl::unexpected(sound.error());
+  TRY(check(profile, spec));
   const auto n = profile.b.size();
   const double spacing = profile.period / static_cast<double>(n);
   const auto junctions = junctions_of(profile.b, spec);
@@ -137,10 +138,10 @@ Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& 
                    .unit = "deg",
                    .hint = std::to_string(left.size()) + " steps are left above the limit after " +
                            std::to_string(kMostWindows) + " windows"});
-    auto length = spec.transition ? Result<std::size_t>(static_cast<std::size_t>(*spec.transition))
-                                  : own_transition(worst, spec.limit, junctions, n);
-    if (!length) return tl::unexpected(length.error());
-    out.windows.push_back(smooth_step(out.b, worst, *length, spacing));
+    TRY(auto length, spec.transition
+                         ? Result<std::size_t>(static_cast<std::size_t>(*spec.transition))
+                         : own_transition(worst, spec.limit, junctions, n));
+    out.windows.push_back(smooth_step(out.b, worst, length, spacing));
   }
 }
 

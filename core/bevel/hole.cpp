@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/hole_end.hpp"
 #include "core/bevel/hole_fit.hpp"
 #include "core/bevel/hole_wall.hpp"
@@ -256,22 +257,19 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
                  .got = spec.kerf,
                  .limit = 2.0 * rho,
                  .unit = "mm"});
-  const auto root =
-      joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho);
-  if (!root) return tl::unexpected(root.error());
-  const WallLines walls(spec, branch, rho, root->cutters.front());
-  auto nodes = sample(spec, walls, stop);
-  if (!nodes) return tl::unexpected(nodes.error());
-  if (auto ok = check_lines(spec, *nodes); !ok) return tl::unexpected(ok.error());
-  auto out = cleared(spec, walls, *nodes, far, stop);
+  TRY(const auto root,
+      joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho));
+  const WallLines walls(spec, branch, rho, root.cutters.front());
+  TRY(auto nodes, sample(spec, walls, stop));
+  TRY(check_lines(spec, nodes));
+  auto out = cleared(spec, walls, nodes, far, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (auto ok = check_lines(spec, *nodes); !ok) return tl::unexpected(ok.error());
-  if (auto ok = check_spared(beam_cut(spec, out), out.torch_line); !ok)
-    return tl::unexpected(ok.error());
-  fill_lengths(*root, *nodes, out, stop);
-  if (!root->near_parallel.empty() && !far)
+  TRY(check_lines(spec, nodes));
+  TRY(check_spared(beam_cut(spec, out), out.torch_line));
+  fill_lengths(root, nodes, out, stop);
+  if (!root.near_parallel.empty() && !far)
     warnings.push_back({.code = WarningCode::near_parallel, .member = "branch"});
-  note_lost(spec, *nodes, warnings);
+  note_lost(spec, nodes, warnings);
   return out;
 }
 
@@ -279,32 +277,25 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
 
 Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch) {
   if (const auto* tube = std::get_if<joint::TubeCutter>(&branch)) return *tube;
-  const auto& axis = std::get<joint::AxisTube>(branch);
-  const auto placed = joint::place(axis.axis, axis.radius, "branch/axis");
-  if (!placed) return tl::unexpected(placed.error());
-  return placed->tube;
+  return under("branch", std::get<joint::AxisTube>(branch).tube());
 }
 
 Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop) {
   if (spec.kind == JointKind::mitre)
     return fail({.code = ErrorCode::unsupported_combination, .member = "joint/kind"});
-  const auto branch = branch_tube(spec.branch);
-  if (!branch) return tl::unexpected(branch.error());
+  TRY(const auto branch, branch_tube(spec.branch));
   HoleCut out;
-  auto near = one_hole(spec, *branch, false, out.warnings, stop);
-  if (!near) return tl::unexpected(near.error());
-  out.holes.push_back(*std::move(near));
+  TRY(auto near, one_hole(spec, branch, false, out.warnings, stop));
+  out.holes.push_back(std::move(near));
   if (spec.kind == JointKind::through) {
-    auto far = one_hole(spec, reversed(*branch), true, out.warnings, stop);
-    if (!far) return tl::unexpected(far.error());
-    out.holes.push_back(*std::move(far));
+    TRY(auto far, one_hole(spec, reversed(branch), true, out.warnings, stop));
+    out.holes.push_back(std::move(far));
   } else {
-    auto end = branch_end(spec, *branch, out.holes.front().branch_phi, stop);
-    if (!end) return tl::unexpected(end.error());
-    out.branch = *std::move(end);
+    TRY(auto end, branch_end(spec, branch, out.holes.front().branch_phi, stop));
+    out.branch = std::move(end);
   }
-  note_overhang(spec, *branch, out.warnings);
-  for (auto& one : out.holes) one.fit = fit_up(spec, *branch, out, one, stop);
+  note_overhang(spec, branch, out.warnings);
+  for (auto& one : out.holes) one.fit = fit_up(spec, branch, out, one, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   note_nearest(spec, out);
   return out;

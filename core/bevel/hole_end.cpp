@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/hole_fit.hpp"
 #include "core/bevel/required.hpp"
 
@@ -74,10 +75,8 @@ Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& bran
                 .z_inner = {},
                 .z_outer = {},
                 .b = {}};
-  const auto inner = joint_curve(branch, radius, branch.radius - spec.branch_wall);
-  if (!inner) return tl::unexpected(inner.error());
-  if (auto ok = stand_on(spec, *inner, branch.radius, end, stop); !ok)
-    return tl::unexpected(ok.error());
+  TRY(const auto inner, joint_curve(branch, radius, branch.radius - spec.branch_wall));
+  TRY(stand_on(spec, inner, branch.radius, end, stop));
   return end;
 }
 

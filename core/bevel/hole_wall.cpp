@@ -67,7 +67,7 @@ struct WallLines::Corner {
 };
 
 WallLines::WallLines(const HoleSpec& spec, const joint::TubeCutter& branch, double radius,
-                     const joint::Prepared& chord)
+                     const joint::PreparedCutter& chord)
     : spec_(spec),
       frame_(branch_frame(branch)),
       radius_(radius),

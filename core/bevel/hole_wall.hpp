@@ -32,7 +32,7 @@ struct WallLine {
 class WallLines {
  public:
   WallLines(const HoleSpec& spec, const joint::TubeCutter& branch, double radius,
-            const joint::Prepared& chord);
+            const joint::PreparedCutter& chord);
 
   [[nodiscard]] WallLine at(double phase) const { return at(phase, 0.5 * spec_.kerf); }
   /// With the torch's axis as far off the wall, mm.
@@ -58,7 +58,7 @@ class WallLines {
   const HoleSpec& spec_;
   BranchFrame frame_;
   double radius_;  // of the hole about the branch's axis
-  joint::Prepared chord_;
+  joint::PreparedCutter chord_;
   bool root_outside_;
 };
 

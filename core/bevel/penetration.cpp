@@ -90,26 +90,40 @@ Ring ring_of(const CutWall& wall, std::size_t edge) {
 
 /// Searches one ring for one solid, widest parts first. `Aim` tells what is sought: `see` takes
 /// every depth found, `enough` the depth that need not be looked for.
-template <class Aim>
+template <class Aim, joint::SolidKind Kind>
 class Search {
  public:
-  Search(const Ring& ring, std::span<const Solid> solids, std::size_t solid, Aim& aim)
-      : ring_(ring), solid_(solids[solid]), index_(solid), aim_(aim) {}
+  Search(const Ring& ring, const Kind& solid, std::size_t index, Aim& aim)
+      : ring_(ring), solid_(solid), index_(index), aim_(aim) {}
 
   void run(const std::stop_token& stop) {
-    std::vector<Part> level = solid_.shape() == Solid::Shape::plain ? strips() : cells();
+    std::vector<Part> level = begin();
     std::vector<Part> next;
     while (!level.empty()) {
       next.clear();
       for (const auto& part : level) {
         if (stop.stop_requested()) return;
-        solid_.shape() == Solid::Shape::plain ? halve(part, next) : divide(part, next);
+        split(part, next);
       }
       level.swap(next);
     }
   }
 
  private:
+  /// A plain solid is searched by strips, each between two lines across the wall; another by cells.
+  std::vector<Part> begin() {
+    if constexpr (joint::PlainSolid<Kind>)
+      return strips();
+    else
+      return cells();
+  }
+  void split(const Part& part, std::vector<Part>& out) {
+    if constexpr (joint::PlainSolid<Kind>)
+      halve(part, out);
+    else
+      divide(part, out);
+  }
+
   double see(std::size_t gap, const Vector3d& p) {
     const double distance = solid_.distance(p);
     aim_.see(gap, {-distance, p, index_});
@@ -201,7 +215,7 @@ class Search {
   }
 
   const Ring& ring_;
-  const Solid& solid_;
+  const Kind& solid_;
   std::size_t index_;
   Aim& aim_;
 };
@@ -212,7 +226,8 @@ void search(const CutWall& wall, std::span<const Solid> solids, Aim& aim,
   for (std::size_t edge = 0; edge + 1 < wall.edges.size(); ++edge) {
     const auto ring = ring_of(wall, edge);
     for (std::size_t solid = 0; solid < solids.size() && !stop.stop_requested(); ++solid)
-      Search<Aim>(ring, solids, solid, aim).run(stop);
+      joint::by_kind(solids[solid].kind(),
+                     [&](const auto& kind) { Search(ring, kind, solid, aim).run(stop); });
   }
 }
 

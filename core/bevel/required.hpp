@@ -2,15 +2,11 @@
 
 #include <span>
 
-#include "core/joint/cutter.hpp"
+#include "core/joint/cutters/cutter.hpp"
 
 namespace tubecut::bevel {
 
-/// The target's wall; 0 < inner < outer, mm.
-struct Wall {
-  double inner = 0.0;
-  double outer = 0.0;
-};
+using joint::Wall;
 
 /// Least B (rad, in [-pi/2, pi/2]) with which a cut whose root lies on the inner surface at height
 /// `z_root` enters no cutter within the wall, for one phi.
@@ -21,13 +17,14 @@ struct Wall {
 /// Accuracy  closed form, 1e-9 rad but where a cutter touches the root tangentially (1e-6).
 /// Cost      three square roots a cutter, one arc tangent.
 /// Source    docs/theory/intersections-and-bevels.md, section 5.3.
-[[nodiscard]] double required_bevel(std::span<const joint::Prepared> cutters, const Wall& wall,
-                                    const joint::Generator& inner_line, double z_root);
+[[nodiscard]] double required_bevel(std::span<const joint::PreparedCutter> cutters,
+                                    const Wall& wall, const joint::Generator& inner_line,
+                                    double z_root);
 
 /// Support height: the least z on the inner surface from which a straight cut rising by `slope` =
 /// tan B across the wall enters no cutter. -infinity when no cutter is met in the wall.
 /// Source    docs/theory/intersections-and-bevels.md, section 5.3.
-[[nodiscard]] double lift(std::span<const joint::Prepared> cutters, const Wall& wall,
+[[nodiscard]] double lift(std::span<const joint::PreparedCutter> cutters, const Wall& wall,
                           const joint::Generator& inner_line, double slope);
 
 }  // namespace tubecut::bevel

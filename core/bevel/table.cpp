@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/try.hpp"
 #include "core/bevel/swing_rows.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/bevel/torch_line.hpp"
@@ -64,19 +65,17 @@ Table outline(const Ground& g, const Rows& rows) {
 
 /// The table with rows at the phases `also` besides those of the sampling.
 Result<Table> build(const Ground& g, const std::vector<double>& also, const std::stop_token& stop) {
-  const auto sampled = detail::rows(g, also, stop);
-  if (!sampled) return tl::unexpected(sampled.error());
-  const auto& rows = *sampled;
-  if (auto ok = detail::check_torch(g, rows); !ok) return tl::unexpected(ok.error());
+  TRY(const auto sampled, detail::rows(g, also, stop));
+  const auto& rows = sampled;
+  TRY(detail::check_torch(g, rows));
   auto out = outline(g, rows);
   fill_angles(g, rows, out);
-  if (auto ok = fill_zones(g.spec, rows, out); !ok) return tl::unexpected(ok.error());
-  if (auto ok = detail::fill_smoothed(g, rows, out, stop); !ok) return tl::unexpected(ok.error());
+  TRY(fill_zones(g.spec, rows, out));
+  TRY(detail::fill_smoothed(g, rows, out, stop));
   detail::fill_surfaces(g, rows, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (auto ok = detail::check_clearance(g, rows, out, stop); !ok) return tl::unexpected(ok.error());
-  for (const auto* z : {&out.z_inner, &out.z_outer})
-    if (auto ok = joint::check_length(g.spec.target, *z); !ok) return tl::unexpected(ok.error());
+  TRY(detail::check_clearance(g, rows, out, stop));
+  for (const auto* z : {&out.z_inner, &out.z_outer}) TRY(joint::check_length(g.spec.target, *z));
   detail::note_torch_binds(g, rows, out);
   detail::note_overhang(g, out, stop);
   detail::note_root_opens(g.spec, out);
@@ -90,9 +89,8 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   constexpr int kSwingRounds = 6;   // of halving
   constexpr int kTorchRounds = 3;   // the second sees what the first's own rows changed
   constexpr int kClearRounds = 10;  // each divides a depth by sixteen where the cut is smooth
-  const auto grounded = detail::ground(spec, stop);
-  if (!grounded) return tl::unexpected(grounded.error());
-  const auto& g = *grounded;
+  TRY(const auto grounded, detail::ground(spec, stop));
+  const auto& g = grounded;
   auto also = g.row_phases;
   auto out = build(g, also, stop);
   const auto with_rows = [&](const std::vector<double>& more) {

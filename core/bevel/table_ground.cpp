@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/table_parts.hpp"
 
 namespace tubecut::bevel::detail {
@@ -96,16 +97,14 @@ Point larger(const Ground& g, const joint::Node& node) {
 }  // namespace
 
 Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop) {
-  if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());
-  auto cutters = grown_partners(spec);
-  if (!cutters) return tl::unexpected(cutters.error());
+  TRY(check(spec));
+  TRY(auto cutters, grown_partners(spec));
   const Wall wall{spec.target.inner_radius(), spec.target.outer_radius};
   const bool outer = spec.root_surface == RootSurface::outer;
-  auto root = joint::trace(*cutters, outer ? wall.outer : wall.inner, stop);
-  if (!root) return tl::unexpected(root.error());
+  TRY(auto root, joint::trace(cutters, outer ? wall.outer : wall.inner, stop));
   Ground out{.spec = spec,
-             .cutters = *std::move(cutters),
-             .root = *std::move(root),
+             .cutters = std::move(cutters),
+             .root = std::move(root),
              .inner = {},
              .other_events = {},
              .row_phases = {},
@@ -118,9 +117,8 @@ Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop) {
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   for (const auto& cutter : out.cutters) out.solids.emplace_back(cutter);
   if (outer) {
-    auto inner = joint::trace(out.cutters, wall.inner, stop);
-    if (!inner) return tl::unexpected(inner.error());
-    out.inner = *std::move(inner);
+    TRY(auto inner, joint::trace(out.cutters, wall.inner, stop));
+    out.inner = std::move(inner);
   }
   return out;
 }
@@ -151,9 +149,8 @@ bool Rows::jump_pair(std::size_t i) const {
 }
 
 Result<Rows> rows(const Ground& g, const std::vector<double>& also, const std::stop_token& stop) {
-  auto samples = joint::sample(g.root, g.spec.sampling, also, stop);
-  if (!samples) return tl::unexpected(samples.error());
-  Rows out{.samples = *std::move(samples), .points = {}};
+  TRY(auto samples, joint::sample(g.root, g.spec.sampling, also, stop));
+  Rows out{.samples = std::move(samples), .points = {}};
   out.points.reserve(out.samples.nodes.size());
   for (const auto& node : out.samples.nodes) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -176,10 +173,7 @@ namespace tubecut::bevel {
 Result<void> check_groove(const GrooveRule& groove) {
   const auto* zoned = std::get_if<ZonedGroove>(&groove);
   if (zoned == nullptr) return {};
-  auto ok = check_zones(*zoned);
-  if (!ok)
-    for (auto& issue : ok.error().issues) issue.member = "groove/" + issue.member;
-  return ok;
+  return under("groove", check_zones(*zoned));
 }
 
 const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size_t i) {

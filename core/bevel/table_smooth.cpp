@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/bevel/table_parts.hpp"
 
 namespace tubecut::bevel::detail {
@@ -139,9 +140,8 @@ Result<void> fill_smoothed(const Ground& g, const Rows& rows, Table& out,
   const auto p = path(g, rows);
   for (const auto& m : mutations(p.profile.b, g.spec.mutation_limit.rad()))
     out.mutations.push_back({.phi = rows.samples.nodes[p.node[m.index]].phi, .step = m.step});
-  auto smoothed = smooth(g, rows.samples, p, out, stop);
-  if (!smoothed) return tl::unexpected(smoothed.error());
-  for (const auto entry : p.entry) out.b.push_back((*smoothed)[entry]);
+  TRY(auto smoothed, smooth(g, rows.samples, p, out, stop));
+  for (const auto entry : p.entry) out.b.push_back((smoothed)[entry]);
   return check_smoothed(g, rows, out);
 }
 

@@ -117,31 +117,6 @@ void steepness_checks(const EnvelopeSmoothing& method, const Table& t, std::vect
        "deg_per_mm2"});
 }
 
-/// Least signed distance of a straight cut from `a` to `b` to a partner. Along a line the squared
-/// distance to a tube's axis is a parabola, given by three of its points; the distance to another
-/// convex partner has one least value; to an elbow it is looked for on a grid.
-double least_distance(const joint::Solid& solid, const Vector3d& a, const Vector3d& b) {
-  const double ends[] = {solid.distance(a), solid.distance(0.5 * (a + b)), solid.distance(b)};
-  const double least = std::min({ends[0], ends[1], ends[2]});
-  const auto near = [&](double share) { return -solid.distance(a + share * (b - a)); };
-  if (solid.shape() == joint::Solid::Shape::convex)
-    return std::min(least, -math::golden_maximum(near, 0.0, 1.0).value);
-  if (solid.shape() == joint::Solid::Shape::bent) {
-    std::vector<double> grid, sampled;
-    for (int k = 0; k <= kAlongBend; ++k) {
-      grid.push_back(static_cast<double>(k) / kAlongBend);
-      sampled.push_back(near(grid.back()));
-    }
-    return std::min(least, -math::grid_maximum(near, grid, sampled).value);
-  }
-  const auto square = [&](double d) { return (d + solid.radius()) * (d + solid.radius()); };
-  const double low = square(ends[0]), mid = square(ends[1]), high = square(ends[2]);
-  const double bend = 2.0 * (low - 2.0 * mid + high);
-  if (!(solid.radius() > 0.0 && bend > 0.0)) return least;
-  const double share = std::clamp((3.0 * low - 4.0 * mid + high) / (2.0 * bend), 0.0, 1.0);
-  return std::min(least, -near(share));
-}
-
 /// How far the cut of row i stays from the nearest partner, mm; negative: it enters.
 double clearance(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
                  const Row& r, std::size_t i) {
@@ -153,8 +128,8 @@ double clearance(const TableSpec& spec, const Table& t, const std::vector<joint:
       face ? Vector3d((inner + spec.root_face) * r.radial + t.z_face[i] * r.axial) : a;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& solid : solids) {
-    least = std::min(least, least_distance(solid, edge, b));
-    if (face) least = std::min(least, least_distance(solid, a, edge));
+    least = std::min(least, solid.least_distance(edge, b));
+    if (face) least = std::min(least, solid.least_distance(a, edge));
   }
   return least;
 }

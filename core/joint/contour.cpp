@@ -4,19 +4,21 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/try.hpp"
+
 namespace tubecut::joint {
 namespace {
 
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg: below it dz grows as 1/sin a
 constexpr double kTie = 1e-12;                         // of radius + |z|, rounding of one height
 
-Result<std::vector<Prepared>> prepare_all(std::span<const Cutter> cutters,
-                                          const std::stop_token& stop) {
-  std::vector<Prepared> out;
+Result<std::vector<PreparedCutter>> prepare_all(std::span<const Cutter> cutters,
+                                                const std::stop_token& stop) {
+  std::vector<PreparedCutter> out;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i < cutters.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    auto one = prepare(cutters[i], "cutters/" + std::to_string(i));
+    auto one = under("cutters/" + std::to_string(i), prepare(cutters[i]));
     if (one) {
       out.push_back(*one);
     } else {
@@ -31,14 +33,12 @@ Result<std::vector<Prepared>> prepare_all(std::span<const Cutter> cutters,
 
 Result<Contour> trace(std::span<const Cutter> cutters, double rho, const std::stop_token& stop) {
   if (cutters.empty()) return fail({.code = ErrorCode::wrong_count, .member = "cutters"});
-  auto prepared = prepare_all(cutters, stop);
-  if (!prepared) return tl::unexpected<Error>(prepared.error());
   Contour out;
   out.radius = rho;
-  out.cutters = *std::move(prepared);
+  TRY(out.cutters, prepare_all(cutters, stop));
   for (std::size_t i = 0; i < out.cutters.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    if (misses(out.cutters[i], rho)) out.missed.push_back(i);
+    if (met(out.cutters[i], rho) == Met::never) out.missed.push_back(i);
     if (sin_inclination(out.cutters[i]) < kNearParallel) out.near_parallel.push_back(i);
   }
   if (out.missed.size() == out.cutters.size())

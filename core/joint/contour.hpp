@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/joint/cutter.hpp"
+#include "core/joint/cutters/cutter.hpp"
 #include "core/joint/events.hpp"
 
 namespace tubecut::joint {
@@ -13,7 +13,7 @@ namespace tubecut::joint {
 /// The closed curve along which a surface of the target leaves its cutters: z(phi) = max_i z_i.
 struct Contour {
   double radius = 0.0;  // rho of the surface, mm
-  std::vector<Prepared> cutters;
+  std::vector<PreparedCutter> cutters;
   std::vector<Event> events;               // ascending phi
   std::vector<Segment> segments;           // see Division
   std::vector<std::size_t> missed;         // cutters no generator hits (warning cutter_missed)

@@ -7,6 +7,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/joint/trig_roots.hpp"
+#include "core/math/rotation.hpp"
 #include "core/math/search.hpp"
 
 namespace tubecut::joint::detail {
@@ -18,8 +19,8 @@ constexpr std::size_t kScan = 1440;
 constexpr double kLeap = 0.02;      // relative; a difference between scanned phases worth a look
 constexpr double kJump = 1e-4;      // relative; what a continuous curve cannot do within 1e-15 rad
 constexpr double kTouching = 1e-6;  // relative; kept without a sign change
-constexpr double kHair = 1e-9;      // relative; an offset that is rounding, as in is_tangent
-constexpr double kSameHeight = 1e-12;  // relative; rounding of an elbow's height
+constexpr double kHair = 1e-9;      // relative; rounding
+constexpr double kSameHeight = 1e-12;  // relative; rounding of a scanned height
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // A block of the scan is looked at whole where few cutters may be on top there, else in parts.
@@ -47,36 +48,26 @@ std::vector<double> crossings(const Sheets& a, const Sheets& b) {
   return root_phases(unlike * unlike - 2.0 * (apart2 * (a.square + b.square)) + apart2 * apart2);
 }
 
-double size(const Prepared& cutter, const std::vector<Sheets>& sheets, double rho) {
-  if (const auto* elbow = std::get_if<PreparedElbow>(&cutter))
-    return (elbow->radius + elbow->bend_radius + rho) / elbow_sine(*elbow);
-  return std::ranges::max(sheets, {}, &Sheets::size).size;
-}
-
-double scanned(std::size_t k) { return kTwoPi * static_cast<double>(k) / kScan; }
+double phase_of(std::size_t k) { return kTwoPi * static_cast<double>(k) / kScan; }
 
 }  // namespace
-
-double wrapped(double phi) {
-  phi -= kTwoPi * std::floor(phi / kTwoPi);
-  return phi < kTwoPi ? phi : 0.0;
-}
 
 double phase_distance(double a, double b) {
   const double d = std::abs(a - b);
   return std::min(d, kTwoPi - d);
 }
 
-EventPhases::EventPhases(std::span<const Prepared> cutters, double rho, const std::stop_token& stop)
+EventPhases::EventPhases(std::span<const PreparedCutter> cutters, double rho,
+                         const std::stop_token& stop)
     : cutters_(cutters), rho_(rho), stop_(stop) {
   for (const auto& cutter : cutters)
     sheets_.push_back(stop.stop_requested() ? std::vector<Sheets>{} : sheets(cutter, rho));
   for (std::size_t i = 0; i < cutters.size() && !stop.stop_requested(); ++i)
-    if (!misses(cutters[i], rho) && !repeats_an_earlier(i)) active_.push_back(i);
+    if (met(cutters[i], rho) != Met::never && !repeats_an_earlier(i)) active_.push_back(i);
   sizes_.resize(cutters.size());
   for (const auto i : active_) {
     if (stop.stop_requested()) return;
-    sizes_[i] = size(cutters[i], sheets_[i], rho);
+    sizes_[i] = rounding_size(cutters[i], rho);
     add_own(i);
   }
   for (std::size_t a = 0; a < active_.size(); ++a)
@@ -92,28 +83,11 @@ bool EventPhases::repeats_an_earlier(std::size_t i) const {
 }
 
 void EventPhases::add_own(std::size_t i) {
-  const auto* tube = std::get_if<PreparedTube>(&cutters_[i]);
-  if (tube == nullptr) {
-    for (const double phi : silhouettes(cutters_[i], rho_)) phases_.push_back(wrapped(phi));
-    return;
+  for (const double phi : silhouettes(cutters_[i], rho_)) phases_.push_back(math::whole_turn(phi));
+  for (const double phi : joint::kinks(cutters_[i], rho_)) {
+    kinks_.push_back({math::whole_turn(phi), i});
+    phases_.push_back(kinks_.back().phi);
   }
-  const double beta = elementary::atan2(tube->sin_clocking, tube->cos_clocking);
-  for (const double side : {tube->radius, -tube->radius}) {
-    const double u = side - tube->offset;  // X = +-r
-    if (!(std::abs(u) <= rho_)) continue;
-    const double delta = elementary::atan2(std::sqrt((rho_ - u) * (rho_ + u)), u);
-    phases_.push_back(wrapped(beta + delta));
-    phases_.push_back(wrapped(beta - delta));
-  }
-  if (!is_tangent(*tube, rho_)) return;
-  const double hair = kHair * tube->radius;  // tubes of one radius are tangent on both sides
-  if (tube->offset >= -hair) add_kink(beta, i);
-  if (tube->offset <= hair) add_kink(beta + kPi, i);
-}
-
-void EventPhases::add_kink(double phi, std::size_t i) {
-  kinks_.push_back({wrapped(phi), i});
-  phases_.push_back(kinks_.back().phi);
 }
 
 double EventPhases::apart(std::size_t i, std::size_t j, double phi) const {
@@ -127,9 +101,9 @@ void EventPhases::add_pair(std::size_t i, std::size_t j) {
     for (const auto& b : sheets_[j])
       for (const double near : crossings(a, b)) {
         if (const auto phi = polish(i, j, near)) {
-          phases_.push_back(wrapped(*phi));
+          phases_.push_back(math::whole_turn(*phi));
         } else if (std::abs(apart(i, j, near)) < kTouching * size) {
-          phases_.push_back(wrapped(near));
+          phases_.push_back(math::whole_turn(near));
         }
       }
 }
@@ -138,7 +112,7 @@ void EventPhases::add_pair(std::size_t i, std::size_t j) {
 double EventPhases::scanned_height(std::size_t i, std::size_t k) {
   auto& heights = scans_.try_emplace(i, kScan, kUnknown).first->second;
   double& z = heights[k % kScan];
-  if (std::isnan(z)) z = continued_sheet(cutters_[i], generator_at(rho_, scanned(k % kScan)));
+  if (std::isnan(z)) z = continued_sheet(cutters_[i], generator_at(rho_, phase_of(k % kScan)));
   return z;
 }
 
@@ -147,13 +121,11 @@ bool EventPhases::same_height(std::size_t i, std::size_t j, std::size_t k) {
   return std::abs(scanned_height(i, k) - scanned_height(j, k)) <= kSameHeight * size;
 }
 
-/// An elbow's crossings have no closed form. They are looked for between the phases of a scan,
-/// where the elbow can be on top at all.
+/// Crossings without a closed form are looked for between the phases of a scan, where the cutter
+/// can be on top at all.
 void EventPhases::add_scanned() {
-  if (active_.size() < 2 || !std::ranges::any_of(active_, [&](std::size_t i) {
-        return std::holds_alternative<PreparedElbow>(cutters_[i]);
-      }))
-    return;
+  if (active_.size() < 2) return;
+  if (!std::ranges::any_of(active_, [&](std::size_t i) { return scanned(i); })) return;
   for (std::size_t k = 0; k < kScan; k += kBlock) add_cells(k, k + kBlock, active_);
 }
 
@@ -171,26 +143,18 @@ void EventPhases::add_cells(std::size_t from, std::size_t to, std::vector<std::s
 }
 
 /// Those that may hold the profile between the phases of a scan `from` and `to` + 1. A generator
-/// there is nowhere further than `off` from the one in the middle: an elbow thicker by so much
-/// bounds its heights from above, one thinner from below.
+/// there is nowhere further than `off` from the one in the middle.
 std::vector<std::size_t> EventPhases::on_top(std::size_t from, std::size_t to,
                                              const std::vector<std::size_t>& cutters) const {
-  const double half = 0.5 * (scanned(to + 1) - scanned(from));
-  const auto line = generator_at(rho_, scanned(from) + half);
+  const double half = 0.5 * (phase_of(to + 1) - phase_of(from));
+  const auto line = generator_at(rho_, phase_of(from) + half);
   const double off = rho_ * half * (1.0 + kHair);
-  const auto height = [&](const PreparedElbow& elbow, double thicker) {
-    auto other = elbow;
-    other.radius += thicker;
-    const auto top = shape_top(other, line);
-    return top ? *top : -kInfinity;
-  };
   double least = -kInfinity;
   std::vector<double> most;
   for (const auto i : cutters) {
-    const auto* elbow = std::get_if<PreparedElbow>(&cutters_[i]);
-    const bool bounded = elbow != nullptr && elbow->radius + off < elbow->bend_radius;
-    most.push_back(bounded ? height(*elbow, off) : kInfinity);
-    if (elbow != nullptr && elbow->radius > off) least = std::max(least, height(*elbow, -off));
+    const auto heights = heights_near(cutters_[i], line, off);
+    most.push_back(heights.most);
+    least = std::max(least, heights.least);
   }
   std::vector<std::size_t> out;
   for (std::size_t c = 0; c < cutters.size(); ++c)
@@ -215,7 +179,7 @@ void EventPhases::add_cell(std::size_t k, const std::vector<std::size_t>& cutter
   const auto some = unlike(k, cutters);
   for (std::size_t a = 0; a < some.size(); ++a)
     for (std::size_t b = a + 1; b < some.size() && !stop_.stop_requested(); ++b)
-      if (sheets_[some[a]].empty() || sheets_[some[b]].empty()) add_in_cell(some[a], some[b], k);
+      if (scanned(some[a]) || scanned(some[b])) add_in_cell(some[a], some[b], k);
 }
 
 /// Sign changes of z_i - z_j between neighbouring phases, on both sides of a near miss, and where
@@ -223,20 +187,20 @@ void EventPhases::add_cell(std::size_t k, const std::vector<std::size_t>& cutter
 void EventPhases::add_in_cell(std::size_t i, std::size_t j, std::size_t k) {
   const auto g = [&](std::size_t at) { return scanned_height(i, at) - scanned_height(j, at); };
   const auto same = [&](std::size_t at) { return same_height(i, j, at); };
-  if (same(k) && same(k + kScan - 1)) return add_border(i, j, scanned(k), scanned(k + 1));
-  if (same(k + 1) && same(k + 2)) return add_border(i, j, scanned(k + 1), scanned(k));
+  if (same(k) && same(k + kScan - 1)) return add_border(i, j, phase_of(k), phase_of(k + 1));
+  if (same(k + 1) && same(k + 2)) return add_border(i, j, phase_of(k + 1), phase_of(k));
   const auto close = [&](double from, double gf, double to, double gt) {
     if ((gf <= 0.0) != (gt <= 0.0))
-      phases_.push_back(wrapped(close_bracket(i, j, from, gf, to, gt)));
+      phases_.push_back(math::whole_turn(close_bracket(i, j, from, gf, to, gt)));
   };
-  close(scanned(k), g(k), scanned(k + 1), g(k + 1));
+  close(phase_of(k), g(k), phase_of(k + 1), g(k + 1));
   const double side = g(k + 1) <= 0.0 ? -1.0 : 1.0;
   const bool turns = side * g(k + 1) <= std::min(side * g(k), side * g(k + 2));
   if (!turns || side * g(k) < 0.0 || side * g(k + 2) < 0.0) return;
   const auto nearest = math::golden_maximum([&](double phi) { return -side * apart(i, j, phi); },
-                                            scanned(k), scanned(k + 2));
-  close(scanned(k), g(k), nearest.at, -side * nearest.value);
-  close(nearest.at, -side * nearest.value, scanned(k + 2), g(k + 2));
+                                            phase_of(k), phase_of(k + 2));
+  close(phase_of(k), g(k), nearest.at, -side * nearest.value);
+  close(nearest.at, -side * nearest.value, phase_of(k + 2), g(k + 2));
 }
 
 void EventPhases::add_border(std::size_t i, std::size_t j, double inside, double outside) {
@@ -244,7 +208,8 @@ void EventPhases::add_border(std::size_t i, std::size_t j, double inside, double
   const auto same = [&](double share) {
     return std::abs(apart(i, j, inside + share * (outside - inside))) <= kSameHeight * size;
   };
-  phases_.push_back(wrapped(inside + math::last_true(same, 0.0, 1.0) * (outside - inside)));
+  phases_.push_back(
+      math::whole_turn(inside + math::last_true(same, 0.0, 1.0) * (outside - inside)));
 }
 
 std::optional<double> EventPhases::hidden_at(std::size_t i) {
@@ -252,7 +217,7 @@ std::optional<double> EventPhases::hidden_at(std::size_t i) {
   const double size = size_of(i);
   for (std::size_t k = 0; k < kScan; ++k) {
     if (!(std::abs(z(k + 1) - z(k)) > kLeap * size)) continue;
-    double from = scanned(k), to = scanned(k + 1), zf = z(k), zt = z(k + 1);
+    double from = phase_of(k), to = phase_of(k + 1), zf = z(k), zt = z(k + 1);
     for (int step = 0; step < 45; ++step) {
       const double mid = 0.5 * (from + to);
       const double zm = continued_sheet(cutters_[i], generator_at(rho_, mid));
@@ -262,7 +227,7 @@ std::optional<double> EventPhases::hidden_at(std::size_t i) {
     }
     const bool met = upper_sheet(cutters_[i], generator_at(rho_, from)) &&
                      upper_sheet(cutters_[i], generator_at(rho_, to));
-    if (met && std::abs(zt - zf) > kJump * size) return wrapped(from);
+    if (met && std::abs(zt - zf) > kJump * size) return math::whole_turn(from);
   }
   return std::nullopt;
 }

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/joint/cutter.hpp"
+#include "core/joint/cutters/cutter.hpp"
 #include "core/joint/sheets.hpp"
 
 /// For `divide` only: the phases where its profile may have an event.
@@ -16,8 +16,6 @@ namespace tubecut::joint::detail {
 
 inline constexpr double kSamePhase = 1e-11;  // rad; closer candidates are one
 
-/// Into [0, 2 pi).
-[[nodiscard]] double wrapped(double phi);
 /// The shorter way round.
 [[nodiscard]] double phase_distance(double a, double b);
 
@@ -31,7 +29,7 @@ class EventPhases {
   };
 
   /// Stopped, some are missed.
-  EventPhases(std::span<const Prepared> cutters, double rho, const std::stop_token& stop);
+  EventPhases(std::span<const PreparedCutter> cutters, double rho, const std::stop_token& stop);
 
   /// Hit somewhere, and no other description of an earlier one.
   [[nodiscard]] const std::vector<std::size_t>& active() const { return active_; }
@@ -40,14 +38,15 @@ class EventPhases {
   [[nodiscard]] const std::vector<Kink>& kinks() const { return kinks_; }
   /// A length the rounding of this active cutter's z is proportional to.
   [[nodiscard]] double size_of(std::size_t i) const { return sizes_[i]; }
-  /// An elbow's highest sheet ends at a silhouette of its own while a lower one is met: z jumps
-  /// from the cutter to itself.
+  /// Its surface has no closed form: its events are bracketed.
+  [[nodiscard]] bool scanned(std::size_t i) const { return sheets_[i].empty(); }
+  /// The highest sheet of a scanned cutter ends at a silhouette of its own while a lower one is
+  /// met: z jumps from the cutter to itself.
   [[nodiscard]] std::optional<double> hidden_at(std::size_t i);
 
  private:
   [[nodiscard]] bool repeats_an_earlier(std::size_t i) const;
   void add_own(std::size_t i);
-  void add_kink(double phi, std::size_t i);
   void add_pair(std::size_t i, std::size_t j);
   void add_scanned();
   void add_cells(std::size_t from, std::size_t to, std::vector<std::size_t> cutters);
@@ -66,7 +65,7 @@ class EventPhases {
   [[nodiscard]] double close_bracket(std::size_t i, std::size_t j, double a, double ga, double b,
                                      double gb) const;
 
-  std::span<const Prepared> cutters_;
+  std::span<const PreparedCutter> cutters_;
   double rho_;
   const std::stop_token& stop_;
   std::vector<std::vector<Sheets>> sheets_;  // of each cutter, its pieces

@@ -15,7 +15,7 @@ constexpr double kBeside = 1e-9;      // rad
 
 class Divider {
  public:
-  Divider(std::span<const Prepared> cutters, double rho, const std::stop_token& stop)
+  Divider(std::span<const PreparedCutter> cutters, double rho, const std::stop_token& stop)
       : cutters_(cutters),
         rho_(rho),
         stop_(stop),
@@ -36,7 +36,7 @@ class Divider {
   std::optional<Division::Hidden> hidden() {
     for (const auto i : found_.active()) {
       if (stop_.stop_requested()) break;
-      if (!std::holds_alternative<PreparedElbow>(cutters_[i])) continue;
+      if (!found_.scanned(i)) continue;
       if (std::ranges::find(labels_, Label(i)) == labels_.end()) continue;  // nowhere on top
       const auto phi = found_.hidden_at(i);
       if (phi && (label_at(*phi - kBeside) == i || label_at(*phi + kBeside) == i))
@@ -122,7 +122,7 @@ class Divider {
     return out;
   }
 
-  std::span<const Prepared> cutters_;
+  std::span<const PreparedCutter> cutters_;
   double rho_;
   const std::stop_token& stop_;
   detail::EventPhases found_;
@@ -132,7 +132,7 @@ class Divider {
 
 }  // namespace
 
-std::optional<Contact> highest(std::span<const Prepared> cutters, const Generator& line) {
+std::optional<Contact> highest(std::span<const PreparedCutter> cutters, const Generator& line) {
   std::optional<Contact> best;
   for (std::size_t i = 0; i < cutters.size(); ++i) {
     const auto z = upper_sheet(cutters[i], line);
@@ -141,7 +141,7 @@ std::optional<Contact> highest(std::span<const Prepared> cutters, const Generato
   return best;
 }
 
-Division divide(std::span<const Prepared> cutters, double rho, const std::stop_token& stop) {
+Division divide(std::span<const PreparedCutter> cutters, double rho, const std::stop_token& stop) {
   return Divider(cutters, rho, stop).divide();
 }
 

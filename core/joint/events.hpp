@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/joint/cutter.hpp"
+#include "core/joint/cutters/cutter.hpp"
 
 namespace tubecut::joint {
 
@@ -18,7 +18,7 @@ struct Contact {
 };
 
 /// The highest contact of a generator, the lowest index on ties; empty where all cutters miss.
-[[nodiscard]] std::optional<Contact> highest(std::span<const Prepared> cutters,
+[[nodiscard]] std::optional<Contact> highest(std::span<const PreparedCutter> cutters,
                                              const Generator& line);
 
 enum class EventKind {
@@ -71,7 +71,7 @@ struct Division {
 /// Cost      quadratic in the number of cutters, about 20 us a pair.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
 /// Stopped, it tells nothing.
-[[nodiscard]] Division divide(std::span<const Prepared> cutters, double rho,
+[[nodiscard]] Division divide(std::span<const PreparedCutter> cutters, double rho,
                               const std::stop_token& stop = {});
 
 }  // namespace tubecut::joint

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/joint/solid.hpp"
 
 namespace tubecut::joint {
@@ -12,17 +13,16 @@ namespace {
 
 Result<Profile> profile(const Contour& contour, const Sampling& sampling, bool outer,
                         const std::stop_token& stop) {
-  const auto samples = sample(contour, sampling, {}, stop);
-  if (!samples) return tl::unexpected(samples.error());
+  TRY(const auto samples, sample(contour, sampling, {}, stop));
   Profile out{.outer = outer, .radius = contour.radius};
-  for (const auto& node : samples->nodes) {
+  for (const auto& node : samples.nodes) {
     out.phi.push_back(node.phi);
     out.z.push_back(node.z);
     out.cutter.push_back(node.after);
   }
   out.events = contour.events;
-  out.length = samples->true_length;
-  out.developed = samples->developed_length;
+  out.length = samples.true_length;
+  out.developed = samples.developed_length;
   return out;
 }
 
@@ -64,7 +64,7 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
   const auto turn = elementary::sincos(p.phi[i]);
   const Eigen::Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z[i]);
   const auto& own = solids.at(p.cutter[i]);
-  const double scale = std::max(own.radius() + p.radius, std::abs(p.z[i]));
+  const double scale = std::max(own.scale() + p.radius, std::abs(p.z[i]));
   on_cutter.see(std::abs(own.distance(at)), kOnCutter * scale);
   const auto top = own.top(at.x(), at.y());
   // A silhouette may be missed by rounding: there the generator touches instead.
@@ -91,7 +91,7 @@ void Proof::event(const std::vector<Solid>& solids, double rho, const Event& eve
   const double x = rho * turn.cos, y = rho * turn.sin;
   const auto& from = solids.at(event.from);
   const auto& to = solids.at(event.to);
-  const double scale = std::max(from.radius(), to.radius()) + rho;
+  const double scale = std::max(from.scale(), to.scale()) + rho;
   if (event.kind == EventKind::junction) {
     const auto a = from.top(x, y);
     const auto b = to.top(x, y);
@@ -109,21 +109,17 @@ Result<std::vector<Cutter>> resolve(std::span<const Partner> partners) {
   std::vector<Cutter> out;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i < partners.size(); ++i) {
-    std::visit(
-        [&]<class Kind>(const Kind& partner) {
-          if constexpr (std::is_same_v<Kind, AxisTube>) {
-            const auto member = "cutters/" + std::to_string(i) + "/axis";
-            const auto placed = place(partner.axis, partner.radius, member);
-            if (placed)
-              out.emplace_back(placed->tube);
-            else
-              issues.insert(issues.end(), placed.error().issues.begin(),
-                            placed.error().issues.end());
-          } else {
-            out.emplace_back(partner);
-          }
-        },
-        partners[i]);
+    by_kind(partners[i], [&]<class Kind>(const Kind& partner) {
+      if constexpr (std::is_same_v<Kind, AxisTube>) {
+        auto tube = under("cutters/" + std::to_string(i), partner.tube());
+        if (tube)
+          out.emplace_back(*tube);
+        else
+          issues.insert(issues.end(), tube.error().issues.begin(), tube.error().issues.end());
+      } else {
+        out.emplace_back(partner);
+      }
+    });
   }
   if (!issues.empty()) return tl::unexpected(Error(std::move(issues)));
   return out;
@@ -149,19 +145,16 @@ Result<void> check_length(const Target& target, std::span<const double> z) {
 }
 
 Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_token& stop) {
-  const auto cutters = resolve(spec.partners);
-  if (!cutters) return tl::unexpected(cutters.error());
+  TRY(const auto cutters, resolve(spec.partners));
   Intersection out;
   for (const bool outer : {false, true}) {
     if (spec.surfaces == (outer ? Surfaces::inner : Surfaces::outer)) continue;
     const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
-    const auto contour = trace(*cutters, rho, stop);
-    if (!contour) return tl::unexpected(contour.error());
-    auto curve = profile(*contour, spec.sampling, outer, stop);
-    if (!curve) return tl::unexpected(curve.error());
-    if (auto fits = check_length(spec.target, curve->z); !fits) return tl::unexpected(fits.error());
-    out.profiles.push_back(*std::move(curve));
-    out.warnings = partner_warnings(*contour);  // of the outer surface when both are asked for
+    TRY(const auto contour, trace(cutters, rho, stop));
+    TRY(auto curve, profile(contour, spec.sampling, outer, stop));
+    TRY(check_length(spec.target, curve.z));
+    out.profiles.push_back(std::move(curve));
+    out.warnings = partner_warnings(contour);  // of the outer surface when both are asked for
   }
   return out;
 }

@@ -2,26 +2,15 @@
 
 #include <span>
 #include <stop_token>
-#include <variant>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/joint/contour.hpp"
-#include "core/joint/cutter.hpp"
-#include "core/joint/placement.hpp"
+#include "core/joint/cutters/cutter.hpp"
 #include "core/joint/sampling.hpp"
 #include "core/joint/target.hpp"
 
 namespace tubecut::joint {
-
-/// A tube partner given by its axis line in the target's frame.
-struct AxisTube {
-  double radius = 0.0;
-  AxisLine axis;
-};
-
-/// A partner as a request describes it.
-using Partner = std::variant<TubeCutter, AxisTube, PlaneCutter, BoxCutter, ConeCutter, ElbowCutter>;
 
 /// Every partner as a cutter. Errors  zero_length, parallel_axes (cutters/i/axis).
 [[nodiscard]] Result<std::vector<Cutter>> resolve(std::span<const Partner> partners);

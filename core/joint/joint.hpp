@@ -3,8 +3,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/joint/cutter.hpp"
-
 namespace tubecut::joint {
 
 enum class JointKind {
@@ -34,8 +32,5 @@ struct StatedJoint {
 /// two faces share. A joint nobody has stated is set on with the gap `unstated`. A set-in joint has
 /// its depth.
 [[nodiscard]] double seat(const std::optional<Joint>& stated, double coating, double unstated);
-
-/// The partner with its surface moved outwards by this much, normal to it.
-[[nodiscard]] Cutter grown(Cutter cutter, double by);
 
 }  // namespace tubecut::joint

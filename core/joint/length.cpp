@@ -95,14 +95,10 @@ class Walk {
 
 /// dz/dphi of the sheet. A tangent tube whose offset is rounding is missed by a hair beside its
 /// corner: there the silhouette's own slope counts, not an infinite one.
-double slope_at(const Prepared& cutter, const Generator& line) {
+double slope_at(const PreparedCutter& cutter, const Generator& line) {
   const double slope = continued_hit(cutter, line).z_dphi;
   if (std::isfinite(slope)) return slope;
-  const auto* tube = std::get_if<PreparedTube>(&cutter);
-  if (tube == nullptr) return 0.0;
-  const double u =
-      line.radius * (line.cos_phi * tube->cos_clocking + line.sin_phi * tube->sin_clocking);
-  return -u * tube->cos_inclination / tube->sin_inclination;
+  return silhouette_slope(cutter, line);
 }
 
 }  // namespace

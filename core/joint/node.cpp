@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/joint/nearness.hpp"
 #include "core/joint/node_parts.hpp"
 
@@ -53,10 +54,9 @@ Result<void> check(const NodeSpec& spec) {
 Result<Joined> joined_within(const NodeSpec& spec, double distance, const std::stop_token& stop) {
   std::vector<Stretch> stretches;
   for (const auto& m : spec.members) stretches.push_back(stretch(m, distance + m.outer_radius));
-  const auto found = touches(stretches, kMostCutters, stop);
-  if (!found) return tl::unexpected(found.error());
+  TRY(const auto found, touches(stretches, kMostCutters, stop));
   Joined out(2 * spec.members.size());
-  for (const auto& touch : *found) out[touch.end].push_back(touch);
+  for (const auto& touch : found) out[touch.end].push_back(touch);
   return out;
 }
 
@@ -201,12 +201,11 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
       cut.plane = PlaneCutter{frame.local(mitre->point), frame.rows * mitre->normal};
       cut.eccentricity = between_axes(spec.members[member], other);
     } else {
-      auto placed = place(frame.local(axis), other.outer_radius, place_of(touch.other));
-      if (!placed) return tl::unexpected(placed.error());
+      TRY(cut.placement,
+          under(place_of(touch.other), place(frame.local(axis), other.outer_radius)));
       // The frame was made so.
-      if (!spec.members[member].up && &one == chord) placed->tube.clocking = Angle{};
-      cut.placement = *placed;
-      cut.eccentricity = std::abs(placed->tube.offset);
+      if (!spec.members[member].up && &one == chord) cut.placement.tube.clocking = Angle{};
+      cut.eccentricity = std::abs(cut.placement.tube.offset);
     }
     out.push_back(std::move(cut));
   }
@@ -249,21 +248,17 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Appli
   out.free = joined.empty();
   const auto* within = std::get_if<Within>(&spec.connect);
   const auto cutters = cutters_of(spec, index, applied, joined, warnings);
-  if (within != nullptr && !cutters.empty())
-    if (auto ok = check_ambiguous(spec, cutters, within->distance); !ok)
-      return tl::unexpected(ok.error());
+  if (within != nullptr && !cutters.empty()) TRY(check_ambiguous(spec, cutters, within->distance));
   const auto* first = chord_of(spec, out.member, cutters);
   std::optional<Vector3d> chord;
   if (first != nullptr) {
     const auto& m = spec.members[first->touch.other];
     chord = m.finish - m.start;
   }
-  const auto frame = frame_of(spec, out.member, out.end, chord);
-  if (!frame) return tl::unexpected(frame.error());
-  out.frame = *frame;
-  auto placed = place_cutters(spec, applied, out.member, out.frame, first, cutters);
-  if (!placed) return tl::unexpected(placed.error());
-  out.cut_by = *std::move(placed);
+  TRY(const auto frame, frame_of(spec, out.member, out.end, chord));
+  out.frame = frame;
+  TRY(auto placed, place_cutters(spec, applied, out.member, out.frame, first, cutters));
+  out.cut_by = std::move(placed);
   if (!out.cut_by.empty()) detail::inspect(spec, out);
   warn(spec, out, within != nullptr, warnings);
   return out;
@@ -272,20 +267,17 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Appli
 }  // namespace
 
 Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
-  if (auto ok = check(spec); !ok) return tl::unexpected(ok.error());
+  TRY(check(spec));
   const auto* within = std::get_if<Within>(&spec.connect);
-  auto joined = within != nullptr ? joined_within(spec, within->distance, stop)
-                                  : joined_by(spec, std::get<std::vector<Link>>(spec.connect));
-  if (!joined) return tl::unexpected(joined.error());
-  const auto applied = detail::apply_joints(spec, *joined);
-  if (!applied) return tl::unexpected(applied.error());
+  TRY(auto joined, within != nullptr ? joined_within(spec, within->distance, stop)
+                                     : joined_by(spec, std::get<std::vector<Link>>(spec.connect)));
+  TRY(const auto applied, detail::apply_joints(spec, joined));
   Nodes out;
-  out.ends.reserve(joined->size());
-  for (std::size_t i = 0; i < joined->size(); ++i) {
+  out.ends.reserve(joined.size());
+  for (std::size_t i = 0; i < joined.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    auto end = solve_end(spec, i, *applied, (*joined)[i], out.warnings);
-    if (!end) return tl::unexpected(end.error());
-    out.ends.push_back(*std::move(end));
+    TRY(auto end, solve_end(spec, i, applied, (joined)[i], out.warnings));
+    out.ends.push_back(std::move(end));
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/try.hpp"
 #include "core/joint/node.hpp"
 #include "core/joint/overlap.hpp"
 
@@ -17,19 +18,14 @@ Partner partner_of(const CutBy& cut) {
 
 Cutter seat_of(const CutBy& cut) {
   const double by = seat(cut.stated, 0.0, 0.0);
-  if (cut.plane) return grown(*cut.plane, by);
-  return grown(cut.placement.tube, by);
+  if (cut.plane) return grown(Cutter(*cut.plane), by);
+  return grown(Cutter(cut.placement.tube), by);
 }
 
 std::vector<Partner> seats(const EndJoint& joint) {
   std::vector<Partner> out;
-  for (std::size_t i = 0; i < joint.partners.size(); ++i) {
-    const double by = seat(joint.stated[i], 0.0, 0.0);
-    if (const auto* plane = std::get_if<PlaneCutter>(&joint.partners[i]))
-      out.push_back(std::get<PlaneCutter>(grown(*plane, by)));
-    else
-      out.push_back(std::get<TubeCutter>(grown(std::get<TubeCutter>(joint.partners[i]), by)));
-  }
+  for (std::size_t i = 0; i < joint.partners.size(); ++i)
+    out.push_back(grown(joint.partners[i], seat(joint.stated[i], 0.0, 0.0)));
   return out;
 }
 
@@ -53,22 +49,20 @@ EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end) {
 
 Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
                           const std::stop_token& stop) {
-  const auto nodes = solve(spec, stop);
-  if (!nodes) return tl::unexpected(nodes.error());
+  TRY(const auto nodes, solve(spec, stop));
   const auto at = place_of(member, end);
-  const auto& found = nodes->ends[2 * member + (end == End::finish ? 1 : 0)];
+  const auto& found = nodes.ends[2 * member + (end == End::finish ? 1 : 0)];
   if (found.cut_by.empty())
     return fail({.code = ErrorCode::no_contact,
                  .member = at,
                  .hint = found.free ? "this end joins no member"
                                     : "no member that joins this end cuts it"});
   auto out = joint_of(spec, found);
-  for (const auto& warning : nodes->warnings)
+  for (const auto& warning : nodes.warnings)
     if (warning.member == at && warning.code != WarningCode::near_parallel)
       out.warnings.push_back(warning);
-  const auto shared = overlaps(spec, *nodes, member, stop);
-  if (!shared) return tl::unexpected(shared.error());
-  for (auto& warning : warnings_of(spec, *shared, member))
+  TRY(const auto shared, overlaps(spec, nodes, member, stop));
+  for (auto& warning : warnings_of(spec, shared, member))
     out.warnings.push_back(std::move(warning));
   return out;
 }

@@ -11,19 +11,17 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kScan = 180;  // generators looked at for ghosts and the highest z
 
-std::vector<Prepared> prepared(const MemberEnd& end) {
-  std::vector<Prepared> out;
+std::vector<PreparedCutter> prepared(const MemberEnd& end) {
+  std::vector<PreparedCutter> out;
   for (const auto& cut : end.cut_by)
-    if (auto one = prepare(seat_of(cut), "")) out.push_back(*one);
+    if (auto one = prepare(seat_of(cut))) out.push_back(*one);
   return out;
 }
 
 /// Every generator of radius rho meets some cutter.
-bool closed(std::span<const Prepared> cutters, double rho) {
-  for (const auto& cutter : cutters) {
-    const auto* tube = std::get_if<PreparedTube>(&cutter);
-    if (tube == nullptr || std::abs(tube->offset) + rho <= tube->radius) return true;
-  }
+bool closed(std::span<const PreparedCutter> cutters, double rho) {
+  for (const auto& cutter : cutters)
+    if (met(cutter, rho) == Met::always) return true;
   return divide(cutters, rho).open.empty();
 }
 
@@ -51,7 +49,7 @@ bool beyond(const Member& m, const CutBy& cut, double w) {
 }
 
 /// Ghosts and the highest z, read on the generators of one surface.
-void scan(const NodeSpec& spec, std::span<const Prepared> cutters, double rho, double length,
+void scan(const NodeSpec& spec, std::span<const PreparedCutter> cutters, double rho, double length,
           MemberEnd& end) {
   for (std::size_t k = 0; k < kScan; ++k) {
     const auto line =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/try.hpp"
 #include "core/joint/node_parts.hpp"
 
 namespace tubecut::joint {
@@ -194,12 +195,12 @@ double between_axes(const Member& a, const Member& b) {
 }
 
 Result<Applied> apply_joints(const NodeSpec& spec, Joined& joined) {
-  if (auto ok = check_sides(spec); !ok) return tl::unexpected(ok.error());
+  TRY(check_sides(spec));
   Applied out;
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {
     const auto pair = std::minmax(spec.joints[i].member, spec.joints[i].with);
     if (!out.joints.emplace(pair, spec.joints[i].joint).second) continue;
-    if (auto ok = apply(spec, i, joined, out); !ok) return tl::unexpected(ok.error());
+    TRY(apply(spec, i, joined, out));
   }
   return out;
 }

@@ -28,7 +28,7 @@ constexpr int kMoves = 24;           // with one step
 /// One cut end: its frame, and the seats that cut it.
 struct Cut {
   MemberFrame frame;
-  std::vector<Prepared> seats;
+  std::vector<PreparedCutter> seats;
 
   /// z into the member where the generator on the side `q` leaves the seats; the work point where
   /// nothing cuts it.
@@ -65,7 +65,7 @@ struct Finished {
 Cut cut_of(const MemberEnd& end) {
   Cut out{.frame = end.frame, .seats = {}};
   for (const auto& cut : end.cut_by)
-    if (auto one = prepare(seat_of(cut), "")) out.seats.push_back(*one);
+    if (auto one = prepare(seat_of(cut))) out.seats.push_back(*one);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/joint/length.hpp"
 
 namespace tubecut::joint {
@@ -235,9 +236,8 @@ Result<Samples> sample(const Contour& contour, const Sampling& sampling,
     return too_many(sampling.uniform_points, sampling.max_nodes);
   if (!tolerance)
     return measured(contour, uniform_nodes(contour, sampling.uniform_points, stop), stop);
-  auto nodes = adaptive_nodes(contour, sampling, also, stop);
-  if (!nodes) return tl::unexpected<Error>(nodes.error());
-  auto all = with_uniform(contour, *std::move(nodes), sampling.uniform_points, stop);
+  TRY(auto nodes, adaptive_nodes(contour, sampling, also, stop));
+  auto all = with_uniform(contour, std::move(nodes), sampling.uniform_points, stop);
   if (all.size() > sampling.max_nodes) return too_many(all.size(), sampling.max_nodes);
   return measured(contour, std::move(all), stop);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/math/search.hpp"
 
 namespace tubecut::joint {
@@ -20,7 +21,7 @@ constexpr int kHalvings = 30;
 /// Highest hit around a section.
 class Around {
  public:
-  Around(std::vector<Prepared> cutters, const RectangularSection& section, double tolerance)
+  Around(std::vector<PreparedCutter> cutters, const RectangularSection& section, double tolerance)
       : cutters_(std::move(cutters)), section_(section), tolerance_(tolerance) {}
 
   [[nodiscard]] std::optional<SectionNode> at(double s) const {
@@ -88,14 +89,14 @@ class Around {
     return true;
   }
 
-  std::vector<Prepared> cutters_;
+  std::vector<PreparedCutter> cutters_;
   const RectangularSection& section_;
   double tolerance_;
 };
 
 }  // namespace
 
-std::optional<Hit> hit(const Prepared& cutter, const SectionPoint& generator) {
+std::optional<Hit> hit(const PreparedCutter& cutter, const SectionPoint& generator) {
   const double rho = elementary::hypot(generator.at.x(), generator.at.y());
   const Vector2d radial = rho > 0.0 ? Vector2d(generator.at / rho) : generator.normal;
   auto out = hit(cutter, Generator{rho, radial.x(), radial.y()});
@@ -166,11 +167,10 @@ Result<std::vector<SectionNode>> section_contour(std::span<const Cutter> cutters
                  .got = tolerance,
                  .limit = 0.0,
                  .unit = "mm"});
-  std::vector<Prepared> prepared;
+  std::vector<PreparedCutter> prepared;
   for (std::size_t i = 0; i < cutters.size(); ++i) {
-    auto one = prepare(cutters[i], "cutters/" + std::to_string(i));
-    if (!one) return tl::unexpected(one.error());
-    prepared.push_back(*one);
+    TRY(auto one, under("cutters/" + std::to_string(i), prepare(cutters[i])));
+    prepared.push_back(std::move(one));
   }
   Around around(std::move(prepared), section, tolerance);
   const auto seams = section.seams();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/joint/cutter.hpp"
+#include "core/joint/cutters/cutter.hpp"
 
 namespace tubecut::joint {
 
@@ -21,7 +21,7 @@ struct SectionPoint {
 /// A cutter's hit on such a generator. `normal` is the cutter's, as (normal, tangent, axial) of the
 /// section, so that groove rules take it as it is; z_dphi is dz per mm along the tangent, z_dphi2
 /// is not given (0).
-[[nodiscard]] std::optional<Hit> hit(const Prepared& cutter, const SectionPoint& generator);
+[[nodiscard]] std::optional<Hit> hit(const PreparedCutter& cutter, const SectionPoint& generator);
 
 /// The outside of a rectangular tube, mm; sides along x and y.
 struct RectangularSection {

@@ -14,4 +14,10 @@ struct Target {
   [[nodiscard]] double inner_radius() const { return outer_radius - wall; }
 };
 
+/// The target's wall; 0 < inner < outer, mm.
+struct Wall {
+  double inner = 0.0;
+  double outer = 0.0;
+};
+
 }  // namespace tubecut::joint

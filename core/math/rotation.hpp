@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
+#include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::math {
@@ -20,6 +22,12 @@ namespace tubecut::math {
   Eigen::Matrix3d out;
   out << t.cos, -t.sin, 0.0, t.sin, t.cos, 0.0, 0.0, 0.0, 1.0;
   return out;
+}
+
+/// phi brought into [0, 2 pi).
+[[nodiscard]] inline double whole_turn(double phi) {
+  const double turned = phi - kTwoPi * std::floor(phi / kTwoPi);
+  return turned < kTwoPi ? turned : 0.0;
 }
 
 }  // namespace tubecut::math

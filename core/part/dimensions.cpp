@@ -8,6 +8,7 @@
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/math/rotation.hpp"
 
 namespace tubecut::part {
 namespace {
@@ -174,7 +175,7 @@ struct Node {
 Edge moved(const Edge& e, bool mirror, double by) {
   std::vector<Node> nodes;
   for (std::size_t i = 0; i < e.phi.size(); ++i)
-    nodes.push_back({whole_turn((mirror ? -e.phi[i] : e.phi[i]) + by), e.z[i]});
+    nodes.push_back({math::whole_turn((mirror ? -e.phi[i] : e.phi[i]) + by), e.z[i]});
   if (mirror) std::ranges::reverse(nodes);
   std::ranges::stable_sort(nodes, {}, &Node::phi);
   Edge out;

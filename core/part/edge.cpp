@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/angle.hpp"
+#include "core/math/rotation.hpp"
 
 namespace tubecut::part {
 namespace {
@@ -13,13 +14,8 @@ constexpr double kAlike = 0.01;  // mm
 
 }  // namespace
 
-double whole_turn(double phi) {
-  const double turned = phi - kTwoPi * std::floor(phi / kTwoPi);
-  return turned < kTwoPi ? turned : 0.0;
-}
-
 Edge::Span Edge::at(double angle) const {
-  const double at = whole_turn(angle);
+  const double at = math::whole_turn(angle);
   const auto n = phi.size();
   const auto from = static_cast<std::size_t>(std::ranges::lower_bound(phi, at) - phi.begin());
   Span out{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

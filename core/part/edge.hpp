@@ -24,9 +24,6 @@ struct Edge {
   [[nodiscard]] double turn_integral() const;
 };
 
-/// phi brought into [0, 2 pi).
-[[nodiscard]] double whole_turn(double phi);
-
 /// Volume under a ring of edges at ascending radii, straight between them, down to z = 0, mm^3.
 /// Source  docs/theory/parts.md, section 3.
 [[nodiscard]] double ring_volume(std::span<const double> radii, std::span<const Edge> edges);

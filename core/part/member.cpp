@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/joint/overlap.hpp"
+#include "core/math/rotation.hpp"
 #include "core/part/edge.hpp"
 #include "core/part/place.hpp"
 
@@ -42,12 +44,12 @@ Result<std::vector<joint::Partner>> partners(const joint::NodeSpec& node, const 
       continue;
     }
     const auto& m = node.members[cut.member];
-    const auto placed = same
-                            ? Result<joint::Placement>(cut.placement)
-                            : joint::place(frame.local(AxisLine{m.start, m.finish - m.start}),
-                                           m.outer_radius, "members/" + std::to_string(cut.member));
-    if (!placed) return tl::unexpected(placed.error());
-    out.emplace_back(placed->tube);
+    TRY(const auto placed,
+        same ? Result<joint::Placement>(cut.placement)
+             : under("members/" + std::to_string(cut.member),
+                     joint::place(frame.local(AxisLine{m.start, m.finish - m.start}),
+                                  m.outer_radius)));
+    out.emplace_back(placed.tube);
   }
   return out;
 }
@@ -57,13 +59,11 @@ Result<std::pair<MemberFrame, MemberFrame>> frames(const joint::Member& m, const
                                                    const MemberEnd& finish) {
   const bool from_start = m.up.has_value() || !start.cut_by.empty();
   const Vector3d x = (from_start ? start : finish).frame.rows.row(0);
-  auto first =
-      from_start ? Result<MemberFrame>(start.frame) : joint::member_frame(m.start, m.finish, x);
-  auto last = m.up.has_value() ? Result<MemberFrame>(finish.frame)
-                               : joint::member_frame(m.finish, m.start, x);
-  if (!first) return tl::unexpected(first.error());
-  if (!last) return tl::unexpected(last.error());
-  return std::pair{*first, *last};
+  TRY(auto first,
+      from_start ? Result<MemberFrame>(start.frame) : joint::member_frame(m.start, m.finish, x));
+  TRY(auto last, m.up.has_value() ? Result<MemberFrame>(finish.frame)
+                                  : joint::member_frame(m.finish, m.start, x));
+  return std::pair{first, last};
 }
 
 /// Where the axis of a member that stands here leaves the outer surface; on the nearest side
@@ -77,7 +77,7 @@ Mark mark_of(const joint::Member& branch, End end, const MemberFrame& frame, dou
   const double beside = p.x() * p.x() + p.y() * p.y() - radius * radius;
   const double square = std::max(0.0, along * along - flat * beside);
   const Vector3d out = p + (std::sqrt(square) - along) / flat * d;
-  return {Mark::Kind::partner, branch.name, whole_turn(elementary::atan2(out.y(), out.x())),
+  return {Mark::Kind::partner, branch.name, math::whole_turn(elementary::atan2(out.y(), out.x())),
           out.z(), out.z()};
 }
 
@@ -250,10 +250,9 @@ Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& s
   }
   const auto& start = nodes->ends[2 * spec.member];
   const auto& finish = nodes->ends[2 * spec.member + 1];
-  const auto both = frames(m, start, finish);
-  if (!both) return tl::unexpected(both.error());
-  auto at_start = partners(node, start, both->first);
-  auto at_finish = partners(node, finish, both->second);
+  TRY(const auto both, frames(m, start, finish));
+  auto at_start = partners(node, start, both.first);
+  auto at_finish = partners(node, finish, both.second);
   if (!at_start) return tl::unexpected(at_start.error());
   if (!at_finish) return tl::unexpected(at_finish.error());
   auto zero = datum_angle(spec.datum, Angle{}, *at_start, *at_finish);
@@ -264,28 +263,25 @@ Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& s
   part.target = {
       .outer_radius = m.outer_radius, .wall = m.wall, .length = (m.finish - m.start).norm()};
   part.zero = *zero;
-  part.start_frame = both->first;
+  part.start_frame = both.first;
   part.name = m.name;
   part.start = end_spec(spec, part.target, *std::move(at_start), start);
   part.finish = end_spec(spec, part.target, *std::move(at_finish), finish);
   const auto standing = standing_on(*nodes, spec.member);
   for (const auto& one : standing)
-    part.partners.push_back(
-        mark_of(node.members[one.member], one.end, both->first, m.outer_radius));
-  if (auto ok = check_joints(spec, standing, out.warnings); !ok) return tl::unexpected(ok.error());
+    part.partners.push_back(mark_of(node.members[one.member], one.end, both.first, m.outer_radius));
+  TRY(check_joints(spec, standing, out.warnings));
   warn_of_missing(spec, standing, out.warnings);
-  auto cut = holes(spec, node, standing, part.target, both->first);
-  if (!cut) return tl::unexpected(cut.error());
-  part.holes = *std::move(cut);
+  TRY(auto cut, holes(spec, node, standing, part.target, both.first));
+  part.holes = std::move(cut);
   part.clamping = spec.clamping;
   part.facing = spec.facing;
   part.density = spec.density;
   out.start_cutters = members_of(start);
   out.finish_cutters = members_of(finish);
   for (auto& warning : about(*nodes, spec.member)) out.warnings.push_back(std::move(warning));
-  const auto shared = joint::overlaps(node, *nodes, spec.member, stop);
-  if (!shared) return tl::unexpected(shared.error());
-  for (auto& warning : joint::warnings_of(node, *shared, spec.member))
+  TRY(const auto shared, joint::overlaps(node, *nodes, spec.member, stop));
+  for (auto& warning : joint::warnings_of(node, shared, spec.member))
     out.warnings.push_back(std::move(warning));
   return out;
 }

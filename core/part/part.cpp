@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
 #include "core/part/place.hpp"
@@ -17,14 +18,6 @@ namespace tubecut::part {
 namespace {
 
 using bevel::Table;
-
-template <class T>
-tl::unexpected<Error> under(const Result<T>& result, const std::string& parent) {
-  auto error = result.error();
-  for (auto& issue : error.issues)
-    issue.member = parent + (issue.member.empty() ? "" : "/" + issue.member);
-  return tl::unexpected(std::move(error));
-}
 
 void carry(std::vector<Warning> warnings, const std::string& parent, std::vector<Warning>& out) {
   for (auto& w : warnings) {
@@ -56,9 +49,7 @@ Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& st
   End out{.spec = asked.cut};
   const Angle by = finish ? spec.zero : -spec.zero;
   for (auto& partner : out.spec.partners) partner = turned(partner, by);
-  auto table = bevel::table(out.spec, stop);
-  if (!table) return under(table, finish ? "finish" : "start");
-  out.own = *std::move(table);
+  TRY(out.own, under(finish ? "finish" : "start", bevel::table(out.spec, stop)));
   if (!asked.welded) return out;
   out.weld_length = welded_length(out);
   out.groove_volume = groove_volume(out.spec, out.own);
@@ -69,12 +60,11 @@ Result<void> cut_holes(const PartSpec& spec, Part& out, const std::stop_token& s
   for (std::size_t i = 0; i < spec.holes.size(); ++i) {
     auto asked = spec.holes[i].hole;
     asked.branch = turned(asked.branch, -spec.zero);
-    auto cut = bevel::hole(asked, stop);
     const auto at = "holes/" + std::to_string(spec.holes[i].asked);
-    if (!cut) return under(cut, at);
-    carry(cut->warnings, at, out.warnings);
+    TRY(auto cut, under(at, bevel::hole(asked, stop)));
+    carry(cut.warnings, at, out.warnings);
     out.hole_specs.push_back(std::move(asked));
-    out.hole_cuts.push_back(*std::move(cut));
+    out.hole_cuts.push_back(std::move(cut));
   }
   return {};
 }
@@ -143,7 +133,7 @@ std::vector<Mark> marks(const PartSpec& spec, const Part& p, double dz) {
     out.push_back({Mark::Kind::part_mark, spec.name, 0.0, middle, middle});
   }
   for (auto mark : spec.partners) {
-    mark.phi = whole_turn(mark.phi - spec.zero.rad());
+    mark.phi = math::whole_turn(mark.phi - spec.zero.rad());
     mark.z_from += dz;
     mark.z_to += dz;
     out.push_back(std::move(mark));
@@ -301,17 +291,16 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
     return fail({.code = ErrorCode::missing_field, .member = "target/length"});
   Part out;
   for (const bool finish : {false, true}) {
-    auto end = cut_end(spec, finish, stop);
-    if (!end) return tl::unexpected(end.error());
+    TRY(auto end, cut_end(spec, finish, stop));
     // A plane square to the axis has nothing to warn of.
     if ((finish ? spec.finish : spec.start).welded)
-      carry(end->own.warnings, finish ? "finish" : "start", out.warnings);
-    (finish ? out.finish : out.start) = *std::move(end);
+      carry(end.own.warnings, finish ? "finish" : "start", out.warnings);
+    (finish ? out.finish : out.start) = std::move(end);
   }
-  if (auto ok = cut_holes(spec, out, stop); !ok) return tl::unexpected(ok.error());
+  TRY(cut_holes(spec, out, stop));
   assemble(spec, out);
-  if (auto ok = check_left(out, *spec.target.length); !ok) return tl::unexpected(ok.error());
-  if (auto ok = see_holes(spec, out, out.warnings); !ok) return tl::unexpected(ok.error());
+  TRY(check_left(out, *spec.target.length));
+  TRY(see_holes(spec, out, out.warnings));
   warn_of_meeting(spec, out, out.warnings, stop);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
   out.lengths = lengths(spec, out, stop);

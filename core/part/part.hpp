@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
+#include "core/joint/placement.hpp"
 #include "core/part/dimensions.hpp"
 
 namespace tubecut::part {

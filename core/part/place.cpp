@@ -4,54 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <variant>
 
-#include "core/base/elementary.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/edge.hpp"
 
 namespace tubecut::part {
 namespace {
-
-using Eigen::Vector3d;
-
-constexpr double kSquare = 1e-9;  // sine below which a partner stands at right angles
-
-struct Turn {
-  Eigen::Matrix3d by;
-  Angle angle;
-
-  void operator()(joint::TubeCutter& t) const { t.clocking = t.clocking + angle; }
-  void operator()(joint::AxisTube& t) const {
-    t.axis.point = by * t.axis.point;
-    t.axis.direction = by * t.axis.direction;
-  }
-  void operator()(joint::PlaneCutter& p) const {
-    p.point = by * p.point;
-    p.normal = by * p.normal;
-  }
-  void operator()(joint::BoxCutter& b) const {
-    b.point = by * b.point;
-    b.direction = by * b.direction;
-    b.up = by * b.up;
-  }
-  void operator()(joint::ConeCutter& c) const {
-    c.point = by * c.point;
-    c.direction = by * c.direction;
-  }
-  void operator()(joint::ElbowCutter& e) const {
-    e.point = by * e.point;
-    e.direction = by * e.direction;
-    e.inwards = by * e.inwards;
-  }
-};
-
-template <class T>
-T turned_any(T out, Angle by) {
-  if (by.rad() == 0.0) return out;
-  std::visit(Turn{math::turn_about_z(by.rad()), by}, out);
-  return out;
-}
 
 double other_way(double phi) { return phi == 0.0 ? 0.0 : kTwoPi - phi; }
 
@@ -110,55 +68,13 @@ void mirror_lists(const bevel::Table& in, bevel::Table& out) {
                            .slope_start = w.slope_end,
                            .slope_end = w.slope_start});
   for (const auto& b : in.torch_binds) {
-    const double from = whole_turn(kTwoPi - b.to);
+    const double from = math::whole_turn(kTwoPi - b.to);
     out.torch_binds.push_back({from, from + (b.to - b.from), b.groove_lost, b.root_gap});
   }
   std::ranges::stable_sort(out.torch_binds, {}, &bevel::Table::Binding::from);
 }
 
-Vector3d axis_of(const joint::AxisTube& t) { return t.axis.direction; }
-Vector3d axis_of(const joint::BoxCutter& b) { return b.direction; }
-Vector3d axis_of(const joint::ConeCutter& c) { return c.direction; }
-Vector3d axis_of(const joint::ElbowCutter& e) { return e.direction; }
-
-Bearing bearing_of_axis(Vector3d d) {
-  d /= d.norm();
-  Bearing out{whole_turn(elementary::atan2(d.x(), -d.y())), std::nullopt};
-  if (std::abs(d.z()) <= kSquare) return out;
-  if (d.z() < 0.0) d = -d;
-  out.lean = whole_turn(elementary::atan2(d.y(), d.x()));
-  return out;
-}
-
-struct BearingOf {
-  std::optional<Bearing> operator()(const joint::TubeCutter& t) const {
-    const double side = t.clocking.rad() - 0.5 * kPi;
-    const double rise = elementary::cos(t.inclination.rad());
-    Bearing out{whole_turn(t.clocking.rad()), std::nullopt};
-    if (std::abs(rise) > kSquare) out.lean = whole_turn(rise > 0.0 ? side : side + kPi);
-    return out;
-  }
-  std::optional<Bearing> operator()(const joint::PlaneCutter& p) const {
-    Vector3d n = p.normal / p.normal.norm();
-    if (n.z() < 0.0) n = -n;
-    if (elementary::hypot(n.x(), n.y()) <= kSquare) return std::nullopt;
-    const double lean = whole_turn(elementary::atan2(-n.y(), -n.x()));
-    return Bearing{whole_turn(lean + 0.5 * kPi), lean};
-  }
-  template <class T>
-  std::optional<Bearing> operator()(const T& other) const {
-    return bearing_of_axis(axis_of(other));
-  }
-};
-
 }  // namespace
-
-joint::Partner turned(joint::Partner partner, Angle by) {
-  return turned_any(std::move(partner), by);
-}
-bevel::BranchPlacement turned(bevel::BranchPlacement branch, Angle by) {
-  return turned_any(std::move(branch), by);
-}
 
 bevel::Table seen_from_start(const bevel::Table& in, double length) {
   const auto order = reversed(in.phi);
@@ -188,8 +104,8 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
   out.outer_events = mirrored(in.outer_events, length);
   mirror_lists(in, out);
   out.torch_line = in.torch_line;
-  out.torch_line.gouge_phi = other_way(whole_turn(in.torch_line.gouge_phi));
-  out.torch_line.left_phi = other_way(whole_turn(in.torch_line.left_phi));
+  out.torch_line.gouge_phi = other_way(math::whole_turn(in.torch_line.gouge_phi));
+  out.torch_line.left_phi = other_way(math::whole_turn(in.torch_line.left_phi));
   out.length_total = in.length_total;
   out.developed_total = in.developed_total;
   out.penetration = in.penetration;
@@ -225,15 +141,11 @@ bevel::Hole shifted(bevel::Hole hole, double dz) {
   return hole;
 }
 
-std::optional<Bearing> bearing(const joint::Partner& partner) {
-  return std::visit(BearingOf{}, partner);
-}
-
 double clocking_between(const std::vector<joint::Partner>& start,
                         const std::vector<joint::Partner>& finish) {
   if (start.empty() || finish.empty()) return 0.0;
-  const auto a = bearing(start.front());
-  const auto b = bearing(finish.front());
+  const auto a = joint::bearing(start.front());
+  const auto b = joint::bearing(finish.front());
   if (!a || !b) return 0.0;
   // The finish's own phi runs the other way.
   const bool both = a->lean && b->lean;

@@ -9,10 +9,6 @@
 
 namespace tubecut::part {
 
-/// The partner turned about the target's axis, from x towards y. An angle of 0 changes no bit.
-[[nodiscard]] joint::Partner turned(joint::Partner partner, Angle by);
-[[nodiscard]] bevel::BranchPlacement turned(bevel::BranchPlacement branch, Angle by);
-
 /// A finish's table seen in the start's frame, `length` away: z and phi run the other way, so the
 /// rows come in reverse, and every elevation (B, tau, flush) changes its sign.
 [[nodiscard]] bevel::Table seen_from_start(const bevel::Table& finish, double length);
@@ -24,16 +20,6 @@ namespace tubecut::part {
 /// All z moved by `dz`.
 [[nodiscard]] bevel::Table shifted(bevel::Table table, double dz);
 [[nodiscard]] bevel::Hole shifted(bevel::Hole hole, double dz);
-
-/// phi (rad, in the frame the partner is given in) of the common perpendicular of target and
-/// partner, and the side towards which the partner leans (its axis rises towards the member, or the
-/// plane does). Empty where it has no side: a plane square to the axis, and `lean` of a partner at
-/// right angles.
-struct Bearing {
-  double perpendicular = 0.0;
-  std::optional<double> lean;
-};
-[[nodiscard]] std::optional<Bearing> bearing(const joint::Partner& partner);
 
 /// Turn about the part's z from the start's first partner to the finish's, in (-180, 180] deg, each
 /// taken on the side towards which it leans: 0 when both long points are on one side, as a brace

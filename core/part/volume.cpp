@@ -38,7 +38,7 @@ Rings rings(const bevel::TableSpec& spec, const bevel::Table& t) {
 /// Height of the cut over its partners' metal; 0 below it, and where there is none.
 class Depth {
  public:
-  explicit Depth(const bevel::TableSpec& spec, std::vector<joint::Prepared> partners)
+  explicit Depth(const bevel::TableSpec& spec, std::vector<joint::PreparedCutter> partners)
       : spec_(spec), partners_(std::move(partners)) {}
 
   [[nodiscard]] double operator()(double rho, double phi, double z) const {
@@ -51,7 +51,7 @@ class Depth {
 
  private:
   const bevel::TableSpec& spec_;
-  std::vector<joint::Prepared> partners_;
+  std::vector<joint::PreparedCutter> partners_;
 };
 
 /// Integral of the depth over the area between two edges of the wall in one half plane, per radian:
@@ -78,9 +78,9 @@ double end_volume(const bevel::TableSpec& spec, const bevel::Table& table) {
 double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table) {
   const auto cutters = joint::resolve(spec.partners);
   if (!cutters) return 0.0;
-  std::vector<joint::Prepared> prepared;
+  std::vector<joint::PreparedCutter> prepared;
   for (const auto& cutter : *cutters)
-    if (auto one = joint::prepare(cutter, "")) prepared.push_back(*one);
+    if (auto one = joint::prepare(cutter)) prepared.push_back(*one);
   static const auto rule = math::gauss_legendre(kAlong);
   const auto r = rings(spec, table);
   const Depth depth(spec, std::move(prepared));

@@ -76,7 +76,7 @@ Solid solid(const joint::PlaneCutter& plane) {
   if (n[2] < 0) n = {-n[0], -n[1], -n[2]};
   return [n, at = from(plane.point)](const Point& p) { return dot(plus(p, at, -1.0), n); };
 }
-Solid solid(const joint::BoxCutter& box) {
+Solid solid(const joint::RectangularTubeCutter& box) {
   const Frame frame(from(box.point), from(box.direction), from(box.up));
   const double a = 0.5 * box.height - box.corner, b = 0.5 * box.width - box.corner;
   return [=, c = box.corner](const Point& p) {

@@ -46,12 +46,12 @@ inline joint::Partner random_partner(Random& random, double rho, std::size_t kin
                                 .normal = {random.any(-0.8, 0.8), random.any(-0.8, 0.8), 1.0}};
     case 3: {
       const double width = (wide ? 3.2 : 2.0) * size, height = width * random.any(0.6, 1.4);
-      return joint::BoxCutter{.width = width,
-                              .height = height,
-                              .corner = random.any(0.03, 0.4) * std::min(width, height),
-                              .point = at,
-                              .direction = along,
-                              .up = {0.2, 0.1, 1.0}};
+      return joint::RectangularTubeCutter{.width = width,
+                                          .height = height,
+                                          .corner = random.any(0.03, 0.4) * std::min(width, height),
+                                          .point = at,
+                                          .direction = along,
+                                          .up = {0.2, 0.1, 1.0}};
     }
     case 4:
       return joint::ConeCutter{.radius = wide ? 1.8 * size : size,

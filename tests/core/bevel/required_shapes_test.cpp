@@ -28,22 +28,22 @@ std::vector<joint::Cutter> random_partners(std::mt19937_64& random, double rho) 
   };
   const double width = rho * any(2.6, 4.0), height = rho * any(2.6, 4.0);
   std::vector<joint::Cutter> out;
-  out.emplace_back(joint::BoxCutter{.width = width,
-                                    .height = height,
-                                    .corner = any(0.05, 0.5) * std::min(width, height),
-                                    .point = {any(-5, 5), any(-5, 5), any(-20, 20)},
-                                    .direction = axis(),
-                                    .up = {0.2, 0.1, 1.0}});
+  out.emplace_back(joint::RectangularTubeCutter{.width = width,
+                                                .height = height,
+                                                .corner = any(0.05, 0.5) * std::min(width, height),
+                                                .point = {any(-5, 5), any(-5, 5), any(-20, 20)},
+                                                .direction = axis(),
+                                                .up = {0.2, 0.1, 1.0}});
   out.emplace_back(joint::ConeCutter{.radius = rho * any(0.4, 1.6),
                                      .half_angle = Angle::deg(any(-30, 30)),
                                      .point = {any(-30, 30), any(-30, 30), any(0, 60)},
                                      .direction = axis()});
-  out.emplace_back(joint::BoxCutter{.width = rho * any(0.5, 2),
-                                    .height = rho * any(0.5, 2),
-                                    .corner = 0.05 * rho,
-                                    .point = {any(-40, 40), any(-40, 40), any(0, 80)},
-                                    .direction = axis(),
-                                    .up = {0.2, 1.0, 0.7}});
+  out.emplace_back(joint::RectangularTubeCutter{.width = rho * any(0.5, 2),
+                                                .height = rho * any(0.5, 2),
+                                                .corner = 0.05 * rho,
+                                                .point = {any(-40, 40), any(-40, 40), any(0, 80)},
+                                                .direction = axis(),
+                                                .up = {0.2, 1.0, 0.7}});
   return out;
 }
 

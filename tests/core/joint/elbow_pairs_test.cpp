@@ -7,7 +7,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/joint/contour.hpp"
-#include "core/joint/elbow.hpp"
+#include "core/joint/cutters/elbow.hpp"
 
 namespace tubecut::joint {
 namespace {

@@ -101,7 +101,7 @@ TEST(Golden, Node) {
     const auto a = vector(golden, "node/members/" + i + "/A");
     const auto b = vector(golden, "node/members/" + i + "/B");
     const auto placed =
-        place(frame->local(AxisLine{a, b - a}), number(golden, "node/members/" + i + "/r"), "");
+        place(frame->local(AxisLine{a, b - a}), number(golden, "node/members/" + i + "/r"));
     ASSERT_TRUE(placed);
     const std::string want = "node/cutters/" + i;
     EXPECT_NEAR(placed->tube.inclination.deg(), number(golden, want + "/alpha"), 1e-9);

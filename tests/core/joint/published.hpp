@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/joint/cutter.hpp"
+#include "core/joint/cutters/cutter.hpp"
 #include "tests/support/golden.hpp"
 
 namespace tubecut::joint {

@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "core/joint/cutter.hpp"
+#include "core/joint/cutters/cutter.hpp"
 #include "tests/support/ray_caster.hpp"
 
 namespace tubecut::joint {

@@ -101,7 +101,7 @@ TEST(Section, PrismEndAgainstRoundCutters) {
 
 TEST(Section, WithHalfTheSideAsCornerItIsRound) {
   const RectangularSection round{.width = 70, .height = 70, .corner = 35};
-  const auto prepared = prepare(kCutters[0], "");
+  const auto prepared = prepare(kCutters[0]);
   for (int k = 0; k < 360; ++k) {
     const double phi = k * kRadPerDeg;
     const auto a = hit(*prepared, round.at(35.0 * phi));

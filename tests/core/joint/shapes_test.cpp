@@ -7,6 +7,7 @@
 #include <iostream>
 #include <random>
 
+#include "core/base/try.hpp"
 #include "core/joint/contour.hpp"
 #include "core/joint/solid.hpp"
 
@@ -40,7 +41,7 @@ Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Outside outside(const BoxCutter& box) {
+Outside outside(const RectangularTubeCutter& box) {
   const Vec d = unit(from(box.direction));
   const Vec up = unit(minus(from(box.up), d, dot(from(box.up), d)));
   const Vec across = cross(up, d);
@@ -166,8 +167,8 @@ Eigen::Vector3d direction(std::mt19937_64& random, double steepest) {
   return {std::cos(phi), std::sin(phi), rise};
 }
 
-BoxCutter random_box(std::mt19937_64& random, double rho, bool closed) {
-  BoxCutter box;
+RectangularTubeCutter random_box(std::mt19937_64& random, double rho, bool closed) {
+  RectangularTubeCutter box;
   box.width = rho * (closed ? any(random, 2.6, 4.0) : any(random, 0.5, 2.5));
   box.height = rho * (closed ? any(random, 2.6, 4.0) : any(random, 0.5, 2.5));
   box.corner = std::min(box.width, box.height) * any(random, 0.01, 0.5);
@@ -193,7 +194,7 @@ ConeCutter random_cone(std::mt19937_64& random, double rho, bool closed) {
 template <class Shape>
 void expect_ray(const Shape& shape, double rho, double& worst, int& met, int& missed) {
   const auto f = outside(shape);
-  const auto prepared = prepare(Cutter(shape), "cutters/0");
+  const auto prepared = prepare(Cutter(shape));
   ASSERT_TRUE(prepared);
   const Solid solid{Cutter(shape)};
   for (int k = 0; k < kPhases; ++k) {
@@ -243,7 +244,7 @@ TEST(Shapes, BoxesAndConesAgreeWithTheRayCaster) {
         expect_ray(random_box(random, rho, false), rho, worst, met, missed);
       } else {
         const auto cone = random_cone(random, rho, false);
-        if (!prepare(Cutter(cone), "")) continue;  // the target runs inside its opening
+        if (!prepare(Cutter(cone))) continue;  // the target runs inside its opening
         expect_ray(cone, rho, worst, met, missed);
       }
       ++placed;
@@ -274,7 +275,7 @@ TEST(Shapes, ElbowsAgreeWithTheRayCaster) {
   while (placed < kPlacements) {
     const double rho = any(random, 10, 60);
     const auto elbow = random_elbow(random, rho);
-    const auto prepared = prepare(Cutter(elbow), "");
+    const auto prepared = prepare(Cutter(elbow));
     if (!prepared || sin_inclination(*prepared) < 0.1) continue;
     ++placed;
     const auto f = outside(elbow);
@@ -331,7 +332,7 @@ TEST(Shapes, ElbowEventsOnScans) {
     ++traced;
     std::vector<Outside> bodies{outside(std::get<TubeCutter>(cutters[0])),
                                 outside(std::get<ElbowCutter>(cutters[1])),
-                                outside(std::get<BoxCutter>(cutters[2]))};
+                                outside(std::get<RectangularTubeCutter>(cutters[2]))};
     std::size_t last = contour->segments.back().cutter;
     constexpr int kFew = 360;
     const double step = kTwoPi / kFew;
@@ -475,16 +476,16 @@ TEST(Shapes, NoEventMissedNoneExtraOnScans) {
 TEST(Shapes, ARoundBoxAndAStraightConeAreTubes) {
   const double rho = 30.0;
   const TubeCutter tube{.radius = 50.0, .inclination = Angle::deg(90)};  // along -y
-  BoxCutter box{.width = 100,
-                .height = 100,
-                .corner = 50,
-                .point = {0, 0, 0},
-                .direction = {0, -1, 0},
-                .up = {0.3, 0, 1}};
+  RectangularTubeCutter box{.width = 100,
+                            .height = 100,
+                            .corner = 50,
+                            .point = {0, 0, 0},
+                            .direction = {0, -1, 0},
+                            .up = {0.3, 0, 1}};
   ConeCutter cone{.radius = 50, .half_angle = {}, .point = {0, 7, 0}, .direction = {0, -2, 0}};
-  const auto want = prepare(Cutter(tube), "");
+  const auto want = prepare(Cutter(tube));
   for (const Cutter& other : {Cutter(box), Cutter(cone)}) {
-    const auto got = prepare(other, "");
+    const auto got = prepare(other);
     ASSERT_TRUE(got);
     for (int k = 0; k < 360; ++k) {
       const auto line = generator_at(rho, k * kRadPerDeg);
@@ -500,12 +501,12 @@ TEST(Shapes, ARoundBoxAndAStraightConeAreTubes) {
 
 TEST(Shapes, WhatCannotBeAPartnerIsNamed) {
   const auto code = [](const Cutter& cutter) {
-    const auto made = prepare(cutter, "cutters/0");
+    const auto made = under("cutters/0", prepare(cutter));
     return made ? std::string("ok")
                 : std::string(info(made.error().code()).code) + " " +
                       made.error().issues.front().member;
   };
-  BoxCutter box{.width = 80, .height = 60, .corner = 5};
+  RectangularTubeCutter box{.width = 80, .height = 60, .corner = 5};
   EXPECT_EQ(code(box), "ok");
   box.corner = 0;
   EXPECT_EQ(code(box), "out_of_range cutters/0/corner_radius");

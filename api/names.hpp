@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+namespace tubecut::api {
+
+/// A value and its name on the wire.
+template <class E>
+struct Option {
+  std::string_view name;
+  E value;
+};
+
+/// The names of all values of an enumeration, once, in the order in which they are offered: read
+/// by `Reader::choice`, written by `name_of`. Given in api/wire_names.hpp.
+template <class E>
+inline constexpr auto kNames = nullptr;
+
+template <class E>
+concept Named = requires {
+  kNames<E>.size();
+};
+
+template <Named E>
+[[nodiscard]] constexpr std::string_view name_of(E value) {
+  for (const auto& [name, one] : kNames<E>)
+    if (one == value) return name;
+  throw std::logic_error("a value without a name");
+}
+
+/// The first of a list, where not all are offered.
+template <std::size_t Count, class E, std::size_t N>
+[[nodiscard]] constexpr std::array<Option<E>, Count> first(const std::array<Option<E>, N>& all) {
+  std::array<Option<E>, Count> out{};
+  std::copy_n(all.begin(), Count, out.begin());
+  return out;
+}
+
+}  // namespace tubecut::api

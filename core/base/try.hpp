@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+/// `TRY(auto table, make(spec));` takes the value of a Result or hands its error to the caller;
+/// `TRY(check(spec));` has no value to take. The one macro for control flow: C++20 has no operator
+/// for it.
+#define TRY(...) TUBECUT_TRY_PICK(__VA_ARGS__, TUBECUT_TRY_TAKE, TUBECUT_TRY_ONLY, )(__VA_ARGS__)
+#define TUBECUT_TRY_PICK(first, second, name, ...) name
+#define TUBECUT_TRY_ONLY(...)                                                                     \
+  do {                                                                                            \
+    if (auto tried = (__VA_ARGS__); !tried) return tl::make_unexpected(std::move(tried).error()); \
+  } while (false)
+#define TUBECUT_TRY_TAKE(into, ...) TUBECUT_TRY_AT(__LINE__, into, __VA_ARGS__)
+#define TUBECUT_TRY_AT(line, ...) TUBECUT_TRY_NAMED(line, __VA_ARGS__)
+#define TUBECUT_TRY_NAMED(line, into, ...) TUBECUT_TRY_AS(tried_##line, into, __VA_ARGS__)
+#define TUBECUT_TRY_AS(tried, into, ...)                            \
+  auto tried = (__VA_ARGS__);                                       \
+  if (!tried) return tl::make_unexpected(std::move(tried).error()); \
+  into = *std::move(tried)
+
+namespace tubecut {
+
+/// The error of a part of the request as the whole calls it: every path begins with `where`.
+[[nodiscard]] inline Error under(std::string_view where, Error error) {
+  for (auto& issue : error.issues)
+    issue.member = std::string(where) + (issue.member.empty() ? "" : "/") + issue.member;
+  return error;
+}
+template <class T>
+[[nodiscard]] Result<T> under(std::string_view where, Result<T> of) {
+  if (!of) of.error() = under(where, std::move(of).error());
+  return of;
+}
+
+}  // namespace tubecut

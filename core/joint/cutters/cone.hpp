@@ -1,0 +1,78 @@
+#pragma once
+
+#include "core/joint/cutters/axis_frame.hpp"
+#include "core/joint/cutters/convex.hpp"
+#include "core/joint/cutters/kind.hpp"
+
+namespace tubecut::joint {
+
+struct PreparedCone {
+  AxisFrame frame;
+  double radius, slope;  // radius + slope * (along the axis)
+
+  [[nodiscard]] double sine() const;
+  [[nodiscard]] std::optional<double> upper_sheet(const Generator& line) const;
+  [[nodiscard]] double continued_sheet(const Generator& line) const;
+  [[nodiscard]] Hit continued_hit(const Generator& line) const;
+  [[nodiscard]] double silhouette_height(const Generator& line) const;
+  [[nodiscard]] double silhouette_slope(const Generator& /*line*/) const { return 0.0; }
+  [[nodiscard]] Hit hit_at_corner(const Generator& line, Side /*side*/) const {
+    return continued_hit(line);
+  }
+  [[nodiscard]] Eigen::Vector3d published_normal(const Generator& line) const {
+    return continued_hit(line).normal;
+  }
+  [[nodiscard]] Met met(double rho) const { return met_between_silhouettes(*this, rho); }
+  [[nodiscard]] double size(double rho) const { return (std::abs(radius) + rho) / sine(); }
+  [[nodiscard]] std::vector<Sheets> sheets(double rho) const;
+  [[nodiscard]] std::vector<double> silhouettes(double rho) const;
+  [[nodiscard]] std::vector<double> kinks(double /*rho*/) const { return {}; }
+  [[nodiscard]] Heights heights_near(const Generator& /*line*/, double /*off*/) const { return {}; }
+  [[nodiscard]] Sides sides(const Generator& line) const;
+  [[nodiscard]] double steepest(const Wall& wall, const Generator& inner, double z_root) const {
+    return WallSection(*this, wall, inner).steepest(z_root);
+  }
+  [[nodiscard]] double support(const Wall& wall, const Generator& inner, double cut) const {
+    return WallSection(*this, wall, inner).support(cut);
+  }
+};
+
+struct ConeSolid {
+  Eigen::Vector3d point, direction;  // of the axis; unit
+  double radius;                     // at `point`
+  double sine, cosine;               // of its half angle
+
+  [[nodiscard]] double scale() const { return radius; }
+  [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
+  [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
+  [[nodiscard]] std::optional<double> top(double x, double y) const {
+    return convex_top(*this, x, y);
+  }
+  [[nodiscard]] double clearance(double x, double y) const {
+    return distance({x, y, deepest(*this, x, y)});
+  }
+  [[nodiscard]] double least_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    return convex_least_distance(*this, a, b);
+  }
+  [[nodiscard]] double most_hollow(double /*to*/) const { return 0.0; }
+};
+
+/// A cone as partner (a reducer): one nappe, without end. Lengths in mm.
+struct ConeCutter {
+  using Prepared = PreparedCone;
+  using Solid = ConeSolid;
+
+  double radius = 0.0;    // > 0, at `point`
+  Angle half_angle = {};  // between axis and surface, growing along the direction; +-80 deg
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+
+  /// Refused too when the target runs along its surface or inside its opening.
+  [[nodiscard]] Result<Prepared> prepare() const;
+  [[nodiscard]] Solid solid() const;
+  void grow(double by);
+  void turn(const TurnAboutAxis& turn);
+  [[nodiscard]] std::optional<Bearing> bearing() const { return bearing_of_axis(direction); }
+};
+
+}  // namespace tubecut::joint

@@ -1,0 +1,388 @@
+#include "core/joint/cutters/elbow.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/elementary.hpp"
+#include "core/joint/cutters/convex.hpp"
+#include "core/joint/sheets.hpp"
+#include "core/math/search.hpp"
+
+namespace tubecut::joint {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int kSteps = 400;
+constexpr double kOnSurface = 1e-14;  // relative
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHair = 1e-9;  // relative
+constexpr std::size_t kScan = 720;
+/// An elbow is not convex: its section is scanned across the wall and refined around the steepest
+/// place. What lies between is caught by the table's own proof, not by this.
+constexpr int kAcross = 33;
+constexpr int kAlong = 24;
+
+/// One stretch of the centre line seen from a point: its nearest point and how the distance from
+/// it may bend along a line.
+struct Near {
+  Vector3d foot;
+  double distance;
+  bool arc;
+};
+
+Near near_leg(const Vector3d& p, const Vector3d& from, const Vector3d& along) {
+  const Vector3d foot = from + std::max(0.0, (p - from).dot(along)) * along;
+  return {foot, (p - foot).norm(), false};
+}
+
+struct Legs {
+  Vector3d start, end, end_along;
+};
+
+Legs legs(const PreparedElbow& e) {
+  const Vector3d end(e.end.x() * e.bend_radius, e.end.y() * e.bend_radius, 0.0);
+  return {{e.bend_radius, 0.0, 0.0}, end, {-e.end.y(), e.end.x(), 0.0}};
+}
+
+bool in_sector(const PreparedElbow& e, const Vector3d& p) {
+  return p.y() >= 0.0 && p.x() * e.end.y() - p.y() * e.end.x() >= 0.0;
+}
+
+Near near_circle(const PreparedElbow& e, const Vector3d& p) {
+  const double r = elementary::hypot(p.x(), p.y());
+  const Vector3d foot(p.x() * e.bend_radius / r, p.y() * e.bend_radius / r, 0.0);
+  return {foot, elementary::hypot(r - e.bend_radius, p.z()), true};
+}
+
+/// The stretches of the centre line; the arc is there where the point faces it.
+struct Stretches {
+  std::array<Near, 3> all;
+  std::size_t count;
+  [[nodiscard]] const Near& nearest() const {
+    return *std::min_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count),
+                             [](const Near& a, const Near& b) { return a.distance < b.distance; });
+  }
+};
+
+Stretches stretches(const PreparedElbow& e, const Vector3d& p) {
+  const auto l = legs(e);
+  Stretches out{{near_leg(p, l.start, -Vector3d::UnitY()), near_leg(p, l.end, l.end_along), {}}, 2};
+  if (!in_sector(e, p)) return out;
+  if (!(elementary::hypot(p.x(), p.y()) > 0.0)) return out;
+  out.all[2] = near_circle(e, p);
+  out.count = 3;
+  return out;
+}
+
+/// How far the line may go down from p before this stretch's surface can be reached. Distance from
+/// a straight leg is convex along the line; from the arc it bends by at most 2 / (R - r) as long as
+/// the line stays halfway from the bend's axis.
+double free_way(const PreparedElbow& e, const Vector3d& p, const Near& near) {
+  const double gap = near.distance - e.radius;
+  const double falling = near.distance > 0.0 ? (p - near.foot).dot(e.rise) / near.distance : 1.0;
+  if (!near.arc) return falling > 0.0 ? gap / falling : kInfinity;
+  const double room = 0.5 * (e.bend_radius - e.radius);
+  const double bend = 1.0 / room;
+  const double way =
+      2.0 * gap / (falling + std::sqrt(std::max(0.0, falling * falling + 2.0 * bend * gap)));
+  return std::max(gap, std::min(way, room - gap));
+}
+
+/// The same for the arc from a point that does not face it: no nearer than its two ends, and no
+/// nearer than the whole circle.
+double free_way_aside(const PreparedElbow& e, const Vector3d& p) {
+  const auto l = legs(e);
+  const double ends = std::min((p - l.start).norm(), (p - l.end).norm()) - e.radius;
+  const double r = elementary::hypot(p.x(), p.y());
+  if (!(r > 0.0)) return ends;
+  const auto circle = near_circle(e, p);
+  return circle.distance > e.radius ? std::max(ends, free_way(e, p, circle)) : ends;
+}
+
+Vector3d foot_of(const PreparedElbow& e, const Generator& g) {
+  return e.rows * (Vector3d(g.radius * g.cos_phi, g.radius * g.sin_phi, 0.0) - e.center);
+}
+
+/// The line's two heights between which it can meet the elbow: in reach of the bend, or of a leg's
+/// whole cylinder.
+std::array<double, 2> range(const PreparedElbow& e, const Vector3d& o) {
+  const auto l = legs(e);
+  const double reach = e.bend_radius + e.radius;
+  const double middle = -o.dot(e.rise);
+  std::array<double, 2> out{middle - reach, middle + reach};
+  for (const auto& [from, along] :
+       {std::pair{l.start, Vector3d(-Vector3d::UnitY())}, std::pair{l.end, l.end_along}}) {
+    const Vector3d v = o - from;
+    const Vector3d across = e.rise - e.rise.dot(along) * along;
+    const double a = across.squaredNorm();
+    const double z = -v.dot(across) / a;
+    const double half = e.radius / std::sqrt(a);
+    out = {std::min(out[0], z - half), std::max(out[1], z + half)};
+  }
+  return out;
+}
+
+/// The greatest value over the wall of a generator's heights, -infinity where the elbow is missed.
+template <class F>
+double greatest_across(const PreparedElbow& elbow, const Wall& wall, const Generator& g,
+                       double from, F value) {
+  std::vector<double> grid, sampled;
+  const auto at = [&](double rho) {
+    const auto top = elbow.upper_sheet({rho, g.cos_phi, g.sin_phi});
+    return top ? value(rho, *top) : -kInfinity;
+  };
+  for (int k = 0; k < kAcross; ++k) {
+    grid.push_back(from + (wall.outer - from) * k / (kAcross - 1));
+    sampled.push_back(at(grid.back()));
+  }
+  return math::grid_maximum(at, grid, sampled).value;
+}
+
+}  // namespace
+
+Result<PreparedElbow> ElbowCutter::prepare() const {
+  if (!(radius > 0.0) || !std::isfinite(radius))
+    return beyond_limit("outer_diameter", 2.0 * radius, 0.0, "mm");
+  if (!(bend_radius > radius) || !std::isfinite(bend_radius))
+    return beyond_limit("bend_radius", bend_radius, radius, "mm");
+  if (!(bend.rad() > 0.0) || bend.rad() > kPi)
+    return beyond_limit("bend", bend.deg(), 180.0, "deg");
+  const double length = direction.norm();
+  if (!(length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "axis"});
+  const Vector3d y = direction / length;
+  const Vector3d across = inwards - inwards.dot(y) * y;
+  if (!(inwards.norm() > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "inwards"});
+  if (!(across.norm() >= kParallel * inwards.norm()))
+    return fail({.code = ErrorCode::bad_reference_direction, .member = "inwards"});
+  const Vector3d x = -across.normalized();
+  PreparedElbow out;
+  out.center = point - bend_radius * x;
+  out.rows.row(0) = x;
+  out.rows.row(1) = y;
+  out.rows.row(2) = x.cross(y);
+  out.rise = out.rows.col(2);
+  out.radius = radius;
+  out.bend_radius = bend_radius;
+  const auto at = elementary::sincos(bend.rad());
+  out.end = {at.cos, at.sin};
+  if (!(out.sine() >= kParallel)) return parallel_axes("", out.sine());
+  return out;
+}
+
+void ElbowCutter::turn(const TurnAboutAxis& turn) {
+  point = turn.by * point;
+  direction = turn.by * direction;
+  inwards = turn.by * inwards;
+}
+
+// ---- on the target's generators
+
+double PreparedElbow::sine() const {
+  return std::min(elementary::hypot(rise.x(), rise.z()), rise.cross(legs(*this).end_along).norm());
+}
+
+ElbowPass PreparedElbow::pass(const Generator& line) const {
+  const Vector3d o = foot_of(*this, line);
+  const auto [low, high] = range(*this, o);
+  const double size = radius + bend_radius + line.radius;
+  ElbowPass out{.met = false, .z = high, .clearance = kInfinity};
+  double z = high;
+  for (int step = 0; step < kSteps && z >= low; ++step) {
+    const Vector3d p = o + z * rise;
+    const auto all = stretches(*this, p);
+    const double gap = all.nearest().distance - radius;
+    if (gap < out.clearance) {
+      out.clearance = gap;
+      out.z = z;
+    }
+    if (gap <= kOnSurface * size) break;
+    double way = kInfinity;
+    for (std::size_t i = 0; i < all.count; ++i) way = std::min(way, free_way(*this, p, all.all[i]));
+    if (all.count == 2) way = std::min(way, free_way_aside(*this, p));
+    z -= way;
+  }
+  out.met = out.clearance <= kTouch * size;
+  return out;
+}
+
+std::optional<double> PreparedElbow::upper_sheet(const Generator& line) const {
+  const auto passed = pass(line);
+  return passed.met ? std::optional(passed.z) : std::nullopt;
+}
+
+Hit PreparedElbow::continued_hit(const Generator& line) const {
+  const double z = pass(line).z;
+  const Vector3d p = foot_of(*this, line) + z * rise;
+  const auto near = stretches(*this, p).nearest();
+  const Vector3d u = (p - near.foot) / near.distance;
+  const double r = elementary::hypot(p.x(), p.y());
+  const Vector3d t = near.arc ? Vector3d(-p.y() / r, p.x() / r, 0.0)
+                     : near.foot.y() <= 0.0 && near.foot.x() == bend_radius
+                         ? Vector3d(Vector3d::UnitY())
+                         : legs(*this).end_along;
+  const Vector3d v = u.cross(t);
+  Matrix3d hessian = v * v.transpose() / near.distance;
+  if (near.arc) hessian += (u.x() * p.x() + u.y() * p.y()) / (r * r) * (t * t.transpose());
+  return hit_on({z, u, std::max(0.0, u.dot(rise)), hessian, 0.0}, rows, line);
+}
+
+Met PreparedElbow::met(double rho) const { return met_between_silhouettes(*this, rho); }
+
+std::vector<Sheets> PreparedElbow::sheets(double /*rho*/) const { return {}; }
+
+std::vector<double> PreparedElbow::silhouettes(double rho) const {
+  const auto at = [&](double phi) { return pass(generator_at(rho, phi)); };
+  const auto border = [&](double met, double missed) {
+    return math::last_true([&](double t) { return at(met + t * (missed - met)).met; }, 0.0, 1.0) *
+               (missed - met) +
+           met;
+  };
+  std::vector<ElbowPass> scan;
+  for (std::size_t k = 0; k <= kScan + 1; ++k)
+    scan.push_back(at(kTwoPi * static_cast<double>(k) / kScan));
+  std::vector<double> out;
+  for (std::size_t k = 0; k < kScan; ++k) {
+    const double phi = kTwoPi * static_cast<double>(k) / kScan;
+    const double next = phi + kTwoPi / kScan;
+    if (scan[k].met != scan[k + 1].met)
+      out.push_back(scan[k].met ? border(phi, next) : border(next, phi));
+    // A generator between may dip in where the clearance has a least value.
+    const bool least = !scan[k].met && !scan[k + 1].met && !scan[k + 2].met &&
+                       scan[k + 1].clearance <= std::min(scan[k].clearance, scan[k + 2].clearance);
+    if (!least) continue;
+    const auto nearest = math::golden_maximum([&](double p) { return -at(p).clearance; }, phi,
+                                              next + kTwoPi / kScan);
+    if (!at(nearest.at).met) continue;
+    out.push_back(border(nearest.at, phi));
+    out.push_back(border(nearest.at, next + kTwoPi / kScan));
+  }
+  return out;
+}
+
+// An elbow thicker by `off` bounds the heights of all generators no further than that from the
+// line, one thinner from below.
+Heights PreparedElbow::heights_near(const Generator& line, double off) const {
+  const auto height = [&](double thicker) {
+    auto other = *this;
+    other.radius += thicker;
+    return other.upper_sheet(line).value_or(-kInfinity);
+  };
+  Heights out;
+  if (radius + off < bend_radius) out.most = height(off);
+  if (radius > off) out.least = height(-off);
+  return out;
+}
+
+double PreparedElbow::steepest(const Wall& wall, const Generator& g, double z_root) const {
+  double best = -kInfinity;
+  const auto root = upper_sheet(g);
+  if (root && *root >= z_root - kSameHeight * (wall.outer + std::abs(z_root))) {
+    const auto n = continued_hit(g).normal;
+    best = n.z() > 0.0 ? -n.x() / n.z() : n.x() > 0.0 ? -kInfinity : kInfinity;
+  }
+  // Nearer to the root than that the slope is lost in the rounding of z, and the root's own holds.
+  const double from = wall.inner + 1e-4 * (wall.outer - wall.inner);
+  return std::max(best, greatest_across(*this, wall, g, from, [&](double rho, double z) {
+                    return (z - z_root) / (rho - wall.inner);
+                  }));
+}
+
+double PreparedElbow::support(const Wall& wall, const Generator& g, double slope) const {
+  return greatest_across(*this, wall, g, wall.inner,
+                         [&](double rho, double z) { return z - (rho - wall.inner) * slope; });
+}
+
+// ---- in space
+
+ElbowSolid ElbowCutter::solid() const {
+  const Vector3d along = direction.normalized();
+  const Vector3d across = -(inwards - inwards.dot(along) * along).normalized();
+  return {point - bend_radius * across, along, across, radius, bend_radius, bend.rad()};
+}
+
+// By the angle around the bend's axis, clamped to the arc, and by the feet on the two legs.
+Vector3d ElbowSolid::on_centre_line(const Vector3d& p) const {
+  const Vector3d from = p - point;
+  double turn = elementary::atan2(from.dot(direction), from.dot(across)) - 0.5 * bend;
+  turn -= kTwoPi * std::floor(turn / kTwoPi + 0.5);
+  const auto at = elementary::sincos(std::clamp(turn, -0.5 * bend, 0.5 * bend) + 0.5 * bend);
+  const auto end = elementary::sincos(bend);
+  const Vector3d start_point = point + bend_radius * across;
+  const Vector3d end_point = point + bend_radius * (end.cos * across + end.sin * direction);
+  const Vector3d leaving = end.cos * direction - end.sin * across;
+  Vector3d best = point + bend_radius * (at.cos * across + at.sin * direction);
+  for (const Vector3d& foot :
+       {Vector3d(start_point - std::max(0.0, (start_point - p).dot(direction)) * direction),
+        Vector3d(end_point + std::max(0.0, (p - end_point).dot(leaving)) * leaving)})
+    if ((p - foot).norm() < (p - best).norm()) best = foot;
+  return best;
+}
+
+Vector2d ElbowSolid::range(double x, double y) const {
+  const auto end = elementary::sincos(bend);
+  const Vector3d leaving = end.cos * direction - end.sin * across;
+  const double steep = std::max(std::abs(direction.z()), std::abs(leaving.z()));
+  const double flat = std::sqrt(std::max(1e-12, (1.0 - steep) * (1.0 + steep)));
+  const double reach = elementary::hypot(x - point.x(), y - point.y()) + bend_radius + radius;
+  return {point.z() - 2.0 * reach / flat, point.z() + 2.0 * reach / flat};
+}
+
+double ElbowSolid::distance(const Vector3d& p) const {
+  return (p - on_centre_line(p)).norm() - radius;
+}
+
+Vector3d ElbowSolid::normal(const Vector3d& p) const {
+  return (p - on_centre_line(p)).normalized();
+}
+
+std::optional<double> ElbowSolid::top(double x, double y) const {
+  constexpr int kDown = 20'000;
+  const auto between = range(x, y);
+  const double near = 1e-12 * (radius + bend_radius + std::abs(point.z()));
+  double z = between[1];
+  for (int step = 0; step < kDown && z > between[0]; ++step) {
+    const double away = distance({x, y, z});
+    if (away <= near) return z;
+    z -= away;
+  }
+  return std::nullopt;
+}
+
+double ElbowSolid::clearance(double x, double y) const {
+  constexpr int kSamples = 400;
+  const auto between = range(x, y);
+  std::vector<double> z, deep;
+  const auto depth = [&](double at) { return -distance({x, y, at}); };
+  for (int k = 0; k <= kSamples; ++k) {
+    z.push_back(between[0] + (between[1] - between[0]) * k / kSamples);
+    deep.push_back(depth(z.back()));
+  }
+  return -math::grid_maximum(depth, z, deep).value;
+}
+
+// The distance along a line may have several least values: they are looked for on a grid.
+double ElbowSolid::least_distance(const Vector3d& a, const Vector3d& b) const {
+  const auto near = [&](double share) { return -distance(a + share * (b - a)); };
+  std::vector<double> grid, sampled;
+  for (int k = 0; k <= kAlong; ++k) {
+    grid.push_back(static_cast<double>(k) / kAlong);
+    sampled.push_back(near(grid.back()));
+  }
+  return std::min({distance(a), distance(0.5 * (a + b)), distance(b),
+                   -math::grid_maximum(near, grid, sampled).value});
+}
+
+// The centre line, an arc of at most half a turn with its legs, is nowhere nearer to itself than
+// its bend radius R: within s < R of it the distance bends inwards by at most 1/(R - s).
+double ElbowSolid::most_hollow(double to) const {
+  const double room = bend_radius - std::max(0.0, radius + to);
+  return room > 0.0 ? 1.0 / room : kInfinity;
+}
+
+}  // namespace tubecut::joint

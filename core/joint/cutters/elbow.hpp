@@ -1,0 +1,101 @@
+#pragma once
+
+#include "core/joint/cutters/kind.hpp"
+
+namespace tubecut::joint {
+
+/// How a generator passes an elbow from above: its highest point of the surface, or, where it
+/// misses, the place it comes nearest to.
+struct ElbowPass {
+  bool met = false;
+  double z = 0.0;
+  double clearance = 0.0;  // <= 0 where met
+};
+
+/// In the frame of the bend: origin at its centre, x to where it begins, y along the direction
+/// there, z across. `end` is where it ends on the unit circle.
+struct PreparedElbow {
+  Eigen::Vector3d center;
+  Eigen::Matrix3d rows;
+  Eigen::Vector3d rise;  // the target's z
+  double radius, bend_radius;
+  Eigen::Vector2d end;
+
+  /// The distance from the centre line is followed downwards by steps that cannot pass the surface:
+  /// by the distance itself, or by a bound of second order, which converges quadratically.
+  /// Accuracy  the point is within 1e-12 (radius + bend radius) of the surface.
+  /// Cost      about ten distances; a grazing generator up to a hundred.
+  /// Source    docs/theory/intersections-and-bevels.md, section 9.
+  [[nodiscard]] ElbowPass pass(const Generator& line) const;
+
+  [[nodiscard]] double sine() const;
+  [[nodiscard]] std::optional<double> upper_sheet(const Generator& line) const;
+  [[nodiscard]] double continued_sheet(const Generator& line) const { return pass(line).z; }
+  [[nodiscard]] Hit continued_hit(const Generator& line) const;
+  [[nodiscard]] double silhouette_height(const Generator& line) const { return pass(line).z; }
+  [[nodiscard]] double silhouette_slope(const Generator& /*line*/) const { return 0.0; }
+  [[nodiscard]] Hit hit_at_corner(const Generator& line, Side /*side*/) const {
+    return continued_hit(line);
+  }
+  [[nodiscard]] Eigen::Vector3d published_normal(const Generator& line) const {
+    return continued_hit(line).normal;
+  }
+  [[nodiscard]] Met met(double rho) const;
+  [[nodiscard]] double size(double rho) const { return (radius + bend_radius + rho) / sine(); }
+  /// None: its surface is of the fourth degree, and its events are bracketed instead.
+  [[nodiscard]] std::vector<Sheets> sheets(double rho) const;
+  /// Bracketed on a scan: an elbow that is met over less than half a degree may be missed unless
+  /// the scan sees the generator come near.
+  [[nodiscard]] std::vector<double> silhouettes(double rho) const;
+  [[nodiscard]] std::vector<double> kinks(double /*rho*/) const { return {}; }
+  [[nodiscard]] Heights heights_near(const Generator& line, double off) const;
+  [[nodiscard]] double steepest(const Wall& wall, const Generator& inner, double z_root) const;
+  [[nodiscard]] double support(const Wall& wall, const Generator& inner, double slope) const;
+};
+
+struct ElbowSolid {
+  Eigen::Vector3d point;  // the bend's centre
+  Eigen::Vector3d direction,
+      across;  // unit: of the leg that comes in, and to where the bend begins
+  double radius, bend_radius;
+  double bend;  // rad
+
+  [[nodiscard]] double scale() const { return radius; }
+  [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
+  [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
+  /// Down the line from above, no further than the surface is away.
+  [[nodiscard]] std::optional<double> top(double x, double y) const;
+  [[nodiscard]] double clearance(double x, double y) const;
+  [[nodiscard]] double least_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+  [[nodiscard]] double most_hollow(double to) const;
+
+ private:
+  /// The point of the centre line nearest to this one.
+  [[nodiscard]] Eigen::Vector3d on_centre_line(const Eigen::Vector3d& p) const;
+  /// Heights between which a line can come near.
+  [[nodiscard]] Eigen::Vector2d range(double x, double y) const;
+};
+
+/// A bent tube as partner: an arc of a torus with its two straight legs, which have no end.
+/// Lengths in mm. The bend begins at `point` of the centre line, runs along `direction` there and
+/// turns towards `inwards`.
+struct ElbowCutter {
+  using Prepared = PreparedElbow;
+  using Solid = ElbowSolid;
+
+  double radius = 0.0;          // > 0, of the tube
+  double bend_radius = 0.0;     // > radius, of the centre line
+  Angle bend = Angle::deg(90);  // (0, 180] deg
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d inwards = Eigen::Vector3d::UnitZ();  // made perpendicular to the direction
+
+  /// Refused too when the target runs along one of the legs.
+  [[nodiscard]] Result<Prepared> prepare() const;
+  [[nodiscard]] Solid solid() const;
+  void grow(double by) { radius += by; }
+  void turn(const TurnAboutAxis& turn);
+  [[nodiscard]] std::optional<Bearing> bearing() const { return bearing_of_axis(direction); }
+};
+
+}  // namespace tubecut::joint
