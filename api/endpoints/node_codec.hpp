@@ -53,8 +53,7 @@ struct JointSource {
 [[nodiscard]] Error on_node(const JointSource& source, Error error);
 template <class T>
 [[nodiscard]] Result<T> on_node(const JointSource& source, Result<T> of) {
-  if (!of) of.error() = on_node(source, std::move(of).error());
-  return of;
+  return std::move(of).map_error([&](Error error) { return on_node(source, std::move(error)); });
 }
 [[nodiscard]] std::vector<Warning> on_node(const JointSource& source,
                                            std::vector<Warning> warnings);
