@@ -33,8 +33,7 @@ namespace tubecut {
 }
 template <class T>
 [[nodiscard]] Result<T> under(std::string_view where, Result<T> of) {
-  if (!of) of.error() = under(where, std::move(of).error());
-  return of;
+  return std::move(of).map_error([&](Error error) { return under(where, std::move(error)); });
 }
 
 }  // namespace tubecut

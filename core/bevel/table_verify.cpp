@@ -17,8 +17,7 @@ constexpr double kAngle = 1e-9;        // deg
 constexpr double kPlane = 1e-9;        // sine of the angle between line and plane
 constexpr double kPenetration = 1e-6;  // mm
 constexpr double kStated = 1e-3;       // mm
-constexpr int kAlongBend = 24;
-constexpr double kSilhouette = 1e-5;  // axial part of the normal below which angles lose digits
+constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
 
 /// One row seen in 3D, from the table's own z and the partner as a solid.
 struct Row {

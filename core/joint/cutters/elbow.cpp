@@ -21,7 +21,6 @@ using Eigen::Vector3d;
 constexpr int kSteps = 400;
 constexpr double kOnSurface = 1e-14;  // relative
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHair = 1e-9;  // relative
 constexpr std::size_t kScan = 720;
 /// An elbow is not convex: its section is scanned across the wall and refined around the steepest
 /// place. What lies between is caught by the table's own proof, not by this.
