@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace tubecut::api {
@@ -10,6 +11,7 @@ namespace {
 enum class Major : std::uint8_t { natural, negative, bytes, text, array, map, tag };
 constexpr std::uint8_t kInt16LittleEndian = 77;
 constexpr std::uint8_t kInt32LittleEndian = 78;
+constexpr double kExact = 9007199254740992.0;  // 2^53: every whole number up to it is a double
 
 void big_endian(std::string& out, std::uint64_t bits, int bytes) {
   for (int i = bytes - 1; i >= 0; --i) out += static_cast<char>((bits >> (8 * i)) & 0xFFU);
@@ -71,30 +73,28 @@ void CborWriter::begin_item() {
   if (!frames_.back().object) ++frames_.back().items;
 }
 
-bool CborWriter::null() {
+void CborWriter::null() {
   begin_item();
   here() += '\xF6';
-  return true;
 }
 
-bool CborWriter::boolean(bool v) {
+void CborWriter::boolean(bool v) {
   begin_item();
   here() += v ? '\xF5' : '\xF4';
-  return true;
 }
 
-bool CborWriter::integer(std::int64_t v) {
+void CborWriter::integer(std::int64_t v) {
   if (!frames_.empty() && frames_.back().column) {
     ++frames_.back().items;
     frames_.back().integers.push_back(v);
-    return true;
+    return;
   }
   begin_item();
   put_integer(here(), v);
-  return true;
 }
 
-bool CborWriter::number(double v) {
+void CborWriter::number(double v) {
+  if (v == std::trunc(v) && std::abs(v) <= kExact) return integer(static_cast<std::int64_t>(v));
   begin_item();
   const auto narrow = static_cast<float>(v);
   const bool fits = static_cast<double>(narrow) == v;
@@ -103,47 +103,47 @@ bool CborWriter::number(double v) {
     big_endian(here(), std::bit_cast<std::uint32_t>(narrow), 4);
   else
     big_endian(here(), std::bit_cast<std::uint64_t>(v), 8);
-  return true;
 }
 
-bool CborWriter::text(std::string_view v) {
+void CborWriter::text(std::string_view v) {
   begin_item();
   head(here(), Major::text, v.size());
   here() += v;
-  return true;
 }
 
-bool CborWriter::key(std::string_view name) {
+void CborWriter::raw(std::string_view item) {
+  begin_item();
+  here() += item;
+}
+
+void CborWriter::key(std::string_view name) {
   auto& frame = frames_.back();
   ++frame.items;
   head(frame.bytes, Major::text, name.size());
   frame.bytes += name;
   key_ = name;
-  return true;
 }
 
-bool CborWriter::open(bool object) {
+void CborWriter::open(bool object) {
   begin_item();
   const bool in_counts = !frames_.empty() && frames_.back().counts;
   const bool named = !frames_.empty() && frames_.back().object;
   frames_.push_back({.object = object,
                      .counts = object && named && key_ == "counts",
                      .column = !object && in_counts});
-  return true;
 }
 
-bool CborWriter::close() {
+void CborWriter::close() {
   Frame done = std::move(frames_.back());
   frames_.pop_back();
   const bool typed = done.column && all_fit<std::int32_t>(done.integers);
   if (typed) {
     here() += typed_array(done.integers);
-    return true;
+    return;
   }
   if (done.column) give_up_column(done);
   head(here(), done.object ? Major::map : Major::array, done.items);
   here() += done.bytes;
-  return true;
 }
 
 }  // namespace tubecut::api

@@ -7,19 +7,23 @@
 
 namespace tubecut::api {
 
-/// Writes CBOR (RFC 8949, definite lengths, shortest forms) from the events of a JSON text, without
-/// a document in between: an answer of a million periods would take sixteen bytes a number.
-/// Columns of integers in an object named "counts" become RFC 8746 typed arrays.
+/// Writes CBOR (RFC 8949, definite lengths, shortest forms) item by item, without a document in
+/// between: an answer of a million periods would take sixteen bytes a number. Columns of integers
+/// in an object named "counts" become RFC 8746 typed arrays (tag 77, int16 little endian; tag 78,
+/// int32, where a value does not fit).
 class CborWriter {
  public:
-  bool null();
-  bool boolean(bool v);
-  bool integer(std::int64_t v);
-  bool number(double v);
-  bool text(std::string_view v);
-  bool key(std::string_view name);
-  bool open(bool object);
-  bool close();
+  void null();
+  void boolean(bool v);
+  void integer(std::int64_t v);
+  /// A whole number within 2^53 is an integer; `v` must be finite.
+  void number(double v);
+  void text(std::string_view v);
+  /// One item that is CBOR already.
+  void raw(std::string_view item);
+  void key(std::string_view name);
+  void open(bool object);
+  void close();
 
   [[nodiscard]] std::string take() { return std::move(out_); }
 

@@ -23,18 +23,17 @@ std::string media_of(std::string_view header) {
   return media;
 }
 
-enum class Body { json, cbor, text };
 struct Choice {
-  Body body = Body::json;
-  const FormatName* format = nullptr;
+  Encoding encoding = Encoding::json;
+  const FormatName* format = nullptr;  // instead, unless nullptr
 };
 
 std::optional<Choice> choice_by(std::string_view word, const Endpoint& endpoint, bool by_name) {
   if (word == (by_name ? "json" : kJsonMedia)) return Choice{};
-  if (word == (by_name ? "cbor" : kCborMedia)) return Choice{Body::cbor, nullptr};
+  if (word == (by_name ? "cbor" : kCborMedia)) return Choice{Encoding::cbor, nullptr};
   if (!by_name && (word == "*/*" || word == "application/*")) return Choice{};
   for (const auto& format : endpoint.formats)
-    if (word == (by_name ? format.name : format.media)) return Choice{Body::text, &format};
+    if (word == (by_name ? format.name : format.media)) return Choice{Encoding::json, &format};
   return std::nullopt;
 }
 
@@ -200,7 +199,7 @@ Outcome Job::work(const Endpoint& endpoint) {
                   body.error().reason + " at byte " + std::to_string(body.error().offset));
   Reader in(*body);
   in.set_stop(context_.stop);
-  in.set_binary(choice->body == Body::cbor);
+  in.set_binary(choice->encoding == Encoding::cbor);
   const auto common = read_common_fields(in, endpoint.accepts);
   if (common.numerics && *common.numerics != numerics())
     return refuse(Problem{
@@ -213,6 +212,7 @@ Outcome Job::work(const Endpoint& endpoint) {
                     .unit = {},
                     .hint = {}}}});
   Run run{.stop = context_.stop,
+          .encoding = choice->encoding,
           .format = choice->format,
           .caption = {.reference = common.reference,
                       .input_sha256 = {},
@@ -275,7 +275,7 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
   out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
   for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
   job.result_sha256 = answer.result_sha256;
-  if (choice.body == Body::text && !query.validate_only) {
+  if (choice.format != nullptr && !query.validate_only) {
     out_.content_type = choice.format->media;
     out_.body = std::move(answer.text);
     out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
@@ -286,7 +286,8 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
   auto& members = *echo.as<Json::Object>();
   if (!common.reference.empty()) members.emplace_back("reference", common.reference_echo);
   if (common.inline_log) members.emplace_back("log", Json{"inline"});
-  Writer out(answer.result.size() + call_.body.size() + 4096, stop);
+  const bool cbor = choice.encoding == Encoding::cbor;
+  Writer out(answer.result.size() + call_.body.size() + 4096, stop, choice.encoding);
   out.object([&](Writer& w) {
     w.object("job", [&](Writer& o) {
       o.field("id", job.id);
@@ -297,7 +298,7 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
       o.field("result_sha256", job.result_sha256);
     });
     w.field("request", echo);
-    if (!query.validate_only) w.raw("result", answer.result);
+    if (!query.validate_only) w.raw("result", cbor ? answer.result_cbor : answer.result);
     write_checks(w, answer.checks);
     w.object("verdict", [&](Writer& o) {
       o.field("status", verdict.status);
@@ -309,9 +310,8 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
       w.object("estimate", [&](Writer& o) { o.field("cpu_s", *estimate_); });
     if (common.inline_log) write_events(w, context_, begun_, job.stages);
   });
-  const bool cbor = choice.body == Body::cbor;
   out_.content_type = cbor ? kCborMedia : kJsonMedia;
-  out_.body = cbor ? to_cbor(out.text(), stop) : out.take();
+  out_.body = out.take();
   return std::move(out_);
 }
 

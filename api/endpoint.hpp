@@ -24,8 +24,9 @@ namespace tubecut::api {
 
 /// A request as understood and its answer; or why there is none.
 struct Answer {
-  Json request = {};  // echo without reference and log
-  std::string result = {};
+  Json request = {};                                  // echo without reference and log
+  std::string result = {};                            // as JSON
+  std::string result_cbor = {};                       // too, if it is asked for
   std::string input_sha256 = {}, result_sha256 = {};  // of these two as text
   std::vector<Check> checks = {};
   std::vector<Warning> warnings = {};
@@ -38,7 +39,8 @@ using Reply = std::variant<Answer, Problem>;
 /// What the pipeline runs with.
 struct Run {
   std::stop_token stop = {};
-  const FormatName* format = nullptr;  // nullptr: JSON or CBOR
+  Encoding encoding = Encoding::json;
+  const FormatName* format = nullptr;  // instead, unless nullptr
   Caption caption = {};
   std::vector<Measure> accepted = {};                // the request's `accept`
   std::function<void(std::string_view)> stage = {};  // called when a stage ends
@@ -118,9 +120,13 @@ Reply run(Reader& in, Run& run) {
     answer.warnings.push_back(std::move(warning));
   answer.measures = E::measure(spec, *out);
   answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
-  Writer writer(1 << 16, run.stop);
-  writer.object([&](Writer& w) { E::encode(spec, *out, w); });
-  answer.result = writer.take();
+  const auto encoded = [&](Encoding encoding) {
+    Writer writer(1 << 16, run.stop, encoding);
+    writer.object([&](Writer& w) { E::encode(spec, *out, w); });
+    return writer.take();
+  };
+  answer.result = encoded(Encoding::json);  // what the hash is of
+  if (run.encoding == Encoding::cbor) answer.result_cbor = encoded(Encoding::cbor);
   answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
   answer.result_sha256 = sha256(answer.result, run.stop);
   if (run.format != nullptr) {

@@ -10,7 +10,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "api/cbor.hpp"
 #include "api/stop.hpp"
 
 namespace tubecut::api {
@@ -188,70 +187,6 @@ void append_number(std::string& out, double value) {
   out.append(buffer, end);
 }
 
-namespace {
-
-template <class Range, class Each>
-void append_list(std::string& out, const Range& range, char open, char close, Each each) {
-  out += open;
-  bool first = true;
-  for (const auto& item : range) {
-    if (!first) out += ',';
-    first = false;
-    each(item);
-  }
-  out += close;
-}
-
-void append(std::string& out, const Json& json, Pace& pace) {
-  pace.turn();
-  if (const auto* b = json.as<bool>()) {
-    out += *b ? "true" : "false";
-  } else if (const auto* d = json.as<double>()) {
-    append_number(out, *d);
-  } else if (const auto* s = json.as<std::string>()) {
-    append_text(out, *s);
-  } else if (const auto* a = json.as<Json::Array>()) {
-    append_list(out, *a, '[', ']', [&](const Json& item) { append(out, item, pace); });
-  } else if (const auto* o = json.as<Json::Object>()) {
-    append_list(out, *o, '{', '}', [&](const Json::Member& member) {
-      append_text(out, member.first);
-      out += ':';
-      append(out, member.second, pace);
-    });
-  } else {
-    out += "null";
-  }
-}
-
-/// SAX events of the parser as calls of the CBOR writer.
-struct CborEvents {
-  CborWriter& out;
-  Pace pace;
-
-  CborWriter& next() {
-    pace.turn();
-    return out;
-  }
-
-  bool null() { return next().null(); }
-  bool boolean(bool v) { return next().boolean(v); }
-  bool number_integer(std::int64_t v) { return next().integer(v); }
-  bool number_unsigned(std::uint64_t v) { return next().integer(static_cast<std::int64_t>(v)); }
-  bool number_float(double v, const std::string&) { return next().number(v); }
-  bool string(const std::string& v) { return next().text(v); }
-  bool binary(const nlohmann::json::binary_t&) { return false; }
-  bool key(const std::string& name) { return next().key(name); }
-  bool start_object(std::size_t) { return next().open(true); }
-  bool start_array(std::size_t) { return next().open(false); }
-  bool end_object() { return next().close(); }
-  bool end_array() { return next().close(); }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
-    throw std::logic_error(error.what());  // our own text
-  }
-};
-
-}  // namespace
-
 const Json* Json::find(std::string_view key) const {
   const auto* object = as<Object>();
   if (object == nullptr) return nullptr;
@@ -274,20 +209,6 @@ tl::expected<Json, ParseError> parse(std::string_view bytes, const ParseLimits& 
                                 CountingIterator(begin + bytes.size(), &progress), &builder);
   if (!ok) return tl::make_unexpected(builder.error());
   return builder.take();
-}
-
-std::string dump(const Json& json, const std::stop_token& stop) {
-  std::string out;
-  Pace pace(stop);
-  append(out, json, pace);
-  return out;
-}
-
-std::string to_cbor(std::string_view json_text, const std::stop_token& stop) {
-  CborWriter out;
-  CborEvents events{out, Pace(stop)};
-  nlohmann::json::sax_parse(json_text.begin(), json_text.end(), &events);
-  return out.take();
 }
 
 }  // namespace tubecut::api

@@ -61,16 +61,8 @@ struct ParseLimits {
 [[nodiscard]] tl::expected<Json, ParseError> parse(std::string_view bytes,
                                                    const ParseLimits& limits = {});
 
-/// The document with no white space; numbers shortest-round-trip.
-[[nodiscard]] std::string dump(const Json& json, const std::stop_token& stop = {});
-
 /// Appends a JSON string or number token. `value` must be finite.
 void append_text(std::string& out, std::string_view text);
 void append_number(std::string& out, double value);
-
-/// The same document in CBOR (RFC 8949), order kept. `json_text` is text this service printed.
-/// Arrays under the name `counts` become RFC 8746 typed arrays (tag 77, int16 little endian; tag
-/// 78, int32, where a value does not fit).
-[[nodiscard]] std::string to_cbor(std::string_view json_text, const std::stop_token& stop = {});
 
 }  // namespace tubecut::api

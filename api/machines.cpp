@@ -179,7 +179,7 @@ void encode_machine(const motion::Machine& machine, Writer& w) {
 std::string machine_sha256(const motion::Machine& machine) {
   Writer out;
   out.object([&](Writer& w) { encode_machine(machine, w); });
-  return sha256(out.text());
+  return sha256(out.take());
 }
 
 motion::Machine decode_machine_choice(Reader& in, std::string_view name) {

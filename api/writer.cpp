@@ -1,5 +1,6 @@
 #include "api/writer.hpp"
 
+#include <charconv>
 #include <cmath>
 
 #include "core/base/angle.hpp"
@@ -8,52 +9,128 @@ namespace tubecut::api {
 
 void Writer::key(std::string_view name) {
   separate();
+  if (cbor_) return cbor_->key(name);
   append_text(out_, name);
   out_ += ':';
   fresh_ = true;
 }
 
-void Writer::finite(double value, std::string_view name) {
+void Writer::open(char c) {
+  if (cbor_)
+    cbor_->open(c == '{');
+  else
+    out_ += c;
+  fresh_ = true;
+}
+
+void Writer::close(char c) {
+  if (cbor_)
+    cbor_->close();
+  else
+    out_ += c;
+  fresh_ = false;
+}
+
+void Writer::number(double value, std::string_view name) {
   if (!std::isfinite(value)) throw NotFinite("not finite: " + std::string(name));
+  if (cbor_) return cbor_->number(value);
   append_number(out_, value);
+  fresh_ = false;
+}
+
+void Writer::integer(std::int64_t value) {
+  if (cbor_) return cbor_->integer(value);
+  char buffer[24];
+  out_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+  fresh_ = false;
+}
+
+void Writer::boolean(bool value) {
+  if (cbor_) return cbor_->boolean(value);
+  out_ += value ? "true" : "false";
+  fresh_ = false;
+}
+
+void Writer::null() {
+  if (cbor_) return cbor_->null();
+  out_ += "null";
+  fresh_ = false;
+}
+
+void Writer::value(double number) { this->number(number, "element"); }
+
+void Writer::value(std::string_view text) {
+  if (cbor_) return cbor_->text(text);
+  append_text(out_, text);
+  fresh_ = false;
+}
+
+void Writer::json(const Json& of) {
+  if (const auto* b = of.as<bool>()) {
+    boolean(*b);
+  } else if (const auto* d = of.as<double>()) {
+    value(*d);
+  } else if (const auto* s = of.as<std::string>()) {
+    value(std::string_view(*s));
+  } else if (const auto* a = of.as<Json::Array>()) {
+    list(*a, [this](const Json& item) { json(item); });
+  } else if (const auto* o = of.as<Json::Object>()) {
+    object([o](Writer& w) {
+      for (const auto& [name, member] : *o) w.field(name, member);
+    });
+  } else {
+    null();
+  }
 }
 
 void Writer::field(std::string_view name, double value) {
   key(name);
-  finite(value, name);
-  fresh_ = false;
+  number(value, name);
 }
 
 void Writer::field(std::string_view name, std::string_view value) {
   key(name);
-  append_text(out_, value);
-  fresh_ = false;
+  this->value(value);
+}
+
+void Writer::field(std::string_view name, const Json& value) {
+  key(name);
+  json(value);
 }
 
 void Writer::degrees(std::string_view name, double radians) { field(name, radians * kDegPerRad); }
 
 void Writer::column(std::string_view name, std::span<const double> values) {
-  list(name, values, [&](double v) { finite(v, name); });
+  key(name);
+  list(values, [&](double v) { number(v, name); });
 }
 
 void Writer::degrees_column(std::string_view name, std::span<const double> radians) {
-  list(name, radians, [&](double v) { finite(v * kDegPerRad, name); });
-}
-
-void Writer::raw(std::string_view name, std::string_view json) {
   key(name);
-  out_ += json;
+  list(radians, [&](double v) { number(v * kDegPerRad, name); });
+}
+
+void Writer::column(std::string_view name, const std::vector<std::string>& values) {
+  key(name);
+  list(values, [this](const std::string& v) { value(std::string_view(v)); });
+}
+
+void Writer::flags(std::string_view name, const std::vector<bool>& values) {
+  key(name);
+  list(values, [this](bool v) { boolean(v); });
+}
+
+void Writer::raw(std::string_view name, std::string_view encoded) {
+  key(name);
+  if (cbor_) return cbor_->raw(encoded);
+  out_ += encoded;
   fresh_ = false;
 }
 
-void Writer::value(double number) {
-  finite(number, "element");
-  fresh_ = false;
-}
-
-void Writer::value(std::string_view text) {
-  append_text(out_, text);
-  fresh_ = false;
+std::string dump(const Json& json, const std::stop_token& stop) {
+  Writer out(256, stop);
+  out.json(json);
+  return out.take();
 }
 
 }  // namespace tubecut::api

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <stop_token>
@@ -8,22 +10,31 @@
 #include <string_view>
 #include <vector>
 
+#include "api/cbor.hpp"
 #include "api/json.hpp"
 #include "api/stop.hpp"
 
 namespace tubecut::api {
 
+enum class Encoding { json, cbor };
+
 /// Prints results straight into a buffer, without a tree between: columns dominate an answer's
-/// cost. Numbers are shortest-round-trip; a number that is not finite throws NotFinite, which
-/// becomes a 500. Throws Stopped.
+/// cost. JSON has no white space and shortest-round-trip numbers; CBOR is the same document, order
+/// kept (cbor.hpp). A number that is not finite throws NotFinite, which becomes a 500. Throws
+/// Stopped.
 class Writer {
  public:
   struct NotFinite : std::runtime_error {
     using std::runtime_error::runtime_error;
   };
 
-  explicit Writer(std::size_t reserve = 4096, std::stop_token stop = {}) : pace_(std::move(stop)) {
-    out_.reserve(reserve);
+  explicit Writer(std::size_t reserve = 4096, std::stop_token stop = {},
+                  Encoding encoding = Encoding::json)
+      : pace_(std::move(stop)) {
+    if (encoding == Encoding::cbor)
+      cbor_.emplace();
+    else
+      out_.reserve(reserve);
   }
 
   template <class F>
@@ -41,34 +52,25 @@ class Writer {
   template <class Items, class F>
   void array(std::string_view name, const Items& items, F each) {
     key(name);
-    open('[');
-    for (const auto& item : items) {
-      separate();
-      fresh_ = true;
-      each(*this, item);
-      fresh_ = false;
-    }
-    close(']');
+    list(items, [&](const auto& item) { each(*this, item); });
   }
 
   void field(std::string_view name, double value);
   template <std::integral T>
   requires(!std::same_as<T, bool>) void field(std::string_view name, T value) {
     key(name);
-    out_ += std::to_string(value);
-    fresh_ = false;
+    integer(static_cast<std::int64_t>(value));
   }
   void field(std::string_view name, std::same_as<bool> auto value) {
     key(name);
-    out_ += value ? "true" : "false";
-    fresh_ = false;
+    boolean(value);
   }
   void field(std::string_view name, std::string_view value);
   void field(std::string_view name, const char* value) { field(name, std::string_view(value)); }
   void field(std::string_view name, const std::string& value) {
     field(name, std::string_view(value));
   }
-  void field(std::string_view name, const Json& value) { raw(name, dump(value, pace_.stop())); }
+  void field(std::string_view name, const Json& value);
   void degrees(std::string_view name, double radians);
 
   void column(std::string_view name, std::span<const double> values);
@@ -79,24 +81,21 @@ class Writer {
   void degrees_column(std::string_view name, std::span<const double> radians);
   template <std::integral T>
   void column(std::string_view name, const std::vector<T>& values) {
-    list(name, values, [this](T v) { out_ += std::to_string(v); });
+    key(name);
+    list(values, [this](T v) { integer(static_cast<std::int64_t>(v)); });
   }
-  void column(std::string_view name, const std::vector<std::string>& values) {
-    list(name, values, [this](const std::string& v) { append_text(out_, v); });
-  }
+  void column(std::string_view name, const std::vector<std::string>& values);
+  void flags(std::string_view name, const std::vector<bool>& values);
 
-  void flags(std::string_view name, const std::vector<bool>& values) {
-    list(name, values, [this](bool v) { out_ += v ? "true" : "false"; });
-  }
-
-  /// Text that is JSON already.
-  void raw(std::string_view name, std::string_view json);
+  /// What is in this writer's encoding already.
+  void raw(std::string_view name, std::string_view encoded);
   /// An element of an array.
   void value(double number);
   void value(std::string_view text);
+  /// An element, or the whole document.
+  void json(const Json& value);
 
-  [[nodiscard]] std::string take() { return std::move(out_); }
-  [[nodiscard]] const std::string& text() const { return out_; }
+  [[nodiscard]] std::string take() { return cbor_ ? cbor_->take() : std::move(out_); }
 
  private:
   void separate() {
@@ -105,29 +104,31 @@ class Writer {
     fresh_ = false;
   }
   void key(std::string_view name);
-  void open(char c) {
-    out_ += c;
-    fresh_ = true;
-  }
-  void close(char c) {
-    out_ += c;
-    fresh_ = false;
-  }
-  void finite(double value, std::string_view name);
-  template <class Values, class F>
-  void list(std::string_view name, const Values& values, F each) {
-    key(name);
+  void open(char c);
+  void close(char c);
+  void number(double value, std::string_view name);
+  void integer(std::int64_t value);
+  void boolean(bool value);
+  void null();
+  template <class Items, class F>
+  void list(const Items& items, F each) {
     open('[');
-    for (const auto& v : values) {
+    for (const auto& item : items) {
       separate();
-      each(v);
+      fresh_ = true;
+      each(item);
+      fresh_ = false;
     }
     close(']');
   }
 
   std::string out_;
+  std::optional<CborWriter> cbor_;  // instead of out_
   Pace pace_;
   bool fresh_ = true;
 };
+
+/// The document as JSON.
+[[nodiscard]] std::string dump(const Json& json, const std::stop_token& stop = {});
 
 }  // namespace tubecut::api

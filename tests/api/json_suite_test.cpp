@@ -7,6 +7,7 @@
 #include <string>
 
 #include "api/json.hpp"
+#include "api/writer.hpp"
 
 namespace tubecut::api {
 namespace {

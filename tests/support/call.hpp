@@ -5,6 +5,7 @@
 
 #include "api/api.hpp"
 #include "api/json.hpp"
+#include "api/writer.hpp"
 #include "tests/support/golden.hpp"
 
 namespace tubecut::testing {
