@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "api/api.hpp"
 #include "api/catalogue.hpp"
 #include "api/common_fields.hpp"
 #include "api/endpoint.hpp"
+#include "api/header_list.hpp"
 #include "api/query.hpp"
 
 namespace tubecut::api {
@@ -37,15 +39,17 @@ std::optional<Choice> choice_by(std::string_view word, const Endpoint& endpoint,
   return std::nullopt;
 }
 
-/// `?format=` first, then the first type in Accept that there is; nothing when none is.
+/// `?format=` first, then of the types in Accept that there are the one of most weight, then the
+/// first; nothing when there is none.
 std::optional<Choice> choose(const Query& query, std::string_view accept,
                              const Endpoint& endpoint) {
   if (!query.format.empty()) return choice_by(query.format, endpoint, true);
   if (accept.empty()) return Choice{};
-  while (!accept.empty()) {
-    const auto end = accept.find(',');
-    if (auto found = choice_by(media_of(accept.substr(0, end)), endpoint, false)) return found;
-    accept = end == std::string_view::npos ? std::string_view{} : accept.substr(end + 1);
+  auto asked = header_list(accept);
+  std::ranges::stable_sort(asked, std::greater{}, &ListElement::quality);
+  for (const auto& type : asked) {
+    if (type.quality == 0.0) break;
+    if (auto found = choice_by(media_of(type.name), endpoint, false)) return found;
   }
   return std::nullopt;
 }

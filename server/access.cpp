@@ -14,6 +14,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "api/header_list.hpp"
 #include "server/identity.hpp"
 
 namespace tubecut::server {
@@ -235,16 +236,11 @@ bool in_networks(std::string_view peer, const std::vector<std::string>& networks
 
 std::string client_of(const Request& request, const std::vector<std::string>& proxies) {
   std::string client = request.peer;
-  std::string all;
-  for (const auto value : header_values(request.headers, "X-Forwarded-For")) {
-    all += all.empty() ? "" : ",";
-    all += value;
-  }
-  while (!all.empty() && in_networks(client, proxies)) {
-    const auto comma = all.rfind(',');
-    std::string last = comma == std::string::npos ? all : all.substr(comma + 1);
-    all = comma == std::string::npos ? std::string{} : all.substr(0, comma);
-    std::erase(last, ' ');
+  std::vector<api::ListElement> hops;
+  for (const auto value : header_values(request.headers, "X-Forwarded-For"))
+    std::ranges::move(api::header_list(value), std::back_inserter(hops));
+  for (; !hops.empty() && in_networks(client, proxies); hops.pop_back()) {
+    std::string last(hops.back().name);
     if (!parse_address(last)) break;  // what a proxy of ours did not write is not believed
     client = std::move(last);
   }

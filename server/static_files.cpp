@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "api/header_list.hpp"
+
 namespace tubecut::server {
 namespace {
 
@@ -39,19 +41,10 @@ const StaticFile* find(std::string_view path, std::span<const StaticFile> files)
   return files.empty() && (path == "/" || path == "/docs") ? &kNoConsole : nullptr;
 }
 
-/// Whether a list such as `gzip;q=0.8, *` holds `word`, not refused by q=0.
-bool lists(std::string_view list, std::string_view word) {
-  while (!list.empty()) {
-    const auto end = list.find(',');
-    auto item = list.substr(0, end);
-    list = end == list.npos ? std::string_view{} : list.substr(end + 1);
-    while (item.starts_with(' ')) item.remove_prefix(1);
-    if (!item.starts_with(word)) continue;
-    const auto rest = item.substr(word.size());
-    if (rest.empty() || rest == " ") return true;
-    if (rest.front() == ';') return rest.find_first_of("123456789", rest.find('=')) != rest.npos;
-  }
-  return false;
+bool takes_gzip(const Request& request) {
+  return std::ranges::any_of(
+      api::header_list(header(request.headers, "Accept-Encoding")),
+      [](const auto& coding) { return coding.name == "gzip" && coding.quality > 0.0; });
 }
 
 Headers headers_of(const StaticFile& file, bool packed) {
@@ -74,8 +67,7 @@ std::optional<Response> static_answer(const Request& request, std::span<const St
   if (request.refusal || (request.method != "GET" && request.method != "HEAD")) return std::nullopt;
   const StaticFile* file = find(named(path_of(request.target)), files);
   if (file == nullptr) return std::nullopt;
-  const bool packed =
-      !file->gzip.empty() && lists(header(request.headers, "Accept-Encoding"), "gzip");
+  const bool packed = !file->gzip.empty() && takes_gzip(request);
   Response response{.status = 200,
                     .content_type = std::string(file->content_type),
                     .headers = headers_of(*file, packed),

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include "api/header_list.hpp"
+
 namespace tubecut::server {
 namespace {
 
@@ -36,12 +38,6 @@ std::string_view length_fault(const Headers& headers) {
     return "Transfer-Encoding is not chunked.";
   }
   return {};
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t") - from + 1);
 }
 
 bool starts_with_ignoring_case(std::string_view text, std::string_view prefix) {
@@ -85,14 +81,11 @@ std::uint64_t announced_length(const Headers& headers) {
 }
 
 bool lists_token(const Headers& headers, std::string_view name, std::string_view token) {
-  for (auto list : header_values(headers, name)) {
-    while (!list.empty()) {
-      const auto comma = list.find(',');
-      if (equal_ignoring_case(trimmed(list.substr(0, comma)), token)) return true;
-      list = comma == std::string_view::npos ? std::string_view{} : list.substr(comma + 1);
-    }
-  }
-  return false;
+  return std::ranges::any_of(header_values(headers, name), [&](std::string_view value) {
+    return std::ranges::any_of(api::header_list(value), [&](const auto& element) {
+      return equal_ignoring_case(element.name, token);
+    });
+  });
 }
 
 std::string origin_form(std::string_view target, std::string_view method) {

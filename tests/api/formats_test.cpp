@@ -40,6 +40,16 @@ TEST(Formats, AreChosenByNameOrByAccept) {
   }
 }
 
+TEST(Formats, AcceptGoesByWeightThenByOrder) {
+  const auto media = [](std::string_view accept) {
+    return post(kPath, table_1(), "", accept).outcome.content_type;
+  };
+  EXPECT_EQ(media("text/plain, text/csv;q=0.5, image/svg+xml; q=0.9"), "image/svg+xml");
+  EXPECT_EQ(media("text/csv, application/json"), "text/csv");
+  EXPECT_EQ(media("application/json;q=0, Text/CSV"), "text/csv");
+  EXPECT_EQ(media("text/csv;q=0"), "application/problem+json");
+}
+
 TEST(Formats, EveryViewIsAnother) {
   for (const auto& endpoint : api::endpoints()) {
     if (endpoint.id != "bevel-tables") continue;

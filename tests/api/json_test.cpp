@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "api/header_list.hpp"
 #include "api/writer.hpp"
 
 namespace tubecut::api {
@@ -51,6 +52,19 @@ TEST(Json, RefusesWithTheByteOffset) {
   }
   EXPECT_EQ(parse("{\"a\":1,\"a\":2}").error().offset, 10u);
   EXPECT_EQ(parse("[1,\n x]").error().offset, 5u);
+}
+
+TEST(HeaderList, ReadsWeightsAndPassesOverBlanks) {
+  const auto read = [](std::string_view value) {
+    std::string out;
+    for (const auto& [name, quality] : header_list(value))
+      out += std::string(name) + "=" + std::to_string(static_cast<int>(1000 * quality)) + " ";
+    return out;
+  };
+  EXPECT_EQ(read("gzip;q=0.8, *"), "gzip=800 *=1000 ");
+  EXPECT_EQ(read(" ,, a ,\tb; q=0 ,c ;x=1; Q=1.0 ; y=2,"), "a=1000 b=0 c=1000 ");
+  EXPECT_EQ(read("a;q=, b;q=2, c;q=-1, d;q=nan, e;q=1e-1, f;q=0.5x"), "a=0 b=0 c=0 d=0 e=0 f=0 ");
+  EXPECT_EQ(read(""), "");
 }
 
 TEST(Json, CborTypedArrayOfCounts) {
