@@ -95,7 +95,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& v) override {
     auto& object = *stack_.back().as<Json::Object>();
     if (!keys_.back().insert(v).second) return refuse("duplicate key");
-    object.emplace_back(std::move(v), Json{});
+    object.emplace_back().first = std::move(v);  // a Json moved in: g++ 12 warns as at put
     return true;
   }
   bool parse_error(std::size_t position, const std::string& /*token*/,
