@@ -107,9 +107,9 @@ std::optional<Problem> format_problem(const Query& query, const FormatName* form
 }
 
 /// One answer or problem, with what is needed to print it.
-class Job {
+class CallRun {
  public:
-  Job(const Call& call, const Context& context) : call_(call), context_(context) {
+  CallRun(const Call& call, const Context& context) : call_(call), context_(context) {
     lap();
     begun_ = mark_;
   }
@@ -154,7 +154,7 @@ class Job {
   std::optional<double> estimate_;  // s of CPU, once it is known what there is to do
 };
 
-Outcome Job::compute(const Endpoint& endpoint) {
+Outcome CallRun::compute(const Endpoint& endpoint) {
   try {
     return work(endpoint);
   } catch (const Stopped&) {
@@ -168,7 +168,7 @@ Outcome Job::compute(const Endpoint& endpoint) {
 }
 
 /// Says what would be enough.
-Outcome Job::over_budget() {
+Outcome CallRun::over_budget() {
   Problem out{.code = ErrorCode::over_budget};
   if (estimate_)
     out.issues = {{.code = ErrorCode::over_budget,
@@ -180,7 +180,7 @@ Outcome Job::over_budget() {
   return refuse(out);
 }
 
-Outcome Job::work(const Endpoint& endpoint) {
+Outcome CallRun::work(const Endpoint& endpoint) {
   out_.job.endpoint = endpoint.id;
   auto asked = parse_query(call_.query);
   if (!asked.issues.empty()) return refuse(query_problem(std::move(asked.issues)));
@@ -266,8 +266,8 @@ void write_events(Writer& w, const Context& context, double begun,
   });
 }
 
-Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
-                    const Choice& choice, const Query& query) {
+Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
+                        const Choice& choice, const Query& query) {
   const auto& stop = context_.stop;
   auto& job = out_.job;
   job.input_sha256 = answer.input_sha256;
@@ -322,7 +322,7 @@ Outcome Job::answer(const Endpoint& endpoint, const CommonFields& common, Answer
 }  // namespace
 
 Outcome dispatch(const Call& call, const Context& context) {
-  Job job(call, context);
+  CallRun job(call, context);
   for (const auto& endpoint : endpoints()) {
     if (endpoint.path != call.path) continue;
     if (call.method != "POST")
@@ -354,7 +354,7 @@ Outcome problem(ErrorCode code, std::string_view detail, std::string_view reques
                   .body = {},
                   .job_id = {},
                   .request_id = std::string(request_id)};
-  return Job(call, context).refuse(code, std::string(detail));
+  return CallRun(call, context).refuse(code, std::string(detail));
 }
 
 std::string_view event_of(std::string_view stage) {

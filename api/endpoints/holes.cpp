@@ -23,16 +23,16 @@ constexpr Range kGap{.min = 0.0, .max = 50.0};
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 
-Section decode_tube(Reader& in) {
+TubeSection decode_tube(Reader& in) {
   in.optional_text("id");
-  return decode_section(in, true);
+  return decode_tube_section(in, true);
 }
 
 }  // namespace
 
 HoleBranch decode_hole_branch(Reader& in) {
   HoleBranch out{.name = in.optional_text("id").value_or("")};
-  const auto size = decode_section(in, true);
+  const auto size = decode_tube_section(in, true);
   out.wall = size.wall;
   const auto which = in.exactly_one({"inclination_deg", "axis"});
   if (which == 1) {

@@ -23,7 +23,7 @@ joint::AxisLine decode_axis(Reader& in) {
 }
 
 joint::Partner decode_tube(Reader& in) {
-  const double radius = decode_section(in, false).outer_radius;
+  const double radius = decode_tube_section(in, false).outer_radius;
   const auto which = in.exactly_one({"inclination_deg", "axis"});
   if (which == 1) {
     const auto axis = in.object("axis", decode_axis);
@@ -92,9 +92,9 @@ joint::Partner decode_cutter(Reader& in) {
 
 }  // namespace
 
-Section decode_section(Reader& in, bool with_wall) {
+TubeSection decode_tube_section(Reader& in, bool with_wall) {
   const auto which = in.exactly_one({"outer_diameter_mm", "size"});
-  Section out;
+  TubeSection out;
   if (with_wall && which != 0) in.note("wall_mm");
   if (which == 1) {
     const auto name = in.text("size");
@@ -136,7 +136,7 @@ joint::Target decode_target(Reader& in) {
       t.put("kind", Json{"round"});
     }
     t.optional_text("id");
-    const auto section = decode_section(t, true);
+    const auto section = decode_tube_section(t, true);
     joint::Target out{.outer_radius = section.outer_radius, .wall = section.wall};
     out.length =
         t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});

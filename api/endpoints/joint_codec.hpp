@@ -11,12 +11,12 @@
 namespace tubecut::api {
 
 /// A tube's outer radius and wall, mm.
-struct Section {
+struct TubeSection {
   double outer_radius = 1.0;
   double wall = 0.5;
 };
 /// `outer_diameter_mm` and `wall_mm` (if `with_wall`), or `size` by name.
-[[nodiscard]] Section decode_section(Reader& in, bool with_wall);
+[[nodiscard]] TubeSection decode_tube_section(Reader& in, bool with_wall);
 
 /// Fields that every request about a joint shares.
 [[nodiscard]] joint::Target decode_target(Reader& in);

@@ -287,9 +287,9 @@ Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec,
 }
 
 struct CutOf {
-  const JobRequest& request;
+  const ScheduleRequest& request;
   const std::stop_token& stop;
-  Job& job;
+  ScheduleJob& job;
 
   Result<motion::Cut> operator()(const BevelTableRequest& asked) const {
     TRY(const auto spec, under("cut", resolve(asked, stop)));
@@ -320,8 +320,8 @@ struct CutOf {
 
 }  // namespace
 
-JobRequest decode_job(Reader& in) {
-  JobRequest out;
+ScheduleRequest decode_schedule_request(Reader& in) {
+  ScheduleRequest out;
   out.machine = decode_machine_choice(in, "machine");
   switch (in.exactly_one({"cut", "contour", "mill_path", "axes"}).value_or(4)) {
     case 0:
@@ -359,8 +359,9 @@ JobRequest decode_job(Reader& in) {
   return out;
 }
 
-Result<Job> compute_job(const JobRequest& request, const std::stop_token& stop) {
-  Job out;
+Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request,
+                                         const std::stop_token& stop) {
+  ScheduleJob out;
   out.spec.machine = request.machine;
   out.spec.motion = request.motion;
   out.spec.max_periods = request.max_periods;

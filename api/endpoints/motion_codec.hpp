@@ -17,7 +17,7 @@ namespace tubecut::api {
 using CutSource =
     std::variant<BevelTableRequest, groove::MillPathSpec, motion::CutPath, motion::AxisColumns>;
 
-struct JobRequest {
+struct ScheduleRequest {
   CutSource cut;
   motion::Machine machine;
   motion::Motion motion;
@@ -25,7 +25,7 @@ struct JobRequest {
 };
 
 /// The job with its cut computed; checks and warnings of that cut beside it.
-struct Job {
+struct ScheduleJob {
   motion::ScheduleSpec spec;
   std::vector<Check> checks;
   std::vector<Warning> warnings;
@@ -33,10 +33,11 @@ struct Job {
 
 /// The fields `cut`, `contour`, `mill_path` or `axes`, `machine` and `motion`. `axes` and a mill
 /// path take their columns in the order of the machine's axes.
-[[nodiscard]] JobRequest decode_job(Reader& in);
+[[nodiscard]] ScheduleRequest decode_schedule_request(Reader& in);
 
 /// Errors  those of the nested request, their members under `cut` or `mill_path`;
 ///         unsupported_combination.
-[[nodiscard]] Result<Job> compute_job(const JobRequest& request, const std::stop_token& stop);
+[[nodiscard]] Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request,
+                                                       const std::stop_token& stop);
 
 }  // namespace tubecut::api

@@ -28,7 +28,7 @@ NamedMember decode_member(Reader& in) {
   out.name = in.text("id");
   out.start = in.vector3("start_mm", kOffset);
   out.finish = in.vector3("end_mm", kOffset);
-  const auto section = decode_section(in, true);
+  const auto section = decode_tube_section(in, true);
   out.outer_radius = section.outer_radius;
   out.wall = section.wall;
   out.priority = in.integer("priority", 0, kPriorities, 0);

@@ -74,9 +74,9 @@ void encode_comparison(const motion::Comparison& c, Writer& w) {
 }
 
 struct PulseSchedules {
-  using Spec = JobRequest;
+  using Spec = ScheduleRequest;
   struct Out {
-    Job job;
+    ScheduleJob job;
     motion::Schedule schedule;
   };
   static constexpr std::string_view kId = "pulse-schedules";
@@ -90,11 +90,11 @@ struct PulseSchedules {
       {"nested cut", "the checks of its own endpoint", ""},
   }};
 
-  static Spec decode(Reader& in) { return decode_job(in); }
+  static Spec decode(Reader& in) { return decode_schedule_request(in); }
 
   static void count(const Spec& spec, Work& work) { add_schedule_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    TRY(auto job, compute_job(spec, stop));
+    TRY(auto job, compute_schedule_job(spec, stop));
     TRY(auto schedule, motion::schedule(job.spec, stop));
     return Out{std::move(job), std::move(schedule)};
   }

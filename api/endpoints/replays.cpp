@@ -54,7 +54,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kSeenFrom
 
 struct Replays {
   struct Spec {
-    JobRequest job;
+    ScheduleRequest job;
     Schedule schedule;
   };
   struct Out {
@@ -72,7 +72,7 @@ struct Replays {
 
   static Spec decode(Reader& in) {
     Spec out;
-    out.job = decode_job(in);
+    out.job = decode_schedule_request(in);
     out.schedule =
         in.object("schedule", [&](Reader& s) { return decode_schedule(s, out.job.machine); });
     return out;
@@ -84,7 +84,7 @@ struct Replays {
       work.add(Cost::period, static_cast<double>(counts.size()));
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    TRY(auto job, compute_job(spec.job, stop));
+    TRY(auto job, compute_schedule_job(spec.job, stop));
     TRY(auto replay, motion::replay({.job = std::move(job.spec),
                                      .period = spec.schedule.period,
                                      .counts = spec.schedule.counts,

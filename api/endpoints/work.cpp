@@ -167,7 +167,7 @@ void add_work(const cutoff::FeedCurveSpec& spec, Work& work) {
     work.add(Cost::feed_degree, 1 + spec.comparison->last_degree - spec.comparison->first_degree);
 }
 
-void add_cut_work(const JobRequest& request, Work& work) {
+void add_cut_work(const ScheduleRequest& request, Work& work) {
   if (const auto* const table = std::get_if<BevelTableRequest>(&request.cut)) {
     add_work(static_cast<const bevel::TableSpec&>(*table), work);
     add_partners(table->source.partners, work);  // of a node: not yet resolved
@@ -180,7 +180,7 @@ void add_cut_work(const JobRequest& request, Work& work) {
     work.add(Cost::contour_point, static_cast<double>(axes->length.size()));
 }
 
-void add_schedule_work(const JobRequest& request, Work& work) {
+void add_schedule_work(const ScheduleRequest& request, Work& work) {
   const double length = length_of(request.cut), speed = mean_speed(request.motion.speed);
   add_cut_work(request, work);
   work.add(Cost::path);

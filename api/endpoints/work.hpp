@@ -28,7 +28,7 @@ void add_work(const joint::NodeSpec& node, const joint::Nodes& solved,
               const joint::Sampling* profiles, const bevel::TableSpec* tables, Work& work);
 
 /// The cut of a job, if it is computed here; and its schedule.
-void add_cut_work(const JobRequest& request, Work& work);
-void add_schedule_work(const JobRequest& request, Work& work);
+void add_cut_work(const ScheduleRequest& request, Work& work);
+void add_schedule_work(const ScheduleRequest& request, Work& work);
 
 }  // namespace tubecut::api

@@ -10,10 +10,10 @@
 namespace tubecut::bevel {
 namespace {
 
-using detail::Ground;
 using detail::Rows;
+using detail::TableSetup;
 
-void fill_angles(const Ground& g, const Rows& rows, Table& out) {
+void fill_angles(const TableSetup& g, const Rows& rows, Table& out) {
   for (std::size_t i = 0; i < rows.points.size(); ++i) {
     const auto& node = rows.samples.nodes[i];
     const auto& [cutter, angles, raw, required, input, face] = rows.points[i];
@@ -50,7 +50,7 @@ Result<void> fill_zones(const TableSpec& spec, const Rows& rows, Table& out) {
 }
 
 /// What the contours tell, before any row.
-Table outline(const Ground& g, const Rows& rows) {
+Table outline(const TableSetup& g, const Rows& rows) {
   Table out;
   out.inward = g.spec.dihedral != Dihedral::weld_side;
   out.inner_events = g.inner_contour().events;
@@ -64,7 +64,8 @@ Table outline(const Ground& g, const Rows& rows) {
 }
 
 /// The table with rows at the phases `also` besides those of the sampling.
-Result<Table> build(const Ground& g, const std::vector<double>& also, const std::stop_token& stop) {
+Result<Table> build(const TableSetup& g, const std::vector<double>& also,
+                    const std::stop_token& stop) {
   TRY(const auto sampled, detail::rows(g, also, stop));
   const auto& rows = sampled;
   TRY(detail::check_torch(g, rows));
@@ -89,8 +90,7 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   constexpr int kSwingRounds = 6;   // of halving
   constexpr int kTorchRounds = 3;   // the second sees what the first's own rows changed
   constexpr int kClearRounds = 10;  // each divides a depth by sixteen where the cut is smooth
-  TRY(const auto grounded, detail::ground(spec, stop));
-  const auto& g = grounded;
+  TRY(const auto g, detail::set_up(spec, stop));
   auto also = g.row_phases;
   auto out = build(g, also, stop);
   const auto with_rows = [&](const std::vector<double>& more) {

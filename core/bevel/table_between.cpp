@@ -23,7 +23,7 @@ bool promises_no_penetration(const TableSpec& spec) {
 
 namespace detail {
 
-std::vector<double> entering_phases(const Ground& g, const Table& t, double tolerance,
+std::vector<double> entering_phases(const TableSetup& g, const Table& t, double tolerance,
                                     const std::stop_token& stop) {
   constexpr double kNarrow = 1e-4;  // mm, developed: no finer
   const auto gaps = entering(finished_wall(g.spec, t), g.solids, tolerance, stop);
@@ -40,7 +40,7 @@ std::vector<double> entering_phases(const Ground& g, const Table& t, double tole
   return out;
 }
 
-void state_penetration(const Ground& g, Table& out, const std::stop_token& stop) {
+void state_penetration(const TableSetup& g, Table& out, const std::stop_token& stop) {
   constexpr double kSlack = 3e-4;  // mm
   out.penetration = deepest(finished_wall(g.spec, out), g.solids, kSlack, stop);
   out.penetration.depth = std::max(0.0, out.penetration.depth);

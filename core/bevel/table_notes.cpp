@@ -12,7 +12,7 @@ constexpr int kAcrossOpen = 16;  // places looked at where nothing is met
 
 }  // namespace
 
-void note_torch_binds(const Ground& g, const Rows& rows, Table& out) {
+void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
   const bool lifted = g.spec.contact == Contact::automatic;
@@ -40,7 +40,7 @@ void note_torch_binds(const Ground& g, const Rows& rows, Table& out) {
   }
 }
 
-void note_overhang(const Ground& g, Table& out, const std::stop_token& stop) {
+void note_overhang(const TableSetup& g, Table& out, const std::stop_token& stop) {
   if (g.inner) return;  // with the root outside, both walls are met all round
   for (const auto& [from, to] : joint::divide(g.root.cutters, g.wall.outer, stop).open) {
     double worst = 0.0;
@@ -73,7 +73,7 @@ void note_root_opens(const TableSpec& spec, Table& out) {
                                     shown(out.phi[at] * kDegPerRad) + " deg"});
 }
 
-void note_events_between(const Ground& g, Table& out) {
+void note_events_between(const TableSetup& g, Table& out) {
   const auto n = out.phi.size();
   const double step = kTwoPi / static_cast<double>(n);
   double worst = 0.0, at = 0.0;

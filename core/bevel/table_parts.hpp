@@ -16,7 +16,7 @@ namespace tubecut::bevel::detail {
 inline constexpr double kBelow = 1e-9 * kRadPerDeg;  // what counts as falling below, rad
 
 /// What is needed at every node, computed once.
-struct Ground {
+struct TableSetup {
   const TableSpec& spec;
   std::vector<joint::Cutter> cutters;
   joint::Contour root;
@@ -30,7 +30,7 @@ struct Ground {
 
   [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
 };
-[[nodiscard]] Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop);
+[[nodiscard]] Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop);
 
 /// One side of one node before smoothing. Angles in rad.
 struct Point {
@@ -41,8 +41,8 @@ struct Point {
   double input = 0.0;     // of the smoother
   double face = 0.0;      // elevation of the land
 };
-[[nodiscard]] Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutter,
-                          double root_z);
+[[nodiscard]] Point point(const TableSetup& g, double phi, const joint::Hit& hit,
+                          std::size_t cutter, double root_z);
 
 /// The rows of a table before smoothing: a point of each node.
 struct Rows {
@@ -53,7 +53,7 @@ struct Rows {
   [[nodiscard]] bool jump_pair(std::size_t i) const;
 };
 /// Errors  too_many_nodes, cancelled.
-[[nodiscard]] Result<Rows> rows(const Ground& g, const std::vector<double>& also,
+[[nodiscard]] Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
                                 const std::stop_token& stop);
 
 /// Runs of nodes (cyclic) that satisfy `holds`, as phi intervals; one that crosses 0 ends above 2
@@ -84,31 +84,31 @@ template <class F>
 /// Mutations, windows and B of the table.
 ///
 /// Errors  those of the smoothing chosen.
-[[nodiscard]] Result<void> fill_smoothed(const Ground& g, const Rows& rows, Table& out,
+[[nodiscard]] Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
                                          const std::stop_token& stop);
 /// B required beyond the torch: an error, with the root gap that lifting the cut would open.
-[[nodiscard]] Result<void> check_torch(const Ground& g, const Rows& rows);
+[[nodiscard]] Result<void> check_torch(const TableSetup& g, const Rows& rows);
 
 /// Finished surface, root opening and metal in the beam.
-void fill_surfaces(const Ground& g, const Rows& rows, Table& out, const std::stop_token& stop);
+void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop);
 /// The torch's own line and what it takes and leaves.
 void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop);
 /// Contact outer: does the cut stay clear of every partner across the wall?
-[[nodiscard]] Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out,
+[[nodiscard]] Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out,
                                            const std::stop_token& stop);
 /// Phases of rows wanted in the gaps in which the finished wall may enter a partner by more than
 /// `tolerance`: the contours of the walls do not tell where it curves.
-[[nodiscard]] std::vector<double> entering_phases(const Ground& g, const Table& t, double tolerance,
-                                                  const std::stop_token& stop);
+[[nodiscard]] std::vector<double> entering_phases(const TableSetup& g, const Table& t,
+                                                  double tolerance, const std::stop_token& stop);
 /// How deep the finished wall enters a partner, and the warning where no mode promises that it does
 /// not.
-void state_penetration(const Ground& g, Table& out, const std::stop_token& stop);
+void state_penetration(const TableSetup& g, Table& out, const std::stop_token& stop);
 
-void note_torch_binds(const Ground& g, const Rows& rows, Table& out);
+void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out);
 /// Where the outer wall reaches beyond all partners' sides while the inner one does not.
-void note_overhang(const Ground& g, Table& out, const std::stop_token& stop);
+void note_overhang(const TableSetup& g, Table& out, const std::stop_token& stop);
 void note_root_opens(const TableSpec& spec, Table& out);
 /// On a bare grid events lie between nodes: by how much the straight line between them falls short.
-void note_events_between(const Ground& g, Table& out);
+void note_events_between(const TableSetup& g, Table& out);
 
 }  // namespace tubecut::bevel::detail

@@ -14,7 +14,7 @@ struct Path {
   std::vector<std::size_t> node;   // first node of each entry
 };
 
-Path path(const Ground& g, const Rows& rows) {
+Path path(const TableSetup& g, const Rows& rows) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
   const auto* envelope = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing);
@@ -38,7 +38,7 @@ Path path(const Ground& g, const Rows& rows) {
   return out;
 }
 
-std::vector<std::size_t> junction_steps(const Ground& g, std::size_t n) {
+std::vector<std::size_t> junction_steps(const TableSetup& g, std::size_t n) {
   std::vector<std::size_t> out;
   for (const auto& event : g.root.events)
     out.push_back(
@@ -46,7 +46,7 @@ std::vector<std::size_t> junction_steps(const Ground& g, std::size_t n) {
   return out;
 }
 
-Result<std::vector<double>> smooth_hermite(const Ground& g, const joint::Samples& samples,
+Result<std::vector<double>> smooth_hermite(const TableSetup& g, const joint::Samples& samples,
                                            const Path& p, const HermiteSmoothing& method,
                                            Table& out, const std::stop_token& stop) {
   if (g.spec.sampling.tolerance)
@@ -76,8 +76,8 @@ Result<std::vector<double>> smooth_hermite(const Ground& g, const joint::Samples
   return std::move(smoothed->b);
 }
 
-Result<std::vector<double>> smooth(const Ground& g, const joint::Samples& samples, const Path& p,
-                                   Table& out, const std::stop_token& stop) {
+Result<std::vector<double>> smooth(const TableSetup& g, const joint::Samples& samples,
+                                   const Path& p, Table& out, const std::stop_token& stop) {
   if (const auto* method = std::get_if<HermiteSmoothing>(&g.spec.smoothing))
     return smooth_hermite(g, samples, p, *method, out, stop);
   if (const auto* method = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing))
@@ -89,7 +89,7 @@ Result<std::vector<double>> smooth(const Ground& g, const joint::Samples& sample
 }
 
 /// What the smoothing left below what it was given. Only the published one may.
-Result<void> check_smoothed(const Ground& g, const Rows& rows, Table& out) {
+Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
   const auto beyond = runs(samples.nodes, [&](std::size_t i) {
@@ -135,7 +135,7 @@ Result<void> check_smoothed(const Ground& g, const Rows& rows, Table& out) {
 
 }  // namespace
 
-Result<void> fill_smoothed(const Ground& g, const Rows& rows, Table& out,
+Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
                            const std::stop_token& stop) {
   const auto p = path(g, rows);
   for (const auto& m : mutations(p.profile.b, g.spec.mutation_limit.rad()))
@@ -145,7 +145,7 @@ Result<void> fill_smoothed(const Ground& g, const Rows& rows, Table& out,
   return check_smoothed(g, rows, out);
 }
 
-Result<void> check_torch(const Ground& g, const Rows& rows) {
+Result<void> check_torch(const TableSetup& g, const Rows& rows) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
   if (g.spec.contact != Contact::inner) return {};

@@ -10,7 +10,7 @@ namespace {
 
 /// Height at which a cut of this slope just touches, at one node. A partner that is lost here at
 /// its silhouette, all across the wall, does not hold the lower of the jump's two nodes.
-double lift_at(const Ground& g, const Rows& rows, std::size_t i, double slope) {
+double lift_at(const TableSetup& g, const Rows& rows, std::size_t i, double slope) {
   const auto& nodes = rows.samples.nodes;
   const auto line = joint::generator_at(g.wall.inner, nodes[i].phi);
   const bool first = rows.jump_pair(i);
@@ -31,7 +31,7 @@ double lift_at(const Ground& g, const Rows& rows, std::size_t i, double slope) {
 
 }  // namespace
 
-void fill_surfaces(const Ground& g, const Rows& rows, Table& out, const std::stop_token& stop) {
+void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop) {
   const auto& nodes = rows.samples.nodes;
   const double t = g.spec.target.wall, f = g.spec.root_face;
   for (std::size_t i = 0; i < out.b.size() && !stop.stop_requested(); ++i) {
@@ -74,7 +74,7 @@ void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop) {
   out.torch_line = clear_torch(n, lowered, stop);
 }
 
-Result<void> check_clearance(const Ground& g, const Rows& rows, const Table& out,
+Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out,
                              const std::stop_token& stop) {
   if (g.spec.contact != Contact::outer) return {};
   constexpr double kEnters = 1e-9;  // of the radius

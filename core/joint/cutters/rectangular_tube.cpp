@@ -16,15 +16,15 @@ constexpr double kSeam = 1e-12;    // relative; two pieces that meet tangentiall
 constexpr double kUpright = 1e-9;  // a face as steep as that is met only at its corners
 
 /// The section of prism and generator in the plane across the axis.
-struct Section {
+struct CrossSection {
   Vector2d o, w, inner;
   double c;
   Vector2d normal;  // across the line, unit
   double offset, support;
 };
 
-Section section(const PreparedRectangularTube& box, const Generator& line) {
-  Section s;
+CrossSection section(const PreparedRectangularTube& box, const Generator& line) {
+  CrossSection s;
   const Vector3d foot = box.frame.foot(line);
   s.o = foot.head<2>();
   s.w = box.frame.rise.head<2>();
@@ -44,7 +44,7 @@ struct Leaving {
 };
 
 /// The corner's circle, its upper point; S clamped.
-Leaving on_corner(const Section& s, const Vector2d& center) {
+Leaving on_corner(const CrossSection& s, const Vector2d& center) {
   const double ww = s.w.squaredNorm();
   const Vector2d from = s.o - center;
   const double beside = s.normal.dot(from);
@@ -60,7 +60,7 @@ Leaving on_corner(const Section& s, const Vector2d& center) {
 }
 
 /// The corner the line touches, or passes nearest to, from outside.
-Vector2d touched_corner(const Section& s) {
+Vector2d touched_corner(const CrossSection& s) {
   const double side = s.offset < 0.0 ? -1.0 : 1.0;
   const auto pick = [&](double n, double w, double half) {
     return (std::abs(n) < kSeam ? w : side * n) < 0.0 ? -half : half;
@@ -68,7 +68,7 @@ Vector2d touched_corner(const Section& s) {
   return {pick(s.normal.x(), s.w.x(), s.inner.x()), pick(s.normal.y(), s.w.y(), s.inner.y())};
 }
 
-Leaving leaving(const Section& s) {
+Leaving leaving(const CrossSection& s) {
   if (std::abs(s.offset) >= s.support) return on_corner(s, touched_corner(s));
   const double slack = kSeam * (s.inner.norm() + s.c);
   Leaving best{0.0, Vector2d::Zero(), 0.0, false};
@@ -98,9 +98,11 @@ Leaving leaving(const Section& s) {
   return found ? best : on_corner(s, touched_corner(s));
 }
 
-double touch(const Section& s) { return -(s.o - touched_corner(s)).dot(s.w) / s.w.squaredNorm(); }
+double touch(const CrossSection& s) {
+  return -(s.o - touched_corner(s)).dot(s.w) / s.w.squaredNorm();
+}
 
-bool misses(const Section& s, const Generator& line) {
+bool misses(const CrossSection& s, const Generator& line) {
   return std::abs(s.offset) > s.support + kTouch * (s.support + line.radius);
 }
 

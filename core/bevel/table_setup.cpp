@@ -56,7 +56,7 @@ Result<void> check(const TableSpec& spec) {
 }
 
 /// Events that are no rows of the root's own contour: of the other wall, and of the land's edge.
-std::vector<double> row_phases(const Ground& g, const std::stop_token& stop) {
+std::vector<double> row_phases(const TableSetup& g, const std::stop_token& stop) {
   std::vector<double> out;
   for (const auto& event : g.other_events) out.push_back(event.phi);
   if (g.spec.root_face > 0.0)
@@ -75,7 +75,7 @@ double input_of(const TableSpec& spec, const Point& p) {
 }
 
 /// With a land: its elevation, and the least B from its outer edge.
-void stand_on_face(const Ground& g, double phi, double z, Point& out) {
+void stand_on_face(const TableSetup& g, double phi, double z, Point& out) {
   const double edge = g.wall.inner + g.spec.root_face;
   const double least = required_bevel(g.root.cutters, {g.wall.inner, edge},
                                       joint::generator_at(g.wall.inner, phi), z);
@@ -86,7 +86,7 @@ void stand_on_face(const Ground& g, double phi, double z, Point& out) {
 }
 
 /// The side of a node with the larger input: at an event the larger one-sided value counts.
-Point larger(const Ground& g, const joint::Node& node) {
+Point larger(const TableSetup& g, const joint::Node& node) {
   const auto sides = joint::hits_at(g.root, node);
   auto before = point(g, node.phi, sides.before, node.before, node.z);
   if (node.kind == joint::NodeKind::smooth || node.kind == joint::NodeKind::jump) return before;
@@ -96,22 +96,22 @@ Point larger(const Ground& g, const joint::Node& node) {
 
 }  // namespace
 
-Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop) {
+Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop) {
   TRY(check(spec));
   TRY(auto cutters, grown_partners(spec));
   const Wall wall{spec.target.inner_radius(), spec.target.outer_radius};
   const bool outer = spec.root_surface == RootSurface::outer;
   TRY(auto root, joint::trace(cutters, outer ? wall.outer : wall.inner, stop));
-  Ground out{.spec = spec,
-             .cutters = std::move(cutters),
-             .root = std::move(root),
-             .inner = {},
-             .other_events = {},
-             .row_phases = {},
-             .solids = {},
-             .wall = wall,
-             .rule = Rule(spec.groove, spec.dihedral),
-             .flush = Rule(NoGroove{}, spec.dihedral)};
+  TableSetup out{.spec = spec,
+                 .cutters = std::move(cutters),
+                 .root = std::move(root),
+                 .inner = {},
+                 .other_events = {},
+                 .row_phases = {},
+                 .solids = {},
+                 .wall = wall,
+                 .rule = Rule(spec.groove, spec.dihedral),
+                 .flush = Rule(NoGroove{}, spec.dihedral)};
   out.other_events = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer, stop).events;
   out.row_phases = row_phases(out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -123,7 +123,8 @@ Result<Ground> ground(const TableSpec& spec, const std::stop_token& stop) {
   return out;
 }
 
-Point point(const Ground& g, double phi, const joint::Hit& hit, std::size_t cutter, double root_z) {
+Point point(const TableSetup& g, double phi, const joint::Hit& hit, std::size_t cutter,
+            double root_z) {
   const auto line = joint::generator_at(g.root.radius, phi);
   Point out{.cutter = cutter};
   const bool published = g.spec.dihedral == Dihedral::as_published;
@@ -148,7 +149,8 @@ bool Rows::jump_pair(std::size_t i) const {
          nodes[i + 1].kind == joint::NodeKind::jump && nodes[i].phi == nodes[i + 1].phi;
 }
 
-Result<Rows> rows(const Ground& g, const std::vector<double>& also, const std::stop_token& stop) {
+Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
+                  const std::stop_token& stop) {
   TRY(auto samples, joint::sample(g.root, g.spec.sampling, also, stop));
   Rows out{.samples = std::move(samples), .points = {}};
   out.points.reserve(out.samples.nodes.size());
