@@ -15,6 +15,7 @@
 #include "api/limits.hpp"
 #include "api/problem.hpp"
 #include "api/reader.hpp"
+#include "api/sha256.hpp"
 #include "api/suspicion.hpp"
 #include "api/verdict.hpp"
 #include "api/writer.hpp"
@@ -58,9 +59,6 @@ struct Endpoint {
   std::span<const std::string_view> accepts;  // names allowed in `accept`
   std::span<const CheckLimit> checks;
 };
-
-/// sha256 in lower-case hex.
-[[nodiscard]] std::string sha256(std::string_view bytes, const std::stop_token& stop = {});
 
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "api/api.hpp"
-#include "api/endpoint.hpp"
+#include "api/sha256.hpp"
 #include "api/wire_names.hpp"
 
 namespace tubecut::api {

@@ -1,9 +1,11 @@
+#include "api/sha256.hpp"
+
 #include <openssl/evp.h>
 
 #include <memory>
 #include <stdexcept>
 
-#include "api/endpoint.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 
