@@ -54,6 +54,16 @@ Columns bevel_columns(const bevel::TableSpec& spec, const bevel::Table& t) {
   return out;
 }
 
+const std::vector<std::string>& bevel_column_names() {
+  static const auto kNames = [] {
+    bevel::TableSpec every;  // column
+    every.root_face = 1.0;
+    every.groove = bevel::ZonedGroove{};
+    return each(bevel_columns(every, {}).all(), [](const Column& column) { return column.name; });
+  }();
+  return kNames;
+}
+
 Columns profile_columns(const joint::Profile& p, const joint::Sampling& sampling) {
   Columns out;
   angles(out, "phi_deg", p.phi, !sampling.tolerance)

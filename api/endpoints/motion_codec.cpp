@@ -7,6 +7,7 @@
 #include "api/endpoints/groove_codec.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
+#include "api/tables.hpp"
 #include "api/wire_names.hpp"
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
@@ -30,15 +31,10 @@ struct TorchLines {
 
 /// A bevel table's own points, unchanged: the torch line on the asked surface.
 TorchLines decode_table_points(Reader& in, Surface surface, motion::CutPath& out) {
-  for (const auto* other :
-       {"developed_mm", "length_mm", "cutter", "zone", "z_inner_mm", "z_outer_mm", "z_face_mm",
-        "b_face_deg", "dihedral_deg", "groove_deg", "tau_deg", "gamma_deg", "flush_deg",
-        "b_raw_deg", "b_required_deg", "gap_mm"})
-    in.note(other);
+  for (const auto& name : bevel_column_names()) in.note(name);
   out.phi = in.angle_column("phi_deg", kPoints, kUnwrappedDeg);
   out.b = in.angle_column("b_deg", kPoints, kBevelDeg);
   out.beam = in.column("beam_mm", kPoints, kBeam);
-  in.note("corner");
   if (in.has("corner")) out.corner = in.flag_column("corner", kPoints);
   TorchLines lines{in.column("torch_inner_mm", kPoints, kOffset),
                    in.column("torch_outer_mm", kPoints, kOffset)};
