@@ -23,9 +23,9 @@ namespace tubecut::api {
   X(beam_pair, 0.5e-6, "two points of a bevel table no further apart than its kerf")         \
   X(rectangular_tube, 1.5e-3, "rectangular tube among the cutters")                          \
   X(elbow, 6e-3, "elbow among the cutters of a table or an intersection")                    \
-  X(hole_point, 6e-6, "point of a hole")                                                     \
+  X(hole_point, 45e-6, "point of a hole")                                                    \
   X(member, 15e-6, "member of a node")                                                       \
-  X(near_pair, 60e-6,                                                                        \
+  X(near_pair, 90e-6,                                                                        \
     "pair of members nearer than their radii of which neither cuts the other; not foreseen") \
   X(path, 5e-3, "pulse schedule")                                                            \
   X(path_knot, 40e-6, "0.1 mm of a schedule's path")                                         \

@@ -54,12 +54,22 @@ double length_of(const motion::CutPath& contour) {
   return out;
 }
 
+/// The table of a cut as far as it is known before its node is resolved.
+bevel::TableSpec stated(const BevelTableRequest& cut) {
+  bevel::TableSpec out = cut;
+  out.target = cut.source.target;
+  out.partners = cut.source.partners;
+  if (const auto& of = cut.source.node)
+    out.target.outer_radius = of->node.members[of->member].outer_radius;
+  return out;
+}
+
 double length_of(const CutSource& cut) {
   return std::visit(
       [](const auto& of) -> double {
         using Of = std::decay_t<decltype(of)>;
         if constexpr (std::is_same_v<Of, BevelTableRequest>)
-          return kCutLength * kTwoPi * of.target.outer_radius;
+          return kCutLength * kTwoPi * stated(of).target.outer_radius;
         if constexpr (std::is_same_v<Of, groove::MillPathSpec>)
           return kCutLength * kPi * of.groove.branch.outer_diameter;
         if constexpr (std::is_same_v<Of, motion::CutPath>) return length_of(of);
@@ -168,10 +178,8 @@ void add_work(const cutoff::FeedCurveSpec& spec, Work& work) {
 }
 
 void add_cut_work(const ScheduleRequest& request, Work& work) {
-  if (const auto* const table = std::get_if<BevelTableRequest>(&request.cut)) {
-    add_work(static_cast<const bevel::TableSpec&>(*table), work);
-    add_partners(table->source.partners, work);  // of a node: not yet resolved
-  }
+  if (const auto* const table = std::get_if<BevelTableRequest>(&request.cut))
+    add_work(stated(*table), work);
   if (const auto* const path = std::get_if<groove::MillPathSpec>(&request.cut))
     add_work(*path, work);
   if (const auto* const contour = std::get_if<motion::CutPath>(&request.cut))

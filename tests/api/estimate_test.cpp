@@ -91,6 +91,8 @@ std::vector<Growth> growths() {
        object({{"mm_min", Json{3'000.0}}}), object({{"mm_min", Json{30.0}}}), 2},
       {"pulse-schedules/table-1-on-the-five-axis-cutter", "cut/sampling", points(100),
        points(2'000), 1.5},
+      {"pulse-schedules/table-1-on-the-five-axis-cutter", "cut/target/outer_diameter_mm",
+       Json{70.0}, Json{105.0}, 1.1},
       {"pulse-schedules/source-001-mill-path", "mill_path/positions", Json{24.0}, Json{2'000.0},
        1.5},
       {"feed-curves/cut-off-194-mm-whole-cycle", "cycle/period_s", Json{2e-3}, Json{2e-5}, 3},
