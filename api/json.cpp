@@ -8,7 +8,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "api/stop.hpp"
 
@@ -95,7 +96,9 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& v) override {
     auto& object = *stack_.back().as<Json::Object>();
     if (!keys_.back().insert(v).second) return refuse("duplicate key");
-    object.emplace_back().first = std::move(v);  // a Json moved in: g++ 12 warns as at put
+    // In its place: of one moved in, g++ 12 warns as at put.
+    object.emplace_back(std::piecewise_construct, std::forward_as_tuple(std::move(v)),
+                        std::forward_as_tuple());
     return true;
   }
   bool parse_error(std::size_t position, const std::string& /*token*/,

@@ -56,7 +56,7 @@ double length_of(const motion::CutPath& contour) {
 
 /// The table of a cut as far as it is known before its node is resolved.
 bevel::TableSpec stated(const BevelTableRequest& cut) {
-  bevel::TableSpec out = cut;
+  auto out = static_cast<const bevel::TableSpec&>(cut);
   out.target = cut.source.target;
   out.partners = cut.source.partners;
   if (const auto& of = cut.source.node)
