@@ -17,14 +17,15 @@ constexpr int kNice = 5;
 constexpr int kLaneNice =
     1;  // of the threads that do quick jobs alone: beside long ones they come first
 
-/// A job expected to take no longer is quick, where its body is small too.
-constexpr double kQuick = 0.02;
+/// A job expected to take no longer is quick, where its body is small too: a plain bevel table is,
+/// with its torch line some 20 ms.
+constexpr double kQuick = 0.04;
 constexpr std::size_t kQuickBytes = 64u << 10;
 /// One takes the lane when it has waited so long: while slots come free, nothing runs beside them.
 constexpr double kLaneAfter = 0.005;
 /// One that has had so much CPU in the lane, or has it for so long, is not quick.
-constexpr double kOutgrown = 0.05;
-constexpr double kHeld = 0.2;
+constexpr double kOutgrown = 0.1;
+constexpr double kHeld = 0.4;
 constexpr int kLane = 1;
 /// Jobs beyond the slots that may have outgrown the lane at a time.
 constexpr int kSpare = 1;
