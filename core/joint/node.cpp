@@ -36,7 +36,7 @@ Stretch stretch(const Member& m, double reach) { return {m.start, m.finish, reac
 Result<void> check(const NodeSpec& spec) {
   for (std::size_t i = 0; i < spec.members.size(); ++i)
     if (!((spec.members[i].finish - spec.members[i].start).norm() > 0.0))
-      return fail({.code = ErrorCode::zero_length, .member = place_of(i)});
+      return zero_length(place_of(i));
   const auto* links = std::get_if<std::vector<Link>>(&spec.connect);
   if (links == nullptr) return {};
   const auto n = spec.members.size();

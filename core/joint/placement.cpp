@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/joint/cutters/kind.hpp"
+
 namespace tubecut::joint {
 
 Result<MemberFrame> member_frame(const Eigen::Vector3d& cut, const Eigen::Vector3d& far,
@@ -9,9 +11,8 @@ Result<MemberFrame> member_frame(const Eigen::Vector3d& cut, const Eigen::Vector
   const Eigen::Vector3d along = far - cut;
   const double length = along.norm();
   const double reference_length = reference.norm();
-  if (!(length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "far"});
-  if (!(reference_length > 0.0))
-    return fail({.code = ErrorCode::zero_length, .member = "reference"});
+  if (!(length > 0.0)) return zero_length("far");
+  if (!(reference_length > 0.0)) return zero_length("reference");
   const Eigen::Vector3d z = along / length;
   const Eigen::Vector3d g = reference / reference_length;
   const Eigen::Vector3d across = g - g.dot(z) * z;

@@ -215,21 +215,15 @@ class Console {
             el(
               'span',
               {class: 'pair', role: 'group', 'aria-label': 'Bevel before or after smoothing'},
-              toggle(
-                'Before',
-                state.view === 'before',
-                () => {
-                  state.view = 'before';
-                },
-                'view-before',
-              ),
-              toggle(
-                'After',
-                state.view === 'after',
-                () => {
-                  state.view = 'after';
-                },
-                'view-after',
+              ...(['before', 'after'] as const).map((view) =>
+                toggle(
+                  view === 'before' ? 'Before' : 'After',
+                  state.view === view,
+                  () => {
+                    state.view = view;
+                  },
+                  `view-${view}`,
+                ),
               ),
             ),
           ]

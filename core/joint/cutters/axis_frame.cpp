@@ -17,11 +17,11 @@ Trig<1> AxisFrame::component(const Vector3d& along, double rho) const {
 Result<NearestFrame> nearest_frame(const Vector3d& point, const Vector3d& direction,
                                    const Vector3d& up) {
   const double length = direction.norm();
-  if (!(length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "axis"});
+  if (!(length > 0.0)) return zero_length("axis");
   const Vector3d d = direction / length;
   const Vector3d across = up - up.dot(d) * d;
   const double size = across.norm();
-  if (!(up.norm() > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "up"});
+  if (!(up.norm() > 0.0)) return zero_length("up");
   if (!(size >= kParallel * up.norm()))
     return fail({.code = ErrorCode::bad_reference_direction, .member = "up"});
   const double flat = d.x() * d.x() + d.y() * d.y();

@@ -55,7 +55,7 @@ Result<PreparedCone> ConeCutter::prepare() const {
     return beyond_limit("half_angle", half_angle.deg(), kWidestCone, "deg");
   TRY(const auto made, nearest_frame(point, direction, direction.unitOrthogonal()));
   const double slope = elementary::tan(half_angle.rad());
-  const PreparedCone out{made.frame, radius + slope * made.moved, slope};
+  const PreparedCone out{{}, made.frame, radius + slope * made.moved, slope};
   if (!(out.sine() >= kParallel)) return parallel_axes("", out.sine());
   return out;
 }
@@ -129,7 +129,7 @@ std::vector<double> PreparedCone::silhouettes(double rho) const {
 
 ConeSolid ConeCutter::solid() const {
   const auto half = elementary::sincos(half_angle.rad());
-  return {point, direction.normalized(), radius, half.sin, half.cos};
+  return {{}, point, direction.normalized(), radius, half.sin, half.cos};
 }
 
 double ConeSolid::distance(const Vector3d& p) const {

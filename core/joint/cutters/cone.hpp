@@ -6,7 +6,7 @@
 
 namespace tubecut::joint {
 
-struct PreparedCone {
+struct PreparedCone : PreparedConvex<PreparedCone> {
   AxisFrame frame;
   double radius, slope;  // radius + slope * (along the axis)
 
@@ -15,29 +15,13 @@ struct PreparedCone {
   [[nodiscard]] double continued_sheet(const Generator& line) const;
   [[nodiscard]] Hit continued_hit(const Generator& line) const;
   [[nodiscard]] double silhouette_height(const Generator& line) const;
-  [[nodiscard]] double silhouette_slope(const Generator& /*line*/) const { return 0.0; }
-  [[nodiscard]] Hit hit_at_corner(const Generator& line, Side /*side*/) const {
-    return continued_hit(line);
-  }
-  [[nodiscard]] Eigen::Vector3d published_normal(const Generator& line) const {
-    return continued_hit(line).normal;
-  }
-  [[nodiscard]] Met met(double rho) const { return met_between_silhouettes(*this, rho); }
   [[nodiscard]] double size(double rho) const { return (std::abs(radius) + rho) / sine(); }
   [[nodiscard]] std::vector<Sheets> sheets(double rho) const;
   [[nodiscard]] std::vector<double> silhouettes(double rho) const;
-  [[nodiscard]] std::vector<double> kinks(double /*rho*/) const { return {}; }
-  [[nodiscard]] Heights heights_near(const Generator& /*line*/, double /*off*/) const { return {}; }
   [[nodiscard]] Sides sides(const Generator& line) const;
-  [[nodiscard]] double steepest(const Wall& wall, const Generator& inner, double z_root) const {
-    return WallSection(*this, wall, inner).steepest(z_root);
-  }
-  [[nodiscard]] double support(const Wall& wall, const Generator& inner, double cut) const {
-    return WallSection(*this, wall, inner).support(cut);
-  }
 };
 
-struct ConeSolid {
+struct ConeSolid : ConvexSolid<ConeSolid> {
   Eigen::Vector3d point, direction;  // of the axis; unit
   double radius;                     // at `point`
   double sine, cosine;               // of its half angle
@@ -45,16 +29,6 @@ struct ConeSolid {
   [[nodiscard]] double scale() const { return radius; }
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
   [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
-  [[nodiscard]] std::optional<double> top(double x, double y) const {
-    return convex_top(*this, x, y);
-  }
-  [[nodiscard]] double clearance(double x, double y) const {
-    return distance({x, y, deepest(*this, x, y)});
-  }
-  [[nodiscard]] double least_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
-    return convex_least_distance(*this, a, b);
-  }
-  [[nodiscard]] double most_hollow(double /*to*/) const { return 0.0; }
 };
 
 /// A cone as partner (a reducer): one nappe, without end. Lengths in mm.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "core/base/angle.hpp"
 #include "core/joint/cutters/kind.hpp"
@@ -125,5 +126,48 @@ template <class Solid>
   return std::min({solid.distance(a), solid.distance(0.5 * (a + b)), solid.distance(b),
                    -math::golden_maximum(near, 0.0, 1.0).value});
 }
+
+/// What every prepared kind answers alike that is convex, smooth between its silhouettes and has no
+/// kinks, over what each knows of itself.
+template <class Kind>
+struct PreparedConvex {
+  [[nodiscard]] double silhouette_slope(const Generator& /*line*/) const { return 0.0; }
+  [[nodiscard]] Hit hit_at_corner(const Generator& line, Side /*side*/) const {
+    return kind().continued_hit(line);
+  }
+  [[nodiscard]] Eigen::Vector3d published_normal(const Generator& line) const {
+    return kind().continued_hit(line).normal;
+  }
+  [[nodiscard]] Met met(double rho) const { return met_between_silhouettes(kind(), rho); }
+  [[nodiscard]] std::vector<double> kinks(double /*rho*/) const { return {}; }
+  [[nodiscard]] Heights heights_near(const Generator& /*line*/, double /*off*/) const { return {}; }
+  [[nodiscard]] double steepest(const Wall& wall, const Generator& inner, double z_root) const {
+    return WallSection(kind(), wall, inner).steepest(z_root);
+  }
+  [[nodiscard]] double support(const Wall& wall, const Generator& inner, double slope) const {
+    return WallSection(kind(), wall, inner).support(slope);
+  }
+
+ private:
+  [[nodiscard]] const Kind& kind() const { return static_cast<const Kind&>(*this); }
+};
+
+/// The same of its solid, over its distance and its scale.
+template <class Kind>
+struct ConvexSolid {
+  [[nodiscard]] std::optional<double> top(double x, double y) const {
+    return convex_top(kind(), x, y);
+  }
+  [[nodiscard]] double clearance(double x, double y) const {
+    return kind().distance({x, y, deepest(kind(), x, y)});
+  }
+  [[nodiscard]] double least_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    return convex_least_distance(kind(), a, b);
+  }
+  [[nodiscard]] double most_hollow(double /*to*/) const { return 0.0; }
+
+ private:
+  [[nodiscard]] const Kind& kind() const { return static_cast<const Kind&>(*this); }
+};
 
 }  // namespace tubecut::joint

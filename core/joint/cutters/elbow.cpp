@@ -153,10 +153,10 @@ Result<PreparedElbow> ElbowCutter::prepare() const {
   if (!(bend.rad() > 0.0) || bend.rad() > kPi)
     return beyond_limit("bend", bend.deg(), 180.0, "deg");
   const double length = direction.norm();
-  if (!(length > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "axis"});
+  if (!(length > 0.0)) return zero_length("axis");
   const Vector3d y = direction / length;
   const Vector3d across = inwards - inwards.dot(y) * y;
-  if (!(inwards.norm() > 0.0)) return fail({.code = ErrorCode::zero_length, .member = "inwards"});
+  if (!(inwards.norm() > 0.0)) return zero_length("inwards");
   if (!(across.norm() >= kParallel * inwards.norm()))
     return fail({.code = ErrorCode::bad_reference_direction, .member = "inwards"});
   const Vector3d x = -across.normalized();

@@ -26,6 +26,14 @@ tl::unexpected<Error> beyond_limit(std::string_view field, double got, double li
                .unit = std::move(unit)});
 }
 
+tl::unexpected<Error> zero_length(std::string_view field) {
+  return fail({.code = ErrorCode::zero_length,
+               .member = std::string(field),
+               .got = 0.0,
+               .limit = 0.0,
+               .hint = "the vector's length must be greater than the limit"});
+}
+
 tl::unexpected<Error> parallel_axes(std::string_view field, double sine, std::string hint) {
   return fail({.code = ErrorCode::parallel_axes,
                .member = std::string(field),

@@ -109,6 +109,7 @@ concept CutterKind = DescribedKind<K> && PreparedKind<typename K::Prepared> &&
 /// What preparation refuses alike; paths are relative to the cutter.
 [[nodiscard]] tl::unexpected<Error> beyond_limit(std::string_view field, double got, double limit,
                                                  std::string unit);
+[[nodiscard]] tl::unexpected<Error> zero_length(std::string_view field);
 [[nodiscard]] tl::unexpected<Error> parallel_axes(std::string_view field, double sine,
                                                   std::string hint = {});
 

@@ -12,12 +12,7 @@ using Eigen::Vector3d;
 
 Result<PreparedPlane> PlaneCutter::prepare() const {
   const double length = normal.norm();
-  if (!(length > 0.0))
-    return fail({.code = ErrorCode::zero_length,
-                 .member = "normal",
-                 .got = 0.0,
-                 .limit = 0.0,
-                 .hint = "the vector's length must be greater than the limit"});
+  if (!(length > 0.0)) return zero_length("normal");
   Vector3d n = normal / length;
   if (n.z() < 0.0) n = -n;
   if (!(n.z() >= kParallel))

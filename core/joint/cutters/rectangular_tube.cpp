@@ -115,7 +115,7 @@ Result<PreparedRectangularTube> RectangularTubeCutter::prepare() const {
   if (!(corner > 0.0) || corner > widest)
     return beyond_limit("corner_radius", corner, widest, "mm");
   TRY(const auto made, nearest_frame(point, direction, up));
-  return PreparedRectangularTube{made.frame, 0.5 * width, 0.5 * height, corner};
+  return PreparedRectangularTube{{}, made.frame, 0.5 * width, 0.5 * height, corner};
 }
 
 void RectangularTubeCutter::grow(double by) {
@@ -214,7 +214,7 @@ std::vector<double> PreparedRectangularTube::silhouettes(double rho) const {
 RectangularTubeSolid RectangularTubeCutter::solid() const {
   const Vector3d along = direction.normalized();
   const Vector3d across = up.cross(along).normalized();
-  return {point, along, across, along.cross(across), 0.5 * width, 0.5 * height, corner};
+  return {{}, point, along, across, along.cross(across), 0.5 * width, 0.5 * height, corner};
 }
 
 double RectangularTubeSolid::distance(const Vector3d& p) const {

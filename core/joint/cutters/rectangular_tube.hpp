@@ -6,7 +6,7 @@
 
 namespace tubecut::joint {
 
-struct PreparedRectangularTube {
+struct PreparedRectangularTube : PreparedConvex<PreparedRectangularTube> {
   AxisFrame frame;
   double half_width, half_height, corner;
 
@@ -15,30 +15,14 @@ struct PreparedRectangularTube {
   [[nodiscard]] double continued_sheet(const Generator& line) const;
   [[nodiscard]] Hit continued_hit(const Generator& line) const;
   [[nodiscard]] double silhouette_height(const Generator& line) const;
-  [[nodiscard]] double silhouette_slope(const Generator& /*line*/) const { return 0.0; }
-  [[nodiscard]] Hit hit_at_corner(const Generator& line, Side /*side*/) const {
-    return continued_hit(line);
-  }
-  [[nodiscard]] Eigen::Vector3d published_normal(const Generator& line) const {
-    return continued_hit(line).normal;
-  }
-  [[nodiscard]] Met met(double rho) const { return met_between_silhouettes(*this, rho); }
   [[nodiscard]] double size(double rho) const;
   /// Its faces and the cylinders of its corners, each continued without end.
   [[nodiscard]] std::vector<Sheets> sheets(double rho) const;
   [[nodiscard]] std::vector<double> silhouettes(double rho) const;
-  [[nodiscard]] std::vector<double> kinks(double /*rho*/) const { return {}; }
-  [[nodiscard]] Heights heights_near(const Generator& /*line*/, double /*off*/) const { return {}; }
   [[nodiscard]] Sides sides(const Generator& line) const;
-  [[nodiscard]] double steepest(const Wall& wall, const Generator& inner, double z_root) const {
-    return WallSection(*this, wall, inner).steepest(z_root);
-  }
-  [[nodiscard]] double support(const Wall& wall, const Generator& inner, double slope) const {
-    return WallSection(*this, wall, inner).support(slope);
-  }
 };
 
-struct RectangularTubeSolid {
+struct RectangularTubeSolid : ConvexSolid<RectangularTubeSolid> {
   Eigen::Vector3d point, direction;  // of the axis; unit
   Eigen::Vector3d across, up;        // unit
   double half_width, half_height, corner;
@@ -46,16 +30,6 @@ struct RectangularTubeSolid {
   [[nodiscard]] double scale() const { return half_width + half_height; }
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
   [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
-  [[nodiscard]] std::optional<double> top(double x, double y) const {
-    return convex_top(*this, x, y);
-  }
-  [[nodiscard]] double clearance(double x, double y) const {
-    return distance({x, y, deepest(*this, x, y)});
-  }
-  [[nodiscard]] double least_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
-    return convex_least_distance(*this, a, b);
-  }
-  [[nodiscard]] double most_hollow(double /*to*/) const { return 0.0; }
 };
 
 /// A rectangular hollow section as partner: an infinite prism by its axis. Lengths in mm.

@@ -319,12 +319,7 @@ double TubeSolid::most_bent(double from) const {
 
 Result<Placement> place(const AxisLine& axis, double radius) {
   const double length = axis.direction.norm();
-  if (!(length > 0.0))
-    return fail({.code = ErrorCode::zero_length,
-                 .member = "direction",
-                 .got = 0.0,
-                 .limit = 0.0,
-                 .hint = "the vector's length must be greater than the limit"});
+  if (!(length > 0.0)) return zero_length("direction");
   const Vector3d d = axis.direction / length;
   const double sin_a = elementary::hypot(d.x(), d.y());
   const double inclination = elementary::atan2(sin_a, d.z());
