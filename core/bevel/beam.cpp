@@ -104,10 +104,11 @@ class Largest {
     keep(cell);
   }
 
-  [[nodiscard]] Seen worst(int halvings) {
-    for (const Cell* start : best_cells()) climb(*start);
+  [[nodiscard]] Seen worst(int halvings, const std::stop_token& stop) {
+    for (const Cell* start : best_cells())
+      if (!stop.stop_requested()) climb(*start);
     std::ranges::make_heap(cells_, {}, &Cell::most);
-    while (halvings-- > 0 && !cells_.empty()) {
+    while (halvings-- > 0 && !cells_.empty() && !stop.stop_requested()) {
       std::ranges::pop_heap(cells_, {}, &Cell::most);
       const Cell cell = cells_.back();
       cells_.pop_back();
@@ -273,7 +274,7 @@ void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& st
   for (std::size_t i = grid.first; i < grid.end && !stop.stop_requested(); ++i) {
     const double step = surface.step(i), wide = surface.across(i, grid.land) / grid.lines;
     const int parts = std::max(1, static_cast<int>(std::ceil(step / grid.apart)));
-    for (int k = 0; k < parts; ++k) {
+    for (int k = 0; k < parts && !stop.stop_requested(); ++k) {
       const double u = static_cast<double>(k) / parts, u1 = static_cast<double>(k + 1) / parts;
       line_up(i, u1);
       for (int m = 0; m < grid.lines; ++m) {
@@ -348,8 +349,9 @@ BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& s
       grid.end = end;
       see_cells(short_of, grid, stop, see);
     }
+  if (stop.stop_requested()) return out;
   const int halvings = rows_only ? kHalvingsOfRows : kHalvings;
-  const auto gouge = gouges.worst(halvings), left = lefts.worst(halvings);
+  const auto gouge = gouges.worst(halvings, stop), left = lefts.worst(halvings, stop);
   out.proof = {.gouge = std::max(0.0, gouge.value),
                .gouge_phi = surface.phase(gouge.at),
                .left = std::max(0.0, left.value),

@@ -52,7 +52,8 @@ Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& st
   TRY(out.own, under(finish ? "finish" : "start", bevel::table(out.spec, stop)));
   if (!asked.welded) return out;
   out.weld_length = welded_length(out);
-  out.groove_volume = groove_volume(out.spec, out.own);
+  out.groove_volume = groove_volume(out.spec, out.own, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 

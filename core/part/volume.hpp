@@ -13,7 +13,8 @@ namespace tubecut::part {
 /// when the weld ends flush with the outside. In the end's own frame, mm^3. Where a generator
 /// meets no partner it counts nothing.
 /// Accuracy  1e-3 of itself: Gauss' rules along the cut, straight from row to row, and across it.
-/// Cost      about 0.4 ms.
-[[nodiscard]] double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table);
+/// Cost      about 0.4 ms; linear in rows and in partners. Once stopped the value has no meaning.
+[[nodiscard]] double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table,
+                                   const std::stop_token& stop = {});
 
 }  // namespace tubecut::part
