@@ -378,6 +378,6 @@ std::string job_line(const Caption& caption) {
 
 std::string_view version() { return TUBECUT_VERSION; }
 
-int numerics() { return 2; }
+int numerics() { return 3; }
 
 }  // namespace tubecut::api

@@ -257,6 +257,11 @@ void encode_table(const bevel::TableSpec& spec, const bevel::Table& out, Writer&
   w.field("b_sign", name_of_b_sign(out));
   encode_bevel_lists(out, w);
   w.object("limits", [&](Writer& o) { encode_limits(spec, o); });
+  if (const auto area = bevel::smoothed_area(spec, out))
+    w.object("smoothed_area", [&](Writer& o) {
+      o.degrees("area_deg_mm", area->area);
+      o.degrees("least_deg_mm", area->least);
+    });
   encode_torch_binds(out, w);
   encode_penetration(out.penetration, w);
   encode_torch_line(out.torch_line, w);

@@ -23,12 +23,13 @@ void decode_table_options(Reader& in, bevel::TableSpec& out);
 /// The members of a table's `result`.
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
 
-inline constexpr std::array<CheckLimit, 13> kTableChecks{{
+inline constexpr std::array<CheckLimit, 14> kTableChecks{{
     {"dihedral", "1e-9", "deg"},
     {"bevel_plane", "1e-9", ""},
     {"above_required", "1e-9", "deg"},
     {"slope", "max_slope_deg_per_mm (1 + 1e-9)", "deg_per_mm"},
     {"second_difference", "max_curvature_deg_per_mm2 (1 + 1e-6) + rounding", "deg_per_mm2"},
+    {"area_excess", "1e-6", ""},
     {"torch_range", "1e-9", "deg"},
     {"penetration", "1e-6", "mm"},
     {"touch", "1e-6", "mm"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/base/angle.hpp"
@@ -72,6 +73,17 @@ Steepness steepness(const AngleProfile& profile) {
     slope_left = slope_right;
   }
   return most;
+}
+
+Steepness allowed_steepness(const AngleProfile& smoothed, const SwingLimits& limits) {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  double highest = 0.0, narrow = smoothed.period;
+  for (std::size_t j = 0; j < smoothed.b.size(); ++j) {
+    highest = std::max(highest, std::abs(smoothed.b[j]));
+    narrow = std::min(narrow, length_after(smoothed, j));
+  }
+  return {.slope = limits.slope * (1.0 + 1e-9) + 4.0 * kEps * highest / narrow,
+          .second = limits.curvature * (1.0 + 1e-6) + 8.0 * kEps * highest / (narrow * narrow)};
 }
 
 double area_above(const AngleProfile& profile, std::span<const double> smoothed) {

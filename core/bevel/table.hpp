@@ -93,6 +93,7 @@ struct Table {
   };
   std::vector<Binding> torch_binds;
   double length_total = 0.0, developed_total = 0.0;
+  Multipliers multipliers;  // of the smoothing, of every node of its path; empty unless refined
   Penetration penetration;  // of the finished surface, at rows and between them; solid: the partner
   std::vector<Warning> warnings;
 };
@@ -150,6 +151,13 @@ struct Table {
 [[nodiscard]] bool promises_no_penetration(const TableSpec& spec);
 /// The sampling's tolerance; on a bare grid the one it has by default. mm
 [[nodiscard]] double penetration_limit(const TableSpec& spec);
+
+/// The area that the smoothing added, rad mm, and the least that any could, by its multipliers; of
+/// a refined envelope only.
+struct SmoothedArea {
+  double area, least, excess;  // excess: as `area_excess`
+};
+[[nodiscard]] std::optional<SmoothedArea> smoothed_area(const TableSpec& spec, const Table& table);
 
 /// The table proved from its own numbers by other formulas: 3D distances, normals from gradients,
 /// half tangents.

@@ -81,6 +81,9 @@ template <class F>
 /// Radians to degrees.
 [[nodiscard]] Intervals degrees(std::vector<std::pair<double, double>> intervals);
 
+/// What its smoother has to keep.
+[[nodiscard]] EnvelopeSpec envelope_of(const TableSpec& spec, const EnvelopeSmoothing& method);
+
 /// Mutations, windows and B of the table.
 ///
 /// Errors  those of the smoothing chosen.

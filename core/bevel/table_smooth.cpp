@@ -80,11 +80,11 @@ Result<std::vector<double>> smooth(const TableSetup& g, const joint::Samples& sa
                                    const Path& p, Table& out, const std::stop_token& stop) {
   if (const auto* method = std::get_if<HermiteSmoothing>(&g.spec.smoothing))
     return smooth_hermite(g, samples, p, *method, out, stop);
-  if (const auto* method = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing))
-    return envelope(
-        p.profile,
-        {.limits = method->limits, .highest = g.spec.torch.max.rad(), .refine = method->refine},
-        stop);
+  if (const auto* method = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing)) {
+    TRY(auto smoothed, envelope(p.profile, envelope_of(g.spec, *method), stop));
+    out.multipliers = std::move(smoothed.multipliers);
+    return std::move(smoothed.b);
+  }
   return p.profile.b;
 }
 
@@ -134,6 +134,10 @@ Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
 }
 
 }  // namespace
+
+EnvelopeSpec envelope_of(const TableSpec& spec, const EnvelopeSmoothing& method) {
+  return {.limits = method.limits, .highest = spec.torch.max.rad(), .refine = method.refine};
+}
 
 Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
                            const std::stop_token& stop) {

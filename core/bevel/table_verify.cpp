@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/bevel/least_area.hpp"
 #include "core/bevel/table.hpp"
+#include "core/bevel/table_parts.hpp"
 #include "core/joint/solid.hpp"
 #include "core/math/search.hpp"
 
@@ -16,6 +18,7 @@ using Eigen::Vector3d;
 constexpr double kAngle = 1e-9;        // deg
 constexpr double kPlane = 1e-9;        // sine of the angle between line and plane
 constexpr double kPenetration = 1e-6;  // mm
+constexpr double kAreaExcess = 1e-6;   // of the least area
 constexpr double kStated = 1e-3;       // mm
 constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
 
@@ -70,27 +73,48 @@ double plane_error(const TableSpec& spec, const Table& t, const Row& r, std::siz
                   std::abs(torch.dot(tangent.cross(bevel).normalized())) - r.noise / along.norm());
 }
 
-/// Slopes and second differences of b along the path that was smoothed, nodes of one jump as one.
+/// What the smoother was given at row i: at a jump the larger of the two.
+double smoother_input(const TableSpec& spec, const Table& t, std::size_t i) {
+  const auto of = [&](std::size_t k) {
+    double least = t.b_raw[k];
+    const bool square = std::holds_alternative<SquareCut>(spec.groove);
+    const bool lifted = spec.contact == Contact::automatic;
+    if (spec.contact == Contact::inner || (lifted && !square))
+      least = std::max(least, t.b_required[k]);
+    return lifted ? std::min(least, spec.torch.max.rad()) : least;
+  };
+  double input = of(i);
+  if (i > 0 && t.phi[i - 1] == t.phi[i]) input = std::max(input, of(i - 1));
+  if (i + 1 < t.phi.size() && t.phi[i + 1] == t.phi[i]) input = std::max(input, of(i + 1));
+  return input;
+}
+
+/// The path that was smoothed, nodes of one jump as one: what went in, and b.
 struct Path {
-  std::vector<double> s, b;
-  double period;
+  AngleProfile input, smoothed;
 };
 
-Path path(const Table& t, bool along_length) {
-  Path out{.s = {}, .b = {}, .period = along_length ? t.length_total : t.developed_total};
+Path path(const TableSpec& spec, const Table& t, bool along_length) {
+  Path out;
   const auto& s = along_length ? t.length : t.developed;
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (i > 0 && s[i] == s[i - 1]) continue;
-    out.s.push_back(s[i]);
-    out.b.push_back(t.b[i]);
+    out.input.s.push_back(s[i]);
+    out.input.b.push_back(smoother_input(spec, t, i));
+    out.smoothed.b.push_back(t.b[i]);
   }
+  out.input.period = along_length ? t.length_total : t.developed_total;
+  out.smoothed.s = out.input.s;
+  out.smoothed.period = out.input.period;
   return out;
 }
 
-void steepness_checks(const EnvelopeSmoothing& method, const Table& t, std::vector<Check>& out) {
-  const auto p = path(t, method.along == Along::length);
+/// Slopes and second differences of b along the path, and by how much its area exceeds the least.
+void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, const Table& t,
+                     std::vector<Check>& out) {
+  const auto p = path(spec, t, method.along == Along::length).smoothed;
   const auto n = p.s.size();
-  double slope = 0.0, second = 0.0, narrow = p.period, highest = 0.0;
+  double slope = 0.0, second = 0.0;
   const auto rise = [&](std::size_t i, double& h) {
     const auto j = (i + 1) % n;
     h = p.s[j] - p.s[i] + (j == 0 ? p.period : 0.0);
@@ -102,18 +126,13 @@ void steepness_checks(const EnvelopeSmoothing& method, const Table& t, std::vect
     const double b = rise(i, right);
     slope = std::max(slope, std::abs(b));
     second = std::max(second, std::abs(b - a) / ((left + right) / 2.0));
-    narrow = std::min(narrow, right);
-    highest = std::max(highest, std::abs(p.b[i]));
   }
-  constexpr double kEps = std::numeric_limits<double>::epsilon();
-  const auto& limits = method.limits;
-  out.push_back({"slope", slope * kDegPerRad,
-                 (limits.slope * (1.0 + 1e-9) + 4.0 * kEps * highest / narrow) * kDegPerRad,
-                 "deg_per_mm"});
+  const auto most = allowed_steepness(p, method.limits);
+  out.push_back({"slope", slope * kDegPerRad, most.slope * kDegPerRad, "deg_per_mm"});
   out.push_back(
-      {"second_difference", second * kDegPerRad,
-       (limits.curvature * (1.0 + 1e-6) + 8.0 * kEps * highest / (narrow * narrow)) * kDegPerRad,
-       "deg_per_mm2"});
+      {"second_difference", second * kDegPerRad, most.second * kDegPerRad, "deg_per_mm2"});
+  if (const auto area = smoothed_area(spec, t))
+    out.push_back({"area_excess", area->excess, kAreaExcess, ""});
 }
 
 /// How far the cut of row i stays from the nearest partner, mm; negative: it enters.
@@ -196,6 +215,16 @@ void penetration_checks(const TableSpec& spec, const Table& t,
 
 }  // namespace
 
+std::optional<SmoothedArea> smoothed_area(const TableSpec& spec, const Table& t) {
+  const auto* method = std::get_if<EnvelopeSmoothing>(&spec.smoothing);
+  if (method == nullptr || !method->refine) return std::nullopt;
+  const auto p = path(spec, t, method->along == Along::length);
+  const auto limits = detail::envelope_of(spec, *method);
+  const double area = area_above(p.input, p.smoothed.b);
+  return SmoothedArea{area, least_area(p.input, limits, t.multipliers, area),
+                      area_excess(p.input, limits, t.multipliers, area)};
+}
+
 std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop_token& stop) {
   std::vector<joint::Solid> solids;
   if (const auto cutters = grown_partners(spec))
@@ -214,11 +243,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
     if (!steep) dihedral = std::max(dihedral, dihedral_error(spec, t, r, i));
     if (!steep && !published && !square && cut_back > 1e-9)
       plane = std::max(plane, plane_error(spec, t, r, i));
-    double least = t.b_raw[i];
-    if (spec.contact == Contact::inner || (lifted && !square))
-      least = std::max(least, t.b_required[i]);
-    if (lifted) least = std::min(least, spec.torch.max.rad());
-    below = std::max(below, (least - t.b[i]) * kDegPerRad);
+    below = std::max(below, (smoother_input(spec, t, i) - t.b[i]) * kDegPerRad);
     beyond = std::max({beyond, (t.b[i] - spec.torch.max.rad()) * kDegPerRad,
                        (spec.torch.min.rad() - t.b[i]) * kDegPerRad});
     const double clear = clearance(spec, t, solids, r, i);
@@ -231,7 +256,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   const auto* envelope = std::get_if<EnvelopeSmoothing>(&spec.smoothing);
   if (envelope != nullptr) {
     out.push_back({"above_required", below, kAngle, "deg"});
-    steepness_checks(*envelope, t, out);
+    envelope_checks(spec, *envelope, t, out);
   }
   out.push_back({"torch_range", beyond, kAngle, "deg"});
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/base/angle.hpp"
-#include "core/bevel/envelope_update.hpp"
+#include "core/bevel/least_area.hpp"
 #include "core/bevel/smoothing.hpp"
 #include "tests/core/bevel/plain_envelope.hpp"
 #include "tests/core/bevel/real_nodes.hpp"
@@ -118,11 +118,15 @@ TEST(EnvelopeHostile, TenThousandProfiles) {
     const auto c = hostile(random, 64);
     const auto f = envelope(c.profile, c.spec);
     ASSERT_TRUE(f) << i;
-    const auto got = margins(c, *f);
+    const auto got = margins(c, f->b);
     ASSERT_LE(got.below, 0.0) << i;
     ASSERT_LE(got.slope, 1.0) << i;
     ASSERT_LE(got.second, 1.0) << i;
     ASSERT_LE(got.above, 0.0) << i;
+    if (c.spec.refine) {
+      ASSERT_LE(area_excess(c.profile, c.spec, f->multipliers, area_above(c.profile, f->b)), 1e-6)
+          << i;
+    }
     worst = {std::max(worst.below, got.below), std::max(worst.slope, got.slope),
              std::max(worst.second, got.second), std::max(worst.above, got.above)};
   }
@@ -136,7 +140,7 @@ TEST(EnvelopeHostile, ManyNodes) {
     const auto c = hostile(random, 2000);
     const auto f = envelope(c.profile, c.spec);
     ASSERT_TRUE(f);
-    const auto got = margins(c, *f);
+    const auto got = margins(c, f->b);
     EXPECT_LE(got.below, 0.0) << i;
     EXPECT_LE(got.slope, 1.0) << i;
     EXPECT_LE(got.second, 1.0) << i;
@@ -152,71 +156,9 @@ TEST(EnvelopeHostile, RefinementNeverCostsArea) {
     const auto fine = envelope(c.profile, c.spec);
     c.spec.refine = false;
     const auto plain = envelope(c.profile, c.spec);
-    EXPECT_LE(area_above(c.profile, *fine), area_above(c.profile, *plain) * (1.0 + 1e-12)) << i;
+    EXPECT_LE(area_above(c.profile, fine->b), area_above(c.profile, plain->b) * (1.0 + 1e-9) + 1e-9)
+        << i;
   }
-}
-
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
-
-/// Every node's state follows from its neighbour's, all round.
-bool closed(const detail::Turn& turn, const detail::Sweep& sweep, detail::Sense sense) {
-  const auto back =
-      sense == detail::Sense::forward ? detail::Sense::backward : detail::Sense::forward;
-  for (std::size_t j = 0; j < turn.size(); ++j) {
-    const auto from = detail::step(turn, j, back);
-    auto at = detail::brake({sweep.value[from], sweep.slope[from]},
-                            detail::arriving(turn, j, sense), turn.limits);
-    if (turn.restarts(j, at.value)) at = detail::start(turn, j, sense);
-    if (at != detail::Braking{sweep.value[j], sweep.slope[j]}) return false;
-  }
-  return true;
-}
-
-/// What a trial changes locally is what evaluating the whole turn anew gives, and taking it back
-/// leaves no trace.
-TEST(EnvelopeHostile, LocalTrialsEqualWholeOnes) {
-  Random random{std::mt19937_64(8)};
-  int compared = 0;
-  int otherwise = 0;
-  for (int i = 0; i < 3000; ++i) {
-    auto c = hostile(random, 90);
-    auto turn = detail::make_turn(c.profile, c.spec);
-    auto now = detail::make_envelope(turn);
-    const auto before = now;
-    const auto leave = turn.leave;
-    detail::LocalUpdate local(turn, now);
-    for (int trial = 0; trial < 20; ++trial) {
-      const auto j = random.whole(0, turn.size() - 1);
-      if (!turn.corner[j]) continue;
-      const bool keep = random.whole(0, 3) == 0;
-      const auto area =
-          local.apply(j, random.uniform(-1.0, 1.0) * turn.start_bound(j), random.heads());
-      if (area && std::isfinite(*area)) {
-        const auto whole = detail::make_envelope(turn);
-        ++compared;
-        ASSERT_TRUE(closed(turn, now.forward, detail::Sense::forward)) << i;
-        ASSERT_TRUE(closed(turn, now.backward, detail::Sense::backward)) << i;
-        // Curves as long as the turn may close in more than one way.
-        if (largest_difference(now.e, whole.e) > 1e-12) {
-          ++otherwise;
-          break;
-        }
-        ASSERT_LT(largest_difference(now.f, whole.f), 1e-12) << i;
-        ASSERT_NEAR(*area, whole.area, 1e-9 * (1.0 + whole.area)) << i;
-        if (keep) {
-          local.keep();
-          break;
-        }
-      }
-      local.take_back();
-      ASSERT_EQ(now.f, before.f);
-      ASSERT_EQ(now.forward.value, before.forward.value);
-      ASSERT_EQ(now.contact, before.contact);
-      ASSERT_EQ(turn.leave, leave);
-    }
-  }
-  EXPECT_GT(compared, 2000);
-  EXPECT_LT(1000 * otherwise, compared);
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -236,7 +178,7 @@ TEST(EnvelopeReal, AgreesWithTheTheoryNoteWrittenPlainly) {
   for (int i = 0; i < 200; ++i) {
     const auto profile = real_nodes::random_node(random, 360, kTorch);
     const EnvelopeSpec spec{.limits = kLimits, .refine = false};
-    const auto f = *envelope(profile, spec);
+    const auto f = envelope(profile, spec)->b;
     const auto plain = PlainEnvelope(profile, spec).smooth();
     if (largest_difference(f, plain) < 1e-12) ++same;
     for (std::size_t j = 0; j < f.size(); ++j) EXPECT_LE(f[j], plain[j] + 1e-12) << i << ' ' << j;
@@ -253,7 +195,7 @@ TEST(EnvelopeReal, RefinedIsNeverAboveTheTheoryNotesSearch) {
     ASSERT_TRUE(f);
     PlainEnvelope plain(profile, spec);
     plain.refine();
-    EXPECT_LE(area_above(profile, *f), plain.area() * 1.0001) << i;
+    EXPECT_LE(area_above(profile, f->b), plain.area() * (1.0 + 1e-9)) << i;
   }
 }
 
@@ -281,23 +223,24 @@ TEST(EnvelopeMetamorphic, ShiftRotateReverseScale) {
   for (int i = 0; i < 300; ++i) {
     auto c = Case{real_nodes::random_node(random.engine, 180, kTorch),
                   {.limits = kLimits, .highest = 1.5, .refine = false}};
-    const auto f = *envelope(c.profile, c.spec);
+    const auto f = envelope(c.profile, c.spec)->b;
 
     auto higher = c;
     for (auto& b : higher.profile.b) b += 0.3;
     higher.spec.highest += 0.3;
     auto expected = f;
     for (auto& b : expected) b += 0.3;
-    EXPECT_LT(largest_difference(*envelope(higher.profile, higher.spec), expected), 1e-11) << i;
+    EXPECT_LT(largest_difference(envelope(higher.profile, higher.spec)->b, expected), 1e-11) << i;
 
     const auto by = random.whole(1, 179);
     expected = f;
     std::rotate(expected.begin(), expected.begin() + static_cast<long>(by), expected.end());
-    EXPECT_LT(largest_difference(*envelope(rotated(c.profile, by), c.spec), expected), 1e-11) << i;
+    EXPECT_LT(largest_difference(envelope(rotated(c.profile, by), c.spec)->b, expected), 1e-11)
+        << i;
 
     expected = f;
     std::ranges::reverse(expected);
-    EXPECT_LT(largest_difference(*envelope(reversed(c.profile), c.spec), expected), 1e-11) << i;
+    EXPECT_LT(largest_difference(envelope(reversed(c.profile), c.spec)->b, expected), 1e-11) << i;
 
     // B by 4 and lengths by 2: slope by 2, curvature as it was. Powers of two change no bits.
     auto scaled = c;
@@ -308,7 +251,7 @@ TEST(EnvelopeMetamorphic, ShiftRotateReverseScale) {
         .limits = {2.0 * kLimits.slope, kLimits.curvature}, .highest = 6.0, .refine = false};
     expected = f;
     for (auto& b : expected) b *= 4.0;
-    EXPECT_EQ(*envelope(scaled.profile, scaled.spec), expected) << i;
+    EXPECT_EQ(envelope(scaled.profile, scaled.spec)->b, expected) << i;
   }
 }
 
@@ -339,7 +282,7 @@ struct Locality {
 /// Nodes further than `reach` from every break, and how many of them lost their bits.
 Locality locality(const Case& c, double reach) {
   const auto& p = c.profile;
-  const auto f = *envelope(p, c.spec);
+  const auto f = envelope(p, c.spec)->b;
   const auto broken = breaks(p, c.spec.limits);
   Locality out;
   for (std::size_t j = 0; j < p.b.size(); ++j) {

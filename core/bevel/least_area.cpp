@@ -1,0 +1,102 @@
+#include "core/bevel/least_area.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tubecut::bevel {
+namespace {
+
+/// Lengths after the nodes and the weights of their heights in the area, mm.
+struct Ring {
+  std::vector<double> h, w;
+};
+
+Ring ring(const AngleProfile& profile) {
+  const auto n = profile.s.size();
+  Ring out{std::vector<double>(n), std::vector<double>(n)};
+  for (std::size_t j = 0; j < n; ++j)
+    out.h[j] = j + 1 < n ? profile.s[j + 1] - profile.s[j]
+                         : profile.s.front() + profile.period - profile.s.back();
+  for (std::size_t j = 0; j < n; ++j) out.w[j] = 0.5 * (out.h[j == 0 ? n - 1 : j - 1] + out.h[j]);
+  return out;
+}
+
+double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
+
+/// Contacts whose sum is that of the weights.
+std::vector<double> balanced(std::vector<double> contact, double weight) {
+  double above = 0.0, below = 0.0;
+  for (const double c : contact) (c > 0.0 ? above : below) += c;
+  for (double& c : contact)
+    if (c > 0.0) c *= (weight - below) / above;
+  return contact;
+}
+
+/// The multipliers of the second differences, mm^2, that balance the others; their mean is free.
+std::vector<double> bends(const Ring& r, const std::vector<double>& contact,
+                          const std::vector<double>& slope) {
+  const auto n = contact.size();
+  std::vector<double> shear(n), out(n);
+  double so_far = 0.0, moment = 0.0;
+  for (std::size_t j = 0; j < n; ++j) {
+    so_far += r.w[j] - contact[j];
+    shear[j] = so_far;
+    moment += r.h[j] * so_far - slope[j];
+  }
+  const double level = moment / sum(r.h);
+  double bend = 0.0;
+  for (std::size_t j = 0; j < n; ++j) {
+    out[j] = bend;
+    bend += slope[j] - r.h[j] * (shear[j] - level);
+  }
+  return out;
+}
+
+/// Where sum w |x - it| is least.
+double weighted_median(const std::vector<double>& x, const std::vector<double>& w) {
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t j) { return std::pair{x[j], j}; });
+  const double half = 0.5 * sum(w);
+  double so_far = 0.0;
+  for (const auto j : order) {
+    so_far += w[j];
+    if (so_far >= half) return x[j];
+  }
+  return x[order.back()];
+}
+
+}  // namespace
+
+double least_area(const AngleProfile& profile, const EnvelopeSpec& spec,
+                  const Multipliers& multipliers, double area) {
+  const auto r = ring(profile);
+  const auto n = r.h.size();
+  const auto contact = balanced(multipliers.contact, sum(r.w));
+  auto bend = bends(r, contact, multipliers.slope);
+  const double level = weighted_median(bend, r.w);
+  const double middle = sum(profile.b) / static_cast<double>(n);
+  double bound = 0.0;
+  for (std::size_t j = 0; j < n; ++j) {
+    bound += (contact[j] - r.w[j]) * (profile.b[j] - middle);
+    if (contact[j] < 0.0)
+      bound += contact[j] * std::min(spec.highest - profile.b[j], area / r.w[j]);
+    bound -= spec.limits.slope * std::abs(multipliers.slope[j]);
+    bound -= spec.limits.curvature * r.w[j] * std::abs(bend[j] - level);
+  }
+  return bound;
+}
+
+Multipliers no_multipliers(const AngleProfile& profile) {
+  return {.contact = ring(profile).w, .slope = std::vector<double>(profile.s.size())};
+}
+
+double area_excess(const AngleProfile& profile, const EnvelopeSpec& spec,
+                   const Multipliers& multipliers, double area) {
+  constexpr double kNothing = 1e-6;  // rad
+  const double over = area - least_area(profile, spec, multipliers, area);
+  return std::max(0.0, over / std::max(area, kNothing * profile.period));
+}
+
+}  // namespace tubecut::bevel
