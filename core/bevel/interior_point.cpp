@@ -200,10 +200,37 @@ bool InteriorPoint<Real>::solve(const std::stop_token& stop) {
   return false;
 }
 
+/// Between nodes that keep B nothing is borne, so no rounding of theirs may add up: their contacts
+/// are their weights, and each stretch of others balances by itself, by the contacts at its ends.
+void balance_stretches(const Programme& p, Multipliers& m) {
+  const Index n = p.size();
+  const auto kept = [&](Index j) { return p.keeps[static_cast<std::size_t>(j)] != 0; };
+  const auto contact = [&](Index j) -> double& { return m.contact[static_cast<std::size_t>(j)]; };
+  const auto slope = [&](Index j) -> double& { return m.slope[static_cast<std::size_t>(j)]; };
+  for (Index j = 0; j < n; ++j) {
+    if (kept(j)) contact(j) = p.w[j];
+    if (kept(j) && kept(p.next(j))) slope(j) = 0.0;
+  }
+  for (Index before = 0; before < n; ++before) {
+    if (!kept(before) || kept(p.next(before))) continue;
+    double force = 0.0, moment = -slope(before), length = p.h[before];
+    Index j = p.next(before);
+    for (; !kept(j); j = p.next(j)) {
+      force += p.w[j] - contact(j);
+      moment += p.h[j] * force - slope(j);
+      length += p.h[j];
+    }
+    contact(before) += moment / length;
+    contact(j) += force - moment / length;
+  }
+}
+
 template <class Real>
 void InteriorPoint<Real>::keep_best() {
   Multipliers now{vector_of(contacts()), vector_of(slopes())};
-  const double bound = least_area(p_.profile, p_.spec, now, area_);
+  balance_stretches(p_, now);
+  now = p_.of_profile(std::move(now));
+  const double bound = least_area(p_.profile, p_.spec, now, area_ * p_.unit * p_.pitch);
   if (!(bound > bound_)) return;
   bound_ = bound;
   best_ = std::move(now);

@@ -16,16 +16,20 @@ struct Programme {
   double slope = 0.0, curvature = 0.0, highest = 0.0;
   double unit = 1.0, pitch = 1.0;  // rad, mm
   Eigen::Index first = 0;          // the node of the profile that is node 0 here
-  AngleProfile profile;            // the same, for `least_area`
-  EnvelopeSpec spec;
+  std::vector<char> keeps;         // nodes so far from every break of a limit that f is B there
+  const AngleProfile& profile;     // what it came from
+  const EnvelopeSpec& spec;
+
+  /// Multipliers in the profile's own units and order.
+  [[nodiscard]] Multipliers of_profile(Multipliers own) const;
 
   [[nodiscard]] Eigen::Index size() const { return b.size(); }
   [[nodiscard]] Eigen::Index next(Eigen::Index j) const { return j + 1 < size() ? j + 1 : 0; }
   [[nodiscard]] Eigen::Index previous(Eigen::Index j) const { return j > 0 ? j - 1 : size() - 1; }
 };
 
-/// A solution: heights in rad, none below B, and the multipliers that proved most on the way, of
-/// the programme's own units.
+/// A solution: heights in rad, none below B, and the multipliers that proved most on the way, those
+/// of the profile.
 struct Least {
   Eigen::ArrayXd heights;
   Multipliers multipliers;

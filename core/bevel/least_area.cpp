@@ -24,12 +24,18 @@ Ring ring(const AngleProfile& profile) {
 
 double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
-/// Contacts whose sum is that of the weights.
-std::vector<double> balanced(std::vector<double> contact, double weight) {
-  double above = 0.0, below = 0.0;
-  for (const double c : contact) (c > 0.0 ? above : below) += c;
-  for (double& c : contact)
-    if (c > 0.0) c *= (weight - below) / above;
+/// Contacts whose sum is that of the weights. What is missing goes to those that differ from their
+/// weight: where B is left alone nothing is borne, and no rounding may add up there.
+std::vector<double> balanced(std::vector<double> contact, const std::vector<double>& weight) {
+  double missing = 0.0, able = 0.0;
+  const auto takes = [&](std::size_t j) { return contact[j] > 0.0 && contact[j] != weight[j]; };
+  for (std::size_t j = 0; j < contact.size(); ++j) {
+    missing += weight[j] - contact[j];
+    if (takes(j)) able += contact[j];
+  }
+  if (!(able > 0.0)) return missing == 0.0 ? contact : weight;
+  for (std::size_t j = 0; j < contact.size(); ++j)
+    if (takes(j)) contact[j] *= 1.0 + missing / able;
   return contact;
 }
 
@@ -73,7 +79,7 @@ double least_area(const AngleProfile& profile, const EnvelopeSpec& spec,
                   const Multipliers& multipliers, double area) {
   const auto r = ring(profile);
   const auto n = r.h.size();
-  const auto contact = balanced(multipliers.contact, sum(r.w));
+  const auto contact = balanced(multipliers.contact, r.w);
   auto bend = bends(r, contact, multipliers.slope);
   const double level = weighted_median(bend, r.w);
   const double middle = sum(profile.b) / static_cast<double>(n);

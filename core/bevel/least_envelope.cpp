@@ -16,6 +16,29 @@ using Eigen::Index;
 
 constexpr double kProved = 1e-7;  // of the area: more than that is tried again in longer numbers
 
+/// Nodes further than any curve reaches from where B itself breaks a limit.
+std::vector<char> kept_nodes(const Programme& p) {
+  const Index n = p.size();
+  const auto slope = [&](Index j) { return (p.b[p.next(j)] - p.b[j]) / p.h[j]; };
+  Array away(n);
+  for (Index j = 0; j < n; ++j) {
+    const double in = slope(p.previous(j)), ahead = slope(j);
+    const bool breaks = std::max(std::abs(in), std::abs(ahead)) > p.slope ||
+                        std::abs(ahead - in) > p.curvature * p.w[j];
+    away[j] = breaks ? 0.0 : std::numeric_limits<double>::infinity();
+  }
+  for (Index k = 0; k < 2 * n; ++k) {
+    const Index j = k % n, back = n - 1 - j;
+    away[j] = std::min(away[j], away[p.previous(j)] + p.h[p.previous(j)]);
+    away[back] = std::min(away[back], away[p.next(back)] + p.h[back]);
+  }
+  const double range = p.b.maxCoeff() - p.b.minCoeff();
+  const double reach = range / p.slope + 4.0 * p.slope / p.curvature;
+  std::vector<char> keeps(static_cast<std::size_t>(n));
+  for (Index j = 0; j < n; ++j) keeps[static_cast<std::size_t>(j)] = away[j] > reach ? 1 : 0;
+  return keeps;
+}
+
 Programme programme(const AngleProfile& profile, const EnvelopeSpec& spec) {
   const auto n = static_cast<Index>(profile.b.size());
   const auto at = [](const std::vector<double>& v, Index j) {
@@ -25,7 +48,7 @@ Programme programme(const AngleProfile& profile, const EnvelopeSpec& spec) {
     return j + 1 < n ? at(profile.s, j + 1) - at(profile.s, j)
                      : profile.s.front() + profile.period - profile.s.back();
   };
-  Programme out;
+  Programme out{.profile = profile, .spec = spec};
   for (Array* a : {&out.h, &out.w, &out.b}) a->resize(n);
   const auto behind = [&](Index j) { return ahead(j > 0 ? j - 1 : n - 1); };
   const auto around = [&](Index j) { return behind(j) + ahead(j); };
@@ -43,33 +66,7 @@ Programme programme(const AngleProfile& profile, const EnvelopeSpec& spec) {
   out.slope = spec.limits.slope * out.pitch / out.unit;
   out.curvature = spec.limits.curvature * out.pitch * out.pitch / out.unit;
   out.highest = spec.highest / out.unit;
-  double s = 0.0;
-  for (Index j = 0; j < n; ++j) {
-    out.profile.s.push_back(s);
-    s += out.h[j];
-  }
-  out.profile.b = {out.b.begin(), out.b.end()};
-  out.profile.period = s;
-  out.spec = {.limits = {out.slope, out.curvature}, .highest = out.highest};
-  return out;
-}
-
-/// Steps of the mean spacing from each node to the nearest where B itself breaks a limit.
-Array from_breaks(const Programme& p) {
-  const Index n = p.size();
-  const auto slope = [&](Index j) { return (p.b[p.next(j)] - p.b[j]) / p.h[j]; };
-  Array out(n);
-  for (Index j = 0; j < n; ++j) {
-    const double in = slope(p.previous(j)), ahead = slope(j);
-    const bool breaks = std::max(std::abs(in), std::abs(ahead)) > p.slope ||
-                        std::abs(ahead - in) > p.curvature * p.w[j];
-    out[j] = breaks ? 0.0 : std::numeric_limits<double>::infinity();
-  }
-  for (Index k = 0; k < 2 * n; ++k) {
-    const Index j = k % n, back = n - 1 - j;
-    out[j] = std::min(out[j], out[p.previous(j)] + p.h[p.previous(j)]);
-    out[back] = std::min(out[back], out[p.next(back)] + p.h[back]);
-  }
+  out.keeps = kept_nodes(out);
   return out;
 }
 
@@ -77,9 +74,6 @@ Array from_breaks(const Programme& p) {
 /// limits leave at that spacing, or so far from every break that no least profile leaves B.
 std::vector<double> touching(const AngleProfile& profile, const EnvelopeSpec& spec,
                              const Programme& p, const Array& f) {
-  const auto away = from_breaks(p);
-  const double range = p.b.maxCoeff() - p.b.minCoeff();
-  const double reach = range / p.slope + 4.0 * p.slope / p.curvature;
   std::vector<double> out(profile.b.size());
   for (Index j = 0; j < p.size(); ++j) {
     const auto k = static_cast<std::size_t>((j + p.first) % p.size());
@@ -87,16 +81,10 @@ std::vector<double> touching(const AngleProfile& profile, const EnvelopeSpec& sp
     const double touch = std::min(1.6e-8 * spec.limits.curvature * narrow * narrow,
                                   2e-10 * spec.limits.slope * narrow);
     const double height = std::min(f[j], spec.highest);
-    const bool same = away[j] > reach || height <= profile.b[k] + touch;
+    const bool same = p.keeps[static_cast<std::size_t>(j)] != 0 || height <= profile.b[k] + touch;
     out[k] = same ? profile.b[k] : height;
   }
   return out;
-}
-
-std::vector<double> round_the_profile(const Programme& p, std::vector<double> values, double unit) {
-  for (double& value : values) value *= unit;
-  std::ranges::rotate(values, values.end() - p.first);
-  return values;
 }
 
 bool keeps_limits(const AngleProfile& smoothed, const SwingLimits& limits) {
@@ -116,15 +104,28 @@ std::optional<Envelope> solved(const AngleProfile& profile, const EnvelopeSpec& 
   for (const bool limited : {false, true}) {
     const auto least = interior_point<Real>(p, limited, stop);
     if (!least || (!limited && least->heights.maxCoeff() > spec.highest)) continue;
-    return Envelope{
-        .b = touching(profile, spec, p, least->heights),
-        .multipliers = {round_the_profile(p, least->multipliers.contact, p.pitch),
-                        round_the_profile(p, least->multipliers.slope, p.pitch * p.pitch)}};
+    return Envelope{.b = touching(profile, spec, p, least->heights),
+                    .multipliers = least->multipliers};
   }
   return std::nullopt;
 }
 
 }  // namespace
+
+Multipliers Programme::of_profile(Multipliers own) const {
+  for (double& c : own.contact) c *= pitch;
+  for (double& slope_of : own.slope) slope_of *= pitch * pitch;
+  const auto weights = no_multipliers(profile).contact;
+  for (auto* values : {&own.contact, &own.slope})
+    std::ranges::rotate(*values, values->end() - first);
+  // Exactly, where nothing is borne.
+  for (Eigen::Index j = 0; j < size(); ++j) {
+    const auto k = static_cast<std::size_t>((j + first) % size());
+    if (keeps[static_cast<std::size_t>(j)] != 0 && own.contact[k] == w[j] * pitch)
+      own.contact[k] = weights[k];
+  }
+  return own;
+}
 
 std::optional<Envelope> least_envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
                                        const std::stop_token& stop) {

@@ -95,7 +95,7 @@ const sampling = fc.oneof(
 const common = joined(
   maybe('reference', fc.record({part: printable(1, 12), heat: printable(1, 64)})),
   maybe('log', fc.constant('inline')),
-  maybe('numerics', fc.constant(2)));
+  maybe('numerics', fc.constant(3)));
 
 const limits = fc.oneof(
   fc.record({max_slope_deg_per_mm: between(0.5, 10), max_curvature_deg_per_mm2: between(0.1, 3)}),

@@ -120,6 +120,30 @@ TEST(EnvelopeOptimum, FasterAxis) {
   compare(20240503, 100, 360, {8.0 * kRadPerDeg, 4.0 * kRadPerDeg}, 1e9);
 }
 
+/// One corner among 20 000 nodes: what rounding leaves at the others must not add up round the
+/// path.
+TEST(EnvelopeOptimum, OneCornerAmongTwentyThousandNodes) {
+  constexpr std::size_t n = 20000;
+  for (const double kink : {1e-4, 0.01, 1.0}) {
+    AngleProfile profile{.s = {}, .b = {}, .period = 400.0};
+    for (std::size_t j = 0; j < n; ++j) {
+      const double s = profile.period * static_cast<double>(j) / n;
+      profile.s.push_back(s);
+      profile.b.push_back(0.3 * std::sin(kTwoPi * s / profile.period) +
+                          kink * std::max(0.0, 1.0 - std::abs(s - 130.0) / 40.0));
+    }
+    const EnvelopeSpec spec{.limits = kSlow, .highest = kTorch};
+    const auto out = envelope(profile, spec);
+    ASSERT_TRUE(out);
+    const double area = area_above(profile, out->b);
+    EXPECT_LE(area_excess(profile, spec, out->multipliers, area), 1e-6) << kink;
+    const auto steep = steepness({profile.s, out->b, profile.period});
+    const auto most = allowed_steepness({profile.s, out->b, profile.period}, spec.limits);
+    EXPECT_LE(steep.slope, most.slope);
+    EXPECT_LE(steep.second, most.second);
+  }
+}
+
 /// What any multipliers prove lies below the area of every profile that keeps the limits.
 TEST(LeastArea, NoMultipliersProveMoreThanIsTrue) {
   std::mt19937_64 random(20240505);
