@@ -105,8 +105,7 @@ class Largest {
   }
 
   [[nodiscard]] Seen worst(int halvings, const std::stop_token& stop) {
-    for (const Cell* start : best_cells())
-      if (!stop.stop_requested()) climb(*start);
+    for (const Cell* start : best_cells()) climb(*start, stop);
     std::ranges::make_heap(cells_, {}, &Cell::most);
     while (halvings-- > 0 && !cells_.empty() && !stop.stop_requested()) {
       std::ranges::pop_heap(cells_, {}, &Cell::most);
@@ -158,11 +157,12 @@ class Largest {
   }
 
   /// From a cell's best corner to a place from which no step of a hundredth of the cell leads up.
-  void climb(const Cell& cell) {
+  void climb(const Cell& cell, const std::stop_token& stop) {
     constexpr int kSteps = 100;
     Seen here = highest(cell);
     double along = 0.5 * cell.along, across = 0.5 * cell.across;
     for (int step = 0; step < kSteps && along > 0.01 * cell.along; ++step) {
+      if (stop.stop_requested()) return;
       const std::array<Place, 4> beside{figure_.surface.moved(here.at, along, 0.0),
                                         figure_.surface.moved(here.at, -along, 0.0),
                                         figure_.surface.moved(here.at, 0.0, across),
