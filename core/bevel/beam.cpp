@@ -38,8 +38,8 @@ struct Figure {
   double half, sign;
   std::vector<double>* by_row = nullptr;  // the most of it, by the rows on whose way the axis is
 
-  [[nodiscard]] double operator()(const Place& at) const {
-    const auto seen = surface.seen(at);
+  [[nodiscard]] double operator()(const Place& at) const { return of(surface.seen(at)); }
+  [[nodiscard]] double of(const Surface::Seen& seen) const {
     const double value = sign * (seen.distance - half);
     if (by_row != nullptr && value > 0.0) note(seen, value);
     return value;
@@ -268,7 +268,9 @@ void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& st
   const auto line_up = [&](std::size_t row, double u) {
     before.swap(here);
     here.clear();
-    for (int m = 0; m <= grid.lines; ++m) here.push_back(figure({row, u, share(m), grid.land}));
+    const auto line = surface.across_wall(row, u, grid.land);
+    for (int m = 0; m <= grid.lines; ++m)
+      here.push_back(figure.of(surface.seen({row, u, share(m), grid.land}, line)));
   };
   line_up(grid.first, 0.0);
   for (std::size_t i = grid.first; i < grid.end && !stop.stop_requested(); ++i) {

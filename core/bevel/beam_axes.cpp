@@ -96,6 +96,8 @@ void Axes::add(std::size_t row, double from, double to) {
   out.inner = {in[0], 4.0 * in[1] - 3.0 * in[0] - in[2], 2.0 * (in[0] - 2.0 * in[1] + in[2])};
   out.across = {over[0], 4.0 * over[1] - 3.0 * over[0] - over[2],
                 2.0 * (over[0] - 2.0 * over[1] + over[2])};
+  for (std::size_t end = 0; end < 2; ++end)
+    out.ends[end] = {in[2 * end], over[2 * end], 1.0 / over[2 * end].squaredNorm()};
   out.middle = -cut_.inner / (cut_.outer - cut_.inner);
   const double inner = (in[2] - in[0]).norm(), outer = (in[2] + over[2] - in[0] - over[0]).norm();
   const double beyond = cut_.kerf / over[0].norm() * (over[2] - over[0]).norm();
@@ -111,9 +113,9 @@ void Axes::Best::see(std::size_t k, double at, double value) {
 /// Stretches ahead. Where the axes are further away than the best one, none nearer comes before
 /// they have travelled as much.
 void Axes::walk(std::size_t k, std::size_t last, const Vector3d& q, Best& best) const {
-  double low = stretch(k).square(0.0, q);
+  double low = stretch(k).square_first(q);
   while (k <= last) {
-    const double high = stretch(k).square(1.0, q), far = std::sqrt(high);
+    const double high = stretch(k).square_last(q), far = std::sqrt(high);
     look(k, low, high, std::sqrt(low) + far, q, best);
     const double clear = travelled_[k + 1] + std::max(0.0, far - best.distance);
     if (travelled_[k + 2] > clear) {
@@ -123,16 +125,16 @@ void Axes::walk(std::size_t k, std::size_t last, const Vector3d& q, Best& best) 
     }
     const auto past = std::ranges::upper_bound(travelled_, clear) - travelled_.begin();
     k = static_cast<std::size_t>(past) - 1;
-    low = stretch(k).square(0.0, q);
+    low = stretch(k).square_first(q);
   }
 }
 
 /// Stretches behind `end`, likewise.
 void Axes::walk_back(std::size_t end, std::size_t first, const Vector3d& q, Best& best) const {
-  double high = stretch(end).square(0.0, q);
+  double high = stretch(end).square_first(q);
   while (end > first) {
     const auto k = end - 1;
-    const double low = stretch(k).square(0.0, q), far = std::sqrt(low);
+    const double low = stretch(k).square_first(q), far = std::sqrt(low);
     look(k, low, high, far + std::sqrt(high), q, best);
     const double clear = travelled_[k] - std::max(0.0, far - best.distance);
     if (k == 0 || travelled_[k - 1] < clear) {
@@ -142,7 +144,7 @@ void Axes::walk_back(std::size_t end, std::size_t first, const Vector3d& q, Best
     }
     const auto from = std::ranges::lower_bound(travelled_, clear) - travelled_.begin();
     end = static_cast<std::size_t>(from);
-    high = stretch(end).square(0.0, q);
+    high = stretch(end).square_first(q);
   }
 }
 

@@ -29,9 +29,15 @@ struct Nearest {
 /// space: the axis at the share x of it is inner(x) + s across(x). It comes from outside and is
 /// looked at no further than the middle of the tube.
 struct Stretch {
+  /// The axis at one end of it.
+  struct End {
+    Eigen::Vector3d inner, across;
+    double inverse;  // of its squared length
+  };
   std::size_t row;
   double from, to;  // shares of the way from this row to the next
   std::array<Eigen::Vector3d, 3> inner, across;
+  std::array<End, 2> ends;
   double middle;  // s where the tube's middle is
   double travel;  // no point of the axis moves further, as far beyond the walls as the kerf is wide
 
@@ -43,6 +49,15 @@ struct Stretch {
   [[nodiscard]] double square(double x, const Eigen::Vector3d& q) const {
     return (q - at(x, q)).squaredNorm();
   }
+  [[nodiscard]] double square_at(const End& end, const Eigen::Vector3d& q) const {
+    const Eigen::Vector3d off = q - end.inner;
+    const double s = std::max(off.dot(end.across) * end.inverse, middle);
+    return (off - s * end.across).squaredNorm();
+  }
+  [[nodiscard]] double square_first(const Eigen::Vector3d& q) const {
+    return square_at(ends[0], q);
+  }
+  [[nodiscard]] double square_last(const Eigen::Vector3d& q) const { return square_at(ends[1], q); }
 };
 
 /// The axes along the torch's way; indices over two laps, so that half a lap either way is a run.

@@ -23,8 +23,8 @@ Surface::Surface(const BeamCut& cut, const std::stop_token& stop) : cut_(cut), a
   for (std::size_t i = 0; i < rows() && !stop.stop_requested(); ++i) along_.push_back(way(i));
 }
 
-Surface::Seen Surface::seen(const Place& at) const {
-  const auto near = axes_.nearest(at.row, at.u, point(at));
+Surface::Seen Surface::seen(const Place& at, const Line& line) const {
+  const auto near = axes_.nearest(at.row, at.u, point(at, line));
   const double distance = std::sqrt(near.square);
   const bool in_part = beyond(near) > kRounding * cut_.outer;
   return {in_part ? -distance : distance, near.row, near.u};
@@ -36,7 +36,8 @@ double Surface::phase(const Place& at) const {
 }
 
 double Surface::across(std::size_t row, bool land) const {
-  return (point({row, 0.0, 1.0, land}) - point({row, 0.0, 0.0, land})).norm();
+  const auto line = across_wall(row, 0.0, land);
+  return (point({row, 0.0, 1.0, land}, line) - point({row, 0.0, 0.0, land}, line)).norm();
 }
 
 double Surface::step(std::size_t row) const {
@@ -72,14 +73,17 @@ AcrossWall Surface::finished(const Place& at) const {
   return between(cut_.finished, cut_.turn, at.row, at.u);
 }
 
-Vector3d Surface::point(const Place& at) const {
-  const auto here = finished(at);
+Surface::Line Surface::across_wall(std::size_t row, double u, bool land) const {
+  const auto here = finished({row, u});
   const Vector3d inner = placed(cut_.inner, here.phi_inner, here.z_inner);
   const Vector3d outer = placed(cut_.outer, here.phi_outer, here.z_outer);
-  if (!at.land) return mixed_points(inner, outer, share(at));
-  const double z = mixed(cut_.land[at.row], cut_.land[(at.row + 1) % rows()], at.u);
-  return mixed_points(placed(cut_.inner, here.phi_inner, z), mixed_points(inner, outer, cut_.from),
-                      at.v);
+  if (!land) return {inner, outer};
+  const double z = mixed(cut_.land[row], cut_.land[(row + 1) % rows()], u);
+  return {placed(cut_.inner, here.phi_inner, z), mixed_points(inner, outer, cut_.from)};
+}
+
+Vector3d Surface::point(const Place& at, const Line& line) const {
+  return mixed_points(line.from, line.to, at.land ? at.v : share(at));
 }
 
 /// How far the axis runs beyond the finished line of its own row where it is nearest.

@@ -28,7 +28,16 @@ class Surface {
     std::size_t row;
     double u;
   };
-  [[nodiscard]] Seen seen(const Place& at) const;
+  [[nodiscard]] Seen seen(const Place& at) const {
+    return seen(at, across_wall(at.row, at.u, at.land));
+  }
+  /// The same of a place on a line known.
+  struct Line {
+    Eigen::Vector3d from, to;
+  };
+  [[nodiscard]] Seen seen(const Place& at, const Line& line) const;
+  /// Across the wall, or the land.
+  [[nodiscard]] Line across_wall(std::size_t row, double u, bool land) const;
 
   [[nodiscard]] double phase(const Place& at) const;
   [[nodiscard]] std::size_t rows() const { return cut_.finished.size(); }
@@ -41,7 +50,7 @@ class Surface {
  private:
   [[nodiscard]] double share(const Place& at) const { return mixed(cut_.from, 1.0, at.v); }
   [[nodiscard]] AcrossWall finished(const Place& at) const;
-  [[nodiscard]] Eigen::Vector3d point(const Place& at) const;
+  [[nodiscard]] Eigen::Vector3d point(const Place& at, const Line& line) const;
   [[nodiscard]] double beyond(const Nearest& near) const;
   [[nodiscard]] Eigen::Vector3d way(std::size_t row) const;
 
