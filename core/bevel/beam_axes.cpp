@@ -28,6 +28,14 @@ Vector3d placed(double radius, double phi, double z) {
   return {radius * at.cos, radius * at.sin, z};
 }
 
+Line placed(const BeamCut& cut, const AcrossWall& at) {
+  const auto inner = elementary::sincos(at.phi_inner);
+  const bool axial = at.phi_outer == at.phi_inner;  // as every end's are
+  const auto outer = axial ? inner : elementary::sincos(at.phi_outer);
+  return {{cut.inner * inner.cos, cut.inner * inner.sin, at.z_inner},
+          {cut.outer * outer.cos, cut.outer * outer.sin, at.z_outer}};
+}
+
 AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t i, double u) {
   auto b = rows[(i + 1) % rows.size()];
   if (i + 1 == rows.size()) {
@@ -48,6 +56,10 @@ Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
         std::max(std::abs(b.phi_inner - a.phi_inner), std::abs(b.phi_outer - a.phi_outer));
     const double rise = std::max(std::abs(b.z_inner - a.z_inner), std::abs(b.z_outer - a.z_outer));
     const double way = std::min(rise + cut.outer * wide, 4.0 * kMostParts * cut.kerf);
+    const auto axis = [&](const AcrossWall& at) -> Vector3d {
+      const auto line = placed(cut, at);
+      return line.to - line.from;
+    };
     const auto from = axis(a), to = axis(b);
     const double swing = elementary::atan2(from.cross(to).norm(), from.dot(to));
     const int parts =
@@ -80,18 +92,14 @@ AcrossWall Axes::torch(std::size_t row, double u) const {
   return between(cut_.torch, cut_.turn, row, u);
 }
 
-Vector3d Axes::axis(const AcrossWall& at) const {
-  return placed(cut_.outer, at.phi_outer, at.z_outer) -
-         placed(cut_.inner, at.phi_inner, at.z_inner);
-}
-
 void Axes::add(std::size_t row, double from, double to) {
   Stretch out{.row = row, .from = from, .to = to};
   std::array<Vector3d, 3> in, over;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto t = torch(row, mixed(from, to, 0.5 * static_cast<double>(k)));
-    in[k] = placed(cut_.inner, t.phi_inner, t.z_inner);
-    over[k] = placed(cut_.outer, t.phi_outer, t.z_outer) - in[k];
+    const auto line = placed(cut_, t);
+    in[k] = line.from;
+    over[k] = line.to - line.from;
   }
   out.inner = {in[0], 4.0 * in[1] - 3.0 * in[0] - in[2], 2.0 * (in[0] - 2.0 * in[1] + in[2])};
   out.across = {over[0], 4.0 * over[1] - 3.0 * over[0] - over[2],

@@ -13,6 +13,11 @@ namespace tubecut::bevel::beam {
 [[nodiscard]] inline double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
 /// A point by its cylinder coordinates.
 [[nodiscard]] Eigen::Vector3d placed(double radius, double phi, double z);
+/// A line across the wall, by its points on both walls.
+struct Line {
+  Eigen::Vector3d from, to;
+};
+[[nodiscard]] Line placed(const BeamCut& cut, const AcrossWall& at);
 /// The share u of the way from row i to the next; rows are joined the last to the first.
 [[nodiscard]] AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t i,
                                  double u);
@@ -77,7 +82,6 @@ class Axes {
     void see(std::size_t k, double at, double value);
   };
   [[nodiscard]] AcrossWall torch(std::size_t row, double u) const;
-  [[nodiscard]] Eigen::Vector3d axis(const AcrossWall& at) const;
   void add(std::size_t row, double from, double to);
   [[nodiscard]] const Stretch& stretch(std::size_t k) const {
     return stretches_[k % stretches_.size()];

@@ -73,13 +73,12 @@ AcrossWall Surface::finished(const Place& at) const {
   return between(cut_.finished, cut_.turn, at.row, at.u);
 }
 
-Surface::Line Surface::across_wall(std::size_t row, double u, bool land) const {
+Line Surface::across_wall(std::size_t row, double u, bool land) const {
   const auto here = finished({row, u});
-  const Vector3d inner = placed(cut_.inner, here.phi_inner, here.z_inner);
-  const Vector3d outer = placed(cut_.outer, here.phi_outer, here.z_outer);
-  if (!land) return {inner, outer};
+  const auto wall = placed(cut_, here);
+  if (!land) return wall;
   const double z = mixed(cut_.land[row], cut_.land[(row + 1) % rows()], u);
-  return {placed(cut_.inner, here.phi_inner, z), mixed_points(inner, outer, cut_.from)};
+  return {placed(cut_.inner, here.phi_inner, z), mixed_points(wall.from, wall.to, cut_.from)};
 }
 
 Vector3d Surface::point(const Place& at, const Line& line) const {
@@ -89,9 +88,9 @@ Vector3d Surface::point(const Place& at, const Line& line) const {
 /// How far the axis runs beyond the finished line of its own row where it is nearest.
 double Surface::beyond(const Nearest& near) const {
   const auto own = finished({near.row, near.u});
-  const Vector3d inner = placed(cut_.inner, own.phi_inner, own.z_inner);
-  const Vector3d across = placed(cut_.outer, own.phi_outer, own.z_outer) - inner;
-  const Vector3d from = near.point - inner;
+  const auto line = placed(cut_, own);
+  const Vector3d across = line.to - line.from;
+  const Vector3d from = near.point - line.from;
   const Vector3d off = from - from.dot(across) / across.squaredNorm() * across;
   const Vector3d normal = along_[near.row].cross(across);
   const double size = normal.norm();
@@ -100,10 +99,8 @@ double Surface::beyond(const Nearest& near) const {
 
 /// The finished surface's way from a row to the next, in the middle of the wall.
 Vector3d Surface::way(std::size_t row) const {
-  const auto a = finished({row, 0.0}), b = finished({row, 1.0});
-  return 0.5 *
-         (placed(cut_.inner, b.phi_inner, b.z_inner) - placed(cut_.inner, a.phi_inner, a.z_inner) +
-          placed(cut_.outer, b.phi_outer, b.z_outer) - placed(cut_.outer, a.phi_outer, a.z_outer));
+  const auto a = placed(cut_, finished({row, 0.0})), b = placed(cut_, finished({row, 1.0}));
+  return 0.5 * (b.from - a.from + b.to - a.to);
 }
 
 }  // namespace tubecut::bevel::beam

@@ -32,9 +32,6 @@ class Surface {
     return seen(at, across_wall(at.row, at.u, at.land));
   }
   /// The same of a place on a line known.
-  struct Line {
-    Eigen::Vector3d from, to;
-  };
   [[nodiscard]] Seen seen(const Place& at, const Line& line) const;
   /// Across the wall, or the land.
   [[nodiscard]] Line across_wall(std::size_t row, double u, bool land) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace tubecut::bevel {
@@ -79,6 +80,11 @@ double least_area(const AngleProfile& profile, const EnvelopeSpec& spec,
                   const Multipliers& multipliers, double area) {
   const auto r = ring(profile);
   const auto n = r.h.size();
+  const auto of_the_profile = [&](const std::vector<double>& m) {
+    return m.size() == n && std::ranges::all_of(m, [](double x) { return std::isfinite(x); });
+  };
+  if (!of_the_profile(multipliers.contact) || !of_the_profile(multipliers.slope))
+    return -std::numeric_limits<double>::infinity();
   const auto contact = balanced(multipliers.contact, r.w);
   auto bend = bends(r, contact, multipliers.slope);
   const double level = weighted_median(bend, r.w);
@@ -102,7 +108,8 @@ double area_excess(const AngleProfile& profile, const EnvelopeSpec& spec,
                    const Multipliers& multipliers, double area) {
   constexpr double kNothing = 1e-6;  // rad
   const double over = area - least_area(profile, spec, multipliers, area);
-  return std::max(0.0, over / std::max(area, kNothing * profile.period));
+  const double share = over / std::max(area, kNothing * profile.period);
+  return share < 0.0 ? 0.0 : share;  // NaN stays
 }
 
 }  // namespace tubecut::bevel

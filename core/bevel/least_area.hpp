@@ -9,6 +9,7 @@ namespace tubecut::bevel {
 /// scaled to hold the whole weight; the multipliers of the second difference follow from the others
 /// by summing twice round the ring.
 ///
+/// Multipliers of another number of nodes, or that are no numbers, prove nothing: -infinity.
 /// `area` is that of some profile that does: a height above B is worth no more than it.
 /// Accuracy  1e-13 of the period times the range of B.
 /// Cost      n log n.

@@ -273,6 +273,12 @@ TEST_P(Tables, EveryCheckSeesItsCorruption) {
     const double before = bad.developed[some] - bad.developed[some - 1];
     bad.b[some] += by * kDeg * h * before / 2.0;
   });
+  expect_seen(t, "area_excess", [&](auto& bad, double by) {
+    const double width = 0.5 * (bad.developed[some + 1] - bad.developed[some - 1]);
+    const double area = bevel::smoothed_area(t.spec, t.good)->area;
+    bad.b[some] += by * std::max(area, 1e-6 * bad.developed_total) / width;
+  });
+  expect_seen(t, "area_excess", [](auto& bad, double) { bad.multipliers = {}; });
   expect_seen(t, "torch_range",
               [&](auto& bad, double by) { bad.b[some] = t.spec.torch.max.rad() + by * kDeg; });
   if (way.contact == Contact::inner) {

@@ -163,6 +163,26 @@ TEST(LeastArea, NoMultipliersProveMoreThanIsTrue) {
   }
 }
 
+/// Multipliers of another table, of none, or that are no numbers prove nothing, and that fails.
+TEST(LeastArea, WhatIsNotThereProvesNothing) {
+  std::mt19937_64 random(20240507);
+  const auto profile = real_nodes::random_node(random, 90, kTorch);
+  const EnvelopeSpec spec{.limits = kSlow, .highest = kTorch};
+  const auto good = envelope(profile, spec)->multipliers;
+  const auto passes = [&](const Multipliers& m) {
+    return area_excess(profile, spec, m, 1.0) <= 1e-6;
+  };
+  EXPECT_FALSE(passes({}));
+  auto other = good;
+  other.contact.pop_back();
+  EXPECT_FALSE(passes(other));
+  for (auto member : {&Multipliers::contact, &Multipliers::slope}) {
+    other = good;
+    (other.*member)[3] = std::nan("");
+    EXPECT_FALSE(passes(other));
+  }
+}
+
 /// A profile that is not the least is seen: twice the excess of anything that lies above it.
 TEST(LeastArea, AWorseProfileIsSeen) {
   std::mt19937_64 random(20240506);
