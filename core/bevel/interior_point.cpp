@@ -26,7 +26,7 @@ constexpr double kLong = 1e-3;     // of the mean spacing: long enough to divide
 constexpr double kKept = 0.99;     // share of the way to the next limit, at least
 
 /// The inequalities, a slack of every node in each group.
-enum Group : Index { kAboveB, kRising, kFalling, kBendingUp, kBendingDown, kBelowLimit, kGroups };
+enum Group : Index { above_b, rising, falling, bending_up, bending_down, below_limit, groups };
 
 std::vector<double> vector_of(const Array& a) { return {a.begin(), a.end()}; }
 
@@ -68,7 +68,7 @@ class InteriorPoint {
   void keep_best();
   [[nodiscard]] Array contacts() const;
   void contacts_of_pinned(Array& out) const;
-  [[nodiscard]] Array slopes() const { return of(y_, kRising) - of(y_, kFalling); }
+  [[nodiscard]] Array slopes() const { return of(y_, rising) - of(y_, falling); }
 
   const Programme& p_;
   bool limited_;
@@ -87,7 +87,7 @@ class InteriorPoint {
 template <class Real>
 InteriorPoint<Real>::InteriorPoint(const Programme& p, bool limited)
     : p_(p), limited_(limited), newton_(p.h) {
-  const Index n = p.size(), all = (limited ? kGroups : kBelowLimit) * n;
+  const Index n = p.size(), all = (limited ? groups : below_limit) * n;
   for (Array* a : {&v_, &lack_, &pinned_}) a->setZero(n);
   for (Array* a : {&x_, &df_, &dv_, &of_f_, &of_v_, &of_u_, &height_, &slope_, &bend_})
     a->resize(n);
@@ -100,30 +100,30 @@ template <class Real>
 void InteriorPoint<Real>::begin() {
   const double top = p_.b.maxCoeff();
   x_ = (limited_ ? 0.5 * (top + std::min(p_.highest, top + 1.0)) : top + kStart) - p_.b;
-  of(s_, kAboveB) = x_;
-  of(s_, kRising).setConstant(p_.slope);
-  of(s_, kFalling).setConstant(p_.slope);
-  of(s_, kBendingUp) = p_.curvature * p_.w;
-  of(s_, kBendingDown) = p_.curvature * p_.w;
+  of(s_, above_b) = x_;
+  of(s_, rising).setConstant(p_.slope);
+  of(s_, falling).setConstant(p_.slope);
+  of(s_, bending_up) = p_.curvature * p_.w;
+  of(s_, bending_down) = p_.curvature * p_.w;
   if (limited_) {
     const Array room = p_.highest - p_.b;
-    of(s_, kBelowLimit) = (room - x_).max(kNarrow);
-    lack_ = x_ + of(s_, kBelowLimit) - room;
+    of(s_, below_limit) = (room - x_).max(kNarrow);
+    lack_ = x_ + of(s_, below_limit) - room;
   }
   y_ = kStart * inner(p_.w, x_) / static_cast<double>(p_.size()) / s_;
-  of(y_, kAboveB) = p_.w;
+  of(y_, above_b) = p_.w;
   if (limited_) pin();
 }
 
 /// Where B is at the limit the height has no room, so its two slacks leave the programme.
 template <class Real>
 void InteriorPoint<Real>::pin() {
-  of(y_, kAboveB) += of(y_, kBelowLimit);
+  of(y_, above_b) += of(y_, below_limit);
   for (Index j = 0; j < p_.size(); ++j) {
     if (p_.highest - p_.b[j] > kNoRoom) continue;
     pinned_[j] = kPinned;
     x_[j] = lack_[j] = 0.0;
-    for (const auto group : {kAboveB, kBelowLimit}) {
+    for (const auto group : {above_b, below_limit}) {
       of(s_, group)[j] = 1.0;
       of(y_, group)[j] = 1e-300;
     }
@@ -134,10 +134,10 @@ template <class Real>
 void InteriorPoint<Real>::factor() {
   inverse_ = 1.0 / s_;
   ratio_ = y_ * inverse_;
-  height_ = of(ratio_, kAboveB);
-  if (limited_) height_ = (height_ + of(ratio_, kBelowLimit)).max(pinned_);
-  slope_ = of(ratio_, kRising) + of(ratio_, kFalling);
-  bend_ = of(ratio_, kBendingUp) + of(ratio_, kBendingDown);
+  height_ = of(ratio_, above_b);
+  if (limited_) height_ = (height_ + of(ratio_, below_limit)).max(pinned_);
+  slope_ = of(ratio_, rising) + of(ratio_, falling);
+  bend_ = of(ratio_, bending_up) + of(ratio_, bending_down);
   newton_.factor(height_, slope_, bend_);
 }
 
@@ -145,19 +145,19 @@ void InteriorPoint<Real>::factor() {
 template <class Real>
 void InteriorPoint<Real>::find_step(const Array& shift) {
   const Index n = p_.size();
-  of_f_ = p_.w + of(shift, kAboveB);
-  if (limited_) of_f_ += of(ratio_, kBelowLimit) * lack_ - of(shift, kBelowLimit);
-  of_v_ = of(shift, kFalling) - of(shift, kRising);
-  of_u_ = of(shift, kBendingDown) - of(shift, kBendingUp);
+  of_f_ = p_.w + of(shift, above_b);
+  if (limited_) of_f_ += of(ratio_, below_limit) * lack_ - of(shift, below_limit);
+  of_v_ = of(shift, falling) - of(shift, rising);
+  of_u_ = of(shift, bending_down) - of(shift, bending_up);
   newton_.solve(of_f_, of_v_, of_u_, df_, dv_);
-  of(ds_, kAboveB) = df_;
-  of(ds_, kRising) = -dv_;
-  of(ds_, kFalling) = dv_;
-  auto bend = of(ds_, kBendingDown);
+  of(ds_, above_b) = df_;
+  of(ds_, rising) = -dv_;
+  of(ds_, falling) = dv_;
+  auto bend = of(ds_, bending_down);
   bend[0] = dv_[0] - dv_[n - 1];
   bend.tail(n - 1) = dv_.tail(n - 1) - dv_.head(n - 1);
-  of(ds_, kBendingUp) = -bend;
-  if (limited_) of(ds_, kBelowLimit) = -df_ - lack_;
+  of(ds_, bending_up) = -bend;
+  if (limited_) of(ds_, below_limit) = -df_ - lack_;
   dy_ = -y_ - shift - ratio_ * ds_;
 }
 
@@ -256,9 +256,9 @@ Array InteriorPoint<Real>::heights() const {
 
 template <class Real>
 Array InteriorPoint<Real>::contacts() const {
-  Array out = of(y_, kAboveB);
+  Array out = of(y_, above_b);
   if (limited_) {
-    out -= of(y_, kBelowLimit);
+    out -= of(y_, below_limit);
     if (pinned_.maxCoeff() > 0.0) contacts_of_pinned(out);
   }
   return out;
@@ -272,8 +272,8 @@ void InteriorPoint<Real>::contacts_of_pinned(Array& out) const {
   const Index n = p_.size();
   const auto net = [&](Group up, Group down, Index j) { return of(y_, up)[j] - of(y_, down)[j]; };
   const auto shear = [&](Index j) {
-    return (net(kRising, kFalling, j) + net(kBendingUp, kBendingDown, j) -
-            net(kBendingUp, kBendingDown, p_.next(j))) /
+    return (net(rising, falling, j) + net(bending_up, bending_down, j) -
+            net(bending_up, bending_down, p_.next(j))) /
            p_.h[j];
   };
   Index from = 0;
