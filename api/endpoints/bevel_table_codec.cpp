@@ -8,6 +8,7 @@
 #include "api/machines.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
+#include "core/bevel/smoothed_area.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -152,13 +152,6 @@ struct Table {
 /// The sampling's tolerance; on a bare grid the one it has by default. mm
 [[nodiscard]] double penetration_limit(const TableSpec& spec);
 
-/// The area that the smoothing added, rad mm, and the least that any could, by its multipliers; of
-/// a refined envelope only.
-struct SmoothedArea {
-  double area, least, excess;  // excess: as `area_excess`
-};
-[[nodiscard]] std::optional<SmoothedArea> smoothed_area(const TableSpec& spec, const Table& table);
-
 /// The table proved from its own numbers by other formulas: 3D distances, normals from gradients,
 /// half tangents.
 [[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table,

@@ -5,6 +5,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/least_area.hpp"
+#include "core/bevel/smoothed_area.hpp"
 #include "core/bevel/table.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/joint/solid.hpp"

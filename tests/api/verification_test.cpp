@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 
+#include "core/bevel/smoothed_area.hpp"
 #include "core/bevel/table.hpp"
 #include "core/joint/intersection.hpp"
 
