@@ -255,6 +255,21 @@ TEST(EnvelopeMetamorphic, ShiftRotateReverseScale) {
   }
 }
 
+/// Where the path begins, and which way it runs, is nobody's business: the seam of a tube, and the
+/// place where the ring is cut open to be solved.
+TEST(EnvelopeMetamorphic, TheLeastAreaKnowsNoSeam) {
+  Random random{std::mt19937_64(78)};
+  for (int i = 0; i < 60; ++i) {
+    const auto profile = real_nodes::random_node(random.engine, 180, kTorch);
+    const EnvelopeSpec spec{.limits = kLimits, .highest = kTorch};
+    const auto area = [&](const AngleProfile& p) { return area_above(p, envelope(p, spec)->b); };
+    const double here = area(profile);
+    const double allowed = 1e-6 * here + 1e-9;
+    EXPECT_NEAR(area(rotated(profile, random.whole(1, 179))), here, allowed) << i;
+    EXPECT_NEAR(area(reversed(profile)), here, allowed) << i;
+  }
+}
+
 /// Nodes where the profile itself breaks a limit: the ends of a step steeper than K, nodes of a
 /// second difference beyond A.
 std::vector<double> breaks(const AngleProfile& p, const SwingLimits& limits) {
