@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
+
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -39,58 +40,49 @@ void put_integer(std::string& out, std::int64_t v) {
        static_cast<std::uint64_t>(v < 0 ? -1 - v : v));
 }
 
-template <class Small>
-bool all_fit(const std::vector<std::int64_t>& values) {
-  return std::ranges::all_of(values, [](std::int64_t v) {
-    return v >= std::numeric_limits<Small>::min() && v <= std::numeric_limits<Small>::max();
-  });
+/// Its bytes, little endian.
+void little_endian(std::string& out, std::span<const std::int32_t> values, std::size_t width,
+                   const std::stop_token& stop) {
+  Pace pace(stop);
+  const auto from = out.size();
+  out.reserve(from + values.size() * width);
+  for (const auto v : values) {
+    pace.turn();
+    char bytes[4];
+    for (std::size_t i = 0; i < width; ++i)
+      bytes[i] = static_cast<char>((static_cast<std::uint32_t>(v) >> (8 * i)) & 0xFFU);
+    out.append(bytes, width);
+  }
 }
 
 }  // namespace
 
-std::string CborWriter::typed_array(const std::vector<std::int64_t>& values) {
-  const bool small = all_fit<std::int16_t>(values);
+void CborWriter::typed_array(std::span<const std::int32_t> values) {
+  begin_item();
+  Pace pace(stop_);
+  const bool small = std::ranges::all_of(values, [&pace](std::int32_t v) {
+    pace.turn();
+    return v == static_cast<std::int16_t>(v);
+  });
   const std::size_t width = small ? 2 : 4;
-  std::string out;
-  out.reserve(values.size() * width + 16);
-  head(out, Major::tag, small ? kInt16LittleEndian : kInt32LittleEndian);
-  head(out, Major::bytes, values.size() * width);
-  for (const auto v : values)
-    for (std::size_t i = 0; i < width; ++i)
-      out += static_cast<char>((static_cast<std::uint64_t>(v) >> (8 * i)) & 0xFFU);
-  return out;
-}
-
-void CborWriter::give_up_column(Frame& frame) {
-  frame.column = false;
-  for (const auto v : frame.integers) put_integer(frame.bytes, v);
-  frame.integers.clear();
-}
-
-void CborWriter::begin_item() {
-  if (frames_.empty()) return;
-  if (frames_.back().column) give_up_column(frames_.back());
-  if (!frames_.back().object) ++frames_.back().items;
+  head(out_, Major::tag, small ? kInt16LittleEndian : kInt32LittleEndian);
+  head(out_, Major::bytes, values.size() * width);
+  little_endian(out_, values, width, stop_);
 }
 
 void CborWriter::null() {
   begin_item();
-  here() += '\xF6';
+  out_ += '\xF6';
 }
 
 void CborWriter::boolean(bool v) {
   begin_item();
-  here() += v ? '\xF5' : '\xF4';
+  out_ += v ? '\xF5' : '\xF4';
 }
 
 void CborWriter::integer(std::int64_t v) {
-  if (!frames_.empty() && frames_.back().column) {
-    ++frames_.back().items;
-    frames_.back().integers.push_back(v);
-    return;
-  }
   begin_item();
-  put_integer(here(), v);
+  put_integer(out_, v);
 }
 
 void CborWriter::number(double v) {
@@ -98,52 +90,61 @@ void CborWriter::number(double v) {
   begin_item();
   const auto narrow = static_cast<float>(v);
   const bool fits = static_cast<double>(narrow) == v;
-  here() += fits ? '\xFA' : '\xFB';
+  out_ += fits ? '\xFA' : '\xFB';
   if (fits)
-    big_endian(here(), std::bit_cast<std::uint32_t>(narrow), 4);
+    big_endian(out_, std::bit_cast<std::uint32_t>(narrow), 4);
   else
-    big_endian(here(), std::bit_cast<std::uint64_t>(v), 8);
+    big_endian(out_, std::bit_cast<std::uint64_t>(v), 8);
 }
 
 void CborWriter::text(std::string_view v) {
   begin_item();
-  head(here(), Major::text, v.size());
-  here() += v;
+  head(out_, Major::text, v.size());
+  out_ += v;
 }
 
 void CborWriter::raw(std::string_view item) {
   begin_item();
-  here() += item;
+  append(out_, item, stop_);
 }
 
 void CborWriter::key(std::string_view name) {
-  auto& frame = frames_.back();
-  ++frame.items;
-  head(frame.bytes, Major::text, name.size());
-  frame.bytes += name;
+  ++frames_.back().items;
+  head(out_, Major::text, name.size());
+  out_ += name;
   key_ = name;
 }
 
 void CborWriter::open(bool object) {
   begin_item();
-  const bool in_counts = !frames_.empty() && frames_.back().counts;
   const bool named = !frames_.empty() && frames_.back().object;
-  frames_.push_back({.object = object,
-                     .counts = object && named && key_ == "counts",
-                     .column = !object && in_counts});
+  frames_.push_back(
+      {.object = object, .counts = object && named && key_ == "counts", .at = out_.size()});
+  out_ += '\0';
 }
 
 void CborWriter::close() {
-  Frame done = std::move(frames_.back());
+  const Frame done = frames_.back();
   frames_.pop_back();
-  const bool typed = done.column && all_fit<std::int32_t>(done.integers);
-  if (typed) {
-    here() += typed_array(done.integers);
-    return;
+  std::string full;
+  head(full, done.object ? Major::map : Major::array, done.items);
+  out_[done.at] = full.front();
+  if (full.size() > 1) rests_.push_back({done.at + 1, full.substr(1)});
+}
+
+std::string CborWriter::take() {
+  if (rests_.empty()) return std::move(out_);
+  std::ranges::sort(rests_, {}, &Rest::at);
+  std::string whole;
+  whole.reserve(out_.size() + 8 * rests_.size());
+  std::size_t at = 0;
+  for (const auto& rest : rests_) {
+    append(whole, std::string_view(out_).substr(at, rest.at - at), stop_);
+    whole += rest.bytes;
+    at = rest.at;
   }
-  if (done.column) give_up_column(done);
-  head(here(), done.object ? Major::map : Major::array, done.items);
-  here() += done.bytes;
+  append(whole, std::string_view(out_).substr(at), stop_);
+  return whole;
 }
 
 }  // namespace tubecut::api

@@ -1,18 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tubecut::api {
 
 /// Writes CBOR (RFC 8949, definite lengths, shortest forms) item by item, without a document in
 /// between: an answer of a million periods would take sixteen bytes a number. Columns of integers
-/// in an object named "counts" become RFC 8746 typed arrays (tag 77, int16 little endian; tag 78,
-/// int32, where a value does not fit).
+/// in an object named "counts" are RFC 8746 typed arrays (tag 77, int16 little endian; tag 78,
+/// int32, where a value does not fit). Throws Stopped.
 class CborWriter {
  public:
+  explicit CborWriter(std::stop_token stop = {}) : stop_(std::move(stop)) {}
+
   void null();
   void boolean(bool v);
   void integer(std::int64_t v);
@@ -25,24 +30,33 @@ class CborWriter {
   void open(bool object);
   void close();
 
-  [[nodiscard]] std::string take() { return std::move(out_); }
+  /// Right in an object named "counts".
+  [[nodiscard]] bool in_counts() const { return !frames_.empty() && frames_.back().counts; }
+  /// A column of such an object.
+  void typed_array(std::span<const std::int32_t> values);
+
+  [[nodiscard]] std::string take();
 
  private:
   struct Frame {
     bool object = false;
     bool counts = false;  // an object named "counts"
-    bool column = false;  // an array right in it
     std::uint64_t items = 0;
-    std::string bytes = {};
-    std::vector<std::int64_t> integers = {};  // of a column, until something else comes
+    std::size_t at = 0;  // its head's first byte
+  };
+  /// The rest of a head longer than the byte left for it, to be put in before `at`.
+  struct Rest {
+    std::size_t at = 0;
+    std::string bytes;
   };
 
-  std::string& here() { return frames_.empty() ? out_ : frames_.back().bytes; }
-  void begin_item();
-  void give_up_column(Frame& frame);
-  [[nodiscard]] static std::string typed_array(const std::vector<std::int64_t>& values);
+  void begin_item() {
+    if (!frames_.empty() && !frames_.back().object) ++frames_.back().items;
+  }
 
+  std::stop_token stop_;
   std::vector<Frame> frames_;
+  std::vector<Rest> rests_;
   std::string key_;
   std::string out_;
 };

@@ -302,7 +302,7 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
       o.field("result_sha256", job.result_sha256);
     });
     w.field("request", echo);
-    if (!query.validate_only) w.raw("result", cbor ? answer.result_cbor : answer.result);
+    if (!query.validate_only) w.raw("result", answer.result);
     write_checks(w, answer.checks);
     w.object("verdict", [&](Writer& o) {
       o.field("status", verdict.status);

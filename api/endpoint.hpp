@@ -26,9 +26,8 @@ namespace tubecut::api {
 /// A request as understood and its answer; or why there is none.
 struct Answer {
   Json request = {};                                  // echo without reference and log
-  std::string result = {};                            // as JSON
-  std::string result_cbor = {};                       // too, if it is asked for
-  std::string input_sha256 = {}, result_sha256 = {};  // of these two as text
+  std::string result = {};                            // as JSON or CBOR, unless `text` is asked for
+  std::string input_sha256 = {}, result_sha256 = {};  // of these two as JSON
   std::vector<Check> checks = {};
   std::vector<Warning> warnings = {};
   std::vector<Measure> measures = {};
@@ -118,15 +117,16 @@ Reply run(Reader& in, Run& run) {
     answer.warnings.push_back(std::move(warning));
   answer.measures = E::measure(spec, *out);
   answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
-  const auto encoded = [&](Encoding encoding) {
-    Writer writer(1 << 16, run.stop, encoding);
+  const auto encoded = [&](Writer writer) {
     writer.object([&](Writer& w) { E::encode(spec, *out, w); });
-    return writer.take();
+    return writer;
   };
-  answer.result = encoded(Encoding::json);  // what the hash is of
-  if (run.encoding == Encoding::cbor) answer.result_cbor = encoded(Encoding::cbor);
   answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
-  answer.result_sha256 = sha256(answer.result, run.stop);
+  if (run.format == nullptr)
+    answer.result = encoded(Writer(1 << 16, run.stop, run.encoding)).take();
+  answer.result_sha256 = run.format == nullptr && run.encoding == Encoding::json
+                             ? sha256(answer.result, run.stop)
+                             : encoded(Writer::hashing(run.stop)).sha256();
   if (run.format != nullptr) {
     if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
       return *std::move(refused);

@@ -1,10 +1,25 @@
 #pragma once
 
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;  // of OpenSSL
+
 namespace tubecut::api {
+
+/// sha256 of what is added, part by part. Throws std::runtime_error where OpenSSL offers none.
+class Sha256 {
+ public:
+  Sha256();
+  void add(std::string_view bytes);
+  /// In lower-case hex; nothing is added after it.
+  [[nodiscard]] std::string hex();
+
+ private:
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
+};
 
 /// sha256 in lower-case hex. Throws Stopped.
 [[nodiscard]] std::string sha256(std::string_view bytes, const std::stop_token& stop = {});

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <stop_token>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace tubecut::api {
@@ -28,5 +31,15 @@ class Pace {
   std::stop_token stop_;
   std::size_t turns_ = 0;
 };
+
+/// Appends in parts that take far less than a millisecond to copy.
+inline void append(std::string& out, std::string_view bytes, const std::stop_token& stop) {
+  constexpr std::size_t kAtOnce = 256u << 10;
+  out.reserve(out.size() + bytes.size());
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(kAtOnce, bytes.size()))) {
+    ask(stop);
+    out += bytes.substr(0, kAtOnce);
+  }
+}
 
 }  // namespace tubecut::api

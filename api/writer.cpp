@@ -7,6 +7,37 @@
 
 namespace tubecut::api {
 
+namespace {
+
+/// What is all whole numbers of 32 bits.
+std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values,
+                                                   const std::stop_token& stop) {
+  std::vector<std::int32_t> out;
+  out.reserve(values.size());
+  Pace pace(stop);
+  for (const auto& value : values) {
+    pace.turn();
+    const auto* number = value.as<double>();
+    if (number == nullptr || *number != std::trunc(*number) ||
+        !(*number >= -2147483648.0 && *number <= 2147483647.0))
+      return std::nullopt;
+    out.push_back(static_cast<std::int32_t>(*number));
+  }
+  return out;
+}
+
+}  // namespace
+
+void Writer::hash_so_far() {
+  hash_->add(out_);
+  out_.clear();
+}
+
+std::string Writer::sha256() {
+  hash_so_far();
+  return hash_->hex();
+}
+
 void Writer::key(std::string_view name) {
   separate();
   if (cbor_) return cbor_->key(name);
@@ -73,6 +104,8 @@ void Writer::json(const Json& of) {
   } else if (const auto* s = of.as<std::string>()) {
     value(std::string_view(*s));
   } else if (const auto* a = of.as<Json::Array>()) {
+    if (cbor_ && cbor_->in_counts())
+      if (const auto counts = counts_of(*a, pace_.stop())) return cbor_->typed_array(*counts);
     list(*a, [this](const Json& item) { json(item); });
   } else if (const auto* o = of.as<Json::Object>()) {
     object([o](Writer& w) {
@@ -123,7 +156,7 @@ void Writer::flags(std::string_view name, const std::vector<bool>& values) {
 void Writer::raw(std::string_view name, std::string_view encoded) {
   key(name);
   if (cbor_) return cbor_->raw(encoded);
-  out_ += encoded;
+  append(out_, encoded, pace_.stop());
   fresh_ = false;
 }
 

@@ -12,6 +12,7 @@
 
 #include "api/cbor.hpp"
 #include "api/json.hpp"
+#include "api/sha256.hpp"
 #include "api/stop.hpp"
 
 namespace tubecut::api {
@@ -32,9 +33,16 @@ class Writer {
                   Encoding encoding = Encoding::json)
       : pace_(std::move(stop)) {
     if (encoding == Encoding::cbor)
-      cbor_.emplace();
+      cbor_.emplace(pace_.stop());
     else
       out_.reserve(reserve);
+  }
+
+  /// One of JSON that keeps nothing but its sha256.
+  static Writer hashing(std::stop_token stop) {
+    Writer out(2 * kHashed, std::move(stop));
+    out.hash_.emplace();
+    return out;
   }
 
   template <class F>
@@ -82,6 +90,8 @@ class Writer {
   template <std::integral T>
   void column(std::string_view name, const std::vector<T>& values) {
     key(name);
+    if constexpr (std::same_as<T, std::int32_t>)
+      if (cbor_ && cbor_->in_counts()) return cbor_->typed_array(values);
     list(values, [this](T v) { integer(static_cast<std::int64_t>(v)); });
   }
   void column(std::string_view name, const std::vector<std::string>& values);
@@ -96,13 +106,18 @@ class Writer {
   void json(const Json& value);
 
   [[nodiscard]] std::string take() { return cbor_ ? cbor_->take() : std::move(out_); }
+  /// Of a hashing one, in lower-case hex.
+  [[nodiscard]] std::string sha256();
 
  private:
   void separate() {
     pace_.turn();
-    if (!fresh_) out_ += ',';
+    if (out_.size() >= kHashed && hash_) hash_so_far();
+    if (!fresh_ && !cbor_) out_ += ',';
     fresh_ = false;
   }
+  static constexpr std::size_t kHashed = 1u << 16;  // bytes at once
+  void hash_so_far();
   void key(std::string_view name);
   void open(char c);
   void close(char c);
@@ -124,6 +139,7 @@ class Writer {
 
   std::string out_;
   std::optional<CborWriter> cbor_;  // instead of out_
+  std::optional<Sha256> hash_;      // of what was in out_
   Pace pace_;
   bool fresh_ = true;
 };
