@@ -54,6 +54,79 @@ TEST(Json, RefusesWithTheByteOffset) {
   EXPECT_EQ(parse("[1,\n x]").error().offset, 5u);
 }
 
+TEST(Writer, AsksBetweenPartsOfWhatIsLong) {
+  for (const auto encoding : {Encoding::json, Encoding::cbor}) {
+    std::stop_source source;
+    Writer out(0, source.get_token(), encoding);
+    const std::string megabyte(1 << 20, '0');
+    const std::vector<std::int32_t> counts(5'000);
+    EXPECT_NO_THROW(out.object([&](Writer& w) {
+      w.raw("a", megabyte);
+      source.request_stop();
+      EXPECT_THROW(w.raw("b", megabyte), Stopped);
+      EXPECT_THROW(w.object("counts", [&](Writer& o) { o.column("C", counts); }), Stopped);
+    }));
+    if (encoding == Encoding::cbor) {
+      EXPECT_NO_THROW(static_cast<void>(out.take()));  // its heads are short
+    }
+  }
+  std::stop_source source;
+  Writer out(0, source.get_token(), Encoding::cbor);
+  out.object([&](Writer& w) {
+    w.column("a", std::vector<double>(100, 1.5));
+    w.raw("b", std::string(1 << 20, '\0'));
+  });
+  source.request_stop();
+  EXPECT_THROW(static_cast<void>(out.take()), Stopped);
+}
+
+TEST(Writer, HashesWhatItWouldKeep) {
+  const auto write = [](Writer& out) {
+    out.object([](Writer& w) {
+      w.column("x", std::vector<double>(30'000, 0.1));
+      w.field("text", "\xC3\xA4\n");
+    });
+  };
+  Writer keeps, hashes = Writer::hashing({});
+  write(keeps);
+  write(hashes);
+  EXPECT_EQ(hashes.sha256(), sha256(keeps.take()));
+}
+
+/// RFC 8949: the shortest head of every length, whatever stands beside it.
+TEST(Cbor, HeadsAreTheShortest) {
+  for (const std::size_t n : {0, 23, 24, 255, 256, 65'535, 65'536}) {
+    Writer out(0, {}, Encoding::cbor);
+    out.object([&](Writer& w) {
+      w.column("a", std::vector<double>(n, 1.0));
+      w.array("b", std::vector<int>{1, 2}, [&](Writer& each, int) {
+        each.object([&](Writer& o) { o.column("c", std::vector<double>(n, 2.0)); });
+      });
+    });
+    std::string head;
+    if (n < 24)
+      head = {static_cast<char>(0x80 + n)};
+    else if (n < 256)
+      head = {'\x98', static_cast<char>(n)};
+    else if (n < 65'536)
+      head = {'\x99', static_cast<char>(n >> 8), static_cast<char>(n)};
+    else
+      head = {'\x9A', '\0', '\1', '\0', '\0'};
+    const auto inner =
+        "\xA1\x61"
+        "c" +
+        head + std::string(n, '\2');
+    EXPECT_EQ(out.take(),
+              "\xA2\x61"
+              "a" +
+                  head + std::string(n, '\1') +
+                  "\x61"
+                  "b\x82" +
+                  inner + inner)
+        << n;
+  }
+}
+
 TEST(HeaderList, ReadsWeightsAndPassesOverBlanks) {
   const auto read = [](std::string_view value) {
     std::string out;
