@@ -99,9 +99,11 @@ class Largest {
  public:
   explicit Largest(const Figure& figure) : figure_(figure) {}
 
-  void see(const Cell& cell) {
-    cells_.push_back(with_slopes(cell, kMargin));
-    keep(cell);
+  void see(const Cell& seen) {
+    keep(seen);
+    // What is known only grows: a cell that is of no use now is of none at the end.
+    const Cell cell = with_slopes(seen, kMargin);
+    if (promises(cell) || is_near_best(cell)) cells_.push_back(cell);
   }
 
   [[nodiscard]] Seen worst(int halvings, const std::stop_token& stop) {
@@ -111,8 +113,7 @@ class Largest {
       std::ranges::pop_heap(cells_, {}, &Cell::most);
       const Cell cell = cells_.back();
       cells_.pop_back();
-      const double known = std::max(0.0, best_.value);
-      if (!(cell.most() > known + std::max(kTold, kToldShare * known))) break;
+      if (!promises(cell)) break;
       for (const auto& half : halved(cell, cell.grows_along() > cell.grows_across())) {
         keep(half);
         cells_.push_back(with_slopes(half, kKept));
@@ -123,6 +124,16 @@ class Largest {
   }
 
  private:
+  /// More than is known, by as much as is told.
+  [[nodiscard]] bool promises(const Cell& cell) const {
+    const double known = std::max(0.0, best_.value);
+    return cell.most() > known + std::max(kTold, kToldShare * known);
+  }
+  [[nodiscard]] bool is_near_best(const Cell& cell) const {
+    constexpr double kNearly = 0.85;
+    return cell.highest() > std::max(kTold, kNearly * best_.value);
+  }
+
   void keep(const Cell& cell) { keep(highest(cell)); }
   void keep(const Seen& seen) {
     if (seen.value > best_.value) best_ = seen;
@@ -139,10 +150,9 @@ class Largest {
   /// Few cells that are not neighbours and show nearly as much as any.
   [[nodiscard]] std::vector<const Cell*> best_cells() const {
     constexpr std::size_t kPool = 64, kClimbs = 6;
-    constexpr double kNearly = 0.85;
     std::vector<const Cell*> pool;
     for (const Cell& cell : cells_)
-      if (cell.highest() > std::max(kTold, kNearly * best_.value)) pool.push_back(&cell);
+      if (is_near_best(cell)) pool.push_back(&cell);
     const auto top = pool.begin() + static_cast<std::ptrdiff_t>(std::min(kPool, pool.size()));
     std::ranges::partial_sort(pool, top, std::ranges::greater{}, &Cell::highest);
     std::vector<const Cell*> out;

@@ -49,6 +49,8 @@ AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t
 
 Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
   const auto n = cut.torch.size();
+  stretches_.reserve(2 * n);
+  first_.reserve(n + 1);
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
     first_.push_back(stretches_.size());
     const auto a = torch(i, 0.0), b = torch(i, 1.0);
