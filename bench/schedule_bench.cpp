@@ -128,7 +128,8 @@ void pulses(benchmark::State& state) {
       for (const auto& place : s.plan.places)
         ideal.push_back(motion::ideal_pulses(s.spec.machine.axes[a],
                                              s.job.course.axes[a].at(cursor.at(place)), start));
-      benchmark::DoNotOptimize(motion::increments(ideal));
+      benchmark::DoNotOptimize(
+          motion::increments(ideal.size(), [&](std::size_t k) { return ideal[k]; }));
     }
   }
   share_of_cut(state, s);

@@ -33,17 +33,15 @@ AxisPulses pulses_of(const PreparedCut& job, const Plan& plan, std::size_t a,
   out.unit = axis.unit;
   out.start = f.at(course.path.at(0, 0.0));
   if (!is_moving(course, a)) return out;
-  std::vector<double> cumulative;
-  cumulative.reserve(plan.places.size());
   CourseCursor cursor(course);
-  for (const Place& p : plan.places) {
-    if (stops(stop, cumulative.size())) return out;
-    cumulative.push_back(ideal_pulses(axis, f.at(cursor.at(p)), out.start));
-  }
-  out.counts = increments(cumulative);
-  for (const std::int32_t n : out.counts) {
-    out.total += n;
-    out.peak = std::max<std::int64_t>(out.peak, std::abs(n));
+  out.counts = increments(
+      plan.places.size(),
+      [&](std::size_t k) { return ideal_pulses(axis, f.at(cursor.at(plan.places[k])), out.start); },
+      stop);
+  for (std::size_t k = 0; k < out.counts.size(); ++k) {
+    if (stops(stop, k)) return out;
+    out.total += out.counts[k];
+    out.peak = std::max<std::int64_t>(out.peak, std::abs(out.counts[k]));
   }
   if (out.peak == 0) out.counts = {};
   if (job.program.closed) out.closure = closure(axis, f, course, out.total);
@@ -104,13 +102,15 @@ double ideal_pulses(const Axis& axis, double q, double start) {
 
 std::int64_t rounded(double pulses) { return static_cast<std::int64_t>(std::floor(pulses + 0.5)); }
 
-std::vector<std::int32_t> increments(std::span<const double> cumulative) {
+std::vector<std::int32_t> increments(std::size_t n,
+                                     const std::function<double(std::size_t)>& cumulative,
+                                     const std::stop_token& stop) {
   std::vector<std::int32_t> out;
-  if (cumulative.empty()) return out;
-  out.reserve(cumulative.size() - 1);
-  std::int64_t before = rounded(cumulative.front());
-  for (const double p : cumulative.subspan(1)) {
-    const std::int64_t now = rounded(p);
+  if (n == 0) return out;
+  out.reserve(n - 1);
+  std::int64_t before = rounded(cumulative(0));
+  for (std::size_t k = 1; k < n && !stops(stop, k); ++k) {
+    const std::int64_t now = rounded(cumulative(k));
     out.push_back(static_cast<std::int32_t>(now - before));
     before = now;
   }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -22,9 +22,11 @@ namespace tubecut::motion {
 /// Source  docs/theory/pulse-schedules.md, section 7.
 [[nodiscard]] std::int64_t rounded(double pulses);
 
-/// Signed pulses of every period from the cumulative ideal positions, the first of which is the
-/// start.
-[[nodiscard]] std::vector<std::int32_t> increments(std::span<const double> cumulative);
+/// Signed pulses of n - 1 periods from the cumulative ideal positions at their ends, the first of
+/// which is the start. All of them unless stopped.
+[[nodiscard]] std::vector<std::int32_t> increments(
+    std::size_t n, const std::function<double(std::size_t)>& cumulative,
+    const std::stop_token& stop = {});
 
 /// The pulses of one axis of the machine.
 struct AxisPulses {

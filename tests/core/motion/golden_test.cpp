@@ -55,7 +55,7 @@ TEST(Golden, Rounding) {
   const auto expected = numbers(golden, "expect/n");
   std::vector<double> p;
   for (std::size_t k = 0; k <= expected.size(); ++k) p.push_back(0.4 * static_cast<double>(k));
-  const auto n = increments(p);
+  const auto n = increments(p.size(), [&p](std::size_t k) { return p[k]; });
   ASSERT_EQ(n.size(), expected.size());
   for (std::size_t k = 0; k < n.size(); ++k) EXPECT_EQ(n[k], expected[k]) << k;
 }
@@ -65,7 +65,7 @@ TEST(Golden, RoundingOfHalvesGoesUpOnBothSigns) {
   const auto p = numbers(golden, "given/p"), cumulative = numbers(golden, "expect/N");
   for (std::size_t k = 0; k < p.size(); ++k) EXPECT_EQ(rounded(p[k]), cumulative[k]);
   const auto expected = numbers(golden, "expect/n");
-  const auto n = increments(p);
+  const auto n = increments(p.size(), [&p](std::size_t k) { return p[k]; });
   ASSERT_EQ(n.size(), expected.size());
   for (std::size_t k = 0; k < n.size(); ++k) EXPECT_EQ(n[k], expected[k]) << k;
 }
