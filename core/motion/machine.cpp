@@ -168,12 +168,11 @@ Machine five_axis_cutter() {
                    slide("Z1", 100, 800, 16000), slide("Z2", 20, 200, 4000), swing()}};
 }
 
+/// Without an axis for the torch's height, only a swing about the point that it cuts keeps its
+/// stand-off where B varies by 60 deg, as it does on the source's own pair.
 Machine crawler() {
   return {.name = "crawler",
-          .kinematics = Crawler{.wheel_offset = 60.0,
-                                .swing_center = SwingCenter::pivot,
-                                .pivot_length = 20.0,
-                                .standoff_max = 10.0},
+          .kinematics = Crawler{.wheel_offset = 60.0, .swing_center = SwingCenter::remote},
           .axes = {slide("S", 50, 200, 4000), slide("E", 100, 500, 10000), swing()}};
 }
 
@@ -207,7 +206,7 @@ std::vector<std::string> kinematic_members(const Machine& machine) {
       return {"pivot_length", "standoff", "z2_share"};
     }
     std::vector<std::string> operator()(const Crawler&) const {
-      return {"wheel_offset", "swing_center", "pivot_length", "standoff_max"};
+      return {"wheel_offset", "swing_center"};
     }
     std::vector<std::string> operator()(const ConeMill&) const { return {}; }
     std::vector<std::string> operator()(const Generic&) const { return {"maps"}; }

@@ -45,7 +45,8 @@ TEST(Machines, BuiltInOnesAreSound) {
 TEST(Machines, CrawlerCutsAndReportsItsResidual) {
   ScheduleSpec spec = table1(20);
   spec.machine = catalogue()[1].machine;
-  std::get<Crawler>(spec.machine.kinematics).standoff_max.reset();
+  spec.machine.kinematics =
+      Crawler{.wheel_offset = 60.0, .swing_center = SwingCenter::pivot, .pivot_length = 20.0};
   for (double& b : contour_of(spec).b) b *= 0.5;
   const Schedule s = planned(spec);
   for (const Check& check : verify(spec, s)) EXPECT_TRUE(check.passed()) << check.name;

@@ -81,7 +81,7 @@ Machine random_machine(Dice& dice) {
   }
   if (auto* const crawler = std::get_if<Crawler>(&m.kinematics)) {
     crawler->pivot_length = dice.uniform(0.0, 40.0);
-    crawler->standoff_max.reset();
+    if (dice.below(2) == 0) crawler->swing_center = SwingCenter::pivot;
   }
   for (Axis& axis : m.axes) {
     axis.v_max *= dice.log_uniform(0.1, 5.0);
