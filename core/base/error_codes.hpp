@@ -219,7 +219,7 @@
   X(ghost_contact, cut, "The cut follows a partner beyond that member's end.")                    \
   X(comparison_only, cut,                                                                         \
     "Comparison only, never to be cut: B and the root are those of a published figure.")          \
-  X(free_end, cut, "This end meets no member.")                                                   \
+  X(free_end, cut, "This end meets no member, though one is near.")                               \
   X(end_open, cut, "Some generators of this end meet no cutter, so the cut is not closed.")       \
   X(end_consumed, cut, "The cut at this end reaches beyond the member's other end.")              \
   X(no_table, cut, "This end has no bevel table: it cannot be cut as asked, for this reason.")    \

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "core/base/try.hpp"
+
 namespace tubecut::joint {
 namespace {
 
@@ -121,6 +123,27 @@ void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
     box(k, [&](const Vector3d& low, const Vector3d& high) { grid.in_box(low, high, visit); });
 }
 
+/// Calls `see(touch)` for every end within the reach of another stretch, until it returns false.
+template <class F>
+Result<void> for_touches(std::span<const Stretch> stretches, const std::stop_token& stop, F see) {
+  if (stretches.empty()) return {};
+  const Grid grid(stretches);
+  const auto ends = 2 * stretches.size();
+  std::vector<std::size_t> seen(ends, stretches.size());
+  bool more = true;
+  for (std::size_t i = 0; i < stretches.size() && more; ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    search(grid, stretches[i], ends, [&](std::size_t end) {
+      if (end / 2 == i || seen[end] == i) return;  // a cube on the border of two pieces comes twice
+      seen[end] = i;
+      const auto& own = stretches[end / 2];
+      const auto near = nearness(end % 2 == 0 ? own.start : own.finish, stretches[i]);
+      if (near.distance <= stretches[i].reach && !see(Touch{end, i, near})) more = false;
+    });
+  }
+  return {};
+}
+
 }  // namespace
 
 Nearness nearness(const Vector3d& point, const Stretch& stretch) {
@@ -149,23 +172,13 @@ double nearness(const Stretch& a, const Stretch& b) {
 Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size_t most,
                                    const std::stop_token& stop) {
   std::vector<Touch> out;
-  if (stretches.empty()) return out;
-  const Grid grid(stretches);
-  const auto ends = 2 * stretches.size();
-  std::vector<std::size_t> count(ends, 0), seen(ends, stretches.size());
+  std::vector<std::size_t> count(2 * stretches.size(), 0);
   std::optional<std::size_t> crowded;
-  for (std::size_t i = 0; i < stretches.size() && !crowded; ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    search(grid, stretches[i], ends, [&](std::size_t end) {
-      if (end / 2 == i || seen[end] == i) return;  // a cube on the border of two pieces comes twice
-      seen[end] = i;
-      const auto& own = stretches[end / 2];
-      const auto near = nearness(end % 2 == 0 ? own.start : own.finish, stretches[i]);
-      if (near.distance > stretches[i].reach) return;
-      out.push_back({end, i, near});
-      if (++count[end] > most) crowded = end;
-    });
-  }
+  TRY(for_touches(stretches, stop, [&](const Touch& touch) {
+    out.push_back(touch);
+    if (++count[touch.end] > most) crowded = touch.end;
+    return !crowded;
+  }));
   if (crowded)
     return fail({.code = ErrorCode::wrong_count,
                  .member = "members/" + std::to_string(*crowded / 2) +
@@ -176,6 +189,19 @@ Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size
   std::ranges::sort(out, [](const Touch& a, const Touch& b) {
     return a.end != b.end ? a.end < b.end : a.other < b.other;
   });
+  return out;
+}
+
+Result<std::vector<std::optional<Touch>>> nearest_touches(std::span<const Stretch> stretches,
+                                                          const std::vector<bool>& ends,
+                                                          const std::stop_token& stop) {
+  std::vector<std::optional<Touch>> out(ends.size());
+  TRY(for_touches(stretches, stop, [&](const Touch& touch) {
+    auto& nearest = out[touch.end];
+    if (ends[touch.end] && (!nearest || touch.near.distance < nearest->near.distance))
+      nearest = touch;
+    return true;
+  }));
   return out;
 }
 

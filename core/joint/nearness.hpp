@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -41,5 +42,13 @@ struct Touch {
 [[nodiscard]] Result<std::vector<Touch>> touches(std::span<const Stretch> stretches,
                                                  std::size_t most,
                                                  const std::stop_token& stop = {});
+
+/// For each of these ends the nearest other within whose reach it is; nothing for any else.
+///
+/// Errors    cancelled.
+/// Cost      as of `touches`, which it has no limit of.
+[[nodiscard]] Result<std::vector<std::optional<Touch>>> nearest_touches(
+    std::span<const Stretch> stretches, const std::vector<bool>& ends,
+    const std::stop_token& stop = {});
 
 }  // namespace tubecut::joint

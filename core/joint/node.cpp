@@ -60,6 +60,21 @@ Result<Joined> joined_within(const NodeSpec& spec, double distance, const std::s
   return out;
 }
 
+/// What each end that joins nothing may have been meant to join: the nearest member within three
+/// times the reach.
+using Missed = std::vector<std::optional<Touch>>;
+
+Result<Missed> missed(const NodeSpec& spec, const Joined& joined, double distance,
+                      const std::stop_token& stop) {
+  constexpr double kTimes = 3.0;
+  std::vector<Stretch> stretches;
+  for (const auto& m : spec.members)
+    stretches.push_back(stretch(m, kTimes * (distance + m.outer_radius)));
+  std::vector<bool> free;
+  for (const auto& touches : joined) free.push_back(touches.empty());
+  return nearest_touches(stretches, free, stop);
+}
+
 Result<Joined> joined_by(const NodeSpec& spec, const std::vector<Link>& links) {
   Joined out(2 * spec.members.size());
   for (const auto& link : links) {
@@ -221,12 +236,16 @@ double mitre_step(const NodeSpec& spec, std::size_t member, const CutBy& cut) {
   return wider / cut.plane->normal.normalized().z() + cut.eccentricity;
 }
 
-void warn(const NodeSpec& spec, const MemberEnd& end, bool by_distance, std::vector<Warning>& out) {
+void warn(const NodeSpec& spec, const MemberEnd& end, const std::optional<Touch>& missed,
+          std::vector<Warning>& out) {
   const auto at = place_of(end.member, end.end);
-  if (end.free && by_distance)
+  if (missed) {
+    const double off = missed->near.distance - spec.members[missed->other].outer_radius;
     out.push_back({.code = WarningCode::free_end,
                    .member = at,
-                   .detail = called(spec, end.member) + " meets no member here"});
+                   .detail = called(spec, end.member) + " meets no member here, and misses " +
+                             called(spec, missed->other) + " by " + shown(off) + " mm"});
+  }
   for (const auto& cut : end.cut_by)
     if (cut.ghost)
       out.push_back({.code = WarningCode::ghost_contact,
@@ -243,7 +262,8 @@ void warn(const NodeSpec& spec, const MemberEnd& end, bool by_distance, std::vec
 }
 
 Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Applied& applied,
-                            const std::vector<Touch>& joined, std::vector<Warning>& warnings) {
+                            const std::vector<Touch>& joined, const std::optional<Touch>& missed,
+                            std::vector<Warning>& warnings) {
   MemberEnd out{.member = index / 2, .end = index % 2 == 0 ? End::start : End::finish};
   out.free = joined.empty();
   const auto* within = std::get_if<Within>(&spec.connect);
@@ -260,7 +280,7 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Appli
   TRY(auto placed, place_cutters(spec, applied, out.member, out.frame, first, cutters));
   out.cut_by = std::move(placed);
   if (!out.cut_by.empty()) detail::inspect(spec, out);
-  warn(spec, out, within != nullptr, warnings);
+  warn(spec, out, missed, warnings);
   return out;
 }
 
@@ -271,12 +291,16 @@ Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
   const auto* within = std::get_if<Within>(&spec.connect);
   TRY(auto joined, within != nullptr ? joined_within(spec, within->distance, stop)
                                      : joined_by(spec, std::get<std::vector<Link>>(spec.connect)));
+  Missed near(joined.size());
+  if (within != nullptr) {
+    TRY(near, missed(spec, joined, within->distance, stop));
+  }
   TRY(const auto applied, detail::apply_joints(spec, joined));
   Nodes out;
   out.ends.reserve(joined.size());
   for (std::size_t i = 0; i < joined.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    TRY(auto end, solve_end(spec, i, applied, (joined)[i], out.warnings));
+    TRY(auto end, solve_end(spec, i, applied, joined[i], near[i], out.warnings));
     out.ends.push_back(std::move(end));
   }
   return out;
