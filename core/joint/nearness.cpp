@@ -196,10 +196,12 @@ Result<std::vector<std::optional<Touch>>> nearest_touches(std::span<const Stretc
                                                           const std::vector<bool>& ends,
                                                           const std::stop_token& stop) {
   std::vector<std::optional<Touch>> out(ends.size());
+  const auto share = [&](const Touch& touch) {
+    return touch.near.distance / stretches[touch.other].reach;
+  };
   TRY(for_touches(stretches, stop, [&](const Touch& touch) {
     auto& nearest = out[touch.end];
-    if (ends[touch.end] && (!nearest || touch.near.distance < nearest->near.distance))
-      nearest = touch;
+    if (ends[touch.end] && (!nearest || share(touch) < share(*nearest))) nearest = touch;
     return true;
   }));
   return out;

@@ -86,7 +86,9 @@ TEST(Chain, OffsetPairOfSource002GoesToTheCrawler) {
   const auto schedule = post("/v1/pulse-schedules",
                              example("pulse-schedules/source-002-offset-pair-on-the-crawler.json"));
   ASSERT_FALSE(schedule.outcome.error) << schedule.outcome.body.substr(0, 1000);
-  EXPECT_EQ(text(schedule.body, "verdict/status"), "review");  // the stand-off grows: reported
+  EXPECT_EQ(text(schedule.body, "verdict/status"), "ok");
+  EXPECT_EQ(text(schedule.body, "request/machine/name"), "crawler");
+  EXPECT_EQ(number(schedule.body, "result/report/standoff_growth_mm"), 0.0);
 }
 
 TEST(Chain, CommonFieldsOfAnInnerRequestAreNotLost) {

@@ -91,6 +91,16 @@ def cut_warnings(answer):
     return [w for w in answer["warnings"] if w["severity"] == "cut"]
 
 
+def swinging_schedule():
+    """A crawler that swings about a pivot above the wall: its stand-off grows, which is to be reviewed."""
+    def axis(name, unit, v, a, j, **limits):
+        return {"name": name, "unit": unit, "pulses_per_unit": 1000, "v_max": v, "a_max": a, "j_max": j, "n_max": 800, **limits}
+    return examples("pulse-schedules")["source-002-offset-pair-on-the-crawler"] | {"machine": {
+        "type": "crawler", "period_us": 4000, "b_positive": "outer_edge_into_part", "wheel_offset_mm": 60, "swing_center": "pivot",
+        "pivot_length_mm": 20, "axes": [axis("S", "mm", 50, 200, 4000), axis("E", "mm", 100, 500, 10000),
+                                        axis("B", "deg", 45, 300, 6000, soft_min=-80, soft_max=80)]}}
+
+
 def rejected(endpoint, body):
     """The same with a bound that its own measures break."""
     out = copy.deepcopy(body)
@@ -167,7 +177,7 @@ class Verdict(FormatTest):
         whole["cycle"]["target_per_hour"] = 500
         cases = [("bevel-tables", examples("bevel-tables")["table-1-torch-45-deg"]),
                  ("bevel-tables", examples("bevel-tables")["source-000-table-1-as-published"]), ("parts", part),
-                 ("pulse-schedules", examples("pulse-schedules")["source-002-offset-pair-on-the-crawler"]), ("feed-curves", whole),
+                 ("pulse-schedules", swinging_schedule()), ("feed-curves", whole),
                  ("mill-paths", examples("mill-paths")["case-b-end-down"])]
         read = set()
         for endpoint, body in cases:
@@ -177,16 +187,16 @@ class Verdict(FormatTest):
     def test_every_format_of_what_is_rejected(self):
         read = set()
         for endpoint, name in (("bevel-tables", "table-1-torch-45-deg"), ("parts", "chord-with-holes"), ("holes", "set-in-branch"),
-                               ("pulse-schedules", "source-002-offset-pair-on-the-crawler")):
-            body = examples(endpoint)[name]
+                               ("pulse-schedules", "")):
+            body = examples(endpoint)[name] if name else swinging_schedule()
             bad = rejected(endpoint, body)
             read |= {(endpoint, *one) for one in self.look(endpoint, bad, "reject")}
         self.assertEqual({media for _, media, _ in read} | {"model/stl", "text/x-iec61131-st"}, set(READERS))
 
     def test_what_is_rejected_never_lights_the_torch(self):
         for endpoint, name in (("bevel-tables", "table-1-torch-45-deg"), ("parts", "chord-with-holes"),
-                               ("pulse-schedules", "source-002-offset-pair-on-the-crawler")):
-            body = rejected(endpoint, examples(endpoint)[name])
+                               ("pulse-schedules", "")):
+            body = rejected(endpoint, examples(endpoint)[name] if name else swinging_schedule())
             answer = self.service.answer(endpoint, body)
             codes = ",".join(sorted({w["code"] for w in cut_warnings(answer)}))
             speed = f"&{SPEED}" if endpoint != "pulse-schedules" else ""
@@ -198,8 +208,8 @@ class Verdict(FormatTest):
             self.assertFalse(re.search(r"^M0?[34]\b", dark, re.M))
 
     def test_what_is_to_be_reviewed_lights_it_once_its_warnings_are_acknowledged(self):
-        for endpoint, name in (("bevel-tables", "table-1-torch-45-deg"), ("pulse-schedules", "source-002-offset-pair-on-the-crawler")):
-            body = examples(endpoint)[name]
+        for endpoint, name in (("bevel-tables", "table-1-torch-45-deg"), ("pulse-schedules", "")):
+            body = examples(endpoint)[name] if name else swinging_schedule()
             codes = sorted({w["code"] for w in cut_warnings(self.service.answer(endpoint, body))})
             self.assertTrue(codes)
             lit = "format=gcode&torch=on" + (f"&{SPEED}" if endpoint == "bevel-tables" else "")
