@@ -62,6 +62,7 @@ struct JobFacts {
   std::string endpoint;               // id in the endpoint table; empty when the path is not in it
   std::string input_sha256;           // empty when the request was not understood
   std::string result_sha256;          // empty for errors
+  std::string body_sha256;            // of the body's bytes, where that was not understood
   std::string verdict;                // ok | review | reject; empty for errors
   std::vector<std::string> reasons;   // of the verdict
   std::string error_code;             // empty for answers

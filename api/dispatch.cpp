@@ -119,6 +119,8 @@ class CallRun {
     out_.error = kind;
     out_.content_type = kProblemMedia;
     out_.job.error_code = info(problem.code).code;
+    if (out_.job.input_sha256.empty() && !out_.job.endpoint.empty() && !call_.body.empty())
+      out_.job.body_sha256 = sha256(call_.body);
     const int status = context_.status != nullptr ? context_.status(kind) : 0;
     out_.body = print(problem, call_.request_id, status);
     if (!allow.empty()) out_.headers.emplace_back("Allow", std::move(allow));
@@ -162,7 +164,9 @@ Outcome CallRun::compute(const Endpoint& endpoint) {
             .content_type = {},
             .body = {},
             .headers = {},
-            .job = {.endpoint = std::string(endpoint.id), .stages = std::move(out_.job.stages)}};
+            .job = {.endpoint = std::string(endpoint.id),
+                    .input_sha256 = std::move(out_.job.input_sha256),
+                    .stages = std::move(out_.job.stages)}};
     return over_budget();
   }
 }
@@ -215,22 +219,24 @@ Outcome CallRun::work(const Endpoint& endpoint) {
                     .limit = Json{static_cast<double>(numerics())},
                     .unit = {},
                     .hint = {}}}});
-  Run run{.stop = context_.stop,
-          .encoding = choice->encoding,
-          .format = choice->format,
-          .caption = {.reference = common.reference,
-                      .input_sha256 = {},
-                      .result_sha256 = {},
-                      .view = std::string(query.view),
-                      .options = query.options},
-          .accepted = common.accept,
-          .stage = [this](std::string_view stage) { lap(stage); },
-          .forget_body = [&body] { *body = Json{}; },
-          .foresee =
-              [this](Work work) {
-                work.add(Cost::body_byte, static_cast<double>(call_.body.size()));
-                estimate_ = std::round(work.seconds() * 1e4) / 1e4;
-              }};
+  Run run{
+      .stop = context_.stop,
+      .encoding = choice->encoding,
+      .format = choice->format,
+      .caption = {.reference = common.reference,
+                  .input_sha256 = {},
+                  .result_sha256 = {},
+                  .view = std::string(query.view),
+                  .options = query.options},
+      .accepted = common.accept,
+      .stage = [this](std::string_view stage) { lap(stage); },
+      .understood = [this](std::string_view input_sha256) { out_.job.input_sha256 = input_sha256; },
+      .forget_body = [&body] { *body = Json{}; },
+      .foresee =
+          [this](Work work) {
+            work.add(Cost::body_byte, static_cast<double>(call_.body.size()));
+            estimate_ = std::round(work.seconds() * 1e4) / 1e4;
+          }};
   auto reply = endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {
     return problem->code == ErrorCode::cancelled ? over_budget() : refuse(*problem);

@@ -42,10 +42,11 @@ struct Run {
   Encoding encoding = Encoding::json;
   const FormatName* format = nullptr;  // instead, unless nullptr
   Caption caption = {};
-  std::vector<Measure> accepted = {};                // the request's `accept`
-  std::function<void(std::string_view)> stage = {};  // called when a stage ends
-  std::function<void()> forget_body = [] {};         // called when all of it is read
-  std::function<void(const Work&)> foresee = {};     // called when it is known what there is to do
+  std::vector<Measure> accepted = {};                     // the request's `accept`
+  std::function<void(std::string_view)> stage = {};       // called when a stage ends
+  std::function<void(std::string_view)> understood = {};  // called with the input's sha256
+  std::function<void()> forget_body = [] {};              // called when all of it is read
+  std::function<void(const Work&)> foresee = {};  // called when it is known what there is to do
 };
 
 struct Endpoint {
@@ -88,6 +89,8 @@ Reply run(Reader& in, Run& run) {
   if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
   run.forget_body();
   run.stage("decode");
+  answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
+  run.understood(answer.input_sha256);
   if constexpr (requires { E::resolve(spec, run.stop); }) {
     auto resolved = E::resolve(std::move(spec), run.stop);
     if (!resolved) {
@@ -121,7 +124,6 @@ Reply run(Reader& in, Run& run) {
     writer.object([&](Writer& w) { E::encode(spec, *out, w); });
     return writer;
   };
-  answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
   if (run.format == nullptr)
     answer.result = encoded(Writer(1 << 16, run.stop, run.encoding)).take();
   answer.result_sha256 = run.format == nullptr && run.encoding == Encoding::json

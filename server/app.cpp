@@ -277,6 +277,7 @@ Response App::handle(const Request& request) const {
   JobRecord record{.method = request.method,
                    .request_id = id.request_id,
                    .traceparent = id.traceparent,
+                   .replica = x_.replica,
                    .client = client_of(request, x_.trusted_proxies),
                    .bytes_in = request.body.size(),
                    .times = request.times,

@@ -22,6 +22,7 @@ struct JobRecord {
   std::string method = {};
   std::string request_id = {};
   std::string traceparent = {};
+  std::string replica = {};
   std::string client = {};    // address; a forwarded one only from a trusted proxy
   std::string identity = {};  // whose key; empty without keys
   std::string failure = {};   // text of an unexpected exception; the caller never sees it

@@ -176,6 +176,7 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
           "");
   for (auto* sub : {health, run, selftest, new_key}) {
     sub->configurable(false);
+    sub->fallthrough();  // an option of the service may stand behind its name too
     for (auto* its : sub->get_options()) its->configurable(false);
   }
   app.require_subcommand(0, 1);

@@ -1,6 +1,7 @@
 #include "server/job_log.hpp"
 
 #include <fmt/chrono.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -208,7 +209,12 @@ std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point
   line.text("ts", utc(now)).text("level", level_of(job.status)).text("event", "job");
   line.text("job", job.facts.id).text("request_id", job.request_id);
   line.text("endpoint", job.facts.endpoint).text("method", job.method);
+  line.text("engine", fmt::format("tubecut {}", api::version()))
+      .integer("numerics", api::numerics());
+  line.text("replica", job.replica);
   line.integer("status", job.status).text("input_sha256", job.facts.input_sha256);
+  line.text("result_sha256", job.facts.result_sha256);
+  if (!job.facts.body_sha256.empty()) line.text("body_sha256", job.facts.body_sha256);
   line.text("verdict", job.facts.verdict).text("code", job.facts.error_code);
   line.open("reasons", '[');
   for (const auto& reason : job.facts.reasons) line.item(reason);
