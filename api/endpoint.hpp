@@ -12,6 +12,7 @@
 #include "api/check_limit.hpp"
 #include "api/cost.hpp"
 #include "api/format.hpp"
+#include "api/letters.hpp"
 #include "api/limits.hpp"
 #include "api/problem.hpp"
 #include "api/reader.hpp"
@@ -88,9 +89,9 @@ Reply run(Reader& in, Run& run) {
   };
   if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
   run.forget_body();
-  run.stage("decode");
   answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
   run.understood(answer.input_sha256);
+  run.stage("decode");
   if constexpr (requires { E::resolve(spec, run.stop); }) {
     auto resolved = E::resolve(std::move(spec), run.stop);
     if (!resolved) {
@@ -136,8 +137,12 @@ Reply run(Reader& in, Run& run) {
     run.caption.result_sha256 = answer.result_sha256;
     run.caption.stop = run.stop;
     run.caption.verdict = answer.verdict;
-    for (const auto& format : E::formats())
-      if (format.name == run.format->name) answer.text = format.print(spec, *out, run.caption);
+    try {
+      for (const auto& format : E::formats())
+        if (format.name == run.format->name) answer.text = format.print(spec, *out, run.caption);
+    } catch (const Unspellable& met) {
+      return unspellable_problem(met, *run.format, run.caption.reference, answer.request);
+    }
   }
   run.stage("encode");
   return answer;

@@ -21,7 +21,7 @@ enum class Type { five_axis_cutter, crawler, cone_mill, generic };
 
 motion::Axis decode_axis(Reader& in) {
   motion::Axis out;
-  out.name = in.text("name", 16);
+  out.name = in.ascii_text("name", 16);
   out.unit = in.choice("unit", kNames<AxisUnit>);
   const auto which = in.exactly_one({"pulses_per_unit", "pulses_per_turn"});
   if (which == 0) out.pulses_per_unit = in.number("pulses_per_unit", kLimit);

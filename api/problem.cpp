@@ -90,6 +90,34 @@ Problem field_problem(std::vector<FieldIssue> issues) {
   return out;
 }
 
+Problem unspellable_problem(const Unspellable& met, const FormatName& format,
+                            const std::vector<std::pair<std::string, std::string>>& reference,
+                            const Json& request) {
+  std::vector<FieldIssue> issues;
+  const auto see = [&](const std::string& text, const std::string& pointer) {
+    if (in_ascii(text)) return;
+    issues.push_back({.code = ErrorCode::bad_text,
+                      .pointer = pointer,
+                      .got = Json{text},
+                      .hint = std::string(format.name) +
+                              " is ASCII and has no spelling for some of its letters; svg, dxf, "
+                              "csv and json take them"});
+  };
+  for (const auto& [name, text] : reference) see(text, "/reference/" + name);
+  const auto walk = [&](const auto& self, const Json& json, const std::string& pointer) -> void {
+    if (const auto* text = json.as<std::string>()) {
+      if (met.text.find(*text) != std::string::npos) see(*text, pointer);
+    } else if (const auto* array = json.as<Json::Array>()) {
+      for (std::size_t i = 0; i < array->size(); ++i)
+        self(self, (*array)[i], pointer + "/" + std::to_string(i));
+    } else if (const auto* object = json.as<Json::Object>()) {
+      for (const auto& [name, member] : *object) self(self, member, pointer + "/" + name);
+    }
+  };
+  walk(walk, request, "");
+  return field_problem(std::move(issues));
+}
+
 Problem core_problem(const Error& error, const Json& request) {
   Problem out{.code = error.code(), .detail = {}, .issues = {}};
   for (const auto& issue : error.issues)

@@ -5,9 +5,12 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/api.hpp"
+#include "api/format.hpp"
+#include "api/letters.hpp"
 #include "api/reader.hpp"
 #include "api/writer.hpp"
 #include "core/base/error.hpp"
@@ -27,6 +30,12 @@ struct Problem {
 
 /// A core error, its members mapped to pointers into the request as it was understood.
 [[nodiscard]] Problem core_problem(const Error& error, const Json& request);
+
+/// The texts of the reference and of the request that a format of ASCII cannot spell, those of the
+/// request where the line that met them holds them.
+[[nodiscard]] Problem unspellable_problem(
+    const Unspellable& met, const FormatName& format,
+    const std::vector<std::pair<std::string, std::string>>& reference, const Json& request);
 
 /// The first check that does not hold; an answer with one is withheld.
 [[nodiscard]] std::optional<Problem> failed_check(const std::vector<Check>& checks);

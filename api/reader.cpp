@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/letters.hpp"
 #include "api/suspicion.hpp"
 
 namespace tubecut::api {
@@ -69,11 +70,6 @@ std::string list(const std::vector<std::string>& names) {
 
 bool below(double v, Range r) { return r.open_min ? v <= r.min : v < r.min; }
 bool above(double v, Range r) { return r.open_max ? v >= r.max : v > r.max; }
-
-bool printable(const std::string& s, std::size_t longest) {
-  return !s.empty() && s.size() <= longest &&
-         std::all_of(s.begin(), s.end(), [](char c) { return c >= 0x20 && c < 0x7f; });
-}
 
 }  // namespace
 
@@ -293,15 +289,27 @@ std::string Reader::text(std::string_view name, std::size_t longest) {
         field);
     return {};
   }
-  if (!printable(*value, longest)) {
+  if (!is_visible(*value, longest)) {
     FieldIssue bad{.code = ErrorCode::bad_text, .pointer = std::string(name)};
     bad.limit = Json{static_cast<double>(longest)};
-    bad.hint = "1 to that many printable ASCII characters";
+    bad.hint = "1 to that many visible characters";
     issue(std::move(bad), field);
     return {};
   }
   put(name, Json{*value});
   return *value;
+}
+
+std::string Reader::ascii_text(std::string_view name, std::size_t longest) {
+  auto out = text(name, longest);
+  if (in_ascii(out) != out) {
+    issue({.code = ErrorCode::bad_text,
+           .pointer = std::string(name),
+           .got = Json{out},
+           .hint = "printable ASCII characters alone: it becomes a word of a program"});
+    return {};
+  }
+  return out;
 }
 
 std::optional<std::string> Reader::optional_text(std::string_view name, std::size_t longest) {
@@ -392,11 +400,11 @@ std::vector<std::string> Reader::text_column(std::string_view name, CountRange c
     pace_.turn();
     echo.push_back((*items)[i]);
     const auto* value = (*items)[i].as<std::string>();
-    const bool text = value != nullptr && printable(*value, longest);
+    const bool text = value != nullptr && is_visible(*value, longest);
     if (!text)
       issue({.code = value == nullptr ? ErrorCode::wrong_type : ErrorCode::bad_text,
              .pointer = std::string(name) + "/" + std::to_string(i),
-             .hint = "a text of printable ASCII characters is required"},
+             .hint = "a text of visible characters is required"},
             &(*items)[i]);
     out.push_back(text ? *value : std::string{});
   }

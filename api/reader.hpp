@@ -74,7 +74,10 @@ class Reader {
   int integer(std::string_view name, int min, int max, std::optional<int> fallback = {});
   bool flag(std::string_view name, std::optional<bool> fallback = {});
   /// Printable text of 1 to `longest` characters. `fallback` empty: required.
+  /// One to `longest` characters (letters.hpp).
   std::string text(std::string_view name, std::size_t longest = 64);
+  /// Printable ASCII: what becomes a word of a program.
+  std::string ascii_text(std::string_view name, std::size_t longest);
   std::optional<std::string> optional_text(std::string_view name, std::size_t longest = 64);
   /// A field ending in `_deg` (range in degrees) or `_rad` (range in radians).
   Angle angle(std::string_view name, Range range = {}, std::optional<Angle> fallback = {});

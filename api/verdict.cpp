@@ -43,6 +43,8 @@ void add_wrapped(std::string_view text, std::size_t width, std::vector<std::stri
     const auto room = width - indent.size();
     auto end = text.size() <= room ? text.size() : text.rfind(' ', room);
     if (end == std::string_view::npos || end == 0) end = room;
+    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+      --end;  // not within a character
     out.push_back(std::string(indent) + std::string(text.substr(0, end)));
     text.remove_prefix(end);
     if (text.starts_with(' ')) text.remove_prefix(1);

@@ -189,7 +189,7 @@ std::string DxfWriter::print() const {
                   "\n30 " + fixed(p.z(), 6));
   };
   std::string remarks = groups("999 tubecut drawing in millimetres");
-  for (const auto& line : remarks_) remarks += groups("999 " + gcode_text(line));
+  for (const auto& line : remarks_) remarks += groups("999 " + dxf_text(line));
   return remarks +
          groups(
              "0 SECTION\n2 HEADER\n"

@@ -1,21 +1,39 @@
 #include "api/formats/text.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
+
+#include "api/letters.hpp"
 
 namespace tubecut::api {
 namespace {
 
-bool printable(char c) { return c >= 0x20 && c < 0x7f; }
+bool beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
+bool printable(char c) { return (c >= 0x20 && c < 0x7f) || beyond_ascii(c); }
 
 /// Letters, digits and signs that mean nothing in a comment of any control or compiler.
 std::string in_a_comment(std::string_view text) {
   constexpr std::string_view kKept = "+-_.,:=/# ";
+  const auto ascii = in_ascii(text);
+  if (!ascii) throw Unspellable{std::string(text)};
   std::string out;
-  for (const char c : text) {
+  for (const char c : *ascii) {
     const bool alphanumeric =
         (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
     out += alphanumeric || kKept.find(c) != std::string_view::npos ? c : '_';
   }
+  return out;
+}
+
+std::string with_note(std::string_view text) {
+  return in_a_comment(text) + std::string(spelling_note(text));
+}
+
+std::string utf16_escape(std::uint32_t unit) {
+  static constexpr char kHex[] = "0123456789ABCDEF";
+  std::string out = "\\U+";
+  for (int shift = 12; shift >= 0; shift -= 4) out += kHex[(unit >> shift) & 15U];
   return out;
 }
 
@@ -27,6 +45,10 @@ std::string fixed(double value, int digits) {
       text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits).ptr};
   const bool zero = out.find_first_not_of("-0.") == std::string::npos;
   return zero && out.front() == '-' ? out.substr(1) : out;
+}
+
+std::string_view spelling_note(std::string_view text) {
+  return std::ranges::any_of(text, beyond_ascii) ? ", spelled in ASCII" : "";
 }
 
 std::string xml_text(std::string_view text) {
@@ -50,27 +72,35 @@ std::string xml_text(std::string_view text) {
 
 std::string dxf_text(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    if (c == '%')
+  while (!text.empty()) {
+    const char first = text.front();
+    const auto c = take_character(text);
+    if (!c) throw Unspellable{std::string(text)};
+    const std::uint32_t above = *c - 0x10000;
+    if (first == '%')
       out += "%%%";
-    else if (c == '\\')
-      out += "\\U+005C";
-    else if (c == '^')
+    else if (first == '\\')
+      out += utf16_escape(*c);
+    else if (first == '^')
       out += "^ ";
+    else if (*c >= 0x10000)
+      out += utf16_escape(0xD800 + (above >> 10U)) + utf16_escape(0xDC00 + (above & 0x3FFU));
+    else if (*c >= 0x80)
+      out += utf16_escape(*c);
     else
-      out += printable(c) ? c : '_';
+      out += printable(first) ? first : '_';
   }
   return out;
 }
 
-std::string gcode_text(std::string_view text) { return in_a_comment(text); }
+std::string gcode_text(std::string_view text) { return with_note(text); }
 
 std::string dstv_text(std::string_view text) {
   const bool blank = text.find_first_not_of(' ') == std::string_view::npos;
   return blank ? "-" : in_a_comment(text);
 }
 
-std::string structured_text_text(std::string_view text) { return in_a_comment(text); }
+std::string structured_text_text(std::string_view text) { return with_note(text); }
 
 std::string csv_text(std::string_view text) {
   constexpr std::string_view kComputes = "=+-@'", kSeparates = ",;|", kPassedOver = " \"";

@@ -9,17 +9,22 @@ namespace tubecut::api {
 [[nodiscard]] std::string fixed(double value, int digits = 2);
 
 // Text that comes from a client, one function a format: in what is printed nothing of it acts. It
-// is printable ASCII; other bytes become '_'. In JSON (glTF) text goes through the Writer; STL
-// carries none.
+// is UTF-8 without controls (letters.hpp). In JSON (glTF) text goes through the Writer; STL carries
+// none. Formats of ASCII spell it in that, and throw Unspellable where they cannot.
+
+/// What a comment says behind a text that had to be spelled in ASCII.
+[[nodiscard]] std::string_view spelling_note(std::string_view text);
 
 /// As XML or HTML content or attribute value.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
-/// As the value of a DXF group: no group separator, no escape and no %% code of TEXT acts.
+/// As the value of a DXF group: no group separator, no escape and no %% code of TEXT acts. Beyond
+/// ASCII as \U+XXXX, in UTF-16.
 [[nodiscard]] std::string dxf_text(std::string_view text);
 
 /// Inside a comment of RS-274, but not as its first word, where (MSG, (PRINT, (LOGOPEN, and their
-/// like act. Kept are letters, digits and "+-_.,:=/# "; the rest becomes '_'.
+/// like act. Kept are letters, digits and "+-_.,:=/# "; the rest becomes '_'. With its
+/// spelling_note.
 [[nodiscard]] std::string gcode_text(std::string_view text);
 
 /// In a comment or a header line of DSTV, never empty ('-'): a reader may skip blank lines. Kept as
@@ -27,7 +32,7 @@ namespace tubecut::api {
 [[nodiscard]] std::string dstv_text(std::string_view text);
 
 /// Inside a comment (* *) of IEC 61131-3: nothing in it ends the comment, opens one inside it or
-/// begins a pragma. Kept as in gcode_text.
+/// begins a pragma. Kept and spelled as in gcode_text.
 [[nodiscard]] std::string structured_text_text(std::string_view text);
 
 /// As a whole cell of CSV: quoted where it must be (RFC 4180), and a `'` before each of = + - @ '

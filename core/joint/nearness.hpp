@@ -43,8 +43,8 @@ struct Touch {
                                                  std::size_t most,
                                                  const std::stop_token& stop = {});
 
-/// For each of these ends the other within whose reach it is, by the share of it the nearest; nothing
-/// for any else.
+/// For each of these ends the other within whose reach it is, by the share of it the nearest;
+/// nothing for any else.
 ///
 /// Errors    cancelled.
 /// Cost      as of `touches`, which it has no limit of.

@@ -76,7 +76,7 @@ function badNumbers({minimum, maximum, exclusiveMinimum, exclusiveMaximum, type}
 }
 
 const badWords = (word) => ['nonsense', '', word.toUpperCase(), ` ${word}`, 'x'.repeat(300)];
-const badTexts = ['', 'x'.repeat(65), 'ä', 'a\nb', '\u0000', 'tab\t'];
+const badTexts = ['', 'x'.repeat(65), '\u202Eab', 'a\nb', '\u0000', 'tab\t'];
 
 // Every edit of one value: {kind, pointers (first: the edited field), apply(body) -> the edited body}.
 export function edits(contract, requestSchema, body) {

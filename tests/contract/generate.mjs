@@ -23,8 +23,10 @@ function integer({minimum, maximum}) {
     {weight: 1, arbitrary: fc.integer({min: minimum, max: Math.min(maximum, 2000)})});
 }
 
-const printable = (min, max) =>
-  fc.array(fc.integer({min: 32, max: 126}), {minLength: min, maxLength: max}).map((codes) => String.fromCharCode(...codes));
+const ASCII = '^[ -~]+$';
+const ascii = fc.integer({min: 32, max: 126}).map((code) => String.fromCharCode(code));
+const letter = fc.oneof({weight: 9, arbitrary: ascii}, {weight: 1, arbitrary: fc.constantFrom(...'äØß÷ſĲж注字𠮷⌀–')});
+const text = (pattern, min, max) => fc.array(pattern === ASCII ? ascii : letter, {minLength: min, maxLength: max}).map((all) => all.join(''));
 
 // Of each group of which an object has exactly one member, one is kept.
 function object(contract, schema) {
@@ -54,7 +56,7 @@ export function fromSchema(contract, given) {
     case 'integer': return integer(schema);
     case 'number': return number(schema);
     case 'boolean': return fc.boolean();
-    case 'string': return printable(schema.minLength, schema.maxLength);
+    case 'string': return text(schema.pattern, schema.minLength, schema.maxLength);
     default: throw new Error(`no generator for ${JSON.stringify(schema)}`);
   }
 }
@@ -93,7 +95,7 @@ const sampling = fc.oneof(
   {weight: 1, arbitrary: fc.record({uniform_points: fc.integer({min: 8, max: 48}), tolerance_mm: between(0.5, 3)}).map((s) => ({sampling: s}))});
 
 const common = joined(
-  maybe('reference', fc.record({part: printable(1, 12), heat: printable(1, 64)})),
+  maybe('reference', fc.record({part: text('', 1, 12), heat: text('', 1, 64)})),
   maybe('log', fc.constant('inline')),
   maybe('numerics', fc.constant(3)));
 

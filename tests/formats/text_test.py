@@ -47,7 +47,7 @@ def xml(content):
     class Html(html.parser.HTMLParser):
         def handle_starttag(self, tag, attributes):
             tags.append((tag, sorted(name for name, _ in attributes)))
-    Html().feed(content.decode("ascii"))
+    Html().feed(content.decode())
     acts = [[e.tag, *sorted(e.keys())] for e in root.iter()]
     return (acts, tags), [e.text or "" for e in root.iter()] + [v for e in root.iter() for v in e.attrib.values()], str
 
@@ -115,7 +115,7 @@ def structured_text(content):
 
 
 def table(content):
-    text = content.decode("ascii")
+    text = content.decode()
     head = re.match(r"(# [^,;|\"\t\r\n]*\r\n)*", text)[0]
     text = text[len(head):]
     rows = list(csv.reader(io.StringIO(text, newline="")))

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tubecut::api {
+
+/// Takes the first character off a text that is not empty; nothing where that is not UTF-8.
+[[nodiscard]] std::optional<char32_t> take_character(std::string_view& text);
+
+/// One to `longest` characters in UTF-8, every one of which is seen: no control, no mark that only
+/// turns or joins its neighbours, no separator of lines.
+[[nodiscard]] bool is_visible(std::string_view text, std::size_t longest);
+
+/// What is valid UTF-8 spelled in printable ASCII: Latin letters without their marks (umlauts with
+/// an e), signs by their names. Nothing where a letter has no such spelling.
+[[nodiscard]] std::optional<std::string> in_ascii(std::string_view text);
+
+/// Where a printer meets a text that its format cannot spell. `run` answers it by bad_text.
+struct Unspellable {
+  std::string text;
+};
+
+}  // namespace tubecut::api
