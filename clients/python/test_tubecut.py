@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """tubecut.py against the running service: test_tubecut.py --server BINARY [unittest options]"""
 
+import base64
 import doctest
 import http.server
 import inspect
@@ -59,6 +60,16 @@ def joint(inclination_deg):
 
 def jobs(count):
     return [BatchItem(f"job {i}", "intersections", joint(40 + 100 * i / count)) for i in range(count)]
+
+
+def options_by_endpoint(client):
+    """{endpoint: the options of its formats} by the contract of the running service."""
+    contract = json.loads(client._accepted(client._call("GET", "/openapi.json", None, {})))
+    shared = contract["components"]["parameters"]
+    told = {path[4:]: {shared[p["$ref"].rsplit("/", 1)[1]]["name"] for p in item["post"]["parameters"]
+                       if shared[p["$ref"].rsplit("/", 1)[1]]["in"] == "query"}
+            for path, item in contract["paths"].items() if "post" in item}
+    return {endpoint: names - {"format", "validate_only"} for endpoint, names in told.items()}
 
 
 def unused_url():
@@ -266,9 +277,7 @@ class SingleJobs(Case):
             self.assertTrue(self.client.catalogue(name))
 
     def test_every_option_of_a_format_is_told_and_sent(self):
-        contract = self.client._accepted(self.client._call("GET", "/openapi.json", None, {}))
-        parameters = json.loads(contract)["components"]["parameters"].values()
-        names = {p["name"] for p in parameters if p["in"] == "query"} - {"format", "validate_only"}
+        names = set().union(*options_by_endpoint(self.client).values())
         self.assertGreater(len(names), 6)
         for name in names:
             self.assertIn(name, Client.document.__doc__)
@@ -280,6 +289,21 @@ class SingleJobs(Case):
         self.assertIn(b"Z", program)
         plain, mirrored = (self.client.document("bevel-tables", body, "svg", view="template", mirror=m) for m in (False, True))
         self.assertNotEqual(plain, mirrored)
+
+    def test_every_option_of_every_endpoint(self):
+        """What the contract lists for an endpoint reaches it, by its method too."""
+        examples = {one["endpoint"]: one["body"] for one in self.client.catalogue("examples")["examples"]}
+        told = options_by_endpoint(self.client)
+        self.assertEqual(told.pop("batches"), set())
+        self.assertEqual(set(told), set(examples))
+        for endpoint, names in told.items():
+            body = examples[endpoint]
+            dry = getattr(self.client, endpoint.replace("-", "_"))(body, validate_only=True, job_id="dry")
+            self.assertEqual((dry.result, dry.job["id"], dry.estimate["cpu_s"] > 0), ({}, "dry", True))
+            for name in names - {"view"}:  # JSON has none to choose from
+                with self.subTest(endpoint=endpoint, name=name), self.assertRaises(ProblemError) as refused:
+                    self.client.document(endpoint, body, "json", **{name: "never"})
+                self.assertEqual([error.pointer for error in refused.exception.errors], ["?" + name])
 
     def test_the_next_replica_answers_for_a_dead_one(self):
         self.assertEqual(Client(unused_url(), self.service.url).intersections(joint(60)).job["endpoint"], "intersections")
@@ -359,6 +383,34 @@ class BatchesOfJobs(Case):
         self.assertEqual(batches.received, [[i.id for i in items]])
         self.assert_as_single(results, items[:3])
         self.assertEqual(results["bad"].problem.errors[0].pointer, "/cutters/0/inclination_deg")
+
+    def test_items_that_name_a_format(self):
+        """Beside others, by the stream and one by one; the same bytes as of document()."""
+        table = example("bevel-tables/source-000-table-1.json")
+        gcode = {"speed_mm_min": 600, "axial": "z", "lead_mm": 2.5}
+        wall = {**table, "target": {"outer_diameter_mm": 70, "wall_mm": 0}}
+        items = [*jobs(3), BatchItem("csv", "bevel-tables", table, "csv"), BatchItem("gcode", "bevel-tables", table, "gcode", gcode),
+                 BatchItem("mirrored", "bevel-tables", table, "svg", {"view": "template", "mirror": True}),
+                 BatchItem("glb", "bevel-tables", table, "glb"), BatchItem("no speed", "bevel-tables", table, "gcode"),
+                 BatchItem("no wall", "bevel-tables", wall, "csv")]
+        for client in (self.client, OneByOne(self.service.url), Client(unused_url(), self.service.url)):
+            results = self.whole(client, items)
+            self.assertEqual({r.status for r in results.values()}, {200, 400, 422})
+            for item in items[3:7]:
+                alone = self.client.document("bevel-tables", table, item.format, job_id=item.id, **item.options)
+                self.assertEqual(results[item.id].unwrap_document(), alone)
+                with self.assertRaises(ValueError):
+                    results[item.id].unwrap()
+            self.assertEqual([results[id].media for id in ("csv", "gcode", "glb")], ["text/csv", "text/x-gcode", "model/gltf-binary"])
+            self.assertTrue(results["job 0"].unwrap().result)
+            with self.assertRaises(ValueError):
+                results["job 0"].unwrap_document()
+            for id, pointer in (("no speed", "?speed_mm_min"), ("no wall", "/target/wall_mm")):
+                with self.assertRaises(ProblemError) as refused:
+                    results[id].unwrap_document()
+                self.assertEqual(refused.exception.errors[0].pointer, pointer)
+        with self.assertRaises(ValueError):
+            BatchItem("options only", "bevel-tables", table, options={"view": "template"})
 
     def test_a_second_replica_completes_what_the_first_left(self):
         first, second = self.stand_in(), self.stand_in()
@@ -503,6 +555,15 @@ class Program(Case):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("?dialect: bad_choice one of linuxcnc|qtplasmac", done.stderr)
         self.assertEqual(self.run_program(*gcode[:3], "--option", "speed_mm_min=600").returncode, 2)
+        given = {"speed_mm_min": "600", "dialect": "linuxcnc", "torch": "on", "axial": "z", "lead_mm": "3", "pivot_length_mm": "200"}
+        done = self.run_program(*gcode, *(word for name in given for word in ("--option", f"{name}={given[name]}")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        body = example("bevel-tables/source-000-table-1.json")
+        self.assertEqual(done.stdout, self.client.document("bevel-tables", body, "gcode", **given).decode())
+        wrong = set().union(*options_by_endpoint(self.client).values()) - {"view", "acknowledge"}  # any text may be one of these
+        done = self.run_program(*gcode, *(word for name in wrong for word in ("--option", f"{name}=never")))
+        for name in wrong:
+            self.assertIn(f"  ?{name}: ", done.stderr)
 
     def test_post(self):
         done = self.run_program("post", "bevel-tables", EXAMPLES / "bevel-tables/source-000-table-1.json")
@@ -519,6 +580,25 @@ class Program(Case):
         answers = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual(len({a["id"] for a in answers}), 21)
         self.assertEqual([a["status"] for a in answers if a["id"] == "bad"], [422])
+
+    def test_batch_of_documents(self):
+        table = example("bevel-tables/source-000-table-1.json")
+        line = {"endpoint": "bevel-tables", "body": table}
+        lines = [{"id": "json", **line}, {"id": "cut", **line, "format": "gcode", "options": {"speed_mm_min": 600, "dialect": "qtplasmac"}},
+                 {"id": "solid", **line, "format": "stl", "options": {"view": "before"}}]
+        done = self.run_program("batch", "-", text="".join(json.dumps(one) + "\n" for one in lines))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        answers = {a["id"]: a for a in map(json.loads, done.stdout.splitlines())}
+        self.assertEqual(answers["json"]["body"]["verdict"]["status"], "ok")
+        program = self.client.document("bevel-tables", table, "gcode", job_id="cut", speed_mm_min=600, dialect="qtplasmac")
+        self.assertEqual(answers["cut"], {"id": "cut", "status": 200, "media": "text/x-gcode", "document": program.decode()})
+        solid = self.client.document("bevel-tables", table, "stl", job_id="solid", view="before")
+        self.assertEqual(base64.b64decode(answers["solid"]["document_base64"]), solid)
+        for wrong, told in (({"options": {"view": "template"}}, "options without a format"), ({"fromat": "csv"}, "unknown: fromat")):
+            done = self.run_program("batch", "-", text=json.dumps({"id": "wrong", **line, **wrong}) + "\n")
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertIn("line 1: ValueError", done.stderr)
+            self.assertIn(told, done.stderr)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ the bytes the service sent. As a program: `tubecut.py --help`.
 from __future__ import annotations
 
 import argparse
+import base64
 import collections.abc
 import concurrent.futures
 import dataclasses
@@ -195,30 +196,51 @@ class Answer:
 
 @dataclasses.dataclass(frozen=True)
 class BatchItem:
-    """One job of a batch. `id` is the caller's and must not come twice."""
+    """One job of a batch. `id` is the caller's and must not come twice. With `format` it is a document, as Client.document's."""
 
     id: str
     endpoint: str  # such as bevel-tables
     body: Mapping[str, Any]
+    format: Optional[str] = None  # such as gcode
+    options: Mapping[str, Option] = dataclasses.field(default_factory=dict)  # of the format, such as speed_mm_min
+
+    def __post_init__(self) -> None:
+        if self.options and self.format is None:
+            raise ValueError(f"{self.id}: options without a format")
+
+    def path(self) -> str:
+        """Of this job alone."""
+        return f"/v1/{self.endpoint}" + ("" if self.format is None else "?" + _query(**{"format": self.format, **self.options}))
 
     def line(self) -> bytes:
+        """Of a batch, which has no word for a format."""
         return json.dumps({"id": self.id, "endpoint": self.endpoint, "body": self.body}, allow_nan=False).encode() + b"\n"
 
 
 @dataclasses.dataclass(frozen=True)
 class BatchResult:
-    """What became of one item: an answer or a problem."""
+    """What became of one item: an answer, a document where it named a format, or a problem."""
 
     id: str
     status: int
     answer: Optional[Answer] = None
     problem: Optional[Problem] = None
+    document: Optional[bytes] = None
+    media: str = ""  # of the document, such as text/csv
 
     def unwrap(self) -> Answer:
-        if self.answer is None:
-            assert self.problem is not None
+        if self.problem is not None:
             raise ProblemError(self.problem)
+        if self.answer is None:
+            raise ValueError(f"{self.id} is a document")
         return self.answer
+
+    def unwrap_document(self) -> bytes:
+        if self.problem is not None:
+            raise ProblemError(self.problem)
+        if self.document is None:
+            raise ValueError(f"{self.id} named no format")
+        return self.document
 
 
 Progress = Callable[[int, Optional[int], int], None]  # done, of how many (None: not known yet), refused among them
@@ -385,7 +407,8 @@ class Client:
               workers: int = 4) -> Iterator[BatchResult]:
         """Every item once, as they finish. What a dead or full replica left is sent again, to the next one.
 
-        `items` is read as it goes, a few thousand at a time. A service without /v1/batches is asked job by job, `workers` at a time.
+        `items` is read as it goes, a few thousand at a time. Items that name a format, and all where the service has no /v1/batches,
+        are asked one by one, `workers` at a time.
         """
         if total is None and isinstance(items, collections.abc.Sized):
             total = len(items)
@@ -406,8 +429,7 @@ class Client:
             index = turn % len(self._urls)
             wait = 0.1
             try:
-                run = self._streamed if self._has_batches(self._urls[index]) else self._one_by_one
-                for one in run(self._urls[index], list(waiting.values()), workers):
+                for one in self._run(self._urls[index], list(waiting.values()), workers):
                     if one.status in _RETRYABLE or waiting.pop(one.id, None) is None:
                         continue  # sent again below, or known already
                     yield one
@@ -422,6 +444,15 @@ class Client:
                 raise UnreachableError(f"{len(waiting)} jobs of the batch are unanswered; tried {', '.join(self._urls)}")
             if waiting and len(waiting) == before:
                 time.sleep(wait)
+
+    def _run(self, url: str, items: Sequence[BatchItem], workers: int) -> Iterator[BatchResult]:
+        """At one replica: what a batch can say as a batch, then what names a format."""
+        plain = [item for item in items if item.format is None]
+        if plain:
+            yield from (self._streamed if self._has_batches(url) else self._one_by_one)(url, plain, workers)
+        documents = [item for item in items if item.format is not None]
+        if documents:
+            yield from self._one_by_one(url, documents, workers)
 
     def _has_batches(self, url: str) -> bool:
         if url not in self._batches:
@@ -489,10 +520,12 @@ class Client:
     def _one_by_one(self, url: str, items: Sequence[BatchItem], workers: int) -> Iterator[BatchResult]:
         """Without /v1/batches. Ends early, with some items unanswered, when the replica goes down."""
         def run(item: BatchItem) -> BatchResult:
-            reply = self._exchange(url, "POST", f"/v1/{item.endpoint}", self._encode(item.body), _job_headers(item.id))
-            if reply.status == 200:
-                return BatchResult(item.id, 200, answer=Answer.of(reply.body.decode("utf-8"), self._check_hashes))
-            return BatchResult(item.id, reply.status, problem=_problem_of(reply))
+            reply = self._exchange(url, "POST", item.path(), self._encode(item.body), _job_headers(item.id))
+            if reply.status != 200:
+                return BatchResult(item.id, reply.status, problem=_problem_of(reply))
+            if item.format is not None:
+                return BatchResult(item.id, 200, document=reply.body, media=reply.headers.get_content_type())
+            return BatchResult(item.id, 200, answer=Answer.of(reply.body.decode("utf-8"), self._check_hashes))
 
         pool = concurrent.futures.ThreadPoolExecutor(workers, thread_name_prefix="tubecut")
         try:
@@ -633,15 +666,33 @@ def _chunks(items: Iterable[BatchItem]) -> Iterator[Dict[str, BatchItem]]:
 # ---- as a program
 
 
+_LINE = ("id", "endpoint", "body", "format", "options")
+
+
 def _items(stream: TextIO) -> Iterator[BatchItem]:
     for number, line in enumerate(stream, 1):
         if not line.strip():
             continue
         try:
             entry = json.loads(line)
-            yield BatchItem(str(entry["id"]), str(entry["endpoint"]), entry["body"])
+            if unknown := sorted(set(entry) - set(_LINE)):
+                raise ValueError(f"unknown: {', '.join(unknown)}")
+            yield BatchItem(str(entry["id"]), str(entry["endpoint"]), entry["body"], entry.get("format"), entry.get("options") or {})
         except (ValueError, KeyError, TypeError) as bad:
             raise SystemExit(f"line {number}: {type(bad).__name__} {bad}") from None
+
+
+def _printed(one: BatchResult) -> str:
+    """A line of the output: `body` as it was sent, a document as text where it is text, else in base64."""
+    head = f'{{"id":{json.dumps(one.id)},"status":{one.status}'
+    if one.document is not None:
+        try:
+            content = f'"document":{json.dumps(one.document.decode("utf-8"))}'
+        except UnicodeDecodeError:
+            content = f'"document_base64":"{base64.b64encode(one.document).decode()}"'
+        return f'{head},"media":{json.dumps(one.media)},{content}}}'
+    body = one.answer.text if one.answer else json.dumps(one.problem and dataclasses.asdict(one.problem))
+    return f'{head},"body":{body}}}'
 
 
 def _run_batch(client: Client, path: str) -> int:
@@ -652,8 +703,7 @@ def _run_batch(client: Client, path: str) -> int:
     try:
         for one in client.batch(items, progress=bar):
             refused += one.problem is not None
-            body = one.answer.text if one.answer else json.dumps(one.problem and dataclasses.asdict(one.problem))
-            print(f'{{"id":{json.dumps(one.id)},"status":{one.status},"body":{body}}}', flush=True)
+            print(_printed(one), flush=True)
     finally:
         bar.close()
     return 1 if refused else 0
@@ -688,7 +738,8 @@ def _arguments() -> argparse.ArgumentParser:
     post.add_argument("--format", help="csv, svg, gcode and what GET /v1/version lists; not with --validate-only")
     post.add_argument("--option", action="append", type=_option, default=[], metavar="NAME=VALUE",
                       help="of the format, such as speed_mm_min=600; may be given again")
-    batch = commands.add_parser("batch", help="NDJSON of {id, endpoint, body}; prints {id, status, body} as they finish")
+    batch = commands.add_parser("batch", help="NDJSON of {id, endpoint, body}; prints {id, status, body} as they finish. A line may name "
+                                "a format and its options; then it has media and document (document_base64 where it is no text)")
     batch.add_argument("file", help="- for stdin")
     return parser
 
