@@ -17,6 +17,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 HERE = pathlib.Path(__file__).resolve().parent
 EXAMPLES = HERE.parents[1] / "examples"
@@ -194,15 +195,50 @@ class Case(unittest.TestCase):
         return batches
 
 
+def keyed_service(folder):
+    """(service, key) of a service that asks for keys."""
+    made = subprocess.run([BINARY, "new-key", "shop"], capture_output=True, text=True, check=True).stdout
+    keys = pathlib.Path(folder, "keys")
+    keys.write_text(next(line for line in made.splitlines() if line.startswith("shop ")) + "\n")
+    return Service("--keys", str(keys)), re.search(r"tc_[A-Za-z0-9_-]+", made)[0]
+
+
 class Readme(Case):
+    text = (HERE / "README.md").read_text()
+
     def test_runs(self):
-        text = (HERE / "README.md").read_text()
-        self.assertIn("http://127.0.0.1:8080", text)
-        examples = doctest.DocTestParser().get_doctest(text.replace("http://127.0.0.1:8080", self.service.url), {}, "README", "README.md", 0)
-        self.assertGreater(len(examples.examples), 8)
+        with tempfile.TemporaryDirectory() as folder:
+            keyed, key = keyed_service(folder)
+        self.addCleanup(keyed.stop)
+        text = self.text
+        for url, service in (("http://127.0.0.1:8080", self.service), ("https://tubecut.example:8443", keyed)):
+            self.assertIn(f'Client("{url}"', text)
+            text = text.replace(url, service.url)
+        examples = doctest.DocTestParser().get_doctest(text, {}, "README", "README.md", 0)
+        self.assertGreater(len(examples.examples), 12)
         output = io.StringIO()
-        result = doctest.DocTestRunner(verbose=False).run(examples, out=output.write)
+        with unittest.mock.patch.dict(os.environ, TUBECUT_KEY=key):
+            result = doctest.DocTestRunner(verbose=False).run(examples, out=output.write)
         self.assertEqual(result.failed, 0, output.getvalue())
+
+    def test_commands_run(self):
+        commands = re.findall("^python3 tubecut.py (.*)$", self.text, re.MULTILINE)
+        self.assertEqual(len(commands), 3)
+        table = example("bevel-tables/source-000-table-1.json")
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "request.json").write_text(json.dumps(table))
+            lines = [*jobs(5), BatchItem("B1", "bevel-tables", table)]
+            pathlib.Path(folder, "jobs.ndjson").write_bytes(b"".join(item.line() for item in lines))
+            for command in commands:
+                here = re.sub(r"http://[\d.:]+", self.service.url, command if "--url" in command else f"--url http://127.0.0.1:8080 {command}")
+                done = subprocess.run(f"{sys.executable} -B {HERE}/tubecut.py {here}", shell=True, cwd=folder, capture_output=True, text=True,
+                                      timeout=60)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                if ">" not in command:
+                    Answer.of(done.stdout)
+            self.assertIn("G93", pathlib.Path(folder, "cut.ngc").read_text())
+            answers = pathlib.Path(folder, "answers.ndjson").read_text().splitlines()
+            self.assertEqual({json.loads(line)["id"] for line in answers}, {item.id for item in lines})
 
 
 class SingleJobs(Case):
@@ -522,13 +558,10 @@ class Progress(unittest.TestCase):
 class Key(unittest.TestCase):
     def test_a_service_with_keys(self):
         with tempfile.TemporaryDirectory() as folder:
-            keys, mine = pathlib.Path(folder, "keys"), pathlib.Path(folder, "mine")
-            made = subprocess.run([BINARY, "new-key", "shop"], capture_output=True, text=True, check=True).stdout
-            key = re.search(r"tc_[A-Za-z0-9_-]+", made)[0]
-            keys.write_text(next(line for line in made.splitlines() if line.startswith("shop ")) + "\n")
-            mine.write_text(key + "\n")
-            service = Service("--keys", str(keys))
+            service, key = keyed_service(folder)
             self.addCleanup(service.stop)
+            mine = pathlib.Path(folder, "mine")
+            mine.write_text(key + "\n")
             with self.assertRaises(ProblemError) as refused:
                 Client(service.url).intersections(joint(60))
             self.assertEqual(refused.exception.problem.code, "unauthorized")
