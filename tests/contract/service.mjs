@@ -7,8 +7,8 @@ const CONNECTIONS = 4;
 const SECONDS = 60;  // to an answer: hung, not slow
 
 export class Service {
-  static async start(binary) {
-    const child = spawn(binary, ['--host', '127.0.0.1', '--port', '0', '--admin-port', '0', '--budget-s', '30'],  // the contract of answers, not of their speed
+  static async start(binary, ...options) {
+    const child = spawn(binary, ['--host', '127.0.0.1', '--port', '0', '--admin-port', '0', '--budget-s', '30', ...options],  // the contract of answers, not of their speed
       {stdio: ['ignore', 'pipe', 'inherit']});
     const lines = createInterface({input: child.stdout});
     const first = await new Promise((resolve, reject) => {

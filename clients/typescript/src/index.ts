@@ -118,11 +118,41 @@ export async function post<P extends PostPath>(
   return data as Answered<P>;
 }
 
+/** What the service calls the media types of its documents (docs/formats.md). */
+export const FORMATS = {
+  cbor: 'application/cbor', csv: 'text/csv', svg: 'image/svg+xml', dxf: 'image/vnd.dxf', glb: 'model/gltf-binary', stl: 'model/stl',
+  nc1: 'application/x-dstv', gcode: 'text/x-gcode', st: 'text/x-iec61131-st',
+} as const;
+type Content<P extends PostPath> = paths[P]['post']['responses'][200]['content'];
+/** The formats that the endpoint has. */
+export type Format<P extends PostPath> = {
+  [F in keyof typeof FORMATS]: (typeof FORMATS)[F] extends keyof Content<P> ? F : never
+}[keyof typeof FORMATS];
+/** The options of its formats: view, mirror, and those of G-code. Which of them a format reads is the service's to say. */
+export type FormatOptions<P extends PostPath> = Omit<NonNullable<paths[P]['post']['parameters']['query']>, 'format' | 'validate_only'>;
+
+/** The same answer as a drawing, table or machine file, or a thrown ProblemError. */
+export async function documentOf<P extends PostPath>(
+    client: TubecutClient, path: P, body: RequestBody<P>, format: Format<P>, options?: FormatOptions<P>,
+    {jobId, signal}: JobOptions = {}): Promise<Blob> {
+  const send = client.POST as (path: P, init: object) => Promise<Reply<Blob>>;
+  return answered(send(path, {
+    body, params: {query: {...options, format}}, parseAs: 'blob',
+    ...(jobId === undefined ? {} : {headers: {'Job-Id': jobId}}), ...(signal === undefined ? {} : {signal}),
+  }));
+}
+
 /** One job of a batch; its body is the endpoint's own. */
 export type BatchLine = {
-  [P in PostPath]: P extends `/v1/${infer Endpoint}` ? {id: string; endpoint: Endpoint; body: RequestBody<P>} : never
+  [P in PostPath]: P extends `/v1/${infer Endpoint}` ? {id: string; endpoint: Endpoint; body: RequestBody<P>; format?: never} : never
 }[PostPath];
-export type BatchReply = Schemas['BatchReply'];
+/** One that is answered by a document. */
+export type DocumentLine = {
+  [P in PostPath]: P extends `/v1/${infer Endpoint}` ?
+    {id: string; endpoint: Endpoint; body: RequestBody<P>; format: Format<P>; options?: FormatOptions<P>} : never
+}[PostPath];
+export type BatchReply = Omit<Schemas['BatchReply'], 'body'> & {body: Record<string, unknown>};
+export type DocumentReply = {id: string; line: number; status: 200; document: Blob};
 export type BatchSummary = Schemas['BatchSummary']['summary'];
 
 export interface BatchOptions {
@@ -130,6 +160,8 @@ export interface BatchOptions {
   signal?: AbortSignal;
   headers?: Record<string, string>;
   fetch?: typeof fetch;
+  /** How many lines that name a format are asked at a time. */
+  parallel?: number;
 }
 
 async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
@@ -150,27 +182,98 @@ async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<stri
   if (rest !== '') throw new ContractError('the batch was cut off within a line');
 }
 
-/**
- * Many jobs in one request: each answer as soon as it is done. Returns the summary; a stream that ends without one was cut off,
- * and is thrown as a ContractError: the jobs not answered may be sent again.
- */
-export async function* batch(
-    baseUrl: string, lines: Iterable<BatchLine>, {signal, headers, fetch: send = fetch}: BatchOptions = {},
+interface Numbered<Line> {
+  line: Line;
+  number: number;
+}
+
+/** Those of one POST /v1/batches. */
+async function* streamed(
+    baseUrl: string, lines: Numbered<BatchLine>[], {signal, headers, fetch: send = fetch}: BatchOptions,
 ): AsyncGenerator<BatchReply, BatchSummary> {
   const media = 'application/x-ndjson';
   const reply = await send(`${baseUrl.replace(/\/$/, '')}/v1/batches`, {
     method: 'POST', headers: {...headers, 'Content-Type': media, Accept: media},
-    body: Array.from(lines, (line) => `${JSON.stringify(line)}\n`).join(''), ...(signal === undefined ? {} : {signal}),
+    body: lines.map(({line}) => `${JSON.stringify(line)}\n`).join(''), ...(signal === undefined ? {} : {signal}),
   });
   if (!reply.ok || !reply.body) {
     const error: unknown = await reply.json().catch(() => undefined);
     if (isProblem(error)) throw new ProblemError(error);
     throw new ContractError(`${reply.status} from ${reply.url} without a problem document`);
   }
-  for await (const line of textLines(reply.body)) {
-    const answer = JSON.parse(line) as BatchReply | Schemas['BatchSummary'];
+  for await (const text of textLines(reply.body)) {
+    const answer = JSON.parse(text) as BatchReply | Schemas['BatchSummary'];
     if ('summary' in answer) return answer.summary;
-    yield answer;
+    yield {...answer, line: lines[answer.line - 1]?.number ?? answer.line};
   }
   throw new ContractError('the batch was cut off: no summary');
+}
+
+/** Those that name a format, `parallel` at a time, as they are done. */
+async function* documents(
+    baseUrl: string, lines: Numbered<DocumentLine>[], {signal, headers, fetch: send = fetch, parallel = 4}: BatchOptions,
+): AsyncGenerator<BatchReply | DocumentReply, BatchSummary> {
+  const left = new AbortController();
+  const leave = () => left.abort(signal?.reason);
+  if (signal?.aborted) leave();
+  signal?.addEventListener('abort', leave, {once: true});
+  const client = tubecut(baseUrl, {retry: {fetch: send}, ...(headers === undefined ? {} : {headers})});
+
+  const ask = async ({line: {id, endpoint, body, format, options}, number}: Numbered<DocumentLine>): Promise<BatchReply | DocumentReply> => {
+    const job = /^[!-~]([ -~]{0,126}[!-~])?$/.test(id) ? {jobId: id} : {};  // a header cannot carry every id
+    const call = documentOf as (...call: [TubecutClient, string, unknown, string, object | undefined, JobOptions]) => Promise<Blob>;
+    try {
+      const content = await call(client, `/v1/${endpoint}`, body, format, options, {...job, signal: left.signal});
+      return {id, line: number, status: 200, document: content};
+    } catch (error) {
+      if (error instanceof ProblemError) return {id, line: number, status: error.problem.status, body: {...error.problem}};
+      throw error;
+    }
+  };
+
+  const summary = {items: lines.length, answered: 0, refused: 0, unanswered: 0};
+  const waiting = [...lines];
+  const running = new Map<number, Promise<BatchReply | DocumentReply>>();
+  try {
+    while (waiting.length > 0 || running.size > 0) {
+      for (const next of waiting.splice(0, Math.max(1, parallel) - running.size)) running.set(next.number, ask(next));
+      const reply = await Promise.race(running.values());
+      running.delete(reply.line);
+      summary[reply.status === 200 ? 'answered' : 'refused'] += 1;
+      yield reply;
+    }
+  } finally {
+    for (const job of running.values()) job.catch(() => undefined);  // left early: nobody waits for them
+    left.abort();
+    signal?.removeEventListener('abort', leave);
+  }
+  return summary;
+}
+
+/**
+ * Many jobs in one request: each answer as soon as it is done. Returns the summary; a stream that ends without one was cut off,
+ * and is thrown as a ContractError: the jobs not answered may be sent again. A line of /v1/batches has no word for a format: lines
+ * that name one are asked one by one after the others, and a DocumentReply comes back.
+ */
+export function batch(baseUrl: string, lines: Iterable<BatchLine>, options?: BatchOptions): AsyncGenerator<BatchReply, BatchSummary>;
+export function batch(
+    baseUrl: string, lines: Iterable<BatchLine | DocumentLine>, options?: BatchOptions): AsyncGenerator<BatchReply | DocumentReply, BatchSummary>;
+export async function* batch(
+    baseUrl: string, lines: Iterable<BatchLine | DocumentLine>, options: BatchOptions = {},
+): AsyncGenerator<BatchReply | DocumentReply, BatchSummary> {
+  const plain: Numbered<BatchLine>[] = [];
+  const formatted: Numbered<DocumentLine>[] = [];
+  let number = 0;
+  for (const line of lines) {
+    number += 1;
+    if (line.format === undefined) plain.push({line, number});
+    else formatted.push({line, number});
+  }
+  const none = {items: 0, answered: 0, refused: 0, unanswered: 0};
+  const first = plain.length > 0 || formatted.length === 0 ? yield* streamed(baseUrl, plain, options) : none;
+  const second = formatted.length > 0 ? yield* documents(baseUrl, formatted, options) : none;
+  return {
+    items: first.items + second.items, answered: first.answered + second.answered, refused: first.refused + second.refused,
+    unanswered: first.unanswered + second.unanswered,
+  };
 }

@@ -7,12 +7,19 @@ import ts from 'typescript';
 
 export const ROOT = dirname(dirname(fileURLToPath(import.meta.url)));
 const WRONG = join(ROOT, 'test/wrong.ts');
-const README = join(ROOT, 'test/readme.ts');  // in memory: the page's first example
+const README = join(ROOT, 'test/readme.ts');  // in memory: the page's examples as one module
 const DIRECTIVE = /^\s*\/\/ @ts-expect-error (\d+) (.+)$/;
 
-function readmeExample() {
-  const example = /^```ts\n(.*?)^```/ms.exec(readFileSync(join(ROOT, 'README.md'), 'utf8'))[1];
-  return example.replace("'tubecut-client'", "'../src/index.js'");
+function readmeExamples() {
+  return Array.from(readFileSync(join(ROOT, 'README.md'), 'utf8').matchAll(/^```ts\n(.*?)^```/gms), ([, block]) => block).join('\n');
+}
+
+// The page's examples as a module that runs, and what its comments say that it prints.
+export function readmeModule() {
+  const text = readmeExamples();
+  const printed = Array.from(text.matchAll(/console\.log\(.*\);  \/\/ (.+)$/gm), ([, line]) => line.split(' | ')).flat();
+  const {outputText} = ts.transpileModule(text, {compilerOptions: {target: ts.ScriptTarget.ES2022, module: ts.ModuleKind.ES2022}});
+  return {code: outputText.replace("'tubecut-client'", "'./index.js'"), printed};
 }
 
 function settings() {
@@ -29,7 +36,7 @@ const parsed = new Map();
 function sharingHost(options, edit = (name, text) => text) {
   const host = ts.createCompilerHost(options);
   host.getSourceFile = (name, version) => {
-    const text = name === README ? readmeExample() : edit(name, ts.sys.readFile(name) ?? '');
+    const text = name === README ? readmeExamples().replace("'tubecut-client'", "'../src/index.js'") : edit(name, ts.sys.readFile(name) ?? '');
     const key = `${name}\n${name === WRONG ? text : ''}`;
     if (!parsed.has(key)) parsed.set(key, ts.createSourceFile(name, text, version));
     return parsed.get(key);

@@ -1,10 +1,12 @@
 // The types held by the compiler, then dist/ against the running service: node test/main.mjs --server BINARY
 import assert from 'node:assert/strict';
-import {readFileSync} from 'node:fs';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {parseArgs} from 'node:util';
 import {Service} from '../../../tests/contract/service.mjs';
-import {compile, ROOT} from './compile.mjs';
+import {compile, readmeModule, ROOT} from './compile.mjs';
 
 const example = (path) => JSON.parse(readFileSync(join(ROOT, '../../examples', path), 'utf8'));
 
@@ -15,7 +17,7 @@ const {faults, expected} = compile();
 assert.deepEqual(faults, [], faults.join('\n'));
 console.log(`right.ts and the README compile; ${expected} wrong calls do not`);
 
-const {answered, batch, ContractError, post, ProblemError, retryingFetch, tubecut} = await import('../dist/index.js');
+const {answered, batch, ContractError, documentOf, FORMATS, post, ProblemError, retryingFetch, tubecut} = await import('../dist/index.js');
 
 async function computesTableOne({client}) {
   const {job, result, verification, verdict} =
@@ -62,6 +64,30 @@ async function reachesFormatsAndCatalogues({client}) {
   assert.equal(whole.result, undefined);
 }
 
+async function knowsEveryFormatAndOption({client, base}) {
+  const {endpoints} = await answered(client.GET('/v1/version'));
+  const media = new Set(endpoints.flatMap(({formats}) => formats));
+  media.delete('application/json');
+  assert.deepEqual(new Set(Object.values(FORMATS)), media);
+  const body = example('bevel-tables/source-000-table-1.json');
+  for (const format of Object.keys(FORMATS).filter((name) => name !== 'st')) {
+    const content = await documentOf(client, '/v1/bevel-tables', body, format, format === 'gcode' ? {speed_mm_min: 600} : {});
+    assert.equal(content.type.split(';')[0], FORMATS[format]);
+    assert.ok(content.size > 1000, format);
+  }
+  const {paths, components} = await (await fetch(`${base}/openapi.json`)).json();
+  const names = paths['/v1/bevel-tables'].post.parameters.map(({$ref}) => components.parameters[$ref.split('/').pop()])
+    .filter((one) => one.in === 'query' && !['format', 'validate_only', 'view'].includes(one.name)).map(({name}) => name);
+  assert.ok(names.length > 6);
+  for (const name of names) {  // each arrives: no format takes this value
+    await assert.rejects(documentOf(client, '/v1/bevel-tables', body, 'csv', {[name]: 'never'}), (error) => {
+      assert.ok(error instanceof ProblemError);
+      assert.equal(error.problem.errors[0].pointer, `?${name}`);
+      return true;
+    });
+  }
+}
+
 async function repeatsWhatIsRetryable({base}) {
   const statuses = [];
   const flaky = async (request) => {
@@ -100,10 +126,68 @@ async function streamsABatch({base}) {
   for await (const _ of batch(base, lines)) break;  // leaving early ends it
 }
 
+async function batchesDocuments({base, client}) {
+  const body = example('bevel-tables/source-000-table-1.json');
+  const table = {endpoint: 'bevel-tables', body};
+  const lines = [
+    {id: 'größer', ...table, format: 'csv'}, {id: 'B1', ...table}, {id: 'no speed', ...table, format: 'gcode'},
+    {id: 'cut', ...table, format: 'gcode', options: {speed_mm_min: 600, axial: 'z'}}, {id: 'wrong', endpoint: 'bevel-tables', body: {}},
+  ];
+  for (const parallel of [1, 2, 9]) {
+    const replies = new Map();
+    const stream = batch(base, lines, {parallel});
+    let step = await stream.next();
+    for (; !step.done; step = await stream.next()) replies.set(step.value.id, step.value);
+    assert.deepEqual(step.value, {items: 5, answered: 3, refused: 2, unanswered: 0});
+    assert.deepEqual(lines.map(({id}) => replies.get(id).line), [1, 2, 3, 4, 5]);
+    assert.deepEqual(lines.map(({id}) => replies.get(id).status), [200, 200, 400, 200, 422]);
+    assert.equal(replies.get('no speed').body.errors[0].pointer, '?speed_mm_min');
+    const alone = await documentOf(client, '/v1/bevel-tables', body, 'gcode', {speed_mm_min: 600, axial: 'z'}, {jobId: 'cut'});
+    assert.equal(await replies.get('cut').document.text(), await alone.text());
+    assert.equal(replies.get('B1').body.verdict.status, 'ok');
+  }
+
+  const documents = Array.from({length: 20}, (_, n) => ({id: `${n}`, ...table, format: 'csv'}));
+  const asked = [];
+  const watched = (request) => { asked.push(request); return fetch(request); };
+  for await (const _ of batch(base, documents, {fetch: watched})) break;  // leaving early ends the work
+  assert.equal(asked.length, 4);
+  assert.ok(asked.every((request) => request.method === 'POST'));
+  const stop = new AbortController();
+  await assert.rejects(async () => {
+    for await (const _ of batch(base, documents, {fetch: watched, signal: stop.signal})) stop.abort();
+  }, {name: 'AbortError'});
+  assert.ok(asked.length <= 9);
+}
+
+async function runsItsPage({base}) {
+  const folder = mkdtempSync(join(tmpdir(), 'tubecut-'));
+  const page = join(ROOT, 'dist/readme.mjs');
+  const made = execFileSync(values.server, ['new-key', 'shop'], {encoding: 'utf8'});
+  const [key] = /tc_[A-Za-z0-9_-]+/.exec(made);
+  writeFileSync(join(folder, 'keys'), `${/^shop .*$/m.exec(made)[0]}\n`);
+  const keyed = await Service.start(values.server, '--keys', join(folder, 'keys'));
+  try {
+    const locked = `http://127.0.0.1:${keyed.port}`;
+    await assert.rejects(post(tubecut(locked), '/v1/intersections', {}), (error) => error.problem.code === 'unauthorized');
+    const {code, printed} = readmeModule();
+    assert.ok(printed.length >= 8);
+    for (const url of ['http://127.0.0.1:8080', 'https://tubecut.example:8443']) assert.ok(code.includes(url), url);
+    writeFileSync(page, code.replaceAll('http://127.0.0.1:8080', base).replaceAll('https://tubecut.example:8443', locked));
+    const lines = execFileSync(process.execPath, [page], {encoding: 'utf8', env: {...process.env, TUBECUT_KEY: key}});
+    assert.deepEqual(lines.trimEnd().split('\n'), printed);
+  } finally {
+    assert.equal(await keyed.stop(), 0);
+    rmSync(page, {force: true});
+    rmSync(folder, {recursive: true});
+  }
+}
+
 const service = await Service.start(values.server);
 const base = `http://127.0.0.1:${service.port}`;
 try {
-  for (const test of [computesTableOne, chainsTableToSchedule, tellsEveryWrongField, reachesFormatsAndCatalogues, repeatsWhatIsRetryable, streamsABatch]) {
+  for (const test of [computesTableOne, chainsTableToSchedule, tellsEveryWrongField, reachesFormatsAndCatalogues, knowsEveryFormatAndOption,
+    repeatsWhatIsRetryable, streamsABatch, batchesDocuments, runsItsPage]) {
     await test({base, client: tubecut(base)});
     console.log(`ok ${test.name}`);
   }

@@ -1,5 +1,5 @@
 // What the client must accept. Compiled, never run.
-import {answered, post, tubecut, type Schemas} from '../src/index.js';
+import {answered, batch, documentOf, post, tubecut, type BatchLine, type DocumentLine, type Schemas} from '../src/index.js';
 
 const client = tubecut('http://127.0.0.1:8080');
 
@@ -37,6 +37,19 @@ export async function calls(): Promise<number> {
 
   const refused = await client.POST('/v1/intersections', {body: {target: {size: 'NPS 4 SCH 40'}, cutters: joint.cutters}});
   const pointer: string | undefined = refused.error?.errors[0]?.pointer;
+
+  const program: Blob = await documentOf(client, '/v1/bevel-tables', joint, 'gcode',
+    {speed_mm_min: 600, dialect: 'qtplasmac', torch: 'on', acknowledge: 'root_opens', axial: 'z', lead_mm: 3, pivot_length_mm: 200});
+  const sheet = await documentOf(client, '/v1/parts',
+    {members: [], connect: {within_mm: 1}, member: 'B1', root_surface: 'inner', groove: {rule: 'none'}, kerf_mm: 1.5, smoothing: {method: 'none'}}, 'svg', {view: 'work_order'}, {jobId: 'B1'});
+
+  const jobs: BatchLine[] = [{id: '1', endpoint: 'bevel-tables', body: joint}];
+  for await (const {body, verdict} of batch('http://127.0.0.1:8080', jobs)) console.log(body['job'], verdict);
+  const files: DocumentLine[] = [{id: '2', endpoint: 'bevel-tables', body: joint, format: 'svg', options: {view: 'template', mirror: true}}];
+  for await (const reply of batch('http://127.0.0.1:8080', [...jobs, ...files])) {
+    const size: number = 'document' in reply ? reply.document.size : reply.line;
+    console.log(size, program.size, sheet.size);
+  }
 
   const limits = await answered(client.GET('/v1/limits'));
   return Number(passed) + columns.length + sign.length + status.length + (text?.length ?? 0) + periods + (pointer?.length ?? 0) +

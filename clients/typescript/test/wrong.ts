@@ -1,5 +1,5 @@
 // What the client must refuse. Each directive names the compiler's code and a word of its message; main.mjs holds both.
-import {post, tubecut, type BatchLine} from '../src/index.js';
+import {documentOf, post, tubecut, type BatchLine, type DocumentLine} from '../src/index.js';
 import {joint} from './right.js';
 
 const client = tubecut('http://127.0.0.1:8080');
@@ -56,6 +56,19 @@ export async function calls(): Promise<void> {
   // @ts-expect-error 2322 'number' is not assignable
   const lines: BatchLine[] = [{id: '1', endpoint: 'intersections', body: {target: {outer_diameter_mm: 70, wall_mm: 5}, cutters: [tube], surfaces: 1}}];
   console.log(lines);
+
+  // @ts-expect-error 2345 '"gcode"' is not assignable
+  await documentOf(client, '/v1/nodes', {members: [], connect: {within_mm: 1}}, 'gcode');
+
+  // @ts-expect-error 2322 "fanuc"
+  await documentOf(client, '/v1/bevel-tables', joint, 'gcode', {speed_mm_min: 600, dialect: 'fanuc'});
+
+  // @ts-expect-error 2353 speed
+  await documentOf(client, '/v1/bevel-tables', joint, 'gcode', {speed: 600});
+
+  // @ts-expect-error 2322 "gcode"
+  const files: DocumentLine[] = [{id: '2', endpoint: 'replays', body: {} as never, format: 'gcode'}];
+  console.log(files);
 
   // @ts-expect-error 2367 no overlap
   if (whole.data?.verdict.status === 'fine') console.log(text);
