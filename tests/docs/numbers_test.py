@@ -1,0 +1,92 @@
+"""The numbers that pages of docs/ state, held against the running service: numbers_test.py BINARY"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+import urllib.request
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BINARY = ""
+
+
+class Service(unittest.TestCase):
+    """One service for all tests of a class."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.child = subprocess.Popen([BINARY, "--port", "0", "--admin-port", "0", "--budget-s", "30"], stdout=subprocess.PIPE)
+        cls.url = f"http://127.0.0.1:{json.loads(cls.child.stdout.readline())['port']}/v1/"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.child.terminate()
+        cls.child.wait()
+        cls.child.stdout.close()
+
+    def get(self, name):
+        with urllib.request.urlopen(self.url + name, timeout=60) as reply:
+            return json.load(reply)
+
+    def post(self, endpoint, body):
+        request = urllib.request.Request(self.url + endpoint, json.dumps(body).encode(), {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=60) as reply:
+            return json.load(reply)
+
+
+def section(page, title):
+    """The text under a heading of the page, to the next one of its depth."""
+    found = re.search(rf"^## {re.escape(title)}\n(.*?)(?=^## |\Z)", (ROOT / "docs" / page).read_text(), re.MULTILINE | re.DOTALL)
+    if not found:
+        raise AssertionError(f"docs/{page} has no section {title}")
+    return found[1]
+
+
+def names(text):
+    return re.findall(r"`([^`]+)`", text)
+
+
+def rows(text):
+    """The cells of a table's rows, without its head."""
+    lines = [line for line in text.splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines[1:]]
+
+
+class Limits(Service):
+    def setUp(self):
+        self.limits = self.get("limits")
+
+    def test_every_member_has_its_section(self):
+        for member in self.limits:
+            self.assertTrue(section("limits.md", f"`{member}`"), member)
+
+    def test_every_limit_with_its_value(self):
+        told = {}
+        for called, values, *meaning in rows(section("limits.md", "`limits`")):
+            self.assertTrue(all(meaning), called)
+            told.update(zip(names(called), (float(value.replace(" ", "")) for value in values.split(", ")), strict=True))
+        self.assertGreater(len(told), 20)
+        self.assertEqual(told, self.limits["limits"])
+
+    def test_every_budget(self):
+        said = names(section("limits.md", "`budgets`"))
+        self.assertEqual(set().union(*self.limits["budgets"].values()) - set(said), set())
+
+    def test_every_cost(self):
+        told = [name for called, *_ in rows(section("limits.md", "`costs`")) for name in names(called)]
+        self.assertEqual(sorted(told), sorted(one["name"] for one in self.limits["costs"]))
+
+    def test_every_check(self):
+        said = set(names(section("limits.md", "`verification`")))
+        checks = {one["name"] for each in self.limits["verification"].values() for one in each}
+        self.assertGreater(len(checks), 90)
+        self.assertEqual(checks - said, set())
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    BINARY = sys.argv.pop(1)
+    unittest.main()
