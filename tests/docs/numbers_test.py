@@ -1,6 +1,7 @@
 """The numbers that pages of docs/ state, held against the running service: numbers_test.py BINARY"""
 
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -83,6 +84,36 @@ class Limits(Service):
         checks = {one["name"] for each in self.limits["verification"].values() for one in each}
         self.assertGreater(len(checks), 90)
         self.assertEqual(checks - said, set())
+
+
+class OmegaAndPhi(Service):
+    """docs/theory/grooves-and-milling.md, 5.1: curve 3 of a groove and the intersection of the same pair."""
+
+    def apart(self, groove, sign, turn):
+        """The largest difference of curve 3 and the intersection's curve, mm."""
+        asked = groove["request"]
+        ring = asked["branch"]["outer_diameter_mm"] - 2 * asked["branch"]["wall_mm"] + 2 * asked["root_face"]["width_mm"]
+        chord = {"kind": "tube", "outer_diameter_mm": asked["chord"]["outer_diameter_mm"], "inclination_deg": asked["inclination_deg"],
+                 "offset_mm": sign * asked["eccentricity_mm"]}
+        curves = self.post("intersections", {"target": {"outer_diameter_mm": ring, "wall_mm": 1}, "cutters": [chord],
+                                             "sampling": {"uniform_points": 360}})["result"]["profiles"]
+        points = next(curve["points"] for curve in curves if curve["surface"] == "outer")
+        height = dict(zip(map(round, points["phi_deg"]), points["z_mm"], strict=True))
+        sections, root = groove["result"]["sections"], groove["result"]["curves"]["c3"]
+        for omega, phi, x, y in zip(sections["omega_deg"], sections["phi_deg"], root["x_mm"], root["y_mm"], strict=True):
+            self.assertAlmostEqual((omega + 270 - phi + 180) % 360, 180, delta=1e-9)
+            self.assertAlmostEqual(-x, ring / 2 * math.cos(math.radians(phi)), delta=1e-9)
+            self.assertAlmostEqual(-y, ring / 2 * math.sin(math.radians(phi)), delta=1e-9)
+        return max(abs(height[round(omega + turn) % 360] - z) for omega, z in zip(sections["omega_deg"], root["z_mm"], strict=True))
+
+    def test_curve_3_is_the_intersection(self):
+        told = (ROOT / "docs/theory/grooves-and-milling.md").read_text()
+        for case in ("case-a-right-angle", "case-b-near-equal-diameters", "case-c-oblique-offset"):
+            request = json.loads((ROOT / f"examples/grooves/{case}.json").read_text())
+            groove = self.post("grooves", {**request, "sections": 360})
+            self.assertLess(self.apart(groove, 1, 270), 2e-13)
+        self.assertIn(f"up to {self.apart(groove, -1, 270):.2f} mm apart", told)
+        self.assertIn(f"omega + 90 deg up to {self.apart(groove, 1, 90):.2f} mm", told)
 
 
 if __name__ == "__main__":
