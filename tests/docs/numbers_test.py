@@ -86,6 +86,39 @@ class Limits(Service):
         self.assertEqual(checks - said, set())
 
 
+def member_of(result, path):
+    """`min a.b.0` of the result: the value there, or the least or largest of a column."""
+    how, _, where = path.rpartition(" ")
+    for step in where.split("."):
+        result = result[int(step) if isinstance(result, list) else step]
+    return {"": lambda value: value, "min": min, "max": max}[how](result)
+
+
+class WorkedPart(Service):
+    """docs/joints.md: the part whose request stands on the page."""
+
+    def test_its_answer(self):
+        text = section("joints.md", "A part between a square tube, a plate and a bend")
+        answer = self.post("parts", json.loads(re.search(r"^```json\n(.*?)^```", text, re.MULTILINE | re.DOTALL)[1]))
+        self.assertEqual((answer["verdict"]["status"], answer["warnings"]), ("ok", []))
+        self.assertIn(f"{len(answer['verification']['checks'])} checks", " ".join(text.split()))
+        result = answer["result"]
+        told = rows(text)
+        self.assertGreater(len(told), 15)
+        for path, value, _ in told:
+            with self.subTest(path):
+                decimals = len(value.partition(".")[2])
+                self.assertEqual(f"{member_of(result, path.strip('`')):.{decimals}f}", value)
+        bench = text.partition("**On the bench.**")[2]
+        dimensions = {one["name"]: one for one in result["check_dimensions"]}
+        for name in ("girth", "length_at_0", "length_at_90", "length_at_180", "length_at_270", "start_overhang"):
+            self.assertIn(f"{dimensions[name]['value_mm']:.2f}", bench)
+        self.assertLessEqual({"clocking", "mirror"}, set(dimensions["length_at_90"]["changes_with"]))
+        for quarter in (0, 90, 180, 270):
+            self.assertIn("b_sign", dimensions[f"length_at_{quarter}"]["changes_with"])
+        self.assertEqual([one["what"] for one in result["sequence"]], ["mark", "mark", "finish", "start"])
+
+
 class OmegaAndPhi(Service):
     """docs/theory/grooves-and-milling.md, 5.1: curve 3 of a groove and the intersection of the same pair."""
 
@@ -107,7 +140,7 @@ class OmegaAndPhi(Service):
         return max(abs(height[round(omega + turn) % 360] - z) for omega, z in zip(sections["omega_deg"], root["z_mm"], strict=True))
 
     def test_curve_3_is_the_intersection(self):
-        told = (ROOT / "docs/theory/grooves-and-milling.md").read_text()
+        told = " ".join((ROOT / "docs/theory/grooves-and-milling.md").read_text().split())
         for case in ("case-a-right-angle", "case-b-near-equal-diameters", "case-c-oblique-offset"):
             request = json.loads((ROOT / f"examples/grooves/{case}.json").read_text())
             groove = self.post("grooves", {**request, "sections": 360})
