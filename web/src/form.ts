@@ -13,6 +13,7 @@ export interface Choices {
 const aside = new Set(['log', 'numerics']); // belong to programs
 const folded = new Set(['sampling', 'reference', 'accept', 'expert', 'check', 'table']); // closed until opened
 const inlineList = 6; // longer lists of numbers get a text area
+const inlineText = 28; // and so do those of more characters, which a phone's line holds
 
 /** The request as a form, drawn from the contract's schema. Values are never checked here: the service is
  *  asked, and names the field. */
@@ -21,6 +22,7 @@ export class Form {
   private echo: Row = {};
   private schema: Schema = {};
   private inputs = new Map<string, HTMLElement>();
+  private measuring = 0;
   private folds = new Map<string, boolean>(); // what was opened or closed by hand, by pointer
 
   constructor(
@@ -31,6 +33,14 @@ export class Form {
   ) {
     root.addEventListener('submit', (event) => event.preventDefault());
     root.append(el('datalist', {id: 'tube-sizes'}, ...choices.sizes.map((size) => el('option', {value: size}))));
+    root.addEventListener('input', (event) => roomy([event.target as HTMLElement]));
+    root.addEventListener('toggle', () => this.roomSoon(), true);
+    let width = 0;
+    new ResizeObserver(([entry]) => {
+      if (entry?.contentRect.width === width) return;
+      width = entry?.contentRect.width ?? 0;
+      this.roomSoon();
+    }).observe(root);
   }
 
   show(schema: Schema, body: Row): void {
@@ -67,7 +77,11 @@ export class Form {
       const note = el('p', {class: 'complaint', id: `complaint-${index}`}, said(issue));
       input.setAttribute('aria-invalid', 'true');
       input.setAttribute('aria-describedby', note.id);
-      (input.closest('.field, .group, tr') ?? input).after(input.closest('tr') ? el('tr', {class: 'complaint'}, el('td', {colspan: '20'}, note)) : note);
+      const [row, field] = [input.closest('tr'), input.closest('.field:not(.branch)')];
+      if (row) row.after(el('tr', {class: 'complaint'}, el('td', {colspan: '20'}, note)));
+      // in its own cell of the grid: after it, it stands under the neighbour
+      else if (field) field.append(note);
+      else (input.closest('.field, .group') ?? input).after(note);
     });
     return lost;
   }
@@ -92,6 +106,17 @@ export class Form {
     this.root.querySelectorAll(':scope > :not(datalist)').forEach((node) => node.remove());
     this.inputs.clear();
     this.root.append(...this.parts(this.schema, this.body, ''));
+    this.room();
+  }
+
+  private room(): void {
+    roomy([...this.inputs.values()]);
+  }
+
+  /** Once, however many folds open together: measuring lays the page out. */
+  private roomSoon(): void {
+    cancelAnimationFrame(this.measuring);
+    this.measuring = requestAnimationFrame(() => this.room());
   }
 
   private redraw(): void {
@@ -384,7 +409,7 @@ export class Form {
         return typedText;
       }
     };
-    if ((plain && (value as number[]).length <= inlineList) || value === undefined) {
+    if ((plain && (value as number[]).length <= inlineList && text.length <= inlineText) || value === undefined) {
       const node = el('input', {type: 'text', value: text, oninput: () => this.write(pointer, read(node.value))});
       return node;
     }
@@ -415,6 +440,20 @@ export class Form {
       if (steps !== taken) step(input, steps - taken);
       taken = steps;
     });
+  }
+}
+
+/** Gives every value the room to be read whole: a field the whole line, a cell of a table what it needs. */
+function roomy(inputs: HTMLElement[]): void {
+  const texts = inputs.filter((input): input is HTMLInputElement => input instanceof HTMLInputElement && input.type === 'text');
+  for (const input of texts) {
+    if (input.closest('td')) input.style.minWidth = '';
+    input.closest('.field')?.classList.remove('roomy');
+  }
+  const clipped = texts.filter((input) => input.scrollWidth > input.clientWidth).map((input) => [input, input.scrollWidth] as const);
+  for (const [input, needed] of clipped) {
+    if (input.closest('td')) input.style.minWidth = `${needed + 2}px`;
+    input.closest('.field')?.classList.add('roomy');
   }
 }
 
