@@ -3,7 +3,7 @@ import {isRow, type Json, type Row} from './json';
 import {endpointName, label, sentence, short4, spelled, unit} from './names';
 import type {Picture, Table} from './picture';
 import type {Format} from './schema';
-import {path, type Answer, type Problem} from './service';
+import {holds, path, type Answer, type Problem} from './service';
 import {said} from './form';
 
 /** Verdict, reasons and failed checks, or the problem: in plain sight above the pictures. */
@@ -44,7 +44,7 @@ const titles = {ok: 'ok', review: 'review', reject: 'reject'};
 
 function approval(answer: Answer, milliseconds: number, focus: (pointer: string) => void): HTMLElement[] {
   const {status, reasons} = answer.verdict;
-  const failed = answer.verification.checks.filter((check) => !(Math.abs(check.value) <= check.limit));
+  const failed = answer.verification.checks.filter((check) => !holds(check));
   const total = answer.verification.checks.length;
   const proof = answer.verification.passed ? `${total} of ${total} checks of its own proof hold` : `${Math.max(1, failed.length)} of ${total} checks failed`;
   const tone = answer.verification.passed ? {ok: 'good', review: 'warn', reject: 'bad'}[status] : 'bad';
@@ -104,17 +104,17 @@ export function table(given: Table): HTMLElement {
 /** What was measured against what is allowed, as a share of the limit. */
 export function proof(answer: Answer): HTMLElement {
   const rows = answer.verification.checks.map((check) => {
-    const share = check.limit > 0 ? Math.min(1, Math.abs(check.value) / check.limit) : 0;
-    const holds = Math.abs(check.value) <= check.limit;
+    const share = check.limit > 0 ? Math.min(1, Math.max(0, check.value / check.limit)) : 0;
+    const held = holds(check);
     return el(
       'tr',
-      {class: holds ? '' : 'failed'},
+      {class: held ? '' : 'failed'},
       el('td', {}, label(check.name)),
       el('td', {}, short4(check.value)),
       el('td', {}, short4(check.limit)),
       el('td', {}, spelled(check.unit)),
       el('td', {}, el('meter', {min: '0', max: '1', value: share, 'aria-label': `${label(check.name)}: share of the limit`})),
-      el('td', {}, holds ? 'holds' : 'FAILED'),
+      el('td', {}, held ? 'holds' : 'FAILED'),
     );
   });
   const job = answer.job;

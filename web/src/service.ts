@@ -48,6 +48,9 @@ export interface Endpoint {
   formats: string[];
 }
 
+/** As the service judges a check: a value under its limit holds, however far under; NaN does not. */
+export const holds = (check: Check) => check.value <= check.limit;
+
 /** What the service said, either way, and how long it took. */
 export interface Reply {
   answer?: Answer;
