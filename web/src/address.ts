@@ -1,7 +1,7 @@
-import type {Row} from './json';
+import {isRow, type Row} from './json';
 
 /** The whole state of the page in its hash, so that a link is a job:
- *  `#/bevel-tables/source-000-table-1?view=before`, or `#/bevel-tables/~<deflated body>` once edited. */
+ *  `#/bevel-tables/source-000-table-1?view=before`, or `#/bevel-tables/~.<deflated body>` once edited. */
 export interface Place {
   endpoint: string;
   example?: string;
@@ -22,29 +22,43 @@ async function through(bytes: Uint8Array, stream: GenericTransformStream): Promi
 }
 
 const largest = 24000; // characters; longer addresses do not survive mail and chat
+const mark = '~'; // a job stands here in full, and not the name of an example
+const sealed = '.'; // deflated with a checksum (zlib): without one, another character in the middle can be another job
 
+/** A job too long for an address leaves the mark alone. */
 export async function written(place: Place): Promise<string> {
   const view = new URLSearchParams(place.view).toString();
   let job = place.example ?? '';
   if (place.body) {
     const bytes = new TextEncoder().encode(JSON.stringify(place.body));
-    if (bytes.length > 20 * largest) return `#/${place.endpoint}`;
-    job = '~' + toText(await through(bytes, new CompressionStream('deflate-raw')));
-    if (job.length > largest) return `#/${place.endpoint}`;
+    job = mark + sealed + (bytes.length > 20 * largest ? '' : toText(await through(bytes, new CompressionStream('deflate'))));
+    if (job.length > largest || job.length === 2) return `#/${place.endpoint}/${mark}`;
   }
   return `#/${place.endpoint}/${job}${view ? `?${view}` : ''}`;
 }
 
-export async function read(hash: string): Promise<Place | null> {
+export const tooLong = (hash: string) => hash.endsWith(`/${mark}`);
+
+/** What a link says, or why it says nothing that can be trusted. Null where the hash is no link to a job. */
+export async function read(hash: string): Promise<Place | {damage: string} | null> {
+  if (!hash.startsWith('#/') || hash === '#/') return null;
   const match = /^#\/([a-z-]+)(?:\/([^?]*))?(?:\?(.*))?$/.exec(hash);
-  if (!match) return null;
+  if (!match) return {damage: 'It names nothing that this service computes.'};
   const place: Place = {endpoint: match[1] as string, view: Object.fromEntries(new URLSearchParams(match[3] ?? ''))};
-  const job = match[2] ?? '';
-  if (!job.startsWith('~')) return {...place, example: job || undefined} as Place;
   try {
-    const bytes = await through(toBytes(job.slice(1)), new DecompressionStream('deflate-raw'));
-    return {...place, body: JSON.parse(new TextDecoder().decode(bytes)) as Row};
+    const job = decodeURIComponent(match[2] ?? '');
+    if (job === mark) return {damage: 'The job was too long to stand in a link: its request can be copied as JSON instead.'};
+    if (job.startsWith(mark)) return {...place, body: await unpacked(job.slice(1))};
+    return job ? {...place, example: job} : place;
   } catch {
-    return place; // a link cut short: the endpoint's first example
+    return {damage: 'A part of it is missing or was changed on the way, so the job in it cannot be read.'};
   }
+}
+
+async function unpacked(text: string): Promise<Row> {
+  const format = text.startsWith(sealed) ? 'deflate' : 'deflate-raw'; // links of old have no checksum
+  const bytes = await through(toBytes(text.replace(sealed, '')), new DecompressionStream(format));
+  const body: unknown = JSON.parse(new TextDecoder('utf-8', {fatal: true}).decode(bytes));
+  if (!isRow(body)) throw new Error('no job');
+  return body;
 }

@@ -7,12 +7,13 @@ import {listen, point} from './links';
 import {endpointName, endpointOrder, exampleName} from './names';
 import * as panels from './panels';
 import type {Picture} from './picture';
-import {drawing} from './pictures';
-import {without, type Context} from './pictures/context';
+import {pictured} from './pictures';
+import {contextOf, without, type Context} from './pictures/context';
 import {motionFacts, scheduleCharts} from './pictures/machine';
 import {Contract} from './schema';
 import {ask, fetched, Latest, path, type Answer, type Endpoint, type Example, type Reply} from './service';
 import type {Stage} from './scene/stage';
+import {themed} from './theme';
 
 interface State {
   endpoint: string;
@@ -44,6 +45,9 @@ class Console {
   private answer: Answer | undefined;
   private picture: Picture | undefined;
   private reply: Reply | undefined;
+  private job = 0; // counts what was opened; edits are of the same job
+  private drawnJob = 0; // the one that the pictures are of
+  private lost = false; // the address holds a link that cannot be read
   private written = '';
   private writing = 0;
   private unlisten: (() => void) | null = null;
@@ -56,18 +60,7 @@ class Console {
     tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[],
   ) {
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
-    const known = new Map<string, Promise<Answer | undefined>>();
-    this.context = {
-      sizes,
-      machines: new Map(machines.map((m) => [m.name, m.machine])),
-      ask: (endpoint, body) => {
-        const key = endpoint + JSON.stringify(body);
-        if (known.size > 20) known.clear();
-        const found = known.get(key) ?? ask(endpoint, body).then((reply) => reply.answer);
-        known.set(key, found);
-        return found;
-      },
-    };
+    this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
     this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
@@ -79,12 +72,31 @@ class Console {
   async arrive(): Promise<void> {
     clearTimeout(this.writing);
     const place = await address.read(location.hash);
-    const endpoint = this.endpoints.some((e) => e.id === place?.endpoint) ? (place?.endpoint as string) : firstJob.endpoint;
-    this.state.view = place?.view['view'] === 'before' ? 'before' : 'after';
-    this.state.partners = place?.view['partners'] !== 'off';
-    this.state.tab = place?.view['tab'] ?? 'proof';
-    if (place?.body) this.begin(endpoint, undefined, place.body, true);
-    else this.open(endpoint, place?.example);
+    if (!place && location.hash && this.job) return this.remember(); // a place in this page
+    if (place && 'damage' in place) return this.lose(place.damage);
+    const {endpoint, example, body, view} = place ?? {...firstJob, body: undefined, view: {} as Record<string, string>};
+    if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`Nothing here is called "${endpoint}".`);
+    if (example && !this.examples.some((e) => e.endpoint === endpoint && e.name === example))
+      return this.lose(`${endpointName(endpoint)} has no example called "${example}".`);
+    this.state.view = view['view'] === 'before' ? 'before' : 'after';
+    this.state.partners = view['partners'] !== 'off';
+    this.state.tab = view['tab'] ?? 'proof';
+    if (body) this.begin(endpoint, undefined, body, true);
+    else this.open(endpoint, example);
+  }
+
+  /** A link that cannot be read is said to be, and nothing of another job is shown in its place. */
+  private lose(why: string): void {
+    this.job += 1;
+    this.lost = true;
+    Object.assign(this.state, {endpoint: '', example: undefined, body: {}, edited: false});
+    this.reply = undefined;
+    this.clear();
+    this.form.show({properties: {}}, {});
+    this.drawPick();
+    byId('details').replaceChildren();
+    panels.silence(byId('verdict'), 'This link is damaged.', `${why} Ask for it anew, or choose above what to compute.`, undefined, 'no job');
+    this.said();
   }
 
   private open(endpoint: string, name?: string): void {
@@ -96,6 +108,8 @@ class Console {
 
   private begin(endpoint: string, example: string | undefined, body: Row, edited: boolean): void {
     Object.assign(this.state, {endpoint, example, body, edited});
+    this.job += 1;
+    this.lost = false;
     point('cut', null);
     this.form.show(this.contract.request(path(endpoint)) ?? {}, body);
     this.drawPick();
@@ -109,17 +123,17 @@ class Console {
   }
 
   private compute(): void {
+    const {job} = this;
     this.latest.run(async () => {
+      if (job !== this.job) return;
       const {endpoint} = this.state;
       const body = clone(this.state.body);
       // Not at once: one more frame of the page costs as much as most answers.
       const busy = setTimeout(() => document.body.classList.add('busy'), 200);
       try {
         const reply = await ask(endpoint, body);
-        const picture = reply.answer ? await drawing(endpoint)(body, reply.answer, this.context) : undefined;
-        if (endpoint === this.state.endpoint) this.take(reply, picture);
-      } catch (failure) {
-        this.take({problem: {code: 'unreachable', title: 'The service could not be asked.', status: 0, detail: String(failure)}, milliseconds: 0}, undefined);
+        const drawn = reply.answer ? await pictured(endpoint, body, reply.answer, this.context) : undefined;
+        if (job === this.job) this.take(reply, drawn);
       } finally {
         clearTimeout(busy);
         document.body.classList.remove('busy');
@@ -129,23 +143,47 @@ class Console {
   }
 
   /** An answer is drawn; a problem leaves the last pictures, faded, and marks its fields. */
-  private take(reply: Reply, picture: Picture | undefined): void {
+  private take(reply: Reply, drawn: Picture | Error | undefined): void {
     this.reply = reply;
-    document.body.classList.toggle('stale', !picture);
+    document.body.classList.toggle('stale', !reply.answer);
     this.form.complain(reply.problem?.errors ?? []);
-    panels.verdict(byId('verdict'), reply.answer, reply.problem, reply.milliseconds, (pointer) => this.form.focus(pointer));
-    if (reply.answer && picture) {
+    panels.verdict(
+      byId('verdict'),
+      reply.answer,
+      reply.problem,
+      reply.milliseconds,
+      (pointer) => this.form.focus(pointer),
+      () => this.compute(),
+    );
+    if (reply.answer) {
+      if (drawn instanceof Error) this.clear();
       this.answer = reply.answer;
-      this.picture = picture;
       this.form.understood(reply.answer.request);
-      this.draw();
-    } else if (this.answer?.job.endpoint !== this.state.endpoint) this.clear();
+      this.trouble(drawn instanceof Error ? drawn : undefined);
+      if (drawn && !(drawn instanceof Error)) {
+        this.picture = drawn;
+        this.draw();
+      }
+    } else if (this.drawnJob !== this.job) this.clear(); // no picture of another job beside a refusal
     this.drawDetails();
+    this.said();
+  }
+
+  /** Counts what the page came to say: those who wait for it see this. */
+  private said(): void {
     document.body.dataset['answers'] = String(Number(document.body.dataset['answers'] ?? 0) + 1);
+  }
+
+  /** What goes wrong in drawing is said above the pictures. */
+  private trouble(failure: unknown): void {
+    const note = byId('trouble');
+    note.hidden = failure === undefined;
+    note.textContent = failure === undefined ? '' : `Not all of this answer could be drawn: ${failure instanceof Error ? failure.message : String(failure)}`;
   }
 
   private clear(): void {
     this.answer = this.picture = undefined;
+    this.trouble(undefined);
     this.charts.show([]);
     byId('solid').hidden = true;
     byId('figures').replaceChildren();
@@ -154,11 +192,16 @@ class Console {
   private draw(): void {
     const {picture} = this;
     if (!picture) return;
-    this.charts.show(picture.charts);
-    panels.figures(byId('figures'), picture);
+    this.drawnJob = this.job;
     byId('pictures').classList.toggle('alone', !picture.solid || picture.charts.length === 0);
-    void this.drawSolid(picture);
-    this.drawReadout(picture);
+    panels.figures(byId('figures'), picture);
+    try {
+      this.charts.show(picture.charts);
+      this.drawReadout(picture);
+    } catch (failure) {
+      this.trouble(failure);
+    }
+    this.drawSolid(picture).catch((failure) => this.trouble(failure));
   }
 
   private async drawSolid(picture: Picture): Promise<void> {
@@ -169,7 +212,7 @@ class Console {
     const stage = await this.stage;
     if (!stage || picture !== this.picture) return;
     this.drawSwitches(picture);
-    stage.show(picture.solid, this.state.view === 'before' && picture.beforeAfter === true, `${endpointName(this.state.endpoint)} in 3D`);
+    stage.show(picture.solid, this.state.view === 'before' && picture.beforeAfter === true, `${endpointName(this.state.endpoint)} in 3D`, this.job);
     stage.partnersShown(this.state.partners);
   }
 
@@ -280,8 +323,9 @@ class Console {
       ...own.map((each) => el('option', {value: each.name, selected: each.name === example}, exampleName(each.name))),
     );
     byId('reset').hidden = !edited || example === undefined;
+    byId<HTMLButtonElement>('share').disabled = this.lost;
     for (const link of byId('endpoints').querySelectorAll('a')) link.toggleAttribute('aria-current', link.dataset['endpoint'] === endpoint);
-    document.title = `${endpointName(endpoint)} – tubecut`;
+    document.title = endpoint ? `${endpointName(endpoint)} – tubecut` : 'tubecut';
   }
 
   private drawDetails(): void {
@@ -332,7 +376,7 @@ class Console {
       panel.append(...(this.picture?.tables?.length ? [el('div', {class: 'columns'}, ...this.picture.tables.map(panels.table))] : []), panels.proof(answer));
     else if (state.tab === 'table') panel.append(panels.columns(answer));
     else if (state.tab === 'downloads') panel.append(this.offers(name));
-    else if (state.tab === 'motion') void this.fillMotion(panel);
+    else if (state.tab === 'motion') this.fillMotion(panel).catch((failure) => this.trouble(failure));
   }
 
   private offers(name: string): HTMLElement {
@@ -369,6 +413,7 @@ class Console {
     this.motion.board ??= new Board(this.motion.root);
     const reply = await ask('pulse-schedules', body as never);
     if (this.motion.of !== key) return;
+    if (!reply.answer) this.motion.of = ''; // asked again when next shown
     this.motion.root.querySelectorAll('.extra').forEach((node) => node.remove());
     this.motion.board.show(reply.answer ? scheduleCharts(reply.answer.result, this.context.machines.get(body.machine)) : []);
     const extra = el('div', {class: 'extra'});
@@ -388,6 +433,7 @@ class Console {
   }
 
   private async writeHash(): Promise<void> {
+    if (this.lost) return;
     const {endpoint, example, edited, body, view, partners, tab} = this.state;
     const shown = {...(view === 'before' ? {view} : {}), ...(partners ? {} : {partners: 'off'}), ...(tab === 'proof' ? {} : {tab})};
     const was = location.hash;
@@ -403,9 +449,10 @@ class Console {
 
   private async share(): Promise<void> {
     await this.writeHash();
-    const done = await panels.copied(location.href);
     const button = byId('share');
-    button.textContent = done ? 'Link copied' : 'Copy the address';
+    const long = address.tooLong(location.hash);
+    const done = !long && (await panels.copied(location.href));
+    button.textContent = long ? 'Too long for a link' : done ? 'Link copied' : 'Copy the address';
     setTimeout(() => {
       button.textContent = 'Copy link';
     }, 1500);
@@ -414,6 +461,7 @@ class Console {
   recolour(): void {
     this.charts.recolour();
     this.motion.board?.recolour();
+    if (this.lost) return;
     this.form.show(this.contract.request(path(this.state.endpoint)) ?? {}, this.state.body);
     if (this.answer) this.form.understood(this.answer.request);
     this.form.complain(this.reply?.problem?.errors ?? []);
@@ -421,38 +469,7 @@ class Console {
   }
 }
 
-/** Light or dark: what was chosen last, else what the system says. */
-function themed(page: () => Console | undefined): void {
-  const system = matchMedia('(prefers-color-scheme: dark)');
-  const button = byId('theme');
-  const apply = () => {
-    let chosen: string | null = null;
-    try {
-      chosen = localStorage.getItem('theme');
-    } catch {
-      /* no storage: the system's */
-    }
-    const dark = chosen ? chosen === 'dark' : system.matches;
-    document.documentElement.dataset['theme'] = dark ? 'dark' : 'light';
-    button.textContent = dark ? 'Light' : 'Dark';
-    button.setAttribute('aria-label', dark ? 'Switch to light' : 'Switch to dark');
-    page()?.recolour();
-  };
-  button.addEventListener('click', () => {
-    try {
-      localStorage.setItem('theme', document.documentElement.dataset['theme'] === 'dark' ? 'light' : 'dark');
-    } catch {
-      /* not remembered */
-    }
-    apply();
-  });
-  system.addEventListener('change', apply);
-  apply();
-}
-
-async function begin(): Promise<void> {
-  let page: Console | undefined;
-  themed(() => page);
+async function begin(started: (page: Console) => void): Promise<void> {
   try {
     const [contract, examples, version, machines, tubes] = await Promise.all([
       fetched<ConstructorParameters<typeof Contract>[0]>('/openapi.json'),
@@ -461,11 +478,17 @@ async function begin(): Promise<void> {
       fetched<{machines: {name: string; machine: Row}[]}>('/v1/machines'),
       fetched<{tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[]}>('/v1/tubes'),
     ]);
-    page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes.tubes);
+    const page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes.tubes);
+    started(page);
     await page.arrive();
   } catch (failure) {
-    byId('verdict').replaceChildren(el('div', {class: 'verdict bad'}, el('p', {}, `The console could not start: ${String(failure)}`)));
+    const why = failure instanceof Error ? failure.message : String(failure);
+    panels.silence(byId('verdict'), 'The console could not start.', why, () => void begin(started));
   }
 }
 
-void begin();
+let open: Console | undefined;
+themed(() => open?.recolour());
+void begin((page) => {
+  open = page;
+});

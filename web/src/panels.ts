@@ -3,7 +3,7 @@ import {isRow, type Json, type Row} from './json';
 import {endpointName, label, sentence, short4, spelled, unit} from './names';
 import type {Picture, Table} from './picture';
 import type {Format} from './schema';
-import {holds, path, type Answer, type Problem} from './service';
+import {away, holds, path, type Answer, type Problem} from './service';
 import {said} from './form';
 
 /** Verdict, reasons and failed checks, or the problem: in plain sight above the pictures. */
@@ -13,9 +13,29 @@ export function verdict(
   problem: Problem | undefined,
   milliseconds: number,
   focus: (pointer: string) => void,
+  again?: () => void,
 ): void {
-  if (problem) root.replaceChildren(...refusal(problem, focus));
+  if (problem?.code === away.code) silence(root, problem.title, problem.action ?? '', again);
+  else if (problem) root.replaceChildren(...refusal(problem, focus));
   else if (answer) root.replaceChildren(...approval(answer, milliseconds, focus));
+}
+
+/** Where there is no verdict: a service that is away, a link that cannot be read. */
+export function silence(root: HTMLElement, title: string, detail: string, again?: () => void, pill = 'no answer'): void {
+  root.replaceChildren(
+    el(
+      'div',
+      {class: 'verdict bad'},
+      el(
+        'p',
+        {},
+        el('span', {class: 'pill'}, pill),
+        el('b', {}, title),
+        again ? el('button', {type: 'button', class: 'right', id: 'again', onclick: again}, 'Try again') : null,
+      ),
+      detail ? el('p', {class: 'soft'}, detail) : null,
+    ),
+  );
 }
 
 function refusal(problem: Problem, focus: (pointer: string) => void): HTMLElement[] {
@@ -283,7 +303,11 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
       method: 'POST',
       body: JSON.stringify(body),
       headers: {'Content-Type': 'application/json', Accept: media},
-    });
+    }).catch(() => undefined);
+    if (!reply) {
+      status.textContent = `${known(media)[0]}: ${away.title}`;
+      return;
+    }
     if (!reply.ok) {
       const problem = (await reply.json().catch(() => ({title: `status ${reply.status}`}))) as Problem;
       status.textContent = `${known(media)[0]}: ${problem.title} ${problem.detail ?? ''}`;

@@ -60,21 +60,35 @@ export interface Reply {
 
 export const path = (endpoint: string) => `/v1/${endpoint}`;
 
+/** Nothing answered: no refusal, and nothing that changing the request would mend. */
+export const away: Problem = {
+  code: 'unreachable',
+  status: 0,
+  title: 'The service cannot be reached.',
+  action: 'It may have been stopped, or the network is down. What was entered is kept.',
+};
+
 export async function fetched<T>(address: string): Promise<T> {
-  const reply = await fetch(address);
+  const reply = await fetch(address).catch(() => {
+    throw new Error(away.title);
+  });
   if (!reply.ok) throw new Error(`${address} answered ${reply.status}`);
   return (await reply.json()) as T;
 }
 
-export async function ask(endpoint: string, body: Json, signal?: AbortSignal): Promise<Reply> {
+export async function ask(endpoint: string, body: Json): Promise<Reply> {
   const start = performance.now();
-  const reply = await fetch(path(endpoint), {
-    method: 'POST',
-    signal: signal ?? null,
-    body: JSON.stringify(body),
-    headers: {'Content-Type': 'application/json', Accept: 'application/json'},
-  });
-  const text = await reply.text();
+  let reply: Response, text: string;
+  try {
+    reply = await fetch(path(endpoint), {
+      method: 'POST',
+      body: JSON.stringify(body),
+      headers: {'Content-Type': 'application/json', Accept: 'application/json'},
+    });
+    text = await reply.text();
+  } catch {
+    return {problem: away, milliseconds: performance.now() - start}; // a browser says no more than "TypeError"
+  }
   const milliseconds = performance.now() - start;
   try {
     const json = JSON.parse(text) as Json;

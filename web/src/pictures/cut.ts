@@ -24,7 +24,7 @@ export async function joint(request: Row, context: Context): Promise<Joint> {
   const own = members.find((member) => member['id'] === node['member']);
   const {outer, wall} = tube(own, context.sizes);
   const answer = await context.ask('nodes', {members, connect: node['connect'] as Json});
-  const ends = (answer?.result['ends'] ?? []) as Row[];
+  const ends = answer.result['ends'] as Row[];
   const end = ends.find((each) => each['member'] === node['member'] && each['end'] === node['end']);
   const cutters = ((end?.['cut_by'] ?? []) as Row[]).map(
     (cut): Row =>

@@ -23,7 +23,7 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
     series: names.filter(([name]) => name in sections).map(([name, tone]) => ({name: label(name), values: column(sections[name]), tone, width: 2})),
   });
   return {
-    solid: await solid(request, result, context),
+    solid: await solid(request, context),
     charts: [
       chart('height', 'Height of the groove', [['height_mm', 'after']], {zero: true}),
       chart(
@@ -51,9 +51,9 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
   };
 }
 
-async function solid(request: Row, result: Row, context: Context): Promise<Picture['solid']> {
+async function solid(request: Row, context: Context): Promise<Picture['solid']> {
   const finer = await context.ask('grooves', {...without(request), sections: round});
-  const curves = (finer?.result ?? result)['curves'] as Row;
+  const curves = finer.result['curves'] as Row;
   const points = (name: string): Vector[] => {
     const curve = curves[name] as Row;
     const [xs, ys, zs] = [column(curve['x_mm']), column(curve['y_mm']), column(curve['z_mm'])];
@@ -105,7 +105,7 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
   const p = result['positions'] as Row;
   const inner = request['groove'] as Row;
   const cut = await context.ask('grooves', without(inner));
-  const shape = cut ? await groove(inner, cut, context) : undefined;
+  const shape = await groove(inner, cut, context);
   const x = {name: 'ω', unit: '°', values: column(p['omega_deg'])};
   const chart = (id: string, title: string, names: [string, string, boolean?][], more: Partial<Chart> = {}): Chart => ({
     id,
@@ -119,7 +119,7 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
       .map(([name, tone, dashed]) => ({name: label(name), values: column(p[name]), tone, ...(dashed ? {dash: [5, 4]} : {}), width: dashed ? 1.5 : 2})),
   });
   return {
-    ...(shape?.solid ? {solid: {...shape.solid, link: 'mill-groove'}} : {}),
+    ...(shape.solid ? {solid: {...shape.solid, link: 'mill-groove'}} : {}),
     charts: [
       chart(
         'overcut',

@@ -1,4 +1,7 @@
-import type {Draw} from './context';
+import type {Row} from '../json';
+import type {Picture} from '../picture';
+import type {Answer} from '../service';
+import type {Context, Draw} from './context';
 import {bevelTable, intersection} from './cut';
 import {generic, part} from './generic';
 import {groove, millPath} from './groove';
@@ -20,4 +23,13 @@ const known: Record<string, Draw> = {
 };
 
 /** The pictures of an endpoint; one that this console does not know yet is shown as figures, tables and columns. */
-export const drawing = (endpoint: string): Draw => known[endpoint] ?? generic;
+const drawing = (endpoint: string): Draw => known[endpoint] ?? generic;
+
+/** An answer that cannot be drawn is an answer all the same: why not is returned, to be said beside it. */
+export async function pictured(endpoint: string, body: Row, answer: Answer, context: Context): Promise<Picture | Error> {
+  try {
+    return await drawing(endpoint)(body, answer, context);
+  } catch (failure) {
+    return failure instanceof Error ? failure : new Error(String(failure));
+  }
+}

@@ -27,7 +27,7 @@ async function source(body: Row, context: Context): Promise<Picture | undefined>
     if (!isRow(inner)) continue;
     const request = key === 'mill_path' && isRow(inner['groove']) ? inner['groove'] : inner;
     const answer = await context.ask(endpoint, without(request));
-    return answer && draw(request, answer, context);
+    return draw(request, answer, context);
   }
   return undefined;
 }

@@ -13,7 +13,7 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   if (!body['include']) {
     // the curves are for the picture only
     const whole = await context.ask('nodes', {...body, include: ['profiles']});
-    ends = (whole?.result['ends'] ?? ends) as Row[];
+    ends = whole.result['ends'] as Row[];
   }
   const cut = ends.filter((end) => (end['cut_by'] as Row[]).length > 0);
   const biggest = Math.max(...members.map((member) => tube(member, context.sizes).outer));

@@ -71,7 +71,8 @@ export class Stage {
     return controls;
   }
 
-  show(solid: Solid, before: boolean, label: string): void {
+  /** What is drawn of another `job` is seen as a fresh page shows it; of the same one, from where it was turned to. */
+  show(solid: Solid, before: boolean, label: string, job: number): void {
     this.solid = solid;
     this.before = before;
     this.renderer.domElement.setAttribute('aria-label', `${label}. Arrow keys turn it, plus and minus zoom, Home resets.`);
@@ -87,10 +88,11 @@ export class Stage {
       this.partners,
     );
     if (solid.partners.length) this.partners.add(...solid.partners.map(partnerMesh));
+    this.renderer.domElement.dataset['state'] = before ? 'before' : 'after';
     this.beam = new Beam();
     this.content.add(this.beam);
     this.scene.add(this.content);
-    const view = JSON.stringify([solid.link, solid.eye, solid.up]);
+    const view = JSON.stringify([job, solid.link, solid.eye, solid.up]);
     if (view !== this.seen) this.reset();
     else this.move(new Vector3(...solid.centre));
     this.seen = view;
