@@ -87,11 +87,19 @@ export interface CutTube {
   marks: {phi: number; z: number; radius: number}[];
   tone: number | 'target';
 }
+/** Both edges of an end by phi, in degrees. */
+export interface EndCurve {
+  phi: number[];
+  zInner: number[];
+  zOuter: number[];
+  b?: number[];
+}
+/** A member between two ends, with its holes; in the frame of the curves. */
 export interface HoledTube {
-  outer: number;
+  outer: number; // radii
   inner: number;
-  from: number;
-  to: number;
+  from: EndCurve;
+  to: EndCurve;
   holes: {outer: {phi: number[]; z: number[]}; inner: {phi: number[]; z: number[]}; b: number[]}[];
 }
 export type Partner =

@@ -2,11 +2,9 @@ import {isRow, type Json, type Row} from '../json';
 import {label, sentence, short4, unit} from '../names';
 import {column, type Chart, type Picture, type Table} from '../picture';
 import type {Answer} from '../service';
-import {bevelTable} from './cut';
 import {facts} from './facts';
-import type {Context} from './context';
 
-const text = (value: Json | undefined): string =>
+export const text = (value: Json | undefined): string =>
   typeof value === 'number' ? short4(value) : value === undefined || value === null ? '' : typeof value === 'object' ? JSON.stringify(value) : String(value);
 
 /** Any answer: numbers as figures, lists as tables, columns of one length as charts. */
@@ -52,33 +50,4 @@ function columns(key: string, row: Row): Chart | undefined {
     x: {name: label(first[0]), unit: unit(first[0]), values: column(first[1])},
     series: others.slice(0, 6).map(([name, values], i) => ({name: label(name), values: column(values), tone: `series-${i}`})),
   };
-}
-
-/** A whole member: lengths, check dimensions, and each end as the table it is. */
-export async function part(_: Row, answer: Answer, context: Context): Promise<Picture> {
-  const {result, request} = answer;
-  const picture: Picture = {charts: [], figures: [], tables: []};
-  if (isRow(result['lengths'])) {
-    picture.figures = Object.entries(result['lengths']).map(([k, v]) => ({name: label(k), value: text(v), unit: unit(k)}));
-  }
-  for (const key of ['check_dimensions', 'sequence']) {
-    const rows = result[key];
-    if (Array.isArray(rows) && isRow(rows[0])) picture.tables?.push(table(key, rows as Row[]));
-    else if (Array.isArray(rows) && rows.length)
-      picture.tables?.push({id: key, title: sentence(label(key)), head: ['', ''], rows: rows.map((r, i) => [String(i + 1), text(r)])});
-  }
-  const ends = isRow(result['ends']) ? result['ends'] : {};
-  const given = isRow(request['ends']) ? request['ends'] : {};
-  for (const [side, end] of Object.entries(ends)) {
-    if (!isRow(end)) continue;
-    const inner = isRow(end['table']) ? end['table'] : end;
-    if (!isRow(inner['points'])) continue;
-    const asked = {...request, ...(isRow(given[side]) ? given[side] : {})};
-    const drawn = await bevelTable({}, {...answer, request: asked, result: inner}, context).catch(() => undefined);
-    if (!drawn) continue;
-    picture.solid ??= drawn.solid as NonNullable<Picture['solid']>;
-    picture.charts.push(...drawn.charts.map((chart) => ({...chart, id: `${chart.id}-${side}`, title: `${sentence(side)}: ${chart.title}`})));
-  }
-  if (picture.charts.length + (picture.tables?.length ?? 0) === 0) return generic(_, answer);
-  return picture;
 }

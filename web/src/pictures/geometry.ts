@@ -1,5 +1,5 @@
 import {isRow, type Json, type Row} from '../json';
-import type {CutTube, Frame, Partner, Vector} from '../picture';
+import type {CutTube, EndCurve, Frame, Partner, Vector} from '../picture';
 
 export const radians = Math.PI / 180;
 export const vector = (value: Json | undefined): Vector => (Array.isArray(value) && value.length === 3 ? value.map(Number) : [0, 0, 1]) as Vector;
@@ -86,6 +86,25 @@ export const onTube = (radius: number, phi: number, z: number): Vector => [radiu
 
 export function bounds(values: number[]): [number, number] {
   return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
+}
+
+export function squareEnd(z: number): EndCurve {
+  const phi = Array.from({length: 96}, (_, i) => 3.75 * i);
+  const flat = phi.map(() => z);
+  return {phi, zInner: flat, zOuter: flat};
+}
+
+const turnedInto = (to: Frame, v: Vector): Vector => [dot(v, to.x), dot(v, to.y), dot(v, to.z)];
+
+/** What is given in the coordinates that `to` is given in, seen from `to`. */
+export function seenFrom(to: Frame | undefined, given: Partner): Partner {
+  if (!to) return given;
+  const point = turnedInto(to, add(given.point, to.origin, -1));
+  if (given.kind === 'plane') return {...given, point, normal: turnedInto(to, given.normal)};
+  const direction = turnedInto(to, given.direction);
+  if (given.kind === 'box') return {...given, point, direction, up: turnedInto(to, given.up)};
+  if (given.kind === 'elbow') return {...given, point, direction, inwards: turnedInto(to, given.inwards)};
+  return {...given, point, direction};
 }
 
 /** A tube cut square at the origin of its frame. */

@@ -1,29 +1,25 @@
-import type {Row} from '../json';
+import type {Json, Row} from '../json';
 import {short4} from '../names';
 import {column, type Chart, type HoledTube, type Picture} from '../picture';
 import type {Answer} from '../service';
 import type {Context} from './context';
-import {bounds, partner, radians, tube} from './geometry';
+import {bounds, partner, radians, squareEnd, tube} from './geometry';
 
 export async function hole(_: Row, answer: Answer, context: Context): Promise<Picture> {
   const {request, result} = answer;
   const chord = tube(request['chord'], context.sizes);
   const holes = result['holes'] as Row[];
   const branch = request['branch'] as Row;
-  const points = holes.map((each) => each['points'] as Row);
+  const points = holes.map((each) => ascending(each['points'] as Row, each['points'] as Row));
   const z = points.flatMap((p) => column(p['z_mm']));
   const [low, high] = bounds(z);
   const first = points[0] as Row;
   const holed: HoledTube = {
     outer: chord.outer / 2,
     inner: chord.outer / 2 - chord.wall,
-    from: low - 0.8 * chord.outer,
-    to: high + 0.8 * chord.outer,
-    holes: points.map((p) => ({
-      outer: {phi: column(p['phi_deg']), z: column(p['z_mm'])},
-      inner: {phi: column(p['phi_inner_deg']), z: column(p['z_inner_mm'])},
-      b: column(p['b_deg']),
-    })),
+    from: squareEnd(low - 0.8 * chord.outer),
+    to: squareEnd(high + 0.8 * chord.outer),
+    holes: points.map(opening),
   };
   const middle = (low + high) / 2;
   const at = (bounds(column(first['phi_deg'])).reduce((a, b) => a + b) / 2) * radians;
@@ -63,12 +59,29 @@ export async function hole(_: Row, answer: Answer, context: Context): Promise<Pi
   };
 }
 
-function holeCharts(each: Row, i: number, count: number, radius: number): Chart[] {
-  const p = each['points'] as Row;
-  const which = count > 1 ? `, ${String(each['side'])}` : '';
+export const opening = (points: Row): HoledTube['holes'][number] => ({
+  outer: {phi: column(points['phi_deg']), z: column(points['z_mm'])},
+  inner: {phi: column(points['phi_inner_deg']), z: column(points['z_inner_mm'])},
+  b: column(points['b_deg']),
+});
+
+/** Columns in the order of the branch's phi, from 0: a far hole is cut the other way round, and from another start. */
+function ascending(row: Row, points: Row): Row {
+  const phi = column(points['branch_phi_deg']).map((p) => ((p % 360) + 360) % 360);
+  const order = phi.map((_, i) => i).sort((a, b) => (phi[a] as number) - (phi[b] as number));
+  const sorted = Object.entries(row).map(([key, values]): [string, Json] => {
+    if (!Array.isArray(values)) return [key, values];
+    return [key, key === 'branch_phi_deg' ? order.map((i) => phi[i] as number) : order.map((i) => values[i] as Json)];
+  });
+  return Object.fromEntries(sorted);
+}
+
+export function holeCharts(each: Row, i: number, count: number, radius: number): Chart[] {
+  const p = ascending(each['points'] as Row, each['points'] as Row);
+  const which = count > 1 ? `, ${String(each['branch'] ?? each['side'])}` : '';
   const x = {name: 'branch φ', unit: '°', values: column(p['branch_phi_deg'])};
   const link = `hole-${i}`;
-  const fit = each['fit_up'] as Row | undefined;
+  const fit = each['fit_up'] && ascending(each['fit_up'] as Row, each['points'] as Row);
   const scale = radius * radians;
   return [
     {

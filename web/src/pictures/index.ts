@@ -3,11 +3,12 @@ import type {Picture} from '../picture';
 import type {Answer} from '../service';
 import type {Context, Draw} from './context';
 import {bevelTable, intersection} from './cut';
-import {generic, part} from './generic';
+import {generic} from './generic';
 import {groove, millPath} from './groove';
 import {hole} from './hole';
 import {feedCurve, replay, schedule} from './machine';
 import {node} from './node';
+import {part} from './part';
 
 const known: Record<string, Draw> = {
   'bevel-tables': bevelTable,

@@ -26,7 +26,7 @@ import {
   type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
-import type {CutTube, Frame, HoledTube, Partner, Ribbon, Vector} from '../picture';
+import type {CutTube, EndCurve, Frame, HoledTube, Partner, Ribbon, Vector} from '../picture';
 
 const radians = Math.PI / 180;
 const toVector = (v: Vector) => new Vector3(...v);
@@ -141,7 +141,7 @@ export function cutTube(tube: CutTube, before: boolean): Group {
   return group;
 }
 
-/** A chord with its holes: each wall in columns of constant phi, each column open where a hole is. */
+/** A member with its holes: each wall in columns of constant phi, each column open where a hole is. */
 export function holedTube(tube: HoledTube): Group {
   const group = new Group();
   for (const [side, radius, tone] of [
@@ -152,8 +152,8 @@ export function holedTube(tube: HoledTube): Group {
       new Mesh(
         openWall(
           radius,
-          tube.from,
-          tube.to,
+          edge(tube.from, side),
+          edge(tube.to, side),
           tube.holes.map((hole) => hole[side]),
         ),
         steel(tone),
@@ -169,33 +169,48 @@ export function holedTube(tube: HoledTube): Group {
     );
     group.add(bevel, outline(inside, 'edge'), outline(outside, 'edge'));
   }
-  for (const z of [tube.from, tube.to]) {
-    const ring = Array.from({length: 96}, (_, i) => i * 3.75);
-    group.add(
-      new Mesh(
-        strip(
-          ring.map((p) => around(tube.inner, p, z)),
-          ring.map((p) => around(tube.outer, p, z)),
-          true,
-        ),
-        steel('bore'),
-      ),
-    );
-    group.add(
-      outline(
-        ring.map((p) => around(tube.outer, p, z)),
-        'edge',
-      ),
-    );
+  for (const end of [tube.from, tube.to]) {
+    const inside = end.phi.map((p, i) => around(tube.inner, p, end.zInner[i] as number));
+    const outside = end.phi.map((p, i) => around(tube.outer, p, end.zOuter[i] as number));
+    const {b} = end;
+    const tint = b ? (i: number) => ramp(b[i] as number, new Color()) : undefined;
+    group.add(new Mesh(strip(inside, outside, true, undefined, tint), b ? face(true) : steel('bore')), outline(inside, 'edge'), outline(outside, 'edge'));
   }
   return group;
 }
 
-function openWall(radius: number, from: number, to: number, holes: {phi: number[]; z: number[]}[]): BufferGeometry {
-  const turn = (p: number) => ((p % 360) + 360) % 360;
+interface Curve {
+  phi: number[];
+  z: number[];
+}
+const turn = (p: number) => ((p % 360) + 360) % 360;
+
+/** One wall's edge of an end, in the order of phi. */
+function edge(end: EndCurve, side: 'outer' | 'inner'): Curve {
+  const order = end.phi.map((_, i) => i).sort((a, b) => turn(end.phi[a] as number) - turn(end.phi[b] as number));
+  const z = side === 'outer' ? end.zOuter : end.zInner;
+  return {phi: order.map((i) => turn(end.phi[i] as number)), z: order.map((i) => z[i] as number)};
+}
+
+/** z of an edge at ascending angles. */
+function heights({phi, z}: Curve, angles: number[]): number[] {
+  const last = phi.length - 1;
+  const all = [(phi[last] as number) - 360, ...phi, (phi[0] as number) + 360];
+  const values = [z[last] as number, ...z, z[0] as number];
+  let i = 0;
+  return angles.map((angle) => {
+    while (i + 2 < all.length && (all[i + 1] as number) <= angle) ++i;
+    const [a, b] = [all[i] as number, all[i + 1] as number];
+    const t = b > a ? (angle - a) / (b - a) : 0;
+    return (values[i] as number) * (1 - t) + (values[i + 1] as number) * t;
+  });
+}
+
+function openWall(radius: number, from: Curve, to: Curve, holes: Curve[]): BufferGeometry {
   const stops = new Set(Array.from({length: 181}, (_, i) => 2 * i));
-  for (const hole of holes) for (const p of hole.phi) stops.add(turn(p));
+  for (const curve of [from, to, ...holes]) for (const p of curve.phi) stops.add(turn(p));
   const columns = [...stops].sort((a, b) => a - b);
+  const [starts, ends] = [heights(from, columns), heights(to, columns)];
   const positions: number[] = [],
     normals: number[] = [];
   const quad = (p: number, q: number, low: [number, number], high: [number, number]) => {
@@ -213,7 +228,7 @@ function openWall(radius: number, from: number, to: number, holes: {phi: number[
   for (let i = 0; i + 1 < columns.length; ++i) {
     const p = columns[i] as number,
       q = columns[i + 1] as number;
-    let low: [number, number] = [from, from];
+    let low: [number, number] = [starts[i] as number, starts[i + 1] as number];
     const gaps = holes
       .map((hole) => openings(hole, (p + q) / 2))
       .filter((gap): gap is [number, number] => gap !== null)
@@ -222,7 +237,7 @@ function openWall(radius: number, from: number, to: number, holes: {phi: number[
       quad(p, q, low, [gap[0], gap[0]]);
       low = [gap[1], gap[1]];
     }
-    quad(p, q, low, [to, to]);
+    quad(p, q, low, [ends[i] as number, ends[i + 1] as number]);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
@@ -231,7 +246,7 @@ function openWall(radius: number, from: number, to: number, holes: {phi: number[
 }
 
 /** From where to where a hole is open along the generator at phi. */
-function openings(hole: {phi: number[]; z: number[]}, phi: number): [number, number] | null {
+function openings(hole: Curve, phi: number): [number, number] | null {
   const hits: number[] = [];
   hole.phi.forEach((a, i) => {
     const j = (i + 1) % hole.phi.length;

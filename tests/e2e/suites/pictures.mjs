@@ -1,0 +1,179 @@
+// What is shown of an answer is what the service says: its checks, its curves, its parts, the values sent.
+import {strict as assert} from 'node:assert';
+import {answered, open, pixels, then} from '../browser.mjs';
+
+const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);
+const clean = (page) => assert.deepEqual(page.faults, [], 'errors in the browser');
+const examplesOf = async (service) => JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text).examples;
+const hashOf = ({endpoint, name}) => `#/${endpoint}/${name}`;
+
+/** The page, with what the service answers to `endpoint` changed. */
+async function changed(page, endpoint, change) {
+  await page.route(`**/v1/${endpoint}`, async (route) => {
+    const reply = await route.fetch();
+    const answer = await reply.json();
+    change(answer);
+    await route.fulfill({response: reply, json: answer});
+  });
+}
+
+/** Where the cursor of a chart is, as it is walked along by the keyboard. */
+async function walked(page, chart) {
+  const plot = page.locator(`#chart-${chart} .plot`);
+  const points = Number(await plot.getAttribute('data-points'));
+  await plot.focus();
+  await page.keyboard.press('Escape');
+  const places = [];
+  for (let i = 0; i < points; i += 10) {
+    await page.keyboard.press(i === 0 ? 'ArrowRight' : 'Shift+ArrowRight');
+    places.push(await plot.evaluate((node) => {
+      const [line, over] = [node.querySelector('.u-cursor-x'), node.querySelector('.u-over')].map((each) => each.getBoundingClientRect());
+      return (line.right - over.left) / over.width;
+    }));
+  }
+  return places;
+}
+
+async function whole({browser, origin}, width, height) {
+  for (const hash of ['bevel-tables/zones', 'pulse-schedules/table-1-on-the-five-axis-cutter', 'replays/square-cut', 'feed-curves/source-004-table-1-as-solved']) {
+    const page = await open(browser, origin, `#/${hash}`, {width, height});
+    await answered(page);
+    const clipped = () => page.evaluate(() => [...document.querySelectorAll('#form input[type=text]')]
+      .filter((input) => input.offsetParent && input.scrollWidth > input.clientWidth).map((input) => `${input.dataset.pointer} ${input.value}`));
+    assert.deepEqual(await clipped(), [], hash);
+    for (const fold of await page.locator('#form details:not([open]) > summary').all()) if (await fold.isVisible()) await fold.click();
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    assert.deepEqual(await clipped(), [], `${hash}, unfolded`);
+    if (hash.startsWith('bevel-tables')) {
+      await then(page, () => field(page, '/cutters/0/outer_diameter_mm').fill('323.91234567'));
+      await then(page, () => field(page, '/target/outer_diameter_mm').fill('168.30000000000123'));
+      assert.deepEqual(await clipped(), [], 'as typed');
+      const scroll = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(scroll <= width, `the page is ${scroll} px wide`);
+    }
+    clean(page);
+    await page.context().close();
+  }
+}
+
+export const checks = {
+  'a value far under its limit holds, as the service says': async ({browser, origin, service}) => {
+    const under = [];
+    for (const example of await examplesOf(service)) {
+      const {verification} = JSON.parse((await service.post(`/v1/${example.endpoint}`, example.body)).text);
+      if (verification.passed && verification.checks.some((check) => check.value < -check.limit)) under.push(example);
+    }
+    assert.ok(under.length > 0, 'no example has such a check');
+    const kinds = new Map(under.map((example) => [example.endpoint, example]));
+    for (const example of kinds.values()) {
+      const page = await open(browser, origin, hashOf(example));
+      await answered(page);
+      assert.match(await page.locator('#verdict').innerText(), /(\d+) of \1 checks of its own proof hold/, hashOf(example));
+      assert.equal(await page.locator('tr.failed').count(), 0, hashOf(example));
+      clean(page);
+      await page.context().close();
+    }
+  },
+
+  'a check over its limit is named, above and in the proof': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    await changed(page, 'bevel-tables', ({verification}) => {
+      verification.passed = false;
+      verification.checks[0].value = 2 * verification.checks[0].limit;
+    });
+    await then(page, () => page.locator('#example').selectOption('mitre'));
+    assert.match(await page.locator('#verdict').innerText(), /1 of \d+ checks failed/);
+    assert.equal(await page.locator('.verdict.bad').count(), 1);
+    assert.equal(await page.locator('tr.failed').count(), 1);
+    await page.context().close();
+  },
+
+  'charts of near and far holes rise along their axis': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/holes/through-brace');
+    await answered(page);
+    for (const chart of ['bevel-0', 'place-0', 'bevel-1', 'place-1', 'fit-1']) {
+      const places = await walked(page, chart);
+      assert.ok(places.every((x, i) => i === 0 || x > places[i - 1]), `${chart}: the cursor goes ${places}`);
+      assert.ok(places[0] < 0.02 && places[places.length - 1] > 0.95, `${chart}: from ${places[0]} to ${places[places.length - 1]}`);
+    }
+    clean(page);
+    await page.context().close();
+  },
+
+  'every part has its picture': async ({browser, origin, service}) => {
+    const parts = (await examplesOf(service)).filter(({endpoint}) => endpoint === 'parts');
+    assert.ok(parts.length > 0);
+    for (const example of parts) {
+      const page = await open(browser, origin, hashOf(example));
+      await answered(page);
+      const {share} = await pixels(page);
+      assert.ok(share > 0.03, `${example.name}: ${share} of the 3D canvas is covered`);
+      assert.ok(await page.locator('.chart').count() >= 3, `${example.name}: no charts`);
+      assert.equal(await page.locator('#trouble').isVisible(), false, example.name);
+      clean(page);
+      await page.context().close();
+    }
+  },
+
+  'what cannot be drawn is said, beside the verdict': async ({browser, origin}) => {
+    for (const [hash, spoil] of Object.entries({
+      '#/parts/k-joint-brace': ({result}) => delete result.ends.finish.points,
+      '#/holes/through-brace': ({result}) => delete result.holes[1].points,
+    })) {
+      const page = await open(browser, origin);
+      await answered(page);
+      await changed(page, hash.split('/')[1], spoil);
+      await then(page, () => page.evaluate((to) => {
+        location.hash = to;
+      }, hash));
+      assert.match(await page.locator('#trouble').innerText(), /^Not all of this answer could be drawn: ./, hash);
+      assert.equal(await page.locator('#verdict .pill').innerText(), 'ok', hash);
+      assert.equal(await page.locator('#panel table').count() > 0, true, `${hash}: the proof`);
+      await page.unroute('**/v1/*');
+      await then(page, () => page.locator('#endpoints [data-endpoint=bevel-tables]').click());
+      assert.equal(await page.locator('#trouble').isVisible(), false);
+      clean(page);
+      await page.context().close();
+    }
+  },
+
+  'a complaint stands under its own field, in the words of the service': async ({browser, origin}) => {
+    for (const width of [1280, 390]) {
+      const page = await open(browser, origin, '', {width, height: 800});
+      await answered(page);
+      const [wall, diameter] = [field(page, '/target/wall_mm'), field(page, '/target/outer_diameter_mm')];
+      const radius = Number(await diameter.inputValue()) / 2;
+      await then(page, () => wall.fill(String(radius + 1)));
+      assert.equal(await wall.getAttribute('aria-invalid'), 'true');
+      assert.equal(await diameter.getAttribute('aria-invalid'), null);
+      const note = page.locator(`#${await wall.getAttribute('aria-describedby')}`);
+      assert.equal(await note.innerText(), `Out of range: must be less than ${radius} mm`);
+      const [said, under, beside] = await Promise.all([note, wall, diameter].map((each) => each.boundingBox()));
+      assert.ok(said.x <= under.x && said.x + said.width > under.x, 'in the column of the wall');
+      assert.ok(said.y >= under.y + under.height && said.y < under.y + under.height + 20, 'right under the wall');
+      if (beside.y === under.y) assert.ok(said.x > beside.x + beside.width, 'and not under the diameter');
+      clean(page);
+      await page.context().close();
+    }
+  },
+
+  'values are shown whole at 1280 px': (given) => whole(given, 1280, 800),
+  'values are shown whole at 390 px': (given) => whole(given, 390, 844),
+
+  'one state at a time': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    await pixels(page);
+    const pressed = () => page.locator('#switches .pair [aria-pressed=true]').allInnerTexts();
+    assert.deepEqual(await pressed(), ['After']);
+    const canvas = page.locator('.canvas canvas');
+    assert.equal(await canvas.getAttribute('data-state'), 'after');
+    await page.locator('#view-before').click();
+    await page.locator('#view-before[aria-pressed=true]').waitFor();
+    assert.deepEqual(await pressed(), ['Before']);
+    assert.equal(await canvas.getAttribute('data-state'), 'before');
+    clean(page);
+    await page.context().close();
+  },
+};

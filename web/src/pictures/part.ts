@@ -1,0 +1,90 @@
+import {isRow, type Row} from '../json';
+import {label, sentence, unit} from '../names';
+import {column, type EndCurve, type Frame, type Partner, type Picture, type Solid} from '../picture';
+import type {Answer} from '../service';
+import type {Context} from './context';
+import {tablePicture} from './cut';
+import {table, text} from './generic';
+import {bounds, frame, onTube, partner, placed, seenFrom, tube, type Sizes} from './geometry';
+import {holeCharts, opening} from './hole';
+
+const rowsOf = (value: unknown) => (Array.isArray(value) ? value.filter(isRow) : []);
+const member = (request: Row, id: unknown) => rowsOf(request['members']).find((each) => each['id'] === id);
+
+/** A whole member: lengths, check dimensions, and each end as the table it is. */
+export async function part(_: Row, answer: Answer, context: Context): Promise<Picture> {
+  const {result, request} = answer;
+  const {outer, wall} = tube(request['target'] ?? member(request, request['member']), context.sizes);
+  const ends = result['ends'] as Row;
+  const given = isRow(request['ends']) ? request['ends'] : {};
+  const holes = rowsOf(result['holes']);
+  const charts = Object.entries(ends).flatMap(([side, end]) => {
+    const own = end as Row;
+    const asked: Row = {...request, ...(isRow(given[side]) ? given[side] : {})};
+    const cutters = rowsOf(asked['cutters']).map((each, i) => String(each['id'] ?? `partner ${i + 1}`));
+    const names = cutters.length ? cutters : ((own['cutter_ids'] ?? []) as string[]);
+    if (!names.length) return []; // square: nothing to draw over phi
+    const drawn = tablePicture(asked, own, {outer, wall, cutters: [], names}, context.sizes, `cut-${side}`);
+    return drawn.charts.map((chart) => ({...chart, id: `${chart.id}-${side}`, title: `${sentence(side)}: ${chart.title}`}));
+  });
+  return {
+    solid: solidOf(request, result, {outer, wall}, context.sizes),
+    charts: [...charts, ...holes.flatMap((hole, i) => holeCharts(hole, i, holes.length, outer / 2))],
+    figures: Object.entries(result['lengths'] as Row).map(([k, v]) => ({name: label(k), value: text(v), unit: unit(k)})),
+    tables: ['check_dimensions', 'sequence'].filter((key) => rowsOf(result[key]).length).map((key) => table(key, rowsOf(result[key]))),
+  };
+}
+
+function endCurve(end: Row): EndCurve {
+  const points = end['points'] as Row;
+  return {phi: column(points['phi_deg']), zInner: column(points['z_inner_mm']), zOuter: column(points['z_outer_mm']), b: column(points['b_deg'])};
+}
+
+/** The member on its side, the datum line up, its start to the left. */
+function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall: number}, sizes: Sizes): Solid {
+  const ends = result['ends'] as Row;
+  const [from, to] = [endCurve(ends['start'] as Row), endCurve(ends['finish'] as Row)];
+  const [low, high] = bounds([...from.zInner, ...from.zOuter, ...to.zInner, ...to.zOuter]);
+  const holes = rowsOf(result['holes']).map((hole) => opening(hole['points'] as Row));
+  const datum = rowsOf(result['marks']).filter((mark) => mark['kind'] === 'datum_line');
+  return {
+    link: 'part',
+    tubes: [],
+    holed: [{outer: outer / 2, inner: outer / 2 - wall, from, to, holes}],
+    lines: datum.map((mark) => ({
+      points: [mark['z_from_mm'], mark['z_to_mm']].map((z) => onTube(1.002 * (outer / 2), Number(mark['phi_deg']), Number(z))),
+      tone: 'mark',
+    })),
+    partners: partners(request, result, outer, sizes),
+    centre: [0, 0, (low + high) / 2],
+    size: Math.max(1.35 * outer, 0.72 * (high - low + outer)),
+    eye: [0.55, 1, -0.45],
+    up: [1, 0, 0],
+  };
+}
+
+/** The tubes that cut the ends, and those whose holes it has, where they are in the part's frame. */
+function partners(request: Row, result: Row, outer: number, sizes: Sizes): Partner[] {
+  const to = frame(result['frame']) as Frame;
+  if ((result['frame'] as Row)['in'] === 'start') {
+    const start = (request['ends'] as Row)['start'] as Row;
+    return rowsOf(start['cutters']).map((row, i) => seenFrom(to, partner(row, i, placed(to, [0, 0, 0]), 2 * outer, sizes)));
+  }
+  const places = [
+    ...Object.values(result['ends'] as Row).flatMap((end) => {
+      const z = bounds(endCurve(end as Row).zOuter);
+      return (((end as Row)['cutter_ids'] ?? []) as string[]).map((id) => ({id, z: (z[0] + z[1]) / 2}));
+    }),
+    ...rowsOf(result['holes']).map((hole) => {
+      const z = bounds(column((hole['points'] as Row)['z_mm']));
+      return {id: hole['branch'], z: (z[0] + z[1]) / 2};
+    }),
+  ];
+  return places.flatMap(({id, z}, i) => {
+    const other = member(request, id);
+    if (!other) return [];
+    const [start, end] = [column(other['start_mm']), column(other['end_mm'])];
+    const row = {...other, kind: 'tube', axis: {point_mm: start, direction: end.map((v, k) => v - (start[k] as number))}};
+    return [seenFrom(to, partner(row, i, placed(to, [0, 0, z]), 2 * outer, sizes))];
+  });
+}
