@@ -80,6 +80,23 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w) {
   });
 }
 
+/// Numbers of the meshes that are what was before, or of all others.
+std::string nodes_of(const std::vector<Mesh>& meshes, bool before) {
+  std::string list;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    if ((meshes[i].name == "before") == before)
+      list += (list.empty() ? "" : ",") + std::to_string(i);
+  return list;
+}
+
+/// A viewer shows one scene: what was before has its own, so that it does not lie over what is.
+std::string scenes(const std::vector<Mesh>& meshes) {
+  const auto before = nodes_of(meshes, true), after = nodes_of(meshes, false);
+  if (before.empty()) return "[{\"nodes\":[" + after + "]}]";
+  return "[{\"name\":\"after\",\"nodes\":[" + after + "]},{\"name\":\"before\",\"nodes\":[" +
+         before + "]}]";
+}
+
 std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer,
                      const Caption& caption) {
   std::vector<std::size_t> numbers(meshes.size());
@@ -96,12 +113,7 @@ std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer,
       });
     });
     w.field("scene", 0);
-    w.raw(
-        "scenes", "[{\"nodes\":[" + [&] {
-          std::string list;
-          for (const auto i : numbers) list += (i ? "," : "") + std::to_string(i);
-          return list;
-        }() + "]}]");
+    w.raw("scenes", scenes(meshes));
     w.array("nodes", numbers, [&](Writer& each, std::size_t i) {
       each.object([&](Writer& o) {
         o.field("name", meshes[i].name);

@@ -21,7 +21,10 @@ export async function gltf({service, contract, report}) {
       const {issues} = await validator.validateBytes(new Uint8Array(reply.body), {format: 'glb'});
       report.expect(issues.numErrors === 0 && issues.numWarnings === 0, about,
         JSON.stringify(issues.messages.filter(({severity}) => severity < 2).slice(0, 3)));
-      const {nodes} = nodesOf(reply.body);
+      const {nodes, scenes, scene} = nodesOf(reply.body);
+      const shown = scenes.map((each) => each.nodes.map((node) => nodes[node].name));
+      report.expect(shown.every((names) => !(names.includes('before') && names.includes('after'))), about, `a scene of ${shown.join(' and ')}`);
+      report.expect(!shown[scene].includes('before'), about, 'opens with what was before');
       if (endpoint.id === 'bevel-tables')
         report.expect(nodes.map((node) => node.name).join() === 'before,after', about, `nodes ${nodes.map((node) => node.name)}`);
     }
