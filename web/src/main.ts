@@ -11,7 +11,7 @@ import {pictured} from './pictures';
 import {contextOf, without, type Context} from './pictures/context';
 import {motionFacts, scheduleCharts} from './pictures/machine';
 import {Contract} from './schema';
-import {ask, fetched, Latest, path, type Answer, type Endpoint, type Example, type Reply} from './service';
+import {ask, away, fetched, Latest, path, type Answer, type Endpoint, type Example, type Reply} from './service';
 import type {Stage} from './scene/stage';
 import {themed} from './theme';
 
@@ -371,7 +371,10 @@ class Console {
     const {answer, state, reply} = this;
     const name = state.example ?? state.endpoint;
     if (state.tab === 'json') panel.append(panels.exchange(state.endpoint, state.body, (reply?.answer ?? reply?.problem) as never));
-    else if (!answer) panel.append(el('p', {class: 'soft'}, 'Nothing yet: the request was refused.'));
+    else if (!answer)
+      panel.append(
+        el('p', {class: 'soft'}, reply?.problem?.code === away.code ? 'Nothing yet: the service did not answer.' : 'Nothing yet: the request was refused.'),
+      );
     else if (state.tab === 'proof')
       panel.append(...(this.picture?.tables?.length ? [el('div', {class: 'columns'}, ...this.picture.tables.map(panels.table))] : []), panels.proof(answer));
     else if (state.tab === 'table') panel.append(panels.columns(answer));
