@@ -290,20 +290,21 @@ class Console {
 
   private drawReadout(picture: Picture): void {
     this.unlisten?.();
-    const link = picture.charts[0]?.link;
-    if (!link || !picture.readout) {
+    const links = [...new Set(picture.charts.map((chart) => chart.link))];
+    if (!links.length || !picture.readout) {
       byId('readout')?.replaceChildren();
       return;
     }
-    const write = (index: number | null) => {
+    const write = (index: number | null, link = '') => {
       const root = byId('readout');
       if (!root) return;
-      const rows = index === null ? [] : (picture.readout?.(index) ?? []);
+      const rows = index === null ? [] : (picture.readout?.(index, link) ?? []);
       root.replaceChildren(...rows.flatMap(([name, value]) => [el('div', {}, el('dt', {}, name), el('dd', {}, value))]));
       if (!rows.length)
         root.replaceChildren(el('div', {class: 'soft'}, el('dt', {}, 'Point at a chart or the cut end to read its values; the cursor moves in every view.')));
     };
-    this.unlisten = listen(link, write);
+    const forget = links.map((link) => listen(link, (index) => write(index, link)));
+    this.unlisten = () => forget.forEach((each) => each());
     write(null);
   }
 

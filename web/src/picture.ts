@@ -7,7 +7,7 @@ export interface Picture {
   figures: Figure[];
   tables?: Table[];
   /** What the cursor reads at a point, for the strip under the solid. */
-  readout?: (index: number) => [string, string][];
+  readout?: (index: number, link: string) => [string, string][];
   /** There is a before and an after to switch between. */
   beforeAfter?: boolean;
 }

@@ -89,7 +89,7 @@ export const checks = {
     await page.context().close();
   },
 
-  'charts of near and far holes rise along their axis': async ({browser, origin}) => {
+  'charts of near and far holes rise along their axis': async ({browser, origin, service}) => {
     const page = await open(browser, origin, '#/holes/through-brace');
     await answered(page);
     for (const chart of ['bevel-0', 'place-0', 'bevel-1', 'place-1', 'fit-1']) {
@@ -97,6 +97,11 @@ export const checks = {
       assert.ok(places.every((x, i) => i === 0 || x > places[i - 1]), `${chart}: the cursor goes ${places}`);
       assert.ok(places[0] < 0.02 && places[places.length - 1] > 0.95, `${chart}: from ${places[0]} to ${places[places.length - 1]}`);
     }
+    const {body} = (await examplesOf(service)).find(({name}) => name === 'through-brace');
+    const {points} = JSON.parse((await service.post('/v1/holes', body)).text).result.holes[1];
+    const [at, phi] = (await page.locator('#readout dd').allInnerTexts()).map(parseFloat);
+    assert.equal(at, 350, 'where the walk ends');
+    assert.ok(Math.abs(phi - points.phi_deg[points.branch_phi_deg.indexOf(at)]) < 0.06, `the far hole is read out, not ${phi}`);
     clean(page);
     await page.context().close();
   },

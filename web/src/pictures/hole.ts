@@ -48,14 +48,18 @@ export async function hole(_: Row, answer: Answer, context: Context): Promise<Pi
           : []),
       ];
     }),
-    readout: (i) => [
-      ['branch φ', `${short4(column(first['branch_phi_deg'])[i] as number)}°`],
-      ['φ', `${short4(column(first['phi_deg'])[i] as number)}°`],
-      ['z', `${short4(column(first['z_mm'])[i] as number)} mm`],
-      ['B', `${short4(column(first['b_deg'])[i] as number)}°`],
-      ['dihedral', `${short4(column(first['dihedral_deg'])[i] as number)}°`],
-      ['metal in beam', `${short4(column(first['beam_mm'])[i] as number)} mm`],
-    ],
+    readout: (i, link) => {
+      const own = points[Number(link.replace('hole-', ''))] ?? first;
+      const value = (name: string) => short4(column(own[name])[i] as number);
+      return [
+        ['branch φ', `${value('branch_phi_deg')}°`],
+        ['φ', `${value('phi_deg')}°`],
+        ['z', `${value('z_mm')} mm`],
+        ['B', `${value('b_deg')}°`],
+        ['dihedral', `${value('dihedral_deg')}°`],
+        ['metal in beam', `${value('beam_mm')} mm`],
+      ];
+    },
   };
 }
 
