@@ -1,9 +1,12 @@
+#include <openssl/evp.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "api/api.hpp"
 #include "api/endpoint.hpp"
 #include "api/json.hpp"
+#include "api/letters.hpp"
 #include "api/limits.hpp"
 #include "api/problem.hpp"
 #include "api/reader.hpp"
@@ -67,6 +70,61 @@ std::string read_body(Reader& in) {
   return dump(*body, in.stop());
 }
 
+/// A number as it is printed, a text as it is, true and false; nothing for anything else.
+std::optional<std::string> option_text(const Json& value) {
+  if (const auto* text = value.as<std::string>()) return *text;
+  if (value.as<double>() != nullptr || value.as<bool>() != nullptr) return dump(value);
+  return std::nullopt;
+}
+
+/// `format` and `options`; what is wrong with their values is the endpoint's to say.
+std::string read_query(Reader& in) {
+  const auto format = in.optional_text("format").value_or("");
+  std::vector<std::pair<std::string, std::string>> options;
+  in.note("options");
+  if (const Json* given = in.find("options")) {
+    const auto* members = given->as<Json::Object>();
+    if (members == nullptr)
+      in.issue({.code = ErrorCode::wrong_type,
+                .pointer = "options",
+                .hint = "an object of the format's options is required"},
+               given);
+    for (const auto& [name, value] : members != nullptr ? *members : Json::Object{}) {
+      if (auto text = option_text(value))
+        options.emplace_back(name, *std::move(text));
+      else
+        in.issue({.code = ErrorCode::wrong_type,
+                  .pointer = "options/" + name,
+                  .hint = "a number, a text, true or false is required"},
+                 &value);
+    }
+  }
+  return format_query(format, options);
+}
+
+std::string escaped(std::string_view text) {
+  static constexpr char kHex[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       std::string_view("-._~").find(c) != std::string_view::npos;
+    if (plain)
+      out += c;
+    else
+      (out += '%').append({kHex[byte >> 4U], kHex[byte & 15U]});
+  }
+  return out;
+}
+
+std::string base64(std::string_view bytes) {
+  std::string out((bytes.size() + 2) / 3 * 4, '\0');
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
+                  reinterpret_cast<const unsigned char*>(bytes.data()),
+                  static_cast<int>(bytes.size()));
+  return out;
+}
+
 void read_line(BatchLine& out, std::string_view text, std::string_view request_id,
                const Context& context) {
   // One deeper than a body may be.
@@ -84,6 +142,7 @@ void read_line(BatchLine& out, std::string_view text, std::string_view request_i
   in.set_stop(context.stop);
   out.id = read_id(in);
   out.path = read_endpoint(in);
+  out.query = read_query(in);
   out.body = read_body(in);
   if (auto issues = in.finish_root(); !issues.empty())
     refuse(out, field_problem(std::move(issues)), request_id, context);
@@ -102,16 +161,31 @@ BatchLine read_batch_line(std::string_view text, std::string_view request_id,
   return out;
 }
 
-std::string print_batch_line(const BatchLine& line, std::size_t number, int status,
-                             std::string_view answer, std::string_view verdict) {
-  while (answer.ends_with('\n')) answer.remove_suffix(1);
-  Writer out(answer.size() + line.id.size() + 64);
+std::string format_query(std::string_view format,
+                         const std::vector<std::pair<std::string, std::string>>& options) {
+  std::string out = format.empty() ? "" : "format=" + escaped(format);
+  for (const auto& [name, value] : options)
+    out += (out.empty() ? "" : "&") + escaped(name) + "=" + escaped(value);
+  return out;
+}
+
+std::string print_batch_line(const BatchLine& line, std::size_t number, const BatchAnswer& answer) {
+  auto content = answer.content;
+  const bool json = answer.media.find("json") != std::string_view::npos;
+  while (json && content.ends_with('\n')) content.remove_suffix(1);
+  Writer out(content.size() + line.id.size() + 64);
   out.object([&](Writer& w) {
     w.field("id", line.id.empty() ? Json{} : Json{line.id});
     w.field("line", static_cast<double>(number));
-    w.field("status", status);
-    if (!verdict.empty()) w.field("verdict", verdict.substr(0, verdict.find(';')));
-    w.raw("body", answer);
+    w.field("status", answer.status);
+    if (!answer.verdict.empty())
+      w.field("verdict", answer.verdict.substr(0, answer.verdict.find(';')));
+    if (json) return w.raw("body", content);
+    w.field("media", answer.media);
+    if (is_utf8(content))
+      w.field("document", content);
+    else
+      w.field("document_base64", base64(content));
   });
   return out.take() + "\n";
 }

@@ -50,6 +50,12 @@ std::optional<char32_t> take_character(std::string_view& text) {
   return out;
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty())
+    if (!take_character(text)) return false;
+  return true;
+}
+
 bool is_visible(std::string_view text, std::size_t longest) {
   std::size_t count = 0;
   while (!text.empty() && count <= longest) {

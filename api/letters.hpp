@@ -10,6 +10,8 @@ namespace tubecut::api {
 /// Takes the first character off a text that is not empty; nothing where that is not UTF-8.
 [[nodiscard]] std::optional<char32_t> take_character(std::string_view& text);
 
+[[nodiscard]] bool is_utf8(std::string_view text);
+
 /// One to `longest` characters in UTF-8, every one of which is seen: no control, no mark that only
 /// turns or joins its neighbours, no separator of lines.
 [[nodiscard]] bool is_visible(std::string_view text, std::size_t longest);

@@ -74,7 +74,9 @@ BatchReply App::line(const Request& request) const {
   } catch (const std::exception&) {  // a slot's thread has nobody above to catch it
     const auto bug = api::problem(ErrorCode::internal_error, "The line failed.",
                                   header(request.headers, "X-Request-Id"), context());
-    return {api::print_batch_line({}, request.line, status_of(*bug.error), bug.body), true};
+    return {api::print_batch_line({}, request.line,
+                                  {.status = status_of(*bug.error), .content = bug.body}),
+            true};
   }
 }
 
@@ -108,14 +110,18 @@ BatchReply App::answer_line(const Request& request) const {
     x_.started();
     x_.finished(record);
     x_.sent(record);
-    return {api::print_batch_line(line, request.line, status, line.problem), true, true};
+    return {api::print_batch_line(line, request.line, {.status = status, .content = line.problem}),
+            true, true};
   }
   one.method = "POST";
-  one.target = line.path;
+  one.target = line.query.empty() ? line.path : line.path + "?" + line.query;
   one.body = line.body;
   const Response response = handle(one);
-  return {api::print_batch_line(line, request.line, response.status, response.body,
-                                header(response.headers, api::kVerdictHeader)),
+  return {api::print_batch_line(line, request.line,
+                                {.status = response.status,
+                                 .content = response.body,
+                                 .media = response.content_type,
+                                 .verdict = header(response.headers, api::kVerdictHeader)}),
           response.status != 200};
 }
 

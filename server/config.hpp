@@ -47,10 +47,12 @@ struct Command {
   enum class Kind { serve, health, run, selftest, new_key };
   Kind kind = Kind::serve;
   Config config;
-  std::string endpoint;  // of run: "bevel-tables"; empty: the file is a batch
-  std::string file;      // of run: "-" for stdin
-  std::string identity;  // of new-key
-  bool all = false;      // of selftest: every example, its hash printed
+  std::string endpoint;              // of run: "bevel-tables"; empty: the file is a batch
+  std::string format;                // of run with an endpoint; empty: JSON
+  std::vector<std::string> options;  // the format's: "speed_mm_min=600"
+  std::string file;                  // of run: "-" for stdin
+  std::string identity;              // of new-key
+  bool all = false;                  // of selftest: every example, its hash printed
 };
 
 /// An end before any work: help, version, the printed configuration, or a mistake in the options.

@@ -12,6 +12,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "api/api.hpp"
@@ -24,13 +25,20 @@
 namespace tubecut::server {
 namespace {
 
-int run_one(std::istream& in, const std::string& endpoint) {
+int run_one(std::istream& in, const Command& command) {
   const std::string body(std::istreambuf_iterator<char>(in), {});
-  const std::string path = "/v1/" + endpoint;
+  const std::string path = "/v1/" + command.endpoint;
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const auto& option : command.options) {
+    const auto equals = std::min(option.find('='), option.size());
+    options.emplace_back(option.substr(0, equals),
+                         option.substr(std::min(equals + 1, option.size())));
+  }
+  const std::string query = api::format_query(command.format, options);
   const std::string id = random_id();
   const auto outcome = api::dispatch({.method = "POST",
                                       .path = path,
-                                      .query = {},
+                                      .query = query,
                                       .accept = "application/json",
                                       .content_type = "application/json",
                                       .body = body,
@@ -127,8 +135,7 @@ int run(const Command& command) {
   std::istream& in = command.file == "-" ? std::cin : file;
   std::error_code unknown;
   const auto size = std::filesystem::file_size(command.file, unknown);
-  return command.endpoint.empty() ? run_batch(in, unknown ? 0 : size)
-                                  : run_one(in, command.endpoint);
+  return command.endpoint.empty() ? run_batch(in, unknown ? 0 : size) : run_one(in, command);
 }
 
 }  // namespace tubecut::server

@@ -99,10 +99,10 @@ void ask_line(const std::string& text, const api::Context& context) {
   const std::string answer = line.error ? line.problem : "{}";
   if (!api::parse(answer)) broken("not JSON", answer);
   if (line.error.has_value() == line.code.empty()) broken("an error without its code", answer);
-  const auto printed = api::print_batch_line(line, 1, 200, answer);
+  const auto printed = api::print_batch_line(line, 1, {.status = 200, .content = answer});
   if (!api::parse(printed.substr(0, printed.find('\n'))))
     broken("a line that is not JSON", printed);
-  if (!line.error) ask(line.path, {}, line.body, context);
+  if (!line.error) ask(line.path, line.query, line.body, context);
 }
 
 }  // namespace

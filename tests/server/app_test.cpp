@@ -261,6 +261,74 @@ TEST(App, RefusesALineThatIsNotRead) {
   EXPECT_EQ(*json->find("status"), api::Json(413.0));
 }
 
+/// A job has the same hash of its input, answered, refused by core or over its budget; a body that
+/// is not understood has that of its bytes.
+TEST(App, TellsWhatWasAskedWhateverBecameOfIt) {
+  std::vector<JobRecord> records;
+  AppOptions options;
+  options.replica = "cut-1";
+  options.finished = [&](const JobRecord& record) { records.push_back(record); };
+  const App app(std::move(options));
+  const auto status = [&](std::string_view body, Headers headers = {}) {
+    auto asked = request(std::move(headers));
+    asked.body = body;
+    return app.handle(asked).status;
+  };
+  const std::string target = R"({"target": {"outer_diameter_mm": 70, "wall_mm": 5}, "cutters": [)";
+  const std::string cut =
+      target + R"({"kind": "tube", "outer_diameter_mm": 110, "inclination_deg": 60}])";
+  ASSERT_EQ(status(cut + "}"), 200);
+  const auto asked = records.back().facts.input_sha256;
+  EXPECT_EQ(asked.size(), 64U);
+  EXPECT_EQ(records.back().facts.result_sha256.size(), 64U);
+  EXPECT_EQ(records.back().replica, "cut-1");
+  const std::string fine = cut + R"(, "sampling": {"uniform_points": 20000}})";
+  EXPECT_EQ(status(fine, {{"Tubecut-Budget-Ms", "20"}}), 504);
+  EXPECT_EQ(records.back().facts.input_sha256.size(), 64U);
+  EXPECT_NE(records.back().facts.input_sha256, asked);
+  // A tube that is thinner and far beside misses.
+  EXPECT_EQ(status(target + R"({"kind": "tube", "outer_diameter_mm": 30, "inclination_deg": 60,
+                                "offset_mm": 500}]})"),
+            422);
+  EXPECT_EQ(records.back().facts.input_sha256.size(), 64U);
+  EXPECT_TRUE(records.back().facts.body_sha256.empty());
+  for (const auto* body : {"{", "{}"}) {
+    EXPECT_GE(status(body), 400);
+    EXPECT_TRUE(records.back().facts.input_sha256.empty());
+    EXPECT_EQ(records.back().facts.body_sha256.size(), 64U);
+  }
+}
+
+TEST(App, AnswersALineInTheFormatItNames) {
+  const App app{AppOptions{}};
+  const auto answer = [&](const std::string& more) {
+    const Request line{.method = "POST",
+                       .target = "/v1/batches",
+                       .body = R"({"id": "a", "endpoint": "bevel-tables", "body": {"target":
+        {"outer_diameter_mm": 70, "wall_mm": 5}, "cutters": [{"kind": "tube", "outer_diameter_mm": 110,
+        "inclination_deg": 60}]})" +
+                               more + "}",
+                       .line = 1};
+    return *api::parse(app.line(line).text);
+  };
+  const auto text = [](const api::Json& json, const char* name) {
+    const auto* member = json.find(name);
+    const auto* value = member != nullptr ? member->as<std::string>() : nullptr;
+    return value != nullptr ? *value : std::string{};
+  };
+  const auto program =
+      answer(R"(, "format": "gcode", "options": {"speed_mm_min": 600, "torch": "on"})");
+  EXPECT_EQ(text(program, "media"), "text/x-gcode");
+  EXPECT_NE(text(program, "document").find("\nM3"), std::string::npos);
+  EXPECT_EQ(program.find("body"), nullptr);
+  const auto solid = answer(R"(, "format": "glb")");
+  EXPECT_EQ(text(solid, "document_base64").substr(0, 5), "Z2xUR");  // "glTF"
+  EXPECT_NE(answer(R"(, "format": "json")").find("body"), nullptr);
+  EXPECT_EQ(text(*answer(R"(, "format": "gcode", "options": {"speed": 600})").find("body"), "code"),
+            "bad_request");
+  EXPECT_EQ(*answer(R"(, "options": {"view": []})").find("status"), api::Json(422.0));
+}
+
 TEST(App, TellsTheLimitsItHoldsTo) {
   const auto limits = [](AppOptions options) {
     const auto page = App(std::move(options)).handle({.method = "GET", .target = "/v1/limits"});

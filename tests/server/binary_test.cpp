@@ -186,6 +186,9 @@ TEST(Binary, ProbesItself) {
   const std::vector<std::string> health = {TUBECUT_BINARY, "--admin-port",
                                            std::to_string(service.admin_port), "health"};
   EXPECT_EQ(Program(health).exit_code(), 0);
+  EXPECT_EQ(Program({TUBECUT_BINARY, "health", "--admin-port", std::to_string(service.admin_port)})
+                .exit_code(),
+            0);
   service.program.signal(SIGTERM);
   EXPECT_EQ(service.program.exit_code(), 0);
   EXPECT_EQ(Program(health).exit_code(), 1);
@@ -196,6 +199,17 @@ TEST(Binary, RunsOneRequestWithoutAServer) {
   std::ofstream(file) << "{not json";
   Program program({TUBECUT_BINARY, "run", "--endpoint", "bevel-tables", file});
   EXPECT_EQ(program.exit_code(), 1);
+  std::ofstream(file) << R"({"target": {"outer_diameter_mm": 70, "wall_mm": 5}, "cutters":
+      [{"kind": "tube", "outer_diameter_mm": 110, "inclination_deg": 60}]})";
+  const auto in_format = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {TUBECUT_BINARY, "run", "--endpoint", "bevel-tables"});
+    words.push_back(file);
+    return Program(words).exit_code();
+  };
+  EXPECT_EQ(
+      in_format({"--format", "gcode", "--option", "speed_mm_min=600", "--option", "torch=on"}), 0);
+  EXPECT_EQ(in_format({"--format", "gcode"}), 1);  // a speed is wanted
+  EXPECT_EQ(in_format({"--option", "torch=on"}), 2);
 }
 
 TEST(Binary, RunsABatchWithoutAServer) {

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "api/api.hpp"
 #include "api/json.hpp"
 #include "server/json_line.hpp"
 
@@ -19,11 +20,13 @@ JobRecord hostile() {
   job.facts.id = "J\"1\\";
   job.facts.endpoint = "bevel-tables";
   job.facts.input_sha256 = "ab";
+  job.facts.result_sha256 = "cd";
   job.facts.verdict = "review";
   job.facts.warnings = {"cutter_missed", "ghost_contact"};
   job.facts.reference = {{"part", "Tr\xc3\xa4ger"}, {"order", "a\nb\x1b[2J"}};
   job.facts.stages = {{"parse", 0.0012345}, {"compute", 0.1}};
   job.method = "POST";
+  job.replica = "cut-1";
   job.request_id = "r";
   job.failure = "bad byte \xff \xc3";
   job.status = 500;
@@ -42,6 +45,11 @@ TEST(JobLine, IsOneLineOfStrictJsonWhateverItHolds) {
   EXPECT_EQ(*json->find("event"), api::Json("job"));
   EXPECT_EQ(*json->find("job"), api::Json("J\"1\\"));
   EXPECT_EQ(*json->find("status"), api::Json(500.0));
+  EXPECT_EQ(*json->find("input_sha256"), api::Json("ab"));
+  EXPECT_EQ(*json->find("result_sha256"), api::Json("cd"));
+  EXPECT_EQ(*json->find("engine"), api::Json("tubecut " + std::string(api::version())));
+  EXPECT_EQ(*json->find("numerics"), api::Json(static_cast<double>(api::numerics())));
+  EXPECT_EQ(*json->find("replica"), api::Json("cut-1"));
   EXPECT_EQ(*json->find("stages_ms")->find("parse"), api::Json(1.234));
   EXPECT_EQ(*json->find("total_ms"), api::Json(250.0));
   EXPECT_EQ(json->find("warnings")->as<api::Json::Array>()->size(), 2U);
