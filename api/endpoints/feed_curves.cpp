@@ -248,7 +248,7 @@ struct FeedCurves {
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr std::array<CheckLimit, 30> kChecks{{
+  static constexpr std::array<CheckLimit, 31> kChecks{{
       {"stroke_limits", "1e-9", ""},
       {"peak_feed", "1e-7", ""},
       {"work_ends", "1e-9", ""},
@@ -267,6 +267,7 @@ struct FeedCurves {
       {"fit_end_drift", "1e-9", ""},
       {"comparison_minimax", "1e-6", ""},
       {"cycle_feed", "1e-9", ""},
+      {"cycle_max_feed", "1e-9", ""},
       {"cycle_feed_speed", "1e-8", ""},
       {"cycle_times", "1e-12", ""},
       {"cycle_ends_at_rest", "0", ""},

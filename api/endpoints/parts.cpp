@@ -194,7 +194,7 @@ struct Parts {
 
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv", &print<part_csv>},
+        {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
         {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
         {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
         {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},

@@ -76,7 +76,7 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
       comment("RO = round tube, developed as seen from outside: x to the right, y up") +
       comment("y = outer radius * " + fixed(360.0, 0) + " deg - phi");
   for (const auto& [name, text] : c.reference)
-    out += comment(std::string(name) + ": " + dstv_text(text) + spelling_note(text));
+    out += comment(std::string(name) + ": " + dstv_text(text) + std::string(spelling_note(text)));
   out += comment(std::string("b_sign: ") + kBSignInPart + ", here x: outer edge towards +x");
   for (const auto& text : verdict_lines(c.verdict, {.width = 76})) out += comment(dstv_text(text));
   out += comment("length over the long point " + fixed(l.over_long, 3)) +
@@ -225,6 +225,7 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
     }
   }
   return "ST\r\n" + comments(lengths, constant, caption) +
+         comment("AK: the tube itself, kept within; IK: an opening of it, kept outside") +
          comment("a hole across phi = 0 is one contour: its y leaves the girth") +
          header(spec.target, spec.density, lengths, caption) +
          outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop) +

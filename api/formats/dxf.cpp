@@ -52,7 +52,8 @@ std::vector<Eigen::Vector3d> open_in_space(const CylinderCurve& c) {
 std::vector<std::string> captions(const Development& d, const std::string& frame,
                                   const Caption& caption) {
   std::vector<std::string> out{
-      "tube " + fixed(2.0 * d.outer_radius, 3) + " x " + fixed(d.wall, 3) + " mm",
+      (d.around() ? "tube " : "openings of the chord, tube ") + fixed(2.0 * d.outer_radius, 3) +
+          " x " + fixed(d.wall, 3) + " mm",
       "CUT_OUTER on radius " + fixed(d.outer_radius, 3) + ", CUT_INNER on radius " +
           fixed(d.outer_radius - d.wall, 3) + " mm",
       frame};
@@ -121,6 +122,20 @@ void across(DxfWriter& w, std::string_view layer, const Development& d, bool spa
     w.polyline(layer, flat(circle), false);
 }
 
+/// Its phase, turns away where it stands in the contour of a hole that is drawn there: a hole
+/// across the seam is one contour.
+double shown_phi(const Development& d, const part::Mark& mark) {
+  for (const auto& cut : d.cuts) {
+    if (cut.around || cut.outer.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(cut.outer.phi);
+    const auto [bottom, top] = std::ranges::minmax(cut.outer.z);
+    if (mark.z_from < bottom || mark.z_to > top) continue;
+    for (const double turn : {-kTwoPi, kTwoPi})
+      if (mark.phi + turn >= low && mark.phi + turn <= high) return mark.phi + turn;
+  }
+  return mark.phi;
+}
+
 constexpr DxfWriter::Layer kLayers[] = {
     {"CUT_OUTER", 5}, {"CUT_INNER", 3}, {"SEAM", 1}, {"DATUM", 8}, {"TEXT", 7}};
 
@@ -136,8 +151,8 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   seams(w, d, e, datum, space);
   const double left = d.around() || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
   double y = datum;
-  const auto frame =
-      "DATUM z = " + fixed(datum, 3) + " mm; SEAM phi = 0 and 360 deg; y = z, kept side up";
+  const auto frame = "DATUM z = " + fixed(datum, 3) + " mm; SEAM phi = 0 and 360 deg; y = z, " +
+                     (d.around() ? "kept side up" : "kept outside the contour");
   for (const auto& line : captions(d, frame, caption)) w.text("TEXT", {left, y += 5.0}, 3.0, line);
   return w.print();
 }
@@ -154,13 +169,14 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
   if (!space) along(w, "SEAM", d, space, kTwoPi, from, to);
   across(w, "DATUM", d, space, 0.0);
   for (const auto& mark : marks) {
+    const double phi = shown_phi(d, mark);
     if (mark.z_to > mark.z_from) {
-      along(w, "MARK", d, space, mark.phi, mark.z_from, mark.z_to);
+      along(w, "MARK", d, space, phi, mark.z_from, mark.z_to);
     } else {  // a cross on its place
-      along(w, "MARK", d, space, mark.phi, mark.z_from - kCross, mark.z_from + kCross);
+      along(w, "MARK", d, space, phi, mark.z_from - kCross, mark.z_from + kCross);
       const double reach = kCross / d.outer_radius;
       const CylinderCurve bar{.radius = d.outer_radius,
-                              .phi = {mark.phi - reach, mark.phi, mark.phi + reach},
+                              .phi = {phi - reach, phi, phi + reach},
                               .z = {mark.z_from, mark.z_from, mark.z_from}};
       if (space)
         w.polyline("MARK", open_in_space(bar), false);
@@ -168,7 +184,7 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
         w.polyline("MARK", flat(bar), false);
     }
     if (!space && !mark.text.empty())
-      w.text("MARK", {d.outer_radius * mark.phi + 1.0, mark.z_from}, 3.0, mark.text);
+      w.text("MARK", {d.outer_radius * phi + 1.0, mark.z_from}, 3.0, mark.text);
   }
   double y = extent(d).z_to + 10.0;
   const std::string frame =

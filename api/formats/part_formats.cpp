@@ -41,19 +41,19 @@ Columns dimensions(const part::Part& part) {
     from.push_back(d.measured_from);
   }
   return Columns()
-      .texts("check_dimension", std::move(names))
-      .column("check_mm", std::move(values))
-      .texts("check_tool", std::move(tools))
-      .texts("check_measured_from", std::move(from));
+      .texts("name", std::move(names))
+      .column("value_mm", std::move(values))
+      .texts("tool", std::move(tools))
+      .texts("measured_from", std::move(from));
 }
 
 }  // namespace
 
 std::string part_csv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  if (caption.view == "check_dimensions") return Csv(caption).table(dimensions(part)).print();
   return Csv(caption)
       .remark(std::string("b_sign: ") + kBSignInPart)
       .stacked("cut", cuts(spec, part))
-      .table(dimensions(part))
       .print();
 }
 

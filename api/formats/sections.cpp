@@ -115,6 +115,7 @@ SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
   SectionSet out{.title = "Sections of the hole's edge",
                  .wall = wall,
                  .along = "square to the edge, from the hole into the wall",
+                 .angle = "bevel, deg",  // B is in the plane through the chord's axis
                  .facts = {{"chord", diameter(radius, wall)}},
                  .sections = {}};
   const auto& hole = cut.holes.front();
@@ -127,7 +128,7 @@ SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
     const double out_of_hole = length > 0.0 ? (dx * tz - dz * tx) / length : 0.0;
     out.sections.push_back({.name = "branch phi " + degrees(hole.branch_phi[i]) + " deg",
                             .cut = {{0.0, 0.0}, {wall, out_of_hole}},
-                            .angle = degrees(hole.b[i])});
+                            .angle = degrees(elementary::atan2(out_of_hole, wall))});
   }
   return out;
 }
@@ -151,7 +152,7 @@ std::string print_sections(const SectionSet& set, const Caption& caption) {
   facts.emplace_back("up", set.along);
   Sheet sheet(set.title, facts, caption);
   std::vector<std::vector<std::string>> rows{
-      {"section", "B, deg", "inner edge, mm", "outer edge, mm"}};
+      {"section", set.angle, "inner edge, mm", "outer edge, mm"}};
   for (std::size_t i = 0; i < set.sections.size(); ++i) {
     draw_section(sheet.canvas(), cell(sheet, kColumns, kRows, static_cast<int>(i)),
                  based_set.sections[i], set.wall, scale.factor, tallest);

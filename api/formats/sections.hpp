@@ -19,7 +19,8 @@ struct WallSection {
 struct SectionSet {
   std::string title;
   double wall = 0.0;
-  std::string along;  // what y is
+  std::string along;             // what y is
+  std::string angle = "B, deg";  // what the cut's angle is, between its line and square to the wall
   SheetFacts facts;
   std::vector<WallSection> sections;
 };

@@ -92,6 +92,18 @@ class Csv(FormatTest):
             print(f"{endpoint}: {count} columns")
             self.assertGreater(count, 2, endpoint)
 
+    def test_check_dimensions_are_a_table_of_their_own(self):
+        for name, body in examples("parts").items():
+            with self.subTest(name):
+                asked = self.service.answer("parts", body)["result"]["check_dimensions"]
+                rows = rows_of(self.service.text("parts", body, "format=csv&view=check_dimensions").decode())
+                plain = [re.sub(r"(^|[,;|])([ \"]*)'(?=[=+\-@'])", r"\1\2", r["measured_from"]) for r in rows]
+                self.assertEqual([(r["name"], float(r["value_mm"]), r["tool"], text) for r, text in zip(rows, plain)],
+                                 [(d["name"], d["value_mm"], d["tool"], d["measured_from"]) for d in asked])
+                cuts = rows_of(self.service.text("parts", body, "format=csv").decode())
+                self.assertFalse({"name", "measured_from"} & set(cuts[0]))
+                self.assertTrue(all(row["cut"] for row in cuts))
+
     def test_uniform_angles_are_exact(self):
         body = examples("bevel-tables")["zones"] | {"sampling": {"uniform_points": 12}}
         rows = rows_of(self.service.text("bevel-tables", body, "format=csv").decode())

@@ -139,20 +139,25 @@ class Dxf(FormatTest):
                     p = hole["points"]
                     for got, phi, z in zip(points, p["phi_deg"], p["z_mm"]):
                         self.assertLess(math.dist(got, (girth * phi / 360, z)), 1e-5)
-                self.marked(result, girth, [points for points, _ in polylines(drawing, "MARK")], drawing)
+                boxes = [(min(x for x, _ in points), min(z for _, z in points), max(x for x, _ in points), max(z for _, z in points))
+                         for points, _ in outer[2:]]
+                self.marked(result, girth, [points for points, _ in polylines(drawing, "MARK")], drawing, boxes)
                 in_space = self.drawing("parts", body, "tube")
                 turned = [[(girth * (math.atan2(y, x) / (2 * math.pi) % 1), z) for x, y, z in points] for points, _ in polylines(in_space, "MARK")]
                 self.marked(result, girth, turned, in_space)
                 self.assertAlmostEqual(max(y for _, y in finish + start), max(ends["finish"]["points"]["z_outer_mm"]), delta=1e-6)
 
-    def marked(self, result, girth, drawn, drawing):
+    def marked(self, result, girth, drawn, drawing, boxes=()):
         """Every mark: a line from end to end, or a cross of two on its place; and its name somewhere in the text."""
         texts = " ".join(t.dxf.text for t in drawing.modelspace().query("TEXT"))
         wanted = 0
         for mark in result["marks"]:
             line = mark["z_to_mm"] > mark["z_from_mm"]
             wanted += 1 if line else 2
-            middle = (mark["girth_mm"], (mark["z_from_mm"] + mark["z_to_mm"]) / 2)
+            places = [(mark["girth_mm"] + turn * girth, (mark["z_from_mm"] + mark["z_to_mm"]) / 2) for turn in (0, -1, 1)]
+            # In space all turns are one place; developed, a mark stands in the contour of its hole.
+            held = [place for place in places if any(box[0] <= place[0] <= box[2] and box[1] <= place[1] <= box[3] for box in boxes)]
+            middle = (held or places)[0]
             near = [points for points in drawn if any(
                 math.hypot((p[0] + q[0]) / 2 - middle[0], (p[1] + q[1]) / 2 - middle[1]) < 1e-4 for p, q in ((points[0], points[-1]),))]
             across = [points for points in drawn if len(points) == 3 and math.dist(points[1], middle) < 1e-4]

@@ -1,5 +1,6 @@
 """The 1:1 drawings drawn by librsvg and measured in its pixels."""
 
+import json
 import math
 import re
 import xml.etree.ElementTree as ElementTree
@@ -115,6 +116,23 @@ class Svg(FormatTest):
                     self.assertGreaterEqual(len(corners), 8 * 4)
                     for x, y in corners:
                         self.assertTrue(10 <= x <= 200 and 10 <= y <= 287, f"{x},{y}")
+
+    def test_sections_say_the_bevel_they_show(self):
+        count = 0
+        for endpoint in ("bevel-tables", "intersections", "holes"):
+            for name, body in examples(endpoint).items():
+                wall = body.get("chord", body.get("target", {})).get("wall_mm")
+                if wall is None or "root_face_mm" in body.get("groove", {}) or "root_face" in json.dumps(body):
+                    continue
+                root = ElementTree.fromstring(self.service.text(endpoint, body, "format=svg&view=section"))
+                words = [e.text or "" for e in root.iter(f"{SVG}text")]
+                at = words.index("outer edge, mm") + 1
+                for k in range(at, at + 32, 4):
+                    angle, inner, outer = map(float, words[k + 1:k + 4])
+                    with self.subTest(f"{endpoint} {name} {words[k]}"):
+                        self.assertAlmostEqual(abs(angle), math.degrees(math.atan(abs(outer - inner) / wall)), delta=0.02)
+                        count += 1
+        self.assertGreaterEqual(count, 8 * 8)
 
     def test_work_orders(self):
         for name, body in examples("parts").items():
