@@ -90,15 +90,15 @@ std::optional<Problem> format_problem(const Query& query, const FormatName* form
            .limit = Json{listed(options)},
            .hint = "no option of format " + name + "; its options: " + listed(options)});
   if (!issues.empty()) return query_problem(std::move(issues));
-  if (format == nullptr) return std::nullopt;
-  if (!query.view.empty() && !has(format->views, query.view))
+  const auto views = format != nullptr ? format->views : std::vector<std::string_view>{};
+  if (!query.view.empty() && !has(views, query.view))
     return query_problem({{.code = ErrorCode::bad_choice,
                            .pointer = "?view",
                            .got = Json{query.view},
-                           .limit = Json{listed(format->views)},
-                           .hint = "views of " + name + " offered: " + listed(format->views)}},
+                           .limit = Json{listed(views)},
+                           .hint = "views of " + name + " offered: " + listed(views)}},
                          ErrorCode::not_acceptable);
-  if (format->needs_speed && !query.options.speed)
+  if (format != nullptr && format->needs_speed && !query.options.speed)
     return query_problem({{.code = ErrorCode::missing_field,
                            .pointer = "?speed_mm_min",
                            .unit = "mm_min",
@@ -285,11 +285,11 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
   for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
   job.result_sha256 = answer.result_sha256;
+  out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
+  out_.headers.emplace_back("Tubecut-Result-Sha256", job.result_sha256);
   if (choice.format != nullptr && !query.validate_only) {
     out_.content_type = choice.format->media;
     out_.body = std::move(answer.text);
-    out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
-    out_.headers.emplace_back("Tubecut-Result-Sha256", job.result_sha256);
     return std::move(out_);
   }
   Json& echo = answer.request;

@@ -288,6 +288,14 @@ const endings: Record<string, [string, string]> = {
 };
 const known = (media: string): [string, string] => endings[media] ?? (/dstv|nc1/.test(media) ? ['DSTV', 'nc1'] : [media, 'txt']);
 
+/** By the order and part of the reference, else by the job's own name; then the drawing and the beginning of the input's hash. */
+function fileName(name: string, body: Row, view: string | undefined, hash: string | null): string {
+  const reference = (body['reference'] ?? {}) as Record<string, unknown>;
+  const words = [reference['order'], reference['part']].filter((word): word is string => typeof word === 'string');
+  const parts = [...(words.length ? words : [name]), view ?? '', hash?.slice(0, 8) ?? ''].filter(Boolean);
+  return parts.join('-').replace(/[\\/:*?"<>|\s]+/g, '_');
+}
+
 /** A button for every format that the contract offers here, and a field for what a format asks. The file is what the service answers. */
 export function downloads(endpoint: string, name: string, body: Row, formats: Format[]): HTMLElement {
   const status = el('p', {class: 'soft', role: 'status'});
@@ -313,7 +321,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
       status.textContent = `${known(media)[0]}: ${problem.title} ${problem.detail ?? ''}`;
       return;
     }
-    save(`${name}${view ? `-${view}` : ''}.${known(media)[1]}`, await reply.blob());
+    save(`${fileName(name, body, view, reply.headers.get('Tubecut-Input-Sha256'))}.${known(media)[1]}`, await reply.blob());
   };
   const button = (format: Format, view?: string) =>
     el(

@@ -7,6 +7,8 @@ async function downloads({browser, origin, service}, endpoint, name) {
   const contract = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
   const offered = Object.keys(contract.paths[`/v1/${endpoint}`].post.responses['200'].content);
   const body = await readFile(new URL(`../../../examples/${endpoint}/${name}.json`, import.meta.url));
+  const answer = await service.ask(`/v1/${endpoint}`, {body, headers: {Accept: 'application/json'}});
+  const hash = JSON.parse(answer.body).job.input_sha256.slice(0, 8);
   const page = await open(browser, origin, `#/${endpoint}/${name}?tab=downloads`);
   await answered(page);
   const buttons = await page.locator('#panel [data-media]').all();
@@ -23,7 +25,9 @@ async function downloads({browser, origin, service}, endpoint, name) {
     const {status, body: bytes} = await service.ask(`/v1/${endpoint}?${query}`, {body, headers: {Accept: media[i]}});
     assert.equal(status, 200, `${media[i]} ${view}`);
     assert.ok(saved.length > 100 && saved.equals(bytes), `${media[i]} ${view}: ${saved.length} bytes saved, ${bytes.length} answered`);
-    assert.match(download.suggestedFilename(), /\.[a-z0-9]{2,4}$/);
+    const reference = JSON.parse(body).reference;
+    const words = [reference?.order, reference?.part].filter(Boolean).join('-').replace(/\s+/g, '_') || name;
+    assert.equal(download.suggestedFilename().replace(/\.[a-z0-9]{2,4}$/, ''), [words, view, hash].filter(Boolean).join('-'));
   }
   assert.deepEqual(page.faults, []);
   await page.context().close();
