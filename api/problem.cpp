@@ -6,6 +6,7 @@
 #include "api/suspicion.hpp"
 #include "api/wire_names.hpp"
 #include "api/writer.hpp"
+#include "core/base/angle.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -51,6 +52,17 @@ std::string sentence(const std::vector<FieldIssue>& issues) {
   }
   if (issues.size() > 1) out += " (and " + std::to_string(issues.size() - 1) + " more)";
   return out;
+}
+
+/// In the unit of its field, with the digits that a client sends: core tells angles in degrees.
+FieldIssue in_own_unit(FieldIssue issue) {
+  if (issue.unit != "deg" || unit_of(issue.pointer) != "rad") return issue;
+  constexpr double kDigits = 1e12;
+  for (auto* value : {&issue.got, &issue.limit})
+    if (const auto* deg = value->as<double>())
+      *value = Json{std::round(*deg * kRadPerDeg * kDigits) / kDigits};
+  issue.unit = "rad";
+  return issue;
 }
 
 }  // namespace
@@ -121,12 +133,12 @@ Problem unspellable_problem(const Unspellable& met, const FormatName& format,
 Problem core_problem(const Error& error, const Json& request) {
   Problem out{.code = error.code(), .detail = {}, .issues = {}};
   for (const auto& issue : error.issues)
-    out.issues.push_back({.code = issue.code,
-                          .pointer = pointer_of(issue.member, request),
-                          .got = shown(issue.got),
-                          .limit = shown(issue.limit),
-                          .unit = issue.unit,
-                          .hint = issue.hint});
+    out.issues.push_back(in_own_unit({.code = issue.code,
+                                      .pointer = pointer_of(issue.member, request),
+                                      .got = shown(issue.got),
+                                      .limit = shown(issue.limit),
+                                      .unit = issue.unit,
+                                      .hint = issue.hint}));
   out.detail = sentence(out.issues);
   return out;
 }

@@ -93,8 +93,8 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 
 std::string_view unit_of(std::string_view field) {
   for (const auto unit : kUnits)
-    if (field.size() > unit.size() && field.ends_with(unit) &&
-        field[field.size() - unit.size() - 1] == '_')
+    if (field == unit || (field.size() > unit.size() && field.ends_with(unit) &&
+                          field[field.size() - unit.size() - 1] == '_'))
       return unit;
   return {};
 }
