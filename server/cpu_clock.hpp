@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <stop_token>
 
 namespace tubecut::server {
 
@@ -23,6 +24,18 @@ class CpuClock {
   clockid_t clock_{};
   std::chrono::nanoseconds begin_{0};
   std::chrono::nanoseconds used_{0};
+};
+
+/// Asks for a stop as soon as this thread has used so much more CPU: the kernel tells the thread
+/// itself, within a tick of its clock. Whoever looks from another thread has to be given a CPU
+/// first, which on a crowded host takes tens of milliseconds. None where the kernel has no timer
+/// left.
+class CpuLimit {
+ public:
+  CpuLimit(std::stop_source& stop, std::chrono::nanoseconds most);
+  CpuLimit(const CpuLimit&) = delete;
+  CpuLimit& operator=(const CpuLimit&) = delete;
+  ~CpuLimit();
 };
 
 }  // namespace tubecut::server

@@ -217,7 +217,10 @@ void Slots::run(bool quick_only) {
     some_.wait(lock, [&] { return ending_ || (job = next(quick_only)); });
     if (!job) return;
     lock.unlock();
-    work_(job);
+    {
+      const CpuLimit limit(job->stop, job->budget.cpu);
+      work_(job);
+    }
     lock.lock();
     finish(*job);  // before the answer is out: its client's next request finds the slot free
     const bool more = queue_.size() > 0;
