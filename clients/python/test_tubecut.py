@@ -79,7 +79,19 @@ def unused_url():
         return f"http://127.0.0.1:{free.getsockname()[1]}"
 
 
-class OneByOne(Client):
+class Watched(Client):
+    """Keeps the path of each exchange but those of _streamed."""
+
+    def __init__(self, *urls):
+        super().__init__(*urls)
+        self.paths = []
+
+    def _exchange(self, url, method, path, *rest):
+        self.paths.append(path)
+        return super()._exchange(url, method, path, *rest)
+
+
+class OneByOne(Watched):
     """As if the service had no /v1/batches."""
 
     def _has_batches(self, url):
@@ -428,9 +440,13 @@ class BatchesOfJobs(Case):
         items = [*jobs(3), BatchItem("csv", "bevel-tables", table, "csv"), BatchItem("gcode", "bevel-tables", table, "gcode", gcode),
                  BatchItem("mirrored", "bevel-tables", table, "svg", {"view": "template", "mirror": True}),
                  BatchItem("glb", "bevel-tables", table, "glb"), BatchItem("no speed", "bevel-tables", table, "gcode"),
-                 BatchItem("no wall", "bevel-tables", wall, "csv")]
-        for client in (self.client, OneByOne(self.service.url), Client(unused_url(), self.service.url)):
+                 BatchItem("no wall", "bevel-tables", wall, "csv"), BatchItem("json", "bevel-tables", table, "json")]
+        dead = unused_url()
+        for client, paths in ((Watched(self.service.url), ["/v1/batches"]), (Watched(dead, self.service.url), ["/v1/batches"] * 2),
+                              (OneByOne(self.service.url), [item.path() for item in items])):
             results = self.whole(client, items)
+            self.assertEqual(sorted(client.paths), sorted(paths))
+            self.assert_as_single(results, [items[-1]])
             self.assertEqual({r.status for r in results.values()}, {200, 400, 422})
             for item in items[3:7]:
                 alone = self.client.document("bevel-tables", table, item.format, job_id=item.id, **item.options)
@@ -447,6 +463,15 @@ class BatchesOfJobs(Case):
                 self.assertEqual(refused.exception.errors[0].pointer, pointer)
         with self.assertRaises(ValueError):
             BatchItem("options only", "bevel-tables", table, options={"view": "template"})
+
+    def test_a_document_that_cannot_be_read(self):
+        batches = self.stand_in()
+        for media, name, content in (("model/stl", "document_base64", "a"), ("model/stl", "document_base64", "YQ=?="), ("model/stl", "document_base64", None),
+                                     ("text/csv", "document", 1), ("text/csv", "document", "\ud800"), (None, "document", "a")):
+            line = {"id": "job 0", "line": 1, "status": 200, **({"media": media} if media else {}), name: content}
+            batches.edit = lambda _, line=line: json.dumps(line) + "\n"
+            with self.subTest(**line), self.assertRaises(ProtocolError):
+                list(Client(batches.url).batch(jobs(1)))
 
     def test_a_second_replica_completes_what_the_first_left(self):
         first, second = self.stand_in(), self.stand_in()

@@ -196,7 +196,7 @@ class Answer:
 
 @dataclasses.dataclass(frozen=True)
 class BatchItem:
-    """One job of a batch. `id` is the caller's and must not come twice. With `format` it is a document, as Client.document's."""
+    """One job of a batch. `id` is the caller's and must not come twice. With `format` it is a document, as Client.document's (json: an answer)."""
 
     id: str
     endpoint: str  # such as bevel-tables
@@ -209,12 +209,15 @@ class BatchItem:
             raise ValueError(f"{self.id}: options without a format")
 
     def path(self) -> str:
-        """Of this job alone."""
+        """Of this job alone, where there are no batches."""
         return f"/v1/{self.endpoint}" + ("" if self.format is None else "?" + _query(**{"format": self.format, **self.options}))
 
     def line(self) -> bytes:
-        """Of a batch, which has no word for a format."""
-        return json.dumps({"id": self.id, "endpoint": self.endpoint, "body": self.body}, allow_nan=False).encode() + b"\n"
+        """Of a batch."""
+        entry = {"id": self.id, "endpoint": self.endpoint, "body": self.body}
+        if self.format is not None:
+            entry.update(format=self.format, options=dict(self.options))
+        return json.dumps(entry, allow_nan=False).encode() + b"\n"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -239,7 +242,7 @@ class BatchResult:
         if self.problem is not None:
             raise ProblemError(self.problem)
         if self.document is None:
-            raise ValueError(f"{self.id} named no format")
+            raise ValueError(f"{self.id} is no document")
         return self.document
 
 
@@ -407,8 +410,8 @@ class Client:
               workers: int = 4) -> Iterator[BatchResult]:
         """Every item once, as they finish. What a dead or full replica left is sent again, to the next one.
 
-        `items` is read as it goes, a few thousand at a time. Items that name a format, and all where the service has no /v1/batches,
-        are asked one by one, `workers` at a time.
+        `items` is read as it goes, a few thousand at a time. Where the service has no /v1/batches they are asked one by one, `workers`
+        at a time.
         """
         if total is None and isinstance(items, collections.abc.Sized):
             total = len(items)
@@ -429,7 +432,9 @@ class Client:
             index = turn % len(self._urls)
             wait = 0.1
             try:
-                for one in self._run(self._urls[index], list(waiting.values()), workers):
+                url = self._urls[index]
+                run = self._streamed if self._has_batches(url) else self._one_by_one
+                for one in run(url, list(waiting.values()), workers):
                     if one.status in _RETRYABLE or waiting.pop(one.id, None) is None:
                         continue  # sent again below, or known already
                     yield one
@@ -444,15 +449,6 @@ class Client:
                 raise UnreachableError(f"{len(waiting)} jobs of the batch are unanswered; tried {', '.join(self._urls)}")
             if waiting and len(waiting) == before:
                 time.sleep(wait)
-
-    def _run(self, url: str, items: Sequence[BatchItem], workers: int) -> Iterator[BatchResult]:
-        """At one replica: what a batch can say as a batch, then what names a format."""
-        plain = [item for item in items if item.format is None]
-        if plain:
-            yield from (self._streamed if self._has_batches(url) else self._one_by_one)(url, plain, workers)
-        documents = [item for item in items if item.format is not None]
-        if documents:
-            yield from self._one_by_one(url, documents, workers)
 
     def _has_batches(self, url: str) -> bool:
         if url not in self._batches:
@@ -510,6 +506,8 @@ class Client:
     def _result(self, text: str, members: Mapping[str, Tuple[Any, int, int]]) -> BatchResult:
         try:
             id_, status = members["id"][0], members["status"][0]
+            if "document" in members or "document_base64" in members:
+                return BatchResult(id_, status, document=_document_of(members), media=members["media"][0])
             document, begin, end = members["body"]
         except KeyError as missing:
             raise ProtocolError(f"a line of a batch without {missing}") from None
@@ -523,8 +521,9 @@ class Client:
             reply = self._exchange(url, "POST", item.path(), self._encode(item.body), _job_headers(item.id))
             if reply.status != 200:
                 return BatchResult(item.id, reply.status, problem=_problem_of(reply))
-            if item.format is not None:
-                return BatchResult(item.id, 200, document=reply.body, media=reply.headers.get_content_type())
+            media = reply.headers.get_content_type()
+            if media != "application/json":
+                return BatchResult(item.id, 200, document=reply.body, media=media)
             return BatchResult(item.id, 200, answer=Answer.of(reply.body.decode("utf-8"), self._check_hashes))
 
         pool = concurrent.futures.ThreadPoolExecutor(workers, thread_name_prefix="tubecut")
@@ -621,6 +620,16 @@ def _problem_of(reply: _Reply) -> Problem:
         return Problem.of(json.loads(reply.body))
     except ValueError:
         raise ProtocolError(f"{reply.status} without a problem document: {reply.body[:200]!r}") from None
+
+
+def _document_of(members: Mapping[str, Tuple[Any, int, int]]) -> bytes:
+    """Of a line of a batch: text, or base64 where it is none."""
+    try:
+        if "document" in members:
+            return str.encode(members["document"][0])
+        return base64.b64decode(members["document_base64"][0], validate=True)
+    except (TypeError, ValueError) as bad:
+        raise ProtocolError(f"an unreadable document: {bad}") from None
 
 
 def _refusal(reply: _Reply) -> Exception:

@@ -151,8 +151,9 @@ export type DocumentLine = {
   [P in PostPath]: P extends `/v1/${infer Endpoint}` ?
     {id: string; endpoint: Endpoint; body: RequestBody<P>; format: Format<P>; options?: FormatOptions<P>} : never
 }[PostPath];
-export type BatchReply = Omit<Schemas['BatchReply'], 'body'> & {body: Record<string, unknown>};
-export type DocumentReply = {id: string; line: number; status: 200; document: Blob};
+type Reported = Pick<Schemas['BatchReply'], 'id' | 'line' | 'status' | 'verdict'>;
+export type BatchReply = Reported & {body: Record<string, unknown>};
+export type DocumentReply = {id: string; line: number; status: 200; verdict?: NonNullable<Reported['verdict']>; document: Blob};
 export type BatchSummary = Schemas['BatchSummary']['summary'];
 
 export interface BatchOptions {
@@ -160,8 +161,6 @@ export interface BatchOptions {
   signal?: AbortSignal;
   headers?: Record<string, string>;
   fetch?: typeof fetch;
-  /** How many lines that name a format are asked at a time. */
-  parallel?: number;
 }
 
 async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
@@ -182,19 +181,33 @@ async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<stri
   if (rest !== '') throw new ContractError('the batch was cut off within a line');
 }
 
-interface Numbered<Line> {
-  line: Line;
-  number: number;
+const bytesOf = (base64: string): Uint8Array => {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+};
+
+/** A document as a Blob; an answer or a Problem as it is. */
+function replyOf({media, document, document_base64, ...told}: Schemas['BatchReply']): BatchReply | DocumentReply {
+  const content = document ?? (document_base64 === undefined ? undefined : bytesOf(document_base64));
+  return (content === undefined ? told : {...told, document: new Blob([content], {type: media})}) as BatchReply | DocumentReply;
 }
 
-/** Those of one POST /v1/batches. */
-async function* streamed(
-    baseUrl: string, lines: Numbered<BatchLine>[], {signal, headers, fetch: send = fetch}: BatchOptions,
-): AsyncGenerator<BatchReply, BatchSummary> {
+/**
+ * Many jobs in one request: each answer as soon as it is done, a DocumentReply where the line names a format. Returns the summary; a
+ * stream that ends without one was cut off, and is thrown as a ContractError: the jobs not answered may be sent again.
+ */
+export function batch(baseUrl: string, lines: Iterable<BatchLine>, options?: BatchOptions): AsyncGenerator<BatchReply, BatchSummary>;
+export function batch(
+    baseUrl: string, lines: Iterable<BatchLine | DocumentLine>, options?: BatchOptions): AsyncGenerator<BatchReply | DocumentReply, BatchSummary>;
+export async function* batch(
+    baseUrl: string, lines: Iterable<BatchLine | DocumentLine>, {signal, headers, fetch: send = fetch}: BatchOptions = {},
+): AsyncGenerator<BatchReply | DocumentReply, BatchSummary> {
   const media = 'application/x-ndjson';
   const reply = await send(`${baseUrl.replace(/\/$/, '')}/v1/batches`, {
     method: 'POST', headers: {...headers, 'Content-Type': media, Accept: media},
-    body: lines.map(({line}) => `${JSON.stringify(line)}\n`).join(''), ...(signal === undefined ? {} : {signal}),
+    body: Array.from(lines, (line) => `${JSON.stringify(line)}\n`).join(''), ...(signal === undefined ? {} : {signal}),
   });
   if (!reply.ok || !reply.body) {
     const error: unknown = await reply.json().catch(() => undefined);
@@ -202,78 +215,9 @@ async function* streamed(
     throw new ContractError(`${reply.status} from ${reply.url} without a problem document`);
   }
   for await (const text of textLines(reply.body)) {
-    const answer = JSON.parse(text) as BatchReply | Schemas['BatchSummary'];
+    const answer = JSON.parse(text) as Schemas['BatchReply'] | Schemas['BatchSummary'];
     if ('summary' in answer) return answer.summary;
-    yield {...answer, line: lines[answer.line - 1]?.number ?? answer.line};
+    yield replyOf(answer);
   }
   throw new ContractError('the batch was cut off: no summary');
-}
-
-/** Those that name a format, `parallel` at a time, as they are done. */
-async function* documents(
-    baseUrl: string, lines: Numbered<DocumentLine>[], {signal, headers, fetch: send = fetch, parallel = 4}: BatchOptions,
-): AsyncGenerator<BatchReply | DocumentReply, BatchSummary> {
-  const left = new AbortController();
-  const leave = () => left.abort(signal?.reason);
-  if (signal?.aborted) leave();
-  signal?.addEventListener('abort', leave, {once: true});
-  const client = tubecut(baseUrl, {retry: {fetch: send}, ...(headers === undefined ? {} : {headers})});
-
-  const ask = async ({line: {id, endpoint, body, format, options}, number}: Numbered<DocumentLine>): Promise<BatchReply | DocumentReply> => {
-    const job = /^[!-~]([ -~]{0,126}[!-~])?$/.test(id) ? {jobId: id} : {};  // a header cannot carry every id
-    const call = documentOf as (...call: [TubecutClient, string, unknown, string, object | undefined, JobOptions]) => Promise<Blob>;
-    try {
-      const content = await call(client, `/v1/${endpoint}`, body, format, options, {...job, signal: left.signal});
-      return {id, line: number, status: 200, document: content};
-    } catch (error) {
-      if (error instanceof ProblemError) return {id, line: number, status: error.problem.status, body: {...error.problem}};
-      throw error;
-    }
-  };
-
-  const summary = {items: lines.length, answered: 0, refused: 0, unanswered: 0};
-  const waiting = [...lines];
-  const running = new Map<number, Promise<BatchReply | DocumentReply>>();
-  try {
-    while (waiting.length > 0 || running.size > 0) {
-      for (const next of waiting.splice(0, Math.max(1, parallel) - running.size)) running.set(next.number, ask(next));
-      const reply = await Promise.race(running.values());
-      running.delete(reply.line);
-      summary[reply.status === 200 ? 'answered' : 'refused'] += 1;
-      yield reply;
-    }
-  } finally {
-    for (const job of running.values()) job.catch(() => undefined);  // left early: nobody waits for them
-    left.abort();
-    signal?.removeEventListener('abort', leave);
-  }
-  return summary;
-}
-
-/**
- * Many jobs in one request: each answer as soon as it is done. Returns the summary; a stream that ends without one was cut off,
- * and is thrown as a ContractError: the jobs not answered may be sent again. A line of /v1/batches has no word for a format: lines
- * that name one are asked one by one after the others, and a DocumentReply comes back.
- */
-export function batch(baseUrl: string, lines: Iterable<BatchLine>, options?: BatchOptions): AsyncGenerator<BatchReply, BatchSummary>;
-export function batch(
-    baseUrl: string, lines: Iterable<BatchLine | DocumentLine>, options?: BatchOptions): AsyncGenerator<BatchReply | DocumentReply, BatchSummary>;
-export async function* batch(
-    baseUrl: string, lines: Iterable<BatchLine | DocumentLine>, options: BatchOptions = {},
-): AsyncGenerator<BatchReply | DocumentReply, BatchSummary> {
-  const plain: Numbered<BatchLine>[] = [];
-  const formatted: Numbered<DocumentLine>[] = [];
-  let number = 0;
-  for (const line of lines) {
-    number += 1;
-    if (line.format === undefined) plain.push({line, number});
-    else formatted.push({line, number});
-  }
-  const none = {items: 0, answered: 0, refused: 0, unanswered: 0};
-  const first = plain.length > 0 || formatted.length === 0 ? yield* streamed(baseUrl, plain, options) : none;
-  const second = formatted.length > 0 ? yield* documents(baseUrl, formatted, options) : none;
-  return {
-    items: first.items + second.items, answered: first.answered + second.answered, refused: first.refused + second.refused,
-    unanswered: first.unanswered + second.unanswered,
-  };
 }
