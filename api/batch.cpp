@@ -1,9 +1,10 @@
+#include "api/batch.hpp"
+
 #include <openssl/evp.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "api/api.hpp"
 #include "api/endpoint.hpp"
 #include "api/json.hpp"
 #include "api/letters.hpp"

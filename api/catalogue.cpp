@@ -4,6 +4,7 @@
 #include <array>
 
 #include "api/api.hpp"
+#include "api/batch.hpp"
 #include "api/cost.hpp"
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"

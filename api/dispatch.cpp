@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "api/api.hpp"
+#include "api/batch.hpp"
 #include "api/catalogue.hpp"
 #include "api/common_fields.hpp"
 #include "api/endpoint.hpp"

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "api/batch.hpp"
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/memory.hpp"

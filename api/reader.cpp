@@ -12,28 +12,6 @@ namespace {
 constexpr std::size_t kIssuesNamed = 32;
 constexpr std::size_t kShownText = 80;
 
-// Longest first, so that "_deg_per_mm2" is not read as "_mm2".
-constexpr std::string_view kUnits[] = {
-    "mm3_s",  "deg_per_mm2", "deg_per_mm", "rad_per_mm", "rev_min", "per_hour", "mm_s3", "mm_s2",
-    "mm_min", "pulses",      "mm_s",       "m_min",      "mm3",     "mm2",      "deg",   "rad",
-    "ms",     "us",          "um",         "kg",         "mm",      "s"};
-
-/// Levenshtein distance, for names of a few dozen characters.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const auto above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
 /// What was got, short enough for a problem document.
 Json shown(const Json& value) {
   if (value.as<Json::Array>() != nullptr || value.as<Json::Object>() != nullptr) {
@@ -72,32 +50,6 @@ bool below(double v, Range r) { return r.open_min ? v <= r.min : v < r.min; }
 bool above(double v, Range r) { return r.open_max ? v >= r.max : v > r.max; }
 
 }  // namespace
-
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
-  if (name.size() > 64) return best;
-  for (const auto& candidate : known)  // all but its unit
-    if (candidate.size() > name.size() + 1 && candidate.starts_with(name) &&
-        candidate[name.size()] == '_')
-      return candidate;
-  for (const auto& candidate : known) {
-    const auto d = distance(name, candidate);
-    if (d < least) {
-      least = d;
-      best = candidate;
-    }
-  }
-  return best;
-}
-
-std::string_view unit_of(std::string_view field) {
-  for (const auto unit : kUnits)
-    if (field == unit || (field.size() > unit.size() && field.ends_with(unit) &&
-                          field[field.size() - unit.size() - 1] == '_'))
-      return unit;
-  return {};
-}
 
 Reader::Reader(const Json& body) : body_(&body), issues_(&own_issues_) {}
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/field_names.hpp"
 #include "api/json.hpp"
 #include "api/names.hpp"
 #include "api/stop.hpp"
@@ -241,12 +242,5 @@ class Reader {
   bool binary_ = false;
   bool silent_ = false;
 };
-
-/// The candidate most like `name`, empty when none is near.
-[[nodiscard]] std::string nearest_name(std::string_view name,
-                                       const std::vector<std::string>& candidates);
-
-/// "mm" for "offset_mm", "" for a pure number.
-[[nodiscard]] std::string_view unit_of(std::string_view field);
 
 }  // namespace tubecut::api

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/api.hpp"
+#include "api/batch.hpp"
 #include "server/app.hpp"
 #include "server/identity.hpp"
 #include "server/status.hpp"

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "api/api.hpp"
+#include "api/batch.hpp"
 #include "server/app.hpp"
 #include "server/capacity.hpp"
 #include "server/identity.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "api/api.hpp"
+#include "api/batch.hpp"
 #include "api/endpoint.hpp"
 #include "api/json.hpp"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "api/api.hpp"
+#include "api/batch.hpp"
 #include "api/endpoint.hpp"
 #include "tests/fuzz/dispatch_bytes.hpp"
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tubecut::api {
+
+/// The candidate most like `name`, empty when none is near.
+[[nodiscard]] std::string nearest_name(std::string_view name,
+                                       const std::vector<std::string>& candidates);
+
+/// "mm" for "offset_mm", "" for a pure number.
+[[nodiscard]] std::string_view unit_of(std::string_view field);
+
+}  // namespace tubecut::api

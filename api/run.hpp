@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "api/cost.hpp"
+#include "api/format.hpp"
+#include "api/problem.hpp"
+#include "api/verdict.hpp"
+#include "api/writer.hpp"
+#include "core/base/error.hpp"
+
+namespace tubecut::api {
+
+/// A request as understood and its answer; or why there is none.
+struct Answer {
+  Json request = {};                                  // echo without reference and log
+  std::string result = {};                            // as JSON or CBOR, unless `text` is asked for
+  std::string input_sha256 = {}, result_sha256 = {};  // of these two as JSON
+  std::vector<Check> checks = {};
+  std::vector<Warning> warnings = {};
+  std::vector<Measure> measures = {};
+  Verdict verdict = {};
+  std::string text = {};  // in another format, if one was asked for
+};
+using Reply = std::variant<Answer, Problem>;
+
+/// What the pipeline runs with.
+struct Run {
+  std::stop_token stop = {};
+  Encoding encoding = Encoding::json;
+  const FormatName* format = nullptr;  // instead, unless nullptr
+  Caption caption = {};
+  std::vector<Measure> accepted = {};                     // the request's `accept`
+  std::function<void(std::string_view)> stage = {};       // called when a stage ends
+  std::function<void(std::string_view)> understood = {};  // called with the input's sha256
+  std::function<void()> forget_body = [] {};              // called when all of it is read
+  std::function<void(const Work&)> foresee = {};  // called when it is known what there is to do
+};
+
+}  // namespace tubecut::api
