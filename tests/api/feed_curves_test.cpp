@@ -84,12 +84,12 @@ TEST(FeedCurves, EveryExampleRuns) {
 // Source 004, equations (9) and (10), to the printed digits, from the windows and k solved for.
 TEST(FeedCurves, RefusesAnglesInTheUnitOfTheirField) {
   const auto request = example("feed-curves/cut-off-194-mm-whole-cycle.json");
-  const auto refused = post(kPath, with(request, "linkage/rest_angle_rad", Json{2.2}));
+  const auto refused = post(kPath, with(request, "linkage/rest_angle_rad", api::Json{2.2}));
   EXPECT_EQ(text(refused.body, "errors/0/code"), "slot_off_rod");
   EXPECT_EQ(text(refused.body, "errors/0/pointer"), "/linkage/slot_angle_rad");
   EXPECT_EQ(number(refused.body, "errors/0/got"), 1.69);
   EXPECT_EQ(text(refused.body, "errors/0/unit"), "rad");
-  const auto reversed = post(kPath, with(request, "linkage/rad_per_mm", Json{-0.000486}));
+  const auto reversed = post(kPath, with(request, "linkage/rad_per_mm", api::Json{-0.000486}));
   EXPECT_EQ(text(reversed.body, "errors/0/unit"), "rad_per_mm");
 }
 
