@@ -160,7 +160,8 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   run->add_option(
       "--endpoint", command.endpoint,
       "such as bevel-tables, whose request the file is; without it the file is a batch");
-  run->add_option("--format", command.format, "of the endpoint's answer: svg, nc1, ...; else json");
+  run->add_option("--format", command.format, "of the endpoint's answer: svg, nc1, ...; else json")
+      ->needs("--endpoint");
   run->add_option("--option", command.options,
                   "of the format, such as speed_mm_min=600; again for more")
       ->take_all()
