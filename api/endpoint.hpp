@@ -63,6 +63,10 @@ Reply run(Reader& in, Run& run) {
     return with_suspicions(std::move(problem), answer.request, run.stop);
   };
   if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
+  const auto places = filled_in(in.body(), answer.request);
+  const auto of_core = [&](const Error& error) {
+    return suspecting(pointing_no_further(core_problem(error, answer.request), places));
+  };
   run.forget_body();
   answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
   run.understood(answer.input_sha256);
@@ -71,7 +75,7 @@ Reply run(Reader& in, Run& run) {
     auto resolved = E::resolve(std::move(spec), run.stop);
     if (!resolved) {
       ask(run.stop);
-      return suspecting(core_problem(resolved.error(), answer.request));
+      return of_core(resolved.error());
     }
     spec = *std::move(resolved);
   }
@@ -82,7 +86,7 @@ Reply run(Reader& in, Run& run) {
   auto out = E::compute(spec, run.stop);
   run.stage("compute");
   ask(run.stop);  // what it found may not be all
-  if (!out) return suspecting(core_problem(out.error(), answer.request));
+  if (!out) return of_core(out.error());
   if constexpr (requires { E::verify(spec, *out, run.stop); }) {
     answer.checks = E::verify(spec, *out, run.stop);
     ask(run.stop);

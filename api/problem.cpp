@@ -143,6 +143,39 @@ Problem core_problem(const Error& error, const Json& request) {
   return out;
 }
 
+std::vector<std::string> filled_in(const Json& body, const Json& request) {
+  std::vector<std::string> out;
+  const auto walk = [&](const auto& self, const Json& given, const Json& understood,
+                        const std::string& pointer) -> void {
+    if (const auto* object = understood.as<Json::Object>()) {
+      for (const auto& [name, member] : *object) {
+        const bool holds =
+            member.as<Json::Object>() != nullptr || member.as<Json::Array>() != nullptr;
+        if (!holds) continue;
+        if (const Json* const own = given.find(name))
+          self(self, *own, member, pointer + "/" + name);
+        else
+          out.push_back(pointer + "/" + name);
+      }
+    } else if (const auto* array = understood.as<Json::Array>()) {
+      const auto* const own = given.as<Json::Array>();
+      for (std::size_t i = 0; own != nullptr && i < std::min(own->size(), array->size()); ++i)
+        if ((*array)[i].as<Json::Object>() != nullptr)
+          self(self, (*own)[i], (*array)[i], pointer + "/" + std::to_string(i));
+    }
+  };
+  walk(walk, body, request, "");
+  return out;
+}
+
+Problem pointing_no_further(Problem problem, const std::vector<std::string>& places) {
+  for (auto& issue : problem.issues)
+    for (const auto& place : places)
+      if (issue.pointer.starts_with(place + "/")) issue.pointer = place;
+  problem.detail = sentence(problem.issues);
+  return problem;
+}
+
 std::optional<Problem> failed_check(const std::vector<Check>& checks) {
   for (const auto& check : checks)
     if (!check.passed())

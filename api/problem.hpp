@@ -37,6 +37,12 @@ struct Problem {
     const Unspellable& met, const FormatName& format,
     const std::vector<std::pair<std::string, std::string>>& reference, const Json& request);
 
+/// Pointers of the objects and arrays that the request as understood has and the body has not.
+[[nodiscard]] std::vector<std::string> filled_in(const Json& body, const Json& request);
+
+/// The same problem; what points into one of these places points to the place.
+[[nodiscard]] Problem pointing_no_further(Problem problem, const std::vector<std::string>& places);
+
 /// The first check that does not hold; an answer with one is withheld.
 [[nodiscard]] std::optional<Problem> failed_check(const std::vector<Check>& checks);
 

@@ -188,6 +188,7 @@ class Reader {
   }
 
   /// Marks a name as known without reading it (it belongs to the request, another reader takes it).
+  [[nodiscard]] const Json& body() const { return *body_; }
   void note(std::string_view name);
   /// Records an issue; `issue.pointer` is relative to this object, `got` is taken from `value` when
   /// given.

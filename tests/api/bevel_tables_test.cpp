@@ -21,6 +21,20 @@ double largest_step(const std::vector<double>& b) {
 
 // docs/theory/intersections-and-bevels.md, section 7: "What Table 1 gives with root inner, contact
 // inner".
+TEST(BevelTables, EchoAnglesAsTheyWereSent) {
+  const auto request = with(example("bevel-tables/source-000-table-1.json"),
+                            "sampling/uniform_points", api::Json{8.0});
+  for (int tenth = 200; tenth <= 1600; tenth += 7) {
+    const double angle = tenth / 10.0;
+    const auto sent = with(with(request, "cutters/0/inclination_deg", api::Json{angle}),
+                           "cutters/1/clocking_deg", api::Json{angle + 100.0});
+    const auto answer = post("/v1/bevel-tables", sent);
+    if (answer.outcome.error) continue;
+    EXPECT_EQ(number(answer.body, "request/cutters/0/inclination_deg"), angle);
+    EXPECT_EQ(number(answer.body, "request/cutters/1/clocking_deg"), angle + 100.0);
+  }
+}
+
 TEST(BevelTables, Table1GivesWhatTheTheoryLists) {
   const auto answer = post(kPath, table_1());
   ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 2000);

@@ -57,6 +57,19 @@ def told(base, path, body):
     return said
 
 
+def stands(body, pointer):
+    """Whether the request has the place, or the object in which a member is missing."""
+    *way, last = pointer.split("/")[1:] or [""]
+    for step in way:
+        if isinstance(body, list):
+            body = body[int(step)] if step.isdigit() and int(step) < len(body) else None
+        else:
+            body = body.get(step) if isinstance(body, dict) else None
+    if isinstance(body, list):
+        return last.isdigit() and int(last) < len(body)
+    return pointer == "" or isinstance(body, dict)
+
+
 def main(binary):
     with Service(binary) as service:
         judge(f"http://127.0.0.1:{service.port}")
@@ -65,11 +78,13 @@ def main(binary):
 def judge(base):
     rows = [json.loads(line) for line in (HERE / "mistakes.jsonl").read_text().splitlines()]
     assert len(rows) >= 200, "the table holds at least 200 mistakes"
-    silent, unhelpful = [], []
+    silent, unhelpful, nowhere = [], [], []
     for row in rows:
         example = json.loads((EXAMPLES / (row["post"] + ".json")).read_text())
         path = "/v1/" + row["post"].split("/")[0]
-        said = told(base, path, edited(example, row["edit"]))
+        body = edited(example, row["edit"])
+        said = told(base, path, body)
+        nowhere += [(row, pointer) for pointer in said if not stands(body, pointer)]
         words = said.get(row["names"], [])
         if not words:
             silent.append((row, said))
@@ -80,7 +95,9 @@ def judge(base):
         for row, said in which:
             print(f"{what}: {row['mistake']} {row['names']} ({row['says']}) of {row['post']}: {said}")
     print(f"{right} of {len(rows)} mistakes are named with their hint")
-    wrong = [row for row, said in silent if said]
+    for row, pointer in nowhere:
+        print(f"points to nowhere: {pointer} of {row['post']} with {row['edit']}")
+    wrong = [row for row, said in silent if said] + nowhere
     if right * 200 < LEAST_RIGHT * len(rows) or wrong:
         sys.exit(f"too few, or another field is named instead ({len(wrong)})")
 
