@@ -167,6 +167,7 @@ Outcome CallRun::compute(const Endpoint& endpoint) {
             .headers = {},
             .job = {.endpoint = std::string(endpoint.id),
                     .input_sha256 = std::move(out_.job.input_sha256),
+                    .reference = std::move(out_.job.reference),
                     .stages = std::move(out_.job.stages)}};
     return over_budget();
   }
@@ -210,6 +211,7 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   in.set_stop(context_.stop);
   in.set_binary(choice->encoding == Encoding::cbor);
   const auto common = read_common_fields(in, endpoint.accepts);
+  out_.job.reference = common.reference;  // a refused job is looked for by its order too
   if (common.numerics && *common.numerics != numerics())
     return refuse(Problem{
         .code = ErrorCode::numerics_mismatch,
@@ -279,7 +281,6 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   auto& job = out_.job;
   job.input_sha256 = answer.input_sha256;
   job.id = call_.job_id.empty() ? job.input_sha256.substr(0, 16) : call_.job_id;
-  job.reference = common.reference;
   const auto& verdict = answer.verdict;
   job.verdict = verdict.status;
   job.reasons = verdict.reasons;

@@ -292,6 +292,13 @@ TEST(App, TellsWhatWasAskedWhateverBecameOfIt) {
             422);
   EXPECT_EQ(records.back().facts.input_sha256.size(), 64U);
   EXPECT_TRUE(records.back().facts.body_sha256.empty());
+  EXPECT_EQ(status(R"({"reference": {"order": "4711"}, "cutters": []})"), 422);
+  EXPECT_EQ(records.back().facts.reference.at(0).second, "4711");
+  EXPECT_EQ(
+      status(cut + R"(, "reference": {"order": "4711"}, "sampling": {"uniform_points": 20000}})",
+             {{"Tubecut-Budget-Ms", "20"}}),
+      504);
+  EXPECT_EQ(records.back().facts.reference.at(0).second, "4711");
   for (const auto* body : {"{", "{}"}) {
     EXPECT_GE(status(body), 400);
     EXPECT_TRUE(records.back().facts.input_sha256.empty());
