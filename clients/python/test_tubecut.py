@@ -334,6 +334,11 @@ class SingleJobs(Case):
             self.assertEqual(refused.exception.errors[0].pointer, "?" + name)
         body = example("bevel-tables/source-000-table-1.json")
         program = self.client.document("bevel-tables", body, "gcode", speed_mm_min=600, axial="z", lead_mm=2.5)
+        self.assertEqual((program.media, program.verdict), ("text/x-gcode", self.client.post("bevel-tables", body).verdict["status"]))
+        self.assertRegex(program.input_sha256 + program.result_sha256, "^[0-9a-f]{128}$")
+        for bad in ("Träger Ø60", " x", "x" * 129, ""):
+            with self.assertRaises(ValueError):
+                self.client.post("bevel-tables", body, job_id=bad)
         self.assertIn(b"Z", program)
         plain, mirrored = (self.client.document("bevel-tables", body, "svg", view="template", mirror=m) for m in (False, True))
         self.assertNotEqual(plain, mirrored)
@@ -451,6 +456,7 @@ class BatchesOfJobs(Case):
             for item in items[3:7]:
                 alone = self.client.document("bevel-tables", table, item.format, job_id=item.id, **item.options)
                 self.assertEqual(results[item.id].unwrap_document(), alone)
+                self.assertEqual((results[item.id].verdict, results[item.id].media), (alone.verdict, alone.media))
                 with self.assertRaises(ValueError):
                     results[item.id].unwrap()
             self.assertEqual([results[id].media for id in ("csv", "gcode", "glb")], ["text/csv", "text/x-gcode", "model/gltf-binary"])

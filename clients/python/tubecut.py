@@ -194,6 +194,24 @@ class Answer:
 # ---- batches
 
 
+class Document(bytes):
+    """An answer in another format: its bytes, and what its headers say of it."""
+
+    media: str = ""  # such as text/csv
+    verdict: str = ""  # ok, review or reject
+    input_sha256: str = ""
+    result_sha256: str = ""
+
+    @classmethod
+    def of(cls, content: bytes, headers: Mapping[str, str]) -> "Document":
+        out = cls(content)
+        out.media = (headers.get("Content-Type") or "").partition(";")[0].strip()
+        out.verdict = (headers.get("Tubecut-Verdict") or "").partition(";")[0]
+        out.input_sha256 = headers.get("Tubecut-Input-Sha256") or ""
+        out.result_sha256 = headers.get("Tubecut-Result-Sha256") or ""
+        return out
+
+
 @dataclasses.dataclass(frozen=True)
 class BatchItem:
     """One job of a batch. `id` is the caller's and must not come twice. With `format` it is a document, as Client.document's (json: an answer)."""
@@ -205,6 +223,8 @@ class BatchItem:
     options: Mapping[str, Option] = dataclasses.field(default_factory=dict)  # of the format, such as speed_mm_min
 
     def __post_init__(self) -> None:
+        if self.options is None:
+            object.__setattr__(self, "options", {})
         if self.options and self.format is None:
             raise ValueError(f"{self.id}: options without a format")
 
@@ -230,6 +250,7 @@ class BatchResult:
     problem: Optional[Problem] = None
     document: Optional[bytes] = None
     media: str = ""  # of the document, such as text/csv
+    verdict: str = ""  # ok, review or reject; of an answer or a document
 
     def unwrap(self) -> Answer:
         if self.problem is not None:
@@ -379,15 +400,16 @@ class Client:
         return Answer.of(self._accepted(reply).decode("utf-8"), self._check_hashes)
 
     def document(self, endpoint: str, request: Mapping[str, Any], format: str, *, job_id: Optional[str] = None,
-                 **options: Option) -> bytes:
-        """The same answer as a drawing, table or machine file: `format` "csv", "svg" and what GET /v1/version lists.
+                 **options: Option) -> Document:
+        """The same answer as a drawing, table or machine file: `format` "csv", "svg" and what GET /v1/version lists. Its `verdict` says
+        whether it may be cut.
 
         options  those of the format, by the contract's names: view; mirror (true, false) of templates; of G-code speed_mm_min,
                  dialect (linuxcnc, qtplasmac), torch (on, off), acknowledge (codes of warnings, with torch=on), axial (x, z), lead_mm,
                  pivot_length_mm. docs/formats.md
         """
         reply = self._call("POST", f"/v1/{endpoint}?{_query(format=format, **options)}", self._encode(request), _job_headers(job_id))
-        return self._accepted(reply)
+        return Document.of(self._accepted(reply), reply.headers)
 
     # -- catalogues
 
@@ -506,25 +528,27 @@ class Client:
     def _result(self, text: str, members: Mapping[str, Tuple[Any, int, int]]) -> BatchResult:
         try:
             id_, status = members["id"][0], members["status"][0]
+            verdict = members["verdict"][0] if "verdict" in members else ""
             if "document" in members or "document_base64" in members:
-                return BatchResult(id_, status, document=_document_of(members), media=members["media"][0])
+                return BatchResult(id_, status, document=_document_of(members), media=members["media"][0], verdict=verdict)
             document, begin, end = members["body"]
         except KeyError as missing:
             raise ProtocolError(f"a line of a batch without {missing}") from None
         if status == 200:
-            return BatchResult(id_, status, answer=Answer.of(text[begin:end], self._check_hashes))
+            return BatchResult(id_, status, answer=Answer.of(text[begin:end], self._check_hashes), verdict=verdict)
         return BatchResult(id_, status, problem=Problem.of(document))
 
     def _one_by_one(self, url: str, items: Sequence[BatchItem], workers: int) -> Iterator[BatchResult]:
         """Without /v1/batches. Ends early, with some items unanswered, when the replica goes down."""
         def run(item: BatchItem) -> BatchResult:
-            reply = self._exchange(url, "POST", item.path(), self._encode(item.body), _job_headers(item.id))
+            reply = self._exchange(url, "POST", item.path(), self._encode(item.body), _job_headers(item.id, of_batch=True))
             if reply.status != 200:
                 return BatchResult(item.id, reply.status, problem=_problem_of(reply))
             media = reply.headers.get_content_type()
             if media != "application/json":
-                return BatchResult(item.id, 200, document=reply.body, media=media)
-            return BatchResult(item.id, 200, answer=Answer.of(reply.body.decode("utf-8"), self._check_hashes))
+                return BatchResult(item.id, 200, document=reply.body, media=media, verdict=Document.of(b"", reply.headers).verdict)
+            answer = Answer.of(reply.body.decode("utf-8"), self._check_hashes)
+            return BatchResult(item.id, 200, answer=answer, verdict=Document.of(b"", reply.headers).verdict)
 
         pool = concurrent.futures.ThreadPoolExecutor(workers, thread_name_prefix="tubecut")
         try:
@@ -598,9 +622,11 @@ def _query(**options: Option) -> str:
     return urllib.parse.urlencode({name: str(value).lower() if isinstance(value, bool) else value for name, value in options.items()})
 
 
-def _job_headers(job_id: Optional[str]) -> Dict[str, str]:
-    """A header cannot carry every id; without it the service names the job by its hash."""
+def _job_headers(job_id: Optional[str], of_batch: bool = False) -> Dict[str, str]:
+    """A header cannot carry every id: one asked for is refused, one of a batch's item left out."""
     fits = job_id is not None and 0 < len(job_id) <= 128 and job_id.isascii() and job_id.isprintable() and job_id == job_id.strip()
+    if job_id is not None and not fits and not of_batch:
+        raise ValueError(f"job_id {job_id!r}: 1 to 128 printable ASCII characters, without spaces at the ends; a name goes into `reference`")
     return {"Job-Id": job_id} if job_id is not None and fits else {}
 
 
