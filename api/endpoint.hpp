@@ -36,6 +36,39 @@ struct Endpoint {
   std::span<const CheckLimit> checks;
 };
 
+/// The checks of a result. Asks `stop`, since what a stopped proof found may not be all.
+template <class E>
+std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out,
+                         const std::stop_token& stop) {
+  if constexpr (requires { E::verify(spec, out, stop); }) {
+    auto checks = E::verify(spec, out, stop);
+    ask(stop);
+    return checks;
+  } else {
+    return E::verify(spec, out);
+  }
+}
+
+/// Prints the format that was asked for into the answer's text, or says why it may not be cut from
+/// or cannot spell a name.
+template <class E>
+std::optional<Problem> print_document(const typename E::Spec& spec, const typename E::Out& out,
+                                      Run& run, Answer& answer) {
+  if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
+    return refused;
+  run.caption.input_sha256 = answer.input_sha256;
+  run.caption.result_sha256 = answer.result_sha256;
+  run.caption.stop = run.stop;
+  run.caption.verdict = answer.verdict;
+  try {
+    for (const auto& format : E::formats())
+      if (format.name == run.format->name) answer.text = format.print(spec, out, run.caption);
+  } catch (const Unspellable& met) {
+    return unspellable_problem(met, *run.format, run.caption.reference, answer.request);
+  }
+  return std::nullopt;
+}
+
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;
 ///   static Spec decode(Reader&);
@@ -44,8 +77,7 @@ struct Endpoint {
 ///     optional: what only core can tell of the input
 ///   static void count(const Spec&, Work&);
 ///     what there is to do, for the estimate of its CPU
-///   static Result<Out> compute(const Spec&, const std::stop_token&);
-///     pure core call
+///   static Result<Out> compute(const Spec&, const std::stop_token&);  pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);
 ///     the proof; with a stop token where it may take long
 ///   static std::vector<Warning> warnings(const Spec&, const Out&);
@@ -87,12 +119,7 @@ Reply run(Reader& in, Run& run) {
   run.stage("compute");
   ask(run.stop);  // what it found may not be all
   if (!out) return of_core(out.error());
-  if constexpr (requires { E::verify(spec, *out, run.stop); }) {
-    answer.checks = E::verify(spec, *out, run.stop);
-    ask(run.stop);
-  } else {
-    answer.checks = E::verify(spec, *out);
-  }
+  answer.checks = prove<E>(spec, *out, run.stop);
   run.stage("verify");
   if (auto failed = failed_check(answer.checks)) return *std::move(failed);
   answer.warnings = E::warnings(spec, *out);
@@ -109,20 +136,8 @@ Reply run(Reader& in, Run& run) {
   answer.result_sha256 = run.format == nullptr && run.encoding == Encoding::json
                              ? sha256(answer.result, run.stop)
                              : encoded(Writer::hashing(run.stop)).sha256();
-  if (run.format != nullptr) {
-    if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
-      return *std::move(refused);
-    run.caption.input_sha256 = answer.input_sha256;
-    run.caption.result_sha256 = answer.result_sha256;
-    run.caption.stop = run.stop;
-    run.caption.verdict = answer.verdict;
-    try {
-      for (const auto& format : E::formats())
-        if (format.name == run.format->name) answer.text = format.print(spec, *out, run.caption);
-    } catch (const Unspellable& met) {
-      return unspellable_problem(met, *run.format, run.caption.reference, answer.request);
-    }
-  }
+  if (run.format != nullptr)
+    if (auto refused = print_document<E>(spec, *out, run, answer)) return *std::move(refused);
   run.stage("encode");
   return answer;
 }
