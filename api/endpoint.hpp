@@ -95,7 +95,7 @@ Reply run(Reader& in, Run& run) {
     return with_suspicions(std::move(problem), answer.request, run.stop);
   };
   if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
-  const auto places = filled_in(in.body(), answer.request);
+  const auto places = filled_in(in.body(), answer.request, run.stop);
   const auto of_core = [&](const Error& error) {
     return suspecting(pointing_no_further(core_problem(error, answer.request), places));
   };

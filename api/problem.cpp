@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/stop.hpp"
 #include "api/suspicion.hpp"
 #include "api/wire_names.hpp"
 #include "api/writer.hpp"
@@ -39,6 +40,10 @@ const Json::Member* wire_member(const Json::Object& object, std::string_view nam
       return &member;
   }
   return nullptr;
+}
+
+bool holds_members(const Json& json) {
+  return json.as<Json::Object>() != nullptr || json.as<Json::Array>() != nullptr;
 }
 
 /// The first issue in words: where, what, and what would do.
@@ -143,15 +148,16 @@ Problem core_problem(const Error& error, const Json& request) {
   return out;
 }
 
-std::vector<std::string> filled_in(const Json& body, const Json& request) {
+std::vector<std::string> filled_in(const Json& body, const Json& request,
+                                   const std::stop_token& stop) {
   std::vector<std::string> out;
+  Pace pace(stop);
   const auto walk = [&](const auto& self, const Json& given, const Json& understood,
                         const std::string& pointer) -> void {
     if (const auto* object = understood.as<Json::Object>()) {
-      for (const auto& [name, member] : *object) {
-        const bool holds =
-            member.as<Json::Object>() != nullptr || member.as<Json::Array>() != nullptr;
-        if (!holds) continue;
+      for (const Json::Member& entry : *object) {
+        const auto& [name, member] = entry;
+        if (!holds_members(member)) continue;
         if (const Json* const own = given.find(name))
           self(self, *own, member, pointer + "/" + name);
         else
@@ -159,9 +165,11 @@ std::vector<std::string> filled_in(const Json& body, const Json& request) {
       }
     } else if (const auto* array = understood.as<Json::Array>()) {
       const auto* const own = given.as<Json::Array>();
-      for (std::size_t i = 0; own != nullptr && i < std::min(own->size(), array->size()); ++i)
+      for (std::size_t i = 0; own != nullptr && i < std::min(own->size(), array->size()); ++i) {
+        pace.turn();
         if ((*array)[i].as<Json::Object>() != nullptr)
           self(self, (*own)[i], (*array)[i], pointer + "/" + std::to_string(i));
+      }
     }
   };
   walk(walk, body, request, "");

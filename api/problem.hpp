@@ -38,7 +38,8 @@ struct Problem {
     const std::vector<std::pair<std::string, std::string>>& reference, const Json& request);
 
 /// Pointers of the objects and arrays that the request as understood has and the body has not.
-[[nodiscard]] std::vector<std::string> filled_in(const Json& body, const Json& request);
+[[nodiscard]] std::vector<std::string> filled_in(const Json& body, const Json& request,
+                                                 const std::stop_token& stop);
 
 /// The same problem; what points into one of these places points to the place.
 [[nodiscard]] Problem pointing_no_further(Problem problem, const std::vector<std::string>& places);
