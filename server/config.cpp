@@ -10,6 +10,8 @@
 #include <sstream>
 #include <tuple>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "api/api.hpp"
 #include "server/access.hpp"
@@ -128,6 +130,47 @@ int nameless_line(const std::string& file) {
   return 0;
 }
 
+/// The commands beside serving, each with its options.
+std::vector<std::pair<Command::Kind, CLI::App*>> add_commands(CLI::App& app, Command& command) {
+  auto* health = app.add_subcommand("health", "ask the running service whether it is ready");
+  auto* run = app.add_subcommand("run", "answer a file without a server: the same bytes");
+  run->add_option(
+      "--endpoint", command.endpoint,
+      "such as bevel-tables, whose request the file is; without it the file is a batch");
+  run->add_option("--format", command.format, "of the endpoint's answer: svg, nc1, ...; else json")
+      ->needs("--endpoint");
+  run->add_option("--option", command.options,
+                  "of the format, such as speed_mm_min=600; again for more")
+      ->take_all()
+      ->expected(1)
+      ->needs("--format");
+  run->add_option(
+         "file", command.file,
+         "one request, or a batch: a line {\"id\", \"endpoint\", \"body\"} per job; - for stdin")
+      ->required();
+  auto* selftest = app.add_subcommand("selftest", "answer known jobs and compare their hashes");
+  selftest->add_flag("--all", command.all, "print the hash of every example instead");
+  auto* new_key = app.add_subcommand("new-key", "print a new API key and its line for --keys");
+  new_key->add_option("identity", command.identity, "whose it is")
+      ->required()
+      ->check(
+          [](const std::string& name) {
+            return sound_identity(name) ? std::string{} : "is not 1 to 64 letters, digits, . _ -";
+          },
+          "");
+  const std::vector<std::pair<Command::Kind, CLI::App*>> all = {{Command::Kind::health, health},
+                                                                {Command::Kind::run, run},
+                                                                {Command::Kind::selftest, selftest},
+                                                                {Command::Kind::new_key, new_key}};
+  for (const auto& [kind, sub] : all) {
+    sub->configurable(false);
+    sub->fallthrough();  // an option of the service may stand behind its name too
+    for (auto* its : sub->get_options()) its->configurable(false);
+  }
+  app.require_subcommand(0, 1);
+  return all;
+}
+
 /// What no single option can tell.
 std::string contradiction(const Config& c) {
   if (c.port != 0 && c.port == c.admin_port) return "--port and --admin-port must differ";
@@ -155,38 +198,7 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   add_file(app);
   app.add_flag("--print-config", print, "print every option's value as TOML and end")
       ->configurable(false);
-  auto* health = app.add_subcommand("health", "ask the running service whether it is ready");
-  auto* run = app.add_subcommand("run", "answer a file without a server: the same bytes");
-  run->add_option(
-      "--endpoint", command.endpoint,
-      "such as bevel-tables, whose request the file is; without it the file is a batch");
-  run->add_option("--format", command.format, "of the endpoint's answer: svg, nc1, ...; else json")
-      ->needs("--endpoint");
-  run->add_option("--option", command.options,
-                  "of the format, such as speed_mm_min=600; again for more")
-      ->take_all()
-      ->expected(1)
-      ->needs("--format");
-  run->add_option(
-         "file", command.file,
-         "one request, or a batch: a line {\"id\", \"endpoint\", \"body\"} per job; - for stdin")
-      ->required();
-  auto* selftest = app.add_subcommand("selftest", "answer known jobs and compare their hashes");
-  selftest->add_flag("--all", command.all, "print the hash of every example instead");
-  auto* new_key = app.add_subcommand("new-key", "print a new API key and its line for --keys");
-  new_key->add_option("identity", command.identity, "whose it is")
-      ->required()
-      ->check(
-          [](const std::string& name) {
-            return sound_identity(name) ? std::string{} : "is not 1 to 64 letters, digits, . _ -";
-          },
-          "");
-  for (auto* sub : {health, run, selftest, new_key}) {
-    sub->configurable(false);
-    sub->fallthrough();  // an option of the service may stand behind its name too
-    for (auto* its : sub->get_options()) its->configurable(false);
-  }
-  app.require_subcommand(0, 1);
+  const auto commands = add_commands(app, command);
 
   try {
     app.parse(argc, argv);
@@ -204,10 +216,8 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   if (print) return tl::unexpected(Exit{0, app.config_to_str(true, false), {}});
   if (c.admin_host.empty()) c.admin_host = c.host;
   if (c.replica.empty()) c.replica = host_name();
-  if (health->parsed()) command.kind = Command::Kind::health;
-  if (run->parsed()) command.kind = Command::Kind::run;
-  if (selftest->parsed()) command.kind = Command::Kind::selftest;
-  if (new_key->parsed()) command.kind = Command::Kind::new_key;
+  for (const auto& [kind, parsed] : commands)
+    if (parsed->parsed()) command.kind = kind;
   return command;
 }
 
