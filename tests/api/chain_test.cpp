@@ -87,7 +87,7 @@ TEST(Chain, OffsetPairOfSource002GoesToTheCrawler) {
                              example("pulse-schedules/source-002-offset-pair-on-the-crawler.json"));
   ASSERT_FALSE(schedule.outcome.error) << schedule.outcome.body.substr(0, 1000);
   EXPECT_EQ(text(schedule.body, "verdict/status"), "ok");
-  EXPECT_EQ(text(schedule.body, "request/machine/name"), "crawler");
+  EXPECT_EQ(text(schedule.body, "request/machine"), "crawler");
   EXPECT_EQ(number(schedule.body, "result/report/standoff_growth_mm"), 0.0);
 }
 

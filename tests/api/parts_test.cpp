@@ -202,7 +202,8 @@ TEST(Parts, Csv) {
   EXPECT_TRUE(csv.outcome.body.starts_with(
       "# verdict: ok\r\n# b_sign: outer_edge_to_plus_z\r\ncut,phi_deg,developed_mm,"));
   EXPECT_LT(csv.outcome.body.find("finish,"), csv.outcome.body.find("\nstart,"));
-  EXPECT_NE(csv.outcome.body.find("start_overhang"), std::string::npos);
+  const auto tape = post(kPath, api::dump(table_1()), "format=csv&view=check_dimensions");
+  EXPECT_NE(tape.outcome.body.find("\nstart_overhang,"), std::string::npos);
 }
 
 TEST(Parts, AllowancesAndDensity) {

@@ -200,7 +200,8 @@ TEST(Binary, RunsOneRequestWithoutAServer) {
   Program program({TUBECUT_BINARY, "run", "--endpoint", "bevel-tables", file});
   EXPECT_EQ(program.exit_code(), 1);
   std::ofstream(file) << R"({"target": {"outer_diameter_mm": 70, "wall_mm": 5}, "cutters":
-      [{"kind": "tube", "outer_diameter_mm": 110, "inclination_deg": 60}]})";
+      [{"kind": "tube", "outer_diameter_mm": 110, "inclination_deg": 60}], "root_surface": "inner", "groove": {"rule": "half_dihedral"},
+      "contact": "inner", "kerf_mm": 0, "smoothing": {"method": "none"}})";
   const auto in_format = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {TUBECUT_BINARY, "run", "--endpoint", "bevel-tables"});
     words.push_back(file);

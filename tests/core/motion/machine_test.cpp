@@ -24,6 +24,10 @@ TEST(Refused, MachineWithoutALimit) {
 TEST(Refused, StandoffBeyondTheCrawlersLimit) {
   ScheduleSpec spec = table1(20);
   spec.machine = catalogue()[1].machine;
+  auto& crawler = std::get<Crawler>(spec.machine.kinematics);
+  crawler.swing_center = SwingCenter::pivot;
+  crawler.pivot_length = 150.0;
+  crawler.standoff_max = 3.0;
   EXPECT_EQ(refusal(spec).code, ErrorCode::standoff_too_large);
 }
 
