@@ -32,6 +32,7 @@ std::string errors_page(const Context& /*context*/) {
         o.field("code", warning.code);
         o.field("severity", name_of(warning.severity));
         o.field("meaning", warning.meaning);
+        o.field("action", warning.action);
       });
     });
   });

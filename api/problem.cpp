@@ -214,6 +214,7 @@ void write_warnings(Writer& w, const std::vector<Warning>& warnings,
       o.field("severity", name_of(about.severity));
       o.field("pointer", pointer(warning.member));
       o.field("detail", warning.detail.empty() ? std::string(about.meaning) : warning.detail);
+      o.field("action", about.action);
     });
   });
 }

@@ -12,7 +12,7 @@ constexpr ErrorInfo kErrors[] = {
 };
 
 constexpr WarningInfo kWarnings[] = {
-#define X(code, severity, meaning) {#code, Severity::severity, meaning},
+#define X(code, severity, meaning, action) {#code, Severity::severity, meaning, action},
     TUBECUT_WARNINGS(X)
 #undef X
 };

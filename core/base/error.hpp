@@ -56,7 +56,7 @@ struct Warning {
   std::string detail = {};
 };
 
-/// One line of an answer's proof: |value| must not exceed `limit`.
+/// One line of an answer's proof: `value` must not exceed `limit`; either may be below zero.
 struct Check {
   std::string name;
   double value = 0.0;
@@ -75,6 +75,7 @@ struct WarningInfo {
   std::string_view code;
   Severity severity;
   std::string_view meaning;
+  std::string_view action;
 };
 
 /// A number as text, shortest that reads back the same.

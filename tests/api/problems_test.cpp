@@ -500,6 +500,10 @@ TEST(Envelope, EveryCodeSaysWhatToDo) {
     EXPECT_FALSE(error.meaning.empty()) << error.code;
     EXPECT_TRUE(error.action.ends_with('.')) << error.code;
   }
+  for (const auto& warning : all_warnings()) {
+    EXPECT_FALSE(warning.meaning.empty()) << warning.code;
+    EXPECT_TRUE(warning.action.ends_with('.')) << warning.code;
+  }
   const api::Context context{.stop = {}, .clock = {}, .status = [](ErrorKind) { return 503; }};
   const auto busy = *api::parse(api::problem(ErrorCode::overloaded, "", "r", context).body);
   EXPECT_EQ(at(busy, "retryable"), Json{true});

@@ -79,6 +79,7 @@ function approval(answer: Answer, milliseconds: number, focus: (pointer: string)
         {class: warning.severity},
         el('b', {}, sentence(warning.code.replace(/_/g, ' '))),
         warning.detail ? `: ${warning.detail} ` : ' ',
+        warning.action ? `${warning.action} ` : null,
         warning.pointer ? el('button', {type: 'button', onclick: () => focus(warning.pointer)}, warning.pointer) : null,
       ),
     ),

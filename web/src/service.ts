@@ -28,6 +28,7 @@ export interface Warning {
   severity: 'cut' | 'note';
   pointer: string;
   detail: string;
+  action: string;
 }
 export interface Answer {
   job: Row & {id: string; endpoint: string; engine: string; input_sha256: string; result_sha256: string};
