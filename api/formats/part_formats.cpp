@@ -32,19 +32,24 @@ std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, co
 }
 
 Columns dimensions(const part::Part& part) {
-  std::vector<std::string> names, from, tools;
+  std::vector<std::string> names, from, tools, changes;
   std::vector<double> values;
   for (const auto& d : part.check_dimensions) {
     names.push_back(d.name);
     values.push_back(d.value);
     tools.emplace_back(name_of(d.tool));
     from.push_back(d.measured_from);
+    std::string with;
+    for (const auto mistake : d.changes_with)
+      with += (with.empty() ? "" : " ") + std::string(name_of(mistake));
+    changes.push_back(std::move(with));
   }
   return Columns()
       .texts("name", std::move(names))
       .column("value_mm", std::move(values))
       .texts("tool", std::move(tools))
-      .texts("measured_from", std::move(from));
+      .texts("measured_from", std::move(from))
+      .texts("changes_with", std::move(changes));
 }
 
 }  // namespace

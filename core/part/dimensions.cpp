@@ -127,8 +127,8 @@ void add_end(const Shape& shape, bool finish, std::vector<Gauge>& out) {
   if (std::abs(overhang(shape, finish, at)) < kSquare) return;
   out.push_back(gauge(end + "_overhang", Tool::rule,
                       "outer edge of the " + end +
-                          ", along the tube, to where its inner edge ends (+ beyond, - "
-                          "short of it), " +
+                          ", along the tube, to its inner edge: above zero where the inner edge "
+                          "reaches further, below where it ends before, " +
                           on_girth(shape, at),
                       [finish, at](const Shape& s) { return overhang(s, finish, at); }));
 }

@@ -98,8 +98,8 @@ class Csv(FormatTest):
                 asked = self.service.answer("parts", body)["result"]["check_dimensions"]
                 rows = rows_of(self.service.text("parts", body, "format=csv&view=check_dimensions").decode())
                 plain = [re.sub(r"(^|[,;|])([ \"]*)'(?=[=+\-@'])", r"\1\2", r["measured_from"]) for r in rows]
-                self.assertEqual([(r["name"], float(r["value_mm"]), r["tool"], text) for r, text in zip(rows, plain)],
-                                 [(d["name"], d["value_mm"], d["tool"], d["measured_from"]) for d in asked])
+                self.assertEqual([(r["name"], float(r["value_mm"]), r["tool"], text, r["changes_with"].split()) for r, text in zip(rows, plain)],
+                                 [(d["name"], d["value_mm"], d["tool"], d["measured_from"], d["changes_with"]) for d in asked])
                 cuts = rows_of(self.service.text("parts", body, "format=csv").decode())
                 self.assertFalse({"name", "measured_from"} & set(cuts[0]))
                 self.assertTrue(all(row["cut"] for row in cuts))
