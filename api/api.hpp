@@ -36,7 +36,8 @@ struct Context {
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
   /// Bytes of body this replica takes, where an endpoint takes more; `GET /v1/limits` tells.
   std::size_t max_body = std::numeric_limits<std::size_t>::max();
-  double budget_s = 0.0;  // CPU of any job here; 0: what its endpoint has by default
+  double budget_s = 0.0;       // CPU of any job here; 0: what its endpoint has by default
+  double call_budget_s = 0.0;  // CPU that this call asked to be held to; 0: as any other job
 };
 
 /// A job ends at the latest so many times its budget of CPU after its request came, whatever CPU it

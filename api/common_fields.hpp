@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "api/endpoint.hpp"
 #include "api/reader.hpp"
+#include "api/verdict.hpp"
 
 namespace tubecut::api {
 

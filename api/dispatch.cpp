@@ -26,6 +26,8 @@ std::string media_of(std::string_view header) {
   return media;
 }
 
+std::string got_type(const std::string& media) { return "got \"" + media + "\", accepted: "; }
+
 struct Choice {
   Encoding encoding = Encoding::json;
   const FormatName* format = nullptr;  // instead, unless nullptr
@@ -142,6 +144,12 @@ class CallRun {
   Outcome over_budget();
   Outcome answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                  const Choice& choice, const Query& query);
+  void judged(const Answer& answer) {
+    out_.job.verdict = answer.verdict.status;
+    out_.job.reasons = answer.verdict.reasons;
+    for (const auto& warning : answer.warnings)
+      out_.job.warnings.emplace_back(info(warning.code).code);
+  }
   void lap(std::string_view stage = {}) {
     if (!context_.clock) return;
     const double now = context_.clock();
@@ -179,10 +187,13 @@ Outcome CallRun::over_budget() {
   if (estimate_)
     out.issues = {{.code = ErrorCode::over_budget,
                    .pointer = "",
-                   .limit = Json{*estimate_},
+                   .got = Json{*estimate_},
+                   .limit = Json{context_.call_budget_s > 0.0 ? context_.call_budget_s
+                                                              : budget_s(call_.path, context_)},
                    .unit = "s",
-                   .hint = "the estimate of the whole job's CPU; it may take three times as long, "
-                           "and GET /v1/limits tells what the endpoint gives"}};
+                   .hint =
+                       "got: the estimate of the whole job's CPU, which may take three times as "
+                       "long; limit: the CPU it was given; GET /v1/limits tells the most"}};
   return refuse(out);
 }
 
@@ -193,8 +204,7 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   const auto& query = asked.query;
   const auto media = media_of(call_.content_type);
   if (media != kJsonMedia)
-    return refuse(ErrorCode::unsupported_media_type,
-                  "got \"" + media + "\", accepted: application/json");
+    return refuse(ErrorCode::unsupported_media_type, got_type(media) + std::string(kJsonMedia));
   const auto choice = choose(query, call_.accept, endpoint);
   if (!choice) return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
   if (auto problem = format_problem(query, choice->format)) return refuse(*problem);
@@ -234,6 +244,7 @@ Outcome CallRun::work(const Endpoint& endpoint) {
       .accepted = common.accept,
       .stage = [this](std::string_view stage) { lap(stage); },
       .understood = [this](std::string_view input_sha256) { out_.job.input_sha256 = input_sha256; },
+      .judged = [this](const Answer& answer) { judged(answer); },
       .forget_body = [&body] { *body = Json{}; },
       .foresee =
           [this](Work work) {
@@ -282,10 +293,7 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   job.input_sha256 = answer.input_sha256;
   job.id = call_.job_id.empty() ? job.input_sha256.substr(0, 16) : call_.job_id;
   const auto& verdict = answer.verdict;
-  job.verdict = verdict.status;
-  job.reasons = verdict.reasons;
   out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
-  for (const auto& warning : answer.warnings) job.warnings.emplace_back(info(warning.code).code);
   job.result_sha256 = answer.result_sha256;
   out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
   out_.headers.emplace_back("Tubecut-Result-Sha256", job.result_sha256);
@@ -340,7 +348,8 @@ Outcome dispatch(const Call& call, const Context& context) {
   }
   if (call.path == kBatchesPath)
     return call.method == "POST"
-               ? job.refuse(ErrorCode::unsupported_media_type, "a batch is application/x-ndjson")
+               ? job.refuse(ErrorCode::unsupported_media_type,
+                            got_type(media_of(call.content_type)) + "application/x-ndjson")
                : job.refuse(
                      Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
                      "POST");

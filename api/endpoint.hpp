@@ -1,27 +1,12 @@
 #pragma once
 
-#include <optional>
 #include <span>
-#include <stop_token>
-#include <string>
 #include <string_view>
-#include <variant>
-#include <vector>
 
-#include "api/api.hpp"
 #include "api/check_limit.hpp"
-#include "api/cost.hpp"
 #include "api/format.hpp"
-#include "api/letters.hpp"
-#include "api/limits.hpp"
-#include "api/problem.hpp"
 #include "api/reader.hpp"
 #include "api/run.hpp"
-#include "api/sha256.hpp"
-#include "api/suspicion.hpp"
-#include "api/verdict.hpp"
-#include "api/writer.hpp"
-#include "core/base/error.hpp"
 
 namespace tubecut::api {
 
@@ -35,124 +20,6 @@ struct Endpoint {
   std::span<const std::string_view> accepts;  // names allowed in `accept`
   std::span<const CheckLimit> checks;
 };
-
-/// The checks of a result. Asks `stop`, since what a stopped proof found may not be all.
-template <class E>
-std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out,
-                         const std::stop_token& stop) {
-  if constexpr (requires { E::verify(spec, out, stop); }) {
-    auto checks = E::verify(spec, out, stop);
-    ask(stop);
-    return checks;
-  } else {
-    return E::verify(spec, out);
-  }
-}
-
-/// Prints the format that was asked for into the answer's text, or says why it may not be cut from
-/// or cannot spell a name.
-template <class E>
-std::optional<Problem> print_document(const typename E::Spec& spec, const typename E::Out& out,
-                                      Run& run, Answer& answer) {
-  if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
-    return refused;
-  run.caption.input_sha256 = answer.input_sha256;
-  run.caption.result_sha256 = answer.result_sha256;
-  run.caption.stop = run.stop;
-  run.caption.verdict = answer.verdict;
-  try {
-    for (const auto& format : E::formats())
-      if (format.name == run.format->name) answer.text = format.print(spec, out, run.caption);
-  } catch (const Unspellable& met) {
-    return unspellable_problem(met, *run.format, run.caption.reference, answer.request);
-  }
-  return std::nullopt;
-}
-
-/// The one pipeline. An endpoint `E` plugs in:
-///   using Spec, Out;
-///   static Spec decode(Reader&);
-///     types, units, ranges
-///   static Result<Spec> resolve(Spec, const std::stop_token&);
-///     optional: what only core can tell of the input
-///   static void count(const Spec&, Work&);
-///     what there is to do, for the estimate of its CPU
-///   static Result<Out> compute(const Spec&, const std::stop_token&);  pure core call
-///   static std::vector<Check> verify(const Spec&, const Out&);
-///     the proof; with a stop token where it may take long
-///   static std::vector<Warning> warnings(const Spec&, const Out&);
-///   static std::vector<Measure> measure(const Spec&, const Out&);
-///   static void encode(const Spec&, const Out&, Writer&);
-///     members of `result`
-///   static const std::vector<Format<Spec, Out>>& formats();
-///   kId, kPath, kMaxBody, kBudgetS, kAccepts, kChecks
-template <class E>
-Reply run(Reader& in, Run& run) {
-  auto spec = E::decode(in);
-  auto issues = in.finish_root();
-  Answer answer{.request = Json{in.take_echo()}};
-  const auto suspecting = [&](Problem problem) {
-    return with_suspicions(std::move(problem), answer.request, run.stop);
-  };
-  if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
-  const auto places = filled_in(in.body(), answer.request, run.stop);
-  const auto of_core = [&](const Error& error) {
-    return suspecting(pointing_no_further(core_problem(error, answer.request), places));
-  };
-  run.forget_body();
-  answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
-  run.understood(answer.input_sha256);
-  run.stage("decode");
-  if constexpr (requires { E::resolve(spec, run.stop); }) {
-    auto resolved = E::resolve(std::move(spec), run.stop);
-    if (!resolved) {
-      ask(run.stop);
-      return of_core(resolved.error());
-    }
-    spec = *std::move(resolved);
-  }
-  Work work;
-  E::count(spec, work);
-  run.foresee(work);
-  ask(run.stop);
-  auto out = E::compute(spec, run.stop);
-  run.stage("compute");
-  ask(run.stop);  // what it found may not be all
-  if (!out) return of_core(out.error());
-  answer.checks = prove<E>(spec, *out, run.stop);
-  run.stage("verify");
-  if (auto failed = failed_check(answer.checks)) return *std::move(failed);
-  answer.warnings = E::warnings(spec, *out);
-  for (auto& warning : unit_suspicions(answer.request, run.stop))
-    answer.warnings.push_back(std::move(warning));
-  answer.measures = E::measure(spec, *out);
-  answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
-  const auto encoded = [&](Writer writer) {
-    writer.object([&](Writer& w) { E::encode(spec, *out, w); });
-    return writer;
-  };
-  if (run.format == nullptr)
-    answer.result = encoded(Writer(1 << 16, run.stop, run.encoding)).take();
-  answer.result_sha256 = run.format == nullptr && run.encoding == Encoding::json
-                             ? sha256(answer.result, run.stop)
-                             : encoded(Writer::hashing(run.stop)).sha256();
-  if (run.format != nullptr)
-    if (auto refused = print_document<E>(spec, *out, run, answer)) return *std::move(refused);
-  run.stage("encode");
-  return answer;
-}
-
-template <class E>
-Endpoint endpoint() {
-  static const auto names = [] {
-    std::vector<FormatName> list;
-    for (const auto& format : E::formats())
-      list.push_back({format.name, format.media, format.views, format.options, format.needs_speed,
-                      format.machine});
-    return list;
-  }();
-  return {E::kId, E::kPath, E::kMaxBody, E::kBudgetS, &run<E>, names, E::kAccepts, E::kChecks};
-}
 
 /// Every endpoint, in the order of the contract.
 [[nodiscard]] std::span<const Endpoint> endpoints();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace tubecut::api {
 namespace {
@@ -11,6 +12,21 @@ constexpr std::string_view kUnits[] = {
     "mm3_s",  "deg_per_mm2", "deg_per_mm", "rad_per_mm", "rev_min", "per_hour", "mm_s3", "mm_s2",
     "mm_min", "pulses",      "mm_s",       "m_min",      "mm3",     "mm2",      "deg",   "rad",
     "ms",     "us",          "um",         "kg",         "mm",      "s"};
+
+/// What other programs call a field, and what it is called here; without units.
+constexpr std::pair<std::string_view, std::string_view> kOtherWords[] = {
+    {"od", "outer_diameter"}, {"dia", "outer_diameter"},  {"outside_diameter", "outer_diameter"},
+    {"thickness", "wall"},    {"wall_thickness", "wall"}, {"wt", "wall"},
+    {"angle", "inclination"}, {"eccentricity", "offset"}, {"root_gap", "gap"},
+    {"bend_angle", "bend"},
+};
+
+std::string_view without_unit(std::string_view field) {
+  const auto unit = unit_of(field);
+  return unit.empty() || unit.size() == field.size()
+             ? field
+             : field.substr(0, field.size() - unit.size() - 1);
+}
 
 /// Levenshtein distance, for names of a few dozen characters.
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -46,6 +62,21 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     }
   }
   return best;
+}
+
+std::string nearest_field(std::string_view name, const std::vector<std::string>& fields) {
+  const auto stem = without_unit(name);
+  if (stem.empty()) return {};
+  for (const auto& [other, ours] : kOtherWords)
+    for (const auto& field : fields)
+      if (stem == other && without_unit(field) == ours) return field;
+  for (const auto& field : fields) {
+    const auto ours = without_unit(field);
+    if (ours.size() > stem.size() + 1 && ours.ends_with(stem) &&
+        ours[ours.size() - stem.size() - 1] == '_')
+      return field;
+  }
+  return nearest_name(name, fields);
 }
 
 std::string_view unit_of(std::string_view field) {

@@ -10,6 +10,11 @@ namespace tubecut::api {
 [[nodiscard]] std::string nearest_name(std::string_view name,
                                        const std::vector<std::string>& candidates);
 
+/// The field most likely meant by `name`: one that says the same in other words (`od` for
+/// `outer_diameter_mm`), one that `name` is the end of, or the nearest name.
+[[nodiscard]] std::string nearest_field(std::string_view name,
+                                        const std::vector<std::string>& fields);
+
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);
 

@@ -30,6 +30,11 @@ struct Verdict {
   std::vector<std::string> reasons = {};   // as in the answer
   std::vector<std::string> warnings = {};  // of severity `cut`: code, pointer, detail
   std::vector<std::string> codes = {};     // theirs, each once
+  struct Excess {
+    std::string_view name;  // as in `accept`
+    double value = 0.0, limit = 0.0;
+  };
+  std::vector<Excess> excess = {};  // what it is rejected for
 };
 
 /// What a drawing or a machine file prints beside the result.
@@ -41,6 +46,12 @@ struct Caption {
   FormatOptions options = {};
   Verdict verdict = {};  // stands in the head of every file: verdict_lines
   std::stop_token stop = {};
+};
+
+/// Thrown by a format that has no use for an option that was given: nothing is ignored in silence.
+struct UnfitOption {
+  std::string_view name;
+  std::string hint;
 };
 
 /// One line that names the job on a drawing: engine, input hash, the caller's reference.

@@ -97,11 +97,14 @@ void Reader::adopt(std::string_view name, Reader& child) {
 void Reader::finish() {
   const auto* object = body_->as<Json::Object>();
   if (object == nullptr || silent_) return;
+  std::vector<std::string> open;  // known here, and not given
+  for (const auto& name : known_)
+    if (!has(name)) open.push_back(name);
   for (const auto& [name, value] : *object) {
     pace_.turn();
     if (issues_->size() >= kIssuesNamed) return;
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    const auto near = nearest_name(name, known_);
+    const auto near = nearest_field(name, open);
     record({.code = ErrorCode::unknown_field,
             .pointer = pointer_ + "/" + escaped(name),  // the empty name too is a name
             .hint = near.empty() ? "known here: " + list(known_) : "did you mean " + near + "?"},
@@ -116,23 +119,28 @@ std::vector<FieldIssue> Reader::finish_root() {
   return std::move(own_issues_);
 }
 
-const Json* Reader::required(std::string_view name) {
+/// `wanted`: what the field holds, in a word.
+const Json* Reader::required(std::string_view name, std::string_view wanted) {
   note(name);
   const auto* field = find(name);
   if (field == nullptr && body_->as<Json::Object>() != nullptr)
-    issue({.code = ErrorCode::missing_field, .pointer = std::string(name)});
+    issue({.code = ErrorCode::missing_field,
+           .pointer = std::string(name),
+           .unit = std::string(unit_of(name)),
+           .hint = std::string(wanted) + " is required"});
   return field;
 }
 
 const Json* Reader::required_container(std::string_view name, bool object) {
-  const auto* field = required(name);
+  const auto wanted = object ? "an object" : "an array";
+  const auto* field = required(name, wanted);
   if (field == nullptr) return nullptr;
   const bool right =
       object ? field->as<Json::Object>() != nullptr : field->as<Json::Array>() != nullptr;
   if (right) return field;
   issue({.code = ErrorCode::wrong_type,
          .pointer = std::string(name),
-         .hint = object ? "an object is required" : "an array is required"},
+         .hint = std::string(wanted) + " is required"},
         field);
   return nullptr;
 }
@@ -183,7 +191,7 @@ double Reader::number(std::string_view name, Range range, std::optional<double> 
     put(name, Json{*fallback});
     return *fallback;
   }
-  const auto* field = required(name);
+  const auto* field = required(name, "a number");
   const auto value =
       field == nullptr ? std::nullopt : checked(name, *field, range, std::string(name));
   if (!value) return fallback.value_or(1.0);
@@ -217,7 +225,7 @@ bool Reader::flag(std::string_view name, std::optional<bool> fallback) {
     put(name, Json{*fallback});
     return *fallback;
   }
-  const auto* field = required(name);
+  const auto* field = required(name, "true or false");
   if (field == nullptr) return false;
   const auto* value = field->as<bool>();
   if (value == nullptr) {
@@ -232,7 +240,7 @@ bool Reader::flag(std::string_view name, std::optional<bool> fallback) {
 }
 
 std::string Reader::text(std::string_view name, std::size_t longest) {
-  const auto* field = required(name);
+  const auto* field = required(name, "a text");
   if (field == nullptr) return {};
   const auto* value = field->as<std::string>();
   if (value == nullptr) {
@@ -417,7 +425,9 @@ std::optional<std::size_t> Reader::choose(std::string_view name,
     put(name, Json{std::string(names[*fallback])});
     return fallback;
   }
-  const auto* field = required(name);
+  std::string list;
+  for (const auto option : names) list += (list.empty() ? "" : "|") + std::string(option);
+  const auto* field = required(name, "one of " + list);
   if (field == nullptr) return std::nullopt;
   const auto* value = field->as<std::string>();
   for (std::size_t i = 0; value != nullptr && i < names.size(); ++i) {
@@ -427,8 +437,6 @@ std::optional<std::size_t> Reader::choose(std::string_view name,
   }
   FieldIssue bad{.code = value == nullptr ? ErrorCode::wrong_type : ErrorCode::bad_choice,
                  .pointer = std::string(name)};
-  std::string list;
-  for (const auto option : names) list += (list.empty() ? "" : "|") + std::string(option);
   bad.hint = "one of " + list;
   bad.limit = Json{std::move(list)};
   issue(std::move(bad), field);

@@ -225,7 +225,7 @@ class Reader {
   void adopt(std::string_view name, Reader& child);
   void record(FieldIssue issue, const Json* value);
   void finish();
-  const Json* required(std::string_view name);
+  const Json* required(std::string_view name, std::string_view wanted);
   const Json* required_container(std::string_view name, bool object);
   const Json::Array* required_array(std::string_view name, CountRange count);
   std::optional<std::size_t> choose(std::string_view name, std::span<const std::string_view> names,

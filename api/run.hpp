@@ -38,6 +38,7 @@ struct Run {
   std::vector<Measure> accepted = {};                     // the request's `accept`
   std::function<void(std::string_view)> stage = {};       // called when a stage ends
   std::function<void(std::string_view)> understood = {};  // called with the input's sha256
+  std::function<void(const Answer&)> judged = {};         // called when the verdict is known
   std::function<void()> forget_body = [] {};              // called when all of it is read
   std::function<void(const Work&)> foresee = {};  // called when it is known what there is to do
 };

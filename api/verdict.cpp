@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "api/field_names.hpp"
+
 namespace tubecut::api {
 namespace {
 
@@ -12,6 +14,13 @@ void add_once(std::vector<std::string>& to, const std::string& text) {
 std::string joined(const std::vector<std::string>& texts) {
   std::string out;
   for (const auto& text : texts) out += (out.empty() ? "" : ", ") + text;
+  return out;
+}
+
+/// As the option `acknowledge` takes them.
+std::string listed(const std::vector<std::string>& codes) {
+  std::string out;
+  for (const auto& code : codes) out += (out.empty() ? "" : ",") + code;
   return out;
 }
 
@@ -74,6 +83,7 @@ Verdict judge(const std::vector<Warning>& warnings, const Json& request,
       out.status = "reject";
       out.reasons.push_back(std::string(bound.name) + ": " + brief(measure.value) + " > " +
                             brief(bound.value));
+      out.excess.push_back({bound.name, measure.value, bound.value});
     }
   return out;
 }
@@ -109,10 +119,19 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
                    .detail = "a machine would work by a file of format " + std::string(format.name),
                    .issues = {}};
   if (!options.torch) return std::nullopt;
-  if (verdict.status == "reject")
-    return Problem{.code = ErrorCode::rejected,
-                   .detail = "The verdict is reject: " + joined(each_once(verdict.reasons)),
-                   .issues = {}};
+  if (verdict.status == "reject") {
+    Problem out{.code = ErrorCode::rejected,
+                .detail = "The verdict is reject: " + joined(each_once(verdict.reasons)),
+                .issues = {}};
+    for (const auto& [name, value, limit] : verdict.excess)
+      out.issues.push_back({.code = ErrorCode::rejected,
+                            .pointer = "/accept/" + std::string(name),
+                            .got = Json{value},
+                            .limit = Json{limit},
+                            .unit = std::string(unit_of(name)),
+                            .hint = "the answer has more than the request accepts"});
+    return out;
+  }
   const auto missing = without(verdict.codes, options.acknowledged);
   const auto unknown = without(options.acknowledged, verdict.codes);
   if (missing.empty() && unknown.empty()) return std::nullopt;
@@ -120,7 +139,16 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
   if (!missing.empty()) detail += "; not acknowledged: " + joined(missing);
   if (!unknown.empty())
     detail += "; acknowledged, but no warning of this answer: " + joined(unknown);
-  return Problem{.code = ErrorCode::not_acknowledged, .detail = std::move(detail), .issues = {}};
+  return Problem{
+      .code = ErrorCode::not_acknowledged,
+      .detail = std::move(detail),
+      .issues = {{.code = ErrorCode::not_acknowledged,
+                  .pointer = "?acknowledge",
+                  .got = Json{listed(options.acknowledged)},
+                  .limit = Json{listed(verdict.codes)},
+                  .hint = verdict.codes.empty() ? "leave it out: there is nothing to acknowledge"
+                                                : "once each warning was looked at: acknowledge=" +
+                                                      listed(verdict.codes)}}};
 }
 
 std::string verdict_header(const Verdict& verdict) {

@@ -224,6 +224,7 @@ api::Context App::context() const {
 api::Context App::context(const Request& request) const {
   api::Context with = context();
   if (request.stop.stop_possible()) with.stop = request.stop;
+  with.call_budget_s = std::chrono::duration<double>(budget(request).cpu).count();
   return with;
 }
 

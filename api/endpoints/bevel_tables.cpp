@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
@@ -10,6 +9,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/gcode.hpp"
+#include "api/pipeline.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/table.hpp"
 

@@ -1,7 +1,7 @@
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/feed_curve_formats.hpp"
+#include "api/pipeline.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 #include "core/cutoff/feed_curve.hpp"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
@@ -9,6 +8,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/hole_formats.hpp"
+#include "api/pipeline.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 #include "core/bevel/hole.hpp"

@@ -3,7 +3,6 @@
 #include <array>
 #include <vector>
 
-#include "api/endpoint.hpp"
 #include "api/reader.hpp"
 #include "api/writer.hpp"
 #include "core/joint/intersection.hpp"

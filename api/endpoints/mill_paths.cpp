@@ -1,8 +1,8 @@
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/groove_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/groove_formats.hpp"
+#include "api/pipeline.hpp"
 #include "api/tables.hpp"
 
 namespace tubecut::api {

@@ -1,12 +1,12 @@
 #include <algorithm>
 
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/work.hpp"
+#include "api/pipeline.hpp"
 #include "api/wire_names.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/end_tables.hpp"

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
@@ -13,6 +12,7 @@
 #include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
 #include "api/formats/work_order.hpp"
+#include "api/pipeline.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 #include "core/part/member.hpp"

@@ -1,10 +1,10 @@
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/schedule_formats.hpp"
 #include "api/formats/schedule_gcode.hpp"
 #include "api/machines.hpp"
+#include "api/pipeline.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/replay.hpp"
 

@@ -2,10 +2,10 @@
 #include <string_view>
 #include <utility>
 
-#include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
 #include "api/endpoints/work.hpp"
+#include "api/pipeline.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/replay.hpp"
 

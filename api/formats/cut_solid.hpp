@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "api/endpoint.hpp"
+#include "api/format.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {

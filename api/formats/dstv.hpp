@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/endpoint.hpp"
+#include "api/format.hpp"
 #include "core/bevel/table.hpp"
 #include "core/part/part.hpp"
 

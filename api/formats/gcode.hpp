@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/endpoint.hpp"
+#include "api/format.hpp"
 #include "core/bevel/table.hpp"
 #include "core/part/part.hpp"
 

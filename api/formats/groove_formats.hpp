@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/endpoint.hpp"
+#include "api/format.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/mill_path.hpp"
 

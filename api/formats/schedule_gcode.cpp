@@ -150,6 +150,8 @@ std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance,
 std::string print_schedule_gcode(const motion::Machine& machine, const motion::ScheduleSpec& spec,
                                  const motion::Schedule& s, const Caption& caption) {
   const bool contour = std::holds_alternative<motion::CutPath>(spec.cut);
+  if (!contour && caption.options.torch)
+    throw UnfitOption{"torch", "a mill path has no torch; leave it out"};
   const auto letters = axis_letters(s.axes);
   const auto torch = torch_words(caption.options.dialect);
   Cursor at(s);

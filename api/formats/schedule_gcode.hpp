@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "api/endpoint.hpp"
+#include "api/format.hpp"
 #include "core/motion/schedule.hpp"
 
 namespace tubecut::api {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/endpoint.hpp"
+#include "api/format.hpp"
 #include "api/formats/canvas.hpp"
 
 namespace tubecut::api {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/endpoint.hpp"
+#include "api/format.hpp"
 #include "api/formats/development.hpp"
 
 namespace tubecut::api {

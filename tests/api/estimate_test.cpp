@@ -46,8 +46,7 @@ Posted stopped(const std::string& endpoint, const std::string& body, int stages)
 double estimate(const std::string& endpoint, const Json& body) {
   const auto late = stopped(endpoint, api::dump(body), 2);
   EXPECT_EQ(text(late.body, "code"), "over_budget") << endpoint << ": " << late.outcome.body;
-  if (!at(late.body, "errors").as<Json::Array>()->empty())
-    return number(late.body, "errors/0/limit");
+  if (!at(late.body, "errors").as<Json::Array>()->empty()) return number(late.body, "errors/0/got");
   const auto dry = post("/v1/" + endpoint, api::dump(body), "validate_only=true");
   EXPECT_FALSE(dry.outcome.error) << endpoint << ": " << dry.outcome.body.substr(0, 300);
   return dry.outcome.error ? 0.0 : number(dry.body, "estimate/cpu_s");
@@ -133,8 +132,9 @@ TEST(Estimate, OfAJobOverItsBudgetIsInTheProblem) {
       ASSERT_EQ(text(late.body, "code"), "over_budget") << endpoint.id;
       if (at(late.body, "errors").as<Json::Array>()->empty()) continue;
       const auto dry = post(endpoint.path, body, "validate_only=true");
-      EXPECT_EQ(number(late.body, "errors/0/limit"), number(dry.body, "estimate/cpu_s"))
+      EXPECT_EQ(number(late.body, "errors/0/got"), number(dry.body, "estimate/cpu_s"))
           << endpoint.id;
+      EXPECT_EQ(number(late.body, "errors/0/limit"), endpoint.budget_s) << endpoint.id;
       EXPECT_EQ(text(late.body, "errors/0/unit"), "s");
       const auto early = stopped(std::string(endpoint.id), body, 0);
       ASSERT_EQ(text(early.body, "code"), "over_budget") << endpoint.id;

@@ -202,8 +202,12 @@ class Verdict(FormatTest):
             speed = f"&{SPEED}" if endpoint != "pulse-schedules" else ""
             for more in ("", f"&acknowledge={codes}" if codes else ""):
                 status, _, content = self.service.ask(endpoint, body, f"format=gcode&torch=on{speed}{more}")
-                self.assertEqual((status, json.loads(content)["code"]), (422, "rejected"))
-                self.assertIn(answer["verdict"]["reasons"][-1], json.loads(content)["detail"])
+                problem = json.loads(content)
+                self.assertEqual((status, problem["code"]), (422, "rejected"))
+                self.assertIn(answer["verdict"]["reasons"][-1], problem["detail"])
+                for error in problem["errors"]:
+                    self.assertEqual(error["limit"], body["accept"][error["pointer"].removeprefix("/accept/")])
+                    self.assertGreater(error["got"], error["limit"])
             dark = self.service.text(endpoint, body, f"format=gcode{speed}").decode()
             self.assertFalse(re.search(r"^M0?[34]\b", dark, re.M))
 
@@ -216,7 +220,11 @@ class Verdict(FormatTest):
 
             def refused(query):
                 status, _, content = self.service.ask(endpoint, body, query)
-                return status, json.loads(content)["code"], json.loads(content)["detail"]
+                problem = json.loads(content)
+                if status == 422:
+                    self.assertEqual([(e["pointer"], sorted(e["limit"].split(","))) for e in problem["errors"]], [("?acknowledge", codes)])
+                    self.assertIn("acknowledge=" + problem["errors"][0]["limit"], problem["errors"][0]["hint"])
+                return status, problem["code"], problem["detail"]
 
             status, code, detail = refused(lit)
             self.assertEqual((status, code), (422, "not_acknowledged"))
