@@ -119,6 +119,56 @@ class WorkedPart(Service):
         self.assertEqual([one["what"] for one in result["sequence"]], ["mark", "mark", "finish", "start"])
 
 
+class Joints(Service):
+    """docs/joints.md: what it quotes of the answers to examples."""
+
+    def answer(self, name, **more):
+        endpoint = name.partition("/")[0]
+        return self.post(endpoint, {**json.loads((ROOT / f"examples/{name}.json").read_text()), **more})
+
+    def says(self, title, *quotes):
+        told = " ".join(section("joints.md", title).split())
+        for quote in quotes:
+            with self.subTest(quote):
+                self.assertIn(quote, told)
+
+    def test_k_joint(self):
+        asked = json.loads((ROOT / "examples/nodes/k-joint-with-tables.json").read_text())
+        whole = self.post("nodes", asked)
+        ends = {(one["member"], one["end"]): one for one in whole["result"]["ends"]}
+        chord, brace = (one["placement"] for one in ends["B2", "start"]["cut_by"])
+        bound = next(one["detail"] for one in whole["warnings"] if one["pointer"].startswith("/members/1/"))
+        first, last, lost = re.fullmatch(r"phi (.*) to (.*) deg, up to (.*) deg of groove lost, root open up to 0 mm", bound).groups()
+        self.says("K joint from centre-lines",
+                  f"C1 (inclination {chord['inclination_deg']:.3f} deg, offset {chord['offset_mm']:.0f} mm",
+                  f"B1 ({brace['inclination_deg']:.3f} deg, offset {brace['offset_mm']:.0f} mm)",
+                  f"between phi {first} and {last} deg of B1 up to {float(lost):.2f} deg of groove are lost")
+        # The recipe of the page: one end of that node, by what stood in `tables`.
+        node = {"members": asked["members"], "connect": asked["connect"], "member": "B2", "end": "start"}
+        alone = self.post("bevel-tables", {"node": node, "sampling": asked["sampling"], **asked["tables"]})
+        self.assertEqual(alone["result"]["points"], ends["B2", "start"]["table"]["points"])
+
+    def test_offset_pair(self):
+        result = self.answer("bevel-tables/source-002-offset-pair")["result"]
+        b, z = result["points"]["b_deg"], result["points"]["z_inner_mm"]
+        self.says("Offset pair of source 002", f"B runs from {min(b):.3f} to {max(b):.3f} deg",
+                  f"z on the inner wall from {min(z):.3f} to {max(z):.3f} mm, length {result['length_mm']:.3f} mm")
+
+    def test_set_in_branch(self):
+        fit = self.answer("holes/set-in-branch")["result"]["holes"][0]["fit_up"]
+        self.assertEqual((round(min(fit["root_mm"]), 9), round(max(fit["root_mm"]), 9)), (2, 2))
+        self.says("Set-in branch with its hole", f"never less than {fit['least_between_nodes_mm']:.3f} mm between rows")
+
+    def test_a_torch_that_does_not_reach(self):
+        answer = self.answer("bevel-tables/table-1-torch-45-deg")
+        points = answer["result"]["points"]
+        gap, phi = max(zip(points["gap_mm"], points["phi_deg"], strict=True))
+        self.says("What the joint can do wrong", f"the root opens by {gap:.3f} mm at phi {phi:.3f} deg")
+        self.assertEqual(answer["verdict"]["status"], "review")
+        stricter = self.answer("bevel-tables/table-1-torch-45-deg", accept={"max_root_gap_mm": 2})
+        self.assertEqual(stricter["verdict"]["status"], "reject")
+
+
 class OmegaAndPhi(Service):
     """docs/theory/grooves-and-milling.md, 5.1: curve 3 of a groove and the intersection of the same pair."""
 
