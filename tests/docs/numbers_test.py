@@ -169,6 +169,21 @@ class Joints(Service):
         self.assertEqual(stricter["verdict"]["status"], "reject")
 
 
+class Coupons(Service):
+    """docs/commissioning.md: the verdicts of the four schedules."""
+
+    def test_verdicts(self):
+        told = (ROOT / "docs/commissioning.md").read_text()
+        for name in ("1-square", "2-bevel-plus-30", "3-mitre-30", "4-saddle"):
+            request = json.loads((ROOT / f"examples/commissioning/pulse-schedules/{name}.json").read_text())
+            answer = self.post("pulse-schedules", request)
+            self.assertEqual(answer["verdict"], {"status": "review", "reasons": ["enters_partner"]} if name.startswith("2") else
+                             {"status": "ok", "reasons": []}, name)
+            for warning in answer["warnings"]:
+                depth = float(re.search(r"by up to (\S+) mm", warning["detail"])[1])
+                self.assertIn(f"`{warning['code']}`, by {depth:.3f} mm", told)
+
+
 class OmegaAndPhi(Service):
     """docs/theory/grooves-and-milling.md, 5.1: curve 3 of a groove and the intersection of the same pair."""
 
