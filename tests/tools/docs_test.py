@@ -20,6 +20,12 @@ class Docs(unittest.TestCase):
                     path = ROOT / place
                     self.assertTrue(path.exists() or list(path.parent.glob(path.name + ".*")), place)
 
+    def test_every_example_is_in_the_list(self):
+        told = (ROOT / "examples/README.md").read_text()
+        for path in (ROOT / "examples").rglob("*.json"):
+            if "commissioning" not in path.parts:  # one row for its folder
+                self.assertTrue(f"`{path.relative_to(ROOT / 'examples')}`" in told or f"`{path.stem}`" in told or f"`{path.name}`" in told, path)
+
     def test_every_file_of_motion_stands_in_the_map(self):
         words = set(re.findall(r"`([\w/]+)`", (ROOT / "docs/architecture.md").read_text()))
         for header in (ROOT / "core/motion").glob("*.hpp"):
