@@ -17,7 +17,7 @@ const glossary: Plugin = {
 export default defineConfig({
   base: '/',
   plugins: [glossary],
-  // Three pages: the console, the API reference that shares nothing with it, the words of both.
+  // Three pages: the console, the API reference that shares little with it, the words of both.
   build: {
     target: 'es2021',
     assetsInlineLimit: 0, // a data: address would need a wider Content-Security-Policy

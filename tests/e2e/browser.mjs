@@ -10,9 +10,9 @@ export async function open(browser, origin, hash = '', {width = 1280, height = 8
   const page = await context.newPage();
   page.faults = [];
   page.strangers = [];
-  // A refused request (422) is part of the game; the browser logs it as an error of its own.
+  // A refused request (422, 401) is part of the game; the browser logs it as an error of its own.
   page.on('console', (message) => {
-    const refused = /status of 422/.test(message.text());
+    const refused = /status of (422|401)/.test(message.text());
     if (message.type() === 'error' && !refused) page.faults.push(message.text());
   });
   page.on('pageerror', (error) => page.faults.push(error.message));

@@ -1,5 +1,7 @@
 import SwaggerUI from 'swagger-ui-dist/swagger-ui-es-bundle.js';
-import type {Example} from '../src/service';
+import {el, save} from '../src/dom';
+import {askForKey, headed, keyed, KeyNeeded} from '../src/key';
+import {fetched, type Example} from '../src/service';
 
 interface Operation {
   requestBody?: {content: Record<string, {examples?: Record<string, {value: unknown}>}>};
@@ -14,11 +16,15 @@ interface Document {
   paths: Record<string, Record<string, Operation>>;
 }
 
-const load = async <T>(address: string): Promise<T> => (await (await fetch(address)).json()) as T;
+interface Sent {
+  url: string;
+  headers: Record<string, string>;
+}
+const sent = (request: Sent) => (request.url.startsWith(`${location.origin}/`) ? {...request, headers: headed(request.headers)} : request);
 
 /** The contract, with every example of the service as one that can be run against this very service. */
 async function begin(): Promise<void> {
-  const [contract, listed] = await Promise.all([load<Document>('/openapi.json'), load<{examples: Example[]}>('/v1/examples')]);
+  const [contract, listed] = await Promise.all([fetched<Document>('/openapi.json'), fetched<{examples: Example[]}>('/v1/examples')]);
   contract.servers = [{url: location.origin, description: 'this service'}];
   for (const {endpoint, name, body} of listed.examples) {
     const content = contract.paths[`/v1/${endpoint}`]?.['post']?.requestBody?.content['application/json'];
@@ -39,7 +45,28 @@ async function begin(): Promise<void> {
     validatorUrl: null,
     syntaxHighlight: {activated: false},
     docExpansion: 'list',
+    requestInterceptor: sent,
+    showMutatedRequest: false, // the curl shown beside an answer has no key in it
   });
 }
 
-void begin();
+function start(): void {
+  const root = document.getElementById('reference') as HTMLElement;
+  begin().catch((failure: unknown) => {
+    if (failure instanceof KeyNeeded) askForKey(root, start);
+    else
+      root.replaceChildren(el('p', {class: 'failure'}, `The reference could not be loaded: ${failure instanceof Error ? failure.message : String(failure)}`));
+  });
+}
+
+/** A link cannot carry the key. */
+for (const link of document.querySelectorAll<HTMLAnchorElement>('a[href^="/openapi"]')) {
+  link.addEventListener('click', async (event) => {
+    if (!keyed()) return;
+    event.preventDefault();
+    const reply = await fetch(link.href, {headers: headed()});
+    if (reply.ok) save(link.pathname.slice(1), await reply.blob());
+  });
+}
+
+start();

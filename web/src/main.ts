@@ -3,7 +3,8 @@ import {Board} from './charts';
 import {byId, el} from './dom';
 import {Form} from './form';
 import {clone, type Row} from './json';
-import {listen, point} from './links';
+import {askForKey, keyed, KeyNeeded} from './key';
+import {point} from './links';
 import {endpointName, endpointOrder, exampleName} from './names';
 import * as panels from './panels';
 import type {Picture} from './picture';
@@ -65,6 +66,7 @@ class Console {
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
     byId('share').addEventListener('click', () => void this.share());
+    byId('forget').addEventListener('click', () => void this.forget());
     addEventListener('hashchange', (event) => new URL(event.newURL).hash !== this.written && void this.arrive());
     this.drawNavigation();
   }
@@ -145,6 +147,7 @@ class Console {
   /** An answer is drawn; a problem leaves the last pictures, faded, and marks its fields. */
   private take(reply: Reply, drawn: Picture | Error | undefined): void {
     this.reply = reply;
+    byId('forget').hidden = !keyed();
     document.body.classList.toggle('stale', !reply.answer);
     this.form.complain(reply.problem?.errors ?? []);
     panels.verdict(
@@ -197,7 +200,8 @@ class Console {
     panels.figures(byId('figures'), picture);
     try {
       this.charts.show(picture.charts);
-      this.drawReadout(picture);
+      this.unlisten?.();
+      this.unlisten = panels.readout(picture);
     } catch (failure) {
       this.trouble(failure);
     }
@@ -286,26 +290,6 @@ class Console {
       el('button', {type: 'button', title: 'Back to the first view', onclick: () => void this.stage?.then((stage) => stage?.reset())}, 'Reset view'),
     );
     document.querySelector<HTMLElement>('#solid .scale')?.toggleAttribute('hidden', !picture.solid?.tubes.some((t) => t.b) && !picture.solid?.holed);
-  }
-
-  private drawReadout(picture: Picture): void {
-    this.unlisten?.();
-    const links = [...new Set(picture.charts.map((chart) => chart.link))];
-    if (!links.length || !picture.readout) {
-      byId('readout')?.replaceChildren();
-      return;
-    }
-    const write = (index: number | null, link = '') => {
-      const root = byId('readout');
-      if (!root) return;
-      const rows = index === null ? [] : (picture.readout?.(index, link) ?? []);
-      root.replaceChildren(...rows.flatMap(([name, value]) => [el('div', {}, el('dt', {}, name), el('dd', {}, value))]));
-      if (!rows.length)
-        root.replaceChildren(el('div', {class: 'soft'}, el('dt', {}, 'Point at a chart or the cut end to read its values; the cursor moves in every view.')));
-    };
-    const forget = links.map((link) => listen(link, (index) => write(index, link)));
-    this.unlisten = () => forget.forEach((each) => each());
-    write(null);
   }
 
   private drawNavigation(): void {
@@ -426,7 +410,15 @@ class Console {
       const figures = el('div', {class: 'figures'});
       panels.figures(figures, {charts: [], ...facts});
       extra.append(figures, el('div', {class: 'columns'}, ...(facts.tables ?? []).map(panels.table)));
-    } else panels.verdict(extra, undefined, reply.problem, 0, (pointer) => this.form.focus(pointer.replace(/^\/cut/, '')));
+    } else
+      panels.verdict(
+        extra,
+        undefined,
+        reply.problem,
+        0,
+        (pointer) => this.form.focus(pointer.replace(/^\/cut/, '')),
+        () => this.drawDetails(),
+      );
     this.motion.root.append(extra);
   }
 
@@ -462,6 +454,12 @@ class Console {
     }, 1500);
   }
 
+  /** The page's memory is all that holds the key; the job is in the address. */
+  private async forget(): Promise<void> {
+    await this.writeHash();
+    location.reload();
+  }
+
   recolour(): void {
     this.charts.recolour();
     this.motion.board?.recolour();
@@ -486,6 +484,7 @@ async function begin(started: (page: Console) => void): Promise<void> {
     started(page);
     await page.arrive();
   } catch (failure) {
+    if (failure instanceof KeyNeeded) return askForKey(byId('verdict'), () => void begin(started));
     const why = failure instanceof Error ? failure.message : String(failure);
     panels.silence(byId('verdict'), 'The console could not start.', why, () => void begin(started));
   }

@@ -1,5 +1,7 @@
-import {el, save} from './dom';
+import {byId, el, save} from './dom';
 import {isRow, type Json, type Row} from './json';
+import {askForKey, headed, keyed} from './key';
+import {listen} from './links';
 import {endpointName, label, sentence, short4, spelled, unit} from './names';
 import type {Picture, Table} from './picture';
 import type {Format} from './schema';
@@ -16,6 +18,7 @@ export function verdict(
   again?: () => void,
 ): void {
   if (problem?.code === away.code) silence(root, problem.title, problem.action ?? '', again);
+  else if (problem?.code === 'unauthorized' && again) askForKey(root, again);
   else if (problem) root.replaceChildren(...refusal(problem, focus));
   else if (answer) root.replaceChildren(...approval(answer, milliseconds, focus));
 }
@@ -101,6 +104,26 @@ export function figures(root: HTMLElement, picture: Picture): void {
       el('div', {class: 'figure'}, el('span', {}, sentence(figure.name)), el('b', {}, figure.value, el('small', {}, figure.unit ? ` ${figure.unit}` : ''))),
     ),
   );
+}
+
+/** Writes the values under the cursor, until what it returns is called. */
+export function readout(picture: Picture): (() => void) | null {
+  const links = [...new Set(picture.charts.map((chart) => chart.link))];
+  if (!links.length || !picture.readout) {
+    byId('readout')?.replaceChildren();
+    return null;
+  }
+  const write = (index: number | null, link = '') => {
+    const root = byId('readout');
+    if (!root) return;
+    const rows = index === null ? [] : (picture.readout?.(index, link) ?? []);
+    root.replaceChildren(...rows.flatMap(([name, value]) => [el('div', {}, el('dt', {}, name), el('dd', {}, value))]));
+    if (!rows.length)
+      root.replaceChildren(el('div', {class: 'soft'}, el('dt', {}, 'Point at a chart or the cut end to read its values; the cursor moves in every view.')));
+  };
+  const forget = links.map((link) => listen(link, (index) => write(index, link)));
+  write(null);
+  return () => forget.forEach((each) => each());
 }
 
 export function table(given: Table): HTMLElement {
@@ -203,8 +226,9 @@ export function columns(answer: Answer): HTMLElement {
 }
 
 const quoted = (text: string) => `'${text.replace(/'/g, `'\\''`)}'`;
+/** The key goes by its variable's name: what is copied is pasted anywhere. */
 export const curl = (endpoint: string, body: Row) =>
-  `curl -s -H 'Content-Type: application/json' --data ${quoted(JSON.stringify(body))} ${location.origin}${path(endpoint)}`;
+  `curl -s ${keyed() ? '-H "X-Api-Key: $TUBECUT_KEY" ' : ''}-H 'Content-Type: application/json' --data ${quoted(JSON.stringify(body))} ${location.origin}${path(endpoint)}`;
 
 export function exchange(endpoint: string, body: Row, reply: Json | undefined): HTMLElement {
   const block = (title: string, id: string, value: Json | undefined, ...buttons: HTMLElement[]) => {
@@ -311,7 +335,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
     const reply = await fetch(`${path(endpoint)}${query.size ? `?${query}` : ''}`, {
       method: 'POST',
       body: JSON.stringify(body),
-      headers: {'Content-Type': 'application/json', Accept: media},
+      headers: headed({'Content-Type': 'application/json', Accept: media}),
     }).catch(() => undefined);
     if (!reply) {
       status.textContent = `${known(media)[0]}: ${away.title}`;

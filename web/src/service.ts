@@ -1,4 +1,5 @@
 import type {Json, Row} from './json';
+import {headed, KeyNeeded} from './key';
 
 export interface Issue {
   code: string;
@@ -70,9 +71,10 @@ export const away: Problem = {
 };
 
 export async function fetched<T>(address: string): Promise<T> {
-  const reply = await fetch(address).catch(() => {
+  const reply = await fetch(address, {headers: headed()}).catch(() => {
     throw new Error(away.title);
   });
+  if (reply.status === 401) throw new KeyNeeded(`${address} answered 401`);
   if (!reply.ok) throw new Error(`${address} answered ${reply.status}`);
   return (await reply.json()) as T;
 }
@@ -84,7 +86,7 @@ export async function ask(endpoint: string, body: Json): Promise<Reply> {
     reply = await fetch(path(endpoint), {
       method: 'POST',
       body: JSON.stringify(body),
-      headers: {'Content-Type': 'application/json', Accept: 'application/json'},
+      headers: headed({'Content-Type': 'application/json', Accept: 'application/json'}),
     });
     text = await reply.text();
   } catch {
