@@ -8,6 +8,7 @@
 #include "api/common_fields.hpp"
 #include "api/endpoint.hpp"
 #include "api/header_list.hpp"
+#include "api/limits.hpp"
 #include "api/query.hpp"
 
 namespace tubecut::api {

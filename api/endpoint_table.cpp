@@ -2,6 +2,7 @@
 
 #include "api/batch.hpp"
 #include "api/endpoint.hpp"
+#include "api/limits.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/memory.hpp"
 

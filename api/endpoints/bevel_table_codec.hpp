@@ -3,9 +3,11 @@
 #include <array>
 #include <stop_token>
 
+#include "api/check_limit.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/formats/bevel_table_formats.hpp"
+#include "api/limits.hpp"
 #include "api/reader.hpp"
 #include "api/writer.hpp"
 #include "core/bevel/table.hpp"

@@ -1,6 +1,7 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/feed_curve_formats.hpp"
+#include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"

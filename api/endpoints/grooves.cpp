@@ -2,6 +2,7 @@
 #include "api/endpoints/groove_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/groove_formats.hpp"
+#include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"
 

@@ -3,6 +3,7 @@
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/intersection_formats.hpp"
+#include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/wire_names.hpp"
 #include "core/base/try.hpp"

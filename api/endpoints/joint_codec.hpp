@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "api/check_limit.hpp"
+#include "api/limits.hpp"
 #include "api/reader.hpp"
 #include "api/writer.hpp"
 #include "core/joint/intersection.hpp"

@@ -12,6 +12,7 @@
 #include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
 #include "api/formats/work_order.hpp"
+#include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"

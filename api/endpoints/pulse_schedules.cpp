@@ -3,6 +3,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/schedule_formats.hpp"
 #include "api/formats/schedule_gcode.hpp"
+#include "api/limits.hpp"
 #include "api/machines.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"

@@ -5,6 +5,7 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion_codec.hpp"
 #include "api/endpoints/work.hpp"
+#include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/replay.hpp"

@@ -109,24 +109,33 @@ Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>
   const Eigen::Vector3f steel(0.62F, 0.65F, 0.68F);
   Mesh out{.name = std::move(name), .positions = {}, .colors = {}, .indices = {}};
   const auto n = solid.rings.size(), across = solid.rings.front().size();
+  Pace pace(stop);
   const auto strip = [&](std::size_t from, std::size_t to, bool cut) {
-    ask(stop);
     const auto base = static_cast<std::uint32_t>(out.positions.size());
     for (std::size_t i = 0; i < n; ++i)
       for (const auto k : {from, to}) {
+        pace.turn();
         out.positions.push_back(solid.rings[i][k]);
         out.colors.push_back(cut ? diverging(hue[i]) : steel);
       }
-    for (const auto index : band_triangles(n, 2)) out.indices.push_back(base + index);
+    for (const auto index : band_triangles(n, 2, stop)) {
+      pace.turn();
+      out.indices.push_back(base + index);
+    }
   };
+  out.positions.reserve(2 * n * across);
+  out.colors.reserve(2 * n * across);
+  out.indices.reserve(6 * n * across);
   for (std::size_t k = 0; k < across; ++k) strip(k, (k + 1) % across, k + 1 < solid.cut_points);
   return out;
 }
 
 /// B of a ring from its own points, as a share of 60 deg.
-std::vector<double> hues(const CutSolid& solid) {
+std::vector<double> hues(const CutSolid& solid, const std::stop_token& stop) {
   std::vector<double> out;
+  Pace pace(stop);
   for (const auto& r : solid.rings) {
+    pace.turn();
     const auto &a = r[solid.cut_points - 2], &b = r[solid.cut_points - 1];
     const double across = b.head<2>().norm() - a.head<2>().norm();
     out.push_back(elementary::atan2(b.z() - a.z(), across) / (60.0 * kRadPerDeg));
@@ -209,8 +218,8 @@ std::string print_cut_gltf(const bevel::TableSpec& spec, const bevel::Table& tab
   std::vector<Mesh> meshes;
   for (const auto which : {Smoothed::before, Smoothed::after}) {
     const auto solid = cut_solid(spec, table, which, caption.stop);
-    meshes.push_back(
-        coloured(which == Smoothed::before ? "before" : "after", solid, hues(solid), caption.stop));
+    meshes.push_back(coloured(which == Smoothed::before ? "before" : "after", solid,
+                              hues(solid, caption.stop), caption.stop));
   }
   return print_gltf(meshes, caption);
 }

@@ -29,30 +29,48 @@ struct Stretch {
   int target = 0;
 };
 
-/// The binary part: positions, colours and indices of every mesh, each a view of its own.
-struct Buffer {
-  std::string bytes;
-  std::vector<Stretch> views;
+/// Where the positions, colours and indices of each mesh stand in the binary part.
+std::vector<Stretch> views(const std::vector<Mesh>& meshes) {
+  std::vector<Stretch> out;
+  std::size_t from = 0;
+  const auto add = [&](std::size_t length, int target) {
+    out.push_back({from, length, target});
+    from += length;
+  };
+  for (const auto& mesh : meshes) {
+    add(3 * sizeof(float) * mesh.positions.size(), kVertexTarget);
+    add(3 * sizeof(float) * mesh.colors.size(), kVertexTarget);
+    add(sizeof(std::uint32_t) * mesh.indices.size(), kIndexTarget);
+  }
+  return out;
+}
 
-  void vectors(const std::vector<Eigen::Vector3f>& values) {
-    const auto from = bytes.size();
-    for (const auto& v : values)
-      for (int i = 0; i < 3; ++i) append(bytes, v[i]);
-    views.push_back({from, bytes.size() - from, kVertexTarget});
+std::size_t length_of(const std::vector<Stretch>& binary) {
+  return binary.empty() ? 0 : binary.back().from + binary.back().length;
+}
+
+void append_binary(std::string& out, const Mesh& mesh, Pace& pace) {
+  const auto vectors = [&](const auto& all, const auto& of) {
+    for (const auto& each : all) {
+      pace.turn();
+      const Eigen::Vector3f v = of(each);
+      for (int i = 0; i < 3; ++i) append(out, v[i]);
+    }
+  };
+  vectors(mesh.positions, metres);
+  vectors(mesh.colors, [](const Eigen::Vector3f& color) { return color; });
+  for (const auto index : mesh.indices) {
+    pace.turn();
+    append(out, index);
   }
-  void indices(const std::vector<std::uint32_t>& values) {
-    const auto from = bytes.size();
-    for (const auto v : values) append(bytes, v);
-    views.push_back({from, bytes.size() - from, kIndexTarget});
-  }
-};
+}
 
 void vector3(std::string_view name, const Eigen::Vector3f& v, Writer& w) {
   w.column(name, std::vector<double>{static_cast<double>(v[0]), static_cast<double>(v[1]),
                                      static_cast<double>(v[2])});
 }
 
-void accessors(const std::vector<Mesh>& meshes, Writer& w) {
+void accessors(const std::vector<Mesh>& meshes, Writer& w, Pace& pace) {
   struct Accessor {
     const Mesh* mesh;
     int part;  // positions, colours, indices
@@ -62,7 +80,7 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w) {
   for (std::size_t m = 0; m < meshes.size(); ++m)
     for (int part = 0; part < 3; ++part)
       all.push_back({&meshes[m], part, 3 * m + static_cast<std::size_t>(part)});
-  w.array("accessors", all, [](Writer& each, const Accessor& a) {
+  w.array("accessors", all, [&](Writer& each, const Accessor& a) {
     each.object([&](Writer& o) {
       o.field("bufferView", a.view);
       o.field("componentType", a.part == 2 ? kUnsigned : kFloat);
@@ -71,6 +89,7 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w) {
       if (a.part != 0) return;
       Eigen::Vector3f low = metres(a.mesh->positions.front()), high = low;
       for (const auto& p : a.mesh->positions) {
+        pace.turn();
         low = low.cwiseMin(metres(p));
         high = high.cwiseMax(metres(p));
       }
@@ -97,8 +116,8 @@ std::string scenes(const std::vector<Mesh>& meshes) {
          before + "]}]";
 }
 
-std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer,
-                     const Caption& caption) {
+std::string document(const std::vector<Mesh>& meshes, const std::vector<Stretch>& binary,
+                     const Caption& caption, Pace& pace) {
   std::vector<std::size_t> numbers(meshes.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
   Writer out;
@@ -141,8 +160,8 @@ std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer,
                                 ",\"material\":" + std::to_string(i) + "}]");
       });
     });
-    accessors(meshes, w);
-    w.array("bufferViews", buffer.views, [](Writer& each, const Stretch& view) {
+    accessors(meshes, w, pace);
+    w.array("bufferViews", binary, [](Writer& each, const Stretch& view) {
       each.object([&](Writer& o) {
         o.field("buffer", 0);
         o.field("byteOffset", view.from);
@@ -150,37 +169,34 @@ std::string document(const std::vector<Mesh>& meshes, const Buffer& buffer,
         o.field("target", view.target);
       });
     });
-    w.raw("buffers", "[{\"byteLength\":" + std::to_string(buffer.bytes.size()) + "}]");
+    w.raw("buffers", "[{\"byteLength\":" + std::to_string(length_of(binary)) + "}]");
   });
   return out.take();
 }
 
-void chunk(std::string& out, std::string body, std::uint32_t kind, char padding) {
-  while (body.size() % 4 != 0) body += padding;
-  append(out, static_cast<std::uint32_t>(body.size()));
+void chunk_head(std::string& out, std::size_t length, std::uint32_t kind) {
+  append(out, static_cast<std::uint32_t>(length));
   append(out, kind);
-  out += body;
 }
 
 }  // namespace
 
 std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption) {
-  Buffer buffer;
-  for (const auto& mesh : meshes) {
-    ask(caption.stop);
-    std::vector<Eigen::Vector3f> positions;
-    for (const auto& p : mesh.positions) positions.push_back(metres(p));
-    buffer.vectors(positions);
-    buffer.vectors(mesh.colors);
-    buffer.indices(mesh.indices);
-  }
-  std::string chunks;
-  chunk(chunks, document(meshes, buffer, caption), 0x4E4F534A, ' ');
-  chunk(chunks, buffer.bytes, 0x004E4942, '\0');
+  constexpr std::size_t kHead = 12, kChunkHead = 8;
+  Pace pace(caption.stop);
+  const auto binary = views(meshes);
+  auto json = document(meshes, binary, caption, pace);
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto total = kHead + kChunkHead + json.size() + kChunkHead + length_of(binary);
   std::string out = "glTF";
+  out.reserve(total);
   append(out, std::uint32_t{2});
-  append(out, static_cast<std::uint32_t>(12 + chunks.size()));
-  return out + chunks;
+  append(out, static_cast<std::uint32_t>(total));
+  chunk_head(out, json.size(), 0x4E4F534A);
+  out += json;
+  chunk_head(out, length_of(binary), 0x004E4942);  // a multiple of 4 as it is
+  for (const auto& mesh : meshes) append_binary(out, mesh, pace);
+  return out;
 }
 
 Eigen::Vector3f diverging(double value) {
@@ -191,10 +207,14 @@ Eigen::Vector3f diverging(double value) {
                   : Eigen::Vector3f((1.0F - t) * grey + t * red);
 }
 
-std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across) {
+std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across,
+                                          const std::stop_token& stop) {
   std::vector<std::uint32_t> out;
+  out.reserve(6 * rings * (across - 1));
+  Pace pace(stop);
   for (std::size_t i = 0; i < rings; ++i)
     for (std::size_t k = 0; k + 1 < across; ++k) {
+      pace.turn();
       const auto a = static_cast<std::uint32_t>(i * across + k);
       const auto b = static_cast<std::uint32_t>((i + 1) % rings * across + k);
       for (const auto v : {a, b, a + 1, b, b + 1, a + 1}) out.push_back(v);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Mesh {
 [[nodiscard]] Eigen::Vector3f diverging(double value);
 
 /// A closed band of `rings` rows of `across` points each, row by row, as triangles.
-[[nodiscard]] std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across);
+[[nodiscard]] std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across,
+                                                        const std::stop_token& stop);
 
 }  // namespace tubecut::api

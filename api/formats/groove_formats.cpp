@@ -90,7 +90,7 @@ std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g,
       mesh.positions.push_back(point);
       mesh.colors.push_back(diverging(s.ruling.twist.rad() / worst));
     }
-  mesh.indices = band_triangles(g.sections.size(), 4);
+  mesh.indices = band_triangles(g.sections.size(), 4, caption.stop);
   return print_gltf({mesh}, caption);
 }
 
@@ -156,7 +156,8 @@ std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillP
       meshes[1].colors.push_back(diverging(-p.after.gap[k] / worst));
     }
   }
-  for (auto& mesh : meshes) mesh.indices = band_triangles(path.positions.size(), across);
+  for (auto& mesh : meshes)
+    mesh.indices = band_triangles(path.positions.size(), across, caption.stop);
   return print_gltf(meshes, caption);
 }
 
