@@ -74,7 +74,7 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
           {.reference = {}, .input_sha256 = c.input_sha256, .result_sha256 = {}, .view = {}})) +
       comment("unit mm, deg; x along the tube from the long point of the cut, y round it") +
       comment("RO = round tube, developed as seen from outside: x to the right, y up") +
-      comment("y = outer radius * " + fixed(360.0, 0) + " deg - phi");
+      comment("y = outer radius * angle, angle = 360 deg - phi");
   for (const auto& [name, text] : c.reference)
     out += comment(std::string(name) + ": " + dstv_text(text) + std::string(spelling_note(text)));
   out += comment(std::string("b_sign: ") + kBSignInPart + ", here x: outer edge towards +x");
