@@ -44,16 +44,14 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-}  // namespace
+constexpr std::size_t kSlips = 2;  // letters wrong, left out or too many
 
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+/// The candidate of the fewest changes, at most `farthest`; empty when there is none.
+std::string nearest(std::string_view name, const std::vector<std::string>& known,
+                    std::size_t farthest) {
   std::string best;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
+  std::size_t least = farthest + 1;
   if (name.size() > 64) return best;
-  for (const auto& candidate : known)  // all but its unit
-    if (candidate.size() > name.size() + 1 && candidate.starts_with(name) &&
-        candidate[name.size()] == '_')
-      return candidate;
   for (const auto& candidate : known) {
     const auto d = distance(name, candidate);
     if (d < least) {
@@ -64,12 +62,30 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return best;
 }
 
+/// The candidate that has `name` and more words, such as its unit.
+std::string begun_by(std::string_view name, const std::vector<std::string>& known) {
+  for (const auto& candidate : known)
+    if (candidate.size() > name.size() + 1 && candidate.starts_with(name) &&
+        candidate[name.size()] == '_')
+      return candidate;
+  return {};
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+  if (auto whole = begun_by(name, known); !whole.empty()) return whole;
+  return nearest(name, known, std::max(kSlips, name.size() / 2));
+}
+
 std::string nearest_field(std::string_view name, const std::vector<std::string>& fields) {
   const auto stem = without_unit(name);
   if (stem.empty()) return {};
   for (const auto& [other, ours] : kOtherWords)
     for (const auto& field : fields)
       if (stem == other && without_unit(field) == ours) return field;
+  if (auto whole = begun_by(name, fields); !whole.empty()) return whole;
+  if (auto slip = nearest(name, fields, kSlips); !slip.empty()) return slip;
   for (const auto& field : fields) {
     const auto ours = without_unit(field);
     if (ours.size() > stem.size() + 1 && ours.ends_with(stem) &&

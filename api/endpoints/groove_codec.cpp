@@ -31,12 +31,11 @@ groove::RootFace decode_root_face(Reader& in) {
 
 groove::Filler decode_filler(Reader& in) {
   const auto which = in.exactly_one({"area_mm2", "height_mm"});
-  if (!which) in.silence();
-  if (which != 1) {
-    groove::FillerArea out;
-    if (which) out.area = in.number("area_mm2", kArea);
-    return out;
+  if (!which) {
+    in.note("at_deg");  // whichever it is to be
+    return groove::FillerArea{};
   }
+  if (which == 0) return groove::FillerArea{.area = in.number("area_mm2", kArea)};
   groove::FillerHeight out;
   out.height = in.number("height_mm", {.min = 1e-3, .max = 1'000.0});
   out.at = in.angle("at_deg", kAnyAngleDeg, Angle{});
