@@ -2,7 +2,7 @@
 
 #include "api/format.hpp"
 #include "api/names.hpp"
-#include "core/base/error_codes.hpp"
+#include "core/base/warning_codes.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 #include "core/cutoff/command.hpp"

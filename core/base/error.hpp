@@ -10,6 +10,7 @@
 
 #include "core/base/error_codes.hpp"
 #include "core/base/variant.hpp"
+#include "core/base/warning_codes.hpp"
 
 namespace tubecut {
 
