@@ -7,108 +7,16 @@
 #include "api/catalogue.hpp"
 #include "api/common_fields.hpp"
 #include "api/endpoint.hpp"
-#include "api/header_list.hpp"
+#include "api/format_choice.hpp"
 #include "api/limits.hpp"
 #include "api/query.hpp"
 
 namespace tubecut::api {
 namespace {
 
-constexpr std::string_view kJsonMedia = "application/json";
-constexpr std::string_view kCborMedia = "application/cbor";
 constexpr std::string_view kProblemMedia = "application/problem+json";
 
-/// Media type without parameters, in lower case.
-std::string media_of(std::string_view header) {
-  auto media = std::string(header.substr(0, header.find(';')));
-  std::erase_if(media, [](char c) { return c == ' ' || c == '\t'; });
-  for (auto& c : media)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return media;
-}
-
 std::string got_type(const std::string& media) { return "got \"" + media + "\", accepted: "; }
-
-struct Choice {
-  Encoding encoding = Encoding::json;
-  const FormatName* format = nullptr;  // instead, unless nullptr
-};
-
-std::optional<Choice> choice_by(std::string_view word, const Endpoint& endpoint, bool by_name) {
-  if (word == (by_name ? "json" : kJsonMedia)) return Choice{};
-  if (word == (by_name ? "cbor" : kCborMedia)) return Choice{Encoding::cbor, nullptr};
-  if (!by_name && (word == "*/*" || word == "application/*")) return Choice{};
-  for (const auto& format : endpoint.formats)
-    if (word == (by_name ? format.name : format.media)) return Choice{Encoding::json, &format};
-  return std::nullopt;
-}
-
-/// `?format=` first, then of the types in Accept that there are the one of most weight, then the
-/// first; nothing when there is none.
-std::optional<Choice> choose(const Query& query, std::string_view accept,
-                             const Endpoint& endpoint) {
-  if (!query.format.empty()) return choice_by(query.format, endpoint, true);
-  if (accept.empty()) return Choice{};
-  auto asked = header_list(accept);
-  std::ranges::stable_sort(asked, std::greater{}, &ListElement::quality);
-  for (const auto& type : asked) {
-    if (type.quality == 0.0) break;
-    if (auto found = choice_by(media_of(type.name), endpoint, false)) return found;
-  }
-  return std::nullopt;
-}
-
-std::string list_formats(const Endpoint& endpoint) {
-  std::string out = "application/json (json), application/cbor (cbor)";
-  for (const auto& format : endpoint.formats)
-    out += ", " + std::string(format.media) + " (" + std::string(format.name) + ")";
-  return out;
-}
-
-std::string listed(const std::vector<std::string_view>& names) {
-  std::string out;
-  for (const auto name : names) out += (out.empty() ? "" : ", ") + std::string(name);
-  return out.empty() ? "none" : out;
-}
-
-/// What is wrong with the query, all of it at once.
-Problem query_problem(std::vector<FieldIssue> issues, ErrorCode code = ErrorCode::bad_request) {
-  auto out = field_problem(std::move(issues));
-  out.code = code;
-  return out;
-}
-
-/// Why the answer cannot be printed as asked; nothing when it can. JSON and CBOR have no options.
-std::optional<Problem> format_problem(const Query& query, const FormatName* format) {
-  const auto has = [](const std::vector<std::string_view>& all, std::string_view one) {
-    return std::ranges::find(all, one) != all.end();
-  };
-  const std::string name(format != nullptr ? format->name : "json");
-  const auto options = format != nullptr ? format->options : std::vector<std::string_view>{};
-  std::vector<FieldIssue> issues;
-  for (const auto& option : query.given)
-    if (!has(options, option))
-      issues.push_back(
-          {.code = ErrorCode::unsupported_combination,
-           .pointer = "?" + option,
-           .limit = Json{listed(options)},
-           .hint = "no option of format " + name + "; its options: " + listed(options)});
-  if (!issues.empty()) return query_problem(std::move(issues));
-  const auto views = format != nullptr ? format->views : std::vector<std::string_view>{};
-  if (!query.view.empty() && !has(views, query.view))
-    return query_problem({{.code = ErrorCode::bad_choice,
-                           .pointer = "?view",
-                           .got = Json{query.view},
-                           .limit = Json{listed(views)},
-                           .hint = "views of " + name + " offered: " + listed(views)}},
-                         ErrorCode::not_acceptable);
-  if (format != nullptr && format->needs_speed && !query.options.speed)
-    return query_problem({{.code = ErrorCode::missing_field,
-                           .pointer = "?speed_mm_min",
-                           .unit = "mm_min",
-                           .hint = name + " needs the torch's speed on the outer wall"}});
-  return std::nullopt;
-}
 
 /// One answer or problem, with what is needed to print it.
 class CallRun {
@@ -144,7 +52,7 @@ class CallRun {
   Outcome work(const Endpoint& endpoint);
   Outcome over_budget();
   Outcome answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
-                 const Choice& choice, const Query& query);
+                 const FormatChoice& choice, const Query& query);
   void judged(const Answer& answer) {
     out_.job.verdict = answer.verdict.status;
     out_.job.reasons = answer.verdict.reasons;
@@ -206,9 +114,8 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   const auto media = media_of(call_.content_type);
   if (media != kJsonMedia)
     return refuse(ErrorCode::unsupported_media_type, got_type(media) + std::string(kJsonMedia));
-  const auto choice = choose(query, call_.accept, endpoint);
-  if (!choice) return refuse(ErrorCode::not_acceptable, "offered: " + list_formats(endpoint));
-  if (auto problem = format_problem(query, choice->format)) return refuse(*problem);
+  const auto choice = choose_format(query, call_.accept, endpoint.formats);
+  if (!choice) return refuse(choice.error());
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
                   "the limit is " + std::to_string(endpoint.max_body) + " bytes");
@@ -288,7 +195,7 @@ void write_events(Writer& w, const Context& context, double begun,
 }
 
 Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
-                        const Choice& choice, const Query& query) {
+                        const FormatChoice& choice, const Query& query) {
   const auto& stop = context_.stop;
   auto& job = out_.job;
   job.input_sha256 = answer.input_sha256;

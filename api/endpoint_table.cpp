@@ -2,8 +2,8 @@
 
 #include "api/batch.hpp"
 #include "api/endpoint.hpp"
-#include "api/limits.hpp"
 #include "api/endpoints/all.hpp"
+#include "api/limits.hpp"
 #include "api/memory.hpp"
 
 namespace tubecut::api {
