@@ -3,7 +3,7 @@ ARG BASE=docker.io/library/debian:bookworm-slim
 FROM ${BASE}
 RUN apt-get update && apt-get upgrade -y && apt-get install -y --no-install-recommends haproxy \
  && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/cache/debconf/* /var/log/*
-COPY haproxy.cfg /etc/haproxy/haproxy.cfg
+COPY haproxy.cfg rates.map /etc/haproxy/
 COPY errors/*.http errors/*.json /etc/haproxy/errors/tubecut/
 USER haproxy
 EXPOSE 8443

@@ -20,6 +20,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 import urllib.error
 import urllib.request
 
@@ -106,11 +107,11 @@ class Stubs(list):
 
 
 @contextlib.contextmanager
-def proxied(*behaviours, ready=True):
+def proxied(*behaviours, ready=True, environment=None):
     """(url, stubs) of HAProxy before stubs of these behaviours; the others of the three replicas are not there."""
     stubs = [Stub(b, ready) for b in behaviours]
     absent = type("Absent", (), {"port": 1})
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.object(restarts.Proxy, "environment", environment or {}):
         count = restarts.REPLICAS - len(stubs)
         proxy = restarts.Proxy(pathlib.Path(folder), stubs + [absent] * count, [s.admin_port for s in stubs] + [1] * count)
         try:
@@ -261,6 +262,59 @@ class Proxy(unittest.TestCase):
             self.assertEqual(back["Tubecut-Replica"], "a")
             self.assertIn("max-age", back["Strict-Transport-Security"])
 
+    def test_a_key_has_its_rate_over_all_replicas(self):
+        keys = {"cell": ("tc_cell", 4), "twice": ("tc_twice", 2), "free": ("tc_free", None)}
+        with tempfile.TemporaryDirectory() as folder:
+            rates = rates_of(folder, keys)
+            with proxied(lambda h: reply(h, 200), lambda h: reply(h, 200), environment={"TUBECUT_RATES": rates, "TUBECUT_KEY_RATE": "3"}) as (url, stubs):
+                for name, headers, most in (
+                        ("its own", [("Authorization", "Bearer tc_cell")], 4),
+                        ("told otherwise, the same owner's", [("X-Api-Key", "tc_cell")], 0),
+                        ("another's", [("Authorization", "bearer tc_twice"), ("X-Api-Key", "tc_free")], 2),
+                        ("no limit", [("X-Api-Key", "tc_free")], 12),
+                        ("in no map", [("X-Api-Key", "tc_other")], 3),
+                        ("none at all", [], 12)):
+                    with self.subTest(name):
+                        answers = [ask(url, headers=headers) for _ in range(12)]
+                        self.assertEqual([a[0] for a in answers], [200] * most + [429] * (12 - most))
+                        if most < 12:
+                            self.assertTrue(self.problem(answers[-1], 429, "rate_limited")["retryable"])
+                            self.assertEqual(answers[-1][1]["Retry-After"], "1")
+                self.assertEqual(sum(len(stub.asked) for stub in stubs), 4 + 0 + 2 + 12 + 3 + 12)
+                self.assertTrue(all(stub.asked for stub in stubs))
+                # With a large body over HTTP/2 the refusal arrives as well.
+                again = [ask_http2(url, "/v1/bevel-tables", 1_000_000, True, "X-Api-Key: tc_cell") for _ in range(8)]
+                self.assertEqual(set(again), {b"2 200", b"2 429"})
+
+    def test_who_asks_far_too_often_still_has_the_rate(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with proxied(lambda h: reply(h, 200), environment={"TUBECUT_RATES": rates_of(folder, {"cell": ("tc_cell", 5)})}) as (url, stubs):
+                end = time.monotonic() + 4
+                while time.monotonic() < end:
+                    ask(url, headers=[("X-Api-Key", "tc_cell")])
+                # The first second's at once, then five a second.
+                self.assertGreaterEqual(len(stubs[0].asked), 15)
+                self.assertLessEqual(len(stubs[0].asked), 26)
+
+    def test_three_replicas_give_a_key_its_rate_once(self):
+        """What the shipped default lets through is three times as much, which is why."""
+        with tempfile.TemporaryDirectory() as folder:
+            rates = rates_of(folder, {"cell": ("tc_cell", 5)})
+            got = {}
+            for name, environment in (("each replica's", {}), ("the fleet's", {"TUBECUT_RATES": rates})):
+                with unittest.mock.patch.object(restarts.Replica, "options", ["--keys", str(pathlib.Path(folder, "keys"))]), \
+                        unittest.mock.patch.object(restarts.Proxy, "environment", environment), \
+                        restarts.everything(SERVER, pathlib.Path(folder)) as (_, proxy):
+                    url = f"https://127.0.0.1:{proxy.port}"
+                    got[name] = [ask(url, "/v1/intersections", headers=[("X-Api-Key", "tc_cell")])[0] for _ in range(40)].count(422)
+            self.assertGreaterEqual(got["each replica's"], 15)
+            self.assertLess(got["the fleet's"], 10)  # 5 a second, for less than a second
+
+    def test_rates_are_made_of_the_keys(self):
+        lines = "# cells\r\n\nmes aa\r\n cell-3 bb 2.5 # slow\nfour cc 4\n"
+        told = subprocess.run([DOCKER / "rates"], input=lines, check=True, capture_output=True, text=True).stdout
+        self.assertEqual(told, "aa mes 0\nbb cell-3 3\ncc four 4\n")
+
     def test_the_service_behind_it_answers_the_same(self):
         with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder)) as (replicas, proxy):
             body = (ROOT / "examples/bevel-tables/source-000-table-1.json").read_bytes()
@@ -280,6 +334,15 @@ class Proxy(unittest.TestCase):
                         self.assertIn(b"2 413", {ask_http2(url, path, length, announced) for _ in range(3)})
 
 
+def rates_of(folder, keys):
+    """The map for the proxy, by docker/rates from a file of keys as the service reads it: {owner: (key, rate or None)}."""
+    lines = (f"{owner} {hashlib.sha256(key.encode()).hexdigest()} {rate or ''}\n" for owner, (key, rate) in keys.items())
+    pathlib.Path(folder, "keys").write_text("".join(lines))
+    rates = pathlib.Path(folder, "rates.map")
+    rates.write_bytes(subprocess.run([DOCKER / "rates", pathlib.Path(folder, "keys")], check=True, capture_output=True).stdout)
+    return str(rates)
+
+
 def announce(url, path, length):
     """As ask, but the body is only announced."""
     host, port = url.removeprefix("https://").split(":")
@@ -292,10 +355,10 @@ def announce(url, path, length):
     return int(status.split(" ")[1]), type("Headers", (), {"__getitem__": lambda _, n: names[n.lower()]})(), body
 
 
-def ask_http2(url, path, length, announced):
+def ask_http2(url, path, length, announced, header="Accept: */*"):
     """Version and status of the answer to so many spaces, by curl: Python has no HTTP/2."""
     body = ["--data-binary", "@-"] if announced else ["-T", "-"]
-    return subprocess.run(["curl", "-sk", "--http2", "-X", "POST", *body, "-H", "Content-Type: application/json", "-o", os.devnull,
+    return subprocess.run(["curl", "-sk", "--http2", "-X", "POST", *body, "-H", "Content-Type: application/json", "-H", header, "-o", os.devnull,
                            "-w", "%{http_version} %{http_code}", url + path], input=b" " * length, capture_output=True, timeout=20).stdout
 
 
