@@ -2,15 +2,18 @@
 """tubecut.py against the running service: test_tubecut.py --server BINARY [unittest options]"""
 
 import base64
+import contextlib
 import doctest
 import http.server
 import inspect
 import io
+import itertools
 import json
 import os
 import pathlib
 import re
 import socket
+import socketserver
 import subprocess
 import sys
 import tempfile
@@ -18,6 +21,7 @@ import threading
 import time
 import unittest
 import unittest.mock
+import urllib.request
 
 HERE = pathlib.Path(__file__).resolve().parent
 EXAMPLES = HERE.parents[1] / "examples"
@@ -37,7 +41,13 @@ class Service:
         ready = json.loads(self._child.stdout.readline())
         assert ready["event"] == "ready", ready
         self.url = f"http://127.0.0.1:{ready['port']}"
+        self._metrics = f"http://127.0.0.1:{ready['admin_port']}/metrics"
         threading.Thread(target=self._child.stdout.read, daemon=True).start()
+
+    def answered(self):
+        """Jobs, by its metrics."""
+        with urllib.request.urlopen(self._metrics, timeout=10) as page:
+            return sum(int(n) for n in re.findall(r'^tubecut_jobs_total{endpoint="intersections",.*} (\d+)$', page.read().decode(), re.M))
 
     def kill(self):
         self._child.kill()
@@ -123,6 +133,39 @@ class Batches(http.server.ThreadingHTTPServer):
     def close(self):
         self.shutdown()
         self.server_close()
+
+
+class Turns(socketserver.ThreadingTCPServer):
+    """One address before several services: each connection is the next one's."""
+
+    daemon_threads = allow_reuse_address = True
+
+    def __init__(self, urls):
+        super().__init__(("127.0.0.1", 0), TurnsHandler)
+        self.url = f"http://127.0.0.1:{self.server_address[1]}"
+        self.turns = itertools.cycle(int(url.rsplit(":", 1)[1]) for url in urls)
+        threading.Thread(target=self.serve_forever, args=(0.02,), daemon=True).start()
+
+    def close(self):
+        self.shutdown()
+        self.server_close()
+
+
+class TurnsHandler(socketserver.BaseRequestHandler):
+    def handle(self):
+        with socket.create_connection(("127.0.0.1", next(self.server.turns))) as service:
+            back = threading.Thread(target=pass_on, args=(service, self.request), daemon=True)
+            back.start()
+            pass_on(self.request, service)
+            back.join()
+
+
+def pass_on(source, sink):
+    with contextlib.suppress(OSError):
+        while data := source.recv(65536):
+            sink.sendall(data)
+    with contextlib.suppress(OSError):
+        sink.shutdown(socket.SHUT_WR)
 
 
 class BatchHandler(http.server.BaseHTTPRequestHandler):
@@ -447,7 +490,7 @@ class BatchesOfJobs(Case):
                  BatchItem("glb", "bevel-tables", table, "glb"), BatchItem("no speed", "bevel-tables", table, "gcode"),
                  BatchItem("no wall", "bevel-tables", wall, "csv"), BatchItem("json", "bevel-tables", table, "json")]
         dead = unused_url()
-        for client, paths in ((Watched(self.service.url), ["/v1/batches"]), (Watched(dead, self.service.url), ["/v1/batches"] * 2),
+        for client, paths in ((Watched(self.service.url), ["/v1/batches"]), (Watched(dead, self.service.url), ["/v1/batches"]),
                               (OneByOne(self.service.url), [item.path() for item in items])):
             results = self.whole(client, items)
             self.assertEqual(sorted(client.paths), sorted(paths))
@@ -483,9 +526,92 @@ class BatchesOfJobs(Case):
         first, second = self.stand_in(), self.stand_in()
         first.dies_after = 13
         items = jobs(50)
-        self.whole(Client(first.url, second.url), items)
+        self.whole(Client(first.url, second.url), items, streams=1)
         self.assertEqual(len(first.received[0]), 14)
         self.assertEqual(sorted(second.received[0]), sorted(i.id for i in items[13:]))
+
+    def test_several_addresses_share_a_batch(self):
+        replicas = [self.stand_in() for _ in range(3)]
+        for one in replicas:
+            one.pause_s = 0.01
+        items = jobs(90)
+        told = []
+        results = self.whole(Client(*(r.url for r in replicas)), items, progress=lambda *numbers: told.append(numbers))
+        self.assert_as_single(results, items[::40])
+        shares = [sum(map(len, r.received)) for r in replicas]
+        self.assertEqual(sum(shares), 90)
+        self.assertGreater(min(shares), 20, shares)
+        self.assertEqual(told, [(n, 90, 0) for n in range(1, 91)])
+
+    def test_a_slow_replica_gets_fewer(self):
+        quick, slow = self.stand_in(), self.stand_in()
+        quick.pause_s, slow.pause_s = 0.001, 0.1
+        self.whole(Client(quick.url, slow.url), jobs(90))
+        self.assertLess(sum(map(len, slow.received)), 45)
+
+    def test_replicas_behind_one_address_share_a_batch(self):
+        replicas = [Service("--replica", f"r{i}", "--slots", "1") for i in range(3)]
+        for one in replicas:
+            self.addCleanup(one.stop)
+        proxy = Turns([r.url for r in replicas])
+        self.addCleanup(proxy.close)
+        items = jobs(300)
+        self.whole(Client(proxy.url), items)
+        counts = [r.answered() for r in replicas]
+        self.assertEqual(sum(counts), 300)
+        self.assertGreater(min(counts), 20, counts)
+        self.whole(Client(proxy.url), jobs(90), streams=1)
+        self.assertEqual(sum(r.answered() - n > 0 for r, n in zip(replicas, counts)), 1)
+
+    def test_one_replica_gets_a_batch_whole(self):
+        self.assertEqual(Client(self.service.url)._replicas(), 1)
+        batches = self.stand_in()
+        self.whole(Client(batches.url), jobs(90))
+        self.assertEqual([len(ids) for ids in batches.received], [90])
+
+    def test_all_but_one_of_several_die_and_one_is_full(self):
+        first, second, third = replicas = [self.stand_in() for _ in range(3)]
+        first.dies_after, second.full_batches = 5, 2
+        third.refused_once = {f"job {i}" for i in range(0, 120, 7)}
+        self.whole(Client(*(r.url for r in replicas)), jobs(120))
+        self.assertGreater(len(first.received[0]), 0)
+
+    def test_faults_of_one_part_end_the_batch(self):
+        for spoil, error in ((lambda b: setattr(b, "answers_as", {"job 61": "job 99"}), ProtocolError),
+                             (lambda b: setattr(b, "edit", lambda line: line.replace('"radius_mm":35', '"radius_mm":36')), HashError)):
+            replicas = [self.stand_in() for _ in range(2)]
+            for one in replicas:
+                spoil(one)
+            with self.assertRaises(error):
+                list(Client(*(r.url for r in replicas)).batch(jobs(62)))
+        start = time.monotonic()
+        for one in replicas:
+            one.dies_after = 0
+        with self.assertRaises(UnreachableError):
+            list(Client(*(r.url for r in replicas), patience_s=0.5).batch(jobs(60)))
+        self.assertLess(time.monotonic() - start, 10)
+
+    def test_items_are_read_by_the_caller_and_no_further_than_needed(self):
+        replicas = [self.stand_in() for _ in range(2)]
+        lines, tubecut._BATCH_LINES = tubecut._BATCH_LINES, 20
+        self.addCleanup(setattr, tubecut, "_BATCH_LINES", lines)
+        taken = []
+
+        def endless():
+            for item in jobs(10_000):
+                taken.append(threading.get_ident())
+                yield item
+
+        results = Client(*(r.url for r in replicas)).batch(endless())
+        got = [next(results).id for _ in range(60)]
+        results.close()
+        self.assertEqual(len(set(got)), 60)
+        self.assertEqual(set(taken), {threading.get_ident()})
+        self.assertLess(len(taken), 500)
+        deadline = time.monotonic() + 10
+        while any(t.name == "tubecut" for t in threading.enumerate()):
+            self.assertLess(time.monotonic(), deadline, "a part goes on after its caller has left")
+            time.sleep(0.02)
 
     def test_a_replica_killed_midway(self):
         first, second = Service(), Service()
@@ -527,13 +653,16 @@ class BatchesOfJobs(Case):
             list(Client(batches.url).batch(jobs(3)))
 
     def test_a_caller_that_stops_hangs_up(self):
-        batches = self.stand_in()
-        batches.pause_s = 0.05
-        results = Client(batches.url).batch(jobs(200))
-        next(results)
-        results.close()
-        self.assertTrue(batches.hung_up.wait(10))
-        self.assertLess(len(batches.received[0]), 100)
+        for count in (1, 2):
+            replicas = [self.stand_in() for _ in range(count)]
+            for one in replicas:
+                one.pause_s = 0.05
+            results = Client(*(r.url for r in replicas)).batch(jobs(200))
+            next(results)
+            results.close()
+            for one in replicas:
+                self.assertTrue(one.hung_up.wait(10))
+                self.assertLess(len(one.received[0]), 40)
 
     def test_large_batches_go_in_parts_and_are_read_lazily(self):
         batches = self.stand_in()

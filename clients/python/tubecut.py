@@ -12,19 +12,22 @@ from __future__ import annotations
 
 import argparse
 import base64
+import collections
 import collections.abc
 import concurrent.futures
+import contextlib
 import dataclasses
 import hashlib
 import http.client
 import json
 import os
+import queue
 import socket
 import sys
 import threading
 import time
 import urllib.parse
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, TextIO, Tuple, Union
+from typing import Any, Callable, Deque, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Set, TextIO, Tuple, Union
 
 __all__ = ["Answer", "BatchItem", "BatchResult", "Client", "FieldError", "HashError", "Problem", "ProblemError", "ProgressBar",
            "ProtocolError", "TubecutError", "UnreachableError"]
@@ -34,6 +37,13 @@ Option = Union[str, int, float, bool]
 _RETRYABLE = frozenset({429, 502, 503})
 _BATCH_BYTES = 4 << 20  # the service takes 8 MiB
 _BATCH_LINES = 2000
+_PART_LINES = 8  # at least, so that a replica of several slots has work for each
+_STREAMS = 32  # at most
+_SAME_AGAIN = 3  # answers of replicas known already, and there is no other behind an address
+_COUNT_S = 60.0  # how long a number of replicas is believed
+_PROBE_S = 2.0
+_CONNECT_S = 10.0
+_AWAY_S = 5.0  # how long a replica that was down is asked last
 _NDJSON = "application/x-ndjson"
 
 
@@ -349,6 +359,9 @@ class Client:
         self._first = 0  # the replica that answered last
         self._connections = _Connections()
         self._batches: Dict[str, bool] = {}  # which replica has /v1/batches
+        self._asking = {url: threading.Lock() for url in self._urls}  # for that
+        self._counted = (0, 0.0)  # replicas, and until when
+        self._away: Dict[str, float] = {}  # replicas that were down, and until when they are asked last
 
     # -- one job
 
@@ -429,66 +442,151 @@ class Client:
     # -- batches
 
     def batch(self, items: Iterable[BatchItem], *, total: Optional[int] = None, progress: Optional[Progress] = None,
-              workers: int = 4) -> Iterator[BatchResult]:
+              workers: int = 4, streams: Optional[int] = None) -> Iterator[BatchResult]:
         """Every item once, as they finish. What a dead or full replica left is sent again, to the next one.
 
-        `items` is read as it goes, a few thousand at a time. Where the service has no /v1/batches they are asked one by one, `workers`
-        at a time.
+        One POST is the work of one replica, so a batch goes in parts, as many at a time as there are replicas: addresses, or names of
+        replicas behind them (a proxy sends every request to another). `streams` sets that number; 1 is one part after the other.
+        `items` is read as it goes, a few thousand at a time, by the caller's thread, which calls `progress` too. Where the service
+        has no /v1/batches they are asked one by one, `workers` at a time.
         """
         if total is None and isinstance(items, collections.abc.Sized):
             total = len(items)
         done = refused = 0
-        for chunk in _chunks(items):
-            for one in self._chunk(chunk, workers):
-                done += 1
-                refused += one.problem is not None
-                if progress:
-                    progress(done, total, refused)
-                yield one
+        for one in self._batch(_Waiting(items), workers, streams):
+            done += 1
+            refused += one.problem is not None
+            if progress:
+                progress(done, total, refused)
+            yield one
 
-    def _chunk(self, waiting: Dict[str, BatchItem], workers: int) -> Iterator[BatchResult]:
-        give_up = time.monotonic() + self._patience_s
-        turn = self._first
-        while waiting:
-            before = len(waiting)
-            index = turn % len(self._urls)
-            wait = 0.1
+    def _batch(self, waiting: _Waiting, workers: int, streams: Optional[int]) -> Iterator[BatchResult]:
+        run = _Run(self._patience_s)
+        try:
+            if waiting.fill() > 1:
+                streams = min(streams or self._replicas(), _STREAMS)
+            if (streams or 1) > 1:
+                yield from self._spread(waiting, workers, streams or 1, run)
+                return
+            while part := waiting.part(1):
+                yield from self._part(part, workers, run)
+        finally:
+            run.stop()
+
+    def _spread(self, waiting: _Waiting, workers: int, streams: int, run: _Run) -> Iterator[BatchResult]:
+        """Parts side by side, each in a thread. A part that is done makes room for the next, so a slow replica gets fewer."""
+        done: queue.Queue[Union[BatchResult, BaseException, None]] = queue.Queue(256)  # then the service waits for a slow caller
+
+        def work(part: Dict[str, BatchItem]) -> None:
             try:
-                url = self._urls[index]
-                run = self._streamed if self._has_batches(url) else self._one_by_one
-                for one in run(url, list(waiting.values()), workers):
-                    if one.status in _RETRYABLE or waiting.pop(one.id, None) is None:
-                        continue  # sent again below, or known already
-                    yield one
-                self._first = index
+                for one in self._part(part, workers, run):
+                    run.put(done, one)
+                run.put(done, None)
+            except BaseException as failed:
+                run.put(done, failed)
+
+        active = 0
+        while True:
+            while active < streams and (part := waiting.part(streams)):
+                threading.Thread(target=work, args=(part,), daemon=True, name="tubecut").start()
+                active += 1
+            if not active:
+                return
+            got = done.get()
+            if isinstance(got, BaseException):
+                raise got
+            if got is None:
+                active -= 1
+            else:
+                yield got
+
+    def _part(self, waiting: Dict[str, BatchItem], workers: int, run: _Run) -> Iterator[BatchResult]:
+        run.answered()
+        tried: Set[str] = set()
+        while waiting and not run.stopped():
+            before = len(waiting)
+            wait = 0.1
+            url = self._next_url(run, tried)
+            try:
+                with run.at(url):
+                    for one in (self._streamed(url, list(waiting.values()), run) if self._has_batches(url) else
+                                self._one_by_one(url, list(waiting.values()), workers)):
+                        if run.stopped():
+                            return
+                        if one.status in _RETRYABLE or waiting.pop(one.id, None) is None:
+                            continue  # sent again below, or known already
+                        run.answered()
+                        yield one
+                self._first = self._urls.index(url)
+                self._away.pop(url, None)
             except _Down:
-                turn += 1
+                tried.add(url)
+                self._away[url] = time.monotonic() + _AWAY_S
             except _Full as full:
-                turn, wait = turn + 1, full.wait_s
-            if len(waiting) < before:
-                give_up = time.monotonic() + self._patience_s
-            elif time.monotonic() + wait > give_up:
+                tried.add(url)
+                wait = full.wait_s
+            if len(tried) == len(self._urls):
+                tried.clear()
+            if run.stopped():
+                return  # hung up, which looks like a replica that is down
+            if waiting and run.lasts_too_long(wait):
                 raise UnreachableError(f"{len(waiting)} jobs of the batch are unanswered; tried {', '.join(self._urls)}")
             if waiting and len(waiting) == before:
-                time.sleep(wait)
+                run.sleep(wait)
+
+    def _next_url(self, run: _Run, tried: Set[str]) -> str:
+        """One not tried yet, not lately down, with the fewest parts at work; of such the one that answered last, and those after it."""
+        now, count = time.monotonic(), len(self._urls)
+        turns = [self._urls[(self._first + i) % count] for i in range(count)]
+        return min((url for url in turns if url not in tried), key=lambda url: (self._away.get(url, now) > now, run.parts_at(url)))
+
+    def _replicas(self) -> int:
+        """How many there are, as far as the addresses and the names in answers tell."""
+        count, until = self._counted
+        if time.monotonic() < until:
+            return count
+        names: Set[str] = set()
+        for url in self._urls:
+            again = 0
+            while again < _SAME_AGAIN and len(names) < _STREAMS and (name := self._name_behind(url)):
+                again = again + 1 if name in names else 0
+                names.add(name)
+        count = max(len(self._urls), len(names))
+        self._counted = (count, time.monotonic() + _COUNT_S)
+        return count
+
+    def _name_behind(self, url: str) -> Optional[str]:
+        """Of the replica that answers a connection of its own; none where nobody does, or nobody says."""
+        connection = self._connect(url, min(_PROBE_S, self._timeout_s))
+        try:
+            connection.request("GET", urllib.parse.urlsplit(url).path + "/v1/version", headers=self._headers)
+            return connection.getresponse().headers.get("Tubecut-Replica")
+        except (OSError, http.client.HTTPException):
+            self._away[url] = time.monotonic() + _AWAY_S
+            return None
+        finally:
+            connection.close()
 
     def _has_batches(self, url: str) -> bool:
-        if url not in self._batches:
-            reply = self._exchange(url, "POST", "/v1/batches", b"", {"Content-Type": _NDJSON})
-            if reply.status in _RETRYABLE:
-                raise _refusal(reply)
-            self._batches[url] = reply.status not in (404, 405)
-        return self._batches[url]
+        with self._asking[url]:
+            if url not in self._batches:
+                reply = self._exchange(url, "POST", "/v1/batches", b"", {"Content-Type": _NDJSON})
+                if reply.status in _RETRYABLE:
+                    raise _refusal(reply)
+                self._batches[url] = reply.status not in (404, 405)
+            return self._batches[url]
 
-    def _streamed(self, url: str, items: Sequence[BatchItem], workers: int) -> Iterator[BatchResult]:
+    def _streamed(self, url: str, items: Sequence[BatchItem], run: _Run) -> Iterator[BatchResult]:
         """The answers of one POST /v1/batches. Reads while it still sends, so neither side waits for the other."""
         lines = [item.line() for item in items]
-        connection = self._connect(url)
+        connection = self._connect(url, min(_CONNECT_S, self._timeout_s))
         wire: Optional[socket.socket] = None
         sender: Optional[threading.Thread] = None
         try:
             connection.connect()
             wire = connection.sock  # getresponse() forgets it when the answer says Connection: close
+            wire.settimeout(self._timeout_s)
+            run.opened(wire)
             connection.putrequest("POST", urllib.parse.urlsplit(url).path + "/v1/batches")
             headers = {**self._headers, "Content-Type": _NDJSON, "Accept": _NDJSON, "Content-Length": str(sum(map(len, lines)))}
             for name, value in headers.items():
@@ -503,7 +601,7 @@ class Client:
         except (OSError, http.client.HTTPException) as broken:
             raise _Down(str(broken)) from None
         finally:
-            _hang_up(wire)  # a caller that stops early cancels the rest by it
+            run.closed(wire)  # a caller that stops early cancels the rest by it
             connection.close()
             if sender:
                 sender.join(self._timeout_s)
@@ -592,10 +690,10 @@ class Client:
                 raise UnreachableError(f"{self._urls[index]}: {why}; tried {attempt} times")
             time.sleep(wait)
 
-    def _connect(self, url: str) -> http.client.HTTPConnection:
+    def _connect(self, url: str, timeout_s: Optional[float] = None) -> http.client.HTTPConnection:
         parts = urllib.parse.urlsplit(url)
         kind = http.client.HTTPSConnection if parts.scheme == "https" else http.client.HTTPConnection
-        connection: http.client.HTTPConnection = kind(parts.hostname or "", parts.port, timeout=self._timeout_s)
+        connection: http.client.HTTPConnection = kind(parts.hostname or "", parts.port, timeout=timeout_s or self._timeout_s)
         return connection
 
     def _exchange(self, url: str, method: str, path: str, body: Optional[bytes], headers: Mapping[str, str]) -> _Reply:
@@ -679,23 +777,109 @@ def _hang_up(wire: Optional[socket.socket]) -> None:
         pass  # the other side was faster
 
 
-def _chunks(items: Iterable[BatchItem]) -> Iterator[Dict[str, BatchItem]]:
-    """Batches within the service's limit of bytes. An id that comes twice is refused: its answers could not be told apart."""
-    seen = set()
-    chunk: Dict[str, BatchItem] = {}
-    size = 0
-    for item in items:
-        if item.id in seen:
-            raise ValueError(f"the id {item.id!r} comes twice in the batch")
-        seen.add(item.id)
-        length = len(item.line())
-        if chunk and (size + length > _BATCH_BYTES or len(chunk) >= _BATCH_LINES):
-            yield chunk
-            chunk, size = {}, 0
-        chunk[item.id] = item
-        size += length
-    if chunk:
-        yield chunk
+class _Run:
+    """What the parts of one batch share: whether it goes on, its connections, its patience. Safe from many threads."""
+
+    def __init__(self, patience_s: float) -> None:
+        self._patience_s = patience_s
+        self._give_up = time.monotonic() + patience_s
+        self._stop = threading.Event()
+        self._lock = threading.Lock()
+        self._wires: Set[socket.socket] = set()
+        self._parts: Dict[str, int] = {}
+
+    def answered(self) -> None:
+        self._give_up = time.monotonic() + self._patience_s
+
+    def lasts_too_long(self, wait: float) -> bool:
+        return time.monotonic() + wait > self._give_up
+
+    def sleep(self, seconds: float) -> None:
+        self._stop.wait(seconds)
+
+    @contextlib.contextmanager
+    def at(self, url: str) -> Iterator[None]:
+        with self._lock:
+            self._parts[url] = self._parts.get(url, 0) + 1
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._parts[url] -= 1
+
+    def parts_at(self, url: str) -> int:
+        return self._parts.get(url, 0)
+
+    def opened(self, wire: socket.socket) -> None:
+        with self._lock:
+            self._wires.add(wire)
+        if self._stop.is_set():
+            _hang_up(wire)
+
+    def closed(self, wire: Optional[socket.socket]) -> None:
+        with self._lock:
+            self._wires.discard(wire)  # type: ignore[arg-type]
+        _hang_up(wire)
+
+    def put(self, done: queue.Queue[Any], one: Any) -> None:
+        while not self._stop.is_set():
+            try:
+                return done.put(one, timeout=0.1)
+            except queue.Full:
+                pass  # the caller takes its time, or has left
+
+    def stop(self) -> None:
+        """Whoever still reads finds its connection closed, and whoever waits goes on."""
+        self._stop.set()
+        with self._lock:
+            wires = list(self._wires)
+        for wire in wires:
+            _hang_up(wire)
+
+    def stopped(self) -> bool:
+        return self._stop.is_set()
+
+
+class _Waiting:
+    """The items not sent yet, read a few thousand ahead. An id that comes twice is refused: its answers could not be told apart."""
+
+    def __init__(self, items: Iterable[BatchItem]) -> None:
+        self._items = iter(items)
+        self._seen: Set[str] = set()
+        self._ahead: Deque[Tuple[BatchItem, int]] = collections.deque()  # each with its length
+        self._bytes = 0
+        self._ended = False
+
+    def fill(self) -> int:
+        """How many there are now: all, or as many as one POST may have."""
+        while not self._ended and len(self._ahead) < _BATCH_LINES and self._bytes < _BATCH_BYTES:
+            item = next(self._items, None)
+            if item is None:
+                self._ended = True
+                break
+            if item.id in self._seen:
+                raise ValueError(f"the id {item.id!r} comes twice in the batch")
+            self._seen.add(item.id)
+            length = len(item.line())
+            self._ahead.append((item, length))
+            self._bytes += length
+        return len(self._ahead)
+
+    def part(self, streams: int) -> Dict[str, BatchItem]:
+        """The next ones, by id, within the service's limit of bytes; none at the end. For several streams fewer towards the end, so
+        that they end together."""
+        count = self.fill()
+        if streams > 1:
+            share = -(-count // (2 * streams if self._ended else streams))
+            count = max(share, min(_PART_LINES, -(-count // streams)))
+        part: Dict[str, BatchItem] = {}
+        size = 0
+        while self._ahead and len(part) < count and not (part and size + self._ahead[0][1] > _BATCH_BYTES):
+            item, length = self._ahead.popleft()
+            part[item.id] = item
+            size += length
+        self._bytes -= size
+        return part
 
 
 # ---- as a program

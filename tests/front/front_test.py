@@ -36,6 +36,7 @@ def load(path):
     name = path.name.replace("-", "_")
     loader = importlib.machinery.SourceFileLoader(name, str(path))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    sys.modules[name] = module  # dataclasses look for theirs there
     loader.exec_module(module)
     return module
 
@@ -321,6 +322,18 @@ class Proxy(unittest.TestCase):
             self.assertGreater(len(restarts.quiet_answer(replicas, proxy, body)), 100_000)
             wrong = ask(f"https://127.0.0.1:{proxy.port}", body=b"{")
             self.assertEqual((wrong[0], wrong[1]["Content-Type"]), (400, "application/problem+json"))
+
+    def test_a_batch_of_the_python_client_is_the_work_of_all_replicas(self):
+        tubecut = load(ROOT / "clients/python/tubecut.py")
+        body = json.loads((ROOT / "examples/bevel-tables/source-000-table-1.json").read_text())
+        items = [tubecut.BatchItem(f"job {i}", "bevel-tables", body) for i in range(120)]
+        with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder)) as (replicas, proxy), \
+                unittest.mock.patch.dict(os.environ, SSL_CERT_FILE=f"{folder}/certificate.pem"):
+            before = [r.cpu_seconds() for r in replicas]
+            results = list(tubecut.Client(f"https://127.0.0.1:{proxy.port}").batch(items))
+            used = [r.cpu_seconds() - b for r, b in zip(replicas, before)]
+        self.assertEqual(sorted((r.id, r.status) for r in results), sorted((i.id, 200) for i in items))
+        self.assertGreater(min(used), 0.15 * sum(used), used)
 
     def test_bodies_beyond_the_limits_that_the_proxy_lets_through(self):
         small, large = limit("body_max_bytes"), limit("body_large_max_bytes")
