@@ -379,12 +379,12 @@ class Agreement(unittest.TestCase):
     """Files that must say the same."""
 
     def walls(self):
-        """How long a job may take by the wall's clock, by path: of the long ones, and of the others."""
+        """How long a job may take by the wall's clock, by endpoint: of the long ones, and of the others."""
         with subprocess.Popen([SERVER, "--port", "0", "--admin-port", "0"], stdout=subprocess.PIPE) as child:
             try:
                 port = json.loads(child.stdout.readline())["port"]
                 with urllib.request.urlopen(f"http://127.0.0.1:{port}/v1/limits", timeout=15) as answer:
-                    walls = {"/v1/" + name: budget["wall_s"] for name, budget in json.load(answer)["budgets"].items()}
+                    walls = {name: budget["wall_s"] for name, budget in json.load(answer)["budgets"].items()}
             finally:
                 child.kill()
         least = min(walls.values())
@@ -409,10 +409,18 @@ class Agreement(unittest.TestCase):
         self.assertEqual(set(re.search(r"acl large path (.*)", CONFIG)[1].split()), large)
         long, quick = self.walls()
         self.assertGreater(self.number(r"^  timeout server (\d+)s$"), max(quick.values()))
-        self.assertEqual(set(re.search(r"acl long path (.*)", CONFIG)[1].split()) - {"/v1/batches"}, set(long))
+        self.assertEqual(set(re.search(r"acl long path (.*)", CONFIG)[1].split()), {"/v1/batches"} | {"/v1/" + e for e in long})
         self.assertGreater(self.number(r"set-timeout server (\d+)s if long$"), max(long.values()))
         ingress = (DOCKER / "kubernetes/overlays/example/ingress.yaml").read_text()
         self.assertGreater(int(re.search(r"timeout-server: (\d+)s", ingress)[1]), max(long.values()))
+
+    def test_check_settings_knows_the_budgets(self):
+        settings = load(ROOT / "tools/check_settings")
+        long, quick = self.walls()
+        self.assertEqual(settings.default_walls(), long | quick | {"batches": max(long.values())})
+        told = subprocess.run([SERVER, "--print-config"], check=True, capture_output=True, text=True).stdout
+        for option, value in settings.DEFAULTS.items():
+            self.assertEqual(float(re.search(rf"^{option}=(.*)$", told, re.M)[1]), value)
 
     def test_kubernetes_names_its_image_by_version(self):
         version = re.search(r"project\(tubecut VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
