@@ -4,9 +4,10 @@ FROM ${BASE}
 RUN apt-get update && apt-get upgrade -y && apt-get install -y --no-install-recommends haproxy \
  && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/cache/debconf/* /var/log/*
 COPY haproxy.cfg rates.map /etc/haproxy/
+COPY proxy /usr/local/bin/tubecut-proxy
 COPY errors/*.http errors/*.json /etc/haproxy/errors/tubecut/
 USER haproxy
 EXPOSE 8443
 # Soft stop: no new connections, what was begun is answered.
 STOPSIGNAL SIGUSR1
-ENTRYPOINT ["haproxy", "-db", "-f", "/etc/haproxy/haproxy.cfg"]
+ENTRYPOINT ["tubecut-proxy", "-f", "/etc/haproxy/haproxy.cfg"]

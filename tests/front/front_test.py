@@ -12,6 +12,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import socket
 import ssl
 import subprocess
@@ -210,6 +211,38 @@ class Proxy(unittest.TestCase):
             lines = [json.loads(line) for line in stubs.log()]
             self.assertEqual([line["request_id"] for line in lines], ids)
             self.assertEqual({line["client"] for line in lines}, {"127.0.0.1"})
+
+    def test_every_line_of_its_log_is_json(self):
+        """Of requests, of what was none, of replicas that come and go, of its own end."""
+        trace = "00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01"
+        with tempfile.TemporaryDirectory() as folder:
+            with restarts.everything(SERVER, pathlib.Path(folder), running=1) as (replicas, proxy):
+                url = f"https://127.0.0.1:{proxy.port}"
+                for sent in (trace, 'x","client":"6.6.6.6', trace.upper(), None):
+                    ask(url, headers=[("traceparent", sent)] if sent else [])
+                connect = lambda: socket.create_connection(("127.0.0.1", proxy.port), 5)
+                for wrapped, nonsense in ((False, b"GET / HTTP/1.0\r\n\r\n"), (True, b'n"on\\sense\x00\r\n\r\n')):
+                    with connect() as raw, (ssl._create_unverified_context().wrap_socket(raw) if wrapped else raw) as s:
+                        s.sendall(nonsense)
+                        s.recv(100)
+                replicas[0].end(signal.SIGKILL)
+                restarts.until(lambda: not proxy.up("replica-1"), 5, "the replica seen down")
+                ask(url)
+                proxy.process.send_signal(signal.SIGUSR1)
+                self.assertEqual(proxy.process.wait(timeout=10), 0)
+                lines = [json.loads(line) for line in pathlib.Path(proxy.log.name).read_text().splitlines()]
+            of = lambda event: [line for line in lines if line["event"] == event]
+            self.assertEqual({line["event"] for line in lines}, {"proxy", "proxy_connection", "proxy_notice"})
+            self.assertEqual([line["traceparent"] for line in of("proxy")], [trace, "-", "-", "-", "-"])
+            self.assertEqual([line["status"] for line in of("proxy_connection")], [0, 400])
+            told = " ".join(line["text"] for line in of("proxy_notice"))
+            for word in ("replicas/replica-1 is UP", "replicas/replica-1 is DOWN", "Proxy tubecut stopped"):
+                self.assertIn(word, told)
+
+    def test_a_mistake_in_its_configuration_is_said(self):
+        done = subprocess.run([DOCKER / "proxy", "-f", '/no"ne\n\\é'], capture_output=True, text=True, timeout=10)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('/no"ne', json.loads(done.stdout.splitlines()[-2])["text"])
 
     def test_bodies_beyond_the_limits_end_at_the_proxy(self):
         small, large = limit("body_max_bytes"), limit("body_large_max_bytes")
