@@ -564,21 +564,15 @@ class Alerts(unittest.TestCase):
     RULES = DOCKER / "prometheus-rules.yml"
     TRIED = ROOT / "tests/front/prometheus-rules-test.yml"
 
-    def promtool(self):
-        found = shutil.which("promtool", path=f"{os.environ['PATH']}:{ROOT / 'build'}")
-        self.assertIsNotNone(found, "no promtool: ./dev test fetches it")
-        return found
-
     def test_promtool_reads_them(self):
-        subprocess.run([self.promtool(), "check", "rules", self.RULES], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([promtool(), "check", "rules", self.RULES], check=True, stdout=subprocess.DEVNULL)
 
     def test_each_says_what_to_do(self):
         for rule in (r for g in yaml.safe_load(self.RULES.read_text())["groups"] for r in g["rules"] if "alert" in r):
             self.assertEqual(rule["annotations"].keys(), {"summary", "description"}, rule["alert"])
 
     def test_each_fires_and_is_silent(self):
-        subprocess.run([self.promtool(), "test", "rules", self.TRIED], check=True,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run([promtool(), "test", "rules", self.TRIED], check=True, stdout=subprocess.DEVNULL)
         alerts = {r["alert"] for g in yaml.safe_load(self.RULES.read_text())["groups"] for r in g["rules"] if "alert" in r}
         quiet, loud, _ = yaml.safe_load(self.TRIED.read_text())["tests"]
         self.assertEqual({t["alertname"] for t in quiet["alert_rule_test"]}, alerts)
@@ -595,18 +589,8 @@ class Alerts(unittest.TestCase):
         self.assertGreater(len({name for name, _ in asked}), 10)
         self.assertEqual(labels('a="1",b="x"'), {"a": "1", "b": "x"})
 
-        def scraped(port):
-            with urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics") as answer:
-                return [s for line in answer.read().decode().splitlines() for s in series(line) if line[0] != "#"]
-
-        with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder), running=1) as (replicas, proxy):
-            admin_port = re.findall(r"--admin-port (\d+)", " ".join(replicas[0].command))[0]
-            fresh = scraped(admin_port)
-            for body in (b"{}", (ROOT / "examples/bevel-tables/source-000-table-1.json").read_bytes()):
-                ask(f"https://127.0.0.1:{proxy.port}", body=body)
-            # A failure is counted from a zero that was there before it; only the times of requests begin with requests.
-            times = [s for s in scraped(admin_port) if s[0].startswith("http_server_request_duration_seconds")]
-            served = fresh + times + scraped(proxy.stats_port)
+        # A failure is counted from a zero that was there before it; only the times of requests begin with requests.
+        served = served_series(lambda name: name.startswith("http_server_request_duration_seconds"))
         for name, wanted in asked:
             wanted = {label: value for label, value in wanted.items() if label != "job"}
             self.assertTrue(any(n == name and wanted.items() <= l.items() for n, l in served), f"{name}{wanted}")
@@ -624,6 +608,26 @@ class Alerts(unittest.TestCase):
             self.assertLessEqual(of.keys() - {"job", "instance"}, {label for n, l in served if n == name for label in l}, name)
             for label in of.keys() - {"job", "instance", "version"}:
                 self.assertIn(of[label], values[label], name)
+
+
+def promtool():
+    found = shutil.which("promtool", path=f"{os.environ['PATH']}:{ROOT / 'build'}")
+    assert found, "no promtool: ./dev test fetches it"
+    return found
+
+
+def served_series(begun=lambda name: True):
+    """What a replica serves from its start, of those `begun` what it serves after requests too, and what HAProxy does: (name, labels)."""
+    def scraped(port):
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics") as answer:
+            return [s for line in answer.read().decode().splitlines() for s in series(line) if line[0] != "#"]
+
+    with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder), running=1) as (replicas, proxy):
+        admin_port = re.findall(r"--admin-port (\d+)", " ".join(replicas[0].command))[0]
+        fresh = scraped(admin_port)
+        for body in (b"{}", (ROOT / "examples/bevel-tables/source-000-table-1.json").read_bytes()):
+            ask(f"https://127.0.0.1:{proxy.port}", body=body)
+        return fresh + [s for s in scraped(admin_port) if begun(s[0])] + scraped(proxy.stats_port)
 
 
 def labels(text):

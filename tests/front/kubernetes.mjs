@@ -11,7 +11,7 @@ import {parseAllDocuments} from 'yaml';
 const HERE = dirname(fileURLToPath(import.meta.url));
 const MANIFESTS = join(HERE, '../../docker/kubernetes');
 const require = createRequire(import.meta.url);
-const {ajv} = require(join(HERE, 'node_modules/@kubernetes-models/validate/dist/ajv.js'));
+const OPERATOR = join(HERE, 'node_modules/@kubernetes-models/prometheus-operator/monitoring.coreos.com/v1');
 
 // Schemas arrive as the package registers them, each referring to others by name. All of them are closed on their way in.
 function close(schema) {
@@ -21,10 +21,22 @@ function close(schema) {
   if (out.properties && out.additionalProperties === undefined) out.additionalProperties = false;
   return out;
 }
-const plain = ajv.addSchema.bind(ajv);
-ajv.addSchema = (schema, id) => plain(close(schema), id);
+const {default: Ajv} = require('ajv');
+const plain = Ajv.prototype.addSchema;
+let operators;  // the validator of the operator's kinds, a package with a copy of its own
+Ajv.prototype.addSchema = function (schema, id, meta, ...rest) {
+  if (`${id}`.startsWith('monitoring.coreos.com')) operators = this;
+  return plain.call(this, meta ? schema : close(schema), id, meta, ...rest);
+};
+const {ajv} = require(join(HERE, 'node_modules/@kubernetes-models/validate/dist/ajv.js'));
 
 function schemaOf({apiVersion, kind}) {
+  if (apiVersion === 'monitoring.coreos.com/v1') {
+    try {
+      new (require(join(OPERATOR, kind))[kind])({}).validate();  // which registers the schema
+    } catch {}
+    return `monitoring.coreos.com.v1.${kind}`;
+  }
   const [group, version] = apiVersion.includes('/') ? apiVersion.split('/') : ['core', apiVersion];
   const words = [group.replace(/\..*/, ''), version, kind].map((w) => w[0].toUpperCase() + w.slice(1));
   require(join(HERE, `node_modules/kubernetes-models/_schemas/IoK8sApi${words.join('')}.js`)).addSchema();
@@ -36,8 +48,10 @@ const KUSTOMIZATION = ['apiVersion', 'kind', 'namespace', 'resources', 'images',
 
 export function faults(document) {
   if (document.kind === 'Kustomization') return Object.keys(document).filter((key) => !KUSTOMIZATION.includes(key));
-  if (ajv.validate(schemaOf(document), document)) return [];
-  return ajv.errors.map((e) => `${e.instancePath} ${e.message} ${JSON.stringify(e.params)}`);
+  const id = schemaOf(document);
+  const validator = id.startsWith('monitoring') ? operators : ajv;
+  if (validator.validate(id, document)) return [];
+  return validator.errors.map((e) => `${e.instancePath} ${e.message} ${JSON.stringify(e.params)}`);
 }
 
 function documents(folder) {
@@ -72,7 +86,9 @@ const all = files.map((f) => (patches.includes(f.path) ? {...f, document: patche
 assert.ok(all.length >= 8 && patches.length >= 1, `only ${all.length} manifests`);
 for (const {path, document} of all) assert.deepEqual(faults(document), [], path);
 
-const of = (kind, part = 'base') => structuredClone(all.find((d) => d.document.kind === kind && d.path.includes(part)).document);
+const MONITORS = ['PodMonitor', 'PrometheusRule'];
+const of = (kind, part = MONITORS.includes(kind) ? 'monitoring' : 'base') =>
+  structuredClone(all.find((d) => d.document.kind === kind && d.path.includes(part)).document);
 
 // This check can fail: a key misspelt anywhere, a number as text, a text as number, a member left out.
 const spoilt = [
@@ -87,6 +103,11 @@ const spoilt = [
   ['PodDisruptionBudget', (d) => { d.spec.maxUnavailabel = 1; }],
   ['NetworkPolicy', (d) => { d.spec.ingress[0].from[0].nameSpaceSelector = {}; }],
   ['Service', (d) => { d.spec.ports[0].targetport = 'http'; }],
+  ['PodMonitor', (d) => { d.spec.joblabel = 'x'; }],
+  ['PodMonitor', (d) => { d.spec.podMetricsEndpoints[0].relabelings[0].source_labels = ['x']; }],
+  ['PodMonitor', (d) => { d.spec.podMetricsEndpoints[0].port = 9090; }],
+  ['PodMonitor', (d) => { delete d.spec.selector; }],
+  ['PrometheusRule', (d) => { d.spec.groups[1].rules[0].expression = 'up'; }],
 ];
 for (const [kind, spoil] of spoilt) {
   const document = of(kind);
@@ -121,10 +142,11 @@ for (const probe of ['readinessProbe', 'livenessProbe']) assert.ok(ports.include
 // Everything finds the pods by their labels, and one another by name.
 const labels = deployment.template.metadata.labels;
 const selected = [deployment.selector.matchLabels, of('Service').spec.selector, of('PodDisruptionBudget').spec.selector.matchLabels,
-  of('NetworkPolicy').spec.podSelector.matchLabels, ...pod.topologySpreadConstraints.map((c) => c.labelSelector.matchLabels)];
+  of('NetworkPolicy').spec.podSelector.matchLabels, of('PodMonitor').spec.selector.matchLabels, ...pod.topologySpreadConstraints.map((c) => c.labelSelector.matchLabels)];
 for (const selector of selected) assert.deepEqual(selector, labels);
 assert.equal(of('HorizontalPodAutoscaler').spec.scaleTargetRef.name, of('Deployment').metadata.name);
 assert.ok(ports.includes(of('Service').spec.ports[0].targetPort));
+for (const {port} of of('PodMonitor').spec.podMetricsEndpoints) assert.ok(ports.includes(port));
 for (const rule of of('NetworkPolicy').spec.ingress) for (const p of rule.ports) assert.ok(ports.includes(p.port));
 assert.equal(of('Ingress', 'overlays').spec.rules[0].http.paths[0].backend.service.name, of('Service').metadata.name);
 
