@@ -522,7 +522,56 @@ class Agreement(unittest.TestCase):
                 self.assertGreater(delay, 2 * 0.2)  # polls of the proxy
                 self.assertGreater(float(s["stop_grace_period"].rstrip("s")), delay + 8 + 5)
                 self.assertEqual(s["environment"]["TUBECUT_REPLICA"], name)
+                self.assertEqual(s["entrypoint"], ["behind-proxy"])
+                self.assertNotIn("TUBECUT_TRUSTED_PROXY", s["environment"])
         self.assertTrue(yaml.safe_load((DOCKER / "compose.yaml").read_text())["networks"]["inside"]["internal"])
+
+    def test_compose_names_what_podman_may_ask_for(self):
+        """As podman-compose reads them: soft and hard, after its variables."""
+        services = yaml.safe_load(load(ROOT / "tools/check_settings").expanded((DOCKER / "compose.yaml").read_text()))["services"]
+        least = int(re.search(r"connections=(\d+)", subprocess.run([SERVER, "--print-config"], check=True, capture_output=True, text=True).stdout)[1]) + 128
+        for name, s in services.items():
+            for limit_name, needed in (("nofile", least), ("nproc", s["pids_limit"])):
+                soft, hard = (int(s["ulimits"][limit_name][part]) for part in ("soft", "hard"))
+                self.assertEqual(soft, hard, name)
+                self.assertGreater(soft, needed, name)
+                self.assertLess(soft, 1 << 20, name)
+
+    def test_compose_asks_for_no_addresses(self):
+        """podman-compose 1.0 gives others."""
+        self.assertNotRegex(re.sub("#.*", "", (DOCKER / "compose.yaml").read_text()), r"ipam|subnet|\d+\.\d+\.\d+\.\d+")
+
+    def test_a_replica_believes_its_own_networks(self):
+        heading = "Iface\tDestination\tGateway \tFlags\tRefCnt\tUse\tMetric\tMask\t\tMTU\tWindow\tIRTT\n"
+        line = lambda destination, gateway, mask: f"eth0\t{destination}\t{gateway}\t0001\t0\t0\t0\t{mask}\t0\t0\t0\n"
+        cases = {
+            "none": ("", ""),
+            "by way of another host": (line("00000000", "014D590A", "00000000") + line("000010AC", "014D590A", "0000F0FF"), ""),
+            "10.89.77.0/24": (line("00000000", "014D590A", "00000000") + line("004D590A", "00000000", "00FFFFFF"), "10.89.77.0/24"),
+            "two": (line("000010AC", "00000000", "0000F0FF") + line("80A8C0C0", "00000000", "80FFFFFF"), "172.16.0.0/12,192.192.168.128/25"),
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            server, routes = pathlib.Path(folder, "tubecut-server"), pathlib.Path(folder, "routes")
+            run = {"env": os.environ | {"PATH": f"{folder}:{os.environ['PATH']}", "TUBECUT_ROUTES": str(routes)}, "stdout": subprocess.PIPE, "text": True}
+            server.write_text('#!/bin/sh\necho "$TUBECUT_TRUSTED_PROXY" "$@"\n')
+            server.chmod(0o755)
+            for name, (text, networks) in cases.items():
+                with self.subTest(name):
+                    routes.write_text(heading + text)
+                    self.assertEqual(subprocess.run([DOCKER / "behind-proxy", "--port", "0"], check=True, **run).stdout, f"{networks} --port 0\n")
+            # The service itself then tells the client that the proxy names.
+            server.unlink()
+            server.symlink_to(SERVER)
+            for text, client in ((line("0000007F", "00000000", "000000FF"), "9.9.9.9"), (line("004D590A", "00000000", "00FFFFFF"), "127.0.0.1")):
+                routes.write_text(heading + text)
+                with subprocess.Popen([DOCKER / "behind-proxy", "--port", "0", "--admin-port", "0"], **run) as child:
+                    try:
+                        port = json.loads(child.stdout.readline())["port"]
+                        ask(f"http://127.0.0.1:{port}", headers=[("X-Forwarded-For", "9.9.9.9")])
+                        lines = iter(child.stdout.readline, "")
+                        self.assertEqual(next(job["client"] for job in map(json.loads, lines) if job["event"] == "job"), client)
+                    finally:
+                        child.kill()
 
     def test_list_of_packages(self):
         spdx = load(DOCKER / "spdx")
