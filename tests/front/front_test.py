@@ -459,6 +459,10 @@ class Agreement(unittest.TestCase):
         version = re.search(r"project\(tubecut VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
         images = [image for f in (DOCKER / "kubernetes").rglob("*.yaml") for image in re.findall(r"^ *(?:- )?image: (\S+)$", f.read_text(), re.M)]
         self.assertTrue(images)
+        tags = [tag for f in (DOCKER / "kubernetes").rglob("*.yaml") for tag in re.findall(r"^ *newTag: (\S+)$", f.read_text(), re.M)]
+        told = re.findall(r"tubecut[:-](\d+\.\d+\.\d+)", re.search(r"^## Kubernetes\n(.*?)^## ", (ROOT / "docs/operations.md").read_text(), re.M | re.S)[1])
+        self.assertGreater(len(told), 2)
+        self.assertEqual(set(tags + told), {version})
         for image in images:
             self.assertTrue(image.endswith(f":{version}") or re.search(r"@sha256:[0-9a-f]{64}$", image), image)
 

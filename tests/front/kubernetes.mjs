@@ -44,10 +44,14 @@ function schemaOf({apiVersion, kind}) {
 }
 
 // Kustomize's own files have no schema there: their keys.
-const KUSTOMIZATION = ['apiVersion', 'kind', 'namespace', 'resources', 'images', 'patches'];
+const KUSTOMIZATION = ['apiVersion', 'kind', 'namespace', 'resources', 'secretGenerator', 'images', 'patches'];
+const GENERATOR = ['name', 'type', 'files'];
 
 export function faults(document) {
-  if (document.kind === 'Kustomization') return Object.keys(document).filter((key) => !KUSTOMIZATION.includes(key));
+  if (document.kind === 'Kustomization') {
+    return [...Object.keys(document).filter((key) => !KUSTOMIZATION.includes(key)),
+      ...(document.secretGenerator ?? []).flatMap(Object.keys).filter((key) => !GENERATOR.includes(key))];
+  }
   const id = schemaOf(document);
   const validator = id.startsWith('monitoring') ? operators : ajv;
   if (validator.validate(id, document)) return [];
@@ -103,14 +107,16 @@ const spoilt = [
   ['PodDisruptionBudget', (d) => { d.spec.maxUnavailabel = 1; }],
   ['NetworkPolicy', (d) => { d.spec.ingress[0].from[0].nameSpaceSelector = {}; }],
   ['Service', (d) => { d.spec.ports[0].targetport = 'http'; }],
+  ['Kustomization', (d) => { d.secretGenerators = []; }, 'overlays'],
+  ['Kustomization', (d) => { d.secretGenerator[0].file = ['x']; }, 'overlays'],
   ['PodMonitor', (d) => { d.spec.joblabel = 'x'; }],
   ['PodMonitor', (d) => { d.spec.podMetricsEndpoints[0].relabelings[0].source_labels = ['x']; }],
   ['PodMonitor', (d) => { d.spec.podMetricsEndpoints[0].port = 9090; }],
   ['PodMonitor', (d) => { delete d.spec.selector; }],
   ['PrometheusRule', (d) => { d.spec.groups[1].rules[0].expression = 'up'; }],
 ];
-for (const [kind, spoil] of spoilt) {
-  const document = of(kind);
+for (const [kind, spoil, part] of spoilt) {
+  const document = of(kind, part);
   assert.deepEqual(faults(document), []);
   spoil(document);
   assert.notDeepEqual(faults(document), [], `${kind}: ${spoil}`);
@@ -157,6 +163,26 @@ const trusted = site.flatMap((c) => c.env).filter((e) => e.name === 'TUBECUT_TRU
 assert.equal(trusted.length, 1);
 const [address, bits] = trusted[0].value.split('/');
 assert.ok(isIPv4(address) && Number(bits) <= 32);
+
+// One command makes every secret that something asks for, under the names of files that it asks for, of files that git does not take.
+const kustomization = of('Kustomization', 'overlays');
+const made = Object.fromEntries(kustomization.secretGenerator.map((s) => [s.name, s.files.map((f) => f.split('='))]));
+const asked = [...pod.volumes.flatMap((v) => v.secret?.secretName ?? []), ...of('Ingress', 'overlays').spec.tls.map((t) => t.secretName)];
+assert.deepEqual(Object.keys(made).sort(), asked.sort());
+const keys = pod.volumes.find((v) => v.secret?.secretName === 'tubecut-keys');
+const mount = container.volumeMounts.find((m) => m.name === keys.name).mountPath;
+assert.deepEqual(made['tubecut-keys'].map(([name]) => `${mount}/${name}`), [env.TUBECUT_KEYS]);
+assert.equal(kustomization.secretGenerator.find((s) => s.name === 'tubecut-tls').type, 'kubernetes.io/tls');
+assert.deepEqual(made['tubecut-tls'].map(([name]) => name).sort(), ['tls.crt', 'tls.key']);
+const ignored = readFileSync(join(HERE, '../../.gitignore'), 'utf8').split('\n');
+assert.ok(ignored.includes('/docker/kubernetes/overlays/*/site/'));
+const guide = readFileSync(join(HERE, '../../docs/operations.md'), 'utf8');
+for (const file of Object.values(made).flat().map(([, path]) => path)) {
+  assert.ok(file.startsWith('site/'), file);
+  assert.ok(guide.includes(`$overlay/${file}`) , `the guide does not say where ${file} comes from`);
+}
+assert.ok(all.some((d) => d.document.kind === 'Namespace' && d.document.metadata.name === kustomization.namespace));
+assert.equal(of('Kustomization', 'monitoring').namespace, kustomization.namespace);
 
 // What is asked without a key needs none: the admin port never does, the service's port does for all but the console, and a check of
 // HAProxy's without a method is OPTIONS.
