@@ -589,12 +589,36 @@ class Agreement(unittest.TestCase):
                 "Package: gone\nStatus: deinstall ok config-files\nVersion: 1\nArchitecture: all\n\n"
                 "Package: libc6\nStatus: install ok installed\nVersion: 2.36-9\nArchitecture: amd64\n")
             (root / "usr/share/tubecut/compiled-in").write_text("eigen3 3.4.0-4\ncli11 2.3.2+ds-1\n")
+            machine = "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\nFiles: *\nCopyright: x\nLicense: "
+            copyrights = {
+                "share/doc/libc6": machine + "LGPL-2.1+\n\nFiles: a\nLicense: GPL-1+ or Artistic\n\nLicense: Artistic\n As Perl is.\n .\n Or not.\n",
+                "share/doc/gcc-12-base": "This is GCC. See /usr/share/common-licenses/GPL-3.\n",
+                "share/tubecut/copyright/cli11": machine + "BSD-3-clause\n All of it.\n"}
+            for path, text in copyrights.items():
+                file = root / "usr" / path
+                if "doc" in path:
+                    file.mkdir(parents=True)
+                    file /= "copyright"
+                file.parent.mkdir(exist_ok=True)
+                file.write_text(text)
+            (root / "usr/share/doc/libstdc++6").symlink_to("gcc-12-base")
             d = spdx.document(root, "1.2.3", "abc", "2026-01-01T00:00:00Z")
+        declared = {p["name"]: p["licenseDeclared"] for p in d["packages"]}
+        self.assertEqual([declared[name] for name in ("libc6", "libstdc++6", "cli11", "eigen3")],
+                         ["(GPL-1.0-or-later OR LicenseRef-libc6-Artistic) AND LGPL-2.1-or-later", "LicenseRef-libstdc-6-copyright", "BSD-3-Clause",
+                          "NOASSERTION"])
+        extracted = {e["licenseId"]: e["extractedText"] for e in d["hasExtractedLicensingInfos"]}
+        self.assertEqual(extracted, {"LicenseRef-libc6-Artistic": "As Perl is.\n\nOr not.", "LicenseRef-libstdc-6-copyright": copyrights["share/doc/gcc-12-base"]})
         console = json.loads((ROOT / "web/package.json").read_text())["dependencies"]  # versions pinned; carried in the binary
         self.assertGreaterEqual(len(console), 3)
         ids = [p["SPDXID"] for p in d["packages"]]
-        self.assertEqual([p["name"] for p in d["packages"]], ["tubecut", "libc6", "libstdc++6", "cli11", "eigen3", *console])
-        for p in d["packages"][5:]:
+        inside = [p for p in d["packages"] if p["SPDXID"].startswith("SPDXRef-Npm-in-")]
+        self.assertEqual([p["name"] for p in d["packages"] if p not in inside], ["tubecut", "libc6", "libstdc++6", "cli11", "eigen3", *console])
+        swagger = next(p for p in d["packages"] if p["name"] == "swagger-ui-dist")
+        held = [r["relatedSpdxElement"] for r in d["relationships"] if r["spdxElementId"] == swagger["SPDXID"] and r["relationshipType"] == "CONTAINS"]
+        self.assertEqual(held, [p["SPDXID"] for p in inside])
+        self.assertLessEqual({"react", "immutable", "dompurify"}, {p["name"] for p in inside})
+        for p in d["packages"][5:5 + len(console)]:
             self.assertEqual(p["externalRefs"][0]["referenceLocator"], f"pkg:npm/{p['name']}@{console[p['name']]}")
             self.assertEqual(p["versionInfo"], console[p["name"]])
             self.assertIn(p["licenseDeclared"], ("MIT", "Apache-2.0"))
@@ -611,6 +635,35 @@ class Agreement(unittest.TestCase):
         for p in d["packages"]:
             for key in ("versionInfo", "downloadLocation", "filesAnalyzed", "licenseConcluded", "licenseDeclared", "copyrightText"):
                 self.assertIn(key, p)
+
+    def test_parts_inside_npm_packages(self):
+        """What the installed ones' bundles say; another version needs another list."""
+        spdx = load(DOCKER / "spdx")
+        listed = json.loads((DOCKER / "npm-parts.json").read_text())
+        locked = {f"{name}@{version}" for name, version, _ in spdx.console()}
+        self.assertLessEqual(listed.keys(), locked)
+        self.assertEqual(spdx.npm_parts(ROOT / "web/node_modules"), listed)
+        self.assertGreater(sum(map(len, listed.values())), 50)
+
+    def test_licences_of_every_package_here(self):
+        """This Debian's own copyright files: each gives an expression of known names and of texts that are there."""
+        spdx = load(DOCKER / "spdx")
+        root, seen = pathlib.Path("/"), 0
+        known = set(spdx.SPDX.values())
+        for name, *_ in spdx.installed(root):
+            text = spdx.copyright_of(root, name)
+            if text is None:
+                continue
+            expression, refs = spdx.licences(name, text)
+            words = set(re.findall(r"[^() ]+", expression)) - {"AND", "OR"}
+            self.assertTrue(words, name)
+            for word in words - known - refs.keys():
+                self.assertRegex(word, r"^(A?GPL-[123]\.0|LGPL-(2\.[01]|3\.0)|GFDL-1\.[123](-no-invariants)?)-(only|or-later)$", name)
+            self.assertEqual(words & refs.keys(), refs.keys())
+            self.assertTrue(all(body.strip() for _, body in refs.values()), name)
+            self.assertEqual(expression.count("("), expression.count(")"))
+            seen += 1
+        self.assertGreater(seen, 50)
 
 
 class Alerts(unittest.TestCase):
