@@ -817,9 +817,10 @@ class _Run:
             _hang_up(wire)
 
     def closed(self, wire: Optional[socket.socket]) -> None:
-        with self._lock:
-            self._wires.discard(wire)  # type: ignore[arg-type]
-        _hang_up(wire)
+        if wire:
+            with self._lock:
+                self._wires.discard(wire)
+            _hang_up(wire)
 
     def put(self, done: queue.Queue[Any], one: Any) -> None:
         while not self._stop.is_set():

@@ -301,20 +301,25 @@ class Proxy(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             rates = rates_of(folder, keys)
             with proxied(lambda h: reply(h, 200), lambda h: reply(h, 200), environment={"TUBECUT_RATES": rates, "TUBECUT_KEY_RATE": "3"}) as (url, stubs):
-                for name, headers, most in (
-                        ("its own", [("Authorization", "Bearer tc_cell")], 4),
-                        ("told otherwise, the same owner's", [("X-Api-Key", "tc_cell")], 0),
-                        ("another's", [("Authorization", "bearer tc_twice"), ("X-Api-Key", "tc_free")], 2),
-                        ("no limit", [("X-Api-Key", "tc_free")], 12),
-                        ("in no map", [("X-Api-Key", "tc_other")], 3),
-                        ("none at all", [], 12)):
+                passed = 0
+                for name, told, most in (
+                        ("its own, both ways", [[("Authorization", "Bearer tc_cell")], [("X-Api-Key", "tc_cell")]], 4),
+                        ("another's", [[("Authorization", "bearer tc_twice"), ("X-Api-Key", "tc_free")]], 2),
+                        ("no limit", [[("X-Api-Key", "tc_free")]], 12),
+                        ("in no map", [[("X-Api-Key", "tc_other")]], 3),
+                        ("none at all", [[]], 12)):
                     with self.subTest(name):
-                        answers = [ask(url, headers=headers) for _ in range(12)]
-                        self.assertEqual([a[0] for a in answers], [200] * most + [429] * (12 - most))
-                        if most < 12:
+                        start = time.monotonic()
+                        answers = [ask(url, headers=told[i % len(told)]) for i in range(12)]
+                        statuses = [a[0] for a in answers]
+                        passed += statuses.count(200)
+                        self.assertEqual(statuses[:most], [200] * most)
+                        if time.monotonic() - start < 0.5:  # else a new second may have begun on a busy machine
+                            self.assertEqual(statuses[most:], [429] * (12 - most))
+                        if statuses[-1] != 200:
                             self.assertTrue(self.problem(answers[-1], 429, "rate_limited")["retryable"])
                             self.assertEqual(answers[-1][1]["Retry-After"], "1")
-                self.assertEqual(sum(len(stub.asked) for stub in stubs), 4 + 0 + 2 + 12 + 3 + 12)
+                self.assertEqual(sum(len(stub.asked) for stub in stubs), passed)
                 self.assertTrue(all(stub.asked for stub in stubs))
                 # With a large body over HTTP/2 the refusal arrives as well.
                 again = [ask_http2(url, "/v1/bevel-tables", 1_000_000, True, "X-Api-Key: tc_cell") for _ in range(8)]
@@ -334,15 +339,16 @@ class Proxy(unittest.TestCase):
         """What the shipped default lets through is three times as much, which is why."""
         with tempfile.TemporaryDirectory() as folder:
             rates = rates_of(folder, {"cell": ("tc_cell", 5)})
-            got = {}
+            got, lasted = {}, 0.0
             for name, environment in (("each replica's", {}), ("the fleet's", {"TUBECUT_RATES": rates})):
                 with unittest.mock.patch.object(restarts.Replica, "options", ["--keys", str(pathlib.Path(folder, "keys"))]), \
                         unittest.mock.patch.object(restarts.Proxy, "environment", environment), \
                         restarts.everything(SERVER, pathlib.Path(folder)) as (_, proxy):
-                    url = f"https://127.0.0.1:{proxy.port}"
+                    url, start = f"https://127.0.0.1:{proxy.port}", time.monotonic()
                     got[name] = [ask(url, "/v1/intersections", headers=[("X-Api-Key", "tc_cell")])[0] for _ in range(40)].count(422)
+                    lasted = time.monotonic() - start
             self.assertGreaterEqual(got["each replica's"], 15)
-            self.assertLess(got["the fleet's"], 10)  # 5 a second, for less than a second
+            self.assertLess(got["the fleet's"], 5 * (1 + lasted) + 2)
 
     def test_rates_are_made_of_the_keys(self):
         lines = "# cells\r\n\nmes aa\r\n cell-3 bb 2.5 # slow\nfour cc 4\n"
