@@ -374,6 +374,23 @@ class Proxy(unittest.TestCase):
         self.assertEqual(sorted((r.id, r.status) for r in results), sorted((i.id, 200) for i in items))
         self.assertGreater(min(used), 0.15 * sum(used), used)
 
+    def test_a_batch_of_the_python_client_outlives_its_replicas(self):
+        """HAProxy has passed the first lines on, so it cannot repeat: the client does."""
+        tubecut = load(ROOT / "clients/python/tubecut.py")
+        body = json.loads((ROOT / "examples/bevel-tables/source-000-table-1.json").read_text())
+        items = [tubecut.BatchItem(f"job {i}", "bevel-tables", body) for i in range(200)]
+        with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder)) as (replicas, proxy), \
+                unittest.mock.patch.dict(os.environ, SSL_CERT_FILE=f"{folder}/certificate.pem"):
+            seen, told = [], []
+            for one in tubecut.Client(f"https://127.0.0.1:{proxy.port}").batch(items, progress=lambda *numbers: told.append(numbers)):
+                seen.append((one.id, one.status))
+                if len(seen) in (30, 90, 150):
+                    replica = replicas[len(seen) // 60]
+                    replica.end(signal.SIGKILL)
+                    replica.start()
+        self.assertEqual(sorted(seen), sorted((i.id, 200) for i in items))
+        self.assertEqual(told, [(n, 200, 0) for n in range(1, 201)])
+
     def test_bodies_beyond_the_limits_that_the_proxy_lets_through(self):
         small, large = limit("body_max_bytes"), limit("body_large_max_bytes")
         with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder), running=1) as (_, proxy):
