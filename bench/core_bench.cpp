@@ -27,7 +27,7 @@ std::vector<joint::Partner> table_1() {
 }
 
 bevel::TableSpec spec(bool refine) {
-  const bevel::SwingLimits limits{.slope = 5.0 * kRadPerDeg, .curvature = 1.0 * kRadPerDeg};
+  const bevel::BevelRateLimits limits{.slope = 5.0 * kRadPerDeg, .curvature = 1.0 * kRadPerDeg};
   return {.target = {.outer_radius = 35, .wall = 5},
           .partners = table_1(),
           .sampling = {.uniform_points = 360},

@@ -61,7 +61,7 @@ constexpr std::array kRules{
     Option<DecodeGroove>{"zones", [](Reader& in) -> GrooveRule { return decode_zones(in); }}};
 
 /// What the swing axis B of a machine follows at a cutting speed.
-bevel::SwingLimits decode_swing(Reader& in) {
+bevel::BevelRateLimits decode_swing(Reader& in) {
   const auto machine = decode_machine_choice(in, "machine");
   const double speed = in.number("speed_mm_min", {.min = 1.0, .max = 60'000.0}) / 60.0;
   const double use = in.number("use", {.min = 0.01, .max = 1.0}, 0.8);
@@ -69,7 +69,7 @@ bevel::SwingLimits decode_swing(Reader& in) {
   for (const auto& axis : machine.axes) {
     if (axis.name != "B") continue;
     const auto limits =
-        bevel::swing_limits(axis.v_max * kRadPerDeg, axis.a_max * kRadPerDeg, speed, use);
+        bevel::bevel_rate_limits(axis.v_max * kRadPerDeg, axis.a_max * kRadPerDeg, speed, use);
     if (limits) return *limits;
   }
   in.issue({.code = ErrorCode::unsupported_combination,

@@ -138,6 +138,7 @@ double shown_phi(const Development& d, const part::Mark& mark) {
 
 constexpr DxfWriter::Layer kLayers[] = {
     {"CUT_OUTER", 5}, {"CUT_INNER", 3}, {"SEAM", 1}, {"DATUM", 8}, {"TEXT", 7}};
+constexpr DxfWriter::Layer kMarkLayer = {"MARK", 6};  // of parts alone
 
 }  // namespace
 
@@ -161,7 +162,7 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
                       const Caption& caption) {
   const bool space = caption.view == "tube";
   std::vector<DxfWriter::Layer> layers{std::begin(kLayers), std::end(kLayers)};
-  layers.push_back({"MARK", 6});
+  layers.push_back(kMarkLayer);
   DxfWriter w(std::move(layers), verdict_lines(caption.verdict), caption.stop);
   draw_cuts(w, d, space);
   const double from = d.cuts[0].outer.z.front(), to = d.cuts[1].outer.z.front();

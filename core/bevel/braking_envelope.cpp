@@ -14,7 +14,7 @@ struct Path {
   const std::vector<double>& s;
   const std::vector<double>& b;
   double period = 0.0;
-  SwingLimits limits;
+  BevelRateLimits limits;
   double highest = 0.0;
   std::vector<double> ahead;  // mm from each node to the next
   std::vector<double> leave;  // m, start slope of each node's braking curves, rad/mm
@@ -78,7 +78,7 @@ constexpr Braking kNoCurve{-std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity()};
 
 /// Travels h: the slope falls at the rate A down to -K. Exact integration.
-Braking brake(Braking from, double h, const SwingLimits& limits) {
+Braking brake(Braking from, double h, const BevelRateLimits& limits) {
   if (from.slope < -limits.slope) return kNoCurve;
   const double slope = from.slope - limits.curvature * h;
   if (slope >= -limits.slope)

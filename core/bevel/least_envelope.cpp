@@ -87,7 +87,7 @@ std::vector<double> touching(const AngleProfile& profile, const EnvelopeSpec& sp
   return out;
 }
 
-bool keeps_limits(const AngleProfile& smoothed, const SwingLimits& limits) {
+bool keeps_limits(const AngleProfile& smoothed, const BevelRateLimits& limits) {
   const auto steep = steepness(smoothed), most = allowed_steepness(smoothed, limits);
   return steep.slope <= most.slope && steep.second <= most.second;
 }

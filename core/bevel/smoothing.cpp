@@ -22,7 +22,8 @@ bool finite(double x) { return std::isfinite(x); }
 
 }  // namespace
 
-Result<SwingLimits> swing_limits(double velocity, double acceleration, double speed, double use) {
+Result<BevelRateLimits> bevel_rate_limits(double velocity, double acceleration, double speed,
+                                          double use) {
   const auto above_zero = [](double x) { return finite(x) && x > 0.0; };
   if (!above_zero(velocity))
     return fail({.code = ErrorCode::zero_limit,
@@ -44,7 +45,7 @@ Result<SwingLimits> swing_limits(double velocity, double acceleration, double sp
                  .unit = "mm/s"});
   if (!(use > 0.0 && use <= 1.0))
     return fail({.code = ErrorCode::out_of_range, .member = "use", .got = use, .limit = 1.0});
-  return SwingLimits{use * velocity / speed, use * acceleration / (speed * speed)};
+  return BevelRateLimits{use * velocity / speed, use * acceleration / (speed * speed)};
 }
 
 std::vector<Mutation> mutations(std::span<const double> b, double limit) {
@@ -75,7 +76,7 @@ Steepness steepness(const AngleProfile& profile) {
   return most;
 }
 
-Steepness allowed_steepness(const AngleProfile& smoothed, const SwingLimits& limits) {
+Steepness allowed_steepness(const AngleProfile& smoothed, const BevelRateLimits& limits) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   double highest = 0.0, narrow = smoothed.period;
   for (std::size_t j = 0; j < smoothed.b.size(); ++j) {

@@ -21,7 +21,7 @@ struct AngleProfile {
 };
 
 /// What the swing axis can follow at the speed of the cut.
-struct SwingLimits {
+struct BevelRateLimits {
   double slope = 0.0;      // K, rad/mm, > 0
   double curvature = 0.0;  // A, rad/mm^2, > 0: bound of the second divided difference
 };
@@ -32,8 +32,8 @@ struct SwingLimits {
 ///
 /// Errors  zero_limit (axis not above zero), out_of_range (speed not above zero, use outside (0,
 ///         1]).
-[[nodiscard]] Result<SwingLimits> swing_limits(double velocity, double acceleration, double speed,
-                                               double use);
+[[nodiscard]] Result<BevelRateLimits> bevel_rate_limits(double velocity, double acceleration,
+                                                        double speed, double use);
 
 /// A step of B from sample `index` to the next (cyclic).
 struct Mutation {
@@ -53,13 +53,14 @@ struct Steepness {
 [[nodiscard]] Steepness steepness(const AngleProfile& profile);
 
 /// The most a smoothed profile may measure: its limits and what rounding can add to them.
-[[nodiscard]] Steepness allowed_steepness(const AngleProfile& smoothed, const SwingLimits& limits);
+[[nodiscard]] Steepness allowed_steepness(const AngleProfile& smoothed,
+                                          const BevelRateLimits& limits);
 
 /// Area between `smoothed` and the profile, sum of (f_j - B_j)(h left + h right)/2, rad*mm.
 [[nodiscard]] double area_above(const AngleProfile& profile, std::span<const double> smoothed);
 
 struct EnvelopeSpec {
-  SwingLimits limits;
+  BevelRateLimits limits;
   double highest = std::numeric_limits<double>::infinity();  // rad, no B of the profile lies above
   bool refine = true;  // the least area; else the braking envelope
 };

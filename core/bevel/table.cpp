@@ -68,7 +68,7 @@ Result<Table> build(const TableSetup& g, const std::vector<double>& also,
                     const std::stop_token& stop) {
   TRY(const auto sampled, detail::rows(g, also, stop));
   const auto& rows = sampled;
-  TRY(detail::check_torch(g, rows));
+  TRY(detail::check_required_in_torch_range(g, rows));
   auto out = outline(g, rows);
   fill_angles(g, rows, out);
   TRY(fill_zones(g.spec, rows, out));

@@ -29,7 +29,7 @@ struct TorchRange {
 enum class Along { developed, length };
 
 struct EnvelopeSmoothing {
-  SwingLimits limits;  // of the swing axis along the path
+  BevelRateLimits limits;  // of the swing axis along the path
   Along along = Along::developed;
   bool refine = true;
 };

@@ -12,34 +12,6 @@ constexpr int kAcrossOpen = 16;  // places looked at where nothing is met
 
 }  // namespace
 
-void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out) {
-  const auto& samples = rows.samples;
-  const auto& points = rows.points;
-  const bool lifted = g.spec.contact == Contact::automatic;
-  const auto lost = [&](std::size_t i) {
-    const double rule = std::abs(points[i].angles.b - points[i].raw);
-    return lifted ? std::max(rule, points[i].required - g.spec.torch.max.rad()) : rule;
-  };
-  for (const auto& [from, to] :
-       runs(samples.nodes, [&](std::size_t i) { return lost(i) > kBelow; })) {
-    Table::Binding binding{.from = from, .to = to, .groove_lost = 0.0, .root_gap = 0.0};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double phi = samples.nodes[i].phi;
-      if (!((phi >= from && phi <= to) || phi + kTwoPi <= to)) continue;
-      binding.groove_lost = std::max(binding.groove_lost, lost(i));
-      binding.root_gap = std::max(binding.root_gap, out.gap[i]);
-    }
-    out.torch_binds.push_back(binding);
-    out.warnings.push_back(
-        {.code = WarningCode::torch_range_binds,
-         .member = "torch",
-         .detail = "phi " + brief(from * kDegPerRad) + " to " + brief(to * kDegPerRad) +
-                   " deg, up to " + brief(binding.groove_lost * kDegPerRad) +
-                   " deg of groove lost" +
-                   (lifted ? ", root open up to " + brief(binding.root_gap) + " mm" : "")});
-  }
-}
-
 void note_overhang(const TableSetup& g, Table& out, const std::stop_token& stop) {
   if (g.inner) return;  // with the root outside, both walls are met all round
   for (const auto& [from, to] : joint::divide(g.root.cutters, g.wall.outer, stop).open) {

@@ -90,7 +90,10 @@ template <class F>
 [[nodiscard]] Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
                                          const std::stop_token& stop);
 /// B required beyond the torch: an error, with the root gap that lifting the cut would open.
-[[nodiscard]] Result<void> check_torch(const TableSetup& g, const Rows& rows);
+[[nodiscard]] Result<void> check_required_in_torch_range(const TableSetup& g, const Rows& rows);
+/// Smoothed B beyond the torch: an error with its phases.
+[[nodiscard]] Result<void> check_smoothed_in_torch_range(const TableSetup& g, const Rows& rows,
+                                                         const std::vector<double>& b);
 
 /// Finished surface, root opening and metal in the beam.
 void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop);
@@ -107,6 +110,7 @@ void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop);
 /// not.
 void state_penetration(const TableSetup& g, Table& out, const std::stop_token& stop);
 
+/// Where the groove rule or the root gave way to the torch's range, and by how much.
 void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out);
 /// Where the outer wall reaches beyond all partners' sides while the inner one does not.
 void note_overhang(const TableSetup& g, Table& out, const std::stop_token& stop);

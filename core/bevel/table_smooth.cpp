@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/table_parts.hpp"
 
@@ -92,16 +91,7 @@ Result<std::vector<double>> smooth(const TableSetup& g, const joint::Samples& sa
 Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
-  const auto beyond = runs(samples.nodes, [&](std::size_t i) {
-    return out.b[i] > g.spec.torch.max.rad() + kBelow || out.b[i] < g.spec.torch.min.rad() - kBelow;
-  });
-  if (!beyond.empty())
-    return fail({.code = ErrorCode::torch_range,
-                 .member = "torch/max",
-                 .got = degrees(beyond),
-                 .limit = g.spec.torch.max.deg(),
-                 .unit = "deg",
-                 .hint = "the smoothed bevel leaves the torch's range"});
+  TRY(check_smoothed_in_torch_range(g, rows, out.b));
   const auto enters = runs(samples.nodes, [&](std::size_t i) {
     return g.spec.contact == Contact::inner && out.b[i] < points[i].required - kBelow;
   });
@@ -147,30 +137,5 @@ Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
   TRY(auto smoothed, smooth(g, rows.samples, p, out, stop));
   for (const auto entry : p.entry) out.b.push_back((smoothed)[entry]);
   return check_smoothed(g, rows, out);
-}
-
-Result<void> check_torch(const TableSetup& g, const Rows& rows) {
-  const auto& samples = rows.samples;
-  const auto& points = rows.points;
-  if (g.spec.contact != Contact::inner) return {};
-  const double max = g.spec.torch.max.rad();
-  const auto beyond = [&](std::size_t i) {
-    return std::max(points[i].required, points[i].face) > max + kBelow;
-  };
-  auto intervals = runs(samples.nodes, beyond);
-  if (intervals.empty()) return {};
-  const double slope = elementary::tan(max);
-  double gap = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (beyond(i))
-      gap = std::max(gap, lift(g.root.cutters, g.wall,
-                               joint::generator_at(g.wall.inner, samples.nodes[i].phi), slope) -
-                              samples.nodes[i].z);
-  return fail({.code = ErrorCode::torch_range,
-               .member = "torch/max",
-               .got = degrees(std::move(intervals)),
-               .limit = g.spec.torch.max.deg(),
-               .unit = "deg",
-               .hint = "contact auto would open the root by up to " + brief(gap) + " mm"});
 }
 }  // namespace tubecut::bevel::detail

@@ -6,47 +6,10 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
+#include "core/motion/soft_limits.hpp"
 
 namespace tubecut::motion {
 namespace {
-
-Issue soft_limit(const Axis& axis, std::size_t index, bool upper, double value, double at,
-                 bool has_phi) {
-  const std::string where = has_phi ? " at phi " + std::to_string(at * kDegPerRad) + " deg" : "";
-  return {ErrorCode::soft_limit,
-          "machine/axes/" + std::to_string(index) + (upper ? "/soft_max" : "/soft_min"),
-          value,
-          upper ? *axis.soft_max : *axis.soft_min,
-          std::string(name_of(axis.unit)),
-          "axis " + axis.name + where};
-}
-
-/// Travel at every knot of the path against the soft limits: the farthest place outside each of
-/// them.
-Result<void> check_travel(const Course& course, bool has_phi, const std::stop_token& stop) {
-  std::vector<Issue> issues;
-  for (std::size_t a = 0; a < course.axes.size(); ++a) {
-    const Axis& axis = course.machine.axes[a];
-    for (const bool upper : {false, true}) {
-      const auto& bound = upper ? axis.soft_max : axis.soft_min;
-      if (!bound) continue;
-      double worst = 0.0, value = 0.0, at = 0.0;
-      for (std::size_t j = 0; j <= course.path.intervals() && !stops(stop, j); ++j) {
-        const std::size_t i = j == course.path.intervals() ? j - 1 : j;
-        const Coordinates x = course.path.at(i, j == i ? 0.0 : course.path.d);
-        const double q = course.axes[a].at(x);
-        const double beyond = upper ? q - *bound : *bound - q;
-        if (beyond <= worst) continue;
-        worst = beyond;
-        value = q;
-        at = x[0];
-      }
-      if (worst > 0.0) issues.push_back(soft_limit(axis, a, upper, value, at, has_phi));
-    }
-  }
-  if (issues.empty()) return {};
-  return tl::unexpected<Error>(Error{std::move(issues)});
-}
 
 /// Length over speed, segment by segment with the fastest speed of each: a floor for any schedule
 /// of the polyline.
@@ -219,10 +182,13 @@ Result<PreparedCut> prepare_cut(const ScheduleSpec& spec, std::stop_token stop) 
   if (!path) return passed_on(path);
   Course& course = job.course;
   course.path = std::move(*path);
-  if (auto ok = check_travel(course, std::holds_alternative<CutPath>(spec.cut), stop); !ok) {
+  if (auto ok = check_soft_limits(course.path, course.axes, course.machine,
+                                  std::holds_alternative<CutPath>(spec.cut), stop);
+      !ok) {
     return passed_on(ok);
   }
-  course.limits = limits(course.path, course.axes, course.tip, course.speed, course.machine, stop);
+  course.limits =
+      path_limits(course.path, course.axes, course.tip, course.speed, course.machine, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return job;
 }

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/motion/limits.hpp"
+#include "core/motion/path_limits.hpp"
 #include "core/motion/timing.hpp"
 
 namespace tubecut::motion {
@@ -15,7 +15,7 @@ struct Course {
   std::vector<AxisFunction> axes = {};  // all axes of the machine
   std::vector<AxisFunction> tip = {};
   SpeedAlong speed;
-  Limits limits = {};
+  PathLimits limits = {};
   Machine machine = {};
 
   /// Some axis or the tip needs sin B and cos B.
@@ -65,7 +65,7 @@ struct AxisUse {
   double pulses = 0.0;        // of n_max
 };
 struct Uses {
-  std::vector<AxisUse> axes = {};  // as Limits::axes
+  std::vector<AxisUse> axes = {};  // as PathLimits::axes
   double tip = 0.0;
   double least_tip = 1e300;  // mm/s, away from the ends; 1e300: nothing is away from them
   [[nodiscard]] double worst() const;

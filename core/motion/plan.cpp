@@ -255,7 +255,7 @@ Timing best_by_signed_rows(const Course& course, const Profile& without_jerk,
   return SignedSearch(course, {std::move(acceleration), without_jerk, {}}, stop).best(bound);
 }
 
-bool any_jerk(const Limits& limits) {
+bool any_jerk(const PathLimits& limits) {
   return std::ranges::any_of(limits.axes, [](const AxisBounds& axis) { return axis.j_max > 0.0; });
 }
 

@@ -74,7 +74,7 @@ std::vector<double> over_windows(const std::vector<double>& values, const Window
   return widened(values, w.low, w.high, stop);
 }
 
-WindowMaxima window_maxima(const Limits& limits, const std::vector<double>& fastest,
+WindowMaxima window_maxima(const PathLimits& limits, const std::vector<double>& fastest,
                            const Optimism& optimism, const Windows& w,
                            const std::stop_token& stop) {
   WindowMaxima out;
@@ -219,7 +219,7 @@ std::vector<double> round_caps(const WindowMaxima& maxima, const std::vector<dou
 
 /// Solves the rows round by round, each with the windows that the profile before leaves.
 template <class Solve>
-Timing refined(const Limits& limits, const std::vector<double>& without_jerk, double filter,
+Timing refined(const PathLimits& limits, const std::vector<double>& without_jerk, double filter,
                const Optimism& optimism, int rounds, const Solve& solve,
                const std::stop_token& stop) {
   Timing best{{}, filter, 1e300};
@@ -330,7 +330,7 @@ bool before(const Place& a, const Place& b) {
 
 }  // namespace
 
-Timing filtered_profile(const Limits& limits, const std::vector<double>& without_jerk,
+Timing filtered_profile(const PathLimits& limits, const std::vector<double>& without_jerk,
                         double filter, const Optimism& optimism, int rounds,
                         const std::stop_token& stop) {
   const auto solve = [&](const WindowMaxima& maxima, const Windows& reach,
@@ -344,7 +344,7 @@ Timing filtered_profile(const Limits& limits, const std::vector<double>& without
   return refined(limits, without_jerk, filter, optimism, rounds, solve, stop);
 }
 
-Timing filtered_signed_profile(const Limits& limits, const SignedRows& rows, double filter,
+Timing filtered_signed_profile(const PathLimits& limits, const SignedRows& rows, double filter,
                                const Optimism& optimism, int rounds, const std::stop_token& stop) {
   const auto solve = [&](const WindowMaxima& maxima, const Windows& reach,
                          const std::vector<double>& before, const std::vector<double>& fastest) {

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/motion/limits.hpp"
+#include "core/motion/path_limits.hpp"
 
 namespace tubecut::motion {
 
@@ -41,8 +41,9 @@ using Optimism = std::vector<double>;
 ///
 /// Cost    `rounds` (1..4) times 16 sliding maxima and two passes.
 /// Source  docs/theory/pulse-schedules.md, section 6.4 (with the proof).
-[[nodiscard]] Timing filtered_profile(const Limits& limits, const std::vector<double>& without_jerk,
-                                      double filter, const Optimism& optimism, int rounds,
+[[nodiscard]] Timing filtered_profile(const PathLimits& limits,
+                                      const std::vector<double>& without_jerk, double filter,
+                                      const Optimism& optimism, int rounds,
                                       const std::stop_token& stop = {});
 
 /// What the profile by signed rows starts from.
@@ -59,7 +60,7 @@ struct SignedRows {
 ///
 /// Cost    as `filtered_profile`, times about 4.
 /// Source  docs/theory/pulse-schedules.md, section 6.3.
-[[nodiscard]] Timing filtered_signed_profile(const Limits& limits, const SignedRows& rows,
+[[nodiscard]] Timing filtered_signed_profile(const PathLimits& limits, const SignedRows& rows,
                                              double filter, const Optimism& optimism, int rounds,
                                              const std::stop_token& stop = {});
 

@@ -19,7 +19,7 @@ constexpr double kTorch = 80.0 * kRadPerDeg;
 /// nodes; uniform spacing h. Unknown: f - B in degrees.
 class LinearProgramme {
  public:
-  LinearProgramme(const AngleProfile& profile, const SwingLimits& limits, double highest)
+  LinearProgramme(const AngleProfile& profile, const BevelRateLimits& limits, double highest)
       : b_(profile.b),
         h_(profile.period / static_cast<double>(profile.b.size())),
         problem_(glp_create_prob()) {
@@ -86,7 +86,7 @@ class LinearProgramme {
 };
 
 /// The area is GLPK's, and the multipliers prove it without GLPK.
-void compare(unsigned long seed, int nodes, std::size_t points, SwingLimits limits,
+void compare(unsigned long seed, int nodes, std::size_t points, BevelRateLimits limits,
              double highest) {
   std::mt19937_64 random(seed);
   double worst = 0.0, proved = 0.0;
@@ -108,7 +108,7 @@ void compare(unsigned long seed, int nodes, std::size_t points, SwingLimits limi
   ::testing::Test::RecordProperty("proved", std::to_string(proved * 1e9) + "e-9");
 }
 
-constexpr SwingLimits kSlow{5.0 * kRadPerDeg, 1.0 * kRadPerDeg};
+constexpr BevelRateLimits kSlow{5.0 * kRadPerDeg, 1.0 * kRadPerDeg};
 
 TEST(EnvelopeOptimum, HundredRealNodes) { compare(20240501, 100, 360, kSlow, 1e9); }
 
@@ -201,7 +201,7 @@ TEST(LeastArea, AWorseProfileIsSeen) {
 /// curve within the limits could have kept them.
 TEST(EnvelopeOptimum, FarNodesChangeOnlyWhenTheyMust) {
   std::mt19937_64 random(20240504);
-  const SwingLimits limits{5.0 * kRadPerDeg, 4.0 * kRadPerDeg};
+  const BevelRateLimits limits{5.0 * kRadPerDeg, 4.0 * kRadPerDeg};
   int far = 0;
   int changed = 0;
   for (int i = 0; i < 200; ++i) {

@@ -167,7 +167,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return worst;
 }
 
-constexpr SwingLimits kLimits{5.0 * kRadPerDeg, 1.0 * kRadPerDeg};
+constexpr BevelRateLimits kLimits{5.0 * kRadPerDeg, 1.0 * kRadPerDeg};
 constexpr double kTorch = 80.0 * kRadPerDeg;
 
 /// Nodes coarse against the limits apart (there a node that keeps the limits starts no curve, and f
@@ -272,7 +272,7 @@ TEST(EnvelopeMetamorphic, TheLeastAreaKnowsNoSeam) {
 
 /// Nodes where the profile itself breaks a limit: the ends of a step steeper than K, nodes of a
 /// second difference beyond A.
-std::vector<double> breaks(const AngleProfile& p, const SwingLimits& limits) {
+std::vector<double> breaks(const AngleProfile& p, const BevelRateLimits& limits) {
   std::vector<double> out;
   const std::size_t n = p.s.size();
   const auto h = [&](std::size_t j) {

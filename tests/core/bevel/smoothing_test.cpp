@@ -38,7 +38,7 @@ double largest_difference(const std::vector<double>& rad, const std::vector<doub
   return worst;
 }
 
-constexpr SwingLimits kLimits{5.0 * kRadPerDeg, 1.0 * kRadPerDeg};
+constexpr BevelRateLimits kLimits{5.0 * kRadPerDeg, 1.0 * kRadPerDeg};
 
 const api::Json& corpus() {
   static const api::Json file = golden("intersections-and-bevels.json");
@@ -199,8 +199,8 @@ TEST(Steepness, OfAParabolaWithUnequalSteps) {
   EXPECT_DOUBLE_EQ(got.second, (2.75 + 2.0) / 1.625);
 }
 
-TEST(SwingLimits, FollowSpeedAndUse) {
-  const auto limits = swing_limits(2.0, 8.0, 4.0, 0.5);
+TEST(BevelRateLimits, FollowSpeedAndUse) {
+  const auto limits = bevel_rate_limits(2.0, 8.0, 4.0, 0.5);
   ASSERT_TRUE(limits);
   EXPECT_DOUBLE_EQ(limits->slope, 0.25);
   EXPECT_DOUBLE_EQ(limits->curvature, 0.25);
@@ -210,12 +210,12 @@ TEST(SwingLimits, FollowSpeedAndUse) {
   EXPECT_DOUBLE_EQ(limits->curvature * 16.0, 0.5 * 8.0);
 }
 
-TEST(SwingLimits, Refusals) {
-  EXPECT_EQ(swing_limits(0.0, 1.0, 1.0, 1.0).error().code(), ErrorCode::zero_limit);
-  EXPECT_EQ(swing_limits(1.0, -1.0, 1.0, 1.0).error().code(), ErrorCode::zero_limit);
-  EXPECT_EQ(swing_limits(1.0, 1.0, 0.0, 1.0).error().code(), ErrorCode::out_of_range);
-  EXPECT_EQ(swing_limits(1.0, 1.0, 1.0, 1.01).error().code(), ErrorCode::out_of_range);
-  EXPECT_EQ(swing_limits(1.0, 1.0, 1.0, std::nan("")).error().code(), ErrorCode::out_of_range);
+TEST(BevelRateLimits, Refusals) {
+  EXPECT_EQ(bevel_rate_limits(0.0, 1.0, 1.0, 1.0).error().code(), ErrorCode::zero_limit);
+  EXPECT_EQ(bevel_rate_limits(1.0, -1.0, 1.0, 1.0).error().code(), ErrorCode::zero_limit);
+  EXPECT_EQ(bevel_rate_limits(1.0, 1.0, 0.0, 1.0).error().code(), ErrorCode::out_of_range);
+  EXPECT_EQ(bevel_rate_limits(1.0, 1.0, 1.0, 1.01).error().code(), ErrorCode::out_of_range);
+  EXPECT_EQ(bevel_rate_limits(1.0, 1.0, 1.0, std::nan("")).error().code(), ErrorCode::out_of_range);
 }
 
 TEST(Hermite, SmoothstepOfOneStep) {
@@ -318,7 +318,7 @@ TEST(Hermite, Refusals) {
 
 TEST(Envelope, Refusals) {
   const auto profile = uniform(plateau(80, 0, 39, 1.0));
-  const SwingLimits limits{0.1, 0.1};
+  const BevelRateLimits limits{0.1, 0.1};
   const auto code = [](const AngleProfile& p, const EnvelopeSpec& spec) {
     return envelope(p, spec).error().code();
   };

@@ -36,7 +36,7 @@ bevel::TableSpec random_table(std::mt19937_64& random, int n) {
   out.torch = {Angle::deg(-75), Angle::deg(75)};
   const Axis& swing = machine().axes.back();
   const auto limits =
-      bevel::swing_limits(swing.v_max * kRadPerDeg, swing.a_max * kRadPerDeg, kSpeed, kUse);
+      bevel::bevel_rate_limits(swing.v_max * kRadPerDeg, swing.a_max * kRadPerDeg, kSpeed, kUse);
   out.smoothing =
       bevel::EnvelopeSmoothing{.limits = *limits, .along = bevel::Along::length, .refine = false};
   return out;

@@ -32,7 +32,7 @@ struct AxisBounds {
 };
 
 /// All that timing needs to know of a path on a machine.
-struct Limits {
+struct PathLimits {
   double d = 0.1;
   std::vector<AxisBounds> axes = {};  // moving axes only
   /// Per interval: tip path per mm of u over the speed asked, s/mm.
@@ -46,21 +46,21 @@ struct Limits {
 /// Accuracy  exact for axes linear in the coordinates; else sampled at three points of each
 ///           interval with 0.1 % margin, the last check covers the rest.
 /// Source    docs/theory/pulse-schedules.md, sections 5.1 and 5.2.
-[[nodiscard]] Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
-                            const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
-                            const Machine& machine, const std::stop_token& stop = {});
+[[nodiscard]] PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
+                                     const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
+                                     const Machine& machine, const std::stop_token& stop = {});
 
 /// Caps at the knots and rows of acceleration, without jerk; zero at both ends.
 struct Conditions {
   std::vector<double> caps = {};
   Rows rows = {};
 };
-[[nodiscard]] Conditions without_jerk(const Limits& limits, const std::stop_token& stop = {});
+[[nodiscard]] Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop = {});
 
 /// Caps of x at the knots by the speeds of axes and tip, on whole intervals; zero at both ends.
 ///
 /// Accuracy  as `limits`.
-[[nodiscard]] std::vector<double> speed_caps(const Limits& limits,
+[[nodiscard]] std::vector<double> speed_caps(const PathLimits& limits,
                                              const std::stop_token& stop = {});
 
 /// |q' u_ddot + q'' x| <= a_max of every axis on whole intervals, signs kept. With u_ddot constant
@@ -68,6 +68,7 @@ struct Conditions {
 ///
 /// Accuracy  exact for axes linear in the coordinates; else with 0.1 % margin.
 /// Source    docs/theory/pulse-schedules.md, section 6.2.
-[[nodiscard]] HalfPlanes acceleration_rows(const Limits& limits, const std::stop_token& stop = {});
+[[nodiscard]] HalfPlanes acceleration_rows(const PathLimits& limits,
+                                           const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

@@ -1,4 +1,4 @@
-#include "core/motion/limits.hpp"
+#include "core/motion/path_limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -162,11 +162,11 @@ Rate rate_of(const AxisBounds& axis, std::size_t i, double d) {
 
 }  // namespace
 
-Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
-              const std::vector<AxisFunction>& tip, const SpeedAlong& speed, const Machine& machine,
-              const std::stop_token& stop) {
+PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
+                       const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
+                       const Machine& machine, const std::stop_token& stop) {
   const std::size_t n = path.intervals();
-  Limits out;
+  PathLimits out;
   out.d = path.d;
   out.slowness.resize(n);
   std::vector<AxisBounds> all(axes.size());
@@ -214,7 +214,7 @@ Limits limits(const Path& path, const std::vector<AxisFunction>& axes,
   return out;
 }
 
-Conditions without_jerk(const Limits& limits, const std::stop_token& stop) {
+Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop) {
   const std::size_t n = limits.intervals();
   Conditions out;
   out.caps.assign(n + 1, kNoLimit);
@@ -234,7 +234,7 @@ Conditions without_jerk(const Limits& limits, const std::stop_token& stop) {
   return out;
 }
 
-std::vector<double> speed_caps(const Limits& limits, const std::stop_token& stop) {
+std::vector<double> speed_caps(const PathLimits& limits, const std::stop_token& stop) {
   std::vector<double> caps(limits.intervals() + 1, kNoLimit);
   for (std::size_t i = 0; i < limits.intervals() && !stops(stop, i); ++i) {
     const auto cap = [&](const Rate& rate, double v) {
@@ -250,7 +250,7 @@ std::vector<double> speed_caps(const Limits& limits, const std::stop_token& stop
   return caps;
 }
 
-HalfPlanes acceleration_rows(const Limits& limits, const std::stop_token& stop) {
+HalfPlanes acceleration_rows(const PathLimits& limits, const std::stop_token& stop) {
   HalfPlanes out;
   out.rows.reserve(6 * limits.intervals() * limits.axes.size());
   for (std::size_t i = 0; i < limits.intervals() && !stops(stop, i); ++i) {
