@@ -7,10 +7,10 @@
 
 #include "api/endpoint.hpp"
 #include "api/json.hpp"
-#include "api/letters.hpp"
 #include "api/limits.hpp"
 #include "api/problem.hpp"
 #include "api/reader.hpp"
+#include "api/text_encoding.hpp"
 #include "api/writer.hpp"
 
 namespace tubecut::api {

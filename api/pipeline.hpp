@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "api/endpoint.hpp"
-#include "api/letters.hpp"
 #include "api/problem.hpp"
 #include "api/sha256.hpp"
 #include "api/stop.hpp"
 #include "api/suspicion.hpp"
+#include "api/text_encoding.hpp"
 #include "api/verdict.hpp"
 #include "api/writer.hpp"
 #include "core/base/error.hpp"

@@ -10,8 +10,8 @@
 
 #include "api/api.hpp"
 #include "api/format.hpp"
-#include "api/letters.hpp"
 #include "api/reader.hpp"
+#include "api/text_encoding.hpp"
 #include "api/writer.hpp"
 #include "core/base/error.hpp"
 

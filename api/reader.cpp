@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/letters.hpp"
 #include "api/suspicion.hpp"
+#include "api/text_encoding.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -75,7 +75,7 @@ class Reader {
   int integer(std::string_view name, int min, int max, std::optional<int> fallback = {});
   bool flag(std::string_view name, std::optional<bool> fallback = {});
   /// Printable text of 1 to `longest` characters. `fallback` empty: required.
-  /// One to `longest` characters (letters.hpp).
+  /// One to `longest` characters (text_encoding.hpp).
   std::string text(std::string_view name, std::size_t longest = 64);
   /// Printable ASCII: what becomes a word of a program.
   std::string ascii_text(std::string_view name, std::size_t longest);

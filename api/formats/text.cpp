@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "api/letters.hpp"
+#include "api/text_encoding.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -9,7 +9,7 @@ namespace tubecut::api {
 [[nodiscard]] std::string fixed(double value, int digits = 2);
 
 // Text that comes from a client, one function a format: in what is printed nothing of it acts. It
-// is UTF-8 without controls (letters.hpp). In JSON (glTF) text goes through the Writer; STL carries
+// is UTF-8 without controls (text_encoding.hpp). In JSON (glTF) text goes through the Writer; STL carries
 // none. Formats of ASCII spell it in that, and throw Unspellable where they cannot.
 
 /// What a comment says behind a text that had to be spelled in ASCII.

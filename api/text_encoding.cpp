@@ -1,4 +1,4 @@
-#include "api/letters.hpp"
+#include "api/text_encoding.hpp"
 
 #include <algorithm>
 #include <array>
