@@ -301,8 +301,4 @@ std::string job_line(const Caption& caption) {
   return out;
 }
 
-std::string_view version() { return TUBECUT_VERSION; }
-
-int numerics() { return 3; }
-
 }  // namespace tubecut::api

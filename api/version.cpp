@@ -1,0 +1,9 @@
+#include "api/api.hpp"
+
+namespace tubecut::api {
+
+std::string_view version() { return TUBECUT_VERSION; }
+
+int numerics() { return 3; }
+
+}  // namespace tubecut::api
