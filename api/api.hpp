@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -111,9 +112,19 @@ struct CallMemory {
 /// The id of the endpoint, or of the batches, at a path; empty for other paths.
 [[nodiscard]] std::string_view endpoint_at(std::string_view path);
 
-/// Adds a machine of one's own (a JSON object in the form of GET /v1/machines) to those a request
-/// can name. Only at start, before the first dispatch. Returns what is wrong with it, or nothing.
-[[nodiscard]] std::string add_machine(std::string_view json);
+/// A machine of one's own: a JSON object in the form of GET /v1/machines, and the file it is from.
+struct MachineText {
+  std::string file;
+  std::string json;
+};
+
+/// Puts these beside the built-in machines, instead of those that were there: all of them, or none.
+/// Jobs that have begun keep theirs. Returns the first file at fault and why, or nothing.
+[[nodiscard]] std::string set_machines(std::span<const MachineText> texts);
+
+/// Of all that an answer depends on beside its request: engine, numerics and every machine's hash.
+/// Replicas where it differs may answer one request with other bytes.
+[[nodiscard]] std::string configuration_sha256();
 
 /// An example the service carries: a request's body that runs.
 struct Example {

@@ -87,6 +87,8 @@ std::string version_page(const Context& /*context*/) {
     w.field("engine", "tubecut " + std::string(version()));
     w.field("version", version());
     w.field("numerics", numerics());
+    w.field("configuration_sha256", configuration_sha256());
+    encode_machine_hashes(w);
     w.array("endpoints", endpoints(), [](Writer& each, const Endpoint& endpoint) {
       each.object([&](Writer& o) {
         o.field("id", endpoint.id);

@@ -1,6 +1,7 @@
 #include "api/machines.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "api/api.hpp"
 #include "api/sha256.hpp"
@@ -126,28 +127,64 @@ struct KinematicFields {
   }
 };
 
-std::vector<ShelfMachine>& shelf() {
-  static std::vector<ShelfMachine> all = [] {
-    std::vector<ShelfMachine> out;
-    for (auto& entry : motion::catalogue()) {
-      auto hash = machine_sha256(entry.machine);
-      out.push_back({std::move(entry.machine), std::move(entry.values), std::move(hash)});
-    }
-    return out;
-  }();
-  return all;
+Shelf built_in() {
+  Shelf out;
+  for (auto& entry : motion::catalogue()) {
+    auto hash = machine_sha256(entry.machine);
+    out.push_back({std::move(entry.machine), std::move(entry.values), std::move(hash)});
+  }
+  return out;
+}
+
+std::atomic<std::shared_ptr<const Shelf>>& shelf() {
+  static std::atomic<std::shared_ptr<const Shelf>> now(std::make_shared<const Shelf>(built_in()));
+  return now;
+}
+
+const ShelfMachine* find(const Shelf& all, std::string_view name) {
+  const auto found = std::ranges::find(
+      all, name, [](const ShelfMachine& m) -> std::string_view { return m.machine.name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// Reads `machine_sha256` and holds it against what the request's machine is.
+void read_pin(Reader& in, const std::string& sha256) {
+  const auto pin = in.optional_text("machine_sha256", 64);
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (pin && (pin->size() != sha256.size() || !std::ranges::all_of(*pin, is_hex)))
+    in.issue({.code = ErrorCode::bad_text,
+              .pointer = "machine_sha256",
+              .hint = "64 digits in hex, as GET /v1/machines tells"},
+             in.find("machine_sha256"));
+  else if (pin && *pin != sha256)
+    in.issue({.code = ErrorCode::machine_mismatch,
+              .pointer = "machine_sha256",
+              .limit = Json{sha256},
+              .hint = "limit: the hash of the machine that this replica would take"},
+             in.find("machine_sha256"));
+}
+
+/// Adds the machine of a JSON text; returns what is wrong with it, or nothing.
+std::string add_machine(std::string_view json, Shelf& all) {
+  const auto body = parse(json);
+  if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);
+  Reader in(*body);
+  auto machine = decode_machine(in);
+  if (const auto issues = in.finish_root(); !issues.empty())
+    return issues.front().pointer + ": " + std::string(info(issues.front().code).meaning);
+  if (machine.name.empty()) return "/name: a machine on the shelf needs a name";
+  if (find(all, machine.name) != nullptr) return "/name: there is a machine of this name already";
+  if (const auto sound = motion::check(machine); !sound)
+    return sound.error().issues.front().member + ": " +
+           std::string(info(sound.error().code()).meaning);
+  auto hash = machine_sha256(machine);
+  all.push_back({std::move(machine), {}, std::move(hash)});
+  return {};
 }
 
 }  // namespace
 
-std::span<const ShelfMachine> machines() { return shelf(); }
-
-const ShelfMachine* find_machine(std::string_view name) {
-  const auto all = machines();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const ShelfMachine& m) { return m.machine.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
+std::shared_ptr<const Shelf> machines() { return shelf().load(); }
 
 motion::Machine decode_machine(Reader& in) {
   static constexpr std::array kTypes{Option<Type>{"five_axis_cutter", Type::five_axis_cutter},
@@ -183,21 +220,32 @@ std::string machine_sha256(const motion::Machine& machine) {
 }
 
 motion::Machine decode_machine_choice(Reader& in, std::string_view name) {
-  if (!in.is<std::string>(name)) return in.object(name, decode_machine);
+  if (!in.is<std::string>(name)) {
+    auto machine = in.object(name, decode_machine);
+    if (in.has("machine_sha256") && in.understood(name)) read_pin(in, machine_sha256(machine));
+    in.note("machine_sha256");
+    return machine;
+  }
+  const auto all = machines();
   const auto wanted = in.text(name);
-  if (wanted.empty()) return machines().front().machine;  // refused already
-  if (const auto* found = find_machine(wanted)) return found->machine;
+  in.note("machine_sha256");
+  if (wanted.empty()) return all->front().machine;  // refused already
+  if (const auto* found = find(*all, wanted)) {
+    read_pin(in, found->sha256);
+    in.put("machine_sha256", Json{found->sha256});
+    return found->machine;
+  }
   std::string list;
-  for (const auto& m : machines()) list += (list.empty() ? "" : "|") + m.machine.name;
+  for (const auto& m : *all) list += (list.empty() ? "" : "|") + m.machine.name;
   in.issue({.code = ErrorCode::unknown_machine, .pointer = std::string(name), .limit = Json{list}},
            in.find(name));
-  return machines().front().machine;
+  return all->front().machine;
 }
 
 std::string machines_page() {
   Writer out;
   out.object([](Writer& w) {
-    w.array("machines", machines(), [](Writer& each, const ShelfMachine& m) {
+    w.array("machines", *machines(), [](Writer& each, const ShelfMachine& m) {
       each.object([&](Writer& o) {
         o.field("name", m.machine.name);
         o.field("machine_sha256", m.sha256);
@@ -215,22 +263,31 @@ std::string machines_page() {
   return out.take();
 }
 
-std::string add_machine(std::string_view json) {
-  const auto body = parse(json);
-  if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);
-  Reader in(*body);
-  auto machine = decode_machine(in);
-  if (const auto issues = in.finish_root(); !issues.empty())
-    return issues.front().pointer + ": " + std::string(info(issues.front().code).meaning);
-  if (machine.name.empty()) return "/name: a machine on the shelf needs a name";
-  if (find_machine(machine.name) != nullptr)
-    return "/name: there is a machine of this name already";
-  if (const auto sound = motion::check(machine); !sound)
-    return sound.error().issues.front().member + ": " +
-           std::string(info(sound.error().code()).meaning);
-  auto hash = machine_sha256(machine);
-  shelf().push_back({std::move(machine), {}, std::move(hash)});
+void encode_machine_hashes(Writer& w) {
+  w.array("machines", *machines(), [](Writer& each, const ShelfMachine& m) {
+    each.object([&](Writer& o) {
+      o.field("name", m.machine.name);
+      o.field("machine_sha256", m.sha256);
+    });
+  });
+}
+
+std::string set_machines(std::span<const MachineText> texts) {
+  auto all = built_in();
+  for (const auto& [file, json] : texts)
+    if (const auto wrong = add_machine(json, all); !wrong.empty()) return file + ": " + wrong;
+  shelf().store(std::make_shared<const Shelf>(std::move(all)));
   return {};
+}
+
+std::string configuration_sha256() {
+  Writer out;
+  out.object([](Writer& w) {
+    w.field("version", version());
+    w.field("numerics", numerics());
+    encode_machine_hashes(w);
+  });
+  return sha256(out.take());
 }
 
 }  // namespace tubecut::api

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <span>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,16 +18,21 @@ struct ShelfMachine {
   std::string sha256;                      // over the JSON that encode_machine prints
 };
 
-/// The built-in machines and those added at start, in that order.
-[[nodiscard]] std::span<const ShelfMachine> machines();
-[[nodiscard]] const ShelfMachine* find_machine(std::string_view name);
+using Shelf = std::vector<ShelfMachine>;
+
+/// The built-in machines and those of `set_machines`, in that order, as they are now. Who looks
+/// twice within a job keeps what was got: the next look may find another shelf.
+[[nodiscard]] std::shared_ptr<const Shelf> machines();
 
 /// `in` stands on an object in the form of GET /v1/machines.
 [[nodiscard]] motion::Machine decode_machine(Reader& in);
 void encode_machine(const motion::Machine& machine, Writer& w);
 [[nodiscard]] std::string machine_sha256(const motion::Machine& machine);
+/// The member `machines`: name and hash of each.
+void encode_machine_hashes(Writer& w);
 
-/// A field that is a machine's name, or a machine.
+/// A field that is a machine's name, or a machine, and beside it `machine_sha256`, which pins what
+/// it holds. Of a name the echo says that hash, so that a job's identity takes the machine in.
 [[nodiscard]] motion::Machine decode_machine_choice(Reader& in, std::string_view name);
 
 /// GET /v1/machines.

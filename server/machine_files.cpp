@@ -19,13 +19,13 @@ std::string load_machines(const std::string& folder) {
     if (it->path().extension() == ".json") files.push_back(it->path());
   if (error) return folder + ": " + error.message();
   std::sort(files.begin(), files.end());
+  std::vector<api::MachineText> texts;
   for (const auto& path : files) {
     std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (const auto wrong = api::add_machine(text); !wrong.empty())
-      return path.string() + ": " + wrong;
+    texts.push_back({path.string(), {std::istreambuf_iterator<char>(file), {}}});
+    if (!file) return path.string() + ": cannot be read";
   }
-  return {};
+  return api::set_machines(texts);
 }
 
 }  // namespace tubecut::server

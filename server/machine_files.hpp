@@ -4,8 +4,9 @@
 
 namespace tubecut::server {
 
-/// Adds every *.json of a folder, in the order of their names, to the machines that requests can
-/// name. Returns what is wrong (file and reason), or nothing. An empty folder name adds nothing.
+/// Puts every *.json of a folder, in the order of their names, beside the built-in machines that
+/// requests can name, instead of those read before: all of them or, when one is wrong, none.
+/// Returns what is wrong (file and reason), or nothing. An empty folder name changes nothing.
 [[nodiscard]] std::string load_machines(const std::string& folder);
 
 }  // namespace tubecut::server

@@ -25,6 +25,8 @@
   X(numerics_mismatch, conflict,                                                                   \
     "The request pins another numerics version than this engine has.",                             \
     "Send the job to an engine of that numerics version, or remove the pin.")                      \
+  X(machine_mismatch, conflict, "The request pins another machine than this replica has so named.", \
+    "Send the job to a replica that has that machine, or look why the two differ.")                \
   X(body_too_large, too_large, "The body is larger than this endpoint takes.",                     \
     "Send a smaller request, or split it.")                                                        \
   X(unsupported_media_type, unsupported_media, "The body's media type is not accepted.",           \

@@ -158,5 +158,24 @@ TEST(Chain, Curve3IsTheIntersectionCurve) {
   }
 }
 
+TEST(Chain, TheMachineOfANameIsPartOfTheJob) {
+  const auto asked = example("pulse-schedules/source-002-offset-pair-on-the-crawler.json");
+  const auto named = post("/v1/pulse-schedules", asked);
+  ASSERT_FALSE(named.outcome.error) << named.outcome.body.substr(0, 1000);
+  const auto hash = text(named.body, "request/machine_sha256");
+  EXPECT_EQ(hash, text(named.body, "result/machine_sha256"));
+  const auto again = post("/v1/pulse-schedules", *named.body.find("request"));
+  EXPECT_EQ(text(again.body, "job/input_sha256"), text(named.body, "job/input_sha256"));
+  const auto refused =
+      post("/v1/pulse-schedules", with(asked, "machine_sha256", Json{std::string(64, '0')}));
+  EXPECT_EQ(refused.outcome.error, ErrorKind::conflict);
+  EXPECT_EQ(text(refused.body, "errors/0/code"), "machine_mismatch");
+  EXPECT_EQ(text(refused.body, "errors/0/pointer"), "/machine_sha256");
+  EXPECT_EQ(text(refused.body, "errors/0/limit"), hash);
+  const auto limited =
+      post("/v1/bevel-tables", example("bevel-tables/table-1-five-axis-at-600-mm-min.json"));
+  EXPECT_EQ(text(limited.body, "request/smoothing/limits/machine_sha256").size(), 64U);
+}
+
 }  // namespace
 }  // namespace tubecut::testing

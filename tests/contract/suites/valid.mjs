@@ -12,12 +12,16 @@ const HALF = 0.5;     // of those made from examples
 const SEARCHED = 300;  // bodies, for a smaller one that shows the same fault
 const SEARCH_MS = 5000;
 
-// Without a pin of the numerics version, of itself or of a request inside.
-const unpinned = ({numerics, ...rest}) => Object.fromEntries(Object.entries(rest).map(([name, value]) =>
-  [name, ['cut', 'mill_path', 'groove'].includes(name) && value?.constructor === Object ? unpinned(value) : value]));
+// Without pins of the numerics version and of machines, of itself or of a request inside.
+const PINS = {numerics: 'numerics_mismatch', machine_sha256: 'machine_mismatch'};
+const unpinned = (value) => {
+  if (Array.isArray(value)) return value.map(unpinned);
+  if (value?.constructor !== Object) return value;
+  return Object.fromEntries(Object.entries(value).filter(([name]) => !(name in PINS)).map(([name, inner]) => [name, unpinned(inner)]));
+};
 const pinned = (body) => JSON.stringify(body) !== JSON.stringify(unpinned(body));
 
-// A pin of the numerics version is refused before anything is computed: in one of ten only.
+// A pin is refused before anything is computed: in one of ten only.
 const seldomPinned = (bodies) => fc.tuple(bodies, fc.nat(9)).map(([body, k]) => {
   return k === 0 ? body : unpinned(body);
 });
@@ -33,7 +37,7 @@ function replyFaults({contract, problem}, endpoint, body, reply) {
   const faults = problemFaults(contract, problem, reply);
   if (faults.length) return faults;
   const {code, errors} = JSON.parse(reply.text);
-  if (reply.status === 409 && code === 'numerics_mismatch' && pinned(body)) return [];
+  if (reply.status === 409 && Object.values(PINS).includes(code) && pinned(body)) return [];
   if (reply.status !== 422) return [`status ${reply.status} ${code}`];
   const named = new Set([code, ...errors.map((e) => e.code)]);
   return [...named].filter((c) => !endpoint.codes.includes(c)).map((c) => `${c} is not one of the endpoint's codes: ${reply.text}`);
