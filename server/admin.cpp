@@ -37,7 +37,9 @@ Response admin(const Request& request, const AdminSources& sources) {
     return response;
   }
   if (path == "/livez") return plain(200, "alive\n");
-  if (path == "/readyz") return sources.ready() ? plain(200, "ready\n") : plain(503, "not ready\n");
+  if (path == "/readyz")
+    return sources.ready() ? plain(200, "ready " + api::configuration_sha256() + "\n")
+                           : plain(503, "not ready\n");
   Response response = plain(200, sources.metrics());
   response.content_type = "text/plain; version=0.0.4; charset=utf-8";
   return response;

@@ -5,11 +5,15 @@
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <ctime>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <mutex>
 #include <sstream>
 #include <string_view>
@@ -53,6 +57,46 @@ double resident_bytes() {
   double resident = 0.0;
   statm >> total >> resident;
   return statm ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0.0;
+}
+
+/// Seconds since 1970 when this process began, to a hundredth; 0 where /proc is not there.
+double begun_at() {
+  std::ifstream file("/proc/self/stat");
+  std::string stat{std::istreambuf_iterator<char>(file), {}};
+  std::istringstream after_name(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
+  const std::vector<std::string> fields{std::istream_iterator<std::string>(after_name), {}};
+  constexpr std::size_t kStartTime = 19;  // the 22nd of all, proc(5)
+  timespec booted{};
+  timespec now{};
+  if (fields.size() <= kStartTime || clock_gettime(CLOCK_BOOTTIME, &booted) != 0 ||
+      clock_gettime(CLOCK_REALTIME, &now) != 0)
+    return 0.0;
+  const auto seconds = [](const timespec& t) {
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  return seconds(now) - seconds(booted) +
+         std::stod(fields[kStartTime]) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// Seconds of CPU of all threads, in the system's calls too.
+double cpu_seconds() {
+  timespec used{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+double open_descriptors() {
+  std::error_code unknown;
+  double count = -1.0;  // that which reads the folder
+  for (std::filesystem::directory_iterator it("/proc/self/fd", unknown), end; !unknown && it != end;
+       it.increment(unknown))
+    ++count;
+  return std::max(count, 0.0);
+}
+
+double most_descriptors() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_NOFILE, &limit) == 0 ? static_cast<double>(limit.rlim_cur) : 0.0;
 }
 
 /// Clients may send any method; the label may not be any text.
@@ -130,6 +174,17 @@ struct Metrics::Impl {
           .Add({});
   Gauge& ready = gauge(registry, "tubecut_ready", "1 while /readyz says yes.").Add({});
   Gauge& resident = gauge(registry, "process_resident_memory_bytes", "Resident memory.").Add({});
+  Counter& cpu =
+      counter(registry, "process_cpu_seconds_total", "CPU of all threads, system time included.")
+          .Add({});
+  Gauge& descriptors = gauge(registry, "process_open_fds", "Open descriptors.").Add({});
+  Gauge& descriptors_most = gauge(registry, "process_max_fds", "The most of them.").Add({});
+  Family<Counter>& reloads = counter(registry, "tubecut_reloads_failed_total",
+                                     "Files read again at SIGHUP that are wrong, by kind.");
+  Family<Gauge>& configuration =
+      gauge(registry, "tubecut_configuration_info",
+            "Always 1; sha256 is of all that answers depend on beside their requests.");
+  std::pair<std::string, Gauge*> configured;
   std::vector<std::pair<Counter*, std::uint64_t TransportStats::*>> counts;
   std::vector<std::pair<Gauge*, std::uint64_t TransportStats::*>> levels;
 
@@ -141,6 +196,9 @@ struct Metrics::Impl {
           "The integer raised with every change of a result bit.")
         .Add({})
         .Set(api::numerics());
+    gauge(registry, "process_start_time_seconds", "When the process began, since 1970.")
+        .Add({})
+        .Set(begun_at());
     start_at_zero();
     count_refusals();
     show_levels();
@@ -151,12 +209,31 @@ struct Metrics::Impl {
     auto endpoints = api::endpoint_ids();
     endpoints.emplace_back(kNoEndpoint);
     const auto codes = failures();
+    for (const auto* what : {"keys", "machines"}) reloads.Add({{"what", what}});
     for (const auto endpoint : endpoints) {
       unproven.Add({{"endpoint", std::string(endpoint)}});
       for (const auto& [code, status] : codes) {
         errors.Add(error_labels(endpoint, code, status));
       }
     }
+  }
+
+  /// The series of a configuration that is no longer there ends.
+  void show_configuration() {
+    auto sha256 = api::configuration_sha256();
+    if (sha256 == configured.first) return;
+    if (configured.second != nullptr) configuration.Remove(configured.second);
+    auto& now = configuration.Add({{"sha256", sha256}});
+    now.Set(1.0);
+    configured = {std::move(sha256), &now};
+  }
+
+  void show_process() {
+    ready.Set(sources.ready() ? 1.0 : 0.0);
+    resident.Set(resident_bytes());
+    cpu.Increment(std::max(cpu_seconds() - cpu.Value(), 0.0));
+    descriptors.Set(open_descriptors());
+    descriptors_most.Set(most_descriptors());
   }
 
   void count_refusals() {
@@ -227,6 +304,8 @@ void Metrics::finished(const JobRecord& job) {
   if (code == "rate_limited") x_->rate.Increment();
 }
 
+void Metrics::reload_failed(const char* what) { x_->reloads.Add({{"what", what}}).Increment(); }
+
 std::string Metrics::text() {
   const std::lock_guard one_scrape(x_->scrape);
   catch_up(x_->dropped, x_->sources.log_drops());
@@ -234,8 +313,8 @@ std::string Metrics::text() {
   const auto stats = x_->sources.transport();
   for (const auto& [counter, field] : x_->counts) catch_up(*counter, stats.*field);
   for (const auto& [gauge, field] : x_->levels) gauge->Set(static_cast<double>(stats.*field));
-  x_->ready.Set(x_->sources.ready() ? 1.0 : 0.0);
-  x_->resident.Set(resident_bytes());
+  x_->show_configuration();
+  x_->show_process();
   std::ostringstream out;
   prometheus::TextSerializer().Serialize(out, x_->registry.Collect());
   return out.str();

@@ -30,6 +30,8 @@ class Metrics {
 
   void started();
   void finished(const JobRecord& job);
+  /// A file that was read again and is wrong; `what` is `keys` or `machines`.
+  void reload_failed(const char* what);
 
   /// The text exposition format, version 0.0.4.
   [[nodiscard]] std::string text();

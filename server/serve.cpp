@@ -28,6 +28,7 @@
 #include "server/job_files.hpp"
 #include "server/job_log.hpp"
 #include "server/json_line.hpp"
+#include "server/machine_files.hpp"
 #include "server/metrics.hpp"
 #include "server/selftest.hpp"
 #include "server/signals.hpp"
@@ -205,15 +206,28 @@ struct Run {
             .ready = [this] { return ready.load(); },
             .transport = [this] { return work ? work->stats() : TransportStats{}; }};
   }
-  /// New keys without a restart; a mistake in the file leaves the old ones.
-  void reload_keys() {
-    if (!access->asks()) return;
-    const auto wrong = access->load();
+  /// New keys and machines without a restart; a mistake in a file leaves the old ones.
+  void reload(const std::string& folder) {
+    if (access->asks()) reloaded("keys", access->load());
+    if (!folder.empty()) reloaded("machines", load_machines(folder));
+  }
+  void reloaded(const char* what, const std::string& wrong) {
+    if (!wrong.empty()) metrics.reload_failed(what);
     JsonLine line;
     line.text("ts", utc(std::chrono::system_clock::now()));
-    line.text("level", wrong.empty() ? "info" : "error").text("event", "keys_reloaded");
+    line.text("level", wrong.empty() ? "info" : "error");
+    line.text("event", fmt::format("{}_reloaded", what));
+    line.text("configuration_sha256", api::configuration_sha256());
     if (!wrong.empty()) line.text("failure", wrong);
     log.write(line.done());
+  }
+  void stopping() {
+    ready = false;
+    log.write(JsonLine{}
+                  .text("ts", utc(std::chrono::system_clock::now()))
+                  .text("level", "info")
+                  .text("event", "stopping")
+                  .done());
   }
 
   std::shared_ptr<Access> access;
@@ -325,8 +339,8 @@ int serve(const Config& c) noexcept {
   if (finished(work_served, 0s)) work_served.get();
   run.ready = true;
 
-  signals.wait([&run] { run.reload_keys(); });
-  run.ready = false;
+  signals.wait([&] { run.reload(c.machines); });
+  run.stopping();
   stop_work(*work, work_served, run.jobs, c);
   probes->stop();
   const bool sound = work_served.get() && probes_served.get();

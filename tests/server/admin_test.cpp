@@ -56,6 +56,7 @@ TEST(Metrics, CountWhatHappened) {
   job.facts.error_code = "verification_failed";
   metrics.finished(job);
   metrics.started();
+  metrics.reload_failed("machines");
   drops = 4;
   const std::string text = metrics.text();
   for (const auto* line :
@@ -67,10 +68,23 @@ TEST(Metrics, CountWhatHappened) {
         "tubecut_jobs_total{endpoint=\"bevel-tables\",verdict=\"ok\"} 1\n",
         "tubecut_jobs_total{endpoint=\"bevel-tables\",verdict=\"refused\"} 1\n",
         "tubecut_verification_failures_total{endpoint=\"bevel-tables\"} 1\n",
-        "http_server_active_requests 1\n", "tubecut_ready 1\n", "tubecut_slots 2\n",
-        "tubecut_slots_busy 1\n", "tubecut_queue_depth 7\n", "tubecut_numerics_info 3\n",
-        "tubecut_refused_total{reason=\"queue_full\"} 9\n", "tubecut_clients_hung_up_total 3\n",
-        "tubecut_log_lines_dropped_total 4\n", "tubecut_build_info{"}) {
+        "http_server_active_requests 1\n",
+        "tubecut_ready 1\n",
+        "tubecut_slots 2\n",
+        "tubecut_slots_busy 1\n",
+        "tubecut_queue_depth 7\n",
+        "tubecut_numerics_info 3\n",
+        "tubecut_refused_total{reason=\"queue_full\"} 9\n",
+        "tubecut_clients_hung_up_total 3\n",
+        "tubecut_log_lines_dropped_total 4\n",
+        "tubecut_build_info{",
+        "tubecut_reloads_failed_total{what=\"keys\"} 0\n",
+        "tubecut_reloads_failed_total{what=\"machines\"} 1\n",
+        "tubecut_configuration_info{sha256=\"",
+        "process_cpu_seconds_total 0.",
+        "process_start_time_seconds 1",
+        "process_open_fds ",
+        "process_max_fds "}) {
     EXPECT_NE(text.find(line), text.npos) << line << text;
   }
 }
