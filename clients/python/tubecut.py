@@ -39,6 +39,7 @@ _BATCH_BYTES = 4 << 20  # the service takes 8 MiB
 _BATCH_LINES = 2000
 _PART_LINES = 8  # at least, so that a replica of several slots has work for each
 _STREAMS = 32  # at most
+_PINNED = frozenset({"numerics_mismatch", "machine_mismatch"})  # a replica of the version that the request pins would answer
 _SAME_AGAIN = 3  # answers of replicas known already, and there is no other behind an address
 _COUNT_S = 60.0  # how long a number of replicas is believed
 _PROBE_S = 2.0
@@ -503,22 +504,34 @@ class Client:
     def _part(self, waiting: Dict[str, BatchItem], workers: int, run: _Run) -> Iterator[BatchResult]:
         run.answered()
         tried: Set[str] = set()
+        others = _Others(self._urls)
         while waiting and not run.stopped():
             before = len(waiting)
             wait = 0.1
+            elsewhere: Dict[str, BatchResult] = {}
+            behind: List[Optional[str]] = []
             url = self._next_url(run, tried)
             try:
                 with run.at(url):
-                    for one in (self._streamed(url, list(waiting.values()), run) if self._has_batches(url) else
+                    for one in (self._streamed(url, list(waiting.values()), run, behind) if self._has_batches(url) else
                                 self._one_by_one(url, list(waiting.values()), workers)):
                         if run.stopped():
                             return
+                        if one.problem and one.problem.code in _PINNED and one.id in waiting:
+                            elsewhere[one.id] = one
+                            continue
                         if one.status in _RETRYABLE or waiting.pop(one.id, None) is None:
                             continue  # sent again below, or known already
                         run.answered()
                         yield one
                 self._first = self._urls.index(url)
                 self._away.pop(url, None)
+                if elsewhere and others.may_be(url, behind[0] if behind else None):
+                    tried.add(url)
+                else:  # as they are refused everywhere, so they are
+                    for one in elsewhere.values():
+                        if waiting.pop(one.id, None):
+                            yield one
             except _Down:
                 tried.add(url)
                 self._away[url] = time.monotonic() + _AWAY_S
@@ -576,8 +589,9 @@ class Client:
                 self._batches[url] = reply.status not in (404, 405)
             return self._batches[url]
 
-    def _streamed(self, url: str, items: Sequence[BatchItem], run: _Run) -> Iterator[BatchResult]:
-        """The answers of one POST /v1/batches. Reads while it still sends, so neither side waits for the other."""
+    def _streamed(self, url: str, items: Sequence[BatchItem], run: _Run, behind: List[Optional[str]]) -> Iterator[BatchResult]:
+        """The answers of one POST /v1/batches, and the name of who gives them. Reads while it still sends, so neither side waits for
+        the other."""
         lines = [item.line() for item in items]
         connection = self._connect(url, min(_CONNECT_S, self._timeout_s))
         wire: Optional[socket.socket] = None
@@ -597,6 +611,7 @@ class Client:
             reply = connection.getresponse()
             if reply.status != 200:
                 raise _refusal(_Reply(reply.status, reply.headers, reply.read()))
+            behind.append(reply.headers.get("Tubecut-Replica"))
             yield from self._answers(reply, {item.id for item in items})
         except (OSError, http.client.HTTPException) as broken:
             raise _Down(str(broken)) from None
@@ -671,6 +686,7 @@ class Client:
         """One exchange, repeated at the replicas in turn while they are down or full."""
         give_up = time.monotonic() + self._patience_s
         attempt = 0
+        others = _Others(self._urls)
         while True:
             index = (self._first + attempt) % len(self._urls)
             attempt += 1
@@ -678,6 +694,10 @@ class Client:
             why = ""
             try:
                 reply = self._exchange(self._urls[index], method, path, body, headers)
+                if _refuses_a_pin(reply):
+                    if others.may_be(self._urls[index], reply.headers.get("Tubecut-Replica")):
+                        continue
+                    return reply
                 if reply.status not in _RETRYABLE:
                     self._first = index
                     return reply
@@ -726,6 +746,24 @@ def _job_headers(job_id: Optional[str], of_batch: bool = False) -> Dict[str, str
     if job_id is not None and not fits and not of_batch:
         raise ValueError(f"job_id {job_id!r}: 1 to 128 printable ASCII characters, without spaces at the ends; a name goes into `reference`")
     return {"Job-Id": job_id} if job_id is not None and fits else {}
+
+
+def _refuses_a_pin(reply: _Reply) -> bool:
+    return reply.status == 409 and _problem_of(reply).code in _PINNED
+
+
+class _Others:
+    """Whether there may be another replica than those that have refused what a request pins: an address not asked yet, or behind one
+    of them a replica of another name."""
+
+    def __init__(self, urls: Iterable[str]) -> None:
+        self._urls, self._names, self._again = set(urls), set(), 0  # type: Set[str], Set[str], int
+
+    def may_be(self, url: str, name: Optional[str]) -> bool:
+        self._urls.discard(url)
+        self._again = self._again + 1 if name in self._names or name is None else 0
+        self._names.add(name or url)
+        return bool(self._urls) or (name is not None and self._again < _SAME_AGAIN)
 
 
 class _Full(Exception):
