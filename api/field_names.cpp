@@ -78,6 +78,10 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return nearest(name, known, std::max(kSlips, name.size() / 2));
 }
 
+std::string slip_of(std::string_view name, const std::vector<std::string>& fields) {
+  return nearest(name, fields, kSlips);
+}
+
 std::string nearest_field(std::string_view name, const std::vector<std::string>& fields) {
   const auto stem = without_unit(name);
   if (stem.empty()) return {};
@@ -85,7 +89,7 @@ std::string nearest_field(std::string_view name, const std::vector<std::string>&
     for (const auto& field : fields)
       if (stem == other && without_unit(field) == ours) return field;
   if (auto whole = begun_by(name, fields); !whole.empty()) return whole;
-  if (auto slip = nearest(name, fields, kSlips); !slip.empty()) return slip;
+  if (auto slip = slip_of(name, fields); !slip.empty()) return slip;
   for (const auto& field : fields) {
     const auto ours = without_unit(field);
     if (ours.size() > stem.size() + 1 && ours.ends_with(stem) &&

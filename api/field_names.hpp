@@ -15,6 +15,9 @@ namespace tubecut::api {
 [[nodiscard]] std::string nearest_field(std::string_view name,
                                         const std::vector<std::string>& fields);
 
+/// The field that `name` is a slip of the pen from; empty when there is none.
+[[nodiscard]] std::string slip_of(std::string_view name, const std::vector<std::string>& fields);
+
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);
 

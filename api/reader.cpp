@@ -104,10 +104,14 @@ void Reader::finish() {
     pace_.turn();
     if (issues_->size() >= kIssuesNamed) return;
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    const auto near = nearest_field(name, open);
+    auto hint = "known here: " + list(known_);
+    if (const auto near = nearest_field(name, open); !near.empty())
+      hint = "did you mean " + near + "?";
+    else if (const auto twin = slip_of(name, known_); !twin.empty())
+      hint = twin + " is given already; remove one of the two";
     record({.code = ErrorCode::unknown_field,
             .pointer = pointer_ + "/" + escaped(name),  // the empty name too is a name
-            .hint = near.empty() ? "known here: " + list(known_) : "did you mean " + near + "?"},
+            .hint = std::move(hint)},
            &value);
   }
 }

@@ -255,6 +255,8 @@ TEST(Problems, FieldsNameThemselves) {
   const auto typo = post(kBevel, with(table_1(), "cutters/1/offest_mm", 15.0));
   EXPECT_EQ(text(typo.body, "errors/0/hint"), "did you mean offset_mm?");
   EXPECT_EQ(at(typo.body, "errors").as<Array>()->size(), 1u);
+  const auto twice = post(kBevel, with(table_1(), "kerfmm", 1.5));
+  EXPECT_EQ(text(twice.body, "errors/0/hint"), "kerf_mm is given already; remove one of the two");
 }
 
 TEST(Problems, MissingFieldsPointToThemselves) {

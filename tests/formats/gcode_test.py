@@ -275,7 +275,9 @@ class ScheduleGcode(FormatTest):
         self.assertLess(lit.index("M3 S1"), next(i for i, line in enumerate(lit) if line.startswith("G1")))
         self.assertGreater(lit.index("M5"), max(i for i, line in enumerate(lit) if line.startswith("G1")))
         mill = examples("pulse-schedules")["source-001-mill-path"]
-        self.assertNotRegex(self.service.text("pulse-schedules", mill, "format=gcode&torch=on").decode(), r"(?m)^M[345]\b")
+        self.assertNotRegex(self.service.text("pulse-schedules", mill, "format=gcode").decode(), r"(?m)^M[345]\b")
+        status, _, problem = self.service.ask("pulse-schedules", mill, "format=gcode&torch=on")
+        self.assertEqual((status, json.loads(problem)["errors"][0]["pointer"]), (422, "?torch"))  # a mill has none
 
 
 if __name__ == "__main__":
