@@ -230,7 +230,7 @@ TEST(Problems, FieldsNameThemselves) {
       {"sampling/uniform_points",
        36.5,
        {"not_an_integer", "/sampling/uniform_points", true, false}},
-      {"cutters/1/offest_mm", 15.0, {"unknown_field", "/cutters/1/offest_mm", true, false}},
+      {"cutters/1/hieght_mm", 15.0, {"unknown_field", "/cutters/1/offest_mm", true, false}},
       {"cutters/2/axis",
        object({}),
        {"exclusive_fields", "/cutters/2/inclination_deg", true, false}},
@@ -252,8 +252,8 @@ TEST(Problems, FieldsNameThemselves) {
     SCOPED_TRACE(c.path);
     expect_problem(post(kBevel, with(table_1(), c.path, c.value)), c.expected);
   }
-  const auto typo = post(kBevel, with(table_1(), "cutters/1/offest_mm", 15.0));
-  EXPECT_EQ(text(typo.body, "errors/0/hint"), "did you mean offset_mm?");
+  const auto typo = post(kBevel, with(table_1(), "cutters/1/hieght_mm", 15.0));
+  EXPECT_EQ(text(typo.body, "errors/0/hint"), "did you mean height_mm?");
   EXPECT_EQ(at(typo.body, "errors").as<Array>()->size(), 1u);
   const auto twice = post(kBevel, with(table_1(), "kerfmm", 1.5));
   EXPECT_EQ(text(twice.body, "errors/0/hint"), "kerf_mm is given already; remove one of the two");
