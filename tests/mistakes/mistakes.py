@@ -78,6 +78,7 @@ def main(binary):
 def judge(base):
     rows = [json.loads(line) for line in (HERE / "mistakes.jsonl").read_text().splitlines()]
     assert len(rows) >= 200, "the table holds at least 200 mistakes"
+    assert all(row["says"] for row in rows), "each row has words that its hint holds"
     silent, unhelpful, nowhere = [], [], []
     for row in rows:
         example = json.loads((EXAMPLES / (row["post"] + ".json")).read_text())
