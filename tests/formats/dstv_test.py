@@ -127,6 +127,7 @@ class WholePart(FormatTest):
                     for a, b in zip(got, wanted + wanted[:1], strict=True):
                         self.assertLess(math.dist(a[:2], b), 2e-3)
                     openings += 1
+                self.assertIn("AK: the tube itself, kept within; IK: an opening of it, kept outside", file["comments"])
                 tables = rows_of(file["comments"])
                 self.assertEqual(set(tables), {"start", "finish"} | {f"hole {i}" for i in range(len(result["holes"]))})
                 for cut, rows in tables.items():

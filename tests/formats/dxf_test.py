@@ -118,6 +118,18 @@ class Dxf(FormatTest):
                     ours = [(radius * math.radians(p), z) for p, z in zip(hole["points"]["phi_deg"], hole["points"]["z_mm"])]
                     self.assertAlmostEqual(length(points, True), length(ours, True), delta=1e-6 * len(ours))
 
+    def test_it_says_of_what_it_is_and_which_side_is_kept(self):
+        kept = {"holes": ("openings of the chord", "kept outside the contour"), "bevel-tables": ("tube ", "kept side up")}
+        for endpoint, (whose, side) in kept.items():
+            for name, body in examples(endpoint).items():
+                for view in ("template", "tube"):
+                    with self.subTest(f"{endpoint} {name} {view}"):
+                        texts = [t.dxf.text for t in self.drawing(endpoint, body, view).modelspace().query("TEXT")]
+                        self.assertTrue(any(text.startswith(whose) for text in texts), texts)
+                        self.assertTrue(any(side in text for text in texts), texts)
+                        for other in {side for _, side in kept.values()} - {side}:
+                            self.assertFalse(any(other in text for text in texts), texts)
+
     def test_a_part_is_one_closed_outline_with_its_holes(self):
         for name, body in examples("parts").items():
             with self.subTest(name):

@@ -59,6 +59,22 @@ class Letters(FormatTest):
                     self.assertEqual([(e["pointer"], e["got"]) for e in problem["errors"]],
                                      [(f"/reference/{key}", word) for key, word in OTHERS.items()])
 
+    def test_ids_are_kept_and_spelled_too(self):
+        """Of members, in the answer, the drawings and the marks; not where a tape has no words for them."""
+        for id in ("Träger 1", "支管"):
+            body = json.loads(json.dumps(examples("parts")["chord-with-holes"], ensure_ascii=False).replace('"B1"', f'"{id}"'))
+            answer = self.service.answer("parts", body)
+            self.assertEqual([member["id"] for member in answer["request"]["members"]], ["C1", id, "B2"])
+            self.assertIn(id, [mark["text"] for mark in answer["result"]["marks"]])
+            for name in ("svg", "dxf"):
+                _, texts, _ = READERS[name](self.service.text("parts", body, query(name)))
+                self.assertTrue(any(id in text for text in texts), f"{name}: {texts[:40]}")
+        latin = json.loads(json.dumps(examples("parts")["chord-with-holes"]).replace('"B1"', '"Träger 1"'))
+        plain = json.loads(json.dumps(examples("parts")["chord-with-holes"]).replace('"B1"', '"Traeger 1"'))
+        acts, texts, _ = READERS["gcode"](self.service.text("parts", latin, query("gcode")))
+        self.assertEqual(acts, READERS["gcode"](self.service.text("parts", plain, query("gcode")))[0])
+        self.assertTrue(any("Traeger 1" in text and text.endswith(NOTE) for text in texts), texts[:40])
+
     def test_an_id_is_refused_where_it_would_be_printed(self):
         body = json.loads(json.dumps(examples("parts")["chord-with-holes"]).replace('"B1"', '"支管"'))
         status, _, content = self.service.ask("parts", body, query("gcode"))
