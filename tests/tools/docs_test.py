@@ -26,6 +26,13 @@ class Docs(unittest.TestCase):
             if "commissioning" not in path.parts:  # one row for its folder
                 self.assertTrue(f"`{path.relative_to(ROOT / 'examples')}`" in told or f"`{path.stem}`" in told or f"`{path.name}`" in told, path)
 
+    def test_both_clients_show_a_key_a_program_and_a_batch(self):
+        """What they show is run: clients/python/test_tubecut.py, clients/typescript/test/main.mjs."""
+        for client, call in (("python", "client.batch("), ("typescript", "batch('http")):
+            blocks = re.findall(r"^```\w+\n(.*?)^```", (ROOT / f"clients/{client}/README.md").read_text(), re.MULTILINE | re.DOTALL)
+            for words in (["TUBECUT_KEY"], ["gcode", "speed_mm_min"], [call], [call, "gcode", "options" if client == "typescript" else "BatchItem"]):
+                self.assertTrue(any(all(word in block for word in words) for block in blocks), f"{client}: {words}")
+
     def test_every_file_of_motion_stands_in_the_map(self):
         words = set(re.findall(r"`([\w/]+)`", (ROOT / "docs/architecture.md").read_text()))
         for header in (ROOT / "core/motion").glob("*.hpp"):
