@@ -1,5 +1,6 @@
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
+import {deflateRawSync} from 'node:zlib';
 import {answered, open} from '../browser.mjs';
 
 /** Every format that the contract lists for an endpoint, saved from the page: the bytes the service answers. */
@@ -33,9 +34,34 @@ async function downloads({browser, origin, service}, endpoint, name) {
   await page.context().close();
 }
 
+/** Whatever an order and a part are called, the files of a job bear it, and of which input they are. */
+async function named({browser, origin, service}) {
+  const table1 = JSON.parse(await readFile(new URL('../../../examples/bevel-tables/source-000-table-1.json', import.meta.url)));
+  const calls = [
+    [{order: 'A-17', part: 'B 1/2'}, 'A-17-B_1_2'], [{part: 'Träger Ø60'}, 'Träger_Ø60'], [{order: '注文 7'}, '注文_7'], [{heat: 'H12'}, 'bevel-tables'],
+  ];
+  for (const [reference, words] of calls) {
+    const body = {...table1, reference};
+    const {job} = JSON.parse((await service.post('/v1/bevel-tables', body)).text);
+    const link = deflateRawSync(JSON.stringify(body)).toString('base64url');
+    const page = await open(browser, origin, `#/bevel-tables/~${link}?tab=downloads`);
+    await answered(page);
+    for (const [media, ending] of [['text/csv', 'csv'], ['application/x-dstv', 'nc1']]) {
+      if (/注/.test(words) && ending === 'nc1') continue;  // refused: it is ASCII
+      await page.waitForTimeout(150);
+      const [download] = await Promise.all([page.waitForEvent('download', {timeout: 15000}), page.locator(`#panel [data-media="${media}"]`).first().click()]);
+      assert.equal(download.suggestedFilename(), `${words}-${job.input_sha256.slice(0, 8)}.${ending}`);
+    }
+    await page.context().close();
+  }
+}
+
 const jobs = {
   'bevel-tables': 'source-000-table-1', 'holes': 'set-in-branch', 'pulse-schedules': 'square-cut-from-a-bare-contour',
   'feed-curves': 'cut-off-194-mm-whole-cycle', 'grooves': 'case-a-right-angle',
 };
-export const checks = Object.fromEntries(Object.entries(jobs).map(([endpoint, name]) => [endpoint, (given) => downloads(given, endpoint, name)]));
+export const checks = {
+  ...Object.fromEntries(Object.entries(jobs).map(([endpoint, name]) => [endpoint, (given) => downloads(given, endpoint, name)])),
+  'named by reference and input': named,
+};
 
