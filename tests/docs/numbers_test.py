@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import unittest
+import urllib.error
 import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -120,6 +121,19 @@ class WorkedPart(Service):
         for quarter in (0, 90, 180, 270):
             self.assertIn("b_sign", dimensions[f"length_at_{quarter}"]["changes_with"])
         self.assertEqual([one["what"] for one in result["sequence"]], ["mark", "mark", "finish", "start"])
+
+
+class Readme(Service):
+    """README.md: the request that it shows, and the refusal."""
+
+    def test_they_are_what_the_service_takes_and_says(self):
+        request, refusal = map(json.loads, re.findall(r"^```json\n(.*?)^```", (ROOT / "README.md").read_text(), re.MULTILINE | re.DOTALL))
+        self.assertEqual(self.post("bevel-tables", request)["verdict"]["status"], "ok")
+        request["target"]["wall_mm"] = 0
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            self.post("bevel-tables", request)
+        with refused.exception as answer:
+            self.assertEqual(json.load(answer)["errors"], [refusal])
 
 
 class Joints(Service):
