@@ -1,13 +1,16 @@
 """One cut by every way through the service: nested, as points, as a bare contour out of its CSV, as a part, in a batch, without a server,
 and in every format that holds B. The same sign of B, the same motion."""
 
+import base64
 import csv
 import itertools
 import json
 import math
+import pathlib
 import re
 import subprocess
 import tempfile
+import urllib.parse
 
 from service import FormatTest, examples, main, seam_row
 
@@ -164,6 +167,34 @@ class Ways(FormatTest):
             for name, line in answers.items():
                 self.assertEqual(line["body"]["result"], alone[name]["result"], f"{what}: {name}")
                 self.assertEqual(line["verdict"], alone[name]["verdict"]["status"])
+
+    def test_documents_in_a_batch_and_without_a_server(self):
+        """The bytes of one request alone, by lines and words that name the format and its options."""
+        body = dict(cuts())["source-000-table-1"]
+        asked = {"csv": {}, "gcode": {"speed_mm_min": 600, "axial": "z", "lead_mm": 2.5}, "svg": {"view": "template", "mirror": True}, "stl": {"view": "before"}}
+
+        def words(options):
+            return {name: str(value).lower() for name, value in options.items()}
+        lines = [json.dumps({"id": name, "endpoint": "bevel-tables", "body": body, "format": name, "options": options}) for name, options in asked.items()]
+        with tempfile.TemporaryDirectory() as folder:
+            batch, single = pathlib.Path(folder, "jobs.ndjson"), pathlib.Path(folder, "cut.json")
+            batch.write_text("\n".join(lines))
+            single.write_text(json.dumps(body))
+
+            def run(*arguments):
+                return subprocess.run([FormatTest.binary, "run", *arguments], capture_output=True, check=True).stdout
+            status, _, content = self.service.reply("batches", batch.read_bytes(), media="application/x-ndjson")
+            self.assertEqual(status, 200)
+            answers = [{line["id"]: line for line in map(json.loads, text.splitlines()) if "id" in line} for text in (content, run(batch))]
+            for name, options in asked.items():
+                with self.subTest(name):
+                    alone = self.service.text("bevel-tables", body, urllib.parse.urlencode({"format": name, **words(options)}))
+                    given = [word for option in words(options).items() for word in ("--option", "=".join(option))]
+                    self.assertEqual(run("--endpoint", "bevel-tables", "--format", name, *given, single), alone)
+                    for answer in answers:
+                        line = answer[name]
+                        got = line["document"].encode() if "document" in line else base64.b64decode(line["document_base64"])
+                        self.assertEqual((line["status"], got), (200, alone))
 
     def test_every_format_that_holds_b(self):
         """G-code and DSTV along the cut against the JSON, and the schedule's own G-code against its counts."""
