@@ -89,8 +89,12 @@ TEST(FeedCurves, RefusesAnglesInTheUnitOfTheirField) {
   EXPECT_EQ(text(refused.body, "errors/0/pointer"), "/linkage/slot_angle_rad");
   EXPECT_EQ(number(refused.body, "errors/0/got"), 1.69);
   EXPECT_EQ(text(refused.body, "errors/0/unit"), "rad");
-  const auto reversed = post(kPath, with(request, "linkage/rad_per_mm", api::Json{-0.000486}));
-  EXPECT_EQ(text(reversed.body, "errors/0/unit"), "rad_per_mm");
+  // An arm shorter than the pivots' distance, at rest along the line between them.
+  const auto reversed = post(kPath, with(request, "linkage/arm_mm", api::Json{300.0}));
+  EXPECT_EQ(text(reversed.body, "errors/0/code"), "reversed");
+  EXPECT_EQ(text(reversed.body, "errors/0/pointer"), "/linkage/rest_angle_rad");
+  EXPECT_EQ(number(reversed.body, "errors/0/got"), 1.3);
+  EXPECT_EQ(text(reversed.body, "errors/0/unit"), "rad");
 }
 
 TEST(FeedCurves, PublishedPolynomial9) {

@@ -142,6 +142,7 @@ TEST(Nodes, ErrorsNameTheMembers) {
   EXPECT_EQ(text(self.body, "errors/0/code"), "bad_choice");
   const auto twice = post(kNodes, with(chords, "members/1/id", "C1"));
   EXPECT_EQ(text(twice.body, "errors/0/pointer"), "/members/1/id");
+  EXPECT_EQ(text(twice.body, "errors/0/hint"), "duplicate: another member has this id");
   const auto nowhere = post(kNodes, with(chords, "members/2/end_mm", point(0, 0, 0)));
   EXPECT_EQ(code(nowhere), "zero_length");
   EXPECT_EQ(text(nowhere.body, "errors/0/pointer"), "/members/2");
