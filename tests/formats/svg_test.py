@@ -190,6 +190,25 @@ class Svg(FormatTest):
         self.assertLess(off[1], 0.1)  # a hundredth of a mm on paper is 0.05 mm on the tube here
         self.assertGreater(off[-1], 5)
 
+    def test_marks_of_a_work_order_stand_in_their_contours(self):
+        """The name of each partner is where one of the rings of its hole is."""
+        count = 0
+        for name, body in examples("parts").items():
+            result = self.service.answer("parts", body)["result"]
+            root = ElementTree.fromstring(self.service.text("parts", body, "format=svg&view=work_order"))
+            rings = [[tuple(map(float, p.split(","))) for p in e.get("points").split()]
+                     for e in root.iter(f"{SVG}polygon") if e.get("stroke-dasharray") is None]
+            for i, hole in enumerate(result["holes"]):
+                for mark in (one for one in result["marks"] if one["kind"] == "partner" and one["text"] == hole["branch"]):
+                    [place] = [(float(e.get("x")) - 0.5, float(e.get("y"))) for e in root.iter(f"{SVG}text") if e.text == mark["text"]]
+                    mine = rings[3 * i:3 * i + 3]
+                    with self.subTest(f"{name} {mark['text']}"):
+                        self.assertTrue(any(all(min(p[k] for p in ring) - 3 <= place[k] <= max(p[k] for p in ring) + 3 for k in (0, 1)) for ring in mine))
+                        for other in (ring for j in range(len(result["holes"])) if j != i for ring in rings[3 * j:3 * j + 3]):
+                            self.assertFalse(min(x for x, _ in other) <= place[0] <= max(x for x, _ in other))
+                        count += 1
+        self.assertGreaterEqual(count, 2)
+
     def test_templates_of_the_smallest_and_the_largest_tube(self):
         for diameter in (5, 5000):
             body = {"target": {"outer_diameter_mm": diameter, "wall_mm": 0.5},
