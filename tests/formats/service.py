@@ -23,8 +23,8 @@ HOSTILE = {
 
 
 class Service:
-    def __init__(self, binary):
-        self.child = subprocess.Popen([binary, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--budget-s", "30"],
+    def __init__(self, binary, *options):
+        self.child = subprocess.Popen([binary, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--budget-s", "30", *options],
                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         self.port = json.loads(self.child.stdout.readline())["port"]
 

@@ -209,6 +209,11 @@ class Svg(FormatTest):
                         count += 1
         self.assertGreaterEqual(count, 2)
 
+    def test_a_mark_of_a_point_is_drawn(self):
+        root = ElementTree.fromstring(self.service.text("parts", examples("parts")["chord-with-holes"], "format=svg&view=work_order"))
+        for e in root.iter(f"{SVG}line"):
+            self.assertNotEqual((e.get("x1"), e.get("y1")), (e.get("x2"), e.get("y2")))
+
     def test_templates_of_the_smallest_and_the_largest_tube(self):
         for diameter in (5, 5000):
             body = {"target": {"outer_diameter_mm": diameter, "wall_mm": 0.5},

@@ -3,9 +3,10 @@
 import json
 import pathlib
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "formats"))
-from service import FormatTest, examples, main  # noqa: E402
+from service import FormatTest, Service, examples, main  # noqa: E402
 from mistakes import EXAMPLES, edited, stands  # noqa: E402
 
 TABLE, SCHEDULE = "bevel-tables/source-000-table-1", "pulse-schedules/square-cut-from-a-bare-contour"
@@ -178,6 +179,67 @@ class Refusals(FormatTest):
         name = "pulse-schedules/source-002-offset-pair-on-the-crawler"
         wrong = self.refused(name, [("/machine", swung)])
         self.assertEqual([wrong[key] for key in ("code", "pointer", "limit", "unit")], ["standoff_too_large", "/machine/standoff_max_mm", 3, "mm"])
+
+    def test_a_machine_that_is_named_is_pointed_to_whole(self):
+        """The request has its name alone, not its fields."""
+        machines = {one["name"]: one["machine"] for one in json.loads(self.service.get("/v1/machines"))["machines"]}
+        narrow = json.loads(json.dumps(machines["five_axis_cutter"]))
+        next(axis for axis in narrow["axes"] if axis["name"] == "B").update(soft_min=-5, soft_max=5)
+        swung = {**machines["crawler"], "swing_center": "pivot", "pivot_length_mm": 20, "standoff_max_mm": 3}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, machine in (("narrow", narrow), ("swung", swung)):
+                pathlib.Path(folder, f"{name}.json").write_text(json.dumps({**machine, "name": name}))
+            own = Service(self.binary, "--machines", folder)
+            self.addCleanup(own.stop)
+            for name, post, code in (("swung", "source-002-offset-pair-on-the-crawler", "standoff_too_large"),
+                                     ("narrow", "table-1-on-the-five-axis-cutter", "soft_limit")):
+                _, _, content = own.ask("pulse-schedules", {**example(f"pulse-schedules/{post}"), "machine": name})
+                self.assertEqual([(e["code"], e["pointer"]) for e in json.loads(content)["errors"]], [(code, "/machine")])
+
+    def test_a_warning_points_at_what_the_request_has(self):
+        for one in json.loads(self.service.get("/v1/examples"))["examples"]:
+            for warning in json.loads(self.service.text(one["endpoint"], one["body"], "validate_only=true"))["warnings"]:
+                self.assertTrue(stands(one["body"], warning["pointer"]), f"{one['endpoint']} {one['name']}: {warning}")
+
+    def test_names_without_likeness_are_not_offered(self):
+        for name, edits in ((TABLE, [("/foo", 1)]), ("parts/k-joint-brace", [("/member", "Z9")]), (TABLE, [
+                ("/target/outer_diameter_mm", None), ("/target/wall_mm", None), ("/target/size", "RHS 100x100")])):
+            self.assertNotIn("did you mean", self.refused(name, edits)["hint"])
+        self.assertEqual(self.refused("parts/k-joint-brace", [("/member", "c1")])["hint"], "did you mean C1?")
+
+    def test_an_unknown_format_is_named(self):
+        error = self.refused(TABLE, [], "format=xml")
+        self.assertEqual((error["pointer"], error["got"]), ("?format", "xml"))
+        self.assertIn("csv", error["hint"])
+        _, _, content = self.service.reply("batches", b"{}\n", "format=csv", media="application/x-ndjson")
+        self.assertEqual([e["pointer"] for e in json.loads(content)["errors"]], ["?format"])
+
+    def test_an_option_that_does_not_go_is_shown_as_it_was_got(self):
+        self.assertEqual(self.refused(TABLE, [], "format=csv&lead_mm=3")["got"], 3)
+
+    def test_a_short_branch_is_as_ok_by_distance_as_by_a_list(self):
+        short = edited(example(NODE), [("/members/1/end_mm", [-240, 12, 400])])
+        listed = {**short, "connect": [{"member": "B1", "end": "start", "to": ["C1"]}, {"member": "B2", "end": "start", "to": ["C1", "B1"]}]}
+        for body in (listed, short):
+            self.assertEqual(self.service.answer("nodes", body)["verdict"]["status"], "ok")
+
+    def test_ordinary_small_tubes_are_not_suspected(self):
+        cut = {"cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}]}
+        for diameter in (14, 16, 18, 20, 24):  # of EN 10305, in mm
+            answer = self.service.answer("intersections", {**cut, "target": {"outer_diameter_mm": diameter, "wall_mm": 2}})
+            self.assertEqual(answer["warnings"], [], diameter)
+
+    def test_a_wall_in_inches_is_told_beside_a_diameter_in_inches(self):
+        for name in ("bevel-tables/source-002-offset-pair", "nodes/source-002-offset-pair"):
+            _, said = self.told(name, scaled(example(name), 1 / 25.4))
+            self.assertIn("inches", json.dumps(said))
+
+    def test_a_column_of_another_length_says_how_many(self):
+        self.assertIn("36", self.refused(SCHEDULE, [("/contour/b_deg", [0, 0, 0])])["hint"])
+
+    def test_a_duplicate_is_not_called_a_text_of_bad_characters(self):
+        error = self.refused(NODE, [("/members/1/id", "C1")])
+        self.assertEqual((error["code"] == "bad_text", error["got"]), (False, "C1"))
 
     def test_every_number_is_echoed_as_it_was_sent(self):
         for angle in (102, 101.99999999999999, 35.3, 57.29577951308232):
