@@ -44,13 +44,13 @@ function schemaOf({apiVersion, kind}) {
 }
 
 // Kustomize's own files have no schema there: their keys.
-const KUSTOMIZATION = ['apiVersion', 'kind', 'namespace', 'resources', 'secretGenerator', 'images', 'patches'];
+const KUSTOMIZATION = ['apiVersion', 'kind', 'namespace', 'resources', 'secretGenerator', 'configMapGenerator', 'images', 'patches'];
 const GENERATOR = ['name', 'type', 'files'];
 
 export function faults(document) {
   if (document.kind === 'Kustomization') {
     return [...Object.keys(document).filter((key) => !KUSTOMIZATION.includes(key)),
-      ...(document.secretGenerator ?? []).flatMap(Object.keys).filter((key) => !GENERATOR.includes(key))];
+      ...[...document.secretGenerator ?? [], ...document.configMapGenerator ?? []].flatMap(Object.keys).filter((key) => !GENERATOR.includes(key))];
   }
   const id = schemaOf(document);
   const validator = id.startsWith('monitoring') ? operators : ajv;
