@@ -88,9 +88,10 @@ inline constexpr std::string_view kVerdictHeader = "Tubecut-Verdict";
 /// bug throws and is the server's to turn into a 500.
 [[nodiscard]] Outcome dispatch(const Call& call, const Context& context);
 
-/// A problem document for what the server itself refuses (429, 503, 413 ...).
+/// A problem document for what the server itself refuses (429, 503, 413 ...); with a pointer, for a
+/// parameter of the query that it does not take.
 [[nodiscard]] Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,
-                              const Context& context);
+                              const Context& context, std::string_view pointer = {});
 
 /// Ids of the endpoint table: what JobFacts::endpoint can be, unless empty.
 [[nodiscard]] std::vector<std::string_view> endpoint_ids();

@@ -270,7 +270,7 @@ Outcome dispatch(const Call& call, const Context& context) {
 }
 
 Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,
-                const Context& context) {
+                const Context& context, std::string_view pointer) {
   const Call call{.method = {},
                   .path = {},
                   .query = {},
@@ -279,7 +279,10 @@ Outcome problem(ErrorCode code, std::string_view detail, std::string_view reques
                   .body = {},
                   .job_id = {},
                   .request_id = std::string(request_id)};
-  return CallRun(call, context).refuse(code, std::string(detail));
+  Problem out{.code = code, .detail = std::string(detail), .issues = {}};
+  if (!pointer.empty())
+    out.issues = {{.code = code, .pointer = std::string(pointer), .hint = out.detail}};
+  return CallRun(call, context).refuse(out);
 }
 
 std::string_view event_of(std::string_view stage) {

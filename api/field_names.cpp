@@ -44,16 +44,27 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-constexpr std::size_t kSlips = 2;  // letters wrong, left out or too many
+/// Letters wrong, left out or too many, of a slip of the pen: of a short word one, or it is
+/// another.
+std::size_t slips(std::string_view name) { return name.size() < 5 ? 1 : 2; }
 
-/// The candidate of the fewest changes, at most `farthest`; empty when there is none.
+std::string in_lower_case(std::string_view text) {
+  std::string out(text);
+  for (auto& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+/// The candidate of the fewest changes, at most `farthest`, whatever their case; empty when there
+/// is none.
 std::string nearest(std::string_view name, const std::vector<std::string>& known,
                     std::size_t farthest) {
   std::string best;
   std::size_t least = farthest + 1;
   if (name.size() > 64) return best;
+  const auto lower = in_lower_case(name);
   for (const auto& candidate : known) {
-    const auto d = distance(name, candidate);
+    const auto d = distance(lower, in_lower_case(candidate));
     if (d < least) {
       least = d;
       best = candidate;
@@ -75,11 +86,11 @@ std::string begun_by(std::string_view name, const std::vector<std::string>& know
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
   if (auto whole = begun_by(name, known); !whole.empty()) return whole;
-  return nearest(name, known, std::max(kSlips, name.size() / 2));
+  return nearest(name, known, std::max(slips(name), name.size() / 3));
 }
 
 std::string slip_of(std::string_view name, const std::vector<std::string>& fields) {
-  return nearest(name, fields, kSlips);
+  return nearest(name, fields, slips(name));
 }
 
 std::string nearest_field(std::string_view name, const std::vector<std::string>& fields) {

@@ -33,17 +33,26 @@ std::optional<FormatChoice> choose(const Query& query, std::string_view accept,
   return std::nullopt;
 }
 
-std::string offered(std::span<const FormatName> formats) {
-  std::string out = "offered: application/json (json), application/cbor (cbor)";
-  for (const auto& format : formats)
-    out += ", " + std::string(format.media) + " (" + std::string(format.name) + ")";
-  return out;
-}
-
 std::string listed(const std::vector<std::string_view>& names) {
   std::string out;
   for (const auto name : names) out += (out.empty() ? "" : ", ") + std::string(name);
   return out.empty() ? "none" : out;
+}
+
+/// Why none of the formats was meant: by its name a parameter is wrong, by Accept the call is.
+Problem no_format(const Query& query, std::span<const FormatName> formats) {
+  std::string out = "offered: application/json (json), application/cbor (cbor)";
+  for (const auto& format : formats)
+    out += ", " + std::string(format.media) + " (" + std::string(format.name) + ")";
+  if (query.format.empty()) return {.code = ErrorCode::not_acceptable, .detail = out, .issues = {}};
+  std::vector<std::string_view> names{"json", "cbor"};
+  for (const auto& format : formats) names.push_back(format.name);
+  return query_problem({{.code = ErrorCode::bad_choice,
+                         .pointer = "?format",
+                         .got = Json{query.format},
+                         .limit = Json{listed(names)},
+                         .hint = std::move(out)}},
+                       ErrorCode::not_acceptable);
 }
 
 bool has(const std::vector<std::string_view>& all, std::string_view one) {
@@ -55,11 +64,12 @@ std::optional<Problem> format_problem(const Query& query, const FormatName* chos
   const auto format = chosen != nullptr ? *chosen : FormatName{.name = "json", .media = kJsonMedia};
   const std::string name(format.name);
   std::vector<FieldIssue> issues;
-  for (const auto& option : query.given)
+  for (const auto& [option, value] : query.given)
     if (!has(format.options, option))
       issues.push_back(
           {.code = ErrorCode::unsupported_combination,
            .pointer = "?" + option,
+           .got = value,
            .limit = Json{listed(format.options)},
            .hint = "no option of format " + name + "; its options: " + listed(format.options)});
   if (!issues.empty()) return query_problem(std::move(issues));
@@ -91,9 +101,7 @@ std::string media_of(std::string_view header) {
 tl::expected<FormatChoice, Problem> choose_format(const Query& query, std::string_view accept,
                                                   std::span<const FormatName> formats) {
   const auto choice = choose(query, accept, formats);
-  if (!choice)
-    return tl::unexpected(
-        Problem{.code = ErrorCode::not_acceptable, .detail = offered(formats), .issues = {}});
+  if (!choice) return tl::unexpected(no_format(query, formats));
   if (auto problem = format_problem(query, choice->format)) return tl::unexpected(*problem);
   return *choice;
 }

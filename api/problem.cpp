@@ -81,17 +81,18 @@ std::string pointer_of(std::string_view member, const Json& request) {
     member = slash == std::string_view::npos ? std::string_view{} : member.substr(slash + 1);
     const Json* next = nullptr;
     std::string name(step);
-    if (const auto* object = here == nullptr ? nullptr : here->as<Json::Object>()) {
+    if (const auto* object = here->as<Json::Object>()) {
       if (const auto* found = wire_member(*object, step)) {
         name = found->first;
         next = &found->second;
       }
-    } else if (const auto* array = here == nullptr ? nullptr : here->as<Json::Array>()) {
+    } else if (const auto* array = here->as<Json::Array>()) {
       std::size_t index = 0;
       for (const char c : step) index = index * 10 + static_cast<std::size_t>(c - '0');
       if (index < array->size()) next = &(*array)[index];
     }
     pointer += "/" + name;
+    if (next == nullptr || !holds_members(*next)) break;  // what is not there has no members
     here = next;
   }
   return pointer;
@@ -176,12 +177,27 @@ std::vector<std::string> filled_in(const Json& body, const Json& request,
   return out;
 }
 
+namespace {
+
+/// The pointer, or the one of these places that it goes into.
+std::string up_to(const std::vector<std::string>& places, std::string pointer) {
+  for (const auto& place : places)
+    if (pointer.starts_with(place + "/")) pointer = place;
+  return pointer;
+}
+
+}  // namespace
+
 Problem pointing_no_further(Problem problem, const std::vector<std::string>& places) {
-  for (auto& issue : problem.issues)
-    for (const auto& place : places)
-      if (issue.pointer.starts_with(place + "/")) issue.pointer = place;
+  for (auto& issue : problem.issues) issue.pointer = up_to(places, std::move(issue.pointer));
   problem.detail = sentence(problem.issues);
   return problem;
+}
+
+std::string standing(std::string_view member, const Json& request,
+                     const std::vector<std::string>& places) {
+  const auto pointer = up_to(places, pointer_of(member, request));
+  return pointer.substr(std::min<std::size_t>(pointer.size(), 1));
 }
 
 std::optional<Problem> failed_check(const std::vector<Check>& checks) {

@@ -127,7 +127,8 @@ ParsedQuery parse_query(std::string_view text) {
   const auto general = in.echo().size();
   query.options = read_options(in);
   for (auto i = general; i < in.echo().size(); ++i)
-    if (in.has(in.echo()[i].first)) query.given.push_back(in.echo()[i].first);
+    if (const auto& name = in.echo()[i].first; in.has(name))
+      query.given.emplace_back(name, *in.find(name));
   for (auto& issue : in.finish_root()) {
     issue.pointer = pointer(issue.pointer.substr(1));
     out.issues.push_back(std::move(issue));

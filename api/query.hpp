@@ -15,7 +15,7 @@ struct Query {
   std::string format;  // empty: by Accept
   std::string view;    // empty: the format's default
   FormatOptions options;
-  std::vector<std::string> given;  // names of the options that are there
+  Json::Object given;  // the options that are there, as sent
 };
 
 /// A query string as understood, and everything that is wrong with it. Pointers are "?name".

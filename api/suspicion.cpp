@@ -36,11 +36,6 @@ bool is_sold(double diameter) {
   });
 }
 
-/// A size sold in inches, of which the same number in mm is none.
-bool is_size_in_inches(double diameter) {
-  return is_sold(diameter * kMmPerInch) && !is_sold(diameter);
-}
-
 /// A wall sold in inches on a tube of this diameter, which in mm would be a foil.
 bool is_wall_in_inches(double diameter, double wall) {
   const auto sold = [diameter](double mm) {
@@ -50,6 +45,14 @@ bool is_wall_in_inches(double diameter, double wall) {
     });
   };
   return sold(wall * kMmPerInch) && !sold(wall);
+}
+
+/// A size sold in inches, of which the same number in mm is none. Small tubes of whole millimetres
+/// are ordinary, though 14 to 48 inches are sold too: there the wall has to say it.
+bool is_size_in_inches(double diameter, const double* wall) {
+  if (!is_sold(diameter * kMmPerInch) || is_sold(diameter)) return false;
+  return diameter != std::floor(diameter) ||
+         (wall != nullptr && is_wall_in_inches(diameter * kMmPerInch, *wall));
 }
 
 bool is_near_multiple(double value, double of, double relative) {
@@ -138,10 +141,10 @@ class Walk {
   void tube(const Json& json, const std::string& path) {
     const auto diameter = diameter_of(json);
     if (!diameter) return;
-    if (is_size_in_inches(*diameter)) {
+    const auto* wall = number(json, "wall_mm");
+    if (is_size_in_inches(*diameter, wall)) {
       suspect(path + "outer_diameter_mm", *diameter, "inches", *diameter * kMmPerInch, "mm");
     }
-    const auto* wall = number(json, "wall_mm");
     if (wall != nullptr && is_wall_in_inches(*diameter, *wall)) {
       suspect(path + "wall_mm", *wall, "inches", *wall * kMmPerInch, "mm");
     }
@@ -188,7 +191,9 @@ std::string other_unit_hint(double value, std::string_view unit, double min, dou
   std::string out;
   for (const auto& one : kUnits) {
     const double meant = value * one.first;
-    if (!within(meant)) continue;
+    // What bounds a number that is too small may be in the same wrong unit, as a wall by its
+    // radius.
+    if (!(value < min ? meant >= min && meant <= max * one.first : within(meant))) continue;
     if (is_sold(meant)) return "; were it " + says(one);
     out += (out.empty() ? "; were it " : ", or ") + says(one);
   }

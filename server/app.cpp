@@ -229,7 +229,7 @@ api::Context App::context(const Request& request) const {
 }
 
 api::Outcome App::refuse(const Refusal& refusal, const Identity& id) const {
-  return api::problem(refusal.code, refusal.detail, id.request_id, context());
+  return api::problem(refusal.code, refusal.detail, id.request_id, context(), refusal.pointer);
 }
 
 api::Outcome App::answer(const Request& request, const Identity& id) const {

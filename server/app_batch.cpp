@@ -48,8 +48,10 @@ std::optional<Refusal> App::batch_fault(const Request& request) {
   if (!takes_lines(header(request.headers, "Accept")))
     return Refusal{ErrorCode::not_acceptable,
                    fmt::format("A batch is answered in {}.", kLinesMedia)};
-  if (!query_of(request.target).empty())
-    return Refusal{ErrorCode::bad_request, "A batch has no query parameters; its lines are JSON."};
+  if (const auto query = query_of(request.target); !query.empty())
+    return Refusal{.code = ErrorCode::bad_request,
+                   .detail = "A batch has no query parameters; its lines name format and options.",
+                   .pointer = "?" + std::string(query.substr(0, query.find_first_of("=&")))};
   return std::nullopt;
 }
 

@@ -21,7 +21,8 @@ using Headers = std::vector<std::pair<std::string, std::string>>;
 struct Refusal {
   ErrorCode code = ErrorCode::bad_request;
   std::string detail = {};
-  int retry_after_s = 1;  // a job takes milliseconds, a restart about a second
+  int retry_after_s = 1;     // a job takes milliseconds, a restart about a second
+  std::string pointer = {};  // of the query parameter at fault, such as "?format"
 };
 
 /// When a request passed the transport, in monotonic seconds; 0: not known.

@@ -50,10 +50,13 @@ MemberIds decode_ids(Reader& in, const std::vector<joint::Member>& members) {
   out.complete = items != nullptr && !items->empty() && items->size() == members.size();
   for (const auto& member : members) out.complete = out.complete && !member.name.empty();
   for (std::size_t i = 0; i < members.size(); ++i)
-    if (!members[i].name.empty() && !out.places.emplace(members[i].name, i).second)
-      in.issue({.code = ErrorCode::bad_text,
+    if (!members[i].name.empty() && !out.places.emplace(members[i].name, i).second) {
+      out.complete = false;  // which member had the id that is missing now, nobody knows
+      in.issue({.code = ErrorCode::duplicate_id,
                 .pointer = "members/" + std::to_string(i) + "/id",
+                .got = Json{members[i].name},
                 .hint = "duplicate: another member has this id"});
+    }
   return out;
 }
 

@@ -117,10 +117,20 @@ class Development {
 
   void line(const part::Mark& mark) {
     const double phi = mark.phi - kTwoPi * std::floor(mark.phi / kTwoPi);
-    canvas_.line(at(phi, mark.z_from), at(phi, mark.z_to), {.color = "#2b6ca3", .width = 0.3});
+    constexpr Stroke kMark{.color = "#2b6ca3", .width = 0.3};
+    if (mark.z_to > mark.z_from)
+      canvas_.line(at(phi, mark.z_from), at(phi, mark.z_to), kMark);
+    else
+      cross(at(phi, mark.z_from), kMark);
     const auto where = at(phi, 0.5 * (mark.z_from + mark.z_to));
     if (mark.kind != part::Mark::Kind::datum_line)
       canvas_.text({where.x + 0.5, where.y + (phi < kPi ? -2.6 : 1.0)}, mark.text, kSmall);
+  }
+
+  void cross(DrawingPoint place, const Stroke& stroke) {
+    constexpr double kArm = 1.0;  // mm on paper
+    canvas_.line({place.x - kArm, place.y}, {place.x + kArm, place.y}, stroke);
+    canvas_.line({place.x, place.y - kArm}, {place.x, place.y + kArm}, stroke);
   }
 
   Canvas& canvas_;

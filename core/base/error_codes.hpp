@@ -25,7 +25,8 @@
   X(numerics_mismatch, conflict,                                                                   \
     "The request pins another numerics version than this engine has.",                             \
     "Send the job to an engine of that numerics version, or remove the pin.")                      \
-  X(machine_mismatch, conflict, "The request pins another machine than this replica has so named.", \
+  X(machine_mismatch, conflict,                                                                    \
+    "The request pins another machine than this replica has so named.",                            \
     "Send the job to a replica that has that machine, or look why the two differ.")                \
   X(body_too_large, too_large, "The body is larger than this endpoint takes.",                     \
     "Send a smaller request, or split it.")                                                        \
@@ -59,6 +60,7 @@
   X(unsupported_target, invalid, "Only round targets can be cut for now.", "Send a round target.") \
   X(unknown_size, invalid, "No tube of this name is in the catalogue.",                            \
     "Use a size listed by GET /v1/tubes, or give the dimensions.")                                 \
+  X(duplicate_id, invalid, "Another one has this id.", "Give each its own id.")                    \
   X(unknown_machine, invalid, "No machine of this name is in the catalogue.",                      \
     "Use a machine listed by GET /v1/machines, or describe it.")                                   \
   /* joints and bevels */                                                                          \

@@ -61,7 +61,7 @@ Result<Joined> joined_within(const NodeSpec& spec, double distance, const std::s
 }
 
 /// What each end that joins nothing may have been meant to join: the nearest member within three
-/// times the reach.
+/// times the reach, unless the member's other end joins that one already: a short branch is near.
 using Missed = std::vector<std::optional<Touch>>;
 
 Result<Missed> missed(const NodeSpec& spec, const Joined& joined, double distance,
@@ -72,7 +72,11 @@ Result<Missed> missed(const NodeSpec& spec, const Joined& joined, double distanc
     stretches.push_back(stretch(m, kTimes * (distance + m.outer_radius)));
   std::vector<bool> free;
   for (const auto& touches : joined) free.push_back(touches.empty());
-  return nearest_touches(stretches, free, stop);
+  TRY(auto out, nearest_touches(stretches, free, stop));
+  for (std::size_t end = 0; end < out.size(); ++end)
+    if (out[end] && std::ranges::count(joined[end ^ 1U], out[end]->other, &Touch::other) > 0)
+      out[end].reset();
+  return out;
 }
 
 Result<Joined> joined_by(const NodeSpec& spec, const std::vector<Link>& links) {
@@ -244,7 +248,7 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const std::optional<Touch>
     out.push_back({.code = WarningCode::free_end,
                    .member = at,
                    .detail = called(spec, end.member) + " meets no member here, and misses " +
-                             called(spec, missed->other) + " by " + shown(off) + " mm"});
+                             called(spec, missed->other) + " by " + brief(off) + " mm"});
   }
   for (const auto& cut : end.cut_by)
     if (cut.ghost)

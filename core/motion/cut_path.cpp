@@ -19,22 +19,20 @@ constexpr double kMostLength = 1e6;  // mm
 
 Result<void> check_columns(const CutPath& c) {
   const std::size_t n = c.phi.size();
-  const auto sized = [&](std::size_t got, bool may_be_empty) {
-    return got == n || (may_be_empty && got == 0);
-  };
   if (n < 3) {
     return fail({ErrorCode::wrong_count, "contour/phi", static_cast<double>(n), 3.0, {}, {}});
   }
-  if (!sized(c.z.size(), false))
-    return fail({.code = ErrorCode::wrong_count, .member = "contour/z"});
-  if (!sized(c.b.size(), false))
-    return fail({.code = ErrorCode::wrong_count, .member = "contour/b"});
-  if (!sized(c.corner.size(), true)) {
-    return fail({.code = ErrorCode::wrong_count, .member = "contour/corner"});
-  }
-  if (!sized(c.beam.size(), true)) {
-    return fail({.code = ErrorCode::wrong_count, .member = "contour/beam"});
-  }
+  const auto wrong = [&](const char* column, std::size_t got) {
+    return fail({.code = ErrorCode::wrong_count,
+                 .member = std::string("contour/") + column,
+                 .got = static_cast<double>(got),
+                 .limit = static_cast<double>(n),
+                 .hint = "as many as phi has: " + std::to_string(n)});
+  };
+  if (c.z.size() != n) return wrong("z", c.z.size());
+  if (c.b.size() != n) return wrong("b", c.b.size());
+  if (!c.corner.empty() && c.corner.size() != n) return wrong("corner", c.corner.size());
+  if (!c.beam.empty() && c.beam.size() != n) return wrong("beam", c.beam.size());
   if (!(c.outer_radius > 0.0 && c.outer_radius < kMostLength)) {
     return fail({.code = ErrorCode::bad_number, .member = "contour/outer_radius"});
   }

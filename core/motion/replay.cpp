@@ -36,25 +36,34 @@ Integers integers(const std::vector<std::vector<double>>& counts, const std::sto
 
 Result<std::size_t> periods_of(const ReplaySpec& spec) {
   const std::size_t axes = spec.job.machine.axes.size();
-  const auto wrong = [](const std::string& member, ErrorCode code = ErrorCode::wrong_count) {
-    return fail({.code = code, .member = member});
+  const auto wrong = [](const std::string& member, std::size_t got, std::size_t wanted,
+                        const char* of) {
+    return fail({.code = ErrorCode::wrong_count,
+                 .member = member,
+                 .got = static_cast<double>(got),
+                 .limit = static_cast<double>(wanted),
+                 .hint = "as many as " + std::string(of) + ": " + std::to_string(wanted)});
   };
-  if (spec.counts.size() != axes) return wrong("schedule/counts");
-  if (spec.start.size() != axes) return wrong("schedule/start");
-  if (!(spec.period > 0.0 && spec.period <= 1.0))
-    return wrong("schedule/period", ErrorCode::bad_number);
+  const auto bad = [](const std::string& member) {
+    return fail({.code = ErrorCode::bad_number, .member = member});
+  };
+  constexpr auto kAxes = "the machine has axes";
+  if (spec.counts.size() != axes) return wrong("schedule/counts", spec.counts.size(), axes, kAxes);
+  if (spec.start.size() != axes) return wrong("schedule/start", spec.start.size(), axes, kAxes);
+  if (!(spec.period > 0.0 && spec.period <= 1.0)) return bad("schedule/period");
   std::size_t periods = 0;
   for (std::size_t a = 0; a < axes; ++a) {
     const auto& column = spec.counts[a];
     const std::string at = "schedule/counts/" + spec.job.machine.axes[a].name;
-    if (!column.empty() && periods != 0 && column.size() != periods) return wrong(at);
+    if (!column.empty() && periods != 0 && column.size() != periods)
+      return wrong(at, column.size(), periods, "the other axes have periods");
     if (!column.empty()) periods = column.size();
-    if (!std::isfinite(spec.start[a])) return wrong("schedule/start", ErrorCode::bad_number);
+    if (!std::isfinite(spec.start[a])) return bad("schedule/start");
     for (const double n : column) {
-      if (!(std::abs(n) < kMostCount)) return wrong(at, ErrorCode::bad_number);
+      if (!(std::abs(n) < kMostCount)) return bad(at);
     }
   }
-  if (periods == 0) return wrong("schedule/counts");
+  if (periods == 0) return wrong("schedule/counts", 0, 1, "there are periods, at least");
   return periods;
 }
 
