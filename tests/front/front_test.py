@@ -724,7 +724,7 @@ class Alerts(unittest.TestCase):
             wanted = {label: value for label, value in wanted.items() if label != "job"}
             self.assertTrue(any(n == name and wanted.items() <= l.items() for n, l in served), f"{name}{wanted}")
 
-        # What promtool tries the rules on has the service's own labels and values, but for the versions that must differ.
+        # What promtool tries the rules on has the service's own labels and values, but for the versions and hashes that must differ.
         values = {}
         for _, of in served:
             for label, value in of.items():
@@ -735,7 +735,7 @@ class Alerts(unittest.TestCase):
         self.assertGreater(len(tried), 30)
         for name, of in (s for text in tried for s in series(text)):
             self.assertLessEqual(of.keys() - {"job", "instance"}, {label for n, l in served if n == name for label in l}, name)
-            for label in of.keys() - {"job", "instance", "version"}:
+            for label in of.keys() - {"job", "instance", "version", "sha256"}:
                 self.assertIn(of[label], values[label], name)
 
 

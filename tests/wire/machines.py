@@ -109,6 +109,12 @@ def reload(service, folder, check):
     (folder / "z.json").unlink()
 
 
+def shipped(binary, check):
+    """The example of a site's machines is one."""
+    with Service(binary, "--machines", str(ROOT / "docker/kubernetes/overlays/example/machines")) as service:
+        check("cell-7" in [m["name"] for m in page(service.port, "version")["machines"]], "the shipped example is no machine")
+
+
 def main():
     faults = []
 
@@ -126,6 +132,7 @@ def main():
         with Service(sys.argv[1], "--machines", str(folders[0])) as first, Service(sys.argv[1], "--machines", str(folders[1])) as second:
             two_replicas(first, second, check)
             reload(first, folders[0], check)
+    shipped(sys.argv[1], check)
     print("\n".join(faults) or "other machines of one name: other jobs, other configurations; reloaded six times, and not where a file is wrong")
     sys.exit(bool(faults))
 
