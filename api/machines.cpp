@@ -232,7 +232,7 @@ motion::Machine decode_machine_choice(Reader& in, std::string_view name) {
   if (wanted.empty()) return all->front().machine;  // refused already
   if (const auto* found = find(*all, wanted)) {
     read_pin(in, found->sha256);
-    in.put("machine_sha256", Json{found->sha256});
+    if (!in.has("machine_sha256")) in.put("machine_sha256", Json{found->sha256});
     return found->machine;
   }
   std::string list;

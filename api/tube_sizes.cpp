@@ -324,14 +324,15 @@ const TubeSize* find_tube_size(std::string_view name) {
 
 std::string tube_size_hint(std::string_view name) {
   const auto meant = as_nps(name);
-  std::vector<std::string> names, begun;
+  std::vector<std::string> names, of_it;  // of it: sizes that it is the beginning or the end of
   for (const auto& size : tube_sizes()) {
     names.push_back(size.name);
-    if (size.name.starts_with(meant + " ") || size.name.starts_with(meant + "x"))
-      begun.push_back(size.name);
+    if (size.name.starts_with(meant + " ") || size.name.starts_with(meant + "x") ||
+        size.name.ends_with(" " + meant))
+      of_it.push_back(size.name);
   }
-  if (!begun.empty()) return "did you mean one of " + listed(begun) + "?";
-  const auto near = nearest_name(meant, names);
+  if (of_it.size() > 1) return "did you mean one of " + listed(of_it) + "?";
+  const auto near = of_it.empty() ? nearest_name(meant, names) : of_it.front();
   return near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?";
 }
 
