@@ -260,7 +260,7 @@ TEST(LowerBound, WaveWithJerkBeatsMagnitudesWithout) {
     const ScheduleSpec spec = wave(per_s);
     const auto job = prepare_cut(spec, {});
     ASSERT_TRUE(job);
-    const Limits& limits = job->course.limits;
+    const PathLimits& limits = job->course.limits;
     const Conditions base = without_jerk(limits);
     const double magnitudes = duration(largest_profile(base.caps, limits.d, base.rows), limits.d);
     const Schedule s = planned(spec);

@@ -90,7 +90,7 @@ TEST(Optimum, OfTheMagnitudesIsALinearProgramme) {
     const ScheduleSpec spec = short_job(seed);
     const auto job = prepare_cut(spec, {});
     ASSERT_TRUE(job) << seed;
-    const Limits& limits = job->course.limits;
+    const PathLimits& limits = job->course.limits;
     const std::vector<double> x = LargestVector(without_jerk(limits), limits.d).solve();
     double time = 0.0;
     for (std::size_t i = 1; i < x.size(); ++i) {
