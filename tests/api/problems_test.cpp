@@ -230,7 +230,7 @@ TEST(Problems, FieldsNameThemselves) {
       {"sampling/uniform_points",
        36.5,
        {"not_an_integer", "/sampling/uniform_points", true, false}},
-      {"cutters/1/hieght_mm", 15.0, {"unknown_field", "/cutters/1/offest_mm", true, false}},
+      {"cutters/1/hieght_mm", 15.0, {"unknown_field", "/cutters/1/hieght_mm", true, false}},
       {"cutters/2/axis",
        object({}),
        {"exclusive_fields", "/cutters/2/inclination_deg", true, false}},
