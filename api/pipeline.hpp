@@ -110,8 +110,6 @@ Reply run(Reader& in, Run& run) {
   answer.warnings = E::warnings(spec, *out);
   for (auto& warning : unit_suspicions(answer.request, run.stop))
     answer.warnings.push_back(std::move(warning));
-  for (auto& warning : answer.warnings)
-    warning.member = standing(warning.member, answer.request, places);
   answer.measures = E::measure(spec, *out);
   answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
   run.judged(answer);

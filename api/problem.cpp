@@ -177,27 +177,12 @@ std::vector<std::string> filled_in(const Json& body, const Json& request,
   return out;
 }
 
-namespace {
-
-/// The pointer, or the one of these places that it goes into.
-std::string up_to(const std::vector<std::string>& places, std::string pointer) {
-  for (const auto& place : places)
-    if (pointer.starts_with(place + "/")) pointer = place;
-  return pointer;
-}
-
-}  // namespace
-
 Problem pointing_no_further(Problem problem, const std::vector<std::string>& places) {
-  for (auto& issue : problem.issues) issue.pointer = up_to(places, std::move(issue.pointer));
+  for (auto& issue : problem.issues)
+    for (const auto& place : places)
+      if (issue.pointer.starts_with(place + "/")) issue.pointer = place;
   problem.detail = sentence(problem.issues);
   return problem;
-}
-
-std::string standing(std::string_view member, const Json& request,
-                     const std::vector<std::string>& places) {
-  const auto pointer = up_to(places, pointer_of(member, request));
-  return pointer.substr(std::min<std::size_t>(pointer.size(), 1));
 }
 
 std::optional<Problem> failed_check(const std::vector<Check>& checks) {

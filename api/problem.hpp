@@ -44,11 +44,6 @@ struct Problem {
 /// The same problem; what points into one of these places points to the place.
 [[nodiscard]] Problem pointing_no_further(Problem problem, const std::vector<std::string>& places);
 
-/// A warning's member as the path to what the request has: of what was filled in and of a machine
-/// that was named it has no members.
-[[nodiscard]] std::string standing(std::string_view member, const Json& request,
-                                   const std::vector<std::string>& places);
-
 /// The first check that does not hold; an answer with one is withheld.
 [[nodiscard]] std::optional<Problem> failed_check(const std::vector<Check>& checks);
 
