@@ -9,8 +9,8 @@ namespace tubecut::api {
 [[nodiscard]] std::string fixed(double value, int digits = 2);
 
 // Text that comes from a client, one function a format: in what is printed nothing of it acts. It
-// is UTF-8 without controls (text_encoding.hpp). In JSON (glTF) text goes through the Writer; STL carries
-// none. Formats of ASCII spell it in that, and throw Unspellable where they cannot.
+// is UTF-8 without controls (text_encoding.hpp). In JSON (glTF) text goes through the Writer; STL
+// carries none. Formats of ASCII spell it in that, and throw Unspellable where they cannot.
 
 /// What a comment says behind a text that had to be spelled in ASCII.
 [[nodiscard]] std::string_view spelling_note(std::string_view text);
