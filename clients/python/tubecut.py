@@ -22,6 +22,7 @@ import http.client
 import json
 import os
 import queue
+import random
 import socket
 import sys
 import threading
@@ -40,6 +41,8 @@ _BATCH_LINES = 2000
 _PART_LINES = 8  # at least, so that a replica of several slots has work for each
 _STREAMS = 32  # at most
 _PINNED = frozenset({"numerics_mismatch", "machine_mismatch"})  # a replica of the version that the request pins would answer
+_PIN_S = 5.0  # for so long other replicas are looked for behind addresses of several
+_PIN_AGAIN = 20  # refusals of one name alone, and there is no other behind an address
 _SAME_AGAIN = 3  # answers of replicas known already, and there is no other behind an address
 _COUNT_S = 60.0  # how long a number of replicas is believed
 _PROBE_S = 2.0
@@ -754,16 +757,25 @@ def _refuses_a_pin(reply: _Reply) -> bool:
 
 class _Others:
     """Whether there may be another replica than those that have refused what a request pins: an address not asked yet, or behind one
-    of them a replica of another name."""
+    of them a replica that the proxy has not sent to. Which one it does is chance where others ask too."""
 
     def __init__(self, urls: Iterable[str]) -> None:
-        self._urls, self._names, self._again = set(urls), set(), 0  # type: Set[str], Set[str], int
+        self._urls = set(urls)
+        self._names: Dict[str, Set[Optional[str]]] = {}
+        self._asked = 0
+        self._until = time.monotonic() + _PIN_S
 
     def may_be(self, url: str, name: Optional[str]) -> bool:
         self._urls.discard(url)
-        self._again = self._again + 1 if name in self._names or name is None else 0
-        self._names.add(name or url)
-        return bool(self._urls) or (name is not None and self._again < _SAME_AGAIN)
+        self._names.setdefault(url, set()).add(name)
+        self._asked += 1
+        if self._urls:
+            return True
+        one_each = all(len(names) == 1 for names in self._names.values())
+        if time.monotonic() > self._until or (one_each and self._asked >= _PIN_AGAIN * len(self._names)):
+            return False
+        time.sleep(random.uniform(0.01, 0.05))
+        return True
 
 
 class _Full(Exception):
