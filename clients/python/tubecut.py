@@ -23,7 +23,9 @@ import json
 import os
 import queue
 import random
+import select
 import socket
+import ssl
 import sys
 import threading
 import time
@@ -329,6 +331,48 @@ class _Reply:
     body: bytes
 
 
+class _Duplex(ssl.SSLSocket):
+    """A TLS connection that one thread reads while another writes. OpenSSL takes one call at a time of a connection; so each waits for the
+    socket outside of it."""
+
+    _patience_s: Optional[float] = None
+
+    def by_two(self, timeout_s: float) -> None:
+        """From now on; `timeout_s` is of each read and write."""
+        self._turn, self._patience_s = threading.Lock(), timeout_s
+        self.settimeout(0.0)
+
+    def recv_into(self, buffer: Any, nbytes: Optional[int] = None, flags: int = 0) -> int:
+        read = super().recv_into
+        return read(buffer, nbytes, flags) if self._patience_s is None else self._in_turn(lambda: read(buffer, nbytes, flags))
+
+    def send(self, data: Any, flags: int = 0) -> int:
+        write = super().send
+        return write(data, flags) if self._patience_s is None else self._in_turn(lambda: write(data, flags))
+
+    def shutdown(self, how: int) -> None:
+        """Without taking the connection's cipher from under the other thread."""
+        if self._patience_s is None:
+            super().shutdown(how)
+        else:
+            socket.socket.shutdown(self, how)
+
+    def _in_turn(self, call: Callable[[], int]) -> int:
+        until = time.monotonic() + (self._patience_s or 0.0)
+        while True:
+            with self._turn:
+                try:
+                    return call()
+                except ssl.SSLWantReadError:
+                    wanted = select.POLLIN
+                except ssl.SSLWantWriteError:
+                    wanted = select.POLLOUT
+            poll = select.poll()
+            poll.register(self, wanted)
+            if not poll.poll(max(0.0, until - time.monotonic()) * 1e3):
+                raise TimeoutError("the other side is silent")
+
+
 class _Open(Dict[str, http.client.HTTPConnection]):
     """Kept-alive connections by replica; closed with their thread."""
 
@@ -602,7 +646,10 @@ class Client:
         try:
             connection.connect()
             wire = connection.sock  # getresponse() forgets it when the answer says Connection: close
-            wire.settimeout(self._timeout_s)
+            if isinstance(wire, _Duplex):
+                wire.by_two(self._timeout_s)
+            else:
+                wire.settimeout(self._timeout_s)
             run.opened(wire)
             connection.putrequest("POST", urllib.parse.urlsplit(url).path + "/v1/batches")
             headers = {**self._headers, "Content-Type": _NDJSON, "Accept": _NDJSON, "Content-Length": str(sum(map(len, lines)))}
@@ -715,9 +762,12 @@ class Client:
 
     def _connect(self, url: str, timeout_s: Optional[float] = None) -> http.client.HTTPConnection:
         parts = urllib.parse.urlsplit(url)
-        kind = http.client.HTTPSConnection if parts.scheme == "https" else http.client.HTTPConnection
-        connection: http.client.HTTPConnection = kind(parts.hostname or "", parts.port, timeout=timeout_s or self._timeout_s)
-        return connection
+        timeout_s = timeout_s or self._timeout_s
+        if parts.scheme == "http":
+            return http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=timeout_s)
+        context = ssl.create_default_context()
+        context.sslsocket_class = _Duplex
+        return http.client.HTTPSConnection(parts.hostname or "", parts.port, timeout=timeout_s, context=context)
 
     def _exchange(self, url: str, method: str, path: str, body: Optional[bytes], headers: Mapping[str, str]) -> _Reply:
         """One exchange with one replica, over this thread's connection; anew where the kept one was closed meanwhile."""
