@@ -4,8 +4,6 @@ other numerics. What is pinned is answered by who has it, though the fleet chang
 
 import contextlib
 import copy
-import importlib.machinery
-import importlib.util
 import json
 import os
 import pathlib
@@ -16,20 +14,12 @@ import threading
 import unittest
 import unittest.mock
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SERVER = NEXT = ""
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
+from front_test import ROOT, load, restarts  # noqa: E402
 
-def load(path):
-    loader = importlib.machinery.SourceFileLoader(path.stem, str(path))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(path.stem, loader))
-    sys.modules[path.stem] = module  # dataclasses look for theirs there
-    loader.exec_module(module)
-    return module
-
-
-restarts = load(ROOT / "bench/restarts")
+SERVER = NEXT = ""
 tubecut = load(ROOT / "clients/python/tubecut.py")
 
 

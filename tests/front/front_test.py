@@ -362,27 +362,29 @@ class Proxy(unittest.TestCase):
             wrong = ask(f"https://127.0.0.1:{proxy.port}", body=b"{")
             self.assertEqual((wrong[0], wrong[1]["Content-Type"]), (400, "application/problem+json"))
 
-    def test_a_batch_of_the_python_client_is_the_work_of_all_replicas(self):
+    @contextlib.contextmanager
+    def client_of_a_batch(self, count):
+        """(replicas, the Python client of them behind the proxy, items of its batch)."""
         tubecut = load(ROOT / "clients/python/tubecut.py")
         body = json.loads((ROOT / "examples/bevel-tables/source-000-table-1.json").read_text())
-        items = [tubecut.BatchItem(f"job {i}", "bevel-tables", body) for i in range(120)]
+        items = [tubecut.BatchItem(f"job {i}", "bevel-tables", body) for i in range(count)]
         with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder)) as (replicas, proxy), \
                 unittest.mock.patch.dict(os.environ, SSL_CERT_FILE=f"{folder}/certificate.pem"):
+            yield replicas, tubecut.Client(f"https://127.0.0.1:{proxy.port}"), items
+
+    def test_a_batch_of_the_python_client_is_the_work_of_all_replicas(self):
+        with self.client_of_a_batch(120) as (replicas, client, items):
             before = [r.cpu_seconds() for r in replicas]
-            results = list(tubecut.Client(f"https://127.0.0.1:{proxy.port}").batch(items))
+            results = list(client.batch(items))
             used = [r.cpu_seconds() - b for r, b in zip(replicas, before)]
         self.assertEqual(sorted((r.id, r.status) for r in results), sorted((i.id, 200) for i in items))
         self.assertGreater(min(used), 0.15 * sum(used), used)
 
     def test_a_batch_of_the_python_client_outlives_its_replicas(self):
         """HAProxy has passed the first lines on, so it cannot repeat: the client does."""
-        tubecut = load(ROOT / "clients/python/tubecut.py")
-        body = json.loads((ROOT / "examples/bevel-tables/source-000-table-1.json").read_text())
-        items = [tubecut.BatchItem(f"job {i}", "bevel-tables", body) for i in range(200)]
-        with tempfile.TemporaryDirectory() as folder, restarts.everything(SERVER, pathlib.Path(folder)) as (replicas, proxy), \
-                unittest.mock.patch.dict(os.environ, SSL_CERT_FILE=f"{folder}/certificate.pem"):
+        with self.client_of_a_batch(200) as (replicas, client, items):
             seen, told = [], []
-            for one in tubecut.Client(f"https://127.0.0.1:{proxy.port}").batch(items, progress=lambda *numbers: told.append(numbers)):
+            for one in client.batch(items, progress=lambda *numbers: told.append(numbers)):
                 seen.append((one.id, one.status))
                 if len(seen) in (30, 90, 150):
                     replica = replicas[len(seen) // 60]

@@ -60,6 +60,12 @@ def two_replicas(first, second, check):
     status, refused = schedule(second.port, machine_sha256=pin)
     named = [(e["code"], e["pointer"], e["limit"]) for e in refused.get("errors", [])]
     check(status == 409 and named == [("machine_mismatch", "/machine_sha256", other["request"]["machine_sha256"])], f"the other refuses: {status} {named}")
+    table = json.loads((ROOT / "examples/bevel-tables/table-1-five-axis-at-600-mm-min.json").read_bytes())
+    table["smoothing"]["limits"].update(machine="cell-7", machine_sha256=pin)
+    inside = {"cut": table, "machine": "cell-7", "motion": ASKED["motion"]}
+    reply = exchange(second.port, post(json.dumps(inside).encode(), target=TARGET), patience=20.0)[0]
+    named = [(e["code"], e["pointer"]) for e in json.loads(reply.body).get("errors", [])]
+    check((reply.status, named) == (409, [("machine_mismatch", "/cut/smoothing/limits/machine_sha256")]), f"a pin inside holds: {reply.status} {named}")
     inline = schedule(second.port, machine=other_machine(second), machine_sha256=other["request"]["machine_sha256"])
     check(inline[0] == 200, f"a machine in the request is pinned too: {inline[0]}")
     status, refused = schedule(second.port, machine_sha256="cell-7")
