@@ -9,7 +9,7 @@ LATIN = {"part": "Träger Ø60 – ⌀ 5 µ", "order": "Łódź, Žižkov, faça
 SPELLED = {"part": "Traeger O60 - dia 5 u", "order": "Lodz, Zizkov, facade", "drawing": "Strasse N k"}
 OTHERS = {"part": "注文 7", "order": "𠮷野", "drawing": "Тройник"}
 NOTE = ", spelled in ASCII"
-WHERE = {"bevel-tables": ("svg", "dxf", "gcode", "nc1", "glb"), "parts": ("svg", "dxf", "gcode", "nc1"), "feed-curves": ("svg", "st")}
+WHERE = {"bevel-tables": ("svg", "dxf", "gcode", "nc1", "glb", "step"), "parts": ("svg", "dxf", "gcode", "nc1", "step"), "feed-curves": ("svg", "st")}
 ASCII = ("gcode", "nc1", "st")
 UNSEEN = ["a\u200bb", "\u202egnol", "a\u2028b", "\u00ad", "a\ufeff", "\x7f", "a\u0085b", "\ufffe"]
 

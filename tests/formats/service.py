@@ -6,10 +6,9 @@ import pathlib
 import subprocess
 import sys
 import unittest
-import urllib.error
-import urllib.request
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from running import ROOT, Running  # noqa: E402
 
 # Text that ends, opens or escapes something in XML, DXF, DSTV or RS-274; all that a reference may hold.
 HOSTILE = {
@@ -22,16 +21,9 @@ HOSTILE = {
 }
 
 
-class Service:
+class Service(Running):
     def __init__(self, binary, *options):
-        self.child = subprocess.Popen([binary, "--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--budget-s", "30", *options],
-                                      stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-        self.port = json.loads(self.child.stdout.readline())["port"]
-
-    def stop(self):
-        self.child.terminate()
-        self.child.wait()
-        self.child.stdout.close()
+        super().__init__(binary, "--host", "127.0.0.1", "--budget-s", "30", *options, stderr=subprocess.DEVNULL)
 
     def ask(self, endpoint, body, query=""):
         """(status, content type, bytes)"""
@@ -40,18 +32,7 @@ class Service:
 
     def reply(self, endpoint, body, query="", media="application/json"):
         """(status, headers, bytes)"""
-        url = f"http://127.0.0.1:{self.port}/v1/{endpoint}?{query}"
-        request = urllib.request.Request(url, body, {"Content-Type": media})
-        try:
-            with urllib.request.urlopen(request, timeout=60) as reply:
-                return reply.status, reply.headers, reply.read()
-        except urllib.error.HTTPError as refused:
-            with refused:
-                return refused.code, refused.headers, refused.read()
-
-    def get(self, path):
-        with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=60) as reply:
-            return reply.read()
+        return self.post(f"/v1/{endpoint}?{query}", body, media=media)
 
     def text(self, endpoint, body, query):
         status, _, content = self.ask(endpoint, body, query)

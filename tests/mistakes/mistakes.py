@@ -8,11 +8,9 @@ import copy
 import json
 import pathlib
 import sys
-import urllib.error
-import urllib.request
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "wire"))
-from service import Service  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from running import Running  # noqa: E402
 
 HERE = pathlib.Path(__file__).parent
 EXAMPLES = HERE.parent.parent / "examples"
@@ -40,16 +38,9 @@ def edited(body, edits):
     return body
 
 
-def told(base, path, body):
+def told(service, path, body):
     """What an answer says of each field."""
-    request = urllib.request.Request(
-        base + path, json.dumps(body).encode(), {"content-type": "application/json"}
-    )
-    try:
-        with urllib.request.urlopen(request) as answer:
-            told_by = json.load(answer)
-    except urllib.error.HTTPError as refused:
-        told_by = json.load(refused)
+    told_by = json.loads(service.post(path, json.dumps(body).encode())[2])
     said = {}
     for one in told_by.get("errors", []) + told_by.get("warnings", []):
         text = " ".join(str(one.get(part, "")) for part in ("code", "limit", "hint", "detail"))
@@ -71,11 +62,11 @@ def stands(body, pointer):
 
 
 def main(binary):
-    with Service(binary) as service:
-        judge(f"http://127.0.0.1:{service.port}")
+    with Running(binary) as service:
+        judge(service)
 
 
-def judge(base):
+def judge(service):
     rows = [json.loads(line) for line in (HERE / "mistakes.jsonl").read_text().splitlines()]
     assert len(rows) >= 200, "the table holds at least 200 mistakes"
     assert all(row["says"] for row in rows), "each row has words that its hint holds"
@@ -84,7 +75,7 @@ def judge(base):
         example = json.loads((EXAMPLES / (row["post"] + ".json")).read_text())
         path = "/v1/" + row["post"].split("/")[0]
         body = edited(example, row["edit"])
-        said = told(base, path, body)
+        said = told(service, path, body)
         nowhere += [(row, pointer) for pointer in said if not stands(body, pointer)]
         words = said.get(row["names"], [])
         if not words:

@@ -5,15 +5,14 @@ usage: job_lines.py SERVER (the binary)"""
 
 import hashlib
 import json
+import pathlib
 import queue
 import re
 import subprocess
 import sys
-import threading
-import urllib.error
-import urllib.request
 
-from service import ROOT
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from running import ROOT, Running  # noqa: E402
 
 TABLE = json.loads((ROOT / "examples/bevel-tables/source-000-table-1.json").read_text())
 SHA256 = re.compile(r"[0-9a-f]{64}")
@@ -36,34 +35,18 @@ JOBS = [
 ]
 
 
-class Logged:
+class Logged(Running):
     """The service, and its lines as they come."""
 
     def __init__(self, binary):
-        self.child = subprocess.Popen([binary, "--port", "0", "--admin-port", "0", "--replica", "cut-7"], stdout=subprocess.PIPE, text=True)
-        self.ready = json.loads(self.child.stdout.readline())
         self.lines = queue.Queue()
-        threading.Thread(target=self.read, daemon=True).start()
+        super().__init__(binary, "--replica", "cut-7")
 
-    def read(self):
-        for line in self.child.stdout:
+    def read(self, log):
+        for line in log:
             one = json.loads(line)
             if one["event"] == "job":
                 self.lines.put(one)
-
-    def post(self, path, body, headers=(), media="application/json"):
-        """(status, headers, content)"""
-        request = urllib.request.Request(f"http://127.0.0.1:{self.ready['port']}/v1/{path}", body, {"Content-Type": media, **dict(headers)})
-        try:
-            with urllib.request.urlopen(request, timeout=60) as reply:
-                return reply.status, reply.headers, reply.read()
-        except urllib.error.HTTPError as refused:
-            with refused:
-                return refused.code, refused.headers, refused.read()
-
-    def version(self):
-        with urllib.request.urlopen(f"http://127.0.0.1:{self.ready['port']}/v1/version", timeout=60) as reply:
-            return json.load(reply)
 
 
 def hold(line, what, status, hashes, version):
@@ -76,19 +59,15 @@ def hold(line, what, status, hashes, version):
 
 
 def main(binary):
-    service = Logged(binary)
-    try:
-        judge(service, service.version())
+    with Logged(binary) as service:
+        judge(service, json.loads(service.get("/v1/version")))
         either_order(binary, str(service.ready["admin_port"]))
-    finally:
-        service.child.terminate()
-        service.child.wait()
 
 
 def judge(service, version):
     for what, query, body, headers, wanted, hashes in JOBS:
         sent = body if isinstance(body, bytes) else json.dumps(body).encode()
-        status, answered, content = service.post("bevel-tables" + query, sent, headers)
+        status, answered, content = service.post("/v1/bevel-tables" + query, sent, headers)
         assert status == wanted, (what, status, content[:300])
         line = service.lines.get(timeout=10)
         hold(line, what, status, hashes, version)
@@ -100,7 +79,7 @@ def judge(service, version):
         print(f"ok  {what}: {', '.join(sorted(hashes))}")
     lines = [{"id": "fine", "body": TABLE}, {"id": "file", "body": TABLE, "format": "csv"}, {"id": "open", "body": OPEN}, {"id": "wrong", "body": {}}]
     batch = "".join(json.dumps({"endpoint": "bevel-tables", **line}) + "\n" for line in lines).encode()
-    assert service.post("batches", batch, media="application/x-ndjson")[0] == 200
+    assert service.post("/v1/batches", batch, media="application/x-ndjson")[0] == 200
     told = {line["job"]: line for line in (service.lines.get(timeout=10) for _ in range(5))}  # and that of the whole
     for id, status, hashes in (("fine", 200, {ASKED, RESULT}), ("file", 200, {ASKED, RESULT}), ("open", 422, {ASKED}), ("wrong", 422, {BODY})):
         hold(told[id], f"line {id} of a batch", status, hashes, version)
