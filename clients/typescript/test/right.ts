@@ -16,6 +16,14 @@ export const joint = {
   smoothing: {method: 'envelope', limits: {max_slope_deg_per_mm: 5, max_curvature_deg_per_mm2: 1}},
 } satisfies Schemas['BevelTablesRequest'];
 
+export const square = {
+  preset: 'tube_laser',
+  target: joint.target,
+  cutters: joint.cutters,
+  kerf_mm: 0.2,
+  accept: {max_gap_mm: 3, min_tongue_mm: 10},
+} satisfies Schemas['BevelTablesRequest'];
+
 export async function calls(): Promise<number> {
   const {result: table, verification} = await post(client, '/v1/bevel-tables', joint, {jobId: 'B1 start'});
   const passed: true = verification.passed;
@@ -27,6 +35,10 @@ export async function calls(): Promise<number> {
     params: {query: {validate_only: true}, header: {'Job-Id': 'B1 start'}},
   }));
   const status: 'ok' | 'review' | 'reject' = whole.verdict.status;
+
+  const laser = await post(client, '/v1/bevel-tables', square);
+  const gap: number | undefined = laser.result.tube_laser?.gap?.greatest_mm;
+  const outer: number[] | undefined = laser.result.points.gap_outer_mm;
 
   const csv = await client.POST('/v1/bevel-tables', {body: joint, params: {query: {format: 'csv'}}, parseAs: 'text'});
   const text: string | undefined = csv.data;
@@ -51,7 +63,13 @@ export async function calls(): Promise<number> {
     console.log(size, program.size, sheet.size);
   }
 
+  const replicas = ['http://10.0.0.1:8080', 'http://10.0.0.2:8080'] as const;
+  const stream = batch(replicas, jobs, {streams: 2, patienceMs: 5000, progress: (done, total, refused) => console.log(done, total ?? '?', refused)});
+  const {done} = await stream.next();
+  await post(tubecut(replicas, {retry: {attempts: 2}}), '/v1/bevel-tables', joint);
+  console.log(done);
+
   const limits = await answered(client.GET('/v1/limits'));
   return Number(passed) + columns.length + sign.length + status.length + (text?.length ?? 0) + periods + (pointer?.length ?? 0) +
-    Object.keys(limits).length;
+    Object.keys(limits).length + (gap ?? 0) + (outer?.length ?? 0);
 }

@@ -18,6 +18,9 @@ export async function calls(): Promise<void> {
   // @ts-expect-error 2322 wall_mm
   await client.POST('/v1/intersections', {body: {target: {outer_diameter_mm: 70}, cutters: [tube]}});
 
+  // @ts-expect-error 2322 half_dihedral
+  await client.POST('/v1/bevel-tables', {body: {preset: 'tube_laser', target: joint.target, cutters: [tube], kerf_mm: 0.2, groove: {rule: 'half_dihedral'}}});
+
   // @ts-expect-error 2322 'string' is not assignable to type 'number'
   await client.POST('/v1/intersections', {body: {target: {outer_diameter_mm: '70', wall_mm: 5}, cutters: [tube]}});
 
