@@ -266,6 +266,8 @@ Outcome dispatch(const Call& call, const Context& context) {
   if (call.method != "GET" && call.method != "HEAD")
     return job.refuse(Problem{.code = ErrorCode::method_not_allowed, .detail = {}, .issues = {}},
                       "GET, HEAD");
+  if (auto issues = refuse_parameters(call.query); !issues.empty())
+    return job.refuse(query_problem(std::move(issues)));
   return job.page(*page, context);
 }
 

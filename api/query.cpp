@@ -114,6 +114,15 @@ FormatOptions read_options(Reader& in) {
   return out;
 }
 
+/// What the reader found, said of parameters.
+void finish(Reader& in, std::vector<FieldIssue>& issues) {
+  for (auto& issue : in.finish_root()) {
+    issue.pointer = pointer(issue.pointer.substr(1));
+    if (issue.code == ErrorCode::not_a_number) issue.hint = "a number such as 12.5";
+    issues.push_back(std::move(issue));
+  }
+}
+
 }  // namespace
 
 ParsedQuery parse_query(std::string_view text) {
@@ -129,10 +138,17 @@ ParsedQuery parse_query(std::string_view text) {
   for (auto i = general; i < in.echo().size(); ++i)
     if (const auto& name = in.echo()[i].first; in.has(name))
       query.given.emplace_back(name, *in.find(name));
-  for (auto& issue : in.finish_root()) {
-    issue.pointer = pointer(issue.pointer.substr(1));
-    out.issues.push_back(std::move(issue));
-  }
+  finish(in, out.issues);
+  return out;
+}
+
+std::vector<FieldIssue> refuse_parameters(std::string_view text) {
+  std::vector<FieldIssue> out;
+  const Json body{members(text, out)};
+  Reader in(body);
+  finish(in, out);
+  for (auto& issue : out)
+    if (issue.code == ErrorCode::unknown_field) issue.hint = "no parameter is read here";
   return out;
 }
 

@@ -28,4 +28,7 @@ struct ParsedQuery {
 /// reader of bodies: unknown names, names given twice, values not offered or out of range.
 [[nodiscard]] ParsedQuery parse_query(std::string_view text);
 
+/// The same where no parameter is read: whatever is there is wrong.
+[[nodiscard]] std::vector<FieldIssue> refuse_parameters(std::string_view text);
+
 }  // namespace tubecut::api
