@@ -23,6 +23,10 @@ constexpr double kRoundAngleDeg = 15;  // people mean multiples of it
 constexpr double kExactAngle = 1e-4;   // relative: with as many digits also multiples of
 constexpr double kFineAngleDeg = 5;
 constexpr double kShortest = 0.05;  // of its diameter: a tube shorter than that is a ring
+constexpr double kTyped = 0.1;      // mm: lengths are designed in multiples of it
+constexpr double kDesigned = 0.5;   // mm: nearly all of a metric design are multiples of it
+constexpr double kRounding = 0.5e-3 * kMmPerInch;  // of inches to three decimals
+constexpr std::size_t kEnough = 3;  // lengths that differ; by chance one is as near in twenty
 
 /// For people: to the micrometre, or the thousandth of a degree.
 double brief(double value) { return std::floor(1e3 * value + 0.5) / 1e3; }
@@ -104,6 +108,44 @@ double distance_of_ends(const Json& member) {
   return std::sqrt(sum);
 }
 
+/// Metric lengths written in inches: 300 mm as 11.811. One alone may be chance.
+class MetricInInches {
+ public:
+  void look(double value, const std::string& path) {
+    const double mm = std::abs(value);
+    if (is_near(mm, kTyped, 1e-9)) return;
+    const double meant = mm * kMmPerInch;
+    if (meant < kDesigned / 2.0 || !is_near(meant, kDesigned, kRounding)) {
+      ++others_;
+      return;
+    }
+    ++alike_;
+    if (different_.empty()) path_ = path, first_ = value;
+    if (different_.size() <= kEnough && std::ranges::find(different_, mm) == different_.end())
+      different_.push_back(mm);
+  }
+
+  /// A few lengths that stay odd, as defaults in mm and what was calculated do, do not speak
+  /// against it; where they are many it takes one more.
+  [[nodiscard]] bool suspected() const {
+    const std::size_t more = kEnough * others_ > alike_ ? 1 : 0;
+    return different_.size() >= kEnough + more && others_ <= alike_;
+  }
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] double first() const { return first_; }
+  [[nodiscard]] std::size_t count() const { return alike_; }
+
+ private:
+  static bool is_near(double value, double of, double within) {
+    return std::abs(value - of * std::floor(value / of + 0.5)) <= within;
+  }
+
+  std::vector<double> different_;
+  std::string path_;
+  double first_ = 0.0;
+  std::size_t alike_ = 0, others_ = 0;
+};
+
 bool holds_more(const Json& json) {
   return json.as<Json::Array>() != nullptr || json.as<Json::Object>() != nullptr;
 }
@@ -112,11 +154,28 @@ class Walk {
  public:
   explicit Walk(const std::stop_token& stop) : pace_(stop) {}
 
-  void object(const Json& json, const std::string& path) {
+  void request(const Json& json) {
+    object(json, {}, false);
+    if (found.empty() && lengths_.suspected())
+      suspect(lengths_.path(), lengths_.first(), "inches", lengths_.first() * kMmPerInch,
+              "mm, and so do " + std::to_string(lengths_.count() - 1) + " more lengths");
+  }
+
+  std::vector<Warning> found;
+
+ private:
+  Pace pace_;
+  MetricInInches lengths_;
+
+  /// `lengths`: the numbers of an array are.
+  void object(const Json& json, const std::string& path, bool lengths) {
     if (const auto* array = json.as<Json::Array>()) {
       for (std::size_t i = 0; i < array->size(); ++i) {
         pace_.turn();
-        if (holds_more((*array)[i])) object((*array)[i], path + std::to_string(i) + "/");
+        const auto& one = (*array)[i];
+        if (holds_more(one)) object(one, path + std::to_string(i) + "/", lengths);
+        if (const auto* mm = one.as<double>(); lengths && mm != nullptr)
+          lengths_.look(*mm, path.substr(0, path.size() - 1));
       }
       return;
     }
@@ -125,18 +184,15 @@ class Walk {
     ask(pace_.stop());
     tube(json, path);
     for (const auto& [name, value] : *members) {
-      const auto* angle = value.as<double>();
-      if (is_suspected_angle(name) && angle != nullptr && is_round_angle_in_radians(*angle)) {
-        suspect(path + name, *angle, "rad", tenths(degrees_of(*angle)), "deg");
+      const auto* of = value.as<double>();
+      if (is_suspected_angle(name) && of != nullptr && is_round_angle_in_radians(*of)) {
+        suspect(path + name, *of, "rad", tenths(degrees_of(*of)), "deg");
       }
-      if (holds_more(value)) object(value, path + name + "/");
+      const bool length = name.ends_with("_mm");
+      if (length && of != nullptr) lengths_.look(*of, path + name);
+      if (holds_more(value)) object(value, path + name + "/", length);
     }
   }
-
-  std::vector<Warning> found;
-
- private:
-  Pace pace_;
 
   void tube(const Json& json, const std::string& path) {
     const auto diameter = diameter_of(json);
@@ -171,7 +227,7 @@ class Walk {
 
 std::vector<Warning> unit_suspicions(const Json& request, const std::stop_token& stop) {
   Walk walk(stop);
-  walk.object(request, {});
+  walk.request(request);
   return std::move(walk.found);
 }
 

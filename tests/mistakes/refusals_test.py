@@ -2,8 +2,10 @@
 
 import json
 import pathlib
+import random
 import sys
 import tempfile
+import urllib.error
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "formats"))
 from service import FormatTest, Service, examples, main  # noqa: E402
@@ -26,13 +28,15 @@ def places(value, pointer=""):
         yield from places(one, f"{pointer}/{key}")
 
 
-def scaled(value, by, name=""):
-    """With every length of it `by` times as long."""
+def scaled(value, by, name="", digits=None):
+    """With every length of it `by` times as long, rounded to so many digits."""
     if isinstance(value, dict):
-        return {key: scaled(one, by, key) for key, one in value.items()}
+        return {key: scaled(one, by, key, digits) for key, one in value.items()}
     if isinstance(value, list):
-        return [scaled(one, by, name) for one in value]
-    return value * by if name.endswith("_mm") and isinstance(value, (int, float)) else value
+        return [scaled(one, by, name, digits) for one in value]
+    if not name.endswith("_mm") or not isinstance(value, (int, float)):
+        return value
+    return value * by if digits is None else round(value * by, digits)
 
 
 class Refusals(FormatTest):
@@ -115,6 +119,49 @@ class Refusals(FormatTest):
                         self.assertIn("looks like inches: 219.075 mm", words, said)
                         count += 1
         self.assertGreater(count, 40)
+
+    def test_a_metric_design_in_inches_is_suspected(self):
+        """Grooves, feed curves and frames with every length in inches to three decimals: their sizes are in no catalogue."""
+        count = 0
+        for folder in ("grooves", "feed-curves", "mill-paths", "nodes"):
+            for name, body in examples(folder).items():
+                inches = scaled(body, 1 / 25.4, digits=3)
+                if inches.get("linkage", {}).get("rad_per_mm", 1) < 1e-9:
+                    continue
+                with self.subTest(f"{folder} {name}"):
+                    _, said = self.told(folder, inches)
+                    words = " ".join(one.get("detail", "") for issues in said.values() for one in issues)
+                    self.assertIn("looks like inches", words, said)
+                    count += 1
+        self.assertGreater(count, 12)
+
+    def test_a_metric_design_is_not_suspected_of_inches(self):
+        """Every example; and lengths of any digits, which are near half millimetres as inches only by chance (four of six: one in ten thousand)."""
+        for folder in sorted(path.name for path in EXAMPLES.iterdir() if path.is_dir() and path.name != "commissioning"):
+            for name, body in examples(folder).items():
+                _, _, content = self.service.ask(folder, body)
+                self.assertNotIn(b"unit_suspicion", content, name)
+        random_ = random.Random(2)
+        suspected = 0
+        for _ in range(400):
+            body = example("grooves/case-b-near-equal-diameters")
+            body["chord"] = {"outer_diameter_mm": random_.uniform(250, 400), "wall_mm": random_.uniform(8, 16)}
+            body["branch"] = {"outer_diameter_mm": random_.uniform(150, 240), "wall_mm": random_.uniform(8, 12)}
+            body["root_face"] = {"height_mm": random_.uniform(1, 3), "width_mm": random_.uniform(1, 2)}
+            _, _, content = self.service.ask("grooves", body, "validate_only=true")
+            suspected += b"unit_suspicion" in content
+        self.assertLessEqual(suspected, 1)
+
+    def test_a_catalogue_reads_no_parameters(self):
+        for page in ("errors", "limits", "version", "tubes", "machines", "examples"):
+            with self.subTest(page):
+                self.assertTrue(json.loads(self.service.get(f"/v1/{page}")))
+                with self.assertRaises(urllib.error.HTTPError) as refused:
+                    self.service.get(f"/v1/{page}?size=CHS%20114.3x6.3&page=2")
+                with refused.exception as answer:
+                    problem = json.loads(answer.read())
+                self.assertEqual((refused.exception.code, [(e["code"], e["pointer"]) for e in problem["errors"]]),
+                                 (400, [("unknown_field", "?size"), ("unknown_field", "?page")]))
 
     def test_a_profile_left_open_by_inches_says_so(self):
         cutter = {"kind": "tube", "outer_diameter_mm": 8.625, "inclination_deg": 60}
