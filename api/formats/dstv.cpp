@@ -89,12 +89,14 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
   return out;
 }
 
-std::string header(const joint::Target& target, double density, const Lengths& l,
-                   const Caption& c) {
+/// `name`: of the piece where the reference has none.
+std::string header(const joint::Target& target, double density, const Lengths& l, const Caption& c,
+                   std::string_view name = {}) {
   const double ro = target.outer_radius, ri = target.inner_radius();
   const double diameter = 2.0 * ro;
   const double kg_per_m = kPi * (ro * ro - ri * ri) * density * 1e-6;
-  auto part = reference(c, "part");
+  const auto given = reference(c, "part");
+  const auto part = given == "-" ? dstv_text(name) : given;
   std::string out = line(reference(c, "order")) + line(reference(c, "drawing")) + line("1") +
                     line(part) + line("-") + line("1") +
                     line("ROHR" + fixed(diameter, 1) + "x" + fixed(target.wall, 1)) + line("RO");
@@ -227,7 +229,7 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
   return "ST\r\n" + comments(lengths, constant, caption) +
          comment("AK: the tube itself, kept within; IK: an opening of it, kept outside") +
          comment("a hole across phi = 0 is one contour: its y leaves the girth") +
-         header(spec.target, spec.density, lengths, caption) +
+         header(spec.target, spec.density, lengths, caption, spec.name) +
          outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop) +
          openings + comment(std::string(kSidecar) + kTilted) + tables + "EN\r\n";
 }

@@ -1,5 +1,6 @@
 """The DSTV file read by a parser of its own: header lines in the standard's order, contour points, bevel and B table."""
 
+import json
 import math
 import re
 
@@ -152,6 +153,15 @@ class WholePart(FormatTest):
             self.assertLess(off_curve(rolled(points, radius), curves[index]), 0.02)
         self.assertGreater(max(off_curve(rolled([(x, -y) for x, y, _ in contour], radius), curves[index])
                                for contour, index in zip(file["IK"], in_file)), 5)
+
+    def test_a_part_without_a_reference_is_named_after_its_member(self):
+        body = examples("parts")["k-joint-brace"]
+        member = {key: value for key, value in body.items() if key != "reference"}
+        hostile = json.loads(json.dumps(member).replace('"B2"', json.dumps("Tr\u00e4ger\"*/ EN")))
+        named = member | {"reference": {"part": "P-7"}}
+        for asked, piece in ((member, "B2"), (hostile, "Traeger__/ EN"), (named, "P-7")):
+            file = parse(self.service.text("parts", asked, "format=nc1").decode("ascii"))
+            self.assertEqual(file["header"]["piece"], piece)
 
     def in_order(self, result):
         return [result["holes"][step["index"]] for step in result["sequence"] if step["what"] == "hole"]
