@@ -325,10 +325,8 @@ void no_less_than(const BeamFound& rows, BeamFound& all) {
                          [](double a, double b) { return std::max(a, b); });
 }
 
-}  // namespace
-
-BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& stop) {
-  const Surface surface(cut, stop);
+BeamFound found_at(const BeamCut& cut, const Surface& surface, Places places,
+                   const std::stop_token& stop) {
   BeamFound out{.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
   if (stop.stop_requested()) return out;
   const double half = 0.5 * cut.kerf;
@@ -368,12 +366,16 @@ BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& s
                .gouge_phi = surface.phase(gouge.at),
                .left = std::max(0.0, left.value),
                .left_phi = surface.phase(left.at)};
-  if (!rows_only) no_less_than(beam_found(cut, Places::rows, stop), out);
   return out;
 }
 
-BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& stop) {
-  return beam_found(cut, places, stop).proof;
+}  // namespace
+
+BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& stop) {
+  const Surface surface(cut, stop);
+  auto out = found_at(cut, surface, places, stop);
+  if (places != Places::rows) no_less_than(found_at(cut, surface, Places::rows, stop), out);
+  return out;
 }
 
 BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,

@@ -51,6 +51,8 @@ Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
   const auto n = cut.torch.size();
   stretches_.reserve(2 * n);
   first_.reserve(n + 1);
+  if (n == 0) return;
+  Line here = placed(cut, torch(0, 0.0));
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
     first_.push_back(stretches_.size());
     const auto a = torch(i, 0.0), b = torch(i, 1.0);
@@ -58,22 +60,29 @@ Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
         std::max(std::abs(b.phi_inner - a.phi_inner), std::abs(b.phi_outer - a.phi_outer));
     const double rise = std::max(std::abs(b.z_inner - a.z_inner), std::abs(b.z_outer - a.z_outer));
     const double way = std::min(rise + cut.outer * wide, 4.0 * kMostParts * cut.kerf);
-    const auto axis = [&](const AcrossWall& at) -> Vector3d {
-      const auto line = placed(cut, at);
-      return line.to - line.from;
-    };
-    const auto from = axis(a), to = axis(b);
+    const Line next = placed(cut, b);
+    const Vector3d from = here.to - here.from, to = next.to - next.from;
     const double swing = elementary::atan2(from.cross(to).norm(), from.dot(to));
     const int parts =
         1 +
         static_cast<int>(std::max({wide / kTurn, way / (4.0 * cut.kerf + kTiny), swing / kSwing}));
-    for (int k = 0; k < parts; ++k)
-      add(i, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts);
+    for (int k = 0; k < parts; ++k) {
+      const double begin = static_cast<double>(k) / parts, end = static_cast<double>(k + 1) / parts;
+      const Line last = k + 1 < parts ? placed(cut, torch(i, end)) : next;
+      add(i, begin, end, here, last);
+      here = last;
+    }
   }
   first_.push_back(stretches_.size());
   travelled_.push_back(0.0);
   for (std::size_t k = 0; k < 2 * stretches_.size(); ++k)
     travelled_.push_back(travelled_.back() + stretches_[k % stretches_.size()].travel);
+  meridian_ = cut.inner > 0.0 && cut.turn > 0.0;
+  for (std::size_t i = 0; i < n && meridian_; ++i) {
+    const auto a = torch(i, 0.0), b = torch(i, 1.0);
+    meridian_ =
+        a.phi_inner == a.phi_outer && b.phi_inner == b.phi_outer && a.phi_inner <= b.phi_inner;
+  }
 }
 
 Nearest Axes::nearest(std::size_t row, double u, const Vector3d& q) const {
@@ -84,8 +93,10 @@ Nearest Axes::nearest(std::size_t row, double u, const Vector3d& q) const {
   Best best{start, std::clamp((u - own.from) / (own.to - own.from), 0.0, 1.0)};
   best.square = own.square(best.x, q);
   best.distance = std::sqrt(best.square);
-  walk(start, start + n / 2, q, best);
-  walk_back(start + n, start + n - n / 2, q, best);
+  // Half a lap of stretches is no half turn: where the turn decides they may run all round.
+  const auto lap = meridian_ ? n - 1 : n / 2;
+  walk(start, start + lap, q, best);
+  walk_back(start + n, start + n - lap, q, best);
   const auto& s = stretches_[best.stretch];
   return {best.square, s.at(best.x, q), s.row, mixed(s.from, s.to, best.x)};
 }
@@ -94,15 +105,12 @@ AcrossWall Axes::torch(std::size_t row, double u) const {
   return between(cut_.torch, cut_.turn, row, u);
 }
 
-void Axes::add(std::size_t row, double from, double to) {
+void Axes::add(std::size_t row, double from, double to, const Line& first, const Line& last) {
   Stretch out{.row = row, .from = from, .to = to};
-  std::array<Vector3d, 3> in, over;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto t = torch(row, mixed(from, to, 0.5 * static_cast<double>(k)));
-    const auto line = placed(cut_, t);
-    in[k] = line.from;
-    over[k] = line.to - line.from;
-  }
+  const Line middle = placed(cut_, torch(row, mixed(from, to, 0.5)));
+  const std::array<Vector3d, 3> in{first.from, middle.from, last.from};
+  const std::array<Vector3d, 3> over{first.to - first.from, middle.to - middle.from,
+                                     last.to - last.from};
   out.inner = {in[0], 4.0 * in[1] - 3.0 * in[0] - in[2], 2.0 * (in[0] - 2.0 * in[1] + in[2])};
   out.across = {over[0], 4.0 * over[1] - 3.0 * over[0] - over[2],
                 2.0 * (over[0] - 2.0 * over[1] + over[2])};
@@ -120,6 +128,13 @@ void Axes::Best::see(std::size_t k, double at, double value) {
   *this = {k, at, value, std::sqrt(value)};
 }
 
+/// How far q is from the half plane through the tube's axis in which an axis stands, up to a
+/// quarter turn ahead of q, negative behind it; no axis further ahead is nearer than that, up to
+/// half a turn.
+double Axes::ahead(const Stretch::End& end, const Vector3d& q) const {
+  return (q.x() * end.inner.y() - q.y() * end.inner.x()) / cut_.inner;
+}
+
 /// Stretches ahead. Where the axes are further away than the best one, none nearer comes before
 /// they have travelled as much.
 void Axes::walk(std::size_t k, std::size_t last, const Vector3d& q, Best& best) const {
@@ -127,6 +142,7 @@ void Axes::walk(std::size_t k, std::size_t last, const Vector3d& q, Best& best) 
   while (k <= last) {
     const double high = stretch(k).square_last(q), far = std::sqrt(high);
     look(k, low, high, std::sqrt(low) + far, q, best);
+    if (meridian_ && ahead(stretch(k).ends[1], q) >= best.distance) return;
     const double clear = travelled_[k + 1] + std::max(0.0, far - best.distance);
     if (travelled_[k + 2] > clear) {
       ++k;
@@ -146,6 +162,7 @@ void Axes::walk_back(std::size_t end, std::size_t first, const Vector3d& q, Best
     const auto k = end - 1;
     const double low = stretch(k).square_first(q), far = std::sqrt(low);
     look(k, low, high, far + std::sqrt(high), q, best);
+    if (meridian_ && -ahead(stretch(k).ends[0], q) >= best.distance) return;
     const double clear = travelled_[k] - std::max(0.0, far - best.distance);
     if (k == 0 || travelled_[k - 1] < clear) {
       end = k;

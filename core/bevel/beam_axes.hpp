@@ -82,7 +82,7 @@ class Axes {
     void see(std::size_t k, double at, double value);
   };
   [[nodiscard]] AcrossWall torch(std::size_t row, double u) const;
-  void add(std::size_t row, double from, double to);
+  void add(std::size_t row, double from, double to, const Line& first, const Line& last);
   [[nodiscard]] const Stretch& stretch(std::size_t k) const {
     return stretches_[k % stretches_.size()];
   }
@@ -90,12 +90,14 @@ class Axes {
   void walk_back(std::size_t end, std::size_t first, const Eigen::Vector3d& q, Best& best) const;
   void look(std::size_t index, double low, double high, double both, const Eigen::Vector3d& q,
             Best& best) const;
+  [[nodiscard]] double ahead(const Stretch::End& end, const Eigen::Vector3d& q) const;
   void descend(std::size_t k, double x, const Eigen::Vector3d& q, Best& best) const;
 
   const BeamCut& cut_;
   std::vector<Stretch> stretches_;
   std::vector<std::size_t> first_;  // stretch of each row
   std::vector<double> travelled_;   // to the start of the stretch, of all before it
+  bool meridian_ = false;  // each axis in a half plane through the tube's axis, as an end's are
 };
 
 }  // namespace tubecut::bevel::beam

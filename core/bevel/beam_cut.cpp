@@ -3,6 +3,7 @@
 #include "core/bevel/beam.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
+#include "core/math/rotation.hpp"
 
 namespace tubecut::bevel {
 
@@ -42,6 +43,10 @@ BeamCut beam_cut(const HoleSpec& spec, const Hole& hole) {
   return out;
 }
 
+BeamProof beam_proof(const BeamCut& cut, Places places, const std::stop_token& stop) {
+  return beam_found(cut, places, stop).proof;
+}
+
 Result<void> check_spared(const BeamCut& cut, const BeamProof& proof) {
   if (!(proof.gouge > kGougeLimit)) return {};
   return fail({.code = ErrorCode::out_of_range,
@@ -49,7 +54,8 @@ Result<void> check_spared(const BeamCut& cut, const BeamProof& proof) {
                .got = cut.kerf,
                .unit = "mm",
                .hint = "a beam as wide would take " + brief(proof.gouge) +
-                       " mm from the finished part, at phi " + brief(proof.gouge_phi * kDegPerRad) +
+                       " mm from the finished part, at phi " +
+                       brief(math::whole_turn(proof.gouge_phi) * kDegPerRad) +
                        " deg: the wall bends tighter there than the kerf"});
 }
 

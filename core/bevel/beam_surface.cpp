@@ -20,7 +20,13 @@ Vector3d mixed_points(const Vector3d& a, const Vector3d& b, double u) {
 }  // namespace
 
 Surface::Surface(const BeamCut& cut, const std::stop_token& stop) : cut_(cut), axes_(cut, stop) {
-  for (std::size_t i = 0; i < rows() && !stop.stop_requested(); ++i) along_.push_back(way(i));
+  if (rows() == 0) return;
+  Line here = across_wall(0, 0.0, false);
+  for (std::size_t i = 0; i < rows() && !stop.stop_requested(); ++i) {
+    const Line next = across_wall(i, 1.0, false);
+    along_.push_back(0.5 * (next.from - here.from + next.to - here.to));
+    here = next;
+  }
 }
 
 Surface::Seen Surface::seen(const Place& at, const Line& line) const {
@@ -95,12 +101,6 @@ double Surface::beyond(const Nearest& near) const {
   const Vector3d normal = along_[near.row].cross(across);
   const double size = normal.norm();
   return size > 0.0 ? (cut_.part_to_the_left ? -1.0 : 1.0) * normal.dot(off) / size : 0.0;
-}
-
-/// The finished surface's way from a row to the next, in the middle of the wall.
-Vector3d Surface::way(std::size_t row) const {
-  const auto a = placed(cut_, finished({row, 0.0})), b = placed(cut_, finished({row, 1.0}));
-  return 0.5 * (b.from - a.from + b.to - a.to);
 }
 
 }  // namespace tubecut::bevel::beam

@@ -49,11 +49,10 @@ class Surface {
   [[nodiscard]] AcrossWall finished(const Place& at) const;
   [[nodiscard]] Eigen::Vector3d point(const Place& at, const Line& line) const;
   [[nodiscard]] double beyond(const Nearest& near) const;
-  [[nodiscard]] Eigen::Vector3d way(std::size_t row) const;
 
   const BeamCut& cut_;
   Axes axes_;
-  std::vector<Eigen::Vector3d> along_;  // after each row
+  std::vector<Eigen::Vector3d> along_;  // from each row to the next, in the middle of the wall
 };
 
 }  // namespace tubecut::bevel::beam
