@@ -170,8 +170,15 @@ std::vector<CutPoint> way_in(const Track& t, const Join& j, const Lead& lead, Le
 }
 
 /// Where the beam through a point of the contour's surface meets the surface of radius `rho`.
-Flat on_surface(const PartBorder& part, const CutPoint& p, double rho) {
-  return {rho * p.phi, p.z - part.sigma * (rho - part.cut.radius) * elementary::tan(p.b)};
+Flat on_surface(const PartBorder& part, const CutPoint& p, double tan_b, double rho) {
+  return {rho * p.phi, p.z - part.sigma * (rho - part.cut.radius) * tan_b};
+}
+
+/// No more than the distance to the chord from a to b.
+double least_distance(Flat p, Flat a, Flat b) {
+  const auto [low_s, high_s] = std::minmax(a.s, b.s);
+  const auto [low_z, high_z] = std::minmax(a.z, b.z);
+  return std::max({low_s - p.s, p.s - high_s, low_z - p.z, p.z - high_z});
 }
 
 double distance(Flat p, Flat a, Flat b) {
@@ -188,15 +195,15 @@ bool crosses_above(Flat p, Flat a, Flat b) {
 }
 
 /// Signed distance to the border on one surface: positive inside the kept part.
-double depth(const PartBorder& part, const CutPoint& point, double rho,
+double depth(const PartBorder& part, const CutPoint& point, double tan_b, double rho,
              const std::stop_token& stop) {
-  const Flat p = on_surface(part, point, rho);
+  const Flat p = on_surface(part, point, tan_b, rho);
   double nearest = 1e300;
   bool odd = false;
-  Flat a = on_surface(part, part.cut.points.front(), rho);
+  Flat a = on_surface(part, part.cut.points.front(), part.tan_b.front(), rho);
   for (std::size_t i = 1; i < part.cut.points.size() && !stops(stop, i); ++i) {
-    const Flat b = on_surface(part, part.cut.points[i], rho);
-    nearest = std::min(nearest, distance(p, a, b));
+    const Flat b = on_surface(part, part.cut.points[i], part.tan_b[i], rho);
+    if (least_distance(p, a, b) < nearest) nearest = std::min(nearest, distance(p, a, b));
     odd = odd != crosses_above(p, a, b);
     a = b;
   }
@@ -205,23 +212,21 @@ double depth(const PartBorder& part, const CutPoint& point, double rho,
 }
 
 /// The point turned by whole turns into the span of the border.
-CutPoint wrapped(const Track& cut, CutPoint p) {
-  const auto [low, high] = std::ranges::minmax(cut.points, {}, &CutPoint::phi);
-  const double from = cut.turns == 0 ? 0.5 * (low.phi + high.phi) - kPi : low.phi;
-  p.phi -= kTwoPi * std::floor((p.phi - from) / kTwoPi);
+CutPoint wrapped(const PartBorder& part, CutPoint p) {
+  p.phi -= kTwoPi * std::floor((p.phi - part.from_phi) / kTwoPi);
   return p;
 }
 
 /// One turn of a ring seen from a point near its seam needs the neighbouring turn for the distance.
-double depth_on_ring(const PartBorder& part, const CutPoint& p, double rho,
+double depth_on_ring(const PartBorder& part, const CutPoint& p, double tan_b, double rho,
                      const std::stop_token& stop) {
-  const double here = depth(part, p, rho, stop);
+  const double here = depth(part, p, tan_b, rho, stop);
   if (part.cut.turns == 0) return here;
   double nearest = std::abs(here);
   for (const double turn : {-kTwoPi, kTwoPi}) {
     CutPoint moved = p;
     moved.phi += turn;
-    nearest = std::min(nearest, std::abs(depth(part, moved, rho, stop)));
+    nearest = std::min(nearest, std::abs(depth(part, moved, tan_b, rho, stop)));
   }
   return here < 0.0 ? -nearest : nearest;
 }
@@ -344,16 +349,29 @@ Result<PartBorder> part_border(const CutPath& cut_path, double sigma) {
   auto whole = track(cut_path);
   if (!whole) return tl::unexpected<Error>(whole.error());
   SmoothTrack border = smooth_border(*whole);
-  return PartBorder{std::move(border.track), cut_path.scrap, cut_path.outer_radius,
-                    cut_path.inner_radius(), sigma,          border.sag};
+  const auto& points = border.track.points;
+  const auto [low, high] = std::ranges::minmax(points, {}, &CutPoint::phi);
+  const double from = border.track.turns == 0 ? 0.5 * (low.phi + high.phi) - kPi : low.phi;
+  std::vector<double> tan_b(points.size());
+  std::ranges::transform(points, tan_b.begin(),
+                         [](const CutPoint& p) { return elementary::tan(p.b); });
+  return PartBorder{.cut = std::move(border.track),
+                    .scrap = cut_path.scrap,
+                    .outer_radius = cut_path.outer_radius,
+                    .inner_radius = cut_path.inner_radius(),
+                    .sigma = sigma,
+                    .sag = border.sag,
+                    .tan_b = std::move(tan_b),
+                    .from_phi = from};
 }
 
 double intrusion(const PartBorder& part, const CutPoint& point, const std::stop_token& stop) {
-  const CutPoint p = wrapped(part.cut, point);
+  const CutPoint p = wrapped(part, point);
+  const double tan_b = elementary::tan(p.b);
   const double middle = 0.5 * (part.inner_radius + part.outer_radius);
   double deepest = -1e300;
   for (const double rho : {part.inner_radius, middle, part.outer_radius}) {
-    deepest = std::max(deepest, depth_on_ring(part, p, rho, stop));
+    deepest = std::max(deepest, depth_on_ring(part, p, tan_b, rho, stop));
   }
   return deepest;
 }

@@ -48,8 +48,10 @@ struct PartBorder {
   Scrap scrap = Scrap::minus_z;
   double outer_radius = 0.0;
   double inner_radius = 0.0;
-  double sigma = -1.0;  // of the machine that counts the B of `cut`
-  double sag = 0.0;     // mm, largest distance of the contour's chords to `cut`
+  double sigma = -1.0;             // of the machine that counts the B of `cut`
+  double sag = 0.0;                // mm, largest distance of the contour's chords to `cut`
+  std::vector<double> tan_b = {};  // of each point of `cut`
+  double from_phi = 0.0;           // a point is seen from the turn that begins here
 };
 
 /// The border of the part that `cut_path` cuts out: between its points lie points of the smooth
