@@ -2,7 +2,7 @@
 ARG BASE=docker.io/library/debian:bookworm-slim
 FROM ${BASE}
 RUN apt-get update && apt-get upgrade -y && apt-get install -y --no-install-recommends haproxy \
- && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/cache/debconf/* /var/log/*
+ && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/cache/ldconfig/* /var/cache/debconf/* /var/log/*
 COPY haproxy.cfg rates.map /etc/haproxy/
 COPY proxy /usr/local/bin/tubecut-proxy
 COPY errors/*.http errors/*.json /etc/haproxy/errors/tubecut/

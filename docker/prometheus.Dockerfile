@@ -2,7 +2,7 @@
 ARG BASE=docker.io/library/debian:bookworm-slim
 FROM ${BASE}
 RUN apt-get update && apt-get upgrade -y && apt-get install -y --no-install-recommends prometheus \
- && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/cache/debconf/* /var/log/* \
+ && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/cache/ldconfig/* /var/cache/debconf/* /var/log/* \
  && install -d -o prometheus -g prometheus /prometheus
 COPY prometheus.yml prometheus-rules.yml /etc/prometheus/
 RUN ["promtool", "check", "config", "/etc/prometheus/prometheus.yml"]

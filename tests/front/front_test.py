@@ -11,7 +11,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import signal
 import socket
 import ssl
@@ -27,10 +26,13 @@ import urllib.request
 
 import yaml
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from alarms import promtool  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCKER = ROOT / "docker"
 SERVER = ""
-sys.dont_write_bytecode = True
 
 
 def load(path):
@@ -228,6 +230,8 @@ class Proxy(unittest.TestCase):
                 replicas[0].end(signal.SIGKILL)
                 restarts.until(lambda: not proxy.up("replica-1"), 5, "the replica seen down")
                 ask(url)
+                replicas[0].start()  # a proxy that first looks when it is up already says nothing of it
+                restarts.until(lambda: proxy.up("replica-1"), 20, "the replica seen up again")
                 proxy.process.send_signal(signal.SIGUSR1)
                 self.assertEqual(proxy.process.wait(timeout=10), 0)
                 lines = [json.loads(line) for line in pathlib.Path(proxy.log.name).read_text().splitlines()]
@@ -557,7 +561,13 @@ class Agreement(unittest.TestCase):
 
     def test_compose_names_what_podman_may_ask_for(self):
         """As podman-compose reads them: soft and hard, after its variables."""
-        services = yaml.safe_load(load(ROOT / "tools/check_settings").expanded((DOCKER / "compose.yaml").read_text()))["services"]
+        read = load(ROOT / "tools/check_settings").expanded
+        services = {name: s for file in ("compose.yaml", "compose.monitoring.yaml") for name, s in yaml.safe_load(read((DOCKER / file).read_text()))["services"].items()
+                    if "image" in s}
+        self.assertEqual(len(services), 5)
+        for s in services.values():
+            if "build" in s:  # on the base that ./dev image makes, of no registry
+                self.assertEqual(s["build"]["args"]["BASE"], re.search(r"^base=(.*)$", (DOCKER / "image").read_text(), re.M)[1])
         least = int(re.search(r"connections=(\d+)", subprocess.run([SERVER, "--print-config"], check=True, capture_output=True, text=True).stdout)[1]) + 128
         for name, s in services.items():
             for limit_name, needed in (("nofile", least), ("nproc", s["pids_limit"])):
@@ -739,12 +749,6 @@ class Alerts(unittest.TestCase):
             self.assertLessEqual(of.keys() - {"job", "instance"}, {label for n, l in served if n == name for label in l}, name)
             for label in of.keys() - {"job", "instance", "version", "sha256"}:
                 self.assertIn(of[label], values[label], name)
-
-
-def promtool():
-    found = shutil.which("promtool", path=f"{os.environ['PATH']}:{ROOT / 'build'}")
-    assert found, "no promtool: ./dev test fetches it"
-    return found
 
 
 def served_series(begun=lambda name: True):

@@ -14,6 +14,7 @@ import yaml
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+import alarms  # noqa: E402
 import front_test  # noqa: E402
 from front_test import DOCKER, promtool, series  # noqa: E402
 
@@ -218,11 +219,28 @@ class Dashboard(unittest.TestCase):
             done = subprocess.run([promtool(), "check", "rules", file.name], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_every_expression_has_data(self):
+        """Of a fleet that has answered and refused."""
+        asked = [expression for _, expression, _ in self.expressions()]
+        with tempfile.TemporaryDirectory() as folder, front_test.restarts.everything(front_test.SERVER, pathlib.Path(folder)) as (replicas, proxy):
+            targets = {("tubecut", r.name): f"http://127.0.0.1:{r.command[r.command.index('--admin-port') + 1]}/metrics" for r in replicas}
+            targets["tubecut-haproxy", "haproxy"] = f"http://127.0.0.1:{proxy.stats_port}/metrics"
+            record = alarms.Record(targets, alarms.words(asked))
+            for step in range(6):
+                for body in (b"{}", (front_test.ROOT / "examples/intersections/source-000-table-1.json").read_bytes()) * 3:
+                    front_test.ask(f"https://127.0.0.1:{proxy.port}", "/v1/intersections", body)
+                record.scrape()
+        self.assertGreater(len(asked), 20)
+        for expression, values in zip(asked, record.values((one, 5) for one in asked)):
+            with self.subTest(expression=expression):
+                self.assertTrue(values)
+                self.assertTrue(all(value == value for value in values.values()), values)  # not NaN
+
     def test_asks_for_series_there_are(self):
         served = front_test.served_series()
         names = {name for name, _ in served}
         jobs = of_compose()
-        queries = [v["definition"] for v in self.FILE["templating"]["list"] if v["type"] == "query"]
+        queries = [v["query"]["query"] for v in self.FILE["templating"]["list"] if v["type"] == "query"]
         told = [*self.expressions(), *(("variable", q, "") for q in queries)]
         for title, expression, legend in told:
             with self.subTest(title, expression=expression):
