@@ -19,20 +19,25 @@ namespace {
 
 struct BevelTables {
   using Spec = BevelTableRequest;
-  using Out = bevel::Table;
+  struct Out : bevel::Table {
+    std::optional<EndReport> laser = {};
+  };
   static constexpr std::string_view kId = "bevel-tables";
   static constexpr std::string_view kPath = "/v1/bevel-tables";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr double kBudgetS = api::kBudgetS;
-  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
-                                                            "max_extra_bevel_deg", "max_b_deg"};
+  static constexpr auto kAccepts =
+      joined(std::array<std::string_view, 3>{"max_root_gap_mm", "max_extra_bevel_deg", "max_b_deg"},
+             kEndAccepts);
   static constexpr auto kChecks = kTableChecks;
 
   static Spec decode(Reader& in) {
     Spec out;
+    out.preset = decode_preset(in);
+    check_accepts(in, out.preset);
     out.source = decode_joint(in);
     out.sampling = decode_sampling(in);
-    decode_table_options(in, out);
+    decode_table_options(in, out.preset, out);
     return out;
   }
 
@@ -41,7 +46,10 @@ struct BevelTables {
   }
   static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return on_node(spec.source, bevel::table(spec, stop));
+    TRY(auto table, on_node(spec.source, bevel::table(spec, stop)));
+    Out out{std::move(table)};
+    if (spec.preset == Preset::tube_laser) out.laser = end_report(spec, out, false, stop);
+    return out;
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
     return bevel::verify(spec, out, stop);
@@ -57,14 +65,18 @@ struct BevelTables {
       extra = std::max(extra, out.b[i] - out.b_raw[i]);
       b = std::max(b, std::abs(out.b[i]));
     }
-    return {{"max_root_gap_mm", gap},
-            {"max_extra_bevel_deg", extra * kDegPerRad},
-            {"max_b_deg", b * kDegPerRad}};
+    std::vector<Measure> all{{"max_root_gap_mm", gap},
+                             {"max_extra_bevel_deg", extra * kDegPerRad},
+                             {"max_b_deg", b * kDegPerRad}};
+    if (out.laser)
+      for (const auto& one : measures_of(out, *out.laser)) all.push_back(one);
+    return all;
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
     encode_table(spec, out, w);
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
+    if (out.laser) encode_end_report(out, *out.laser, w);
   }
 
   template <auto Print>
@@ -82,6 +94,7 @@ struct BevelTables {
         {"dxf", "image/vnd.dxf", &print<bevel_table_dxf>, {"template", "tube"}},
         {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
         {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},
+        {"step", "model/step", &print<bevel_table_step>, {"straight", "smooth"}},
         {"nc1", "application/x-dstv", &print<bevel_table_dstv>, {}, {}, false, true},
         {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, gcode_options(), true, true}};
     return kFormats;

@@ -75,7 +75,7 @@ void encode_joint_kind(const joint::Joint& joint, Writer& o) {
   if (joint.depth) o.field("depth_mm", *joint.depth);
 }
 
-void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated,
+void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated, Preset preset,
                      bevel::HoleSpec& out) {
   in.note("joint");
   const bool told = stated != nullptr && !in.has("joint");
@@ -85,8 +85,10 @@ void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated
   out.kind = joint.kind;
   out.gap = joint.gap;
   out.depth = joint.depth;
-  out.groove = in.object("groove", [](Reader& g) { return decode_groove(g, false); });
-  out.tilt = in.choice("tilt", Tilt::axial);
+  const bool laser = preset == Preset::tube_laser;
+  out.groove = laser ? decode_square_groove(in)
+                     : in.object("groove", [](Reader& g) { return decode_groove(g, false); });
+  out.tilt = laser ? decode_no_tilt(in) : in.choice("tilt", Tilt::axial);
 }
 
 void encode_hole(const bevel::HoleSpec& spec, const bevel::Hole& hole, Writer& o) {
@@ -138,7 +140,7 @@ struct Holes {
     const auto branch = in.object("branch", decode_hole_branch);
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
-    decode_hole_cut(in, deepest, nullptr, out);
+    decode_hole_cut(in, deepest, nullptr, Preset::none, out);
     out.torch = in.defaulted_object("torch", decode_torch);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
     out.sampling = decode_sampling(in);
@@ -187,7 +189,8 @@ struct Holes {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &hole_csv},
         {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror"}},
-        {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}}};
+        {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}},
+        {"step", "model/step", &hole_step, {"straight", "smooth"}}};
     return kFormats;
   }
 };

@@ -145,13 +145,18 @@ std::vector<double> hues(const CutSolid& solid, const std::stop_token& stop) {
 
 }  // namespace
 
+double far_end(const bevel::TableSpec& spec, const bevel::Table& table,
+               const std::stop_token& stop) {
+  const double top = highest(spec, table, stop), far = top + spec.target.outer_radius;
+  const bool ends = spec.target.length && *spec.target.length > top + 1e-3;
+  return ends ? std::min(far, *spec.target.length) : far;
+}
+
 CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& t, Smoothed which,
                    const std::stop_token& stop) {
   const double inner = spec.target.inner_radius(), outer = spec.target.outer_radius;
-  const double top = highest(spec, t, stop);
-  CutSolid out{.rings = {}, .cut_points = t.z_face.empty() ? 2U : 3U, .far = top + outer};
-  if (spec.target.length && *spec.target.length > top + 1e-3)
-    out.far = std::min(out.far, *spec.target.length);
+  CutSolid out{
+      .rings = {}, .cut_points = t.z_face.empty() ? 2U : 3U, .far = far_end(spec, t, stop)};
   const double step = 2.0 * elementary::acos(1.0 - std::min(1.0, kFacetError / outer));
   const auto n = t.phi.size();
   for (std::size_t i = 0; i < n; ++i) {

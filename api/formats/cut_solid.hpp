@@ -26,7 +26,11 @@ struct CutSolid {
   double far = 0.0;                                 // z of the far end
 };
 
-/// The far end is half a diameter above the highest point of the cut, at most the target's length.
+/// z of the far end: half a diameter above the highest point of the cut, before smoothing or after,
+/// at most the target's length.
+[[nodiscard]] double far_end(const bevel::TableSpec& spec, const bevel::Table& table,
+                             const std::stop_token& stop);
+
 /// `before`: the cut as it would be unsmoothed, on the same root.
 [[nodiscard]] CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& table,
                                  Smoothed which, const std::stop_token& stop);

@@ -30,12 +30,14 @@ std::string with_note(std::string_view text) {
   return in_a_comment(text) + std::string(spelling_note(text));
 }
 
-std::string utf16_escape(std::uint32_t unit) {
+std::string hex(std::uint32_t value, int digits) {
   static constexpr char kHex[] = "0123456789ABCDEF";
-  std::string out = "\\U+";
-  for (int shift = 12; shift >= 0; shift -= 4) out += kHex[(unit >> shift) & 15U];
+  std::string out;
+  for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) out += kHex[(value >> shift) & 15U];
   return out;
 }
+
+std::string utf16_escape(std::uint32_t unit) { return "\\U+" + hex(unit, 4); }
 
 }  // namespace
 
@@ -87,6 +89,24 @@ std::string dxf_text(std::string_view text) {
       out += utf16_escape(0xD800 + (above >> 10U)) + utf16_escape(0xDC00 + (above & 0x3FFU));
     else if (*c >= 0x80)
       out += utf16_escape(*c);
+    else
+      out += printable(first) ? first : '_';
+  }
+  return out;
+}
+
+std::string step_text(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const char first = text.front();
+    const auto c = take_character(text);
+    if (!c) throw Unspellable{std::string(text)};
+    if (first == '\'' || first == '\\')
+      out += std::string(2, first);
+    else if (*c >= 0x10000)
+      out += "\\X4\\" + hex(*c, 8) + "\\X0\\";
+    else if (*c >= 0x80)
+      out += "\\X2\\" + hex(*c, 4) + "\\X0\\";
     else
       out += printable(first) ? first : '_';
   }

@@ -22,6 +22,10 @@ namespace tubecut::api {
 /// ASCII as \U+XXXX, in UTF-16.
 [[nodiscard]] std::string dxf_text(std::string_view text);
 
+/// Within the apostrophes of a string of ISO 10303-21: they and the backslash doubled, beyond ASCII
+/// as \X2\ (UTF-16) or \X4\.
+[[nodiscard]] std::string step_text(std::string_view text);
+
 /// Inside a comment of RS-274, but not as its first word, where (MSG, (PRINT, (LOGOPEN, and their
 /// like act. Kept are letters, digits and "+-_.,:=/# "; the rest becomes '_'. With its
 /// spelling_note.

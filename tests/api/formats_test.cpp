@@ -92,6 +92,8 @@ TEST(Formats, TextIsHarmlessInEveryLanguage) {
   EXPECT_EQ(api::xml_text("a<b>&\"c\x01"), "a&lt;b&gt;&amp;&quot;c_");
   EXPECT_EQ(api::dxf_text("50%%c\\U+0041^J\n"), "50%%%%%%c\\U+005CU+0041^ J_");
   EXPECT_EQ(api::xml_text("'"), "&#39;");
+  EXPECT_EQ(api::step_text("a'b\\c\x01"), "a''b\\\\c_");
+  EXPECT_EQ(api::step_text("\xc3\xa4\xf0\xa0\xae\xb7"), "\\X2\\00E4\\X0\\\\X4\\00020BB7\\X0\\");
   for (const auto text : {&api::gcode_text, &api::dstv_text, &api::structured_text_text}) {
     EXPECT_TRUE(text("a)(MSG,x);[1]\n\xc3\xa9").starts_with("a__MSG,x___1__e"));
     EXPECT_EQ(text("*) VAR x (* {p} $'\"%~"), "__ VAR x __ _p_ _____");

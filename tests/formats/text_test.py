@@ -8,6 +8,7 @@ import re
 import struct
 import xml.etree.ElementTree as ElementTree
 
+import step_reader
 from dstv_test import parse
 from dxf_test import read
 from ezdxf.lldxf.encoding import decode_dxf_unicode
@@ -145,7 +146,18 @@ def stl(content):
     return re.sub(rb"input [0-9a-f]{16}", b"", content), [], None
 
 
-READERS = {"svg": xml, "dxf": dxf, "gcode": gcode, "nc1": dstv, "st": structured_text, "csv": table, "glb": glb, "stl": stl}
+def step(content):
+    """Header and product apart; what is left are numbers and words of the standard."""
+    file = step_reader.File(content.decode("ascii"))
+    description, (name, *others) = file.header["FILE_DESCRIPTION"][0], file.header["FILE_NAME"]
+    product = file.get(file.of("PRODUCT")[0], "PRODUCT")
+    revision = file.get(file.of("PRODUCT_DEFINITION_FORMATION")[0], "PRODUCT_DEFINITION_FORMATION")
+    texts = [*description, name, product[0], revision[0]]
+    product[0] = revision[0] = None
+    return (others, file.entities), texts, str
+
+
+READERS = {"svg": xml, "dxf": dxf, "gcode": gcode, "nc1": dstv, "st": structured_text, "csv": table, "glb": glb, "stl": stl, "step": step}
 
 
 class Words(FormatTest):

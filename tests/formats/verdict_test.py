@@ -12,6 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 import ezdxf
 
+import step_reader
 from service import FormatTest, examples, main
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -58,6 +59,10 @@ def stl_head(content):
     return [content[:80].decode("ascii")]
 
 
+def step_head(content):
+    return step_reader.File(content.decode("ascii")).header["FILE_DESCRIPTION"][0]
+
+
 def nc1_head(content):
     lines = content.decode("ascii").split("\r\n")
     if lines[0] != "ST":
@@ -78,7 +83,7 @@ def st_head(content):
 
 
 READERS = {"text/csv": csv_head, "image/svg+xml": svg_head, "image/vnd.dxf": dxf_head, "model/gltf-binary": glb_head,
-           "model/stl": stl_head, "application/x-dstv": nc1_head, "text/x-gcode": gcode_head, "text/x-iec61131-st": st_head}
+           "model/stl": stl_head, "model/step": step_head, "application/x-dstv": nc1_head, "text/x-gcode": gcode_head, "text/x-iec61131-st": st_head}
 
 
 def squeezed(texts):
@@ -123,7 +128,7 @@ class Verdict(FormatTest):
         for media, about in self.contract["paths"][f"/v1/{endpoint}"]["post"]["responses"]["200"]["content"].items():
             if media in ("application/json", "application/cbor"):
                 continue
-            names = {"text/csv": "csv", "image/svg+xml": "svg", "image/vnd.dxf": "dxf", "model/gltf-binary": "glb", "model/stl": "stl",
+            names = {"text/csv": "csv", "image/svg+xml": "svg", "image/vnd.dxf": "dxf", "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step",
                      "application/x-dstv": "nc1", "text/x-gcode": "gcode", "text/x-iec61131-st": "st"}
             speed = SPEED if SPEED.partition("=")[0] in about.get("x-options", []) else ""
             for view in about.get("x-views", [""]):

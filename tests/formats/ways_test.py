@@ -131,7 +131,7 @@ class Ways(FormatTest):
             with self.subTest(name):
                 part = {"target": {**body["target"], "length_mm": 3000}, "kerf_mm": body["kerf_mm"], "datum": "seam", "seam_deg": 0,
                         "ends": {"start": {k: body[k] for k in END if k in body}, "finish": {"square_at_mm": 0}}}
-                part |= {k: body[k] for k in ("torch", "sampling") if k in body}
+                part |= {k: body[k] for k in ("torch", "sampling", "preset") if k in body}
                 answer = self.service.answer("bevel-tables", body)
                 outer, wall = self.tube(answer)
                 end = self.service.answer("parts", part)["result"]["ends"]["start"]
@@ -171,7 +171,8 @@ class Ways(FormatTest):
     def test_documents_in_a_batch_and_without_a_server(self):
         """The bytes of one request alone, by lines and words that name the format and its options."""
         body = dict(cuts())["source-000-table-1"]
-        asked = {"csv": {}, "gcode": {"speed_mm_min": 600, "axial": "z", "lead_mm": 2.5}, "svg": {"view": "template", "mirror": True}, "stl": {"view": "before"}}
+        asked = {"csv": {}, "gcode": {"speed_mm_min": 600, "axial": "z", "lead_mm": 2.5}, "svg": {"view": "template", "mirror": True},
+                 "stl": {"view": "before"}, "step": {"view": "smooth"}}
 
         def words(options):
             return {name: str(value).lower() for name, value in options.items()}

@@ -37,7 +37,7 @@ def ask(service, body, target, budget_ms):
 def formats(service):
     page = json.loads(exchange(service.port, get("/v1/version"))[0].body)
     names = {"application/json": "json", "application/cbor": "cbor", "text/csv": "csv", "image/svg+xml": "svg", "image/vnd.dxf": "dxf",
-             "model/gltf-binary": "glb", "model/stl": "stl", "application/x-dstv": "nc1", "text/x-gcode": "gcode",
+             "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step", "application/x-dstv": "nc1", "text/x-gcode": "gcode",
              "text/x-iec61131-st": "st"}
     return {e["id"]: [names.get(media, media) for media in e["formats"]] for e in page["endpoints"]}
 

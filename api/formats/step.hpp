@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "api/format.hpp"
+#include "core/bevel/hole.hpp"
+#include "core/bevel/table.hpp"
+#include "core/part/part.hpp"
+
+namespace tubecut::api {
+
+// One closed solid as ISO 10303-21 text (AP214, mm), in the frame of the answer. View `straight`
+// (the default): the finished part as answered, straight between its rows; `smooth`: through the
+// rows, with corners at the junctions alone. See wall_spline.hpp for how near, tube_solid.hpp for
+// its faces. Own writer: Open CASCADE's would add 60 MB and seconds of start.
+
+/// The cut end; the far end is square, where that of the other solids is.
+[[nodiscard]] std::string print_step(const bevel::TableSpec& spec, const bevel::Table& table,
+                                     const Caption& caption);
+/// The chord around the hole or holes, square on both sides, one outer radius from them.
+[[nodiscard]] std::string print_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                                     const Caption& caption);
+/// The finished part. A hole of which both sides lie beyond an end is not there; holes that meet
+/// each other or a cut are no solid this can print, and are refused.
+[[nodiscard]] std::string print_step(const part::PartSpec& spec, const part::Part& part,
+                                     const Caption& caption);
+
+}  // namespace tubecut::api

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace tubecut::api {
+
+/// A part of ISO 10303-21: entities one after the other, each named by its number.
+class StepEntities {
+ public:
+  using Id = std::size_t;
+
+  /// `digits` behind the point of a coordinate, mm.
+  explicit StepEntities(int digits) : digits_(digits) {}
+
+  /// `entity` without its number: "DIRECTION('',(0.,0.,1.))".
+  Id add(std::string_view entity);
+  /// The one there is that reads so, or a new one.
+  Id shared(const std::string& entity);
+  Id point(const Eigen::Vector3d& p);
+  Id direction(const Eigen::Vector3d& d);
+  /// A frame with the world's z, and x turned by `phi` about it.
+  Id placement(const Eigen::Vector3d& origin, double phi = 0.0);
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  std::unordered_map<std::string, Id> shared_;
+  Id last_ = 0;
+  int digits_;
+};
+
+[[nodiscard]] std::string step_ref(StepEntities::Id id);
+/// "(#1,#2)"
+[[nodiscard]] std::string step_refs(const std::vector<StepEntities::Id>& ids);
+/// A real: with a point, no more digits behind it than asked, no zeros at its end.
+[[nodiscard]] std::string step_real(double value, int digits);
+/// A text that may be a client's, between its apostrophes.
+[[nodiscard]] std::string step_string(std::string_view text);
+
+}  // namespace tubecut::api

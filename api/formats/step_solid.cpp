@@ -1,0 +1,244 @@
+#include "api/formats/step_solid.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "api/api.hpp"
+#include "api/formats/step_file.hpp"
+#include "api/stop.hpp"
+#include "api/verdict.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using Id = StepEntities::Id;
+
+constexpr int kKnotDigits = 6;
+constexpr int kRadiusDigits = 9;
+constexpr double kThin = 3.0;  // mm
+
+/// A volume feels the mean of what is cut off, over the wall.
+int digits_for(double wall) { return wall < kThin ? 6 : 5; }
+
+std::string logical(bool value) { return value ? ".T." : ".F."; }
+
+/// Multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)".
+std::string knots(const WallSpline& spline, std::size_t from, std::size_t to) {
+  std::string counts = "(4", at = "(0.";
+  for (auto i = from + 1; i <= to; ++i) {
+    const auto& joint = spline.joints[i];
+    counts += i == to ? ",4" : joint.full ? ",3" : ",2";
+    at += "," + step_real(joint.u - spline.joints[from].u, kKnotDigits);
+  }
+  return counts + ")," + at + ")";
+}
+
+std::string knots_across(const std::string& along) {
+  const auto middle = along.find("),(") + 1;
+  return along.substr(0, middle) + ",(2,2)" + along.substr(middle) + ",(0.,1.)";
+}
+
+class Printer {
+ public:
+  Printer(const TubeSolid& solid, const Caption& caption)
+      : solid_(solid), pace_(caption.stop), entities_(digits_for(solid.wall)) {}
+
+  std::string print(const Product& product) {
+    name_product(product);
+    set_units();
+    const auto brep = boundary();
+    const auto shape = entities_.add("ADVANCED_BREP_SHAPE_REPRESENTATION(''," +
+                                     step_refs({entities_.placement({0, 0, 0}), brep}) + "," +
+                                     step_ref(context_) + ")");
+    entities_.add("SHAPE_DEFINITION_REPRESENTATION(" + step_ref(definition_) + "," +
+                  step_ref(shape) + ")");
+    colour(brep);
+    return entities_.text();
+  }
+
+ private:
+  void name_product(const Product& product);
+  void set_units();
+  Id boundary();
+  void colour(Id brep);
+  Id style(const std::array<double, 3>& rgb);
+  std::vector<Id> points(const TubeSolid::Piece& piece);
+  Id curve(const TubeSolid::Edge& edge, const TubeSolid::Line&);
+  Id curve(const TubeSolid::Edge& edge, const TubeSolid::Arc& arc);
+  Id curve(const TubeSolid::Edge& edge, const TubeSolid::Piece& piece);
+  Id surface(const TubeSolid::Cylinder& cylinder);
+  Id surface(const TubeSolid::Plane& plane);
+  Id surface(const TubeSolid::Ruled& ruled);
+
+  const TubeSolid& solid_;
+  Pace pace_;
+  StepEntities entities_;
+  Id definition_ = 0, context_ = 0;
+  std::vector<Id> cut_faces_;
+};
+
+void Printer::name_product(const Product& product) {
+  auto& e = entities_;
+  const auto application =
+      e.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
+  e.add("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2001," +
+        step_ref(application) + ")");
+  const auto context = e.add("PRODUCT_CONTEXT(''," + step_ref(application) + ",'mechanical')");
+  const auto one = e.add("PRODUCT(" + step_string(product.id) + "," + step_string(product.name) +
+                         ",''," + step_refs({context}) + ")");
+  e.add("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$," + step_refs({one}) + ")");
+  const auto formation = e.add("PRODUCT_DEFINITION_FORMATION(" + step_string(product.revision) +
+                               ",''," + step_ref(one) + ")");
+  const auto design =
+      e.add("PRODUCT_DEFINITION_CONTEXT('part definition'," + step_ref(application) + ",'design')");
+  const auto definition =
+      e.add("PRODUCT_DEFINITION('design',''," + step_ref(formation) + "," + step_ref(design) + ")");
+  definition_ = e.add("PRODUCT_DEFINITION_SHAPE('',''," + step_ref(definition) + ")");
+}
+
+void Printer::set_units() {
+  auto& e = entities_;
+  const auto mm = e.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
+  const auto rad = e.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
+  const auto sr = e.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
+  const auto within =
+      e.add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + step_real(kSplineError, kKnotDigits) +
+            ")," + step_ref(mm) + ",'distance_accuracy_value','of edges and cut faces')");
+  context_ = e.add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(" +
+                   step_refs({within}) + ")GLOBAL_UNIT_ASSIGNED_CONTEXT(" +
+                   step_refs({mm, rad, sr}) + ")REPRESENTATION_CONTEXT('',''))");
+}
+
+std::vector<Id> Printer::points(const TubeSolid::Piece& piece) {
+  const auto& spline = solid_.walls[piece.wall];
+  std::vector<Id> out;
+  for (auto i = spline.joints[piece.from].control; i <= spline.joints[piece.to].control; ++i) {
+    pace_.turn();
+    out.push_back(entities_.point(spline.points[piece.edge][i]));
+  }
+  return out;
+}
+
+Id Printer::curve(const TubeSolid::Edge&, const TubeSolid::Piece& piece) {
+  return entities_.add("B_SPLINE_CURVE_WITH_KNOTS('',3," + step_refs(points(piece)) +
+                       ",.UNSPECIFIED.,.F.,.F.," +
+                       knots(solid_.walls[piece.wall], piece.from, piece.to) + ",.UNSPECIFIED.)");
+}
+
+Id Printer::curve(const TubeSolid::Edge& edge, const TubeSolid::Line&) {
+  const auto& from = solid_.vertices[edge.from];
+  const Eigen::Vector3d along = (solid_.vertices[edge.to] - from).normalized();
+  const auto vector =
+      entities_.shared("VECTOR(''," + step_ref(entities_.direction(along)) + ",1.)");
+  return entities_.add("LINE(''," + step_ref(entities_.point(from)) + "," + step_ref(vector) + ")");
+}
+
+Id Printer::curve(const TubeSolid::Edge&, const TubeSolid::Arc& arc) {
+  return entities_.shared("CIRCLE(''," + step_ref(entities_.placement({0, 0, arc.z})) + "," +
+                          step_real(arc.radius, kRadiusDigits) + ")");
+}
+
+Id Printer::surface(const TubeSolid::Cylinder& cylinder) {
+  return entities_.shared("CYLINDRICAL_SURFACE(''," +
+                          step_ref(entities_.placement({0, 0, 0}, cylinder.begins)) + "," +
+                          step_real(cylinder.radius, kRadiusDigits) + ")");
+}
+
+Id Printer::surface(const TubeSolid::Plane& plane) {
+  return entities_.shared("PLANE(''," + step_ref(entities_.placement({0, 0, plane.z})) + ")");
+}
+
+Id Printer::surface(const TubeSolid::Ruled& ruled) {
+  TubeSolid::Piece piece{ruled.wall, ruled.edge, ruled.from, ruled.to};
+  const auto inner = points(piece);
+  ++piece.edge;
+  const auto outer = points(piece);
+  std::string grid = "(";
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    grid += (i > 0 ? "," : "") + step_refs({inner[i], outer[i]});
+  return entities_.add(
+      "B_SPLINE_SURFACE_WITH_KNOTS('',3,1," + grid + "),.UNSPECIFIED.,.F.,.F.,.F.," +
+      knots_across(knots(solid_.walls[ruled.wall], ruled.from, ruled.to)) + ",.UNSPECIFIED.)");
+}
+
+Id Printer::boundary() {
+  std::vector<Id> vertices, edges, faces;
+  for (const auto& p : solid_.vertices)
+    vertices.push_back(entities_.add("VERTEX_POINT(''," + step_ref(entities_.point(p)) + ")"));
+  for (const auto& edge : solid_.edges) {
+    const auto along = std::visit([&](const auto& of) { return curve(edge, of); }, edge.curve);
+    edges.push_back(entities_.add("EDGE_CURVE(''," + step_ref(vertices[edge.from]) + "," +
+                                  step_ref(vertices[edge.to]) + "," + step_ref(along) + ",.T.)"));
+  }
+  for (const auto& face : solid_.faces) {
+    std::vector<Id> bounds;
+    for (const auto& loop : face.loops) {
+      std::vector<Id> uses;
+      for (const auto& [edge, forward] : loop)
+        uses.push_back(entities_.add("ORIENTED_EDGE('',*,*," + step_ref(edges[edge]) + "," +
+                                     logical(forward) + ")"));
+      const auto all = entities_.add("EDGE_LOOP(''," + step_refs(uses) + ")");
+      bounds.push_back(entities_.add((bounds.empty() ? "FACE_OUTER_BOUND(''," : "FACE_BOUND('',") +
+                                     step_ref(all) + ",.T.)"));
+    }
+    const auto on = std::visit([&](const auto& of) { return surface(of); }, face.surface);
+    faces.push_back(entities_.add("ADVANCED_FACE(" + step_string(face.name) + "," +
+                                  step_refs(bounds) + "," + step_ref(on) + "," +
+                                  logical(face.same) + ")"));
+    if (face.cut) cut_faces_.push_back(faces.back());
+  }
+  const auto shell = entities_.add("CLOSED_SHELL(''," + step_refs(faces) + ")");
+  return entities_.add("MANIFOLD_SOLID_BREP(''," + step_ref(shell) + ")");
+}
+
+Id Printer::style(const std::array<double, 3>& rgb) {
+  std::string colour = "COLOUR_RGB(''";
+  for (const double share : rgb) colour += "," + step_real(share, 3);
+  auto last = entities_.add(colour + ")");
+  for (const auto* wrap : {"FILL_AREA_STYLE_COLOUR('',#)", "FILL_AREA_STYLE('',(#))",
+                           "SURFACE_STYLE_FILL_AREA(#)", "SURFACE_SIDE_STYLE('',(#))",
+                           "SURFACE_STYLE_USAGE(.BOTH.,#)", "PRESENTATION_STYLE_ASSIGNMENT((#))"}) {
+    std::string entity(wrap);
+    last = entities_.add(entity.replace(entity.find('#'), 1, step_ref(last)));
+  }
+  return last;
+}
+
+void Printer::colour(Id brep) {
+  std::vector<Id> styled;
+  const auto paint = [&](const std::vector<Id>& items, Id with) {
+    for (const auto item : items)
+      styled.push_back(
+          entities_.add("STYLED_ITEM(''," + step_refs({with}) + "," + step_ref(item) + ")"));
+  };
+  paint({brep}, style({0.62, 0.65, 0.68}));
+  paint(cut_faces_, style({0.86, 0.45, 0.16}));
+  entities_.add("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION(''," + step_refs(styled) +
+                "," + step_ref(context_) + ")");
+}
+
+/// The header's texts: job, reference, hashes, verdict. 256 characters are the most one may have.
+std::string description(const Caption& caption) {
+  std::vector<std::string> lines{
+      "tubecut " + std::string(version()) + ", one closed solid, mm; edges and cut faces within " +
+          step_real(kSplineError, kKnotDigits) + " mm",
+      "input_sha256: " + caption.input_sha256, "result_sha256: " + caption.result_sha256};
+  for (const auto& [key, text] : caption.reference) lines.push_back(key + ": " + text);
+  for (const auto& line : verdict_lines(caption.verdict)) lines.push_back(line);
+  std::string out;
+  for (const auto& line : lines) out += (out.empty() ? "" : ",\n") + step_string(line);
+  return out;
+}
+
+}  // namespace
+
+std::string print_step(const TubeSolid& solid, const Product& product, const Caption& caption) {
+  // No clock: the same request gives the same bytes, so the time stamp is empty.
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((" + description(caption) + "),'2;1');\n" +
+         "FILE_NAME(" + step_string(product.id) + ",'',(''),(''),'tubecut " +
+         std::string(version()) + "','tubecut','');\n" +
+         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" +
+         Printer(solid, caption).print(product) + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+
+#include "api/formats/wall_spline.hpp"
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using Eigen::Vector2d;
+
+// A volume goes by the mean of these two over the wall and over the length.
+constexpr double kOffCylinder = 1e-6;  // of the wall: how far an edge may leave its cylinder
+constexpr double kOffRows = 2e-4;      // mm: how far a curve may leave the rows as laid,
+constexpr double kOffRadius = 6e-6;    // and of the radius
+constexpr double kRoundedSag = kSplineError / 0.75;  // mm, of rows that one curve may pass,
+constexpr double kRoundedRadius = 5e-5;              // and of the radius
+constexpr std::size_t kShortestRun = 8;              // of such rows
+constexpr double kSharp = 0.3;   // rad: a bend above it is a corner, however short its sides
+constexpr double kWidest = 0.5;  // rad, of a span
+constexpr double kApart = 3e-4;  // mm along the rows: nearer places are one
+
+}  // namespace
+
+WallCurve::WallCurve(const bevel::CutWall& wall) : turn_(wall.turn) {
+  for (const auto& edge : wall.edges) edges_.push_back({edge.radius, {}, {}, {}, {}});
+  for (std::size_t i = 0; i < wall.gaps(); ++i) {
+    double moved = i == 0 ? 1.0 : 0.0;
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const Vector2d p(wall.edges[k].phi[i], wall.edges[k].z[i]);
+      if (i > 0) moved = std::max(moved, (p - edges_[k].row.back()).norm());
+    }
+    if (moved == 0.0) continue;  // one row twice
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+      edges_[k].row.emplace_back(wall.edges[k].phi[i], wall.edges[k].z[i]);
+  }
+  const auto n = edges_.front().row.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double longest = 0.0;
+    for (const auto& edge : edges_) {
+      const Vector2d d = gap(edge, i);
+      const double round = std::abs(edge.radius * d.x());
+      // Round a tube the parameter is phi: then every edge is at one phi for one parameter.
+      longest =
+          std::max(longest, turn_ > 0.0 && round > 0.0 ? round : elementary::hypot(round, d.y()));
+    }
+    along_.push_back(around_);
+    length_.push_back(longest);
+    around_ += longest;
+  }
+  corner_.assign(n, false);
+  const double thick = edges_.back().radius - edges_.front().radius;
+  off_cylinder_ = kOffCylinder * thick;
+  off_rows_ = std::min(kOffRows, kOffRadius * edges_.back().radius);
+}
+
+Vector2d WallCurve::gap(const Edge& edge, std::size_t row) const {
+  const auto next = (row + 1) % edge.row.size();
+  return edge.row[next] - edge.row[row] + Vector2d(next == 0 ? turn_ : 0.0, 0.0);
+}
+
+Vector2d WallCurve::laid_gap(const Edge& edge, std::size_t row) const {
+  const auto next = (row + 1) % edge.knot.size();
+  return edge.knot[next] - edge.knot[row] + Vector2d(next == 0 ? turn_ : 0.0, 0.0);
+}
+
+WallCurve WallCurve::straight(const bevel::CutWall& wall) {
+  WallCurve out(wall);
+  out.find_corners();
+  out.lay(true);
+  return out;
+}
+
+WallCurve WallCurve::smooth(const bevel::CutWall& wall, const std::vector<bool>& corners) {
+  WallCurve out(wall);
+  out.straight_ = false;
+  out.find_corners();
+  if (corners.size() == out.rows()) out.corner_ = corners;
+  out.lay(false);
+  return out;
+}
+
+/// A row is none where a curve can turn from the line before it to the one behind it near enough to
+/// both, and so at the rows beside it: a single one would gain nothing.
+void WallCurve::find_corners() {
+  const auto n = rows();
+  const double most = std::min(kRoundedSag, kRoundedRadius * edges_.back().radius);
+  for (const auto& edge : edges_)
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vector2d scale(edge.radius, 1.0);
+      const Vector2d a = scale.cwiseProduct(gap(edge, (i + n - 1) % n));
+      const Vector2d b = scale.cwiseProduct(gap(edge, i));
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      const double bend = std::abs(elementary::atan2(cross, a.dot(b)));
+      const double longer = std::max(a.norm(), b.norm());
+      const bool still = a.norm() == 0.0 || b.norm() == 0.0;
+      const bool bent = bend > kSharp || (straight_ && bend * longer / 8.0 > most);
+      if (still || (straight_ && bent)) corner_[i] = true;
+    }
+  if (!straight_ || std::ranges::find(corner_, true) == corner_.end()) return;
+  const auto first = static_cast<std::size_t>(std::ranges::find(corner_, true) - corner_.begin());
+  std::size_t run = 0;  // of rows that are none
+  for (std::size_t i = first + 1; i <= first + n; ++i) {
+    if (!corner_[i % n]) {
+      ++run;
+      continue;
+    }
+    if (run < kShortestRun)
+      for (; run > 0; --run) corner_[(i - run) % n] = true;
+    run = 0;
+  }
+}
+
+/// Slopes and, `centred`, how far beside its row the curve passes: the line between two rows lies
+/// h^2 f''/12 off the curve through them in the mean.
+void WallCurve::lay(bool centred) {
+  const auto n = rows();
+  for (auto& edge : edges_) {
+    edge.knot = edge.row;
+    edge.arriving.resize(n);
+    edge.leaving.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (corner_[i]) continue;
+      const auto before = (i + n - 1) % n;
+      const double h = length_[before], k = length_[i];
+      const Vector2d a = gap(edge, before) / h, b = gap(edge, i) / k;
+      edge.arriving[i] = edge.leaving[i] = (k * a + h * b) / (h + k);
+      if (centred) edge.knot[i] += (b - a) * (h * h * h + k * k * k) / (6.0 * (h + k) * (h + k));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!corner_[i]) continue;
+      const auto before = (i + n - 1) % n, next = (i + 1) % n;
+      const Vector2d a = laid_gap(edge, before) / length_[before];
+      const Vector2d b = laid_gap(edge, i) / length_[i];
+      edge.arriving[i] = corner_[before] ? a : Vector2d(2.0 * a - edge.leaving[before]);
+      edge.leaving[i] = corner_[next] ? b : Vector2d(2.0 * b - edge.arriving[next]);
+    }
+  }
+}
+
+double WallCurve::along(const Place& place) const {
+  return along_[place.row] + place.share * length_[place.row];
+}
+
+WallCurve::Node WallCurve::node(const Place& place) const {
+  Node out{.place = place, .at = {}, .before = {}, .beyond = {}};
+  const auto i = place.row;
+  out.corner = place.share == 0.0 && corner_[i];
+  for (const auto& edge : edges_) {
+    if (place.share == 0.0) {
+      out.at.push_back(edge.knot[i]);
+      out.before.push_back(edge.arriving[i]);
+      out.beyond.push_back(edge.leaving[i]);
+      continue;
+    }
+    const double h = length_[i], u = place.share, v = 1.0 - u;
+    const Vector2d d = laid_gap(edge, i);
+    const Vector2d first = h * edge.leaving[i], last = h * edge.arriving[(i + 1) % rows()];
+    out.at.push_back(edge.knot[i] + u * u * (3.0 - 2.0 * u) * d + u * v * v * first -
+                     u * u * v * last);
+    const Vector2d rate =
+        (6.0 * u * v * d + v * (1.0 - 3.0 * u) * first + u * (3.0 * u - 2.0) * last) / h;
+    out.before.push_back(rate);
+    out.beyond.push_back(rate);
+  }
+  return out;
+}
+
+Vector2d WallCurve::at(std::size_t edge, const Place& place) const { return node(place).at[edge]; }
+
+std::vector<WallCurve::Place> WallCurve::crossings(std::size_t edge, double phi) const {
+  std::vector<Place> out;
+  const auto& e = edges_[edge];
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const auto next = (i + 1) % rows();
+    const double from = e.knot[i].x(), to = e.knot[next].x() + (next == 0 ? turn_ : 0.0);
+    for (int turn = -2; turn <= 2; ++turn) {
+      const double at = phi + turn * kTwoPi;
+      if ((from < at) == (to < at)) continue;
+      double low = 0.0, high = 1.0;
+      for (int round = 0; round < 60; ++round) {
+        const double middle = 0.5 * (low + high);
+        const bool first = (node({i, middle}).at[edge].x() < at) == (from < at);
+        (first ? low : high) = middle;
+      }
+      const bool at_row = low * length_[i] < kApart, at_next = (1.0 - low) * length_[i] < kApart;
+      const auto place = at_next ? Place{next, 0.0} : Place{i, at_row ? 0.0 : low};
+      const bool known = std::ranges::any_of(out, [&](const Place& other) {
+        const double d = std::abs(along(place) - along(other));
+        return std::min(d, around_ - d) < kApart;
+      });
+      if (!known) out.push_back(place);
+    }
+  }
+  return out;
+}
+
+std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations) const {
+  std::vector<Node> out;
+  const double origin = along(stations.front());
+  const auto add = [&](const Place& place, bool station, double from) {
+    out.push_back(node(place));
+    out.back().station = station;
+    out.back().along = along(place) - origin;
+    if (out.back().along < from) {
+      out.back().along += around_;
+      out.back().turn = 1.0;
+    }
+  };
+  for (const auto& place : stations) add(place, true, 0.0);
+  const auto held = [&](double at) {
+    const auto after = std::lower_bound(
+        out.begin(), out.begin() + static_cast<std::ptrdiff_t>(stations.size()), at - kApart,
+        [](const Node& node, double value) { return node.along < value; });
+    const bool by_station = after != out.begin() + static_cast<std::ptrdiff_t>(stations.size()) &&
+                            after->along <= at + kApart;
+    return by_station || at > around_ - kApart;
+  };
+  const double most = widest(edges_.back().radius);
+  for (std::size_t i = 0; i < rows(); ++i) {
+    double wide = 0.0;
+    for (const auto& edge : edges_) wide = std::max(wide, std::abs(laid_gap(edge, i).x()));
+    const int parts = std::max(1, static_cast<int>(std::ceil(wide / most)));
+    for (int part = 0; part < parts; ++part) {
+      const Place place{i, static_cast<double>(part) / parts};
+      double at = along(place) - origin;
+      if (at < 0.0) at += around_;
+      if (!held(at)) add(place, false, 0.0);
+    }
+  }
+  std::ranges::sort(out, {}, &Node::along);
+  for (std::size_t i = 1; i < out.size();) {
+    if (!out[i].station && out[i].along - out[i - 1].along < kApart) {
+      out[i - 1].corner = out[i - 1].corner || out[i].corner;
+      out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+  auto last = out.front();
+  last.along = around_;
+  last.turn += 1.0;
+  out.push_back(std::move(last));
+  return out;
+}
+
+/// The widest span whose cubic stays so near to the cylinder: an arc's is off by 3.6e-5 r angle^6.
+double WallCurve::widest(double radius) const {
+  return std::min(kWidest, elementary::pow(off_cylinder_ / (3.7e-5 * radius), 1.0 / 6.0));
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <stop_token>
+#include <vector>
+
+#include "core/bevel/penetration.hpp"
+
+namespace tubecut::api {
+
+/// A spline stays this near to the curve it stands for, mm; rows straight from one to the next are
+/// one curve where it can turn from line to line within that.
+inline constexpr double kSplineError = 1.5e-3;
+
+/// A closed row of cubic splines, one an edge of the wall, with common knots: the wall is straight
+/// from edge to edge at each parameter.
+struct WallSpline {
+  struct Joint {
+    double u = 0.0;
+    bool full = true;         // a knot of full multiplicity, where the curve has a point of its own
+    std::size_t control = 0;  // that point, in each edge's list
+  };
+  std::vector<Joint> joints;                         // the last is the first again, a turn on
+  std::vector<std::vector<Eigen::Vector3d>> points;  // of each edge, innermost first
+  std::vector<std::size_t> stations;                 // joint of each place that had to be one
+};
+
+/// The edges of a cut wall as curves on their cylinders.
+///
+/// `straight`: as the answer has them, straight in (phi, z) from row to row. Where the rows are so
+/// near to each other that a smooth curve stays within kSplineError of those lines, it is that
+/// curve, a little off the rows so that it leaves as much on one side of the lines as on the other;
+/// elsewhere every row is a corner.
+/// `smooth`: through the rows, with corners at the given ones alone.
+class WallCurve {
+ public:
+  /// Of a row and the share of the way to the next.
+  struct Place {
+    std::size_t row = 0;
+    double share = 0.0;
+  };
+
+  [[nodiscard]] static WallCurve straight(const bevel::CutWall& wall);
+  [[nodiscard]] static WallCurve smooth(const bevel::CutWall& wall,
+                                        const std::vector<bool>& corners);
+
+  [[nodiscard]] std::size_t rows() const { return length_.size(); }
+  [[nodiscard]] std::size_t edges() const { return edges_.size(); }
+  /// (phi, z) of an edge.
+  [[nodiscard]] Eigen::Vector2d at(std::size_t edge, const Place& place) const;
+  /// How far along the rows, mm; `around()` in all.
+  [[nodiscard]] double along(const Place& place) const;
+  [[nodiscard]] double around() const { return around_; }
+  /// Where an edge crosses the generator phi, whatever the turn.
+  [[nodiscard]] std::vector<Place> crossings(std::size_t edge, double phi) const;
+
+  /// `stations`: joints of it, at least one, ascending; it begins at the first.
+  [[nodiscard]] WallSpline spline(const std::vector<Place>& stations,
+                                  const std::stop_token& stop) const;
+
+ private:
+  struct Edge {
+    double radius = 0.0;
+    std::vector<Eigen::Vector2d> row;                // as given
+    std::vector<Eigen::Vector2d> knot;               // where the curve passes it
+    std::vector<Eigen::Vector2d> arriving, leaving;  // its slopes there, per mm along the rows
+  };
+  /// A place where a span may begin: a row, a station, or one in a long gap.
+  struct Node {
+    Place place;
+    double along = 0.0;  // from the first station
+    bool corner = false, station = false;
+    double turn = 0.0;                                // 1 beyond the last row
+    std::vector<Eigen::Vector2d> at, before, beyond;  // of each edge; slopes on both sides
+  };
+  /// From one knot to the next: a cubic of each edge.
+  struct Span;
+  using Bezier = std::array<Eigen::Vector3d, 4>;
+
+  explicit WallCurve(const bevel::CutWall& wall);
+  void find_corners();
+  void lay(bool centred);
+  [[nodiscard]] Eigen::Vector2d gap(const Edge& edge, std::size_t row) const;
+  [[nodiscard]] Eigen::Vector2d laid_gap(const Edge& edge, std::size_t row) const;
+  [[nodiscard]] Node node(const Place& place) const;
+  [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations) const;
+  [[nodiscard]] Bezier cubic(std::size_t edge, const Node& from, const Node& to) const;
+  [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from) const;
+  [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes,
+                                        const std::stop_token& stop) const;
+  [[nodiscard]] static std::vector<Span> graded(std::vector<Span> spans,
+                                                const std::stop_token& stop);
+  [[nodiscard]] double widest(double radius) const;
+  [[nodiscard]] bool fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to) const;
+  [[nodiscard]] bool near(const Bezier& curve, std::size_t edge, const Eigen::Vector2d& point,
+                          double u) const;
+
+  std::vector<Edge> edges_;
+  std::vector<double> length_, along_;  // of the gap behind each row; up to each row
+  std::vector<bool> corner_;
+  double turn_ = 0.0, around_ = 0.0;
+  double off_cylinder_ = 0.0, off_rows_ = 0.0;  // what a span may leave it by, mm
+  bool straight_ = true;
+};
+
+}  // namespace tubecut::api

@@ -1,0 +1,413 @@
+"""A reader of ISO 10303-21 and of the solids that tubecut writes in it: grammar, references, geometry. It knows the standard, not our writer."""
+
+import re
+
+import numpy as np
+
+TOKEN = re.compile(r"""\s*(?:(?P<string>'(?:[^'\\]|''|\\\\|\\X2\\(?:[0-9A-F]{4})+\\X0\\|\\X4\\(?:[0-9A-F]{8})+\\X0\\)*')
+  |(?P<real>[+-]?\d+\.\d*(?:E[+-]?\d+)?)|(?P<integer>[+-]?\d+)|(?P<name>\#\d+)|(?P<enumeration>\.[A-Z_][A-Z0-9_]*\.)
+  |(?P<word>!?[A-Z_][A-Z0-9_]*)|(?P<sign>[()=;,$*]))""", re.X)
+
+
+class Malformed(Exception):
+    pass
+
+
+class Name(int):
+    """Of an entity."""
+
+
+class Word(str):
+    """An enumeration's value."""
+
+
+def text_of(literal):
+    inner = literal[1:-1]
+    if any(not " " <= c <= "~" for c in inner):
+        raise Malformed(f"a string beyond ASCII: {literal!r}")
+
+    def wide(match):
+        if match[1] is not None:
+            return bytes.fromhex(match[1]).decode("utf-16-be")
+        if match[2] is not None:
+            return bytes.fromhex(match[2]).decode("utf-32-be")
+        return match[0][0]
+    return re.sub(r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\|\\X4\\((?:[0-9A-F]{8})+)\\X0\\|''|\\\\", wide, inner)
+
+
+def tokens(text):
+    at, out = 0, []
+    while at < len(text):
+        match = TOKEN.match(text, at)
+        if not match:
+            if text[at:].strip() == "":
+                break
+            raise Malformed(f"no token: {text[at:at + 60]!r}")
+        out.append((match.lastgroup, match[match.lastgroup]))
+        at = match.end()
+    return out
+
+
+def value(stream, i):
+    kind, word = stream[i]
+    if kind == "string":
+        return text_of(word), i + 1
+    if kind == "real":
+        return float(word), i + 1
+    if kind == "integer":
+        return int(word), i + 1
+    if kind == "name":
+        return Name(word[1:]), i + 1
+    if kind == "enumeration":
+        return Word(word), i + 1
+    if word in "$*":
+        return None, i + 1
+    if word == "(":
+        return values(stream, i)
+    if kind == "word" and stream[i + 1][1] == "(":  # a value with its type
+        inner, i = values(stream, i + 1)
+        return (word, inner), i
+    raise Malformed(f"no value: {word}")
+
+
+def values(stream, i):
+    """The list that begins at i, and where it ends."""
+    if stream[i][1] != "(":
+        raise Malformed("a list was expected")
+    out, i = [], i + 1
+    while stream[i][1] != ")":
+        one, i = value(stream, i)
+        out.append(one)
+        if stream[i][1] == ",":
+            i += 1
+            if stream[i][1] == ")":
+                raise Malformed("a comma before a bracket")
+        elif stream[i][1] != ")":
+            raise Malformed("no comma between two values")
+    return out, i + 1
+
+
+class File:
+    """header: {word: values}; entities: {number: (type, values)}, of a complex one ({type: values})."""
+
+    def __init__(self, text):
+        if any(not " " <= c <= "~" and c != "\n" for c in text):
+            raise Malformed("a character that the standard does not know")
+        shape = re.fullmatch(r"ISO-10303-21;\nHEADER;\n(.*?)ENDSEC;\nDATA;\n(.*)ENDSEC;\nEND-ISO-10303-21;\n", text, re.S)
+        if not shape:
+            raise Malformed("not the frame of an exchange structure")
+        self.header, stream, i = {}, tokens(shape[1]), 0
+        while i < len(stream):
+            word = stream[i][1]
+            self.header[word], i = values(stream, i + 1)
+            i = self.end(stream, i)
+        if list(self.header) != ["FILE_DESCRIPTION", "FILE_NAME", "FILE_SCHEMA"]:
+            raise Malformed(f"header of {list(self.header)}")
+        if any(len(line) > 256 for line in self.header["FILE_DESCRIPTION"][0]):
+            raise Malformed("a line of the header is longer than 256")
+        self.entities, stream, i = {}, tokens(shape[2]), 0
+        while i < len(stream):
+            if stream[i][0] != "name" or stream[i + 1][1] != "=":
+                raise Malformed(f"no instance: {stream[i]}")
+            number, i = int(stream[i][1][1:]), i + 2
+            if number in self.entities:
+                raise Malformed(f"#{number} twice")
+            if stream[i][1] == "(":
+                parts, i = {}, i + 1
+                while stream[i][1] != ")":
+                    word = stream[i][1]
+                    parts[word], i = values(stream, i + 1)
+                if list(parts) != sorted(parts):
+                    raise Malformed("the parts of a complex instance are not in the order of the alphabet")
+                self.entities[number], i = parts, i + 1
+            else:
+                word = stream[i][1]
+                inner, i = values(stream, i + 1)
+                self.entities[number] = (word, inner)
+            i = self.end(stream, i)
+        self.check_references()
+
+    @staticmethod
+    def end(stream, i):
+        if stream[i][1] != ";":
+            raise Malformed("no semicolon")
+        return i + 1
+
+    def check_references(self):
+        used = set()
+
+        def see(item):
+            if isinstance(item, Name):
+                used.add(int(item))
+            elif isinstance(item, (list, tuple)):
+                for one in item:
+                    see(one)
+            elif isinstance(item, dict):
+                see(list(item.values()))
+        for entity in self.entities.values():
+            see(entity)
+        if used - set(self.entities):
+            raise Malformed(f"named and not there: {sorted(used - set(self.entities))[:5]}")
+        roots = {self.entities[n][0] for n in set(self.entities) - used if not isinstance(self.entities[n], dict)}
+        if roots - {"APPLICATION_PROTOCOL_DEFINITION", "PRODUCT_RELATED_PRODUCT_CATEGORY", "SHAPE_DEFINITION_REPRESENTATION",
+                    "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION"}:
+            raise Malformed(f"used by nobody: {roots}")
+
+    def of(self, kind):
+        return [n for n, entity in self.entities.items() if not isinstance(entity, dict) and entity[0] == kind]
+
+    def get(self, number, *kinds):
+        entity = self.entities[number]
+        if isinstance(entity, dict) or entity[0] not in kinds:
+            raise Malformed(f"#{number} is {entity if isinstance(entity, dict) else entity[0]}, not {kinds}")
+        return entity[1]
+
+
+class Spline:
+    """Curve or surface of which one direction is a B-spline of any degree: rows of points, spans between its knots."""
+
+    def __init__(self, degree, points, counts, knots):
+        self.degree, self.points = degree, points
+        if sum(counts) != len(points) + degree + 1 or len(counts) != len(knots):
+            raise Malformed("knots and points do not go together")
+        if any(b <= a for a, b in zip(knots, knots[1:])) or counts[0] != degree + 1 or counts[-1] != degree + 1:
+            raise Malformed("knots do not rise, or the ends are open")
+        if any(not 1 <= count <= degree for count in counts[1:-1]):
+            raise Malformed("a knot of too high a multiplicity")
+        self.knots, self.flat = np.array(knots), np.repeat(knots, counts)
+
+    def at(self, u):
+        """(points, slopes) at each u, by de Boor."""
+        p, flat = self.degree, self.flat
+        span = np.clip(np.searchsorted(flat, u, side="right") - 1, p, len(self.points) - 1)
+        d = [self.points[span - p + j] for j in range(p + 1)]
+        slope = None
+        for r in range(1, p + 1):
+            if r == p:
+                wide = (flat[span + 1] - flat[span]).reshape((-1,) + (1,) * (d[0].ndim - 1))
+                slope = p * (d[p] - d[p - 1]) / wide
+            new = list(d)
+            for j in range(p, r - 1, -1):
+                low, high = flat[span - p + j], flat[span + 1 + j - r]
+                share = ((u - low) / (high - low)).reshape((-1,) + (1,) * (d[0].ndim - 1))
+                new[j] = (1 - share) * d[j - 1] + share * d[j]
+            d = new
+        return d[p], slope
+
+    def within(self, places):
+        """Parameters at these shares of every span."""
+        wide = np.diff(self.knots)
+        return (self.knots[:-1, None] + wide[:, None] * np.asarray(places)[None, :]).ravel()
+
+
+class Solid:
+    """The one closed shell of a file: vertices, edges, faces, each with its geometry."""
+
+    def __init__(self, file):
+        self.file = file
+        units = [e["SI_UNIT"] for e in file.entities.values() if isinstance(e, dict) and "LENGTH_UNIT" in e]
+        if units != [[".MILLI.", ".METRE."]]:
+            raise Malformed(f"lengths in {units}")
+        shells = file.of("CLOSED_SHELL")
+        breps = file.of("MANIFOLD_SOLID_BREP")
+        if len(shells) != 1 or len(breps) != 1 or file.get(breps[0], "MANIFOLD_SOLID_BREP")[1] != shells[0]:
+            raise Malformed("not one solid of one shell")
+        self.edges, self.faces = {}, []
+        for number in file.get(shells[0], "CLOSED_SHELL")[1]:
+            name, bounds, surface, same = file.get(number, "ADVANCED_FACE")
+            loops = []
+            for i, bound in enumerate(bounds):
+                kinds = ("FACE_OUTER_BOUND",) if i == 0 else ("FACE_BOUND",)
+                _, loop, forward = file.get(bound, *kinds)
+                if forward != ".T.":
+                    raise Malformed("a bound against its loop")
+                loops.append([self.use(oriented) for oriented in file.get(loop, "EDGE_LOOP")[1]])
+            self.faces.append({"name": name, "loops": loops, "surface": self.surface(surface), "same": same == ".T."})
+
+    def use(self, oriented):
+        _, first, last, edge, forward = self.file.get(oriented, "ORIENTED_EDGE")
+        if first is not None or last is not None:
+            raise Malformed("an oriented edge with vertices of its own")
+        if edge not in self.edges:
+            _, start, end, curve, same = self.file.get(edge, "EDGE_CURVE")
+            if same != ".T.":
+                raise Malformed("an edge against its curve")
+            self.edges[edge] = {"ends": (int(start), int(end)), "points": (self.vertex(start), self.vertex(end)), "curve": self.curve(curve)}
+        return int(edge), forward == ".T."
+
+    def triple(self, number, kind):
+        out = np.array(self.file.get(number, kind)[1])
+        if out.shape != (3,):
+            raise Malformed("not three numbers")
+        return out
+
+    def vertex(self, number):
+        return self.triple(self.file.get(number, "VERTEX_POINT")[1], "CARTESIAN_POINT")
+
+    def frame(self, number):
+        _, origin, z, x = self.file.get(number, "AXIS2_PLACEMENT_3D")
+        x = self.triple(x, "DIRECTION")
+        if not (np.array_equal(self.triple(z, "DIRECTION"), (0, 0, 1)) and x[2] == 0.0 and abs(np.linalg.norm(x) - 1) < 1e-11):
+            raise Malformed("a frame that is not about z")
+        return self.triple(origin, "CARTESIAN_POINT")
+
+    def curve(self, number):
+        kind, v = self.file.entities[number]
+        if kind == "LINE":
+            _, direction, length = self.file.get(v[2], "VECTOR")
+            return ("line", self.triple(v[1], "CARTESIAN_POINT"), length * self.triple(direction, "DIRECTION"))
+        if kind == "CIRCLE":
+            return ("circle", self.frame(v[1]), v[2])
+        if kind != "B_SPLINE_CURVE_WITH_KNOTS":
+            raise Malformed(f"a curve {kind}")
+        points = np.array([self.triple(n, "CARTESIAN_POINT") for n in v[2]])
+        return ("spline", Spline(v[1], points, v[6], v[7]))
+
+    def surface(self, number):
+        kind, v = self.file.entities[number]
+        if kind == "CYLINDRICAL_SURFACE":
+            return ("cylinder", self.frame(v[1]), v[2])
+        if kind == "PLANE":
+            return ("plane", self.frame(v[1]))
+        if kind != "B_SPLINE_SURFACE_WITH_KNOTS" or v[2] != 1 or v[9] != [2, 2]:
+            raise Malformed(f"a surface {kind}")
+        grid = np.array([[self.triple(n, "CARTESIAN_POINT") for n in row] for row in v[3]])
+        return ("ruled", Spline(v[1], grid, v[8], v[10]))
+
+
+PLACES, WEIGHTS = np.polynomial.legendre.leggauss(6)
+PLACES, WEIGHTS = (PLACES + 1) / 2, WEIGHTS / 2
+NEAR = 1e-3  # mm: an edge on both its faces
+
+
+def curve_points(edge, forward=True):
+    """Points along an edge, ends included, in its direction."""
+    kind, *about = edge["curve"]
+    a, b = edge["points"]
+    if kind == "spline":
+        out = about[0].at(np.unique(np.append(about[0].within((0, 0.25, 0.5, 0.75)), about[0].knots[-1])))[0]
+    elif kind == "line":
+        out = a + np.linspace(0, 1, 5)[:, None] * (b - a)
+    else:
+        origin, radius = about
+        first, last = (np.arctan2(p[1], p[0]) for p in (a, b))
+        turn = np.linspace(first, last if last > first + 1e-9 else last + 2 * np.pi, 33)
+        out = origin + np.stack([radius * np.cos(turn), radius * np.sin(turn), 0 * turn], axis=1)
+    return out if forward else out[::-1]
+
+
+def nearest(spline, points):
+    """Distance of each point to a ruled surface, within its border."""
+    if len(points) > 64:
+        return np.concatenate([nearest(spline, points[i:i + 64]) for i in range(0, len(points), 64)])
+
+    def seen(u, v):
+        p, d = spline.at(u)
+        v = v[:, None]
+        return (1 - v) * p[:, 0] + v * p[:, 1], (1 - v) * d[:, 0] + v * d[:, 1], p[:, 1] - p[:, 0]
+    grid = spline.within(np.arange(8) / 8)
+    at, _ = spline.at(grid)
+    across = at[:, 1] - at[:, 0]
+    shares = np.clip(np.einsum("pgi,gi->pg", points[:, None] - at[None, :, 0], across) / np.einsum("gi,gi->g", across, across), 0, 1)
+    foot = at[None, :, 0] + shares[:, :, None] * across[None]
+    best = np.argmin(np.linalg.norm(points[:, None] - foot, axis=2), axis=1)
+    u, v = grid[best], shares[np.arange(len(points)), best]
+    out = np.full(len(points), np.inf)
+    for _ in range(8):
+        place, du, dv = seen(u, v)
+        miss = points - place
+        out = np.minimum(out, np.linalg.norm(miss, axis=1))
+        a, b, c = (np.einsum("pi,pi->p", x, y) for x, y in ((du, du), (du, dv), (dv, dv)))
+        e, f = (np.einsum("pi,pi->p", x, miss) for x in (du, dv))
+        det = a * c - b * b
+        det = np.where(det > 1e-30, det, np.inf)
+        u = np.clip(u + (c * e - b * f) / det, spline.knots[0], spline.knots[-1])
+        v = np.clip(v + (a * f - b * e) / det, 0, 1)
+    return out
+
+
+def off_surface(surface, points):
+    kind, *about = surface
+    if kind == "cylinder":
+        return np.abs(np.hypot(points[:, 0], points[:, 1]) - about[1])
+    if kind == "plane":
+        return np.abs(points[:, 2] - about[0][2])
+    return nearest(about[0], points)
+
+
+def signed_area(face, solid):
+    """Of the outer loop, against the clock round the surface's own normal."""
+    kind, *about = face["surface"]
+    points = np.concatenate([curve_points(solid.edges[e], forward)[:-1] for e, forward in face["loops"][0]])
+    if kind == "plane":
+        x, y = points[:, 0], points[:, 1]
+    elif kind == "cylinder":
+        x, y = np.unwrap(np.arctan2(points[:, 1], points[:, 0])), points[:, 2]
+    else:
+        at, _ = about[0].at(about[0].within((0, 0.5)))
+        middle = at.mean(axis=1)
+        x = np.argmin(np.linalg.norm(points[:, None] - middle[None], axis=2), axis=1).astype(float)
+        foot, far = at[x.astype(int), 0], at[x.astype(int), 1]
+        y = np.einsum("pi,pi->p", points - foot, far - foot) / np.einsum("pi,pi->p", far - foot, far - foot)
+    return 0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
+
+
+def volume(solid):
+    """Integral of z over the border's shadow: cylinders about z have none."""
+    total = 0.0
+    for face in solid.faces:
+        kind, *about = face["surface"]
+        sign = 1.0 if face["same"] else -1.0
+        if kind == "plane":
+            radii = [solid.edges[loop[0][0]]["curve"][2] for loop in face["loops"]]
+            total += sign * about[0][2] * np.pi * (radii[0] ** 2 - sum(radius**2 for radius in radii[1:]))
+        if kind == "ruled":
+            p, d = about[0].at(about[0].within(PLACES))
+            weights = (np.diff(about[0].knots)[:, None] * WEIGHTS[None]).ravel()
+            across = p[:, 1] - p[:, 0]
+            for v, weight in zip(PLACES, WEIGHTS):
+                z = (1 - v) * p[:, 0, 2] + v * p[:, 1, 2]
+                along = (1 - v) * d[:, 0] + v * d[:, 1]
+                total += sign * weight * np.sum(weights * z * (along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]))
+    return total
+
+
+def faults(solid, genus):
+    """What is wrong with a solid; empty for one that is whole."""
+    out, uses = [], {}
+    for i, face in enumerate(solid.faces):
+        for loop in face["loops"]:
+            for (edge, forward), (after, next_forward) in zip(loop, loop[1:] + loop[:1]):
+                uses.setdefault(edge, []).append((i, forward))
+                end = solid.edges[edge]["ends"][1 if forward else 0]
+                if end != solid.edges[after]["ends"][0 if next_forward else 1]:
+                    out.append(f"face {i}: a loop is torn")
+        area = signed_area(face, solid)
+        if (area > 0) != face["same"]:
+            out.append(f"face {i} {face['name']}: its loop runs against its normal")
+        kind = face["surface"][0]
+        if kind == "cylinder" and face["same"] != (face["surface"][2] == max(f["surface"][2] for f in solid.faces if f["surface"][0] == kind)):
+            out.append(f"face {i}: a wall that looks inwards")
+    for edge, about in solid.edges.items():
+        if sorted(forward for _, forward in uses.get(edge, [])) != [False, True]:
+            out.append(f"edge {edge} is used {uses.get(edge)}")
+            continue
+        points = curve_points(about)
+        ends = max(np.linalg.norm(points[0] - about["points"][0]), np.linalg.norm(points[-1] - about["points"][1]))
+        if about["curve"][0] == "line":
+            _, origin, along = about["curve"]
+            ends = max(np.linalg.norm(np.cross(p - origin, along / np.linalg.norm(along))) for p in about["points"])
+        if about["curve"][0] == "circle":
+            ends = max(abs(np.hypot(*(p - about["curve"][1])[:2]) - about["curve"][2]) for p in about["points"])
+        if not ends <= NEAR:
+            out.append(f"edge {edge}: {ends:.2g} mm from its vertices")
+        for face, _ in uses[edge]:
+            off = off_surface(solid.faces[face]["surface"], points).max()
+            if not off <= NEAR:
+                out.append(f"edge {edge}: {off:.2g} mm off face {face}")
+    loops = sum(len(face["loops"]) for face in solid.faces)
+    vertices = {v for edge in solid.edges.values() for v in edge["ends"]}
+    characteristic = len(vertices) - len(solid.edges) + 2 * len(solid.faces) - loops
+    if characteristic != 2 * (1 - genus):
+        out.append(f"Euler's characteristic is {characteristic}, not that of genus {genus}")
+    return out

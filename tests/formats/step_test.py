@@ -1,0 +1,174 @@
+"""STEP files read by a reader of our own: one closed solid each, as the answer has it. `./dev peers` lets Open CASCADE read them."""
+
+import json
+import math
+import os
+import random
+import re
+
+import drawn_parts
+import numpy as np
+import step_reader
+from service import FormatTest, examples, main
+
+PARTS = int(os.environ.get("TUBECUT_PARTS", "20"))  # 60 are two minutes
+NEAR_CUT = 2e-3   # mm from the exact cut
+VOLUME_OFF = 5e-6  # of the answer's, by the file's own edges and cut faces; seldom above 1e-6
+SMALL = 60_000    # bytes of a cut end
+
+
+def solid_of(content):
+    return step_reader.Solid(step_reader.File(content.decode("ascii")))
+
+
+def end_points(r, end, target, face, count):
+    """Points of the cut as answered: straight in (phi, z) from row to row, straight across."""
+    p = end["points"]
+    outer, wall = target["outer_diameter_mm"] / 2, target["wall_mm"]
+    radii = [outer - wall] + ([outer - wall + face] if face else []) + [outer]
+    z = [p["z_inner_mm"]] + ([p["z_face_mm"]] if face else []) + [p["z_outer_mm"]]
+    phi, n, out = np.radians(p["phi_deg"]), len(p["phi_deg"]), []
+    for _ in range(count):
+        i, share, strip, v = r.randrange(n), r.random(), r.randrange(len(radii) - 1), r.random()
+        j = (i + 1) % n
+        turn = phi[i] + share * (phi[j] - phi[i] + (2 * math.pi if j == 0 else 0.0))
+        low, high = ((1 - share) * edge[i] + share * edge[j] for edge in z[strip:strip + 2])
+        radius = (1 - v) * radii[strip] + v * radii[strip + 1]
+        out.append((radius * math.cos(turn), radius * math.sin(turn), (1 - v) * low + v * high))
+    return np.array(out)
+
+
+def hole_points(r, hole, target, count):
+    p, out = hole["points"], []
+    outer, inner = target["outer_diameter_mm"] / 2, target["outer_diameter_mm"] / 2 - target["wall_mm"]
+    n = len(p["phi_deg"])
+    for _ in range(count):
+        i, share, v = r.randrange(n), r.random(), r.random()
+        j = (i + 1) % n
+
+        def on(radius, phi, z):
+            turn = math.radians((1 - share) * p[phi][i] + share * p[phi][j])
+            return np.array([radius * math.cos(turn), radius * math.sin(turn), (1 - share) * p[z][i] + share * p[z][j]])
+        out.append((1 - v) * on(inner, "phi_inner_deg", "z_inner_mm") + v * on(outer, "phi_deg", "z_mm"))
+    return np.array(out)
+
+
+def off_cut(solid, points):
+    ruled = [face["surface"] for face in solid.faces if face["surface"][0] == "ruled"]
+    flat = [face["surface"] for face in solid.faces if face["surface"][0] == "plane"]
+    return min(np.min([step_reader.off_surface(surface, points) for surface in ruled + flat], axis=0).max(), np.inf)
+
+
+def exact_points(r, body, result, count):
+    target, out = body["target"], []
+    for name, end in result["ends"].items():
+        out.append(end_points(r, end, target, body["ends"][name].get("root_face_mm", 0.0), count))
+    return np.concatenate(out + [hole_points(r, hole, target, count) for hole in result["holes"]])
+
+
+class Step(FormatTest):
+    def test_drawn_parts(self):
+        seed = random.randrange(10**9)
+        print(f"seed {seed}")
+        r, read, refused, worst, farthest, holes = random.Random(seed), 0, 0, 0.0, 0.0, 0
+        while read < PARTS:
+            body = drawn_parts.part(r)
+            status, _, answer = self.service.ask("parts", body)
+            if status != 200:
+                refused += 1
+                self.assertLess(refused, 2 * PARTS)
+                continue
+            status, _, content = self.service.ask("parts", body, "format=step")
+            if status == 422 and b"step prints no such solid" in content:
+                continue
+            self.assertEqual(status, 200, content[:300])
+            result = json.loads(answer)["result"]
+            with self.subTest(f"seed {seed}, part {read}: {json.dumps(body)}"):
+                solid = solid_of(content)
+                self.assertEqual(step_reader.faults(solid, 1 + len(result["holes"])), [])
+                off = step_reader.volume(solid) / result["lengths"]["volume_mm3"] - 1
+                self.assertLess(abs(off), VOLUME_OFF)
+                far = off_cut(solid, exact_points(r, body, result, 60))
+                self.assertLess(far, NEAR_CUT)
+                worst, farthest, holes = max(worst, abs(off)), max(farthest, far), holes + len(result["holes"])
+            read += 1
+        print(f"{read} parts, {holes} holes: volume within {worst:.1e}, cut within {farthest:.1e} mm")
+        self.assertGreater(holes, PARTS / 4)
+
+    def test_every_example_and_view(self):
+        count = 0
+        for endpoint in ("bevel-tables", "holes", "parts"):
+            for name, body in examples(endpoint).items():
+                for view in ("straight", "smooth"):
+                    with self.subTest(f"{endpoint} {name} {view}"):
+                        content = self.service.text(endpoint, body, f"format=step&view={view}")
+                        result = self.service.answer(endpoint, body)["result"]
+                        solid = solid_of(content)
+                        self.assertEqual(step_reader.faults(solid, 1 + len(result.get("holes", []))), [])
+                        if endpoint == "bevel-tables" and view == "smooth":
+                            self.assertLess(len(content), SMALL)
+                        count += 1
+        self.assertGreaterEqual(count, 32)
+
+    def test_a_cut_of_near_rows_is_smooth_and_small(self):
+        """At a tolerance of a micrometre the file has few spans, in both views, and stays at the cut; up to 2 m across."""
+        for scale in (0.2, 1.0, 14.0):
+            body = {"target": {"outer_diameter_mm": 140 * scale, "wall_mm": 8 * scale}, "kerf_mm": 0,
+                    "cutters": [{"kind": "tube", "outer_diameter_mm": 220 * scale, "inclination_deg": 60, "clocking_deg": 10}],
+                    "root_surface": "inner", "groove": {"rule": "half_dihedral"}, "smoothing": {"method": "none"}, "sampling": {"tolerance_mm": 0.001}}
+            result = self.service.answer("bevel-tables", body)["result"]
+            points = end_points(random.Random(7), result, body["target"], 0.0, 1000)
+            # The tolerance holds the root's rows; the outer edge's lie further from what they stand for.
+            for view, near, size in (("straight", NEAR_CUT, 70_000), ("smooth", 5e-3, SMALL)):
+                with self.subTest(f"{scale} {view}"):
+                    content = self.service.text("bevel-tables", body, f"format=step&view={view}")
+                    self.assertLess(len(content), size)
+                    self.assertLess(off_cut(solid_of(content), points), near)
+
+    def test_header_and_product(self):
+        body = examples("parts")["k-joint-brace"] | {"reference": {"part": "Träger 'A'\\", "order": "𠮷 7", "revision": "C"}}
+        _, headers, content = self.service.reply("parts", json.dumps(body).encode(), "format=step")
+        file = step_reader.File(content.decode("ascii"))
+        lines = file.header["FILE_DESCRIPTION"][0]
+        for wanted in (f"input_sha256: {headers['Tubecut-Input-Sha256']}", f"result_sha256: {headers['Tubecut-Result-Sha256']}",
+                       "part: Träger 'A'\\", "order: 𠮷 7", "revision: C"):
+            self.assertIn(wanted, lines)
+        self.assertEqual(file.get(file.of("PRODUCT")[0], "PRODUCT")[0], "Träger 'A'\\")
+        self.assertEqual(file.header["FILE_SCHEMA"], [["AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"]])
+        self.assertEqual(len(file.of("COLOUR_RGB")), 2)
+
+    def test_what_is_no_solid_of_this_kind_is_refused(self):
+        def hole(at):
+            return {"branch": {"outer_diameter_mm": 60, "wall_mm": 4, "inclination_deg": 90, "clocking_deg": 0, "height_mm": at},
+                    "joint": {"kind": "set_in", "gap_mm": 1}, "groove": {"rule": "none"}, "tilt": "free"}
+        for places in ((300, 330), (10,)):
+            body = {"target": {"outer_diameter_mm": 140, "wall_mm": 8, "length_mm": 900}, "kerf_mm": 0,
+                    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "holes": [hole(at) for at in places]}
+            self.assertEqual(self.service.ask("parts", body)[0], 200)
+            status, _, content = self.service.ask("parts", body, "format=step")
+            self.assertEqual((status, [e["pointer"] for e in json.loads(content)["errors"]]), (422, ["?format"]))
+
+    def test_controls(self):
+        """A vertex's edge moved, a face turned inside out, a wrong unit: each is seen."""
+        body = examples("parts")["chord-with-holes"]
+        text = self.service.text("parts", body, "format=step").decode("ascii")
+        result = self.service.answer("parts", body)["result"]
+        genus = 1 + len(result["holes"])
+        self.assertEqual(step_reader.faults(solid_of(text.encode()), genus), [])
+
+        # One edge alone: its curve, not the surface beside it, has another point in the middle.
+        curve = re.search(r"(=B_SPLINE_CURVE_WITH_KNOTS\('',3,\(#\d+,#\d+,#\d+,)#(\d+)", text)
+        x, rest = re.search(rf"#{curve[2]}=CARTESIAN_POINT\('',\(([-\d.]+),(.*)\)\);", text).groups()
+        moved = text[:curve.start()] + curve[1] + "#999999" + text[curve.end():]
+        moved = moved.replace("ENDSEC;\nEND-ISO", f"#999999=CARTESIAN_POINT('',({float(x) + 0.05:.6f},{rest}));\nENDSEC;\nEND-ISO")
+        self.assertTrue(any("off face" in fault for fault in step_reader.faults(solid_of(moved.encode()), genus)))
+
+        face = re.search(r"=ADVANCED_FACE\('[^']*',\([^)]*\),#\d+,(\.[TF]\.)\)", text)
+        turned = text[:face.start(1)] + (".F." if face[1] == ".T." else ".T.") + text[face.end(1):]
+        self.assertTrue(step_reader.faults(solid_of(turned.encode()), genus))
+        with self.assertRaises(step_reader.Malformed):
+            solid_of(text.replace(".MILLI.,.METRE.", "$,.METRE.", 1).encode())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,79 @@
+"""STEP files of /v1/parts read by others: compare.py SERVER_BINARY READER [PARTS [SEED]]
+
+Parts are drawn here by a seed of the day. Open CASCADE (READER, read_step.cpp) must see each as one valid solid of the answered volume, and
+points of the exact cut on it; our own reader measures 1000 points of each."""
+
+import json
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "formats"))
+import drawn_parts  # noqa: E402
+import step_reader  # noqa: E402
+import step_test  # noqa: E402
+
+AT_ONCE = 50
+POINTS, OF_THEM_BY_READER = 1000, 4
+VOLUME_OFF = 1e-6
+# Open CASCADE lays curves of its own on the cylinders, smooth through a cut's corners: where rows are far apart they leave the edge by some
+# 0.01 mm, so that a volume is off by more, and seldom two of them cross. By the file's own edges volumes are nearer.
+MOST_INVALID, MOST_OFF = 0.01, 0.12  # of the parts
+NEAR_CUT = 2e-3  # mm
+
+
+def answers(server, bodies, folder):
+    """[(result, STEP)] of those that are answered both ways."""
+    lines = [{"id": f"{i} {what}", "endpoint": "parts", "body": body, **more}
+             for i, body in enumerate(bodies) for what, more in (("json", {}), ("step", {"format": "step"}))]
+    batch = folder / "batch.ndjson"
+    batch.write_text("".join(json.dumps(line) + "\n" for line in lines))
+    ran = subprocess.run([server, "run", str(batch)], capture_output=True, text=True)
+    found = {line["id"]: line for line in map(json.loads, ran.stdout.splitlines()) if "id" in line}
+    for i, body in enumerate(bodies):
+        one, other = found[f"{i} json"], found[f"{i} step"]
+        if one["status"] == 200 and other["status"] == 200:
+            yield body, one["body"]["result"], other["document"]
+        elif one["status"] == 200 and b"step prints no such solid" not in json.dumps(other["body"]).encode():
+            sys.exit(f"no STEP of {json.dumps(body)}: {other}")
+
+
+def main(server, reader, wanted="1000", seed=None):
+    wanted, seed = int(wanted), int(seed or random.randrange(10**9))
+    print(f"seed {seed}", flush=True)
+    r, read, holes, biggest, invalid, beyond = random.Random(seed), 0, 0, 0, 0, 0
+    worst = {"volume": 0.0, "volume by Open CASCADE": 0.0, "cut": 0.0, "cut by Open CASCADE": 0.0}
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        while read < wanted:
+            cases, asked = list(answers(server, [drawn_parts.part(r) for _ in range(AT_ONCE)], folder))[:wanted - read], []
+            for i, (body, result, text) in enumerate(cases):
+                points = step_test.exact_points(r, body, result, POINTS // (2 + len(result["holes"])))
+                solid = step_test.solid_of(text.encode())
+                worst["cut"] = max(worst["cut"], step_test.off_cut(solid, points))
+                worst["volume"] = max(worst["volume"], abs(step_reader.volume(solid) / result["lengths"]["volume_mm3"] - 1))
+                (folder / f"{i}.step").write_text(text)
+                some = points[r.sample(range(len(points)), OF_THEM_BY_READER)]
+                asked.append(f"{folder}/{i}.step {len(some)}\n" + "".join("%.9f %.9f %.9f\n" % tuple(p) for p in some))
+            ran = subprocess.run([reader], input="".join(asked), capture_output=True, text=True, check=True)
+            seen = [line.split() for line in ran.stdout.splitlines() if line.count(" ") == 5]
+            for (body, result, text), (solids, shells, _, valid, volume, far) in zip(cases, seen, strict=True):
+                off = abs(float(volume) / result["lengths"]["volume_mm3"] - 1)
+                if (solids, shells, valid) != ("1", "1", "1"):
+                    invalid += 1
+                    print(f"{solids} solids, {shells} shells, valid {valid}, {len(text)} bytes: {json.dumps(body)}", flush=True)
+                beyond += not off <= VOLUME_OFF
+                worst["volume by Open CASCADE"] = max(worst["volume by Open CASCADE"], off)
+                worst["cut by Open CASCADE"] = max(worst["cut by Open CASCADE"], float(far))
+                holes, biggest = holes + len(result["holes"]), max(biggest, len(text))
+            read += len(cases)
+    print(f"{read} parts with {holes} holes, up to {biggest} bytes; to Open CASCADE {invalid} are not one valid solid, {beyond} off in volume; at worst " +
+          ", ".join(f"{name} {value:.2g}" for name, value in worst.items()))
+    good = invalid <= MOST_INVALID * read and beyond <= MOST_OFF * read
+    sys.exit(0 if good and worst["volume"] <= step_test.VOLUME_OFF and max(worst["cut"], worst["cut by Open CASCADE"]) <= NEAR_CUT else 1)
+
+
+main(*sys.argv[1:])
