@@ -17,10 +17,12 @@ namespace tubecut::api {
   X(body_byte, 60e-9, "byte of the body")                                                    \
   X(curve_point, 0.8e-6, "point of an intersection, on each wall")                           \
   X(curve_point_of_cutter, 0.06e-6, "point of an intersection, for each cutter")             \
-  X(table, 12e-3, "bevel table")                                                             \
-  X(table_point, 40e-6, "point of a bevel table")                                            \
+  X(curve_cutter, 0.4e-3, "cutter of an intersection")                                       \
+  X(table, 6e-3, "bevel table")                                                              \
+  X(table_with_kerf, 10e-3, "bevel table with a kerf")                                       \
+  X(table_point, 28e-6, "point of a bevel table")                                            \
   X(table_point_of_cutter, 0.4e-6, "point of a bevel table, for each cutter")                \
-  X(beam_pair, 0.5e-6, "two points of a bevel table no further apart than its kerf")         \
+  X(beam_pair, 0.5e-6, "two points of a table or a hole no further apart than its kerf")     \
   X(rectangular_tube, 1.5e-3, "rectangular tube among the cutters")                          \
   X(elbow, 6e-3, "elbow among the cutters of a table or an intersection")                    \
   X(hole_point, 45e-6, "point of a hole")                                                    \
@@ -28,8 +30,10 @@ namespace tubecut::api {
   X(near_pair, 90e-6,                                                                        \
     "pair of members nearer than their radii of which neither cuts the other; not foreseen") \
   X(path, 5e-3, "pulse schedule")                                                            \
-  X(path_knot, 40e-6, "0.1 mm of a schedule's path")                                         \
-  X(contour_point, 10e-6, "point of a contour or of axis columns")                           \
+  X(path_knot, 32e-6, "0.1 mm of a schedule's path that bends or whose bevel changes")       \
+  X(straight_knot, 8e-6, "0.1 mm of a schedule's path straight round its tube")              \
+  X(contour_point, 100e-6, "point of a contour")                                             \
+  X(axis_row, 10e-6, "row of axis columns")                                                  \
   X(period, 1.5e-6, "period of a schedule, or of a replay")                                  \
   X(feed_curve, 12e-3, "feed curve")                                                         \
   X(feed_row, 0.6e-6, "row of a feed curve's table")                                         \

@@ -42,14 +42,27 @@ void add_partners(const std::vector<joint::Partner>& partners, Work& work) {
     if (const auto cost = joint::by_kind(partner, CostOf{})) work.add(*cost);
 }
 
-/// mm
-double length_of(const motion::CutPath& contour) {
-  double out = 0.0;
-  const auto n = std::min({contour.phi.size(), contour.z.size()});
+/// What a path is long: the planner has less to do where it is straight on the tube laid flat and
+/// its bevel stays.
+struct PathLength {
+  double bent = 0.0, straight = 0.0;  // mm
+
+  [[nodiscard]] double whole() const { return bent + straight; }
+};
+
+PathLength length_of(const motion::CutPath& contour) {
+  constexpr double kSameSlope = 1e-6;  // more than printing in nine digits turns
+  PathLength out;
+  const auto n = std::min({contour.phi.size(), contour.z.size(), contour.b.size()});
+  double before = 0.0;
   for (std::size_t i = 1; i < n; ++i) {
     const double turned = contour.radius() * (contour.phi[i] - contour.phi[i - 1]);
     const double along = contour.z[i] - contour.z[i - 1];
-    out += std::sqrt(turned * turned + along * along);
+    const double slope = turned != 0.0 ? along / turned : 0.0;
+    const bool straight = turned != 0.0 && contour.b[i] == contour.b[i - 1] &&
+                          (i == 1 || std::abs(slope - before) <= kSameSlope);
+    (straight ? out.straight : out.bent) += std::sqrt(turned * turned + along * along);
+    before = slope;
   }
   return out;
 }
@@ -64,17 +77,17 @@ bevel::TableSpec stated(const BevelTableRequest& cut) {
   return out;
 }
 
-double length_of(const CutSource& cut) {
+PathLength length_of(const CutSource& cut) {
   return std::visit(
-      [](const auto& of) -> double {
+      [](const auto& of) -> PathLength {
         using Of = std::decay_t<decltype(of)>;
         if constexpr (std::is_same_v<Of, BevelTableRequest>)
-          return kCutLength * kTwoPi * stated(of).target.outer_radius;
+          return {.bent = kCutLength * kTwoPi * stated(of).target.outer_radius};
         if constexpr (std::is_same_v<Of, groove::MillPathSpec>)
-          return kCutLength * kPi * of.groove.branch.outer_diameter;
+          return {.bent = kCutLength * kPi * of.groove.branch.outer_diameter};
         if constexpr (std::is_same_v<Of, motion::CutPath>) return length_of(of);
         if constexpr (std::is_same_v<Of, motion::AxisColumns>)
-          return of.length.empty() ? 0.0 : std::abs(of.length.back() - of.length.front());
+          return {.bent = of.length.empty() ? 0.0 : std::abs(of.length.back() - of.length.front())};
       },
       cut);
 }
@@ -96,6 +109,26 @@ double work_feed_of(const cutoff::Cut& cut) {
   return (by.slowdown + by.wall + by.overcut) / cut.feed;
 }
 
+void add_curves(double points, double cutters, Work& work) {
+  work.add(Cost::curve_point, points);
+  work.add(Cost::curve_point_of_cutter, points * cutters);
+  work.add(Cost::curve_cutter, cutters);
+}
+
+/// Pairs of a closed cut's points, round a tube of this radius, within a kerf of each other.
+double beam_pairs(double points, double kerf, double radius) {
+  return points * points * std::min(1.0, kerf / (kTwoPi * radius));
+}
+
+void add_table(const bevel::TableSpec& spec, double radius, double cutters, Work& work) {
+  const double points = points_of(spec.sampling, radius);
+  work.add(Cost::table);
+  work.add(Cost::table_point, points);
+  work.add(Cost::table_point_of_cutter, points * cutters);
+  if (spec.kerf > 0.0) work.add(Cost::table_with_kerf);
+  work.add(Cost::beam_pair, beam_pairs(points, spec.kerf, radius));
+}
+
 /// Sections of the groove, and of the survey round it.
 void add_sections(const groove::GrooveSpec& spec, Work& work) {
   work.add(Cost::groove);
@@ -107,25 +140,24 @@ void add_sections(const groove::GrooveSpec& spec, Work& work) {
 
 void add_work(const joint::IntersectionSpec& spec, Work& work) {
   const double walls = spec.surfaces == joint::Surfaces::both ? 2.0 : 1.0;
-  const double points = walls * points_of(spec.sampling, spec.target.outer_radius);
-  work.add(Cost::curve_point, points);
-  work.add(Cost::curve_point_of_cutter, points * static_cast<double>(spec.partners.size()));
+  add_curves(walls * points_of(spec.sampling, spec.target.outer_radius),
+             static_cast<double>(spec.partners.size()), work);
   add_partners(spec.partners, work);
 }
 
 void add_work(const bevel::TableSpec& spec, Work& work) {
-  const double points = points_of(spec.sampling, spec.target.outer_radius);
-  work.add(Cost::table);
-  work.add(Cost::table_point, points);
-  work.add(Cost::table_point_of_cutter, points * static_cast<double>(spec.partners.size()));
-  work.add(Cost::beam_pair,
-           points * points * std::min(1.0, spec.kerf / (kTwoPi * spec.target.outer_radius)));
+  const auto cutters = static_cast<double>(spec.partners.size());
+  for (int of = spec.untilted ? 2 : 1; of > 0; --of)  // an untilted cut beside a bevelled one
+    add_table(spec, spec.target.outer_radius, cutters, work);
   add_partners(spec.partners, work);
 }
 
 void add_work(const bevel::HoleSpec& spec, Work& work) {
   const double sides = spec.kind == bevel::JointKind::through ? 2.0 : 1.0;
-  work.add(Cost::hole_point, sides * points_of(spec.sampling, spec.chord.outer_radius));
+  const double points = points_of(spec.sampling, spec.chord.outer_radius);
+  const double radius = std::visit([](const auto& tube) { return tube.radius; }, spec.branch);
+  work.add(Cost::hole_point, sides * points);
+  work.add(Cost::beam_pair, sides * beam_pairs(points, spec.kerf, radius));
 }
 
 void add_work(const joint::NodeSpec& node, const joint::Nodes& solved,
@@ -137,15 +169,9 @@ void add_work(const joint::NodeSpec& node, const joint::Nodes& solved,
     work.add(Cost::near_pair, cutters * (cutters - 1.0) / 4.0);  // half of them see the other half
     if (end.cut_by.empty()) continue;
     if (profiles != nullptr) {
-      const double points = 2.0 * points_of(*profiles, radius);
-      work.add(Cost::curve_point, points);
-      work.add(Cost::curve_point_of_cutter, points * cutters);
+      add_curves(2.0 * points_of(*profiles, radius), cutters, work);
     }
-    if (tables == nullptr) continue;
-    const double points = points_of(tables->sampling, radius);
-    work.add(Cost::table);
-    work.add(Cost::table_point, points);
-    work.add(Cost::table_point_of_cutter, points * cutters);
+    if (tables != nullptr) add_table(*tables, radius, cutters, work);
   }
 }
 
@@ -185,15 +211,17 @@ void add_cut_work(const ScheduleRequest& request, Work& work) {
   if (const auto* const contour = std::get_if<motion::CutPath>(&request.cut))
     work.add(Cost::contour_point, static_cast<double>(contour->phi.size()));
   if (const auto* const axes = std::get_if<motion::AxisColumns>(&request.cut))
-    work.add(Cost::contour_point, static_cast<double>(axes->length.size()));
+    work.add(Cost::axis_row, static_cast<double>(axes->length.size()));
 }
 
 void add_schedule_work(const ScheduleRequest& request, Work& work) {
-  const double length = length_of(request.cut), speed = mean_speed(request.motion.speed);
+  const auto length = length_of(request.cut);
+  const double speed = mean_speed(request.motion.speed);
   add_cut_work(request, work);
   work.add(Cost::path);
-  work.add(Cost::path_knot, length / kSpacing);
-  if (speed > 0.0) work.add(Cost::period, length / speed / request.machine.period);
+  work.add(Cost::path_knot, length.bent / kSpacing);
+  work.add(Cost::straight_knot, length.straight / kSpacing);
+  if (speed > 0.0) work.add(Cost::period, length.whole() / speed / request.machine.period);
 }
 
 }  // namespace tubecut::api

@@ -16,6 +16,13 @@ using api::Json;
 Json object(Json::Object members) { return Json{std::move(members)}; }
 Json points(double n) { return object({{"uniform_points", Json{n}}}); }
 
+/// Of the square contour's 36 points: one, or each other than its neighbours.
+Json bevels(double each) {
+  Json::Array out;
+  for (int i = 0; i < 36; ++i) out.emplace_back(i % 2 == 0 ? 0.0 : each);
+  return Json{std::move(out)};
+}
+
 /// Stopped where so many stages are behind it.
 Posted stopped(const std::string& endpoint, const std::string& body, int stages) {
   std::stop_source source;
@@ -81,15 +88,18 @@ std::vector<Growth> growths() {
   return {
       {"intersections/source-000-table-1", "sampling", points(500), points(5'000), 3},
       {"intersections/source-000-table-1", "sampling", object({{"tolerance_mm", Json{0.1}}}),
-       object({{"tolerance_mm", Json{1e-4}}}), 3},
+       object({{"tolerance_mm", Json{1e-4}}}), 2},
       {"bevel-tables/source-000-table-1", "sampling", points(100), points(1'000), 1.5},
       {"holes/set-on-branch", "sampling", points(100), points(1'000), 1.5},
+      {"holes/set-on-branch", "sampling", points(2'000), points(20'000), 15},  // within a kerf
       {"nodes/k-joint-with-tables", "sampling", points(100), points(1'000), 1.5},
       {"parts/chord-with-holes", "sampling", points(100), points(1'000), 1.5},
       {"pulse-schedules/square-cut-from-a-bare-contour", "motion/speed",
        object({{"mm_min", Json{3'000.0}}}), object({{"mm_min", Json{30.0}}}), 2},
+      {"pulse-schedules/square-cut-from-a-bare-contour", "contour/b_deg", bevels(0.0), bevels(1.0),
+       2},
       {"pulse-schedules/table-1-on-the-five-axis-cutter", "cut/sampling", points(100),
-       points(2'000), 1.5},
+       points(2'000), 1.4},
       {"pulse-schedules/table-1-on-the-five-axis-cutter", "cut/target/outer_diameter_mm",
        Json{70.0}, Json{105.0}, 1.1},
       {"pulse-schedules/source-001-mill-path", "mill_path/positions", Json{24.0}, Json{2'000.0},
