@@ -14,10 +14,10 @@ struct CheckLimit {
   std::string_view unit;
 };
 
-/// Lists of checks as one list.
-template <std::size_t... N>
-[[nodiscard]] constexpr auto all_checks(const std::array<CheckLimit, N>&... lists) {
-  std::array<CheckLimit, (N + ...)> out{};
+/// Lists as one list.
+template <class T, std::size_t... N>
+[[nodiscard]] constexpr auto joined(const std::array<T, N>&... lists) {
+  std::array<T, (N + ...)> out{};
   auto at = out.begin();
   ((at = std::copy(lists.begin(), lists.end(), at)), ...);
   return out;

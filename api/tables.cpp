@@ -51,6 +51,11 @@ Columns bevel_columns(const bevel::TableSpec& spec, const bevel::Table& t) {
   if (spec.root_face > 0.0) out.column("z_face_mm", t.z_face).degrees("b_face_deg", t.b_face);
   if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
     out.texts("zone", each(t.zone, [&](std::size_t i) { return zoned->zones[i].id; }));
+  if (spec.untilted)
+    out.column("gap_inner_mm", t.gaps.square.inner)
+        .column("gap_outer_mm", t.gaps.square.outer)
+        .column("bevelled_gap_inner_mm", t.gaps.bevelled.inner)
+        .column("bevelled_gap_outer_mm", t.gaps.bevelled.outer);
   return out;
 }
 
@@ -59,6 +64,7 @@ const std::vector<std::string>& bevel_column_names() {
     bevel::TableSpec every;  // column
     every.root_face = 1.0;
     every.groove = bevel::ZonedGroove{};
+    every.untilted = true;
     return each(bevel_columns(every, {}).all(), [](const Column& column) { return column.name; });
   }();
   return kNames;

@@ -1,6 +1,7 @@
 #include "api/verdict.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "api/field_names.hpp"
 
@@ -38,10 +39,20 @@ std::vector<std::string> without(const std::vector<std::string>& texts,
   return out;
 }
 
-/// Without the sign, which comments of machine files cannot hold.
+/// Is a limit of this name the least that is accepted, or the most?
+bool is_least(std::string_view name) { return name.starts_with("min_"); }
+
+constexpr std::string_view kAbove = " > ", kBelow = " < ";
+
+bool of_a_limit(const std::string& reason) {
+  return reason.find(kAbove) != std::string::npos || reason.find(kBelow) != std::string::npos;
+}
+
+/// Without the signs, which comments of machine files cannot hold.
 std::string in_words(std::string reason) {
-  for (auto at = reason.find(" > "); at != std::string::npos; at = reason.find(" > "))
-    reason.replace(at, 3, " above ");
+  for (const auto& [sign, word] : {std::pair{kAbove, " above "}, std::pair{kBelow, " below "}})
+    for (auto at = reason.find(sign); at != std::string::npos; at = reason.find(sign))
+      reason.replace(at, sign.size(), word);
   return reason;
 }
 
@@ -79,10 +90,13 @@ Verdict judge(const std::vector<Warning>& warnings, const Json& request,
   }
   for (const auto& bound : accepted)
     for (const auto& measure : measures) {
-      if (measure.name != bound.name || measure.value <= bound.value) continue;
+      const bool least = is_least(bound.name);
+      if (measure.name != bound.name ||
+          (least ? measure.value >= bound.value : measure.value <= bound.value))
+        continue;
       out.status = "reject";
-      out.reasons.push_back(std::string(bound.name) + ": " + brief(measure.value) + " > " +
-                            brief(bound.value));
+      out.reasons.push_back(std::string(bound.name) + ": " + brief(measure.value) +
+                            std::string(least ? kBelow : kAbove) + brief(bound.value));
       out.excess.push_back({bound.name, measure.value, bound.value});
     }
   return out;
@@ -105,7 +119,7 @@ std::vector<std::string> verdict_lines(const Verdict& verdict, VerdictRoom room)
 std::string verdict_in_short(const Verdict& verdict) {
   auto reasons = each_once(verdict.reasons);
   std::ranges::stable_partition(reasons, [](const std::string& reason) {
-    return reason.find(" > ") != std::string::npos;  // what it is rejected for goes first
+    return of_a_limit(reason);  // what it is rejected for goes first
   });
   const std::string out(verdict.status);
   return reasons.empty() ? out : out + ": " + in_words(joined(reasons));
@@ -129,7 +143,9 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
                             .got = Json{value},
                             .limit = Json{limit},
                             .unit = std::string(unit_of(name)),
-                            .hint = "the answer has more than the request accepts"});
+                            .hint = is_least(name)
+                                        ? "the answer has less than the request accepts"
+                                        : "the answer has more than the request accepts"});
     return out;
   }
   const auto missing = without(verdict.codes, options.acknowledged);

@@ -16,7 +16,8 @@ struct Measure {
   double value = 0.0;
 };
 
-/// `reject` where a measure is above what is accepted, else `review` where a warning is of severity
+/// `reject` where a measure is above what is accepted, or below the least of a limit called
+/// `min_...`, else `review` where a warning is of severity
 /// `cut`, else `ok`. `request`: as it was understood, for the warnings' pointers.
 [[nodiscard]] Verdict judge(const std::vector<Warning>& warnings, const Json& request,
                             const std::vector<Measure>& measures,

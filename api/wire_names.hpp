@@ -61,7 +61,7 @@ inline constexpr auto kNames<bevel::Along> = std::to_array<Option<bevel::Along>>
     {{"developed", bevel::Along::developed}, {"length", bevel::Along::length}});
 template <>
 inline constexpr auto kNames<bevel::Tilt> = std::to_array<Option<bevel::Tilt>>(
-    {{"axial", bevel::Tilt::axial}, {"free", bevel::Tilt::free}});
+    {{"axial", bevel::Tilt::axial}, {"free", bevel::Tilt::free}, {"none", bevel::Tilt::none}});
 
 template <>
 inline constexpr auto kNames<groove::AreaIn> = std::to_array<Option<groove::AreaIn>>(

@@ -161,6 +161,18 @@ void check_combination(const bevel::TableSpec& s, Reader& in) {
            in.find("contact"));
 }
 
+/// The land at the root, and how far the cut keeps off.
+void decode_stand_off(Reader& in, bool known, bevel::TableSpec& out) {
+  out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
+  if (known && out.root_face > 0.0 && out.contact != Contact::inner)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "root_face_mm",
+              .hint = "a root face goes with contact inner"},
+             in.find("root_face_mm"));
+  out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
+  out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
+}
+
 void encode_events(const bevel::Table& out, Writer& w) {
   struct Placed {
     const joint::Event* event;
@@ -224,30 +236,31 @@ bevel::TorchRange decode_torch(Reader& in) {
   return out;
 }
 
-void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out) {
+void decode_torch_and_kerf(Reader& in, Preset preset, bevel::TableSpec& out) {
   out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
   out.torch = in.defaulted_object("torch", decode_torch);
+  if (preset == Preset::tube_laser) check_torch_reaches_square(in, out.torch);
 }
 
-void decode_table_options(Reader& in, bevel::TableSpec& out) { decode_cut(in, true, out); }
+void decode_table_options(Reader& in, Preset preset, bevel::TableSpec& out) {
+  decode_cut(in, true, preset, out);
+}
 
-void decode_cut(Reader& in, bool whole, bevel::TableSpec& out) {
-  out.root_surface = in.choice("root_surface", kNames<RootSurface>);
-  out.groove = in.object("groove", [](Reader& g) { return decode_groove(g, true); });
+void decode_cut(Reader& in, bool whole, Preset preset, bevel::TableSpec& out) {
+  const bool laser = preset == Preset::tube_laser;
+  out.untilted = laser;
+  out.root_surface = laser ? in.choice("root_surface", RootSurface::inner)
+                           : in.choice("root_surface", kNames<RootSurface>);
+  out.groove = laser ? decode_square_groove(in)
+                     : in.object("groove", [](Reader& g) { return decode_groove(g, true); });
   if (whole) out.dihedral = in.choice("dihedral", Dihedral::weld_side);
-  out.contact = in.choice("contact", Contact::inner);
+  out.contact = laser ? decode_untilted_contact(in) : in.choice("contact", Contact::inner);
   const bool known = in.understood("root_surface") && (!whole || in.understood("dihedral")) &&
                      in.understood("contact");
   if (known) check_combination(out, in);
-  out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
-  if (known && out.root_face > 0.0 && out.contact != Contact::inner)
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "root_face_mm",
-              .hint = "a root face goes with contact inner"},
-             in.find("root_face_mm"));
-  out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
-  out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
-  if (whole) decode_torch_and_kerf(in, out);
+  decode_stand_off(in, known, out);
+  if (whole) decode_torch_and_kerf(in, preset, out);
+  if (laser) return decode_no_smoothing(in, out);
   const auto smoothing = in.object("smoothing", decode_smoothing);
   out.smoothing = smoothing.method;
   out.mutation_limit = smoothing.mutation_limit;

@@ -6,6 +6,7 @@
 #include "api/check_limit.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/endpoints/tube_laser.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/limits.hpp"
 #include "api/reader.hpp"
@@ -15,8 +16,8 @@
 namespace tubecut::api {
 
 /// What a table is asked for beside its joint and its sampling: groove, contact, kerf, torch,
-/// smoothing.
-void decode_table_options(Reader& in, bevel::TableSpec& out);
+/// smoothing. What a preset chooses may be absent.
+void decode_table_options(Reader& in, Preset preset, bevel::TableSpec& out);
 
 /// The rule of a groove; `zones`: that rule too.
 [[nodiscard]] bevel::GrooveRule decode_groove(Reader& in, bool zones);
@@ -25,7 +26,7 @@ void decode_table_options(Reader& in, bevel::TableSpec& out);
 /// The members of a table's `result`.
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
 
-inline constexpr std::array<CheckLimit, 14> kTableChecks{{
+inline constexpr std::array<CheckLimit, 15> kTableChecks{{
     {"dihedral", "1e-9", "deg"},
     {"bevel_plane", "1e-9", ""},
     {"above_required", "1e-9", "deg"},
@@ -35,6 +36,7 @@ inline constexpr std::array<CheckLimit, 14> kTableChecks{{
     {"torch_range", "1e-9", "deg"},
     {"penetration", "1e-6", "mm"},
     {"touch", "1e-6", "mm"},
+    {"gap_map", "1e-6", "mm"},
     {"penetration_stated", "1e-3", "mm"},
     {"penetration_between", "sampling.tolerance_mm", "mm"},
     {"gouge", "0.01", "mm"},
@@ -46,12 +48,13 @@ inline constexpr std::array<CheckLimit, 14> kTableChecks{{
 /// target and partners.
 struct BevelTableRequest : bevel::TableSpec {
   JointSource source;
+  Preset preset = Preset::none;
 };
 
 /// How an end is cut: root, groove, contact, smoothing and the like. `whole`: also dihedral, kerf
 /// and torch, which a part has once.
-void decode_cut(Reader& in, bool whole, bevel::TableSpec& out);
-void decode_torch_and_kerf(Reader& in, bevel::TableSpec& out);
+void decode_cut(Reader& in, bool whole, Preset preset, bevel::TableSpec& out);
+void decode_torch_and_kerf(Reader& in, Preset preset, bevel::TableSpec& out);
 
 /// A table's events, mutations and windows; where the torch binds.
 void encode_bevel_lists(const bevel::Table& table, Writer& w);

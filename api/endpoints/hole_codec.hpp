@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "api/endpoints/tube_laser.hpp"
 #include "api/reader.hpp"
 #include "api/writer.hpp"
 #include "core/bevel/hole.hpp"
@@ -22,7 +23,7 @@ struct HoleBranch {
 void encode_joint_kind(const joint::Joint& joint, Writer& o);
 
 /// `joint`, `groove` and `tilt`; without a `joint` where the members state it.
-void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated,
+void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated, Preset preset,
                      bevel::HoleSpec& out);
 
 /// One hole as members of an object.

@@ -73,7 +73,7 @@ std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include
     return in.object("tables", [&](Reader& t) {
       bevel::TableSpec out;
       out.sampling = sampling;
-      decode_table_options(t, out);
+      decode_table_options(t, Preset::none, out);
       return out;
     });
   if (in.has("tables"))
@@ -142,7 +142,7 @@ struct Nodes {
       {"frame", "1e-12", ""},
       {"one_cuts_the_other", "0", ""},
   });
-  static constexpr auto kChecks = all_checks(kOwnChecks, kProfileChecks, kTableChecks);
+  static constexpr auto kChecks = joined(kOwnChecks, kProfileChecks, kTableChecks);
 
   static Spec decode(Reader& in) {
     Spec out;

@@ -59,9 +59,9 @@ DatumChoice decode_datum(Reader& in, Datum fallback, bool has_up) {
 }
 
 /// What a part has once: sampling, kerf and torch.
-void decode_once(Reader& in, bevel::TableSpec& out) {
+void decode_once(Reader& in, Preset preset, bevel::TableSpec& out) {
   out.sampling = decode_sampling(in);
-  decode_torch_and_kerf(in, out);
+  decode_torch_and_kerf(in, preset, out);
 }
 
 bevel::HoleSpec hole_options(const bevel::TableSpec& once) {
@@ -85,8 +85,8 @@ void decode_member(Reader& in, PartRequest& out) {
   const auto datum = decode_datum(in, up ? Datum::up : Datum::first_cutter, up || !found);
   m.datum = datum.datum;
   m.seam = datum.seam;
-  decode_cut(in, false, m.cut);
-  decode_once(in, m.cut);
+  decode_cut(in, false, out.preset, m.cut);
+  decode_once(in, out.preset, m.cut);
   in.note("holes");
   if (!in.has("holes")) return;
   const double radius = found ? m.node.members[m.member].outer_radius : kDiameter.min;
@@ -102,13 +102,14 @@ void decode_member(Reader& in, PartRequest& out) {
     // Members that are refused may be those that state it.
     static constexpr joint::Joint kUnknown{};
     const auto* stated = joint::stated_joint(m.node, m.member, other);
-    decode_hole_cut(h, radius, stated == nullptr && h.refused() ? &kUnknown : stated, hole);
+    decode_hole_cut(h, radius, stated == nullptr && h.refused() ? &kUnknown : stated, out.preset,
+                    hole);
     m.holes.push_back({std::move(hole), other});
     return 0;
   });
 }
 
-part::EndSpec decode_end(Reader& in, const bevel::TableSpec& once) {
+part::EndSpec decode_end(Reader& in, Preset preset, const bevel::TableSpec& once) {
   const auto which = in.exactly_one({"cutters", "square_at_mm"});
   if (which == 1) return part::square_end(once, in.number("square_at_mm", kOffset));
   if (!which) {
@@ -117,14 +118,15 @@ part::EndSpec decode_end(Reader& in, const bevel::TableSpec& once) {
   }
   part::EndSpec out{.cut = once};
   out.cut.partners = decode_cutters(in);
-  decode_cut(in, false, out.cut);
+  decode_cut(in, false, preset, out.cut);
   return out;
 }
 
-void decode_ends(Reader& in, const bevel::TableSpec& once, part::PartSpec& out) {
+void decode_ends(Reader& in, Preset preset, const bevel::TableSpec& once, part::PartSpec& out) {
   in.object("ends", [&](Reader& ends) {
-    out.start = ends.object("start", [&](Reader& e) { return decode_end(e, once); });
-    out.finish = ends.object("finish", [&](Reader& e) { return decode_end(e, once); });
+    const auto end = [&](Reader& e) { return decode_end(e, preset, once); };
+    out.start = ends.object("start", end);
+    out.finish = ends.object("finish", end);
     return 0;
   });
 }
@@ -146,8 +148,8 @@ void decode_direct(Reader& in, PartRequest& out) {
   out.seam = datum.seam;
   bevel::TableSpec once;
   once.target = p.target;
-  decode_once(in, once);
-  decode_ends(in, once, p);
+  decode_once(in, out.preset, once);
+  decode_ends(in, out.preset, once, p);
   in.note("holes");
   if (!in.has("holes")) return;
   in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {
@@ -156,7 +158,7 @@ void decode_direct(Reader& in, PartRequest& out) {
     const auto branch = h.object("branch", decode_hole_branch);
     hole.branch = branch.placement;
     hole.branch_wall = branch.wall;
-    decode_hole_cut(h, p.target.outer_radius, nullptr, hole);
+    decode_hole_cut(h, p.target.outer_radius, nullptr, out.preset, hole);
     p.holes.push_back({std::move(hole), branch.name, p.holes.size()});
     return 0;
   });
@@ -215,6 +217,8 @@ std::vector<std::string> names(const joint::NodeSpec& node, const std::vector<st
 
 PartRequest decode_part_request(Reader& in) {
   PartRequest out;
+  out.preset = decode_preset(in);
+  check_accepts(in, out.preset);
   const auto which = in.exactly_one({"members", "target"});
   if (!which) {
     if (in.refused()) in.silence();  // what else there is depends on which of the two it is
@@ -224,6 +228,7 @@ PartRequest decode_part_request(Reader& in) {
     decode_member(in, out);
   else
     decode_direct(in, out);
+  if (in.understood("datum")) check_seam_limit(in, out.preset, out.seam_known());
   const auto blank = decode_blank(in);
   const double density = in.number("density_kg_m3", kDensity, 7850.0);
   out.part.clamping = blank.clamping;

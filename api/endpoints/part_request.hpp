@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "api/endpoints/tube_laser.hpp"
 #include "api/reader.hpp"
 #include "core/part/member.hpp"
 
@@ -12,10 +13,14 @@ namespace tubecut::api {
 
 /// A part asked for as a member of a node, or by its two ends; `resolve` fills in `part`.
 struct PartRequest {
+  Preset preset = Preset::none;
   part::PartSpec part;
   std::optional<part::MemberSpec> member = {};  // of a node
   part::Datum datum = part::Datum::up;          // of a part given directly
   Angle seam = {};
+  [[nodiscard]] bool seam_known() const {
+    return (member ? member->datum : datum) == part::Datum::seam;
+  }
   // Once resolved, of a node:
   std::vector<std::size_t> start_cutters = {}, finish_cutters = {};
   std::vector<std::string> start_ids = {}, finish_ids = {};

@@ -28,13 +28,20 @@ std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(),
 
 struct Parts {
   using Spec = PartRequest;
-  using Out = part::Part;
+  struct Laser {
+    EndReport start, finish;
+    part::Webs webs;
+  };
+  struct Out : part::Part {
+    std::optional<Laser> laser = {};
+  };
   static constexpr std::string_view kId = "parts";
   static constexpr std::string_view kPath = "/v1/parts";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr double kBudgetS = kLongBudgetS;
-  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
-                                                            "max_extra_bevel_deg", "max_b_deg"};
+  static constexpr auto kAccepts =
+      joined(std::array<std::string_view, 3>{"max_root_gap_mm", "max_extra_bevel_deg", "max_b_deg"},
+             kEndAccepts, kPartAccepts);
   static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
       {"hole_on_branch", "1e-6", "mm"},
       {"hole_gap", "1e-6", "mm"},
@@ -53,7 +60,7 @@ struct Parts {
       {"volume", "1e-9, of itself", ""},
       {"check_dimensions", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
   });
-  static constexpr auto kChecks = all_checks(kTableChecks, kOwnChecks);
+  static constexpr auto kChecks = joined(kTableChecks, kOwnChecks);
 
   static Spec decode(Reader& in) { return decode_part_request(in); }
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
@@ -64,9 +71,16 @@ struct Parts {
     for (const auto& one : spec.part.holes) add_work(one.hole, work);
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    auto out = part::part(spec.part, stop);
-    if (!out) return tl::unexpected(on_request(spec, out.error()));
+    auto part = part::part(spec.part, stop);
+    if (!part) return tl::unexpected(on_request(spec, part.error()));
+    Out out{*std::move(part)};
+    if (spec.preset == Preset::tube_laser) out.laser = laser_of(spec, out, stop);
     return out;
+  }
+  static Laser laser_of(const Spec& spec, const part::Part& p, const std::stop_token& stop) {
+    return {.start = end_report(p.start.spec, p.start.table, false, stop),
+            .finish = end_report(p.finish.spec, p.finish.table, true, stop),
+            .webs = part::webs(spec.part, p, stop)};
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
     return part::verify(spec.part, out, stop);
@@ -77,7 +91,7 @@ struct Parts {
     return all;
   }
 
-  static std::vector<Measure> measure(const Spec&, const Out& out) {
+  static std::vector<Measure> measure(const Spec& spec, const Out& out) {
     double gap = 0.0, extra = 0.0, b = 0.0;
     for (const auto* end : {&out.start, &out.finish}) {
       const auto& t = end->own;
@@ -91,9 +105,21 @@ struct Parts {
       gap = std::max(gap, placed.hole.fit.greatest_root_between);
       for (const double one : placed.hole.b) b = std::max(b, std::abs(one));
     }
-    return {{"max_root_gap_mm", gap},
-            {"max_extra_bevel_deg", extra * kDegPerRad},
-            {"max_b_deg", b * kDegPerRad}};
+    std::vector<Measure> all{{"max_root_gap_mm", gap},
+                             {"max_extra_bevel_deg", extra * kDegPerRad},
+                             {"max_b_deg", b * kDegPerRad}};
+    if (out.laser) add_laser(spec, out, all);
+    return all;
+  }
+  static void add_laser(const Spec& spec, const Out& out, std::vector<Measure>& all) {
+    const auto add = [&](const std::vector<Measure>& more) {
+      for (const auto& one : more) add_worst(one, all);
+    };
+    add(measures_of(out.start.table, out.laser->start));
+    add(measures_of(out.finish.table, out.laser->finish));
+    for (const auto& placed : out.holes)
+      add({{"max_reach_mm", bevel::reach(placed.hole.torch_z_inner, placed.hole.torch_z)}});
+    add(measures_of(out.laser->webs, spec.seam_known()));
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
@@ -129,6 +155,7 @@ struct Parts {
       });
     });
     w.array("sequence", out.sequence, encode_step);
+    if (out.laser) encode_webs(out.laser->webs, spec.seam_known(), w);
   }
 
   static void encode_end(const Spec& spec, const Out& out, bool finish, Writer& w) {
@@ -155,6 +182,7 @@ struct Parts {
     w.field("weld_mm", end.weld_length);
     w.field("groove_mm3", end.groove_volume);
     w.column("cutter_ids", finish ? spec.finish_ids : spec.start_ids);
+    if (out.laser) encode_end_report(end.table, finish ? out.laser->finish : out.laser->start, w);
   }
 
   static void encode_lengths(const part::Lengths& lengths, Writer& o) {
@@ -198,6 +226,7 @@ struct Parts {
         {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
         {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
         {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
+        {"step", "model/step", &print<part_step>, {"straight", "smooth"}},
         {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},
         {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
     return kFormats;

@@ -29,6 +29,12 @@ struct NoGroove {};
 struct SquareCut {};
 using GrooveRule = std::variant<HalfDihedral, FixedGroove, NoGroove, SquareCut, ZonedGroove>;
 
+/// Angles the torch can take, of B.
+struct TorchRange {
+  Angle min = Angle::deg(-80);
+  Angle max = Angle::deg(80);
+};
+
 /// The angles of one point of the cut, rad.
 struct Angles {
   double dihedral = 0.0;  // of the kind asked for, 0..pi

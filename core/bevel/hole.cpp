@@ -143,6 +143,20 @@ Intervals runs(const std::vector<Node>& nodes, F holds) {
   return out;
 }
 
+const char* beyond_hint(Tilt tilt) {
+  switch (tilt) {
+    case Tilt::axial:
+      return "a swing in the axial plane alone cannot keep the hole's wall off the branch here; "
+             "tilt free can";
+    case Tilt::free:
+      return "the surfaces are too nearly tangent here";
+    case Tilt::none:
+      return "a head that does not tilt cannot keep the hole's wall off the branch here, or its "
+             "range leaves out 0; tilt free can";
+  }
+  return "";
+}
+
 Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
   auto open = runs(nodes, [](const WallLine& w) { return w.misses_bore; });
   if (!open.empty())
@@ -159,10 +173,7 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
                .got = std::move(beyond),
                .limit = spec.torch.max.deg(),
                .unit = "deg",
-               .hint = spec.tilt == Tilt::axial
-                           ? "a swing in the axial plane alone cannot keep the hole's wall off the "
-                             "branch here; tilt free can"
-                           : "the surfaces are too nearly tangent here"});
+               .hint = beyond_hint(spec.tilt)});
 }
 
 void note_lost(const HoleSpec& spec, const std::vector<Node>& nodes, std::vector<Warning>& out) {

@@ -15,7 +15,8 @@ using joint::JointKind;
 
 enum class Tilt {
   axial,  // the torch swings in the chord's axial plane only: the machines of this service
-  free    // it also tilts across: the wall has the asked groove all around
+  free,   // it also tilts across: the wall has the asked groove all around
+  none    // it does not tilt: the wall is square to the chord, as wide as the branch needs
 };
 
 /// The branch by the four numbers of its axis, or by its axis line; the direction points out of the

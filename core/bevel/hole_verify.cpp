@@ -45,11 +45,19 @@ void see(double& worst, double value) {
   worst = value > worst || value != value ? value : worst;
 }
 
-/// One node of a hole, rebuilt in space.
+/// One node of a hole, rebuilt in space. `root`: where the wall meets the branch, which of a wall
+/// square to the chord may be anywhere across it.
 struct Row {
   Vector3d outer, inner, root, torch_outer, torch_inner;
   Vector3d chord_normal, branch_normal;
 };
+
+/// The place between two points that is nearest to an axis.
+Vector3d nearest(const Vector3d& a, const Vector3d& b, const Axis& axis) {
+  const Vector3d from = axis.beside(a), way = axis.beside(b) - from;
+  const double square = way.squaredNorm();
+  return a + (square > 0.0 ? std::clamp(-from.dot(way) / square, 0.0, 1.0) : 0.0) * (b - a);
+}
 
 Row row(const HoleSpec& spec, const Hole& h, const Axis& axis, std::size_t i) {
   Row r;
@@ -61,6 +69,10 @@ Row row(const HoleSpec& spec, const Hole& h, const Axis& axis, std::size_t i) {
   const bool on = spec.kind == JointKind::set_on;
   r.root = on ? r.outer : r.inner;
   r.chord_normal = placed(1.0, on ? h.phi[i] : h.phi_inner[i], 0.0);
+  if (!on && spec.tilt == Tilt::none) {
+    r.root = nearest(r.inner, r.outer, axis);
+    r.chord_normal = Vector3d(r.root.x(), r.root.y(), 0.0).normalized();
+  }
   r.branch_normal = axis.beside(r.root).normalized();
   return r;
 }
@@ -77,7 +89,8 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
   const double off_outer = (r.outer - r.torch_outer).dot(cut);
   const double off_inner = (r.inner - r.torch_inner).dot(cut);
   see(p.kerf, 0.5 * spec.kerf - std::min(off_outer, off_inner));
-  see(p.kerf, std::abs(off_outer - off_inner));
+  // A head that does not tilt stands square where it is: not quite parallel to the wall.
+  if (spec.tilt != Tilt::none) see(p.kerf, std::abs(off_outer - off_inner));
   const Vector3d torch = r.torch_outer - r.torch_inner;
   const auto at = elementary::sincos(h.torch_phi[i]);
   const double height = torch.x() * at.cos + torch.y() * at.sin;

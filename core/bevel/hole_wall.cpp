@@ -64,6 +64,13 @@ struct WallLines::Corner {
   Vector3d chord, branch, rise;
   double dihedral;  // weld side
   double sine;      // of the dihedral
+
+  Corner(const Vector3d& of_chord, const Vector3d& of_branch) : chord(of_chord), branch(of_branch) {
+    const double facing = chord.dot(branch);
+    sine = chord.cross(branch).norm();
+    dihedral = elementary::atan2(sine, -facing);
+    rise = (chord - facing * branch) / sine;
+  }
 };
 
 WallLines::WallLines(const HoleSpec& spec, const joint::TubeCutter& branch, double radius,
@@ -143,24 +150,110 @@ WallLines::Direction WallLines::axial_direction(const Corner& c, const Vector3d&
   return out;
 }
 
+/// How far along the chord the branch's surface lies from a point, on its side towards +z or -z;
+/// empty where it lies beside the point.
+std::optional<double> WallLines::height_over(const Vector3d& point, double side) const {
+  const Vector3d from = point - frame_.foot;
+  const Vector3d beside = from - from.dot(frame_.axis) * frame_.axis;
+  const Vector3d along = Vector3d::UnitZ() - frame_.axis.z() * frame_.axis;
+  const double a = along.squaredNorm(), b = beside.dot(along);
+  const double square = b * b - a * (beside.squaredNorm() - radius_ * radius_);
+  if (!(square >= 0.0)) return std::nullopt;
+  return (side * std::sqrt(square) - b) / a;
+}
+
+// A line square to the chord from the root out enters the branch where that leans over it. The
+// branch's height over the line is concave: it is greatest at the line's end, or where the surface
+// is parallel to the line. The root moves along the chord by as much.
+WallLines::Corner WallLines::moved_clear(const Corner& c, const Vector3d& radial,
+                                         Vector3d& root) const {
+  if (root_outside_ || !(c.branch.dot(radial) < 0.0) || c.branch.z() == 0.0) return c;
+  const double side = c.branch.z() > 0.0 ? 1.0 : -1.0;
+  Vector3d touch = root;
+  double most = 0.0;
+  const auto see = [&](const Vector3d& at) {
+    const auto height = height_over(at, side);
+    if (!height || !(side * *height > side * most)) return;
+    most = *height;
+    touch = at;
+  };
+  const auto end = on_cylinder(root, radial, spec_.chord.outer_radius);
+  const double length = end ? radial.dot(*end - root) : 0.0;
+  if (end) see(*end);
+  const Vector3d across = radial.cross(Vector3d::UnitZ());
+  const Vector3d parallel = frame_.axis.cross(radial);
+  const double turn = side * parallel.z() < 0.0 ? -1.0 : 1.0;
+  const Vector3d foot = frame_.foot + turn * radius_ * parallel.normalized();
+  const double there =
+      radial.dot(foot + across.dot(root - foot) / across.dot(frame_.axis) * frame_.axis - root);
+  if (there > 0.0 && there < length) see(root + there * radial);
+  if (most == 0.0) return c;
+  touch.z() += most;
+  root.z() += most;
+  const Vector3d from = touch - frame_.foot;
+  return {radial_at(touch), (from - from.dot(frame_.axis) * frame_.axis).normalized()};
+}
+
+// The finished wall is square to the chord where its own root lies. The torch stands square beside
+// it: a little further off outside than on the bore, and nowhere nearer than asked.
+WallLine WallLines::square_line(const Vector3d& root, const Corner& met, double off) const {
+  const double inside = spec_.chord.inner_radius(), outside = spec_.chord.outer_radius;
+  WallLine out;
+  out.root = root;
+  const Vector3d radial = met.chord;
+  const auto c = moved_clear(met, radial, out.root);
+  const auto other = on_cylinder(out.root, radial, root_outside_ ? inside : outside);
+  out.outer = root_outside_ ? out.root : other.value_or(out.root);
+  out.inner = root_outside_ ? other.value_or(out.root) : out.root;
+  out.dihedral = c.dihedral;
+  const double up = radial.dot(c.rise), out_of = radial.dot(c.branch);
+  out.groove = elementary::atan2(out_of, up);
+  const Vector3d normal = (up * c.branch - out_of * c.rise) / elementary::hypot(up, out_of);
+  double by = off;
+  for (int round = 0; round < kKerfRounds; ++round) {
+    const Vector3d base = out.inner - by * normal;
+    const auto torch_outer = on_cylinder(base, radial_at(base), outside);
+    const auto torch_inner = on_cylinder(base, radial_at(base), inside);
+    out.misses_bore = !other || !torch_outer || !torch_inner;
+    out.torch_outer = torch_outer.value_or(base);
+    out.torch_inner = torch_inner.value_or(base);
+    const double lacks = off - std::min((out.outer - out.torch_outer).dot(normal),
+                                        (out.inner - out.torch_inner).dot(normal));
+    if (std::abs(lacks) <= kSettled * outside) break;
+    by += lacks;
+  }
+  // Beside the chord's middle plane the outline would have to turn back under the branch.
+  const bool beside = std::abs(frame_.foot.dot(frame_.across)) > radius_;
+  const bool reached = spec_.torch.min.rad() <= 0.0 && spec_.torch.max.rad() >= 0.0;
+  out.beyond_torch =
+      !reached || !(up > 0.0) || (!root_outside_ && beside && met.branch.dot(radial) < 0.0);
+  const bool measured = !root_outside_ && !std::holds_alternative<SquareCut>(spec_.groove);
+  if (measured) out.lost = std::max(0.0, asked_groove(c.dihedral) - out.groove);
+  return out;
+}
+
 WallLine WallLines::at(double phase, double off) const {
   const auto line = joint::generator_at(radius_, phase);
-  Corner c;
-  c.branch = line.cos_phi * frame_.x + line.sin_phi * frame_.y;
+  const Vector3d leaving = line.cos_phi * frame_.x + line.sin_phi * frame_.y;
   WallLine out;
-  out.root = frame_.foot + radius_ * c.branch + joint::continued_sheet(chord_, line) * frame_.axis;
-  c.chord = radial_at(out.root);
-  const double facing = c.chord.dot(c.branch);
-  c.sine = c.chord.cross(c.branch).norm();
-  c.dihedral = elementary::atan2(c.sine, -facing);
-  c.rise = (c.chord - facing * c.branch) / c.sine;
+  out.root = frame_.foot + radius_ * leaving + joint::continued_sheet(chord_, line) * frame_.axis;
+  const Corner c(radial_at(out.root), leaving);
   out.dihedral = c.dihedral;
 
   // The torch line runs inside the wall; its own axial plane is the one that counts.
   Vector3d base = out.root;
   Direction d;
   for (int round = 0; round < kKerfRounds; ++round) {
-    d = spec_.tilt == Tilt::free ? free_direction(c) : axial_direction(c, radial_at(base));
+    switch (spec_.tilt) {
+      case Tilt::axial:
+        d = axial_direction(c, radial_at(base));
+        break;
+      case Tilt::free:
+        d = free_direction(c);
+        break;
+      case Tilt::none:
+        return square_line(out.root, c, off);
+    }
     const double up = d.unit.dot(c.rise);
     const double out_of = d.unit.dot(c.branch);
     const Vector3d normal = (up * c.branch - out_of * c.rise) / elementary::hypot(up, out_of);

@@ -50,6 +50,11 @@ class WallLines {
     bool beyond = false;
   };
   [[nodiscard]] double asked_groove(double dihedral) const;
+  [[nodiscard]] std::optional<double> height_over(const Eigen::Vector3d& point, double side) const;
+  [[nodiscard]] Corner moved_clear(const Corner& corner, const Eigen::Vector3d& radial,
+                                   Eigen::Vector3d& root) const;
+  [[nodiscard]] WallLine square_line(const Eigen::Vector3d& root, const Corner& met,
+                                     double off) const;
   [[nodiscard]] Direction along_branch(const Corner& corner) const;
   [[nodiscard]] Direction free_direction(const Corner& corner) const;
   [[nodiscard]] Direction axial_direction(const Corner& corner,

@@ -84,6 +84,15 @@ Result<Table> build(const TableSetup& g, const std::vector<double>& also,
   return out;
 }
 
+/// The gaps of an untilted cut, beside those of a bevelled one that has all its rows.
+Result<void> map_gaps(const TableSetup& g, Table& out, const std::stop_token& stop) {
+  const auto bevelled = detail::flush_of(g.spec);
+  TRY(const auto other, detail::set_up(bevelled, stop));
+  TRY(const auto flush, build(other, out.phi, stop));
+  out.gaps = detail::gap_map(g, out, flush, stop);
+  return {};
+}
+
 }  // namespace
 
 Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
@@ -113,6 +122,7 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
     }
   if (!out) return out;
   detail::state_penetration(g, *out, stop);
+  if (spec.untilted) TRY(map_gaps(g, *out, stop));
   detail::lay_torch(spec, *out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (auto ok = check_spared(beam_cut(spec, *out), out->torch_line); !ok)

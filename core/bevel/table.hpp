@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <stop_token>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/bevel/angles.hpp"
 #include "core/bevel/beam.hpp"
+#include "core/bevel/gap_map.hpp"
 #include "core/bevel/penetration.hpp"
 #include "core/bevel/smoothing.hpp"
 #include "core/joint/intersection.hpp"
@@ -19,12 +19,6 @@ namespace tubecut::bevel {
 
 enum class RootSurface { inner, outer };
 enum class Contact { inner, outer, automatic, none };
-
-/// Angles the torch can take, of B.
-struct TorchRange {
-  Angle min = Angle::deg(-80);
-  Angle max = Angle::deg(80);
-};
 
 enum class Along { developed, length };
 
@@ -54,6 +48,7 @@ struct TableSpec {
   double coating = 0.0;    // thickness on every partner
   double kerf = 0.0;
   TorchRange torch;
+  bool untilted = false;  // the head stands square to the wall everywhere: see `table`
   Smoothing smoothing;
   Angle mutation_limit =
       Angle::deg(10);  // steps of the smoother's input above it are listed, with every method
@@ -70,6 +65,7 @@ struct Table {
   std::vector<double> b_raw, b_required,
       b;                     // rule within the torch range; least that keeps partners out; the cut
   std::vector<double> gap;   // root opening: z_inner less the envelope on the inner wall
+  GapMap gaps;               // of an untilted cut
   std::vector<double> beam;  // metal along the torch line
   std::vector<double> torch_inner, torch_outer;  // the torch axis, kerf applied
   BeamProof torch_line;                          // what the kerf takes and leaves along it
@@ -120,6 +116,10 @@ struct Table {
 /// lies flush at the depth, without groove. A root face of height f is a land from the inner edge
 /// to the radius r_in + f, square to the axis, or as steep as a partner makes it; the bevel begins
 /// at its outer edge, and `torch_*` is the bevel's line.
+///
+/// An `untilted` cut has B = 0 on every row, where an end is set in too; it goes with the square
+/// rule and any contact but inner. What that leaves open at both edges, and what a flush bevel of
+/// the same end would leave, stands in `gaps`.
 ///
 /// The torch's axis is lowered no further than a round beam of the kerf's width needs to stay out
 /// of the finished part, rows and what lies between them (`torch_line`). With a tolerance it also

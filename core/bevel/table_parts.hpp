@@ -32,6 +32,13 @@ struct TableSetup {
 };
 [[nodiscard]] Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop);
 
+/// The same end with a flush bevel, for comparison: root on the inner wall, lifted where the torch
+/// ends, no kerf.
+[[nodiscard]] TableSpec flush_of(const TableSpec& spec);
+/// Distances of both edges to the partners, of this table and of the flush one.
+[[nodiscard]] GapMap gap_map(const TableSetup& g, const Table& cut, const Table& flush,
+                             const std::stop_token& stop);
+
 /// One side of one node before smoothing. Angles in rad.
 struct Point {
   std::size_t cutter = 0;

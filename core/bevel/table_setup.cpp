@@ -32,6 +32,19 @@ Result<void> check_stated(const TableSpec& spec) {
   return {};
 }
 
+/// B = 0 must be what is asked for and what the torch can do.
+Result<void> check_untilted(const TableSpec& spec) {
+  if (!spec.untilted) return {};
+  const bool reached = spec.torch.min.rad() <= 0.0 && spec.torch.max.rad() >= 0.0;
+  const bool square = std::holds_alternative<SquareCut>(spec.groove);
+  if (reached && square && spec.contact != Contact::inner) return {};
+  return fail({.code = ErrorCode::unsupported_combination,
+               .member = !square   ? "groove/rule"
+                         : reached ? "contact"
+                                   : "torch",
+               .hint = "an untilted head cuts B = 0 alone"});
+}
+
 Result<void> check(const TableSpec& spec) {
   if (!(spec.root_face >= 0.0 && spec.root_face < spec.target.wall))
     return fail({.code = ErrorCode::out_of_range,
@@ -52,6 +65,7 @@ Result<void> check(const TableSpec& spec) {
                  .member = "root_face",
                  .hint = "a root face goes with contact inner"});
   if (auto ok = check_stated(spec); !ok) return ok;
+  if (auto ok = check_untilted(spec); !ok) return ok;
   return check_groove(spec.groove);
 }
 
@@ -128,7 +142,7 @@ Point point(const TableSetup& g, double phi, const joint::Hit& hit, std::size_t 
   const auto line = joint::generator_at(g.root.radius, phi);
   Point out{.cutter = cutter};
   const bool published = g.spec.dihedral == Dihedral::as_published;
-  const auto& rule = set_in(g.spec, cutter) ? g.flush : g.rule;
+  const auto& rule = set_in(g.spec, cutter) && !g.spec.untilted ? g.flush : g.rule;
   out.angles =
       rule.angles(published ? joint::published_normal(g.root.cutters[cutter], line) : hit.normal);
   const auto& torch = g.spec.torch;

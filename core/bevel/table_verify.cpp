@@ -214,6 +214,30 @@ void penetration_checks(const TableSpec& spec, const Table& t,
     out.push_back({"penetration_between", std::max(p.depth, found), penetration_limit(spec), "mm"});
 }
 
+/// The gaps of an untilted cut: from each edge its gap back along the nearest partner's normal lies
+/// that partner's surface, and none nearer.
+double gaps_off(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
+                const std::stop_token& stop) {
+  double worst = t.gaps.square.inner.size() == t.phi.size() ? 0.0 : 1.0;
+  const auto edge = [&](const std::vector<double>& gaps, double radius,
+                        const std::vector<double>& z) {
+    for (std::size_t i = 0; i < gaps.size() && !stop.stop_requested(); ++i) {
+      const auto turn = elementary::sincos(t.phi[i]);
+      const Vector3d at(radius * turn.cos, radius * turn.sin, z[i]);
+      double off = std::numeric_limits<double>::infinity();
+      for (const auto& solid : solids) {
+        const double foot = solid.distance(at - gaps[i] * solid.normal(at));
+        off = std::min(off, std::abs(foot));
+        worst = std::max(worst, gaps[i] - solid.distance(at));
+      }
+      worst = off > worst || off != off ? off : worst;
+    }
+  };
+  edge(t.gaps.square.inner, spec.target.inner_radius(), t.z_inner);
+  edge(t.gaps.square.outer, spec.target.outer_radius, t.z_outer);
+  return worst;
+}
+
 }  // namespace
 
 std::optional<SmoothedArea> smoothed_area(const TableSpec& spec, const Table& t) {
@@ -262,6 +286,8 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   out.push_back({"torch_range", beyond, kAngle, "deg"});
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
   if (lifted) out.push_back({"touch", off, kPenetration, "mm"});
+  if (spec.untilted)
+    out.push_back({"gap_map", gaps_off(spec, t, solids, stop), kPenetration, "mm"});
   penetration_checks(spec, t, solids, deep, out, stop);
   for (auto& check : verify_torch_line(beam_cut(spec, t), t.torch_line, stop))
     out.push_back(std::move(check));

@@ -100,6 +100,9 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
   for (auto column : {&bevel::Table::dihedral, &bevel::Table::groove, &bevel::Table::gamma,
                       &bevel::Table::gap, &bevel::Table::beam})
     out.*column = picked(in.*column, order);
+  for (auto map : {&bevel::GapMap::square, &bevel::GapMap::bevelled})
+    for (auto edge : {&bevel::EdgeGaps::inner, &bevel::EdgeGaps::outer})
+      out.gaps.*map.*edge = picked(in.gaps.*map.*edge, order);
   out.inner_events = mirrored(in.inner_events, length);
   out.outer_events = mirrored(in.outer_events, length);
   mirror_lists(in, out);

@@ -19,7 +19,7 @@ function types(contract, schema) {
   return [schema.type].flat().map((type) => (type === 'integer' ? 'number' : type));
 }
 
-// The branch of a oneOf that holds the value; of objects the one whose constants and required members are there.
+// The branch of a oneOf that holds the value; of objects the one whose constants and required members are there, and that knows most of its names.
 export function branchOf(contract, schema, value) {
   if (schema === true || !schema.oneOf) return schema;
   const fits = (branch) => {
@@ -28,7 +28,9 @@ export function branchOf(contract, schema, value) {
     return (branch.required ?? []).every((name) => name in value) &&
       Object.entries(branch.properties ?? {}).every(([name, p]) => !words(p) || !(name in value) || words(p).includes(value[name]));
   };
-  return branchOf(contract, schema.oneOf.map((b) => contract.resolve(b)).find(fits), value);
+  const strange = ({properties}) => (properties && value !== null && typeof value === 'object' ? Object.keys(value).filter((name) => !(name in properties)).length : 0);
+  const [best] = schema.oneOf.map((b) => contract.resolve(b)).filter(fits).sort((a, b) => strange(a) - strange(b));
+  return branchOf(contract, best, value);
 }
 
 const words = (schema) => ('const' in schema ? [schema.const] : schema.enum);
@@ -50,6 +52,13 @@ function impliedTag(contract, whole) {
   const names = new Set(branches.flatMap((b) => Object.keys(b.properties)));
   return [tag, ...[...names].filter((name) => !branches.every((b) => b.properties[name]))];
 }
+
+// Does a member by its one word tell its branch from others that have no such member, as a preset does? With it or without it, the object is another.
+export const selects = (contract, whole, name) => {
+  const branches = (whole.oneOf ?? []).map((b) => contract.resolve(b)).filter((b) => b.properties);
+  const has = branches.filter((b) => b.properties[name] && 'const' in b.properties[name] && b.required?.includes(name));
+  return has.length > 0 && branches.some((b) => !b.properties[name]) && branches.every((b) => !b.properties[name] || has.includes(b));
+};
 
 // The groups of members of which an object has exactly one, as allOf: [{oneOf: [{required: [a]}, {required: [b]}]}].
 export const groups = (schema) => (schema.allOf ?? []).map(({oneOf}) => oneOf.map(({required}) => required[0]));
@@ -113,7 +122,7 @@ export function edits(contract, requestSchema, body) {
     const at = (name) => `${pointer}/${escape(name)}`;
     const group = (name) => (either.includes(name) ? either.filter((n) => n !== name).map(at) : []);
     for (const name of Object.keys(value)) {
-      add('missing', [...path, name], (parent, key) => { delete parent[key]; }, at(name), ...group(name));
+      if (!selects(contract, whole, name)) add('missing', [...path, name], (parent, key) => { delete parent[key]; }, at(name), ...group(name));
     }
     const known = Object.keys(schema.properties ?? {});
     const strange = known.map((name) => `${name.slice(0, -1)}${name.endsWith('x') ? 'y' : 'x'}`);

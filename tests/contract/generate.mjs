@@ -214,6 +214,12 @@ export function sound(contract, endpoint) {
   return own[endpoint.id] ?? nearExamples(contract, endpoint);
 }
 
+// Cut square by a tube laser: what its preset chooses is said or left out.
+const untilted = joined(fc.record({preset: fc.constant('tube_laser'), kerf_mm: between(0, 1)}),
+  fc.oneof(fc.constant({}), fc.record({root_surface: fc.constantFrom('inner', 'outer'), contact: fc.constant('none')}), fc.record({contact: fc.constant('auto')})),
+  maybe('groove', fc.constantFrom({}, {rule: 'square'})), maybe('smoothing', fc.constantFrom({}, {method: 'none'})), maybe('root_face_mm', fc.constant(0)));
+const laserAccept = fc.record({max_gap_mm: between(0, 5), max_reach_mm: between(0, 300), min_tongue_mm: between(0, 40), max_root_gap_mm: between(0, 2)}, {requiredKeys: []});
+
 const holeAccept = fc.record({max_root_gap_mm: between(0, 2), max_b_deg: between(10, 80)}, {requiredKeys: []});
 // hermite asks for a bare grid.
 const tables = fc.record({
@@ -225,8 +231,9 @@ const tables = fc.record({
 
 const own = {
   intersections: joined(joint, sampling, maybe('surfaces', fc.constantFrom('inner', 'outer', 'both')), common),
-  holes: joined(hole, fc.record({joint: holeJoint, groove, kerf_mm: between(0, 4)}), maybe('tilt', fc.constantFrom('axial', 'free')), sampling,
+  holes: joined(hole, fc.record({joint: holeJoint, groove, kerf_mm: between(0, 4)}), maybe('tilt', fc.constantFrom('axial', 'free', 'none')), sampling,
     maybe('torch', torch), maybe('accept', holeAccept), common),
   nodes: joined(connected, fc.oneof(fc.constant({}), fc.constant({include: ['profiles']}), tables), sampling, common),
-  'bevel-tables': joined(joint, ways, fc.record({groove, kerf_mm: between(0, 4)}), maybe('torch', torch), maybe('accept', accept), common),
+  'bevel-tables': fc.oneof({weight: 4, arbitrary: joined(joint, ways, fc.record({groove, kerf_mm: between(0, 4)}), maybe('torch', torch), maybe('accept', accept), common)},
+    {weight: 1, arbitrary: joined(joint, untilted, sampling, maybe('torch', torch), maybe('accept', laserAccept), common)}),
 };

@@ -23,7 +23,9 @@ export class Service {
 
   constructor(child, ready) {
     this.child = child;
-    process.once('exit', () => child.kill('SIGKILL'));  // also when the test itself fails
+    const kill = () => child.kill('SIGKILL');
+    process.once('exit', kill);  // also when the test itself fails
+    child.once('exit', () => process.removeListener('exit', kill));
     this.port = ready.port;
     this.agent = new http.Agent({keepAlive: true, maxSockets: CONNECTIONS});
     this.asked = 0;

@@ -4,13 +4,12 @@ import json
 import math
 import pathlib
 import re
-import subprocess
 import sys
 import unittest
-import urllib.error
-import urllib.request
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from running import ROOT, Running  # noqa: E402
+
 BINARY = ""
 
 
@@ -19,23 +18,19 @@ class Service(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.child = subprocess.Popen([BINARY, "--port", "0", "--admin-port", "0", "--budget-s", "30"], stdout=subprocess.PIPE)
-        cls.url = f"http://127.0.0.1:{json.loads(cls.child.stdout.readline())['port']}/v1/"
+        cls.service = Running(BINARY, "--budget-s", "30")
 
     @classmethod
     def tearDownClass(cls):
-        cls.child.terminate()
-        cls.child.wait()
-        cls.child.stdout.close()
+        cls.service.stop()
 
     def get(self, name):
-        with urllib.request.urlopen(self.url + name, timeout=60) as reply:
-            return json.load(reply)
+        return json.loads(self.service.get("/v1/" + name))
 
-    def post(self, endpoint, body):
-        request = urllib.request.Request(self.url + endpoint, json.dumps(body).encode(), {"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=60) as reply:
-            return json.load(reply)
+    def post(self, endpoint, body, wanted=200):
+        status, _, content = self.service.post("/v1/" + endpoint, json.dumps(body).encode())
+        self.assertEqual(status, wanted, content[:400])
+        return json.loads(content)
 
 
 def section(page, title):
@@ -123,6 +118,28 @@ class WorkedPart(Service):
         self.assertEqual([one["what"] for one in result["sequence"]], ["mark", "mark", "finish", "start"])
 
 
+class TubeLaser(Service):
+    """docs/joints.md: the branch that a tube laser cuts, and what its preset chooses."""
+
+    def test_its_answer(self):
+        text = section("joints.md", "Cut by a tube laser")
+        asked = json.loads((ROOT / "examples/bevel-tables/tube-laser-branch.json").read_text())
+        answer = self.post("bevel-tables", asked)
+        chosen, told = text.split("**The gap that stays open.**")
+        self.assertEqual(len(rows(chosen)), 5)
+        for field in ("groove", "smoothing", "root_face_mm", "contact", "root_surface", "torch"):
+            self.assertIn(field, names(chosen))
+            self.assertIn(field, answer["request"])
+        self.assertEqual(len(rows(told)), 5)
+        for path, value, _ in rows(told):
+            with self.subTest(path):
+                self.assertEqual(f"{member_of(answer['result'], path.strip('`')):.{len(value.partition('.')[2])}f}", value)
+        limits = {name for name in names(told) if re.match("(max|min)_[a-z_]+_mm$", name)}
+        chord = json.loads((ROOT / "examples/parts/tube-laser-chord.json").read_text())
+        self.assertEqual(limits, set(chord["accept"]))
+        self.assertEqual(self.post("parts", chord)["verdict"]["status"], "ok")
+
+
 class Readme(Service):
     """README.md: the request that it shows, and the refusal."""
 
@@ -130,10 +147,7 @@ class Readme(Service):
         request, refusal = map(json.loads, re.findall(r"^```json\n(.*?)^```", (ROOT / "README.md").read_text(), re.MULTILINE | re.DOTALL))
         self.assertEqual(self.post("bevel-tables", request)["verdict"]["status"], "ok")
         request["target"]["wall_mm"] = 0
-        with self.assertRaises(urllib.error.HTTPError) as refused:
-            self.post("bevel-tables", request)
-        with refused.exception as answer:
-            self.assertEqual(json.load(answer)["errors"], [refusal])
+        self.assertEqual(self.post("bevel-tables", request, 422)["errors"], [refusal])
 
 
 class Joints(Service):

@@ -5,9 +5,10 @@ import {Form} from './form';
 import {clone, type Row} from './json';
 import {askForKey, keyed, KeyNeeded} from './key';
 import {point} from './links';
-import {endpointName, endpointOrder, exampleName} from './names';
+import {endpointName, endpointOrder, exampleName, tabs} from './names';
 import * as panels from './panels';
 import type {Picture} from './picture';
+import * as preset from './preset';
 import {pictured} from './pictures';
 import {contextOf, without, type Context} from './pictures/context';
 import {motionFacts, scheduleCharts} from './pictures/machine';
@@ -27,13 +28,6 @@ interface State {
 }
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
-const tabs: [string, string][] = [
-  ['proof', 'Proof'],
-  ['motion', 'Pulses and speed'],
-  ['table', 'Table'],
-  ['json', 'JSON'],
-  ['downloads', 'Downloads'],
-];
 
 class Console {
   private readonly latest = new Latest();
@@ -64,6 +58,7 @@ class Console {
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
     this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
+    byId('preset').addEventListener('click', () => this.press());
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
     byId('share').addEventListener('click', () => void this.share());
     byId('forget').addEventListener('click', () => void this.forget());
@@ -118,9 +113,17 @@ class Console {
     this.compute();
   }
 
+  /** Cuts square, or again as before. */
+  private press(): void {
+    const {body, endpoint} = this.state;
+    preset.toggle(body, this.answer?.request);
+    this.form.show(this.contract.request(path(endpoint)) ?? {}, body);
+    this.edited();
+  }
+
   private edited(): void {
     this.state.edited = true;
-    byId('reset').hidden = this.state.example === undefined;
+    this.drawPick();
     this.compute();
   }
 
@@ -223,12 +226,7 @@ class Console {
   /** The 3D code is large and comes when it is first needed. */
   private async build(root: HTMLElement): Promise<Stage | null> {
     const canvas = el('div', {class: 'canvas'});
-    root.replaceChildren(
-      canvas,
-      el('div', {class: 'switches', id: 'switches'}),
-      el('div', {class: 'scale', 'aria-hidden': 'true'}, 'B −30°', el('i'), '60°'),
-      el('dl', {id: 'readout'}),
-    );
+    root.replaceChildren(canvas, el('div', {class: 'switches', id: 'switches'}), el('div', {class: 'scale', id: 'scale'}), el('dl', {id: 'readout'}));
     try {
       const {Stage: Made} = await import('./scene/stage');
       return new Made(canvas);
@@ -289,7 +287,9 @@ class Console {
         : []),
       el('button', {type: 'button', title: 'Back to the first view', onclick: () => void this.stage?.then((stage) => stage?.reset())}, 'Reset view'),
     );
-    document.querySelector<HTMLElement>('#solid .scale')?.toggleAttribute('hidden', !picture.solid?.tubes.some((t) => t.b) && !picture.solid?.holed);
+    const [low, high] = picture.solid?.scale ?? ['B −30°', '60°'];
+    byId('scale').replaceChildren(low, el('i'), high);
+    byId('scale').hidden = !picture.solid?.tubes.some((t) => t.b) && !picture.solid?.holed;
   }
 
   private drawNavigation(): void {
@@ -308,6 +308,8 @@ class Console {
       ...own.map((each) => el('option', {value: each.name, selected: each.name === example}, exampleName(each.name))),
     );
     byId('reset').hidden = !edited || example === undefined;
+    byId('preset').hidden = !preset.offered(this.contract, this.contract.request(path(endpoint)));
+    byId('preset').setAttribute('aria-pressed', String(preset.pressed(this.state.body)));
     byId<HTMLButtonElement>('share').disabled = this.lost;
     for (const link of byId('endpoints').querySelectorAll('a')) link.toggleAttribute('aria-current', link.dataset['endpoint'] === endpoint);
     document.title = endpoint ? `${endpointName(endpoint)} – tubecut` : 'tubecut';
@@ -363,13 +365,8 @@ class Console {
     else if (state.tab === 'proof')
       panel.append(...(this.picture?.tables?.length ? [el('div', {class: 'columns'}, ...this.picture.tables.map(panels.table))] : []), panels.proof(answer));
     else if (state.tab === 'table') panel.append(panels.columns(answer));
-    else if (state.tab === 'downloads') panel.append(this.offers(name));
+    else if (state.tab === 'downloads') panel.append(panels.downloads(state.endpoint, name, state.body, this.contract.formats(path(state.endpoint))));
     else if (state.tab === 'motion') this.fillMotion(panel).catch((failure) => this.trouble(failure));
-  }
-
-  private offers(name: string): HTMLElement {
-    const {endpoint, body} = this.state;
-    return panels.downloads(endpoint, name, body, this.contract.formats(path(endpoint)));
   }
 
   /** The pulses of this cut on a machine, at a speed: the next job in line, shown without leaving this one. */

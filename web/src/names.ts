@@ -99,3 +99,12 @@ export function short4(value: number): string {
   if (size >= 1e7 || size < 1e-4) return value.toExponential(1).replace('e+', 'e');
   return String(Number(value.toPrecision(size >= 1000 ? 6 : 4)));
 }
+
+/** What stands under the pictures. */
+export const tabs: [string, string][] = [
+  ['proof', 'Proof'],
+  ['motion', 'Pulses and speed'],
+  ['table', 'Table'],
+  ['json', 'JSON'],
+  ['downloads', 'Downloads'],
+];

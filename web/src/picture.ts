@@ -73,6 +73,13 @@ export interface Frame {
   z: Vector;
 }
 
+/** How far the edges of a cut stand off their partner, mm; instead of the bevel it tints the cut, up to `most`. */
+export interface Gaps {
+  inner: number[];
+  outer: number[];
+  most: number;
+}
+
 /** One cut end, in its own frame: z along the axis into the kept member, phi from x towards y. Degrees, mm. */
 export interface CutTube {
   frame?: Frame;
@@ -83,6 +90,7 @@ export interface CutTube {
   zOuter: number[];
   before?: {zInner: number[]; zOuter: number[]; b: number[]};
   b?: number[];
+  gaps?: Gaps;
   far: number;
   marks: {phi: number; z: number; radius: number}[];
   tone: number | 'target';
@@ -93,6 +101,7 @@ export interface EndCurve {
   zInner: number[];
   zOuter: number[];
   b?: number[];
+  gaps?: Gaps;
 }
 /** A member between two ends, with its holes; in the frame of the curves. */
 export interface HoledTube {
@@ -100,7 +109,7 @@ export interface HoledTube {
   inner: number;
   from: EndCurve;
   to: EndCurve;
-  holes: {outer: {phi: number[]; z: number[]}; inner: {phi: number[]; z: number[]}; b: number[]}[];
+  holes: {outer: {phi: number[]; z: number[]}; inner: {phi: number[]; z: number[]}; b: number[]; gaps?: Gaps}[];
 }
 export type Partner =
   | {kind: 'tube'; point: Vector; direction: Vector; radius: number; half: number; tone: number}
@@ -125,6 +134,8 @@ export interface Solid {
   up?: Vector;
   centre: Vector;
   size: number;
+  /** What the two ends of the tint are; the bevel's range without it. */
+  scale?: [string, string];
 }
 
 /** Columns of the answer as numbers. */

@@ -1,6 +1,6 @@
 // The fields of every object of a request in the contract are those its reader knows, both ways: a name unlike any other gets
 // the list of those known there. A name known beside them, of another kind of the object for example, must be refused.
-import {branchOf, escape} from '../edits.mjs';
+import {branchOf, escape, selects} from '../edits.mjs';
 import {drawn, fromSchema, sound} from '../generate.mjs';
 import {each} from '../service.mjs';
 
@@ -39,7 +39,7 @@ function* objects(contract, given, value, pointer = '') {
     for (const [i, item] of value.entries()) yield* objects(contract, schema.items, item, `${pointer}/${i}`);
     return;
   }
-  if (closed(schema)) yield {object: value, pointer, schema};
+  if (closed(schema)) yield {object: value, pointer, schema, whole};
   for (const [name, item] of Object.entries(value)) yield* objects(contract, schema.properties?.[name], item, `${pointer}/${escape(name)}`);
 }
 
@@ -94,7 +94,7 @@ class Known {
 
   async judge(body, place, name) {
     const judged = this.beside.get(place.schema) ?? new Set();
-    if (judged.has(name)) return;
+    if (judged.has(name) || selects(this.contract, place.whole, name)) return;
     this.beside.set(place.schema, judged.add(name));
     this.report.expect(await refused(this.service, this.endpoint, body, place, name), `${this.endpoint.id} ${place.pointer || '/'}`,
       `the reader knows ${name}, the contract does not, and it is not refused`);

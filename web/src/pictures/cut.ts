@@ -3,6 +3,7 @@ import {label, short4} from '../names';
 import {column, type Band, type Chart, type CutTube, type Mark, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
 import type {Context} from './context';
+import {gapChart, gapFigures, gapsOf, gapScale} from './gaps';
 import {bounds, partner, radians, tube, type Sizes} from './geometry';
 
 interface Joint {
@@ -98,11 +99,13 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
     },
     wrapChart(phi, z('z_outer_mm'), z('z_inner_mm'), partners, given.outer / 2, link, given.names),
   ];
+  const {gaps} = cut;
+  if (gaps) charts.splice(0, 1, gapChart(points, shared));
   return {
-    solid: solidOf(cut, given, sizes, link),
+    solid: {...solidOf(cut, given, sizes, link), ...(gaps ? {scale: gapScale(gaps.most)} : {})},
     charts,
-    beforeAfter: true,
-    figures: figuresOf(result, events.length, b, raw),
+    beforeAfter: !gaps,
+    figures: gaps ? gapFigures(result) : figuresOf(result, events.length, b, raw),
     tables: tablesOf(result, given.names),
     readout: (i) => readout(points, given.names, i),
   };
@@ -143,6 +146,7 @@ function cutOf(request: Row, result: Row, given: Joint): CutTube {
     zInner,
     zOuter,
     b,
+    gaps: gapsOf(points),
     before: {
       b: raw,
       zInner: atInner ? zInner : zInner.map((z, i) => z + (shift[i] as number)),
@@ -253,6 +257,12 @@ function readout(points: Row, names: string[], i: number): [string, string][] {
     ['z inner', `${value('z_inner_mm')} mm`],
     ['root gap', `${value('gap_mm')} mm`],
     ['metal in beam', `${value('beam_mm')} mm`],
+    ...(points['gap_outer_mm']
+      ? ([
+          ['gap outside', `${value('gap_outer_mm')} mm`],
+          ['gap inside', `${value('gap_inner_mm')} mm`],
+        ] as [string, string][])
+      : []),
   ];
 }
 

@@ -1,9 +1,11 @@
 import {isRow, type Row} from '../json';
 import {label, sentence, unit} from '../names';
+import {pressed} from '../preset';
 import {column, type EndCurve, type Frame, type Partner, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
 import type {Context} from './context';
 import {tablePicture} from './cut';
+import {gapScale, gapsOf, webFigures} from './gaps';
 import {table, text} from './generic';
 import {bounds, frame, onTube, partner, placed, seenFrom, tube, type Sizes} from './geometry';
 import {holeCharts, opening} from './hole';
@@ -30,14 +32,15 @@ export async function part(_: Row, answer: Answer, context: Context): Promise<Pi
   return {
     solid: solidOf(request, result, {outer, wall}, context.sizes),
     charts: [...charts, ...holes.flatMap((hole, i) => holeCharts(hole, i, holes.length, outer / 2))],
-    figures: Object.entries(result['lengths'] as Row).map(([k, v]) => ({name: label(k), value: text(v), unit: unit(k)})),
+    figures: [...webFigures(result), ...Object.entries(result['lengths'] as Row).map(([k, v]) => ({name: label(k), value: text(v), unit: unit(k)}))],
     tables: ['check_dimensions', 'sequence'].filter((key) => rowsOf(result[key]).length).map((key) => table(key, rowsOf(result[key]))),
   };
 }
 
 function endCurve(end: Row): EndCurve {
   const points = end['points'] as Row;
-  return {phi: column(points['phi_deg']), zInner: column(points['z_inner_mm']), zOuter: column(points['z_outer_mm']), b: column(points['b_deg'])};
+  const gaps = gapsOf(points);
+  return {phi: column(points['phi_deg']), zInner: column(points['z_inner_mm']), zOuter: column(points['z_outer_mm']), b: column(points['b_deg']), gaps};
 }
 
 /** The member on its side, the datum line up, its start to the left. */
@@ -45,12 +48,15 @@ function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall:
   const ends = result['ends'] as Row;
   const [from, to] = [endCurve(ends['start'] as Row), endCurve(ends['finish'] as Row)];
   const [low, high] = bounds([...from.zInner, ...from.zOuter, ...to.zInner, ...to.zOuter]);
-  const holes = rowsOf(result['holes']).map((hole) => opening(hole['points'] as Row));
+  const openings = rowsOf(result['holes']).map((hole) => ({...opening(hole['points'] as Row), fit: hole['fit_up'] as Row}));
+  const cuts = laser(request, [from, to], openings);
+  const holes = openings.map((hole, i) => ({...hole, gaps: cuts?.holes[i]}));
   const datum = rowsOf(result['marks']).filter((mark) => mark['kind'] === 'datum_line');
   return {
     link: 'part',
     tubes: [],
-    holed: [{outer: outer / 2, inner: outer / 2 - wall, from, to, holes}],
+    holed: [{outer: outer / 2, inner: outer / 2 - wall, from: {...from, gaps: cuts?.ends[0]}, to: {...to, gaps: cuts?.ends[1]}, holes}],
+    ...(cuts ? {scale: gapScale(cuts.most)} : {}),
     lines: datum.map((mark) => ({
       points: [mark['z_from_mm'], mark['z_to_mm']].map((z) => onTube(1.002 * (outer / 2), Number(mark['phi_deg']), Number(z))),
       tone: 'mark',
@@ -61,6 +67,17 @@ function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall:
     eye: [0.55, 1, -0.45],
     up: [1, 0, 0],
   };
+}
+
+/** The gaps of every cut on one scale, of a part that is cut square; an end that nothing is welded to has none. */
+function laser(request: Row, ends: EndCurve[], holes: {fit: Row}[]) {
+  if (!pressed(request)) return undefined;
+  const fits = holes.map(({fit}) => ({inner: column(fit['root_mm']), outer: column(fit['face_mm'])}));
+  const all = [...ends.flatMap(({gaps}) => gaps ?? []), ...fits];
+  const most = all.reduce((a, {inner, outer}) => Math.max(a, ...bounds([...inner, ...outer])), 0);
+  const scaled = (gaps: {inner: number[]; outer: number[]}) => ({...gaps, most});
+  const none = ({phi}: EndCurve) => ({inner: phi.map(() => 0), outer: phi.map(() => 0)});
+  return {most, ends: ends.map((end) => scaled(end.gaps ?? none(end))), holes: fits.map(scaled)};
 }
 
 /** The tubes that cut the ends, and those whose holes it has, where they are in the part's frame. */

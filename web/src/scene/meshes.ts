@@ -26,7 +26,7 @@ import {
   type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
-import type {CutTube, EndCurve, Frame, HoledTube, Partner, Ribbon, Vector} from '../picture';
+import type {CutTube, EndCurve, Frame, Gaps, HoledTube, Partner, Ribbon, Vector} from '../picture';
 
 const radians = Math.PI / 180;
 const toVector = (v: Vector) => new Vector3(...v);
@@ -35,14 +35,23 @@ let stops: Color[] = [];
 let rampOf: string | null = null;
 
 /** Colour of a bevel of so many degrees: flat cuts cool, steep ones warm. */
-export function ramp(degrees: number, into: Color): Color {
-  const t = Math.min(1, Math.max(0, (degrees + 30) / 90));
+export const ramp = (degrees: number, into: Color) => shade((degrees + 30) / 90, into);
+
+function shade(share: number, into: Color): Color {
+  const t = Math.min(1, Math.max(0, share));
   const theme = document.documentElement.dataset['theme'] ?? '';
   if (theme !== rampOf) {
     stops = ['bevel-low', 'bevel-mid', 'bevel-high'].map((name) => new Color(colour(name)));
     rampOf = theme;
   }
   return t < 0.5 ? into.lerpColors(stops[0] as Color, stops[1] as Color, 2 * t) : into.lerpColors(stops[1] as Color, stops[2] as Color, 2 * t - 1);
+}
+
+/** Of each edge's point: by its gap where gaps are shown, else both edges by the bevel. */
+type Tint = (i: number, outer: boolean) => Color;
+function tintOf(b: number[] | undefined, gaps: Gaps | undefined): Tint | undefined {
+  if (gaps) return (i, outer) => shade(((outer ? gaps.outer : gaps.inner)[i] as number) / (gaps.most || 1), new Color());
+  return b && ((i) => ramp(b[i] as number, new Color()));
 }
 
 export function matrix(frame: Frame | undefined): Matrix4 {
@@ -54,7 +63,7 @@ export function matrix(frame: Frame | undefined): Matrix4 {
 const around = (radius: number, phi: number, z: number): Vector => [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
 
 /** Quads between two rows of points, closed round; normals as given or from the faces. */
-function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], Vector[]], tint?: (i: number) => Color): BufferGeometry {
+function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], Vector[]], tint?: Tint): BufferGeometry {
   const positions: number[] = [],
     directions: number[] = [],
     colours: number[] = [],
@@ -63,8 +72,7 @@ function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], V
     positions.push(...p, ...(b[i] as Vector));
     if (normals) directions.push(...(normals[0][i] as Vector), ...(normals[1][i] as Vector));
     if (tint) {
-      const c = tint(i);
-      colours.push(c.r, c.g, c.b, c.r, c.g, c.b);
+      for (const c of [tint(i, false), tint(i, true)]) colours.push(c.r, c.g, c.b);
     }
   });
   const count = closed ? a.length : a.length - 1;
@@ -122,7 +130,7 @@ export function cutTube(tube: CutTube, before: boolean): Group {
   outside.name = 'wall';
   group.add(outside, new Mesh(strip(innerFar, innerEdge, true, [into, into]), steel('bore')));
   const b = before && tube.before ? tube.before.b : tube.b;
-  const tint = b ? (i: number) => ramp(b[i] as number, new Color()) : undefined;
+  const tint = tintOf(b, tube.gaps);
   const bevel = new Mesh(strip(innerEdge, outerEdge, true, undefined, tint), face(Boolean(tint)));
   bevel.name = 'wall';
   group.add(bevel, new Mesh(strip(innerFar, outerFar, true), steel('bore')));
@@ -163,18 +171,14 @@ export function holedTube(tube: HoledTube): Group {
   for (const hole of tube.holes) {
     const inside = hole.inner.phi.map((p, i) => around(tube.inner, p, hole.inner.z[i] as number));
     const outside = hole.outer.phi.map((p, i) => around(tube.outer, p, hole.outer.z[i] as number));
-    const bevel = new Mesh(
-      strip(inside, outside, true, undefined, (i) => ramp(hole.b[i] as number, new Color())),
-      face(true),
-    );
+    const bevel = new Mesh(strip(inside, outside, true, undefined, tintOf(hole.b, hole.gaps)), face(true));
     group.add(bevel, outline(inside, 'edge'), outline(outside, 'edge'));
   }
   for (const end of [tube.from, tube.to]) {
     const inside = end.phi.map((p, i) => around(tube.inner, p, end.zInner[i] as number));
     const outside = end.phi.map((p, i) => around(tube.outer, p, end.zOuter[i] as number));
-    const {b} = end;
-    const tint = b ? (i: number) => ramp(b[i] as number, new Color()) : undefined;
-    group.add(new Mesh(strip(inside, outside, true, undefined, tint), b ? face(true) : steel('bore')), outline(inside, 'edge'), outline(outside, 'edge'));
+    const tint = tintOf(end.b, end.gaps);
+    group.add(new Mesh(strip(inside, outside, true, undefined, tint), tint ? face(true) : steel('bore')), outline(inside, 'edge'), outline(outside, 'edge'));
   }
   return group;
 }

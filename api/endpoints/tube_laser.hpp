@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "api/reader.hpp"
+#include "api/verdict.hpp"
+#include "api/writer.hpp"
+#include "core/bevel/table.hpp"
+#include "core/bevel/tongue.hpp"
+#include "core/part/webs.hpp"
+
+namespace tubecut::api {
+
+/// A set of choices that a request makes by one word.
+enum class Preset { none, tube_laser };
+[[nodiscard]] Preset decode_preset(Reader& in);
+
+/// What `accept` may hold of an end besides a bevel's own limits, and of a part besides an end's.
+inline constexpr std::array<std::string_view, 3> kEndAccepts{"max_gap_mm", "max_reach_mm",
+                                                             "min_tongue_mm"};
+inline constexpr std::array<std::string_view, 3> kPartAccepts{"min_web_mm", "min_hole_to_end_mm",
+                                                              "min_seam_to_hole_mm"};
+
+/// A limit that nothing would be measured for is an issue: without the preset, and of the seam
+/// where nobody says where it lies.
+void check_accepts(Reader& in, Preset preset);
+void check_seam_limit(Reader& in, Preset preset, bool seam_known);
+
+/// With the preset: the square groove, no smoothing, a hole's own rule and tilt. Another choice is
+/// an issue at its own field.
+[[nodiscard]] bevel::GrooveRule decode_square_groove(Reader& in);
+void decode_no_smoothing(Reader& in, bevel::TableSpec& out);
+[[nodiscard]] bevel::Contact decode_untilted_contact(Reader& in);
+[[nodiscard]] bevel::Tilt decode_no_tilt(Reader& in);
+void check_torch_reaches_square(Reader& in, const bevel::TorchRange& torch);
+
+/// What a laser shop asks of one cut end.
+struct EndReport {
+  std::optional<bevel::Tongue> tongue;
+  double reach = 0.0;
+};
+[[nodiscard]] EndReport end_report(const bevel::TableSpec& spec, const bevel::Table& table,
+                                   bool towards_plus_z, const std::stop_token& stop);
+void encode_end_report(const bevel::Table& table, const EndReport& report, Writer& w);
+[[nodiscard]] std::vector<Measure> measures_of(const bevel::Table& table, const EndReport& report);
+
+/// Adds a measure, or keeps the worse of two of one name: the greater, of a `min_...` the less.
+void add_worst(Measure one, std::vector<Measure>& to);
+
+/// And of the part between its ends.
+void encode_webs(const part::Webs& webs, bool seam_known, Writer& w);
+[[nodiscard]] std::vector<Measure> measures_of(const part::Webs& webs, bool seam_known);
+
+}  // namespace tubecut::api

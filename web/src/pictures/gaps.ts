@@ -1,0 +1,63 @@
+import type {Row} from '../json';
+import {short4} from '../names';
+import {column, type Chart, type Gaps, type Picture} from '../picture';
+
+/** Of an end that is cut square: what stays open at its two edges. */
+export function gapsOf(points: Row): Gaps | undefined {
+  if (!points['gap_outer_mm']) return undefined;
+  const [inner, outer] = [column(points['gap_inner_mm']), column(points['gap_outer_mm'])];
+  return {inner, outer, most: [...inner, ...outer].reduce((a, b) => Math.max(a, b), 0)};
+}
+
+export const gapScale = (most: number): [string, string] => ['gap 0', `${short4(most)} mm`];
+
+/** The gap of the square cut over phi, and of the same end with a bevel. */
+export function gapChart(points: Row, shared: Pick<Chart, 'link' | 'partners' | 'partnerNames'>): Chart {
+  const of = (name: string) => column(points[name]);
+  return {
+    ...shared,
+    id: 'gap',
+    title: 'Gap to the partner',
+    unit: 'mm',
+    x: {name: 'φ', unit: '°', values: of('phi_deg')},
+    height: 205,
+    zero: true,
+    series: [
+      {name: 'outside', values: of('gap_outer_mm'), tone: 'after', width: 2.2},
+      {name: 'inside', values: of('gap_inner_mm'), tone: 'inner', width: 1.5},
+      {name: 'outside with a bevel', values: of('bevelled_gap_outer_mm'), tone: 'floor', dash: [5, 4]},
+      {name: 'inside with a bevel', values: of('bevelled_gap_inner_mm'), tone: 'before', dash: [2, 3]},
+    ],
+  };
+}
+
+/** What a laser shop asks of an end. */
+export function gapFigures(result: Row): Picture['figures'] {
+  const laser = result['tube_laser'] as Row;
+  const greatest = (name: string) => short4(Number((laser[name] as Row)['greatest_mm']));
+  const tongue = laser['tongue'] as Row | undefined;
+  return [
+    {name: 'greatest gap', value: greatest('gap'), unit: 'mm'},
+    {name: 'with a bevel', value: greatest('bevelled_gap'), unit: 'mm'},
+    {name: 'reach of the cut', value: short4(Number(laser['reach_mm'])), unit: 'mm'},
+    ...(tongue ? [{name: 'narrowest tongue', value: short4(Number(tongue['width_mm'])), unit: 'mm'}] : []),
+    {name: 'cut length', value: short4(Number(result['length_mm'])), unit: 'mm'},
+  ];
+}
+
+/** And of a part, of its ends and between them. */
+export function webFigures(result: Row): Picture['figures'] {
+  const laser = result['tube_laser'] as Row | undefined;
+  const ends = Object.values(result['ends'] as Row).flatMap((end) => ((end as Row)['tube_laser'] as Row | undefined)?.['gap'] ?? []);
+  const gap = ends.reduce<number>((most, each) => Math.max(most, Number((each as Row)['greatest_mm'])), 0);
+  const of = (name: string, key: string, text: string) => {
+    const found = laser?.[name] as Row | undefined;
+    return found ? [{name: text, value: short4(Number(found[key])), unit: 'mm'}] : [];
+  };
+  return [
+    ...(ends.length ? [{name: 'greatest gap', value: short4(gap), unit: 'mm'}] : []),
+    ...of('web', 'width_mm', 'narrowest web'),
+    ...of('hole_to_end', 'width_mm', 'hole to end'),
+    ...of('seam_to_hole', 'girth_mm', 'seam to hole'),
+  ];
+}

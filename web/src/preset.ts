@@ -1,0 +1,49 @@
+import {isRow, type Json, type Row} from './json';
+import type {Contract, Schema} from './schema';
+
+/** The one preset there is: cut square to the wall, as a tube laser does. */
+const word = 'tube_laser';
+const chosen = ['groove', 'contact', 'smoothing', 'root_face_mm', 'tilt', 'torch']; // by the preset
+
+export const pressed = (body: Row) => body['preset'] === word;
+export const offered = (contract: Contract, request: Schema | undefined) =>
+  contract.branches(request ?? {}).some((branch) => branch.properties?.['preset'] !== undefined);
+
+/** The objects of a request that say how something is cut: itself, its ends and its holes. */
+function cuts(body: Row): Row[] {
+  const ends = isRow(body['ends']) ? Object.values(body['ends']) : [];
+  const holes = Array.isArray(body['holes']) ? body['holes'] : [];
+  return [body, ...ends, ...holes].filter(isRow);
+}
+
+const taken = new WeakMap<Row, Row[]>(); // out of a request, when the preset was pressed
+
+/** Cuts square, or again as before. `understood`: the request as the service echoed it. */
+export function toggle(body: Row, understood: Row | undefined): void {
+  if (pressed(body)) release(body, taken.get(body), understood);
+  else taken.set(body, press(body));
+}
+
+/** Leaves to the preset what it chooses. Returns what stood there. */
+function press(body: Row): Row[] {
+  const was = cuts(body).map((cut): Row => {
+    const own = Object.fromEntries(chosen.filter((key) => key in cut).map((key) => [key, cut[key] as Json]));
+    for (const key of chosen) delete cut[key];
+    return own;
+  });
+  body['preset'] = word;
+  return was;
+}
+
+/** As it stood before, or, of a job that came with the preset, as the service understood it. */
+function release(body: Row, was: Row[] | undefined, understood: Row | undefined): void {
+  delete body['preset'];
+  const accept = body['accept'];
+  if (isRow(accept)) for (const key of Object.keys(accept)) if (!/^max_(root_gap|extra_bevel|b)_/.test(key)) delete accept[key];
+  const echoed = understood ? cuts(understood) : [];
+  cuts(body).forEach((cut, i) => {
+    const whole =
+      was?.[i] ?? Object.fromEntries([...chosen, 'root_surface'].flatMap((key) => (key in (echoed[i] ?? {}) ? [[key, echoed[i]?.[key] as Json]] : [])));
+    for (const [key, value] of Object.entries(whole)) if (!(key in cut)) cut[key] = value;
+  });
+}
