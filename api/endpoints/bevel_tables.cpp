@@ -9,6 +9,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/gcode.hpp"
+#include "api/formats/step.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"

@@ -8,6 +8,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/hole_formats.hpp"
+#include "api/formats/step.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"

@@ -11,6 +11,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
+#include "api/formats/step.hpp"
 #include "api/formats/work_order.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"

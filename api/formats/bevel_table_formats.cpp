@@ -10,7 +10,6 @@
 #include "api/formats/dxf.hpp"
 #include "api/formats/gcode.hpp"
 #include "api/formats/sections.hpp"
-#include "api/formats/step.hpp"
 #include "api/formats/wrap_template.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
@@ -146,11 +145,6 @@ std::string bevel_table_dstv(const bevel::TableSpec& spec, const bevel::Table& t
 std::string bevel_table_gcode(const bevel::TableSpec& spec, const bevel::Table& table,
                               const Caption& caption) {
   return print_gcode(torch_job(spec, table), caption);
-}
-
-std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,
-                             const Caption& caption) {
-  return print_step(spec, table, caption);
 }
 
 }  // namespace tubecut::api

@@ -39,8 +39,4 @@ inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
 [[nodiscard]] std::string bevel_table_gcode(const bevel::TableSpec& spec, const bevel::Table& table,
                                             const Caption& caption);
 
-/// One closed solid: step.hpp.
-[[nodiscard]] std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,
-                                           const Caption& caption);
-
 }  // namespace tubecut::api

@@ -8,7 +8,6 @@
 #include "api/formats/development.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/sections.hpp"
-#include "api/formats/step.hpp"
 #include "api/formats/wrap_template.hpp"
 #include "api/tables.hpp"
 
@@ -76,11 +75,6 @@ std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
 std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
                      const Caption& caption) {
   return print_dxf(developed(spec, cut), caption);
-}
-
-std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                      const Caption& caption) {
-  return print_step(spec, cut, caption);
 }
 
 }  // namespace tubecut::api

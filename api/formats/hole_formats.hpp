@@ -21,8 +21,4 @@ namespace tubecut::api {
 [[nodiscard]] std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
                                    const Caption& caption);
 
-/// One closed solid: step.hpp.
-[[nodiscard]] std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                                    const Caption& caption);
-
 }  // namespace tubecut::api

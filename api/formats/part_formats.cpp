@@ -6,7 +6,6 @@
 #include "api/formats/dstv.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/gcode.hpp"
-#include "api/formats/step.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 
@@ -73,10 +72,6 @@ std::string part_dstv(const part::PartSpec& spec, const part::Part& part, const 
 
 std::string part_gcode(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   return print_gcode(torch_job(spec, part), caption);
-}
-
-std::string part_step(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_step(spec, part, caption);
 }
 
 }  // namespace tubecut::api

@@ -20,8 +20,4 @@ namespace tubecut::api {
 [[nodiscard]] std::string part_gcode(const part::PartSpec& spec, const part::Part& part,
                                      const Caption& caption);
 
-/// One closed solid: step.hpp.
-[[nodiscard]] std::string part_step(const part::PartSpec& spec, const part::Part& part,
-                                    const Caption& caption);
-
 }  // namespace tubecut::api

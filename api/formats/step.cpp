@@ -92,16 +92,16 @@ Lies lies(const part::Part& part, const bevel::Hole& hole) {
 
 }  // namespace
 
-std::string print_step(const bevel::TableSpec& spec, const bevel::Table& table,
-                       const Caption& caption) {
+std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,
+                             const Caption& caption) {
   return print(spec.target,
                {end_cut(TubeCut::Place::start, spec, table, caption),
                 {TubeCut::Place::finish, "far end", far_end(spec, table, caption.stop)}},
                "", caption);
 }
 
-std::string print_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                       const Caption& caption) {
+std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                      const Caption& caption) {
   const auto& tube = spec.chord;
   std::vector<TubeCut> cuts;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -121,7 +121,7 @@ std::string print_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
   return print(tube, cuts, "", caption);
 }
 
-std::string print_step(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+std::string part_step(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   const auto& tube = spec.target;
   std::vector<TubeCut> cuts{
       end_cut(TubeCut::Place::start, part.start.spec, part.start.table, caption),

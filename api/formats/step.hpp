@@ -15,14 +15,14 @@ namespace tubecut::api {
 // its faces. Own writer: Open CASCADE's would add 60 MB and seconds of start.
 
 /// The cut end; the far end is square, where that of the other solids is.
-[[nodiscard]] std::string print_step(const bevel::TableSpec& spec, const bevel::Table& table,
-                                     const Caption& caption);
+[[nodiscard]] std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,
+                                           const Caption& caption);
 /// The chord around the hole or holes, square on both sides, one outer radius from them.
-[[nodiscard]] std::string print_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                                     const Caption& caption);
+[[nodiscard]] std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                                    const Caption& caption);
 /// The finished part. A hole of which both sides lie beyond an end is not there; holes that meet
 /// each other or a cut are no solid this can print, and are refused.
-[[nodiscard]] std::string print_step(const part::PartSpec& spec, const part::Part& part,
-                                     const Caption& caption);
+[[nodiscard]] std::string part_step(const part::PartSpec& spec, const part::Part& part,
+                                    const Caption& caption);
 
 }  // namespace tubecut::api

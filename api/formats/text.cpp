@@ -39,6 +39,19 @@ std::string hex(std::uint32_t value, int digits) {
 
 std::string utf16_escape(std::uint32_t unit) { return "\\U+" + hex(unit, 4); }
 
+/// Every character by `spell(its first byte, its code point)`.
+template <class Spell>
+std::string spelled(std::string_view text, Spell spell) {
+  std::string out;
+  while (!text.empty()) {
+    const char first = text.front();
+    const auto c = take_character(text);
+    if (!c) throw Unspellable{std::string(text)};
+    out += spell(first, *c);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string fixed(double value, int digits) {
@@ -73,44 +86,25 @@ std::string xml_text(std::string_view text) {
 }
 
 std::string dxf_text(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const char first = text.front();
-    const auto c = take_character(text);
-    if (!c) throw Unspellable{std::string(text)};
-    const std::uint32_t above = *c - 0x10000;
-    if (first == '%')
-      out += "%%%";
-    else if (first == '\\')
-      out += utf16_escape(*c);
-    else if (first == '^')
-      out += "^ ";
-    else if (*c >= 0x10000)
-      out += utf16_escape(0xD800 + (above >> 10U)) + utf16_escape(0xDC00 + (above & 0x3FFU));
-    else if (*c >= 0x80)
-      out += utf16_escape(*c);
-    else
-      out += printable(first) ? first : '_';
-  }
-  return out;
+  return spelled(text, [](char first, std::uint32_t c) -> std::string {
+    const std::uint32_t above = c - 0x10000;
+    if (first == '%') return "%%%";
+    if (first == '\\') return utf16_escape(c);
+    if (first == '^') return "^ ";
+    if (c >= 0x10000)
+      return utf16_escape(0xD800 + (above >> 10U)) + utf16_escape(0xDC00 + (above & 0x3FFU));
+    if (c >= 0x80) return utf16_escape(c);
+    return {printable(first) ? first : '_'};
+  });
 }
 
 std::string step_text(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const char first = text.front();
-    const auto c = take_character(text);
-    if (!c) throw Unspellable{std::string(text)};
-    if (first == '\'' || first == '\\')
-      out += std::string(2, first);
-    else if (*c >= 0x10000)
-      out += "\\X4\\" + hex(*c, 8) + "\\X0\\";
-    else if (*c >= 0x80)
-      out += "\\X2\\" + hex(*c, 4) + "\\X0\\";
-    else
-      out += printable(first) ? first : '_';
-  }
-  return out;
+  return spelled(text, [](char first, std::uint32_t c) -> std::string {
+    if (first == '\'' || first == '\\') return {first, first};
+    if (c >= 0x10000) return "\\X4\\" + hex(c, 8) + "\\X0\\";
+    if (c >= 0x80) return "\\X2\\" + hex(c, 4) + "\\X0\\";
+    return {printable(first) ? first : '_'};
+  });
 }
 
 std::string gcode_text(std::string_view text) { return with_note(text); }

@@ -10,26 +10,16 @@
 #include <map>
 #include <random>
 
+#include "tests/support/line_distance.hpp"
+
 namespace tubecut::bevel {
 namespace {
 
-using Real = long double;
-using Vec = std::array<Real, 3>;
+using testing::from_line, testing::Real, testing::Vec;
 
 constexpr std::uint64_t kSeed = 20260107;
 constexpr int kPairs = 500;
 constexpr Real kFit = 0.01L;  // mm; what a gap map may differ from the asked gap
-
-/// Distance of a point from a line by Lagrange's identity, in long double: the oracle.
-Real from_line(const Vec& p, const Vec& q, const Vec& d) {
-  Real pp = 0, pd = 0, dd = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    pp += (p[i] - q[i]) * (p[i] - q[i]);
-    pd += (p[i] - q[i]) * d[i];
-    dd += d[i] * d[i];
-  }
-  return std::sqrt(std::max<Real>(0, pp - pd * pd / dd));
-}
 
 Vec turned(Vec p, std::size_t i, std::size_t j, Real angle) {
   const Real a = std::cos(angle) * p[i] - std::sin(angle) * p[j];

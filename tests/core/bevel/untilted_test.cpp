@@ -10,12 +10,12 @@
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 #include "core/bevel/tongue.hpp"
+#include "tests/support/line_distance.hpp"
 
 namespace tubecut::bevel {
 namespace {
 
-using Real = long double;
-using Vec = std::array<Real, 3>;
+using testing::from_line, testing::Real, testing::Vec;
 
 /// An end that a laser cuts: B = 0, contact automatic.
 TableSpec square_end(double radius, double wall, std::vector<joint::Partner> partners) {
@@ -221,17 +221,6 @@ TEST(UntiltedEnd, ASquareCutHasNoTongue) {
   ASSERT_TRUE(t);
   EXPECT_FALSE(narrowest_tongue({.outer_radius = 40, .wall = 4}, *t, false));
   EXPECT_NEAR(reach(*t), 0.0, 1e-12);
-}
-
-/// Distance of a point from a line by Lagrange's identity.
-Real from_line(const Vec& p, const Vec& q, const Vec& d) {
-  Real pp = 0, pd = 0, dd = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    pp += (p[i] - q[i]) * (p[i] - q[i]);
-    pd += (p[i] - q[i]) * d[i];
-    dd += d[i] * d[i];
-  }
-  return std::sqrt(std::max<Real>(0, pp - pd * pd / dd));
 }
 
 HoleSpec square_hole(std::mt19937_64& random) {
