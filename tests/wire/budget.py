@@ -18,6 +18,7 @@ ALL_MS = 120_000  # the budget of whoever has to end by itself
 ALLOWED = {"mill-paths/90-annealed", "mill-paths/3600", "mill-paths/20000", "pulse-schedules/crawler-table", "pulse-schedules/5-m",
            "pulse-schedules/compare", "pulse-schedules/3600-positions"}
 OPTIONS = {"gcode": "&speed_mm_min=600"}
+VIEWS = {"step": ("step", "step&view=smooth")}  # that cost other than their format alone
 
 
 def cpu_ms(reply):
@@ -39,7 +40,8 @@ def formats(service):
     names = {"application/json": "json", "application/cbor": "cbor", "text/csv": "csv", "image/svg+xml": "svg", "image/vnd.dxf": "dxf",
              "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step", "application/x-dstv": "nc1", "text/x-gcode": "gcode",
              "text/x-iec61131-st": "st"}
-    return {e["id"]: [names.get(media, media) for media in e["formats"]] for e in page["endpoints"]}
+    return {e["id"]: [form for media in e["formats"] for form in VIEWS.get(names.get(media, media), (names.get(media, media),))]
+            for e in page["endpoints"]}
 
 
 def target_of(endpoint, form):

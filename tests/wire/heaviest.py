@@ -55,6 +55,9 @@ def bevel_tables():
     other = copy.deepcopy(other)
     other["cutters"] = [c | {"id": f"c{i}"} for i, c in enumerate(other["cutters"] * 32)]
     yield "32-rectangular", other
+    laser = example("bevel-tables/tube-laser-branch")
+    yield "laser-points", laser | {"sampling": POINTS}
+    yield "laser-64-tubes", laser | {"cutters": many_tubes(64), "sampling": POINTS}
 
 
 def intersections():
@@ -68,6 +71,7 @@ def holes():
     for kind in ("set-in-branch", "set-on-branch", "through-brace"):
         yield kind + "-fine", example("holes/" + kind) | {"sampling": FINE}
         yield kind + "-points", example("holes/" + kind) | {"sampling": POINTS}
+    yield "untilted", example("holes/set-in-branch") | {"tilt": "none", "sampling": POINTS}
 
 
 def grid(side, within=60.0):
@@ -140,6 +144,9 @@ def parts():
     yield "8-holes-points", chord(8, POINTS)
     yield "brace-fine", example("parts/k-joint-brace") | {"sampling": FINE}
     yield "brace-points", example("parts/k-joint-brace") | {"sampling": POINTS}
+    laser = example("parts/tube-laser-chord")
+    yield "laser-points", laser | {"sampling": POINTS}
+    yield "laser-64-holes", laser | {k: v for k, v in chord(64, {"tolerance_mm": 0.1}).items() if k in ("members", "connect", "sampling")}
 
 
 def contour(points, diameter, wave=0.0, lobes=4, b=0.0):
