@@ -118,8 +118,8 @@ std::string header(const TorchJob& job, const Joints& joints, const Straightness
             : "between cuts the control must lift the torch: after each that ends, "
               "before the rapid to the next");
   if (joints.tilts() && o.pivot_length)
-    out += gcode_comment(std::string("Y: the pivot across, growing phi is ") +
-                         (o.axial_z ? "+Y" : "-Y"));
+    out += gcode_comment(
+        std::string("Y: the pivot across, growing phi is ").append(o.axial_z ? "+Y" : "-Y"));
   if (joints.tilts())
     out += gcode_comment(
         "C tilts it across, positive: outer edge towards growing phi, tan B and "

@@ -57,7 +57,7 @@ Columns dimensions(const part::Part& part) {
 std::string part_csv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   if (caption.view == "check_dimensions") return Csv(caption).table(dimensions(part)).print();
   return Csv(caption)
-      .remark(std::string("b_sign: ") + kBSignInPart)
+      .remark(std::string("b_sign: ").append(kBSignInPart))
       .stacked("cut", cuts(spec, part))
       .print();
 }

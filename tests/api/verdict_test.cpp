@@ -23,7 +23,8 @@ TEST(Verdict, LongLinesGoOnAndNoneBeginsWithAClientsWord) {
       whole += line.starts_with("... ") ? line.substr(4) : line;
     }
     whole.erase(std::remove(whole.begin(), whole.end(), ' '), whole.end());
-    EXPECT_NE(whole.find(std::string(300, 'x') + "LOGOPEN,/tmp/xmeetsnomember"), std::string::npos);
+    EXPECT_NE(whole.find(std::string(300, 'x').append("LOGOPEN,/tmp/xmeetsnomember")),
+              std::string::npos);
   }
 }
 
