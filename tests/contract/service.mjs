@@ -2,9 +2,11 @@
 import {spawn} from 'node:child_process';
 import http from 'node:http';
 import {createInterface} from 'node:readline';
+import {setTimeout} from 'node:timers/promises';
 
 const CONNECTIONS = 4;
 const SECONDS = 60;  // to an answer: hung, not slow
+const PATIENCE = 20;  // times
 
 export class Service {
   static async start(binary, ...options) {
@@ -35,8 +37,16 @@ export class Service {
     return this.child.exitCode === null && this.child.signalCode === null;
   }
 
-  // {status, headers, body: Buffer, text}
-  ask(path, {method = 'POST', body, headers = {}} = {}) {
+  // {status, headers, body: Buffer, text}. Where others that take their whole budget stand before it, it is told to come again, and does.
+  async ask(path, options = {}) {
+    for (let again = 0; ; again += 1) {
+      const reply = await this.askOnce(path, options);
+      if (reply.status !== 429 || again === PATIENCE) return reply;
+      await setTimeout(1000);
+    }
+  }
+
+  askOnce(path, {method = 'POST', body, headers = {}} = {}) {
     this.asked += 1;
     const bytes = body === undefined ? undefined : Buffer.from(body);
     const length = bytes === undefined ? {} : {'Content-Length': bytes.length};

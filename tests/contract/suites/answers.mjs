@@ -31,6 +31,7 @@ async function answerPromises({service, contract, report}, endpoint, name, body)
   if (body.log === undefined) report.expect(second.text === first.text, about, 'the echoed request gives other bytes');
 
   const binary = await service.post(endpoint.path, body, {headers: {Accept: 'application/cbor'}});
+  if (binary.status !== 200) return report.fault(about, `CBOR: ${binary.status} ${binary.text.slice(0, 500)}`);
   report.expect(binary.headers['content-type'] === 'application/cbor', about, `CBOR has type ${binary.headers['content-type']}`);
   report.expect(same({...decode(binary.body), log: undefined}, {...answer, log: undefined}), about, 'CBOR differs from JSON');
 

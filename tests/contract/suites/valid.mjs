@@ -1,5 +1,4 @@
 // Bodies that are valid by the schema are answered, or refused with one of the endpoint's own codes; sound joints are answered.
-import {setTimeout} from 'node:timers/promises';
 import fc from 'fast-check';
 import {answerFaults, problemFaults} from '../check.mjs';
 import {drawn, fromSchema, seconds, sound} from '../generate.mjs';
@@ -12,7 +11,6 @@ const ENOUGH = 1000;  // of them answered
 const HALF = 0.5;     // of those made from examples
 const SEARCHED = 300;  // bodies, for a smaller one that shows the same fault
 const SEARCH_MS = 5000;
-const PATIENCE = 20;  // times
 
 // Without pins of the numerics version and of machines, of itself or of a request inside.
 const PINS = {numerics: 'numerics_mismatch', machine_sha256: 'machine_mismatch'};
@@ -52,20 +50,11 @@ async function smallest(judge, arbitrary, seed) {
   return found.counterexample ? JSON.stringify(found.counterexample[0]) : 'not found again';
 }
 
-// Requests that take their whole budget stand before others: these are told to come again, and do.
-async function posted(service, path, body) {
-  for (let again = 0; ; again += 1) {
-    const reply = await service.post(path, body);
-    if (reply.status !== 429 || again === PATIENCE) return reply;
-    await setTimeout(1000);
-  }
-}
-
 async function run(context, endpoint, name, arbitrary, runs) {
   const {service, report, seed} = context;
   const counts = {};
   const judge = async (body) => {
-    const reply = await posted(service, endpoint.path, body);
+    const reply = await service.post(endpoint.path, body);
     const code = [200, 599].includes(reply.status) ? reply.status : JSON.parse(reply.text).code;
     counts[code] = (counts[code] ?? 0) + 1;
     return replyFaults(context, endpoint, body, reply);
