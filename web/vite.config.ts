@@ -2,6 +2,7 @@ import {readFileSync} from 'node:fs';
 import {fileURLToPath} from 'node:url';
 import {defineConfig, type Plugin} from 'vite';
 import {html} from './glossary/markdown';
+import {words} from './glossary/words';
 
 const page = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 
@@ -14,9 +15,16 @@ const glossary: Plugin = {
   transformIndexHtml: (text) => text.replace('<!-- docs/glossary.md -->', () => html(readFileSync(page('../docs/glossary.md'), 'utf8'))),
 };
 
+/** The same page as data, for labels and hints. */
+const dictionary: Plugin = {
+  name: 'words',
+  resolveId: (id) => (id === 'virtual:words' ? '\0words' : undefined),
+  load: (id) => (id === '\0words' ? `export default ${JSON.stringify(words(readFileSync(page('../docs/glossary.md'), 'utf8')))}` : undefined),
+};
+
 export default defineConfig({
   base: '/',
-  plugins: [glossary],
+  plugins: [glossary, dictionary],
   // Three pages: the console, the API reference that shares little with it, the words of both.
   build: {
     target: 'es2021',

@@ -45,6 +45,12 @@ export async function then(page, act) {
   await answered(page, before + 1);
 }
 
+/** The form, which a phone shows when it is asked for. */
+export async function formed(page) {
+  const edit = page.locator('#edit');
+  if (await edit.isVisible() && await edit.getAttribute('aria-expanded') === 'false') await edit.click();
+}
+
 /** Share of the canvas that something solid covers, and a sum that changes with the picture: the fine one, that stays. */
 export async function pixels(page) {
   await page.waitForSelector('.canvas canvas');

@@ -2,11 +2,12 @@ import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import {colour, el, partnerColour} from './dom';
 import {listen, point, pointed} from './links';
-import {short4} from './names';
 import type {Chart} from './picture';
+import {ticks} from './units';
 
 const left = 56,
   right = 12,
+  named = 16, // the x axis' name
   ribbon = 7;
 
 /** A column of charts; one whose kind did not change is given new data instead of being made anew. */
@@ -23,16 +24,18 @@ export class Board {
       charts.forEach((chart, i) => this.shown[i]?.update(chart));
       return;
     }
-    this.shown.forEach((plot) => plot.end());
-    this.root.replaceChildren();
-    this.shown = charts.map((chart) => new Plot(this.root, chart));
+    this.make(charts);
   }
 
   recolour(): void {
-    const charts = this.shown.map((plot) => plot.chart);
+    this.make(this.shown.map((plot) => plot.chart));
+  }
+
+  private make(charts: Chart[]): void {
     this.shown.forEach((plot) => plot.end());
     this.root.replaceChildren();
     this.shown = charts.map((chart) => new Plot(this.root, chart));
+    this.shown.forEach((plot) => plot.measured()); // each has made room for the next
   }
 }
 
@@ -92,15 +95,18 @@ class Plot {
   }
 
   private data(): uPlot.AlignedData {
-    return [this.chart.x.values, ...this.chart.series.map((s) => s.values)] as uPlot.AlignedData;
+    const {x, series, period} = this.chart;
+    const lines = [x.values, ...series.map((s) => s.values)];
+    if (!closes(this.chart)) return lines as uPlot.AlignedData;
+    return lines.map((values, i) => [...values, i ? (values[0] ?? null) : period]) as uPlot.AlignedData;
   }
 
   private size(): {width: number; height: number} {
     const width = Math.max(240, this.width);
-    if (!this.chart.wrap) return {width, height: this.chart.height ?? 190};
+    if (!this.chart.wrap) return {width, height: (this.chart.height ?? 190) + named};
     const [low, high] = extent(this.chart);
     const scale = (width - left - right) / span(this.chart);
-    return {width, height: Math.round(Math.min(420, Math.max(90, (high - low) * scale)) + 34)};
+    return {width, height: Math.round(Math.min(420, Math.max(90, (high - low) * scale)) + 34 + named)};
   }
 
   private describe(): void {
@@ -113,14 +119,19 @@ class Plot {
     const keys = chart.series.map((s) => {
       const line = el('i', {class: s.dash ? 'dashed' : ''});
       line.style.borderColor = colour(s.tone);
-      return el('span', {class: 'key'}, line, s.name);
+      return el('span', {class: 'key', title: s.about}, line, s.name);
     });
-    const others = [...new Map([...(chart.bands ?? []), ...(chart.marks ?? [])].map((b) => [b.text, b.tone])).entries()].map(([text, tone]) => {
-      const patch = el('i', {class: 'patch'});
-      patch.style.background = colour(tone);
-      return el('span', {class: 'key'}, patch, text);
-    });
-    this.caption.replaceChildren(el('b', {}, chart.title, el('small', {}, ` over ${chart.x.name}`)), el('span', {class: 'keys'}, ...keys, ...others));
+    const others = [...new Map([...(chart.bands ?? []), ...(lettered(chart) ? [] : (chart.marks ?? []))].map((b) => [b.text, b.tone])).entries()].map(
+      ([text, tone]) => {
+        const patch = el('i', {class: 'patch'});
+        patch.style.background = colour(tone);
+        return el('span', {class: 'key'}, patch, text);
+      },
+    );
+    this.caption.replaceChildren(
+      el('b', {}, chart.title, el('small', {}, chart.unit ? `, ${chart.unit}` : '')),
+      el('span', {class: 'keys'}, ...keys, ...others),
+    );
   }
 
   private options(): uPlot.Options {
@@ -131,7 +142,6 @@ class Plot {
       ticks: {show: false},
       font: '11px Inter, system-ui, sans-serif',
     };
-    const numbers = (_: uPlot, values: number[]) => values.map(short4);
     return {
       ...this.size(),
       padding: [8, right, 0, 0],
@@ -142,8 +152,18 @@ class Plot {
         y: {range: (_, low, high) => this.room(low, high)},
       },
       axes: [
-        {...axis, size: 26, gap: 3, values: (u, v) => numbers(u, v).map((t, i) => (i === v.length - 1 ? `${t} ${chart.x.unit}` : t))},
-        {...axis, size: left, gap: 4, values: (u, v) => numbers(u, v).map((t, i) => (i === v.length - 1 ? `${t} ${chart.unit}` : t))},
+        {
+          ...axis,
+          size: 24,
+          gap: 2,
+          labelGap: 0,
+          ...quarters(chart),
+          label: [chart.x.name, chart.x.unit].filter(Boolean).join(', '),
+          labelSize: named,
+          labelFont: axis.font,
+          values: (_, v) => ticks(v),
+        },
+        {...axis, size: left, gap: 4, values: (_, v) => ticks(v)},
       ],
       series: [
         {},
@@ -179,7 +199,7 @@ class Plot {
     if (this.chart.wrap) {
       const [from] = extent(this.chart);
       const scale = span(this.chart) / Math.max(1, this.size().width - left - right);
-      return [from, from + (this.size().height - 34) * scale];
+      return [from, from + (this.size().height - 34 - named) * scale];
     }
     if (this.chart.zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
     const flat = high - low < 1e-6 * Math.max(1, Math.abs(high)); // a straight line, not the rounding it is made of
@@ -264,8 +284,9 @@ class Plot {
         ctx.fill();
       }
     }
-    ctx.setLineDash([6 * scale, 4 * scale]);
     ctx.font = `${11 * scale}px Inter, system-ui, sans-serif`;
+    if (lettered(this.chart)) this.letter(u);
+    ctx.setLineDash([6 * scale, 4 * scale]);
     for (const limit of this.chart.limits ?? []) {
       const y = u.valToPos(limit.y, 'y', true);
       if (y < bbox.top || y > bbox.top + bbox.height) continue;
@@ -282,6 +303,26 @@ class Plot {
     ctx.restore();
   }
 
+  /** Names upright along the lines; of lines that lie together each below the one before. */
+  private letter(u: uPlot): void {
+    const {ctx, bbox} = u;
+    const scale = devicePixelRatio;
+    let [last, used] = [-Infinity, 0];
+    for (const mark of this.chart.marks ?? []) {
+      const at = u.valToPos(mark.x, 'x', true);
+      if (at - last > 13 * scale) used = 0;
+      const right = at + 13 * scale < bbox.left + bbox.width;
+      ctx.save();
+      ctx.translate(at + (right ? 11 : -4) * scale, bbox.top + bbox.height - (4 * scale + used));
+      ctx.rotate(-Math.PI / 2);
+      ctx.fillStyle = colour(mark.tone);
+      ctx.fillText(mark.text, 0, 0);
+      ctx.restore();
+      used += ctx.measureText(mark.text).width + 8 * scale;
+      last = at;
+    }
+  }
+
   private ribbon(u: uPlot): void {
     const {ctx, bbox} = u;
     const height = ribbon * devicePixelRatio;
@@ -294,7 +335,8 @@ class Plot {
   }
 
   private follow(index: number | null): void {
-    const value = index === null ? undefined : this.chart.x.values[index];
+    const {x, period} = this.chart;
+    const value = index === null ? undefined : index === x.values.length ? period : x.values[index];
     this.plot.setCursor(value === undefined ? {left: -10, top: -10} : {left: this.plot.valToPos(value, 'x'), top: 4});
   }
 
@@ -320,8 +362,22 @@ function extent(chart: Chart): [number, number] {
 
 function span(chart: Chart): number {
   const {values} = chart.x;
-  const last = chart.wrap?.lines.length ? Math.max(...chart.wrap.lines.map((line) => line.x)) : (values[values.length - 1] ?? 1);
-  return Math.max(last, values[values.length - 1] ?? 0) - (values[0] ?? 0);
+  const last = values[values.length - 1] ?? 1;
+  return (closes(chart) ? (chart.period as number) : last) - (values[0] ?? 0);
+}
+
+/** Marks of several kinds are named on their lines, those of one kind in the key. */
+const lettered = ({marks = []}: Chart) => new Set(marks.map((mark) => mark.text)).size > 1 && marks.every((mark) => mark.y === undefined);
+
+/** Of a whole turn, its quarters are the ticks. */
+function quarters({x, period}: Chart): Pick<uPlot.Axis, 'splits'> {
+  if (period === undefined || x.unit !== '°') return {};
+  return {splits: (_, __, low, high) => Array.from({length: 33}, (_, i) => 90 * (i - 16)).filter((at) => at >= low - 1e-9 && at <= high + 1e-9)};
+}
+
+/** Whether the curve goes on from its last point to where it began. */
+function closes({x, period}: Chart): boolean {
+  return period !== undefined && period > (x.values[x.values.length - 1] ?? Infinity);
 }
 
 /** Stretches of one partner: first and last point, partner. */

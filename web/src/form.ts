@@ -1,8 +1,10 @@
 import {el, partnerColour} from './dom';
 import {at, isRow, join, put, type Json, type Row} from './json';
-import {brief, label, sentence, unit} from './names';
+import {brief} from './names';
 import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
+import {number, unit} from './units';
+import {about, choice, holder, label, lastKey, plain, sentence} from './words';
 
 /** Names that a field can be filled with, besides what the contract says. */
 export interface Choices {
@@ -54,9 +56,9 @@ export class Form {
     this.echo = request;
     for (const [pointer, input] of this.inputs) {
       const value = at(request, pointer);
-      if (input instanceof HTMLInputElement && value !== undefined && !isRow(value)) input.placeholder = String(value);
+      if (input instanceof HTMLInputElement && value !== undefined && !isRow(value)) input.placeholder = offered(value);
       const other = input instanceof HTMLSelectElement && input.querySelector('option[value=""]');
-      if (other && value !== undefined && typeof value !== 'object') other.textContent = `${String(value).replace(/_/g, ' ')} (default)`;
+      if (other && value !== undefined && typeof value !== 'object') other.textContent = `${choice(value)} (default)`;
     }
   }
 
@@ -141,7 +143,8 @@ export class Form {
     const select = el(
       'select',
       {
-        'aria-label': pointer ? label(lastKey(pointer)) : 'Given by',
+        'aria-label': pointer ? called(pointer) : 'Given by',
+        title: pointer ? hintOf(schema, pointer) : 'In which way the job is given.',
         onchange: () => {
           const next = this.contract.make(branches[select.selectedIndex] as Schema, value, lastKey(pointer));
           if (pointer) put(this.body, pointer, next);
@@ -164,7 +167,7 @@ export class Form {
     if (schema.properties && schema.additionalProperties !== true && !isRow(schema.additionalProperties)) {
       return this.members(schema, isRow(value) ? value : {}, pointer);
     }
-    return [this.leaf(schema, value, pointer, label(lastKey(pointer)))];
+    return [this.leaf(schema, value, pointer, called(pointer))];
   }
 
   private members(schema: Schema, value: Row, pointer: string): HTMLElement[] {
@@ -177,7 +180,7 @@ export class Form {
       const member = this.contract.resolve(inner);
       if ('const' in member) continue;
       const required = schema.required?.includes(key) ?? false;
-      if (this.simple(member) || this.short(member)) small.push(this.leaf(member, value[key], to, label(key), required));
+      if (this.simple(member) || this.short(member)) small.push(this.leaf(member, value[key], to, called(to), required));
       else if (key in value || required) large.push(this.group(key, member, value[key], to, required));
       else absent.push(this.offer(key, member, to));
     }
@@ -207,14 +210,14 @@ export class Form {
       'button',
       {
         type: 'button',
-        title: schema.description,
+        title: hintOf(schema, pointer),
         onclick: () => {
           put(this.body, pointer, this.contract.make(schema, undefined, key));
           this.folds.set(pointer, true);
           this.redraw();
         },
       },
-      `+ ${label(key)}`,
+      `+ ${called(pointer)}`,
     );
   }
 
@@ -232,7 +235,8 @@ export class Form {
           {
             type: 'button',
             class: 'remove',
-            'aria-label': `Remove ${label(key)}`,
+            'aria-label': `Remove ${called(pointer)}`,
+            title: `Remove ${called(pointer)}`,
             onclick: () => {
               put(this.body, pointer, undefined);
               this.redraw();
@@ -240,7 +244,7 @@ export class Form {
           },
           '×',
         );
-    const title = el('summary', {title: schema.description}, sentence(label(key)));
+    const title = el('summary', {title: hintOf(schema, pointer)}, sentence(called(pointer)));
     const node: HTMLDetailsElement = el(
       'details',
       {open: this.folds.get(pointer) ?? !folded.has(key), ontoggle: () => this.folds.set(pointer, node.open)},
@@ -254,12 +258,14 @@ export class Form {
   private list(schema: Schema, value: Json, pointer: string): HTMLElement[] {
     const item = this.contract.resolve(schema.items ?? {});
     const items = Array.isArray(value) ? value : [];
-    if (!item.properties && !item.oneOf) return [this.leaf(schema, value, pointer, label(lastKey(pointer)))];
+    if (!item.properties && !item.oneOf) return [this.leaf(schema, value, pointer, called(pointer))];
     const branches = item.oneOf ? this.contract.branches(item) : [item];
     const kinds = items.map((each) => branches[this.contract.branchOf(branches, each)] as Schema);
-    const flat =
-      items.length > 0 && kinds.every((kind) => kind === kinds[0] && Object.values(kind.properties ?? {}).every((p) => this.simple(this.contract.resolve(p))));
-    const rows = flat ? [this.table(kinds[0] as Schema, items, pointer)] : items.map((each, i) => this.card(item, each, join(pointer, i), i));
+    const rows = runsOf(kinds).flatMap(([kind, from, to]) => {
+      const own = items.slice(from, to);
+      if (Object.values(kind.properties ?? {}).every((p) => this.simple(this.contract.resolve(p)))) return [this.table(kind, own, pointer, from)];
+      return own.map((each, i) => this.card(item, each, join(pointer, from + i), from + i));
+    });
     const add = (branch: Schema) => {
       items.push(this.contract.make(branch, branch === kinds[kinds.length - 1] ? items[items.length - 1] : undefined));
       if (!Array.isArray(value)) put(this.body, pointer, items);
@@ -268,12 +274,13 @@ export class Form {
     const names = branches.map((branch) => this.contract.branchName(branches, branch));
     const adder =
       branches.length === 1
-        ? el('button', {type: 'button', onclick: () => add(item)}, '+ add')
+        ? el('button', {type: 'button', title: `Add to ${called(pointer)}`, onclick: () => add(item)}, '+ add')
         : el(
             'select',
             {
               class: 'adder',
-              'aria-label': `Add to ${label(lastKey(pointer))}`,
+              'aria-label': `Add to ${called(pointer)}`,
+              title: `Add to ${called(pointer)}`,
               onchange: (event: Event) => {
                 const index = (event.target as HTMLSelectElement).selectedIndex - 1;
                 if (index >= 0) add(branches[index] as Schema);
@@ -285,25 +292,30 @@ export class Form {
     return [...rows, el('div', {class: 'offers'}, adder)];
   }
 
-  private table(kind: Schema, items: Json[], pointer: string): HTMLElement {
+  /** Rows from `first` on, of one kind. */
+  private table(kind: Schema, items: Json[], pointer: string, first: number): HTMLElement {
     const columns = Object.entries(kind.properties ?? {})
       .map(([key, inner]) => ({key, schema: this.contract.resolve(inner)}))
       .filter(({schema}) => !('const' in schema));
-    const head = columns.map(({key, schema}) => el('th', {scope: 'col', title: schema.description}, brief(key), el('small', {}, unit(key))));
-    const rows = items.map((item, index) => {
+    const head = columns.map(({key, schema}) => {
+      const to = join(join(pointer, first), key);
+      return el('th', {scope: 'col', title: hintOf(schema, to)}, sentence(brief(key, called(to))), el('small', {}, unit(key)));
+    });
+    const rows = items.map((item, i) => {
+      const index = first + i;
       const to = join(pointer, index);
       const cells = columns.map(({key, schema}) =>
         el(
           'td',
-          {class: schema.type === 'string' ? 'text' : ''},
-          this.input(schema, isRow(item) ? item[key] : undefined, join(to, key), `${label(key)} ${index + 1}`),
+          {class: schema.type === 'string' ? 'text' : '', title: hintOf(schema, join(to, key))},
+          this.input(schema, isRow(item) ? item[key] : undefined, join(to, key), `${called(join(to, key))} ${index + 1}`),
         ),
       );
       return el('tr', {}, this.swatch(index), ...cells, el('td', {}, this.remover(to, index)));
     });
     return el(
       'div',
-      {class: 'scroll', tabindex: '0', role: 'group', 'aria-label': label(lastKey(pointer))},
+      {class: 'scroll', tabindex: '0', role: 'group', 'aria-label': called(pointer)},
       el('table', {class: 'tubes'}, el('thead', {}, el('tr', {}, el('td'), ...head, el('td'))), el('tbody', {}, ...rows)),
     );
   }
@@ -321,8 +333,10 @@ export class Form {
         type: 'button',
         class: 'remove',
         'aria-label': `Remove row ${index + 1}`,
+        title: `Remove row ${index + 1}`,
         onclick: () => {
           put(this.body, pointer, undefined);
+          if (at(this.echo, pointer) !== undefined) put(this.echo, pointer, undefined); // another row's hints are not those of the next
           this.redraw();
         },
       },
@@ -348,8 +362,8 @@ export class Form {
     if (grip && input instanceof HTMLInputElement) this.scrub(grip, input);
     return el(
       'label',
-      {class: `field${wide ? ' wide' : ''}${required ? ' required' : ''}`, title: schema.description},
-      el('span', {class: 'name'}, name),
+      {class: `field${wide ? ' wide' : ''}${required ? ' required' : ''}`, title: hintOf(schema, pointer)},
+      el('span', {class: 'name'}, sentence(name)),
       el('span', {class: 'box'}, input, grip),
     );
   }
@@ -378,7 +392,7 @@ export class Form {
       inputmode: textual ? 'text' : 'decimal',
       spellcheck: 'false',
       list: key === 'size' ? 'tube-sizes' : null,
-      placeholder: schema.default === undefined ? null : String(schema.default),
+      placeholder: schema.default === undefined ? null : offered(schema.default),
       value: value ?? '',
       oninput: () => this.write(pointer, typed(node.value, textual)),
     });
@@ -387,12 +401,8 @@ export class Form {
   }
 
   private select(choices: Json[], value: Json | undefined, schema: Schema, pointer: string): HTMLElement {
-    const options = choices.map((choice) => el('option', {value: JSON.stringify(choice), selected: choice === value}, String(choice).replace(/_/g, ' ')));
-    const none = el(
-      'option',
-      {value: '', selected: value === undefined},
-      schema.default === undefined ? '' : `${String(schema.default).replace(/_/g, ' ')} (default)`,
-    );
+    const options = choices.map((each) => el('option', {value: JSON.stringify(each), selected: each === value}, choice(each)));
+    const none = el('option', {value: '', selected: value === undefined}, schema.default === undefined ? '' : `${choice(schema.default)} (default)`);
     const node = el('select', {onchange: () => this.write(pointer, node.value === '' ? undefined : (JSON.parse(node.value) as Json))}, none, ...options);
     return node;
   }
@@ -443,6 +453,17 @@ export class Form {
   }
 }
 
+/** Stretches of one kind: what it is, from where, up to where. */
+function runsOf<T>(kinds: T[]): [T, number, number][] {
+  const out: [T, number, number][] = [];
+  kinds.forEach((kind, i) => {
+    const last = out[out.length - 1];
+    if (last && last[0] === kind) last[2] = i + 1;
+    else out.push([kind, i, i + 1]);
+  });
+  return out;
+}
+
 /** Gives every value the room to be read whole: a field the whole line, a cell of a table what it needs. */
 function roomy(inputs: HTMLElement[]): void {
   const texts = inputs.filter((input): input is HTMLInputElement => input instanceof HTMLInputElement && input.type === 'text');
@@ -457,7 +478,26 @@ function roomy(inputs: HTMLElement[]): void {
   }
 }
 
-const lastKey = (pointer: string) => pointer.slice(pointer.lastIndexOf('/') + 1);
+const called = (pointer: string) => label(lastKey(pointer), holder(pointer));
+
+/** What a field is, its range and its default. */
+function hintOf(schema: Schema, pointer: string): string {
+  const mark = unit(lastKey(pointer));
+  const of = (value: number) => `${Math.abs(value) < 1e-6 ? 0 : Number(value.toPrecision(4))}${mark && mark !== '°' ? ' ' : ''}${mark}`;
+  const low = schema.minimum ?? schema.exclusiveMinimum,
+    high = schema.maximum ?? schema.exclusiveMaximum;
+  const range =
+    low === undefined ? (high === undefined ? '' : `At most ${of(high)}.`) : high === undefined ? `At least ${of(low)}.` : `From ${of(low)} to ${of(high)}.`;
+  const otherwise = schema.default === undefined || typeof schema.default === 'object' ? '' : `Without it: ${choice(schema.default)}.`;
+  const told = schema.description ? plain(schema.description).replace(/\.?$/, '.') : '';
+  return [`${sentence(called(pointer))}.`, about(lastKey(pointer), holder(pointer)), sentence(told), range, otherwise].filter(Boolean).join(' ');
+}
+
+/** What counts where nothing is entered. */
+const offered = (value: Json): string => {
+  if (typeof value === 'number') return String(Number(value.toPrecision(6)));
+  return Array.isArray(value) ? value.map(offered).join(', ') : choice(value);
+};
 
 function step(input: HTMLInputElement, by: number): void {
   const now = Number(input.value || input.placeholder);
@@ -475,7 +515,8 @@ function typed(text: string, textual: boolean): Json | undefined {
 }
 
 export function said(issue: Issue): string {
-  const code = issue.code.replace(/_/g, ' ');
-  const limit = issue.limit === null || issue.limit === undefined || typeof issue.limit === 'object' ? '' : ` (limit ${issue.limit} ${issue.unit})`;
-  return sentence(issue.hint ? `${code}: ${issue.hint}` : `${code}${limit}`.trim());
+  const code = choice(issue.code);
+  const bound = typeof issue.limit === 'number' ? number(issue.limit) : issue.limit;
+  const limit = bound === null || bound === undefined || typeof bound === 'object' ? '' : ` (limit ${bound} ${issue.unit})`;
+  return sentence(issue.hint ? `${code}: ${plain(issue.hint)}` : plain(`${code}${limit}`).trim());
 }

@@ -2,6 +2,7 @@ import * as address from './address';
 import {Board} from './charts';
 import {byId, el} from './dom';
 import {Form} from './form';
+import {hints} from './hint';
 import {clone, type Row} from './json';
 import {askForKey, keyed, KeyNeeded} from './key';
 import {point} from './links';
@@ -54,11 +55,14 @@ class Console {
     machines: {name: string; machine: Row}[],
     tubes: {size: string; outer_diameter_mm: number; wall_mm: number}[],
   ) {
+    hints(byId('form'), byId('hint'));
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
     this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('preset').addEventListener('click', () => this.press());
+    byId('blank').addEventListener('click', () => this.blank());
+    byId('edit').addEventListener('click', () => this.formShown(byId('edit').getAttribute('aria-expanded') !== 'true'));
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
     byId('share').addEventListener('click', () => void this.share());
     byId('forget').addEventListener('click', () => void this.forget());
@@ -101,6 +105,22 @@ class Console {
     const example = own.find((each) => each.name === name) ?? own.find((each) => each.name === firstJob.example) ?? own[0];
     const schema = this.contract.request(path(endpoint));
     this.begin(endpoint, example?.name, example ? clone(example.body) : (this.contract.make(schema ?? {}) as Row), false);
+  }
+
+  /** The fewest fields that make a job, as the contract has them. */
+  private blank(): void {
+    const {endpoint} = this.state;
+    const schema = this.contract.request(path(endpoint)) ?? {};
+    this.begin(endpoint, undefined, this.contract.make(schema) as Row, true);
+    this.formShown(true);
+    byId('form').querySelector<HTMLElement>('input, select')?.focus();
+  }
+
+  /** On a phone the picture comes first, and the form when it is asked for. */
+  private formShown(shown: boolean): void {
+    byId('ask').classList.toggle('open', shown);
+    byId('edit').setAttribute('aria-expanded', String(shown));
+    byId('edit').textContent = shown ? 'Back to the picture' : 'Change the job';
   }
 
   private begin(endpoint: string, example: string | undefined, body: Row, edited: boolean): void {
@@ -158,8 +178,12 @@ class Console {
       reply.answer,
       reply.problem,
       reply.milliseconds,
-      (pointer) => this.form.focus(pointer),
+      (pointer) => {
+        this.formShown(true);
+        this.form.focus(pointer);
+      },
       () => this.compute(),
+      drawn instanceof Error ? '' : drawn?.said,
     );
     if (reply.answer) {
       if (drawn instanceof Error) this.clear();
@@ -201,6 +225,7 @@ class Console {
     this.drawnJob = this.job;
     byId('pictures').classList.toggle('alone', !picture.solid || picture.charts.length === 0);
     panels.figures(byId('figures'), picture);
+    this.drawSolid(picture).catch((failure) => this.trouble(failure)); // first: the readout stands under the solid
     try {
       this.charts.show(picture.charts);
       this.unlisten?.();
@@ -208,7 +233,6 @@ class Console {
     } catch (failure) {
       this.trouble(failure);
     }
-    this.drawSolid(picture).catch((failure) => this.trouble(failure));
   }
 
   private async drawSolid(picture: Picture): Promise<void> {
@@ -286,10 +310,11 @@ class Console {
           ]
         : []),
       el('button', {type: 'button', title: 'Back to the first view', onclick: () => void this.stage?.then((stage) => stage?.reset())}, 'Reset view'),
+      el('button', {type: 'button', title: 'The picture, the curves and the tables on paper', onclick: () => print()}, 'Print'),
     );
-    const [low, high] = picture.solid?.scale ?? ['B −30°', '60°'];
-    byId('scale').replaceChildren(low, el('i'), high);
-    byId('scale').hidden = !picture.solid?.tubes.some((t) => t.b) && !picture.solid?.holed;
+    const [low, high] = picture.solid?.scale ?? [];
+    byId('scale').replaceChildren(low ?? '', el('i'), high ?? '');
+    byId('scale').hidden = low === undefined;
   }
 
   private drawNavigation(): void {
@@ -304,9 +329,10 @@ class Console {
     const {endpoint, example, edited} = this.state;
     const own = this.examples.filter((each) => each.endpoint === endpoint);
     byId<HTMLSelectElement>('example').replaceChildren(
-      ...(example ? [] : [el('option', {selected: true, value: ''}, 'From a link')]),
-      ...own.map((each) => el('option', {value: each.name, selected: each.name === example}, exampleName(each.name))),
+      ...(example ? [] : [el('option', {selected: true, value: ''}, 'A job of your own')]),
+      ...own.map((each) => el('option', {value: each.name, selected: each.name === example}, exampleName(endpoint, each.name))),
     );
+    byId('blank').hidden = endpoint === 'replays'; // of which another page's answer is a part
     byId('reset').hidden = !edited || example === undefined;
     byId('preset').hidden = !preset.offered(this.contract, this.contract.request(path(endpoint)));
     byId('preset').setAttribute('aria-pressed', String(preset.pressed(this.state.body)));
@@ -405,7 +431,7 @@ class Console {
     if (reply.answer) {
       const facts = motionFacts(reply.answer.result);
       const figures = el('div', {class: 'figures'});
-      panels.figures(figures, {charts: [], ...facts});
+      panels.figures(figures, facts);
       extra.append(figures, el('div', {class: 'columns'}, ...(facts.tables ?? []).map(panels.table)));
     } else
       panels.verdict(

@@ -1,69 +1,7 @@
-/** How wire names read on the page: `max_slope_deg_per_mm` is "max slope" in "°/mm". */
-const units: [string, string][] = [
-  ['_deg_per_mm2', '°/mm²'],
-  ['_deg_per_mm', '°/mm'],
-  ['_rad_per_mm', 'rad/mm'],
-  ['_per_hour', '1/h'],
-  ['_rev_min', '1/min'],
-  ['_mm_min', 'mm/min'],
-  ['_m_min', 'm/min'],
-  ['_mm_s3', 'mm/s³'],
-  ['_mm_s2', 'mm/s²'],
-  ['_mm_s', 'mm/s'],
-  ['_mm3_s', 'mm³/s'],
-  ['_mm3', 'mm³'],
-  ['_mm2', 'mm²'],
-  ['_mm', 'mm'],
-  ['_deg', '°'],
-  ['_rad', 'rad'],
-  ['_ms', 'ms'],
-  ['_us', 'µs'],
-  ['_um', 'µm'],
-  ['_kg', 'kg'],
-  ['_pulses', 'pulses'],
-  ['_s', 's'],
-];
-const words: Record<string, string> = {
-  outer_diameter: 'outer Ø',
-  id: 'name',
-  cap: 'groove cap',
-  mm_min: 'speed',
-  b: 'B',
-  b_raw: 'B raw',
-  b_required: 'B required',
-  eps_b: 'B tolerance',
-  eps_tip: 'tip tolerance',
-  weld: 'weld length',
-  long: 'long side',
-  short: 'short side',
-};
-const short: Record<string, string> = {
-  outer_diameter: 'Ø',
-  inclination: 'incl.',
-  clocking: 'clock',
-  offset: 'offset',
-  height: 'height',
-  id: 'name',
-  wall: 'wall',
-};
+import {sentence} from './words';
 
-export function unit(name: string): string {
-  if (name === 'mm_min') return 'mm/min';
-  return units.find(([ending]) => name.endsWith(ending))?.[1] ?? '';
-}
-
-function stem(name: string): string {
-  const ending = units.find(([text]) => name.endsWith(text))?.[0] ?? '';
-  return ending && name !== 'mm_min' ? name.slice(0, -ending.length) : name;
-}
-
-export const label = (name: string) => words[stem(name)] ?? stem(name).replace(/_/g, ' ');
-export const brief = (name: string) => short[stem(name)] ?? label(name);
-
-/** The service's short unit names, as in `verification`. */
-export const spelled = (text: string) => unit(`_${text}`) || (text === 'deg' ? '°' : text);
-
-export const endpointNames: Record<string, string> = {
+/** What the pages are called, in their order. */
+const endpointNames: Record<string, string> = {
   'bevel-tables': 'Cut and bevel',
   intersections: 'Intersection',
   nodes: 'Node',
@@ -78,27 +16,44 @@ export const endpointNames: Record<string, string> = {
 export const endpointOrder = Object.keys(endpointNames);
 export const endpointName = (id: string) => endpointNames[id] ?? sentence(id.replace(/-/g, ' '));
 
-export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
-
+/** Of examples whose file's name tells a stranger nothing. */
+const exampleNames: Record<string, string> = {
+  'bevel-tables/source-000-table-1': 'Four tubes at one node, from a published table',
+  'bevel-tables/source-000-table-1-as-published': 'The same four tubes, with the published angles',
+  'bevel-tables/source-002-offset-pair': 'A branch beside its chord’s axis',
+  'bevel-tables/k-joint-from-centre-lines': 'A brace of a K joint, from centre-lines',
+  'bevel-tables/mitre': 'A mitre: two tubes end at a plane',
+  'bevel-tables/table-1-five-axis-at-600-mm-min': 'Four tubes, within a machine’s speeds',
+  'bevel-tables/table-1-torch-45-deg': 'Four tubes, a torch that leans 45°',
+  'bevel-tables/tube-laser-branch': 'A branch cut square by a tube laser',
+  'bevel-tables/zones': 'Groove angles by a welding code’s zones',
+  'intersections/source-000-table-1': 'Four tubes at one node, from a published table',
+  'intersections/two-tubes-by-axis': 'Two tubes, given by their axes',
+  'nodes/source-002-offset-pair': 'A branch beside its chord’s axis',
+  'nodes/stated-mitre': 'A mitre, stated by a member',
+  'parts/table-1-with-a-square-far-end': 'A tube cut by four others, square at its far end',
+  'parts/chord-with-holes': 'A chord with two holes',
+  'parts/tube-laser-chord': 'A chord cut square by a tube laser',
+  'pulse-schedules/table-1-on-the-five-axis-cutter': 'Four tubes on the five-axis cutter',
+  'pulse-schedules/source-001-mill-path': 'A groove on the cone mill',
+  'pulse-schedules/source-002-offset-pair-on-the-crawler': 'A branch on the crawler',
+  'feed-curves/source-004-table-1-as-printed': 'A published feed curve, as printed',
+  'feed-curves/source-004-table-1-as-solved': 'A published feed curve, as solved',
+  'feed-curves/source-004-table-3-as-printed': 'A published feed curve of three points, as printed',
+  'feed-curves/source-004-table-3-as-solved': 'A published feed curve of three points, as solved',
+  'feed-curves/cut-off-194-mm-whole-cycle': 'A tube of 194 mm cut off, the whole cycle',
+};
 const kept: [RegExp, string][] = [
   [/^case ([a-z]) /, 'case $1: '],
-  [/^source (\d+) /, 'Source $1: '],
   [/(\d+) mm min/g, '$1 mm/min'],
   [/(\d+) deg\b/g, '$1°'],
-  [/(as printed|as published|as solved)/, '($1)'],
 ];
-export function exampleName(name: string): string {
-  return sentence(kept.reduce((text, [from, to]) => text.replace(from, to), name.replace(/-/g, ' ')));
-}
+export const exampleName = (endpoint: string, name: string) =>
+  exampleNames[`${endpoint}/${name}`] ?? sentence(kept.reduce((text, [from, to]) => text.replace(from, to), name.replace(/-/g, ' ')));
 
-/** Four significant digits, without the trailing zeros of toPrecision. */
-export function short4(value: number): string {
-  if (!Number.isFinite(value)) return String(value);
-  if (value === 0) return '0';
-  const size = Math.abs(value);
-  if (size >= 1e7 || size < 1e-4) return value.toExponential(1).replace('e+', 'e');
-  return String(Number(value.toPrecision(size >= 1000 ? 6 : 4)));
-}
+/** Heads of the narrow columns of a list of tubes. */
+const short: Record<string, string> = {outer_diameter_mm: 'Ø', inclination_deg: 'incl.', clocking_deg: 'clock'};
+export const brief = (name: string, otherwise: string) => short[name] ?? otherwise;
 
 /** What stands under the pictures. */
 export const tabs: [string, string][] = [
@@ -106,5 +61,5 @@ export const tabs: [string, string][] = [
   ['motion', 'Pulses and speed'],
   ['table', 'Table'],
   ['json', 'JSON'],
-  ['downloads', 'Downloads'],
+  ['downloads', 'Files'],
 ];

@@ -2,10 +2,12 @@ import {byId, el, save} from './dom';
 import {isRow, type Json, type Row} from './json';
 import {askForKey, headed, keyed} from './key';
 import {listen} from './links';
-import {endpointName, label, sentence, short4, spelled, unit} from './names';
+import {endpointName} from './names';
 import type {Picture, Table} from './picture';
 import type {Format} from './schema';
-import {away, holds, path, type Answer, type Problem} from './service';
+import {away, holds, path, type Answer, type Check, type Problem, type Warning} from './service';
+import {beside, number, residual, shown, spelled, unit} from './units';
+import {about, check as checkName, choice, hint, label, place, plain, sentence, term, text as textOf, type Term} from './words';
 import {said} from './form';
 
 /** Verdict, reasons and failed checks, or the problem: in plain sight above the pictures. */
@@ -16,11 +18,12 @@ export function verdict(
   milliseconds: number,
   focus: (pointer: string) => void,
   again?: () => void,
+  facts = '',
 ): void {
   if (problem?.code === away.code) silence(root, problem.title, problem.action ?? '', again);
   else if (problem?.code === 'unauthorized' && again) askForKey(root, again);
   else if (problem) root.replaceChildren(...refusal(problem, focus));
-  else if (answer) root.replaceChildren(...approval(answer, milliseconds, focus));
+  else if (answer) root.replaceChildren(...approval(answer, milliseconds, focus, facts));
 }
 
 /** Where there is no verdict: a service that is away, a link that cannot be read. */
@@ -46,91 +49,120 @@ function refusal(problem: Problem, focus: (pointer: string) => void): HTMLElemen
     el(
       'li',
       {},
-      el('button', {type: 'button', onclick: () => focus(issue.pointer)}, issue.pointer || '/'),
+      placeButton(issue.pointer, focus),
       ' ',
       said(issue),
-      issue.got === undefined || issue.got === null || typeof issue.got === 'object' ? '' : ` – got ${String(issue.got)}`,
+      issue.got === undefined || issue.got === null || typeof issue.got === 'object' ? '' : ` – got ${choice(issue.got)}`,
     ),
   );
   return [
     el(
       'div',
       {class: 'verdict bad'},
-      el('p', {}, el('span', {class: 'pill'}, 'refused'), el('b', {}, problem.title), problem.detail && !rows.length ? ` ${problem.detail}` : ''),
+      el('p', {}, el('span', {class: 'pill'}, 'refused'), el('b', {}, problem.title), problem.detail && !rows.length ? ` ${plain(problem.detail)}` : ''),
       rows.length ? el('ul', {}, ...rows) : null,
-      problem.action ? el('p', {class: 'soft'}, problem.action) : null,
+      problem.action ? el('p', {class: 'soft'}, plain(problem.action)) : null,
     ),
   ];
 }
 
-const titles = {ok: 'ok', review: 'review', reject: 'reject'};
+/** Names a field, and leads to it. */
+const placeButton = (pointer: string, focus: (pointer: string) => void) =>
+  el('button', {type: 'button', 'data-to': pointer, title: 'Show this field', onclick: () => focus(pointer)}, place(pointer));
 
-function approval(answer: Answer, milliseconds: number, focus: (pointer: string) => void): HTMLElement[] {
+/** What the verdict comes to, before what is known of the cut. */
+const meanings = {
+  made: {ok: 'Cuttable.', review: 'Look before you cut.', reject: 'Not to be cut.'},
+  known: {ok: 'Sound.', review: 'Look at this first.', reject: 'Not to be used.'},
+};
+const made = new Set(['bevel-tables', 'holes', 'parts', 'pulse-schedules', 'mill-paths', 'replays']);
+
+function approval(answer: Answer, milliseconds: number, focus: (pointer: string) => void, facts: string): HTMLElement[] {
   const {status, reasons} = answer.verdict;
   const failed = answer.verification.checks.filter((check) => !holds(check));
   const total = answer.verification.checks.length;
   const proof = answer.verification.passed ? `${total} of ${total} checks of its own proof hold` : `${Math.max(1, failed.length)} of ${total} checks failed`;
   const tone = answer.verification.passed ? {ok: 'good', review: 'warn', reject: 'bad'}[status] : 'bad';
+  const meaning = meanings[made.has(answer.job.endpoint) ? 'made' : 'known'][answer.verification.passed ? status : 'reject'];
   const named = new Set(answer.warnings.map((w) => w.code));
-  const notes = [
-    ...(answer.verification.passed
-      ? []
-      : failed.map((check) => el('li', {}, `${label(check.name)}: ${short4(check.value)} ${spelled(check.unit)}, limit ${short4(check.limit)}`))),
-    ...answer.warnings.map((warning) =>
-      el(
-        'li',
-        {class: warning.severity},
-        el('b', {}, sentence(warning.code.replace(/_/g, ' '))),
-        warning.detail ? `: ${warning.detail.replace(/\.$/, '')}. ` : ' ',
-        warning.action ? `${warning.action} ` : null,
-        warning.pointer ? el('button', {type: 'button', onclick: () => focus(warning.pointer)}, warning.pointer) : null,
-      ),
-    ),
-    ...reasons.filter((reason) => !named.has(reason)).map((reason) => el('li', {}, sentence(reason.replace(/_/g, ' ')))),
+  const said = [
+    ...(answer.verification.passed ? [] : failed.map((check) => el('li', {}, overLimit(check)))),
+    ...answer.warnings.filter((warning) => warning.severity === 'cut').map((warning) => told(warning, focus)),
+    ...reasons.filter((reason) => !named.has(reason)).map((reason) => el('li', {}, sentence(choice(reason)))),
   ];
+  // A note makes no verdict: it is there for who asks.
+  const notes = answer.warnings.filter((warning) => warning.severity === 'note').map((warning) => told(warning, focus));
   return [
     el(
       'div',
       {class: `verdict ${tone}`},
-      el('p', {}, el('span', {class: 'pill'}, titles[status]), proof, el('span', {class: 'soft right'}, `answered in ${milliseconds.toFixed(0)} ms`)),
-      notes.length ? el('ul', {}, ...notes) : null,
+      el('p', {}, el('span', {class: 'pill'}, status), el('span', {class: 'said'}, el('b', {}, meaning), ` ${facts}`)),
+      el('p', {class: 'soft'}, el('span', {}, proof), el('span', {class: 'right'}, `answered in ${milliseconds.toFixed(0)} ms`)),
+      said.length ? el('ul', {}, ...said) : null,
+      notes.length ? el('details', {}, el('summary', {}, notes.length === 1 ? 'A note' : `${notes.length} notes`), el('ul', {}, ...notes)) : null,
     ),
   ];
 }
 
-export function figures(root: HTMLElement, picture: Picture): void {
+const told = (warning: Warning, focus: (pointer: string) => void) =>
+  el(
+    'li',
+    {class: warning.severity},
+    el('b', {}, sentence(choice(warning.code))),
+    warning.detail ? `: ${plain(warning.detail).replace(/\.$/, '')}. ` : ' ',
+    warning.action ? `${plain(warning.action)} ` : null,
+    warning.pointer ? placeButton(warning.pointer, focus) : null,
+  );
+
+function overLimit(check: Check): string {
+  const mark = spelled(check.unit);
+  return `${sentence(checkName(check.name).name)}: ${beside(residual(check.value, mark), mark)}, limit ${beside(residual(check.limit, mark), mark)}`;
+}
+
+export function figures(root: HTMLElement, picture: Pick<Picture, 'figures'>): void {
   root.replaceChildren(
     ...picture.figures.map((figure) =>
-      el('div', {class: 'figure'}, el('span', {}, sentence(figure.name)), el('b', {}, figure.value, el('small', {}, figure.unit ? ` ${figure.unit}` : ''))),
+      el(
+        'div',
+        {class: 'figure', title: figure.about},
+        el('span', {}, sentence(figure.name)),
+        el('b', {}, figure.value, el('small', {}, figure.unit ? `${figure.unit === '°' ? '' : ' '}${figure.unit}` : '')),
+      ),
     ),
   );
 }
 
-/** Writes the values under the cursor, until what it returns is called. */
+/** Writes the values under the cursor, until what it returns is called. Its rows stand there before, so that nothing moves. */
 export function readout(picture: Picture): (() => void) | null {
   const links = [...new Set(picture.charts.map((chart) => chart.link))];
   if (!links.length || !picture.readout) {
     byId('readout')?.replaceChildren();
     return null;
   }
-  const write = (index: number | null, link = '') => {
+  const write = (index: number | null, link = links[0] as string) => {
     const root = byId('readout');
     if (!root) return;
-    const rows = index === null ? [] : (picture.readout?.(index, link) ?? []);
-    root.replaceChildren(...rows.flatMap(([name, value]) => [el('div', {}, el('dt', {}, name), el('dd', {}, value))]));
-    if (!rows.length)
-      root.replaceChildren(el('div', {class: 'soft'}, el('dt', {}, 'Point at a chart or the cut end to read its values; the cursor moves in every view.')));
+    const rows = picture.readout?.(index ?? 0, link) ?? [];
+    root.title = index === null ? 'Point at a chart or at the cut, or use the arrow keys: the cursor moves in every view.' : '';
+    root.classList.toggle('idle', index === null);
+    root.replaceChildren(
+      ...rows.map(([name, value]) => el('div', {title: hint(name)}, el('dt', {}, sentence(textOf(name))), el('dd', {}, index === null ? '–' : value))),
+    );
   };
   const forget = links.map((link) => listen(link, (index) => write(index, link)));
   write(null);
   return () => forget.forEach((each) => each());
 }
 
+const cell = (tag: 'td' | 'th', of: Term) => el(tag, {scope: tag === 'th' ? 'col' : null, title: hint(of)}, textOf(of));
+
+const capital = (of: Term): Term => (typeof of === 'string' ? sentence(of) : {...of, text: sentence(of.text)});
+
 export function table(given: Table): HTMLElement {
   const bare = given.head.every((each) => each === '');
   return el(
     'section',
-    {class: 'block', id: given.id ? `table-${given.id}` : null},
+    {class: given.head.length > 4 ? 'block whole' : 'block', id: given.id ? `table-${given.id}` : null},
     el('h3', {}, given.title),
     el(
       'div',
@@ -138,45 +170,62 @@ export function table(given: Table): HTMLElement {
       el(
         'table',
         {},
-        bare ? null : el('thead', {}, el('tr', {}, ...given.head.map((text) => el('th', {scope: 'col'}, text)))),
-        el('tbody', {}, ...given.rows.map((row) => el('tr', {}, ...row.map((text) => el('td', {}, text))))),
+        bare ? null : el('thead', {}, el('tr', {}, ...given.head.map((each) => cell('th', capital(each))))),
+        el('tbody', {}, ...given.rows.map((row) => el('tr', {}, ...row.map((each, i) => cell('td', i ? each : capital(each)))))),
       ),
     ),
   );
 }
 
+const active = 0.98; // of a limit that may be used up: the answer rests on it
+const near = 0.5; // of one that may not
+
+/** How a check stands to its limit: one that may be used up is active at it, a residual is near a failure. */
+function standing(check: Check, kind: 'checks' | 'limits'): {tone: string; text: string; share: number} {
+  const share = check.limit > 0 ? check.value / check.limit : check.value > 0 ? Infinity : 0;
+  const part = Math.min(1, Math.max(0, share));
+  if (!holds(check)) return {tone: 'failed', text: 'FAILED', share: part};
+  if (kind === 'limits') return share >= active ? {tone: 'active', text: 'at its limit, as it may be', share: part} : {tone: '', text: 'holds', share: part};
+  return share >= near ? {tone: 'near', text: 'holds, near its limit', share: part} : {tone: '', text: 'holds', share: part};
+}
+
 /** What was measured against what is allowed, as a share of the limit. */
 export function proof(answer: Answer): HTMLElement {
   const rows = answer.verification.checks.map((check) => {
-    const share = check.limit > 0 ? Math.min(1, Math.max(0, check.value / check.limit)) : 0;
-    const held = holds(check);
+    const {name, about, kind} = checkName(check.name);
+    const {tone, text, share} = standing(check, kind);
+    const mark = spelled(check.unit);
     return el(
       'tr',
-      {class: held ? '' : 'failed'},
-      el('td', {}, label(check.name)),
-      el('td', {}, short4(check.value)),
-      el('td', {}, short4(check.limit)),
-      el('td', {}, spelled(check.unit)),
-      el('td', {}, el('meter', {min: '0', max: '1', value: share, 'aria-label': `${label(check.name)}: share of the limit`})),
-      el('td', {}, held ? 'holds' : 'FAILED'),
+      {class: tone, title: about},
+      el('td', {}, sentence(name)),
+      el('td', {}, beside(residual(check.value, mark), mark)),
+      el('td', {}, beside(residual(check.limit, mark), mark)),
+      el(
+        'td',
+        {},
+        el('meter', {min: '0', max: '1', value: share, 'aria-label': `${name}: share of the limit`}),
+        ` ${share > 0 && share < 0.01 ? '< 1' : number(100 * share, '%')} %`,
+      ),
+      el('td', {}, text),
     );
   });
-  const job = answer.job;
+  const {job} = answer;
   return el(
     'div',
     {class: 'columns'},
     el(
       'section',
-      {class: 'block'},
+      {class: 'block whole'},
       el('h3', {}, 'Proof'),
-      el('p', {class: 'soft'}, 'Residuals computed from the answer by other formulas than those that made it.'),
+      el('p', {class: 'soft'}, 'Residuals computed from the answer by other formulas than those that made it, and the limits that it keeps.'),
       el(
         'div',
         {class: 'scroll', tabindex: '0', role: 'group', 'aria-label': 'Proof'},
         el(
           'table',
           {},
-          el('thead', {}, el('tr', {}, ...['check', 'value', 'limit', '', 'of the limit', ''].map((t) => el('th', {scope: 'col'}, t)))),
+          el('thead', {}, el('tr', {}, ...['Check', 'Value', 'Limit', 'Of the limit', ''].map((t) => el('th', {scope: 'col'}, t)))),
           el('tbody', {}, ...rows),
         ),
       ),
@@ -185,10 +234,10 @@ export function proof(answer: Answer): HTMLElement {
       title: 'Job',
       head: ['', ''],
       rows: [
-        ['engine', job.engine],
+        [term('engine'), job.engine],
         ['job', job.id],
-        ['input sha-256', job.input_sha256],
-        ['result sha-256', job.result_sha256],
+        [{text: label('input_sha256'), about: about('input_sha256')}, `${job.input_sha256.slice(0, 12)} …`],
+        [{text: label('result_sha256'), about: about('result_sha256')}, `${job.result_sha256.slice(0, 12)} …`],
       ],
     }),
   );
@@ -196,14 +245,15 @@ export function proof(answer: Answer): HTMLElement {
 
 /** Every column of the answer's points. */
 export function columns(answer: Answer): HTMLElement {
-  const found: [string, Row][] = [];
+  const found: [string, Row, string][] = []; // title, columns, the name they stand under
   const look = (row: Row, name: string) => {
     for (const [key, value] of Object.entries(row)) {
-      const each = Array.isArray(value) && isRow(value[0]) ? value.map((v, i): [string, Json] => [`${key} ${i + 1}`, v]) : [[key, value] as [string, Json]];
+      const each =
+        Array.isArray(value) && isRow(value[0]) ? value.map((v, i): [string, Json] => [`${label(key)} ${i + 1}`, v]) : [[label(key), value] as [string, Json]];
       for (const [title, inner] of each) {
         if (!isRow(inner)) continue;
         const lists = Object.values(inner).filter((v) => Array.isArray(v) && typeof v[0] !== 'object');
-        if (lists.length > 1 && (lists[0] as Json[]).length > 2) found.push([name ? `${name} ${title}` : title, inner]);
+        if (lists.length > 1 && (lists[0] as Json[]).length > 2) found.push([name ? `${name}: ${title}` : title, inner, key]);
         else look(inner, title);
       }
     }
@@ -213,17 +263,20 @@ export function columns(answer: Answer): HTMLElement {
   return el(
     'div',
     {},
-    ...found.slice(0, 6).map(([name, row]) => {
+    ...found.slice(0, 6).map(([name, row, within]) => {
       const cols = Object.entries(row).filter(([, v]) => Array.isArray(v)) as [string, Json[]][];
       const count = Math.min(most, cols[0]?.[1].length ?? 0);
       return table({
-        title: `${sentence(label(name))}, ${cols[0]?.[1].length} rows${count === most ? ` (the first ${most} here)` : ''}`,
-        head: cols.map(([key]) => `${label(key)} ${unit(key)}`.trim()),
-        rows: Array.from({length: count}, (_, i) => cols.map(([, v]) => (typeof v[i] === 'number' ? short4(v[i] as number) : String(v[i] ?? '')))),
+        title: `${sentence(name)}, ${cols[0]?.[1].length} rows${count === most ? ` (the first ${most} here)` : ''}`,
+        head: cols.map(([key]) => term(key, within)),
+        rows: Array.from({length: count}, (_, i) => cols.map(([key, v]) => textual(key, v[i]))),
       });
     }),
   );
 }
+
+const textual = (key: string, value: Json | undefined) =>
+  typeof value === 'number' ? shown(key, value) : typeof value === 'boolean' ? (value ? 'yes' : 'no') : choice(value ?? '');
 
 const quoted = (text: string) => `'${text.replace(/'/g, `'\\''`)}'`;
 /** The key goes by its variable's name: what is copied is pasted anywhere. */
@@ -314,10 +367,11 @@ const endings: Record<string, [string, string]> = {
 };
 const known = (media: string): [string, string] => endings[media] ?? (/dstv|nc1/.test(media) ? ['DSTV', 'nc1'] : [media, 'txt']);
 
-/** By the order and part of the reference, else by the job's own name; then the drawing and the beginning of the input's hash. */
+/** By the order of the reference and the part that is cut, else by the job's own name; then the drawing and the beginning of the input's hash. */
 function fileName(name: string, body: Row, view: string | undefined, hash: string | null): string {
   const reference = (body['reference'] ?? {}) as Record<string, unknown>;
-  const words = [reference['order'], reference['part']].filter((word): word is string => typeof word === 'string');
+  const part = reference['part'] ?? body['member'];
+  const words = [reference['order'], part].filter((word): word is string => typeof word === 'string');
   const parts = [...(words.length ? words : [name]), view ?? '', hash?.slice(0, 8) ?? ''].filter(Boolean);
   return parts.join('-').replace(/[\\/:*?"<>|\s]+/g, '_');
 }
@@ -344,7 +398,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
     }
     if (!reply.ok) {
       const problem = (await reply.json().catch(() => ({title: `status ${reply.status}`}))) as Problem;
-      status.textContent = `${known(media)[0]}: ${problem.title} ${problem.detail ?? ''}`;
+      status.textContent = `${known(media)[0]}: ${plain(`${problem.title} ${problem.detail ?? ''}`)}`;
       return;
     }
     save(`${fileName(name, body, view, reply.headers.get('Tubecut-Input-Sha256'))}.${known(media)[1]}`, await reply.blob());
@@ -353,7 +407,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
     el(
       'button',
       {type: 'button', 'data-media': format.media, 'data-view': view, onclick: () => void fetchFile(format, view)},
-      view ? `${known(format.media)[0]} ${view}` : known(format.media)[0],
+      view ? `${known(format.media)[0]}: ${choice(view)}` : known(format.media)[0],
     );
   const buttons = formats.flatMap((format) => (format.views.length ? format.views.map((view) => button(format, view)) : [button(format)]));
   const options = new Map(formats.flatMap((format) => format.options).map((option) => [option.name, option]));
@@ -367,8 +421,8 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
       ? el(
           'select',
           {},
-          el('option', {value: ''}, `${String(option.schema.default ?? '')} (default)`),
-          ...choices.map((c) => el('option', {value: c}, String(c))),
+          el('option', {value: ''}, `${choice(option.schema.default ?? '')} (default)`),
+          ...choices.map((c) => el('option', {value: c}, choice(c))),
         )
       : // A speed has no default; one to begin with spares a refusal.
         el('input', {type: 'text', inputmode: 'decimal', value: option.name === 'speed_mm_min' ? '600' : '', placeholder: option.schema.default ?? ''});
@@ -377,7 +431,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
     given.set(option.name, input);
     return el(
       'label',
-      {class: 'field', title: option.description},
+      {class: 'field', title: plain(option.description)},
       el('span', {class: 'name'}, `${label(option.name)} (${users})`),
       el('span', {class: 'box'}, input, unit(option.name) ? el('span', {class: 'unit'}, unit(option.name)) : null),
     );

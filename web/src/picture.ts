@@ -1,4 +1,5 @@
 import type {Json} from './json';
+import type {Term} from './words';
 
 /** What there is to see of an answer, as data: the pictures of one endpoint are a function from request and answer to this. */
 export interface Picture {
@@ -7,7 +8,9 @@ export interface Picture {
   figures: Figure[];
   tables?: Table[];
   /** What the cursor reads at a point, for the strip under the solid. */
-  readout?: (index: number, link: string) => [string, string][];
+  readout?: (index: number, link: string) => [Term, string][];
+  /** What the answer comes to, for the verdict. */
+  said?: string;
   /** There is a before and an after to switch between. */
   beforeAfter?: boolean;
 }
@@ -16,15 +19,17 @@ export interface Figure {
   name: string;
   value: string;
   unit?: string;
+  about?: string;
 }
 export interface Table {
   title: string;
-  head: string[];
-  rows: string[][];
+  head: Term[];
+  rows: Term[][];
   id?: string;
 }
 
 export interface Series {
+  about?: string;
   name: string;
   values: (number | null)[];
   tone: string; // a colour of the style sheet
@@ -51,6 +56,8 @@ export interface Chart {
   title: string;
   link: string;
   x: {name: string; unit: string; values: number[]};
+  /** Of a closed curve: x of the whole turn, where it meets its beginning. */
+  period?: number;
   unit: string;
   series: Series[];
   height?: number;
@@ -134,8 +141,10 @@ export interface Solid {
   up?: Vector;
   centre: Vector;
   size: number;
-  /** What the two ends of the tint are; the bevel's range without it. */
+  /** What the two ends of the tint are. */
   scale?: [string, string];
+  /** The bevels that the tint spans, in degrees. */
+  tint?: [number, number];
 }
 
 /** Columns of the answer as numbers. */

@@ -1,5 +1,5 @@
-import {isRow, type Json, type Row} from './json';
-import {label} from './names';
+import {clone, isRow, type Json, type Row} from './json';
+import {choice, label} from './words';
 
 /** A format of an answer, its drawings (the first is the default) and the query parameters it reads. */
 export interface Format {
@@ -24,6 +24,7 @@ export interface Schema {
   maxItems?: number;
   items?: Schema;
   oneOf?: Schema[];
+  allOf?: Schema[];
   required?: string[];
   properties?: Record<string, Schema>;
   additionalProperties?: boolean | Schema;
@@ -79,12 +80,37 @@ const beginnings: Record<string, Json> = {
   transition_points: 15,
   gap_mm: 2,
   bevel_deg: 45,
-  area_mm2: 120,
+  area_mm2: 50,
   dihedral_deg: [90, 180],
   groove_deg: [45, 45],
   degree: 2,
   period_s: 0.002,
   id: 'new',
+  members: [
+    {id: 'chord', start_mm: [-500, 0, 0], end_mm: [500, 0, 0], outer_diameter_mm: 168.3, wall_mm: 8},
+    {id: 'branch', start_mm: [0, 0, 0], end_mm: [300, 0, 600], outer_diameter_mm: 88.9, wall_mm: 5},
+  ],
+  member: 'branch',
+  end: 'start',
+  'chord.outer_diameter_mm': 168.3,
+  'chord.wall_mm': 8,
+  'branch.outer_diameter_mm': 88.9,
+  'branch.wall_mm': 8,
+  'root_face.height_mm': 1,
+  'root_face.width_mm': 2,
+  'setup.pivot_length_mm': 500,
+  'mill.half_angle_deg': 30,
+  'mill.tip_radius_mm': 3,
+  'mill.length_mm': 40,
+  arm_mm: 430,
+  pivot_distance_mm: 340,
+  pivot_offset_mm: 90,
+  rest_angle_rad: 1.3,
+  slot_angle_rad: 1.69,
+  rad_per_mm: 0.000486,
+  start_feed_mm: 0,
+  end_feed_mm: 30,
+  feed_mm_s: 1,
 };
 
 /** The service's own description of itself: forms and downloads are drawn from it, not from a list here. */
@@ -155,43 +181,47 @@ export class Contract {
   /** "tube · outer Ø, axis": what tells a branch from its neighbours. */
   branchName(branches: Schema[], branch: Schema): string {
     if (branch.title) return branch.title;
-    if ('const' in branch) return String(branch.const);
-    if (branch.enum) return branch.enum.join(' / ');
+    if ('const' in branch) return choice(branch.const);
+    if (branch.enum) return branch.enum.map(choice).join(' / ');
     if (!branch.properties) return branch.type === 'null' ? 'none' : (branch.type ?? 'value');
     const kind = this.kind(branch);
     const like = branches.filter((other) => other.properties && this.kind(other) === kind);
     const alike = like.length === branches.length;
     const own = (branch.required ?? []).filter((key) => !like.every((other) => other.required?.includes(key)));
-    const choice = own.slice(0, 2).map(label).join(', ');
+    const by = own
+      .slice(0, 2)
+      .map((key) => label(key))
+      .join(', ');
     if (like.length === 1 && kind) return kind;
-    return [alike ? '' : kind, choice].filter(Boolean).join(' · ') || 'object';
+    return [alike ? '' : kind, by].filter(Boolean).join(' · ') || 'object';
   }
 
   kind(branch: Schema): string {
     for (const [key, inner] of Object.entries(branch.properties ?? {})) {
       const schema = this.resolve(inner);
       if (!branch.required?.includes(key) && !['kind', 'method', 'rule'].includes(key)) continue;
-      if ('const' in schema && typeof schema.const === 'string') return schema.const.replace(/_/g, ' ');
+      if ('const' in schema && typeof schema.const === 'string') return choice(schema.const);
     }
     for (const [key, inner] of Object.entries(branch.properties ?? {})) {
       const schema = this.resolve(inner);
-      if (schema.enum && ['rule', 'method', 'kind'].includes(key)) return schema.enum.join(' / ').replace(/_/g, ' ');
+      if (schema.enum && ['rule', 'method', 'kind'].includes(key)) return schema.enum.map(choice).join(' / ');
     }
     return '';
   }
 
   /** A value to start with; what `old` has under the same names is kept. */
-  make(given: Schema, old?: Json, name = ''): Json {
+  make(given: Schema, old?: Json, name = '', within = ''): Json {
     const schema = this.resolve(given);
     if ('const' in schema) return schema.const as Json;
     const branches = this.branches(schema);
-    if (branches.length > 0 && !schema.properties) return this.make(branches[0] as Schema, old, name);
+    if (branches.length > 0 && !schema.properties) return this.make(branches[0] as Schema, old, name, within);
     if (schema.enum) return (old !== undefined && schema.enum.includes(old) ? old : (schema.default ?? schema.enum[0])) as Json;
-    if (schema.properties) return this.makeRow(schema, isRow(old) ? old : {});
+    if (schema.properties) return this.makeRow(schema, isRow(old) ? old : {}, name);
     if (old !== undefined && typeof old === (schema.type === 'integer' ? 'number' : schema.type)) return old;
-    if (name in beginnings) return beginnings[name] as Json;
+    const beginning = beginnings[`${within}.${name}`] ?? beginnings[name];
+    if (beginning !== undefined) return clone(beginning);
     if (schema.type === 'array') {
-      return Array.from({length: schema.minItems ?? 0}, () => this.make(schema.items ?? {}, undefined));
+      return Array.from({length: schema.minItems ?? 0}, () => this.make(schema.items ?? {}, undefined, name));
     }
     if (schema.default !== undefined) return schema.default;
     if (schema.type === 'null') return null;
@@ -199,10 +229,15 @@ export class Contract {
     return schema.type === 'string' ? '' : (schema.minimum ?? 1);
   }
 
-  private makeRow(schema: Schema, old: Row): Row {
+  private makeRow(schema: Schema, old: Row, name: string): Row {
     const made: Row = {};
+    // Of fields that stand for each other the first, unless another is there.
+    const ways = (schema.allOf ?? []).flatMap(({oneOf}) =>
+      oneOf?.some((way) => way.required?.every((key) => key in old)) ? [] : (oneOf?.[0]?.required ?? []),
+    );
+    const asked = [...(schema.required ?? []), ...ways];
     for (const [key, inner] of Object.entries(schema.properties ?? {})) {
-      if (schema.required?.includes(key) || 'const' in this.resolve(inner)) made[key] = this.make(inner, old[key], key);
+      if (asked.includes(key) || 'const' in this.resolve(inner)) made[key] = this.make(inner, old[key], key, name);
       else if (key in old) made[key] = old[key] as Json;
     }
     return made;

@@ -2,7 +2,7 @@
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
 import {deflateRawSync} from 'node:zlib';
-import {answered, open, pixels, then} from '../browser.mjs';
+import {answered, formed, open, pixels, then} from '../browser.mjs';
 
 const table1 = JSON.parse(await readFile(new URL('../../../examples/bevel-tables/source-000-table-1.json', import.meta.url)));
 const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);
@@ -116,6 +116,7 @@ export const checks = {
   'a service that is away is said to be, and asked again': async ({browser, origin}) => {
     const page = await open(browser, origin, '', {width: 390, height: 844});
     await answered(page);
+    await formed(page);
     await page.route('**/v1/**', (route) => route.abort('connectionrefused'));
     await then(page, () => field(page, '/target/wall_mm').fill('6'));
     assert.match(await verdict(page), /^no answer\s+The service cannot be reached\./);

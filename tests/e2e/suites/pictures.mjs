@@ -1,6 +1,6 @@
 // What is shown of an answer is what the service says: its checks, its curves, its parts, the values sent.
 import {strict as assert} from 'node:assert';
-import {answered, open, pixels, then} from '../browser.mjs';
+import {answered, formed, open, pixels, then} from '../browser.mjs';
 
 const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);
 const clean = (page) => assert.deepEqual(page.faults, [], 'errors in the browser');
@@ -38,6 +38,7 @@ async function whole({browser, origin}, width, height) {
   for (const hash of ['bevel-tables/zones', 'pulse-schedules/table-1-on-the-five-axis-cutter', 'replays/square-cut', 'feed-curves/source-004-table-1-as-solved']) {
     const page = await open(browser, origin, `#/${hash}`, {width, height});
     await answered(page);
+    await formed(page);
     const clipped = () => page.evaluate(() => [...document.querySelectorAll('#form input[type=text]')]
       .filter((input) => input.offsetParent && input.scrollWidth > input.clientWidth).map((input) => `${input.dataset.pointer} ${input.value}`));
     assert.deepEqual(await clipped(), [], hash);
@@ -147,6 +148,7 @@ export const checks = {
     for (const width of [1280, 390]) {
       const page = await open(browser, origin, '', {width, height: 800});
       await answered(page);
+      await formed(page);
       const [wall, diameter] = [field(page, '/target/wall_mm'), field(page, '/target/outer_diameter_mm')];
       const radius = Number(await diameter.inputValue()) / 2;
       await then(page, () => wall.fill(String(radius + 1)));

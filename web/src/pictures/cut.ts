@@ -1,8 +1,10 @@
 import {isRow, type Json, type Row} from '../json';
-import {label, short4} from '../names';
 import {column, type Band, type Chart, type CutTube, type Mark, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
+import {number, withUnit} from '../units';
+import {choice, sentence, term, type Term} from '../words';
 import type {Context} from './context';
+import {at, figure, plural, readings} from './facts';
 import {gapChart, gapFigures, gapsOf, gapScale} from './gaps';
 import {bounds, partner, radians, tube, type Sizes} from './geometry';
 
@@ -71,17 +73,18 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
       title: 'Cutting angle B',
       unit: '°',
       x: {name: 'developed length', unit: 'mm', values: developed},
+      period: whole,
       height: 205,
       series: [
-        {name: 'before', values: raw, tone: 'before', dash: [5, 4]},
-        {name: 'least that clears', values: required, tone: 'floor', width: 1},
-        {name: 'after', values: b, tone: 'after', width: 2.2},
+        {name: 'before', about: 'As the groove asks for it.', values: raw, tone: 'before', dash: [5, 4]},
+        {name: 'least that clears', about: 'With less, a partner would enter the wall.', values: required, tone: 'floor', width: 1},
+        {name: 'after', about: 'As the torch follows it.', values: b, tone: 'after', width: 2.2},
       ],
       bands: bandsOf(result, along),
       marks: mutationsOf(result, along, phi, raw),
       limits: [
-        {y: Number(torch['min_deg'] ?? NaN), text: 'torch'},
-        {y: Number(torch['max_deg'] ?? NaN), text: 'torch'},
+        {y: Number(torch['min_deg'] ?? NaN), text: 'torch limit'},
+        {y: Number(torch['max_deg'] ?? NaN), text: 'torch limit'},
       ].filter((l) => Number.isFinite(l.y)),
     },
     {
@@ -90,6 +93,7 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
       title: 'Height z of the cut',
       unit: 'mm',
       x: {name: 'φ', unit: '°', values: phi},
+      period: 360,
       height: 150,
       series: [
         {name: 'outer edge', values: z('z_outer_mm'), tone: 'outer', width: 2},
@@ -102,13 +106,35 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
   const {gaps} = cut;
   if (gaps) charts.splice(0, 1, gapChart(points, shared));
   return {
-    solid: {...solidOf(cut, given, sizes, link), ...(gaps ? {scale: gapScale(gaps.most)} : {})},
+    solid: {...solidOf(cut, given, sizes, link), ...(gaps ? {scale: gapScale(gaps.most)} : tinted([...b, ...raw]))},
     charts,
     beforeAfter: !gaps,
     figures: gaps ? gapFigures(result) : figuresOf(result, events.length, b, raw),
     tables: tablesOf(result, given.names),
     readout: (i) => readout(points, given.names, i),
+    said: `${sentence(rangeOf(b))}${Number.isFinite(Number(torch['max_deg'])) ? `, torch limit ${withUnit(torchLimit(torch, b), '°')}` : ''}.`,
   };
+}
+
+/** "B from 18.7 to 72.6°" */
+export function rangeOf(b: number[]): string {
+  const [low, high] = bounds(b).map((each) => number(each, '°')) as [string, string];
+  if (low === high) return low === '0' ? 'square to the wall' : `B is ${low}° all round`;
+  return `B from ${low} to ${high}°`;
+}
+
+/** The end of the torch's range that the cut is nearer to. */
+function torchLimit(torch: Row, b: number[]): number {
+  const [low, high] = bounds(b);
+  const [least, most] = [Number(torch['min_deg']), Number(torch['max_deg'])];
+  return low - least < most - high ? least : most;
+}
+
+/** The tint of cuts with these bevels, before and after alike; a band of 10° at least, so that a cut of one angle has one colour. */
+export function tinted(b: number[]): Pick<Solid, 'scale' | 'tint'> {
+  const [low, high] = bounds(b).map((each, i) => (i ? Math.ceil(each - 0.05) : Math.floor(each + 0.05))) as [number, number];
+  const span: [number, number] = high - low < 10 ? [Math.floor((low + high) / 2) - 5, Math.floor((low + high) / 2) + 5] : [low, high];
+  return {tint: span, scale: [`B ${span[0]}°`, `${span[1]}°`]};
 }
 
 export function wrapChart(phi: number[], outer: number[], inner: number[], partners: number[], radius: number, link: string, names: string[]): Chart {
@@ -120,7 +146,8 @@ export function wrapChart(phi: number[], outer: number[], inner: number[], partn
     unit: 'mm',
     partners,
     partnerNames: names,
-    x: {name: 'the outside, mm for mm', unit: 'mm', values: phi.map((p) => p * scale)},
+    x: {name: 'round the outside, mm for mm', unit: 'mm', values: phi.map((p) => p * scale)},
+    period: 360 * scale,
     series: [
       {name: 'outside', values: outer, tone: 'outer', width: 2},
       {name: 'inside', values: inner, tone: 'inner', width: 1, dash: [4, 3]},
@@ -208,12 +235,12 @@ function figuresOf(result: Row, junctions: number, b: number[], raw: number[]): 
   const [low, high] = bounds(b);
   const extra = b.reduce((most, angle, i) => Math.max(most, Math.abs(angle - (raw[i] as number))), 0);
   return [
-    {name: 'B from', value: short4(low), unit: '°'},
-    {name: 'to', value: short4(high), unit: '°'},
-    {name: 'smoothing moved B by at most', value: short4(extra), unit: '°'},
-    {name: 'mutations', value: String(((result['mutations'] ?? []) as Row[]).length)},
-    {name: 'junctions', value: String(junctions)},
-    {name: 'cut length', value: short4(Number(result['length_mm'])), unit: 'mm'},
+    {name: 'least B', value: number(low, '°'), unit: '°', about: 'Of the finished cut.'},
+    {name: 'greatest B', value: number(high, '°'), unit: '°', about: 'Of the finished cut.'},
+    {name: 'B moved by at most', value: number(extra, '°'), unit: '°', about: 'By smoothing, between before and after.'},
+    {name: 'mutations', value: String(((result['mutations'] ?? []) as Row[]).length), about: 'Steps of B before smoothing.'},
+    {name: 'junctions', value: String(junctions), about: 'Where the cut passes from one partner to the next.'},
+    {name: 'cut length', value: number(Number(result['length_mm']), 'mm'), unit: 'mm', about: 'Along the cut.'},
   ];
 }
 
@@ -221,7 +248,11 @@ function tablesOf(result: Row, names: string[]): Picture['tables'] {
   const tables: Picture['tables'] = [];
   const mutations = (result['mutations'] ?? []) as Row[];
   if (mutations.length) {
-    tables.push({title: 'Mutations', head: ['φ °', 'step °'], rows: mutations.map((row) => [short4(Number(row['phi_deg'])), short4(Number(row['step_deg']))])});
+    tables.push({
+      title: 'Mutations',
+      head: [term('phi_deg'), term('step_deg')],
+      rows: mutations.map((row) => [number(Number(row['phi_deg']), '°'), number(Number(row['step_deg']), '°')]),
+    });
   }
   const events = (result['events'] ?? []) as Row[];
   if (events.length) tables.push(eventTable(events, names));
@@ -232,37 +263,25 @@ export function eventTable(events: Row[], names: string[]) {
   const name = (value: Json | undefined) => names[Number(value)] ?? String(value);
   return {
     title: 'Junctions',
-    head: ['kind', 'wall', 'φ °', 'z mm', 'from', 'to'],
+    head: ['kind', 'wall', term('phi_deg'), term('z_mm'), 'from', 'to'],
     rows: events.map((row) => [
-      String(row['kind']),
-      String(row['surface']),
-      short4(Number(row['phi_deg'])),
-      short4(Number(row['z_from_mm'])),
+      choice(row['kind']),
+      choice(row['surface']),
+      number(Number(row['phi_deg']), '°'),
+      number(Number(row['z_from_mm']), 'mm'),
       name(row['from']),
       name(row['to']),
     ]),
   };
 }
 
-function readout(points: Row, names: string[], i: number): [string, string][] {
-  const value = (name: string) => short4(column(points[name])[i] as number);
+function readout(points: Row, names: string[], i: number): [Term, string][] {
+  const of = (...keys: string[]) => readings(points, i, keys);
+  const cutter = column(points['cutter']);
   return [
-    ['φ', `${value('phi_deg')}°`],
-    ['L', `${value('developed_mm')} mm`],
-    ['partner', names[column(points['cutter'])[i] as number] ?? ''],
-    ['B before', `${value('b_raw_deg')}°`],
-    ['B after', `${value('b_deg')}°`],
-    ['dihedral', `${value('dihedral_deg')}°`],
-    ['z outer', `${value('z_outer_mm')} mm`],
-    ['z inner', `${value('z_inner_mm')} mm`],
-    ['root gap', `${value('gap_mm')} mm`],
-    ['metal in beam', `${value('beam_mm')} mm`],
-    ...(points['gap_outer_mm']
-      ? ([
-          ['gap outside', `${value('gap_outer_mm')} mm`],
-          ['gap inside', `${value('gap_inner_mm')} mm`],
-        ] as [string, string][])
-      : []),
+    ...of('phi_deg', 'developed_mm'),
+    ['partner', names[cutter[i % cutter.length] as number] ?? ''],
+    ...of('b_raw_deg', 'b_deg', 'dihedral_deg', 'z_outer_mm', 'z_inner_mm', 'gap_mm', 'beam_mm', 'gap_outer_mm', 'gap_inner_mm'),
   ];
 }
 
@@ -301,6 +320,7 @@ export async function intersection(_: Row, answer: Answer, context: Context): Pr
         link: 'cut',
         unit: 'mm',
         x: {name: 'φ', unit: '°', values: phi},
+        period: 360,
         partners,
         partnerNames: given.names,
         height: 240,
@@ -312,13 +332,14 @@ export async function intersection(_: Row, answer: Answer, context: Context): Pr
       },
       wrapChart(phi, zOuter, zInner, partners, given.outer / 2, 'cut', given.names),
     ],
-    figures: profiles.flatMap((p) => [{name: `${label(String(p['surface']))} length`, value: short4(Number(p['length_mm'])), unit: 'mm'}]),
+    figures: profiles.map((p) => ({...figure('length_mm', p['length_mm']), name: `length, ${choice(p['surface'])} edge`})),
     tables: events.length ? [eventTable(events, given.names)] : [],
+    said: `The cut meets ${plural(new Set(partners).size, 'partner')} and has ${plural(events.length, 'junction')}.`,
     readout: (i) => [
-      ['φ', `${short4(phi[i] as number)}°`],
-      ['z outside', `${short4(zOuter[i] as number)} mm`],
-      ['z inside', `${short4(zInner[i] as number)} mm`],
-      ['partner', given.names[partners[i] as number] ?? ''],
+      ['φ', at({phi_deg: phi}, 'phi_deg', i)],
+      ['z outside', at({z_mm: zOuter}, 'z_mm', i)],
+      ['z inside', at({z_mm: zInner}, 'z_mm', i)],
+      ['partner', given.names[partners[i % partners.length] as number] ?? ''],
     ],
   };
 }

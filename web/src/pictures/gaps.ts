@@ -1,5 +1,5 @@
 import type {Row} from '../json';
-import {short4} from '../names';
+import {number, withUnit} from '../units';
 import {column, type Chart, type Gaps, type Picture} from '../picture';
 
 /** Of an end that is cut square: what stays open at its two edges. */
@@ -9,7 +9,7 @@ export function gapsOf(points: Row): Gaps | undefined {
   return {inner, outer, most: [...inner, ...outer].reduce((a, b) => Math.max(a, b), 0)};
 }
 
-export const gapScale = (most: number): [string, string] => ['gap 0', `${short4(most)} mm`];
+export const gapScale = (most: number): [string, string] => ['gap 0', withUnit(most, 'mm')];
 
 /** The gap of the square cut over phi, and of the same end with a bevel. */
 export function gapChart(points: Row, shared: Pick<Chart, 'link' | 'partners' | 'partnerNames'>): Chart {
@@ -20,6 +20,7 @@ export function gapChart(points: Row, shared: Pick<Chart, 'link' | 'partners' | 
     title: 'Gap to the partner',
     unit: 'mm',
     x: {name: 'φ', unit: '°', values: of('phi_deg')},
+    period: 360,
     height: 205,
     zero: true,
     series: [
@@ -34,14 +35,14 @@ export function gapChart(points: Row, shared: Pick<Chart, 'link' | 'partners' | 
 /** What a laser shop asks of an end. */
 export function gapFigures(result: Row): Picture['figures'] {
   const laser = result['tube_laser'] as Row;
-  const greatest = (name: string) => short4(Number((laser[name] as Row)['greatest_mm']));
+  const greatest = (name: string) => number(Number((laser[name] as Row)['greatest_mm']), 'mm');
   const tongue = laser['tongue'] as Row | undefined;
   return [
     {name: 'greatest gap', value: greatest('gap'), unit: 'mm'},
     {name: 'with a bevel', value: greatest('bevelled_gap'), unit: 'mm'},
-    {name: 'reach of the cut', value: short4(Number(laser['reach_mm'])), unit: 'mm'},
-    ...(tongue ? [{name: 'narrowest tongue', value: short4(Number(tongue['width_mm'])), unit: 'mm'}] : []),
-    {name: 'cut length', value: short4(Number(result['length_mm'])), unit: 'mm'},
+    {name: 'reach of the cut', value: number(Number(laser['reach_mm']), 'mm'), unit: 'mm'},
+    ...(tongue ? [{name: 'narrowest tongue', value: number(Number(tongue['width_mm']), 'mm'), unit: 'mm'}] : []),
+    {name: 'cut length', value: number(Number(result['length_mm']), 'mm'), unit: 'mm'},
   ];
 }
 
@@ -52,10 +53,10 @@ export function webFigures(result: Row): Picture['figures'] {
   const gap = ends.reduce<number>((most, each) => Math.max(most, Number((each as Row)['greatest_mm'])), 0);
   const of = (name: string, key: string, text: string) => {
     const found = laser?.[name] as Row | undefined;
-    return found ? [{name: text, value: short4(Number(found[key])), unit: 'mm'}] : [];
+    return found ? [{name: text, value: number(Number(found[key]), 'mm'), unit: 'mm'}] : [];
   };
   return [
-    ...(ends.length ? [{name: 'greatest gap', value: short4(gap), unit: 'mm'}] : []),
+    ...(ends.length ? [{name: 'greatest gap', value: number(gap, 'mm'), unit: 'mm'}] : []),
     ...of('web', 'width_mm', 'narrowest web'),
     ...of('hole_to_end', 'width_mm', 'hole to end'),
     ...of('seam_to_hole', 'girth_mm', 'seam to hole'),

@@ -1,11 +1,9 @@
 import {isRow, type Json, type Row} from '../json';
-import {label, sentence, short4, unit} from '../names';
 import {column, type Chart, type Picture, type Table} from '../picture';
 import type {Answer} from '../service';
-import {facts} from './facts';
-
-export const text = (value: Json | undefined): string =>
-  typeof value === 'number' ? short4(value) : value === undefined || value === null ? '' : typeof value === 'object' ? JSON.stringify(value) : String(value);
+import {unit} from '../units';
+import {about, label, sentence, term} from '../words';
+import {facts, figure, text} from './facts';
 
 /** Any answer: numbers as figures, lists as tables, columns of one length as charts. */
 export async function generic(_: Row, answer: Answer): Promise<Picture> {
@@ -16,8 +14,8 @@ export async function generic(_: Row, answer: Answer): Promise<Picture> {
 
 function walk(row: Row, path: string, picture: Picture): void {
   const scalars = Object.entries(row).filter(([, v]) => typeof v !== 'object');
-  if (path && scalars.length) picture.tables?.push(facts(sentence(label(path)), Object.fromEntries(scalars)));
-  else picture.figures.push(...scalars.map(([k, v]) => ({name: label(k), value: text(v), unit: unit(k)})));
+  if (path && scalars.length) picture.tables?.push(facts(path, Object.fromEntries(scalars)));
+  else picture.figures.push(...scalars.map(([k, v]) => figure(k, v)));
   for (const [key, value] of Object.entries(row)) {
     if (isRow(value)) {
       const chart = columns(key, value);
@@ -27,13 +25,14 @@ function walk(row: Row, path: string, picture: Picture): void {
   }
 }
 
+/** A list of rows; numbers alone may come from JSON with as many digits as they like. */
 export function table(key: string, rows: Row[]): Table {
-  const names = [...new Set(rows.flatMap((row) => Object.keys(row)))].filter((name) => rows.some((row) => typeof row[name] !== 'object'));
+  const names = [...new Set(rows.flatMap((row) => Object.keys(row)))].filter((name) => rows.some((row) => !isRow(row[name])));
   return {
     id: key,
     title: sentence(label(key)),
-    head: names.map((n) => `${label(n)} ${unit(n)}`.trim()),
-    rows: rows.map((row) => names.map((n) => text(row[n]))),
+    head: names.map((name) => term(name, key)),
+    rows: rows.map((row) => names.map((name) => text(name, row[name]))),
   };
 }
 
@@ -47,7 +46,7 @@ function columns(key: string, row: Row): Chart | undefined {
     title: sentence(label(key)),
     link: key,
     unit: '',
-    x: {name: label(first[0]), unit: unit(first[0]), values: column(first[1])},
-    series: others.slice(0, 6).map(([name, values], i) => ({name: label(name), values: column(values), tone: `series-${i}`})),
+    x: {name: label(first[0], key), unit: unit(first[0]), values: column(first[1])},
+    series: others.slice(0, 6).map(([name, values], i) => ({name: label(name, key), about: about(name, key), values: column(values), tone: `series-${i}`})),
   };
 }

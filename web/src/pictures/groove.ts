@@ -1,8 +1,9 @@
-import type {Row} from '../json';
-import {label, short4, unit} from '../names';
+import type {Json, Row} from '../json';
 import {column, type Chart, type Picture, type Ribbon, type Vector} from '../picture';
 import type {Answer} from '../service';
-import {facts} from './facts';
+import {measured, unit, withUnit} from '../units';
+import {about, label} from '../words';
+import {facts, figure, figures, plural, readings} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
 
@@ -19,8 +20,11 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
     link: 'groove',
     unit: unit(names[0]?.[0] ?? ''),
     x,
+    period: (omega[0] as number) + 360,
     ...more,
-    series: names.filter(([name]) => name in sections).map(([name, tone]) => ({name: label(name), values: column(sections[name]), tone, width: 2})),
+    series: names
+      .filter(([name]) => name in sections)
+      .map(([name, tone]) => ({name: label(name, 'sections'), about: about(name, 'sections'), values: column(sections[name]), tone, width: 2})),
   });
   return {
     solid: await solid(request, context),
@@ -41,15 +45,13 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
       chart('angle', 'Groove angle', [['groove_angle_deg', 'after']], {height: 160}),
       chart('twist', 'Twist of the ruling', [['twist_deg', 'outer']], {height: 150, zero: true}),
     ].filter((each) => each.series.length > 0),
-    figures: ['filler_area_mm2', 'height_min_mm', 'height_max_mm', 'weld_length_mm', 'filler_volume_mm3']
-      .filter((key) => key in result)
-      .map((key) => ({name: label(key), value: short4(Number(result[key])), unit: unit(key)})),
-    readout: (i) =>
-      Object.keys(sections)
-        .slice(0, 10)
-        .map((key): [string, string] => [label(key), `${short4(column(sections[key])[i] as number)} ${unit(key)}`]),
+    figures: figures(result, ['filler_area_mm2', 'height_min_mm', 'height_max_mm', 'weld_length_mm', 'filler_volume_mm3']),
+    said: `Filler ${measured('filler_area_mm2', Number(result['filler_area_mm2']))} in every section; the groove is ${measured('height_min_mm', Number(result['height_min_mm']))} to ${measured('height_max_mm', Number(result['height_max_mm']))} high.`,
+    readout: (i) => readings(sections, i, Object.keys(sections).slice(0, 10), 'sections'),
   };
 }
+
+const most = (values: Json | undefined) => column(values).reduce((a, b) => Math.max(a, b), 0);
 
 async function solid(request: Row, context: Context): Promise<Picture['solid']> {
   const finer = await context.ask('grooves', {...without(request), sections: round});
@@ -113,10 +115,18 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
     link: 'mill',
     unit: unit(names[0]?.[0] ?? ''),
     x,
+    period: (x.values[0] as number) + 360,
     ...more,
     series: names
       .filter(([name]) => name in p)
-      .map(([name, tone, dashed]) => ({name: label(name), values: column(p[name]), tone, ...(dashed ? {dash: [5, 4]} : {}), width: dashed ? 1.5 : 2})),
+      .map(([name, tone, dashed]) => ({
+        name: label(name, 'positions'),
+        about: about(name, 'positions'),
+        values: column(p[name]),
+        tone,
+        ...(dashed ? {dash: [5, 4]} : {}),
+        width: dashed ? 1.5 : 2,
+      })),
   });
   return {
     ...(shape.solid ? {solid: {...shape.solid, link: 'mill-groove'}} : {}),
@@ -149,18 +159,12 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
     ],
     figures: [
       {name: 'positions', value: String(x.values.length)},
-      {name: 'qualified', value: result['qualified'] ? 'yes' : 'no'},
-      ...['flank_min_mm', 'flank_max_mm', 'stock_left_max_mm', 'root_face_min_mm'].map((key) => ({
-        name: label(key),
-        value: short4(Number((result['swept'] as Row)[key])),
-        unit: 'mm',
-      })),
+      figure('qualified', result['qualified']),
+      ...figures(result['swept'] as Row, ['flank_min_mm', 'flank_max_mm', 'stock_left_max_mm', 'root_face_min_mm']),
     ],
-    tables: [facts('Swept', result['swept'] as Row)],
+    said: `${plural(x.values.length, 'position')}; overcut at most ${withUnit(most(p['overcut_mm']), 'mm')}, undercut ${withUnit(most(p['undercut_mm']), 'mm')}.`,
+    tables: [facts('swept', result['swept'] as Row)],
     readout: (i) =>
-      ['omega_deg', 'c_deg', 'x_mm', 'z_mm', 'b_deg', 'overcut_before_mm', 'overcut_mm', 'undercut_mm', 'certificate_mm'].map((key): [string, string] => [
-        label(key),
-        `${short4(column(p[key])[i] as number)} ${unit(key)}`,
-      ]),
+      readings(p, i, ['omega_deg', 'c_deg', 'x_mm', 'z_mm', 'b_deg', 'overcut_before_mm', 'overcut_mm', 'undercut_mm', 'certificate_mm'], 'positions'),
   };
 }

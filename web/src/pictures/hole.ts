@@ -1,8 +1,11 @@
 import type {Json, Row} from '../json';
-import {short4} from '../names';
 import {column, type Chart, type HoledTube, type Picture} from '../picture';
 import type {Answer} from '../service';
+import {number} from '../units';
+import {choice, sentence} from '../words';
 import type {Context} from './context';
+import {rangeOf, tinted} from './cut';
+import {readings} from './facts';
 import {bounds, partner, radians, squareEnd, tube} from './geometry';
 
 export async function hole(_: Row, answer: Answer, context: Context): Promise<Picture> {
@@ -30,38 +33,39 @@ export async function hole(_: Row, answer: Answer, context: Context): Promise<Pi
       tubes: [],
       holed: [holed],
       partners: [partner({kind: 'tube', ...branch}, 0, [0, 0, middle], 1.4 * chord.outer, context.sizes)],
+      ...tinted(holed.holes.flatMap((each) => each.b)),
       centre: [0, 0, middle],
-      size: 1.35 * chord.outer,
+      size: 1.7 * chord.outer,
       eye: [Math.cos(at - 0.5), Math.sin(at - 0.5), 0.45],
       up: [0, 0, 1],
     },
     charts,
+    said: points.map((p, i) => sentence(`${count(holes, i)}${rangeOf(column(p['b_deg']))}.`)).join(' '),
     figures: holes.flatMap((each) => {
       const fit = each['fit_up'] as Row | undefined;
       return [
-        {name: `${String(each['side'])} hole, length`, value: short4(Number(each['length_mm'])), unit: 'mm'},
+        {name: `length of the ${choice(each['side'])} hole`, value: number(Number(each['length_mm']), 'mm'), unit: 'mm', about: 'Along its root.'},
         ...(fit
           ? [
-              {name: 'least gap', value: short4(Number(fit['least_between_nodes_mm'])), unit: 'mm'},
-              {name: 'greatest root gap', value: short4(Number(fit['greatest_root_between_nodes_mm'])), unit: 'mm'},
+              {name: 'least gap', value: number(Number(fit['least_between_nodes_mm']), 'mm'), unit: 'mm', about: 'Between hole and branch, across the wall.'},
+              {
+                name: 'greatest root gap',
+                value: number(Number(fit['greatest_root_between_nodes_mm']), 'mm'),
+                unit: 'mm',
+                about: 'Between hole and branch, at the root.',
+              },
             ]
           : []),
       ];
     }),
     readout: (i, link) => {
       const own = points[Number(link.replace('hole-', ''))] ?? first;
-      const value = (name: string) => short4(column(own[name])[i] as number);
-      return [
-        ['branch φ', `${value('branch_phi_deg')}°`],
-        ['φ', `${value('phi_deg')}°`],
-        ['z', `${value('z_mm')} mm`],
-        ['B', `${value('b_deg')}°`],
-        ['dihedral', `${value('dihedral_deg')}°`],
-        ['metal in beam', `${value('beam_mm')} mm`],
-      ];
+      return readings(own, i, ['branch_phi_deg', 'phi_deg', 'z_mm', 'b_deg', 'dihedral_deg', 'beam_mm']);
     },
   };
 }
+
+const count = (holes: Row[], i: number) => (holes.length > 1 ? `${sentence(choice((holes[i] as Row)['side']))} hole: ` : '');
 
 export const opening = (points: Row): HoledTube['holes'][number] => ({
   outer: {phi: column(points['phi_deg']), z: column(points['z_mm'])},
@@ -84,6 +88,7 @@ export function holeCharts(each: Row, i: number, count: number, radius: number):
   const p = ascending(each['points'] as Row, each['points'] as Row);
   const which = count > 1 ? `, ${String(each['branch'] ?? each['side'])}` : '';
   const x = {name: 'branch φ', unit: '°', values: column(p['branch_phi_deg'])};
+  const period = (x.values[0] as number) + 360;
   const link = `hole-${i}`;
   const fit = each['fit_up'] && ascending(each['fit_up'] as Row, each['points'] as Row);
   const scale = radius * radians;
@@ -94,6 +99,7 @@ export function holeCharts(each: Row, i: number, count: number, radius: number):
       link,
       unit: '°',
       x,
+      period,
       series: [
         {name: 'B', values: column(p['b_deg']), tone: 'after', width: 2.2},
         {name: 'groove', values: column(p['groove_deg']), tone: 'before', dash: [5, 4]},
@@ -105,6 +111,7 @@ export function holeCharts(each: Row, i: number, count: number, radius: number):
       link,
       unit: 'mm',
       x,
+      period,
       series: [
         {name: 'z', values: column(p['z_mm']), tone: 'outer', width: 2},
         {name: 'around', values: column(p['phi_deg']).map((v) => v * scale), tone: 'inner'},
@@ -118,6 +125,7 @@ export function holeCharts(each: Row, i: number, count: number, radius: number):
             link,
             unit: 'mm',
             x,
+            period,
             zero: true,
             height: 150,
             series: [

@@ -1,11 +1,12 @@
 import {isRow, type Row} from '../json';
-import {label, sentence, short4, unit} from '../names';
 import {column, type Chart, type Picture, type Series} from '../picture';
 import type {Answer} from '../service';
+import {measured, number, powers, residual, spelled, unit, withUnit} from '../units';
+import {about, check, choice, label, term} from '../words';
 import {bevelTable} from './cut';
 import {groove} from './groove';
 import {without, type Context} from './context';
-import {facts} from './facts';
+import {at, facts, figure, figures, text, type Told} from './facts';
 
 const tones = ['series-0', 'series-1', 'series-2', 'series-3', 'series-4', 'series-5'];
 const most = 3000; // points that a chart is drawn with; a schedule may have 400 000 periods
@@ -40,7 +41,7 @@ export function scheduleCharts(result: Row, machine: Row | undefined): Chart[] {
   const every = Math.max(1, Math.ceil(total / most));
   const indices = Array.from({length: Math.ceil(total / every)}, (_, i) => i * every);
   const seconds = {name: 'time', unit: 's', values: indices.map((i) => i * period)};
-  const events = ((result['events'] ?? []) as Row[]).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: String(e['what']).replace(/_/g, ' ')}));
+  const events = ((result['events'] ?? []) as Row[]).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: choice(e['what'])}));
   const each = (make: (pulses: number[]) => (number | null)[]): Series[] =>
     axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: make(column(counts[axis]))}));
   const mean = (pulses: number[]) =>
@@ -97,7 +98,7 @@ function shares(pulses: number[], machine: Row, axis: string, period: number): n
   return pulses.map((count) => (100 * Math.abs(count)) / perUnit / period / Number(given['v_max']));
 }
 
-export function motionFacts(result: Row): Pick<Picture, 'figures' | 'tables' | 'readout'> {
+export function motionFacts(result: Row): Told {
   const report = (result['report'] ?? {}) as Row;
   const use = (report['max_use'] ?? {}) as Record<string, number>;
   const what: Record<string, string> = {v: 'speed', a: 'acceleration', j: 'jerk', n: 'pulses per period'};
@@ -108,24 +109,31 @@ export function motionFacts(result: Row): Pick<Picture, 'figures' | 'tables' | '
   const total = column(counts[Object.keys(counts)[0] ?? '']).length;
   const every = Math.max(1, Math.ceil(total / most));
   return {
-    figures: names.filter((key) => key in report).map((key) => ({name: label(key), value: short4(Number(report[key])), unit: unit(key)})),
+    figures: figures(report, names, 'report'),
+    said: `${measured('time_s', Number(report['time_s']))} for ${measured('length_mm', Number(report['length_mm']))} of cut; ${limiting(use)}.`,
     tables: [
       {
         title: 'Use of the machine’s limits',
         head: ['axis', ...Object.values(what)],
-        rows: axes.map((axis) => [axis, ...Object.keys(what).map((key) => `${(100 * (use[`${key}_${axis}`] ?? 0)).toFixed(1)} %`)]),
+        rows: axes.map((axis) => [axis, ...Object.keys(what).map((key) => withUnit(100 * (use[`${key}_${axis}`] ?? 0), '%'))]),
       },
       {
         title: 'Events',
-        head: ['period', 'time s', 'what'],
-        rows: ((result['events'] ?? []) as Row[]).map((e) => [String(e['period']), short4(Number(e['period']) * period), String(e['what']).replace(/_/g, ' ')]),
+        head: [term('period'), 'time s', term('what')],
+        rows: ((result['events'] ?? []) as Row[]).map((e) => [String(e['period']), number(Number(e['period']) * period, 's'), choice(e['what'])]),
       },
     ],
     readout: (i) => [
-      ['time', `${short4(i * every * period)} s`],
+      ['time', withUnit(i * every * period, 's')],
       ...Object.keys(counts).map((axis): [string, string] => [axis, `${column(counts[axis])[i * every] ?? 0} pulses`]),
     ],
   };
+}
+
+/** Which limits the motion runs at. */
+function limiting(use: Record<string, number>): string {
+  const axes = [...new Set(Object.entries(use).flatMap(([key, share]) => (share > 0.98 ? [key.slice(2)] : [])))];
+  return axes.length ? `at the limits of ${axes.join(', ')}` : 'no axis at its limits';
 }
 
 export async function replay(_: Row, answer: Answer): Promise<Picture> {
@@ -136,7 +144,9 @@ export async function replay(_: Row, answer: Answer): Promise<Picture> {
   const thin = (values: number[]) => values.filter((_v, i) => i % every === 0);
   const x = {name: 'period', unit: '', values: thin(z.map((_v, i) => i))};
   const one = (id: string, title: string, name: string, tone: string): Chart[] =>
-    name in path ? [{id, title, link: 'replay', unit: unit(name), x, series: [{name: label(name), values: thin(column(path[name])), tone, width: 2}]}] : [];
+    name in path
+      ? [{id, title, link: 'replay', unit: unit(name), x, series: [{name: label(name), about: about(name), values: thin(column(path[name])), tone, width: 2}]}]
+      : [];
   const invariants = result['invariants'] as Row[];
   return {
     charts: [
@@ -145,14 +155,19 @@ export async function replay(_: Row, answer: Answer): Promise<Picture> {
       ...one('phi', 'φ of the tube', 'phi_deg', 'inner'),
     ],
     figures: [
-      {name: 'deviation', value: short4(Number(result['deviation_mm'])), unit: 'mm'},
+      figure('deviation_mm', result['deviation_mm']),
       {name: 'invariants held', value: `${invariants.filter((i) => i['passed']).length} of ${invariants.length}`},
     ],
+    said: `The tool stays within ${measured('deviation_mm', Number(result['deviation_mm']))} of the contour.`,
     tables: [
       {
         title: 'Invariants',
-        head: ['name', 'held', 'value', 'limit', 'unit'],
-        rows: invariants.map((i) => [String(i['name']), i['passed'] ? 'yes' : 'NO', short4(Number(i['value'])), short4(Number(i['limit'])), String(i['unit'])]),
+        head: ['invariant', 'held', 'value', 'limit', 'unit'],
+        rows: invariants.map((i) => {
+          const {name, about} = check(String(i['name']));
+          const mark = spelled(String(i['unit']));
+          return [{text: name, about}, i['passed'] ? 'yes' : 'NO', residual(Number(i['value']), mark), residual(Number(i['limit']), mark), mark];
+        }),
       },
     ],
   };
@@ -186,11 +201,11 @@ export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
             id: 'error',
             title: 'Relative error of the polynomial',
             link: 'feed',
-            unit: '',
+            unit: '%',
             x,
             zero: true,
             height: 170,
-            series: [{name: 'error', values: speed.map((v, i) => (fitted[i] as number) / v - 1), tone: 'after'}],
+            series: [{name: 'error', values: speed.map((v, i) => 100 * ((fitted[i] as number) / v - 1)), tone: 'after'}],
           },
         ]
       : []),
@@ -207,24 +222,26 @@ export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
       ],
     },
   ];
-  const rows = (from: Row | undefined, names: string[]) =>
-    names.filter((n) => from && n in from).map((n) => ({name: label(n), value: short4(Number(from?.[n])), unit: unit(n)}));
   const comparison = (result['comparison'] ?? []) as Row[];
   return {
     charts,
+    said: `The tool feeds ${measured('feed_mm_s', Number(work['feed_mm_s']))} for ${measured('duration_s', Number(work['duration_s']))}; the cylinder goes from ${measured('min_cylinder_speed_mm_s', Number(work['min_cylinder_speed_mm_s']))} to ${measured('max_cylinder_speed_mm_s', Number(work['max_cylinder_speed_mm_s']))}.`,
     figures: [
-      ...rows(work, ['duration_s', 'min_cylinder_speed_mm_s', 'max_cylinder_speed_mm_s']),
-      ...rows(fit, ['degree', 'max_relative_error', 'tool_position_error_mm']),
-      ...rows(result['cycle'] as Row | undefined, ['cycle_s', 'pieces_per_hour']),
-      ...rows(result['tool'] as Row | undefined, ['feed_per_blade_mm', 'cutting_speed_outside_m_min']),
+      ...figures(work, ['duration_s', 'min_cylinder_speed_mm_s', 'max_cylinder_speed_mm_s']),
+      ...figures(fit, ['degree', 'max_relative_error', 'tool_position_error_mm']),
+      ...figures(result['cycle'] as Row | undefined, ['cycle_s', 'pieces_per_hour']),
+      ...figures(result['tool'] as Row | undefined, ['feed_per_blade_mm', 'cutting_speed_outside_m_min']),
     ],
     tables: [
       ...(fit
         ? [
             {
-              title: 'Polynomial in seconds, as the controller gets it',
+              title: 'Polynomial in seconds, to six digits',
               head: ['power', 'coefficient'],
-              rows: column(fit['seconds_rounded']).map((c, i) => [`t^${i}`, String(c)]),
+              rows: column(fit['seconds_rounded']).map((c, i) => [
+                {text: `t^${i}`, about: 'To six digits here; whole in the files and in the JSON.'},
+                powers(c),
+              ]),
             },
           ]
         : []),
@@ -232,26 +249,23 @@ export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
         ? [
             {
               title: 'Methods compared',
-              head: ['method', 'degree', 'greatest relative error', 'tool position error mm'],
-              rows: comparison.map((c) => [
-                String(c['method']).replace(/_/g, ' '),
-                String(c['degree']),
-                short4(Number(c['max_relative_error'])),
-                short4(Number(c['tool_position_error_mm'])),
-              ]),
+              head: compared.map((key) => term(key)),
+              rows: comparison.map((c) => compared.map((key) => text(key, c[key]))),
             },
           ]
         : []),
-      ...['geometry', 'cycle', 'tool'].filter((key) => isRow(result[key])).map((key) => facts(sentence(key), result[key] as Row)),
-      ...(isRow(request['linkage']) ? [facts('Linkage as understood', request['linkage'])] : []),
+      ...['geometry', 'cycle', 'tool'].filter((key) => isRow(result[key])).map((key) => facts(key, result[key] as Row)),
+      ...(isRow(request['linkage']) ? [facts('linkage', request['linkage'], 'Linkage as understood')] : []),
     ],
     readout: (i) => [
-      ['time', `${short4(t[i] as number)} s`],
-      ['cylinder', `${short4(speed[i] as number)} mm/s`],
-      ['feed', `${short4(column(table['feed_mm'])[i] as number)} mm`],
-      ['stroke', `${short4(column(table['stroke_mm'])[i] as number)} mm`],
+      ['time', at(table, 't_s', i)],
+      ['cylinder', at(table, 'cylinder_speed_mm_s', i)],
+      ['feed', at(table, 'feed_mm', i)],
+      ['stroke', at(table, 'stroke_mm', i)],
     ],
   };
 }
+
+const compared = ['method', 'degree', 'max_relative_error', 'tool_position_error_mm'];
 
 const polynomial = (c: number[], t: number) => c.reduceRight((sum, each) => sum * t + each, 0);

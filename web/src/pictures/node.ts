@@ -1,7 +1,8 @@
 import {isRow, type Row} from '../json';
-import {short4} from '../names';
 import {column, type CutTube, type Picture, type Vector} from '../picture';
 import type {Answer} from '../service';
+import {choice, term} from '../words';
+import {plural, text} from './facts';
 import type {Context} from './context';
 import {add, bounds, frame, placed, plainTube, tube, vector} from './geometry';
 import {atPhi} from './cut';
@@ -22,6 +23,7 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   return {
     solid: {link: 'node', tubes, partners: [], centre, size: 2.7 * biggest, eye: [0.3, -1, 0.4], up: [0, 0, 1]},
     charts: [],
+    said: `${plural(members.length, 'member')}, ${plural(cut.length, 'end')} cut, ${plural(ends.filter((e) => e['free']).length, 'free end')}.`,
     figures: [
       {name: 'members', value: String(members.length)},
       {name: 'cut ends', value: String(cut.length)},
@@ -30,17 +32,17 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
     tables: [
       {
         title: 'Who cuts whom',
-        head: ['member', 'end', 'cut by', 'inclination °', 'clocking °', 'offset mm', 'height mm', 'gap mm', 'eccentricity mm'],
+        head: ['member', 'end', 'cut by', ...placed4.map((key) => term(key)), term('gap_mm'), term('eccentricity_mm')],
         rows: cut.flatMap((end) =>
           (end['cut_by'] as Row[]).map((by) => {
             const p = by['placement']; // a mitre is by a plane
             return [
               String(end['member']),
-              String(end['end']),
+              choice(end['end']),
               String(by['member']),
-              ...['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'].map((key) => (isRow(p) ? short4(Number(p[key])) : '–')),
-              short4(Number(by['gap_mm'])),
-              short4(Number(by['eccentricity_mm'])),
+              ...placed4.map((key) => (isRow(p) ? text(key, p[key]) : '–')),
+              text('gap_mm', by['gap_mm']),
+              text('eccentricity_mm', by['eccentricity_mm']),
             ];
           }),
         ),
@@ -48,6 +50,8 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
     ],
   };
 }
+
+const placed4 = ['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'];
 
 function endTube(end: Row, members: Row[], context: Context): CutTube {
   const index = members.findIndex((member) => member['id'] === end['member']);

@@ -1,12 +1,14 @@
 import {isRow, type Row} from '../json';
-import {label, sentence, unit} from '../names';
 import {pressed} from '../preset';
 import {column, type EndCurve, type Frame, type Partner, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
+import {withUnit} from '../units';
+import {sentence} from '../words';
 import type {Context} from './context';
-import {tablePicture} from './cut';
+import {rangeOf, tablePicture, tinted} from './cut';
+import {figures, plural} from './facts';
 import {gapScale, gapsOf, webFigures} from './gaps';
-import {table, text} from './generic';
+import {table} from './generic';
 import {bounds, frame, onTube, partner, placed, seenFrom, tube, type Sizes} from './geometry';
 import {holeCharts, opening} from './hole';
 
@@ -32,9 +34,17 @@ export async function part(_: Row, answer: Answer, context: Context): Promise<Pi
   return {
     solid: solidOf(request, result, {outer, wall}, context.sizes),
     charts: [...charts, ...holes.flatMap((hole, i) => holeCharts(hole, i, holes.length, outer / 2))],
-    figures: [...webFigures(result), ...Object.entries(result['lengths'] as Row).map(([k, v]) => ({name: label(k), value: text(v), unit: unit(k)}))],
+    figures: [...webFigures(result), ...figures(result['lengths'] as Row, Object.keys(result['lengths'] as Row))],
+    said: said(result, holes.length),
     tables: ['check_dimensions', 'sequence'].filter((key) => rowsOf(result[key]).length).map((key) => table(key, rowsOf(result[key]))),
   };
+}
+
+/** "Cut to 812.4 mm, with two holes. Start: B from ..." */
+function said(result: Row, holes: number): string {
+  const lengths = result['lengths'] as Row;
+  const ends = Object.entries(result['ends'] as Row).map(([side, end]) => `${sentence(side)}: ${rangeOf(endCurve(end as Row).b ?? [])}.`);
+  return `${withUnit(Number(lengths['long_mm']), 'mm')} from tip to tip${holes ? `, ${plural(holes, 'hole')}` : ''}. ${ends.join(' ')}`;
 }
 
 function endCurve(end: Row): EndCurve {
@@ -56,14 +66,14 @@ function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall:
     link: 'part',
     tubes: [],
     holed: [{outer: outer / 2, inner: outer / 2 - wall, from: {...from, gaps: cuts?.ends[0]}, to: {...to, gaps: cuts?.ends[1]}, holes}],
-    ...(cuts ? {scale: gapScale(cuts.most)} : {}),
+    ...(cuts ? {scale: gapScale(cuts.most)} : tinted([from, to, ...openings].flatMap(({b}) => b ?? []))),
     lines: datum.map((mark) => ({
       points: [mark['z_from_mm'], mark['z_to_mm']].map((z) => onTube(1.002 * (outer / 2), Number(mark['phi_deg']), Number(z))),
       tone: 'mark',
     })),
     partners: partners(request, result, outer, sizes),
     centre: [0, 0, (low + high) / 2],
-    size: Math.max(1.35 * outer, 0.72 * (high - low + outer)),
+    size: Math.max(1.35 * outer, 0.86 * (high - low + outer)),
     eye: [0.55, 1, -0.45],
     up: [1, 0, 0],
   };

@@ -34,9 +34,7 @@ const toVector = (v: Vector) => new Vector3(...v);
 let stops: Color[] = [];
 let rampOf: string | null = null;
 
-/** Colour of a bevel of so many degrees: flat cuts cool, steep ones warm. */
-export const ramp = (degrees: number, into: Color) => shade((degrees + 30) / 90, into);
-
+/** From cool to warm: flat cuts to steep ones, small gaps to large. */
 function shade(share: number, into: Color): Color {
   const t = Math.min(1, Math.max(0, share));
   const theme = document.documentElement.dataset['theme'] ?? '';
@@ -47,11 +45,13 @@ function shade(share: number, into: Color): Color {
   return t < 0.5 ? into.lerpColors(stops[0] as Color, stops[1] as Color, 2 * t) : into.lerpColors(stops[1] as Color, stops[2] as Color, 2 * t - 1);
 }
 
+/** The bevels that all cuts of a picture are tinted by. */
+export type Span = [number, number] | undefined;
 /** Of each edge's point: by its gap where gaps are shown, else both edges by the bevel. */
 type Tint = (i: number, outer: boolean) => Color;
-function tintOf(b: number[] | undefined, gaps: Gaps | undefined): Tint | undefined {
+function tintOf(b: number[] | undefined, gaps: Gaps | undefined, span: Span): Tint | undefined {
   if (gaps) return (i, outer) => shade(((outer ? gaps.outer : gaps.inner)[i] as number) / (gaps.most || 1), new Color());
-  return b && ((i) => ramp(b[i] as number, new Color()));
+  return b && span && ((i) => shade(((b[i] as number) - span[0]) / (span[1] - span[0]), new Color()));
 }
 
 export function matrix(frame: Frame | undefined): Matrix4 {
@@ -98,12 +98,14 @@ function kept<M extends Material>(name: string, make: () => M): M {
   return found as M;
 }
 
-const metal = (name: string, hue: string) => kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide}));
+// A little further off than it is: an edge drawn on it is whole.
+const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
+const metal = (name: string, hue: string) => kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide, ...behind}));
 const steel = (tone: string) => metal(tone, colour(tone));
 const face = (tinted: boolean) =>
   kept(
     `face ${tinted}`,
-    () => new MeshLambertMaterial({color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, side: DoubleSide, flatShading: true}),
+    () => new MeshLambertMaterial({color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, side: DoubleSide, flatShading: true, ...behind}),
   );
 const ink = (tone: string) => kept(`line ${tone}`, () => new LineBasicMaterial({color: colour(tone)}));
 /** Seen through everything: the cursor. */
@@ -115,7 +117,7 @@ function outline(points: Vector[], tone: string, closed = true): Line {
 }
 
 /** Walls, bevel surface, far end, edges and junctions of one cut end. */
-export function cutTube(tube: CutTube, before: boolean): Group {
+export function cutTube(tube: CutTube, before: boolean, span: Span): Group {
   const group = new Group();
   const {phi} = tube;
   const chosen = before && tube.before ? tube.before : tube;
@@ -130,7 +132,7 @@ export function cutTube(tube: CutTube, before: boolean): Group {
   outside.name = 'wall';
   group.add(outside, new Mesh(strip(innerFar, innerEdge, true, [into, into]), steel('bore')));
   const b = before && tube.before ? tube.before.b : tube.b;
-  const tint = tintOf(b, tube.gaps);
+  const tint = tintOf(b, tube.gaps, span);
   const bevel = new Mesh(strip(innerEdge, outerEdge, true, undefined, tint), face(Boolean(tint)));
   bevel.name = 'wall';
   group.add(bevel, new Mesh(strip(innerFar, outerFar, true), steel('bore')));
@@ -150,7 +152,7 @@ export function cutTube(tube: CutTube, before: boolean): Group {
 }
 
 /** A member with its holes: each wall in columns of constant phi, each column open where a hole is. */
-export function holedTube(tube: HoledTube): Group {
+export function holedTube(tube: HoledTube, span: Span): Group {
   const group = new Group();
   for (const [side, radius, tone] of [
     ['outer', tube.outer, 'steel'],
@@ -171,13 +173,14 @@ export function holedTube(tube: HoledTube): Group {
   for (const hole of tube.holes) {
     const inside = hole.inner.phi.map((p, i) => around(tube.inner, p, hole.inner.z[i] as number));
     const outside = hole.outer.phi.map((p, i) => around(tube.outer, p, hole.outer.z[i] as number));
-    const bevel = new Mesh(strip(inside, outside, true, undefined, tintOf(hole.b, hole.gaps)), face(true));
+    const tint = tintOf(hole.b, hole.gaps, span);
+    const bevel = new Mesh(strip(inside, outside, true, undefined, tint), face(Boolean(tint)));
     group.add(bevel, outline(inside, 'edge'), outline(outside, 'edge'));
   }
   for (const end of [tube.from, tube.to]) {
     const inside = end.phi.map((p, i) => around(tube.inner, p, end.zInner[i] as number));
     const outside = end.phi.map((p, i) => around(tube.outer, p, end.zOuter[i] as number));
-    const tint = tintOf(end.b, end.gaps);
+    const tint = tintOf(end.b, end.gaps, span);
     group.add(new Mesh(strip(inside, outside, true, undefined, tint), tint ? face(true) : steel('bore')), outline(inside, 'edge'), outline(outside, 'edge'));
   }
   return group;
@@ -210,36 +213,27 @@ function heights({phi, z}: Curve, angles: number[]): number[] {
   });
 }
 
+/** A wall between two edges, open where holes are. Every point of a curve begins a column, so that within one all edges are straight. */
 function openWall(radius: number, from: Curve, to: Curve, holes: Curve[]): BufferGeometry {
-  const stops = new Set(Array.from({length: 181}, (_, i) => 2 * i));
-  for (const curve of [from, to, ...holes]) for (const p of curve.phi) stops.add(turn(p));
-  const columns = [...stops].sort((a, b) => a - b);
+  const columns = stopsOf([from, to, ...holes]);
   const [starts, ends] = [heights(from, columns), heights(to, columns)];
   const positions: number[] = [],
     normals: number[] = [];
   const quad = (p: number, q: number, low: [number, number], high: [number, number]) => {
-    const corners = [
-      around(radius, p, low[0]),
-      around(radius, q, low[1]),
-      around(radius, q, high[1]),
-      around(radius, p, low[0]),
-      around(radius, q, high[1]),
-      around(radius, p, high[0]),
-    ];
-    for (const corner of corners) positions.push(...corner);
+    const [a, b, c, d] = [around(radius, p, low[0]), around(radius, q, low[1]), around(radius, q, high[1]), around(radius, p, high[0])];
+    positions.push(...a, ...b, ...c, ...a, ...c, ...d);
     for (const angle of [p, q, q, p, q, p]) normals.push(...around(1, angle, 0));
   };
   for (let i = 0; i + 1 < columns.length; ++i) {
-    const p = columns[i] as number,
-      q = columns[i + 1] as number;
+    const [p, q] = [columns[i] as number, columns[i + 1] as number];
     let low: [number, number] = [starts[i] as number, starts[i + 1] as number];
     const gaps = holes
-      .map((hole) => openings(hole, (p + q) / 2))
-      .filter((gap): gap is [number, number] => gap !== null)
-      .sort((a, b) => a[0] - b[0]);
+      .map((hole) => opening(hole, p, q))
+      .filter((gap): gap is Opening => gap !== null)
+      .sort((a, b) => a.from[0] - b.from[0]);
     for (const gap of gaps) {
-      quad(p, q, low, [gap[0], gap[0]]);
-      low = [gap[1], gap[1]];
+      quad(p, q, low, gap.from);
+      low = gap.to;
     }
     quad(p, q, low, [ends[i] as number, ends[i + 1] as number]);
   }
@@ -249,20 +243,33 @@ function openWall(radius: number, from: Curve, to: Curve, holes: Curve[]): Buffe
   return geometry;
 }
 
-/** From where to where a hole is open along the generator at phi. */
-function openings(hole: Curve, phi: number): [number, number] | null {
-  const hits: number[] = [];
+/** All angles that curves have a point at, and every second degree, once each. */
+function stopsOf(curves: Curve[]): number[] {
+  const all = [...Array.from({length: 181}, (_, i) => 2 * i), ...curves.flatMap((curve) => curve.phi.map(turn))].sort((a, b) => a - b);
+  return all.filter((angle, i) => i === 0 || angle - (all[i - 1] as number) > 1e-7);
+}
+
+/** z at both sides of a column, where a hole begins and where it ends. */
+interface Opening {
+  from: [number, number];
+  to: [number, number];
+}
+function opening(hole: Curve, p: number, q: number): Opening | null {
+  const middle = (p + q) / 2;
+  const edges: [number, number][] = [];
   hole.phi.forEach((a, i) => {
     const j = (i + 1) % hole.phi.length;
-    for (const turn of [-360, 0, 360]) {
-      const p = phi + turn,
-        b = hole.phi[j] as number;
-      if (a <= p === b <= p) continue;
-      const t = (p - a) / (b - a);
-      hits.push((hole.z[i] as number) * (1 - t) + (hole.z[j] as number) * t);
-    }
+    const way = (((((hole.phi[j] as number) - a + 540) % 360) + 360) % 360) - 180; // the short one, across the seam too
+    if (way === 0) return;
+    const offset = ((((middle - a + 180) % 360) + 360) % 360) - 180;
+    const share = offset / way;
+    if (share < 0 || share >= 1) return;
+    const z = (angle: number) => (hole.z[i] as number) + (((hole.z[j] as number) - (hole.z[i] as number)) * (offset + angle - middle)) / way;
+    edges.push([z(p), z(q)]);
   });
-  return hits.length < 2 ? null : [Math.min(...hits), Math.max(...hits)];
+  if (edges.length < 2) return null;
+  edges.sort((a, b) => a[0] + a[1] - b[0] - b[1]);
+  return {from: edges[0] as [number, number], to: edges[edges.length - 1] as [number, number]};
 }
 
 /** Seen through where one looks straight at it, solid where it turns away: a partner that hides nothing. */

@@ -81,8 +81,8 @@ export class Stage {
     this.content = new Group();
     this.partners = new Group();
     this.content.add(
-      ...solid.tubes.map((tube) => cutTube(tube, before)),
-      ...(solid.holed ?? []).map(holedTube),
+      ...solid.tubes.map((tube) => cutTube(tube, before, solid.tint)),
+      ...(solid.holed ?? []).map((tube) => holedTube(tube, solid.tint)),
       ...(solid.ribbons ?? []).map(ribbon),
       ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)),
       this.partners,
@@ -167,8 +167,8 @@ export class Stage {
 
   private follow(index: number | null): void {
     const tube = this.solid?.tubes[0];
-    if (index === null || !tube || this.solid?.tubes.length !== 1 || index >= tube.phi.length) this.beam.visible = false;
-    else this.beam.put(tube, this.before, index);
+    if (index === null || !tube || this.solid?.tubes.length !== 1) this.beam.visible = false;
+    else this.beam.put(tube, this.before, index % tube.phi.length); // a closed curve's end is its beginning
     this.draw();
   }
 

@@ -1,0 +1,4 @@
+declare module 'virtual:words' {
+  const words: import('../glossary/words').Words;
+  export default words;
+}
