@@ -189,8 +189,10 @@ class Plot {
 
   private across(): [number, number] {
     const values = this.chart.x.values;
-    const first = values[0] ?? 0;
-    const end = first + span(this.chart);
+    const length = span(this.chart);
+    const begin = values[0] ?? 0;
+    const first = this.chart.period !== undefined && begin > 0 && begin < 0.02 * length ? 0 : begin; // a turn begins at 0, wherever its first point is
+    const end = begin + length;
     return end > first ? [first, end] : [first - 1, first + 1];
   }
 

@@ -31,7 +31,7 @@ const exampleNames: Record<string, string> = {
   'intersections/two-tubes-by-axis': 'Two tubes, given by their axes',
   'nodes/source-002-offset-pair': 'A branch beside its chord’s axis',
   'nodes/stated-mitre': 'A mitre, stated by a member',
-  'parts/table-1-with-a-square-far-end': 'A tube cut by four others, square at its far end',
+  'parts/table-1-with-a-square-far-end': 'A tube cut by four others, its far end square',
   'parts/chord-with-holes': 'A chord with two holes',
   'parts/tube-laser-chord': 'A chord cut square by a tube laser',
   'pulse-schedules/table-1-on-the-five-axis-cutter': 'Four tubes on the five-axis cutter',
@@ -39,9 +39,9 @@ const exampleNames: Record<string, string> = {
   'pulse-schedules/source-002-offset-pair-on-the-crawler': 'A branch on the crawler',
   'feed-curves/source-004-table-1-as-printed': 'A published feed curve, as printed',
   'feed-curves/source-004-table-1-as-solved': 'A published feed curve, as solved',
-  'feed-curves/source-004-table-3-as-printed': 'A published feed curve of three points, as printed',
-  'feed-curves/source-004-table-3-as-solved': 'A published feed curve of three points, as solved',
-  'feed-curves/cut-off-194-mm-whole-cycle': 'A tube of 194 mm cut off, the whole cycle',
+  'feed-curves/source-004-table-3-as-printed': 'Published feed curve, three points, as printed',
+  'feed-curves/source-004-table-3-as-solved': 'Published feed curve, three points, as solved',
+  'feed-curves/cut-off-194-mm-whole-cycle': 'A tube of 194 mm cut off, whole cycle',
 };
 const kept: [RegExp, string][] = [
   [/^case ([a-z]) /, 'case $1: '],

@@ -154,7 +154,8 @@ export function readout(picture: Picture): (() => void) | null {
   return () => forget.forEach((each) => each());
 }
 
-const cell = (tag: 'td' | 'th', of: Term) => el(tag, {scope: tag === 'th' ? 'col' : null, title: hint(of)}, textOf(of));
+const cell = (tag: 'td' | 'th', of: Term) =>
+  el(tag, {scope: tag === 'th' ? 'col' : null, class: textOf(of).length > 40 ? 'words' : null, title: hint(of)}, textOf(of));
 
 const capital = (of: Term): Term => (typeof of === 'string' ? sentence(of) : {...of, text: sentence(of.text)});
 

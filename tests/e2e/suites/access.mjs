@@ -1,6 +1,6 @@
 import {strict as assert} from 'node:assert';
 import {createRequire} from 'node:module';
-import {answered, open, then} from '../browser.mjs';
+import {answered, formed, open, then} from '../browser.mjs';
 
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
 
@@ -25,6 +25,7 @@ export const checks = Object.fromEntries(cases.map(([width, height, theme]) => [
     await page.locator(`#tab-${tab}`).click();
     await sound(page, tab);
   }
+  await formed(page);
   await then(page, () => page.locator('[data-pointer="/target/wall_mm"]').fill('0'));
   await sound(page, 'refused');
   for (const hash of width > 1000 && theme === 'light' ? ['nodes', 'holes', 'feed-curves'] : []) {

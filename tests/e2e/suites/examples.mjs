@@ -37,10 +37,15 @@ const unseen = (page) => page.evaluate(() => {
     const style = getComputedStyle(node);
     return /hidden|clip/.test(style.overflowX) && node.scrollWidth > node.clientWidth + 1;
   }).map((node) => `clipped: ${node.className || node.tagName} ${node.textContent.slice(0, 60)}`);
+  const pen = document.createElement('canvas').getContext('2d');
+  const cut = [...document.querySelectorAll('select')].filter(shown).filter((node) => {
+    pen.font = getComputedStyle(node).font;
+    return pen.measureText(node.selectedOptions[0]?.text ?? '').width > node.clientWidth - 26;  // its arrow
+  }).map((node) => `clipped choice: ${node.selectedOptions[0].text}`);
   const silent = [...document.querySelectorAll('#form input, #form select, #form textarea, #form summary, #form button')]
     .filter((node) => shown(node) && !node.closest('[title]:not([title=""])')).map((node) => `no hint: ${node.dataset.pointer ?? node.outerHTML.slice(0, 80)}`);
   const wide = document.documentElement.scrollWidth > innerWidth ? [`the page is ${document.documentElement.scrollWidth} px wide`] : [];
-  return [...clipped, ...silent, ...wide];
+  return [...clipped, ...cut, ...silent, ...wide];
 });
 
 const unfolded = async (page) => {

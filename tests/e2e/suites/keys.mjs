@@ -5,7 +5,7 @@ import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {Service} from '../../contract/service.mjs';
-import {answered, open, then} from '../browser.mjs';
+import {answered, formed, open, then} from '../browser.mjs';
 
 /** Runs `check` with a service that knows one key. */
 async function asked({browser, server}, check) {
@@ -63,6 +63,7 @@ export const checks = {
       assert.equal(await field(page).count(), 0);
       const {scroll, seen} = await page.evaluate(() => ({scroll: document.documentElement.scrollWidth, seen: innerWidth}));
       assert.ok(scroll <= seen, `the page is ${scroll} px wide`);
+      await formed(page);
       await then(page, () => page.locator('[data-pointer="/target/wall_mm"]').fill('4'));
       await page.locator('#tab-downloads').click();
       const [file] = await Promise.all([page.waitForEvent('download'), page.locator('[data-media="text/csv"]').first().click()]);
