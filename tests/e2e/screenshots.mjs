@@ -22,11 +22,17 @@ const pointAt = (chart, share) => async (page) => {
   const box = await page.locator(`#chart-${chart} .plot`).boundingBox();
   await page.mouse.move(box.x + 56 + share * (box.width - 68), box.y + box.height / 2);
 };
+/** The cursor on a chart below the window, while the window shows its top: by the keyboard. */
+const walkTo = (chart, steps) => async (page) => {
+  await page.locator(`#chart-${chart} .plot`).evaluate((plot) => plot.focus({preventScroll: true}));
+  for (let i = 0; i < steps; ++i) await page.keyboard.press('Shift+ArrowRight');
+  await page.evaluate(() => scrollTo(0, 0));
+};
 await shoot('console', '#/bevel-tables/source-000-table-1', {width: 1280, height: 900}, pointAt('bevel', 0.3));
 await shoot('console-refused-dark', '#/bevel-tables/table-1-torch-45-deg?view=before', {width: 1280, height: 900, theme: 'dark'}, async (page) => {
   await page.locator('[data-pointer="/cutters/1/inclination_deg"]').fill('0');
   await answered(page, 2);
 });
-await shoot('console-phone', '#/holes/set-in-branch', {width: 390, height: 844}, pointAt('bevel-0', 0.7));
+await shoot('console-phone', '#/holes/set-in-branch', {width: 390, height: 844}, walkTo('bevel-0', 9));
 await browser.close();
 await service.stop();
