@@ -1,10 +1,11 @@
 import {el, partnerColour} from './dom';
 import {at, isRow, join, put, type Json, type Row} from './json';
+import {called, hintOf, offered, said} from './hint';
 import {brief} from './names';
 import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
-import {number, unit} from './units';
-import {about, choice, holder, label, lastKey, plain, sentence} from './words';
+import {unit} from './units';
+import {choice, lastKey, sentence} from './words';
 
 /** Names that a field can be filled with, besides what the contract says. */
 export interface Choices {
@@ -478,27 +479,6 @@ function roomy(inputs: HTMLElement[]): void {
   }
 }
 
-const called = (pointer: string) => label(lastKey(pointer), holder(pointer));
-
-/** What a field is, its range and its default. */
-function hintOf(schema: Schema, pointer: string): string {
-  const mark = unit(lastKey(pointer));
-  const of = (value: number) => `${Math.abs(value) < 1e-6 ? 0 : Number(value.toPrecision(4))}${mark && mark !== '°' ? ' ' : ''}${mark}`;
-  const low = schema.minimum ?? schema.exclusiveMinimum,
-    high = schema.maximum ?? schema.exclusiveMaximum;
-  const range =
-    low === undefined ? (high === undefined ? '' : `At most ${of(high)}.`) : high === undefined ? `At least ${of(low)}.` : `From ${of(low)} to ${of(high)}.`;
-  const otherwise = schema.default === undefined || typeof schema.default === 'object' ? '' : `Without it: ${choice(schema.default)}.`;
-  const told = schema.description ? plain(schema.description).replace(/\.?$/, '.') : '';
-  return [`${sentence(called(pointer))}.`, about(lastKey(pointer), holder(pointer)), sentence(told), range, otherwise].filter(Boolean).join(' ');
-}
-
-/** What counts where nothing is entered. */
-const offered = (value: Json): string => {
-  if (typeof value === 'number') return String(Number(value.toPrecision(6)));
-  return Array.isArray(value) ? value.map(offered).join(', ') : choice(value);
-};
-
 function step(input: HTMLInputElement, by: number): void {
   const now = Number(input.value || input.placeholder);
   if (!Number.isFinite(now)) return;
@@ -512,11 +492,4 @@ function typed(text: string, textual: boolean): Json | undefined {
   if (textual) return text;
   const value = Number(text.replace(',', '.'));
   return text.trim() !== '' && Number.isFinite(value) ? value : text;
-}
-
-export function said(issue: Issue): string {
-  const code = choice(issue.code);
-  const bound = typeof issue.limit === 'number' ? number(issue.limit) : issue.limit;
-  const limit = bound === null || bound === undefined || typeof bound === 'object' ? '' : ` (limit ${bound} ${issue.unit})`;
-  return sentence(issue.hint ? `${code}: ${plain(issue.hint)}` : plain(`${code}${limit}`).trim());
 }

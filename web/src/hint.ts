@@ -1,6 +1,10 @@
 import frame from '../../docs/frame.svg';
 import {el} from './dom';
-import {lastKey} from './words';
+import type {Json} from './json';
+import type {Schema} from './schema';
+import type {Issue} from './service';
+import {number, unit} from './units';
+import {about, choice, holder, label, lastKey, plain, sentence} from './words';
 
 // The four drawings of docs/frame.svg: which of them shows what a field means, by its name.
 const drawings: [RegExp, string][] = [
@@ -24,4 +28,33 @@ export function hints(form: HTMLElement, place: HTMLElement): void {
   form.addEventListener('focusout', () => {
     place.hidden = true;
   });
+}
+
+export const called = (pointer: string) => label(lastKey(pointer), holder(pointer));
+
+/** What a field is, its range and its default. */
+export function hintOf(schema: Schema, pointer: string): string {
+  const mark = unit(lastKey(pointer));
+  const of = (value: number) => `${Math.abs(value) < 1e-6 ? 0 : Number(value.toPrecision(4))}${mark && mark !== '°' ? ' ' : ''}${mark}`;
+  const low = schema.minimum ?? schema.exclusiveMinimum,
+    high = schema.maximum ?? schema.exclusiveMaximum;
+  const range =
+    low === undefined ? (high === undefined ? '' : `At most ${of(high)}.`) : high === undefined ? `At least ${of(low)}.` : `From ${of(low)} to ${of(high)}.`;
+  const otherwise = schema.default === undefined || typeof schema.default === 'object' ? '' : `Without it: ${choice(schema.default)}.`;
+  const told = schema.description ? plain(schema.description).replace(/\.?$/, '.') : '';
+  return [`${sentence(called(pointer))}.`, about(lastKey(pointer), holder(pointer)), sentence(told), range, otherwise].filter(Boolean).join(' ');
+}
+
+/** What counts where nothing is entered. */
+export const offered = (value: Json): string => {
+  if (typeof value === 'number') return String(Number(value.toPrecision(6)));
+  return Array.isArray(value) ? value.map(offered).join(', ') : choice(value);
+};
+
+/** What a problem says of a field. */
+export function said(issue: Issue): string {
+  const code = choice(issue.code);
+  const bound = typeof issue.limit === 'number' ? number(issue.limit) : issue.limit;
+  const limit = bound === null || bound === undefined || typeof bound === 'object' ? '' : ` (limit ${bound} ${issue.unit})`;
+  return sentence(issue.hint ? `${code}: ${plain(issue.hint)}` : plain(`${code}${limit}`).trim());
 }

@@ -1,5 +1,6 @@
 import * as address from './address';
 import {Board} from './charts';
+import * as controls from './controls';
 import {byId, el} from './dom';
 import {Form} from './form';
 import {hints} from './hint';
@@ -262,21 +263,12 @@ class Console {
 
   private drawSwitches(picture: Picture): void {
     const toggle = (text: string, pressed: boolean, act: () => void, id: string) =>
-      el(
-        'button',
-        {
-          type: 'button',
-          id: id,
-          'aria-pressed': String(pressed),
-          onclick: () => {
-            act();
-            this.draw();
-            this.remember();
-            byId(id)?.focus();
-          },
-        },
-        text,
-      );
+      controls.toggle(text, pressed, id, () => {
+        act();
+        this.draw();
+        this.remember();
+        byId(id)?.focus();
+      });
     const {state} = this;
     byId('switches').replaceChildren(
       ...(picture.beforeAfter
@@ -352,29 +344,7 @@ class Console {
       this.remember();
       byId(`tab-${id}`).focus();
     };
-    const bar = el(
-      'div',
-      {role: 'tablist', class: 'tabs', 'aria-label': 'Details'},
-      ...offered.map(([id, name], i) =>
-        el(
-          'button',
-          {
-            type: 'button',
-            role: 'tab',
-            id: `tab-${id}`,
-            'aria-selected': String(id === this.state.tab),
-            'aria-controls': 'panel',
-            tabindex: id === this.state.tab ? '0' : '-1',
-            onclick: () => choose(id),
-            onkeydown: (event: KeyboardEvent) => {
-              const by = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
-              if (by) choose((offered[(i + by + offered.length) % offered.length] as [string, string])[0]);
-            },
-          },
-          name,
-        ),
-      ),
-    );
+    const bar = controls.tabBar(offered, this.state.tab, choose);
     const panel = el('div', {role: 'tabpanel', id: 'panel', 'aria-labelledby': `tab-${this.state.tab}`});
     byId('details').replaceChildren(bar, panel);
     this.fill(panel);

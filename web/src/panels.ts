@@ -8,7 +8,7 @@ import type {Format} from './schema';
 import {away, holds, path, type Answer, type Check, type Problem, type Warning} from './service';
 import {beside, number, residual, shown, spelled, unit} from './units';
 import {about, check as checkName, choice, hint, label, place, plain, sentence, term, text as textOf, type Term} from './words';
-import {said} from './form';
+import {said} from './hint';
 
 /** Verdict, reasons and failed checks, or the problem: in plain sight above the pictures. */
 export function verdict(

@@ -1,0 +1,31 @@
+import {el} from './dom';
+
+/** A button that stays pressed. */
+export const toggle = (text: string, pressed: boolean, id: string, act: () => void) =>
+  el('button', {type: 'button', id: id, 'aria-pressed': String(pressed), onclick: act}, text);
+
+/** Tabs, of which the arrow keys choose the neighbour. */
+export const tabBar = (offered: [string, string][], chosen: string, choose: (id: string) => void) =>
+  el(
+    'div',
+    {role: 'tablist', class: 'tabs', 'aria-label': 'Details'},
+    ...offered.map(([id, name], i) =>
+      el(
+        'button',
+        {
+          type: 'button',
+          role: 'tab',
+          id: `tab-${id}`,
+          'aria-selected': String(id === chosen),
+          'aria-controls': 'panel',
+          tabindex: id === chosen ? '0' : '-1',
+          onclick: () => choose(id),
+          onkeydown: (event: KeyboardEvent) => {
+            const by = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+            if (by) choose((offered[(i + by + offered.length) % offered.length] as [string, string])[0]);
+          },
+        },
+        name,
+      ),
+    ),
+  );
