@@ -1,5 +1,6 @@
 #include "api/endpoints/part_request.hpp"
 
+#include <array>
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
@@ -18,7 +19,9 @@ using part::Datum;
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 constexpr Range kAllowance{.min = 0.0, .max = 1e5};
 constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
-constexpr std::size_t kMostHoles = 64;
+constexpr std::size_t kMostHoles = 64, kMostMarks = 256;
+constexpr auto kMostCutters = static_cast<std::size_t>(limit::cutters_max);
+constexpr Range kGap{.min = 0.0, .max = 50.0};
 
 struct Blank {
   double clamping = 0.0, facing = 0.0;
@@ -109,6 +112,60 @@ void decode_member(Reader& in, PartRequest& out) {
   });
 }
 
+/// A partner is set into at most its radius; a rectangular tube, a cone or an elbow not at all.
+double deepest_of(const joint::Partner& partner) {
+  if (const auto* tube = std::get_if<joint::TubeCutter>(&partner)) return tube->radius;
+  if (const auto* tube = std::get_if<joint::AxisTube>(&partner)) return tube->radius;
+  return 0.0;
+}
+
+joint::Joint decode_end_joint(Reader& in, const joint::Partner* partner) {
+  static constexpr std::array kKinds{Option<joint::JointKind>{"set_on", joint::JointKind::set_on},
+                                     Option<joint::JointKind>{"set_in", joint::JointKind::set_in},
+                                     Option<joint::JointKind>{"mitre", joint::JointKind::mitre}};
+  joint::Joint out;
+  const auto kind = in.tag("kind", kKinds);
+  out.kind = kind.value_or(joint::JointKind::set_on);
+  out.gap = in.number("gap_mm", kGap, 0.0);
+  const bool set_in = out.kind == joint::JointKind::set_in;
+  const bool goes =
+      partner == nullptr || out.kind == joint::JointKind::set_on ||
+      (set_in ? deepest_of(*partner) > 0.0 : std::holds_alternative<joint::PlaneCutter>(*partner));
+  if (kind && !goes)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "kind",
+              .hint = set_in ? "only a tube is entered" : "a mitre's cutter is its plane"},
+             in.find("kind"));
+  if (!set_in) return out;
+  const double deepest = partner == nullptr || !goes ? kDiameter.max / 2.0 : deepest_of(*partner);
+  out.depth =
+      in.number("depth_mm", {.min = 0.0, .max = deepest, .open_min = true, .open_max = true});
+  return out;
+}
+
+/// How the cutters of an end are joined, where that is said; by their index.
+void decode_end_joints(Reader& in, bevel::TableSpec& out) {
+  in.note("joints");
+  if (!in.has("joints")) return;
+  const auto n = out.partners.size();
+  const bool known = in.understood("cutters") && n > 0;
+  out.stated.assign(n, std::nullopt);
+  in.array("joints", {.min = 0, .max = kMostCutters}, [&](Reader& j) {
+    const int last = static_cast<int>(known ? n : kMostCutters) - 1;
+    const auto index = static_cast<std::size_t>(j.integer("cutter", 0, last));
+    const bool there = known && j.understood("cutter");
+    const auto joint = decode_end_joint(j, there ? &out.partners[index] : nullptr);
+    if (!there) return 0;
+    if (out.stated[index])
+      j.issue({.code = ErrorCode::duplicate_id,
+               .pointer = "cutter",
+               .hint = "how this cutter is joined is said already"},
+              j.find("cutter"));
+    out.stated[index] = joint;
+    return 0;
+  });
+}
+
 part::EndSpec decode_end(Reader& in, Preset preset, const bevel::TableSpec& once) {
   const auto which = in.exactly_one({"cutters", "square_at_mm"});
   if (which == 1) return part::square_end(once, in.number("square_at_mm", kOffset));
@@ -118,6 +175,7 @@ part::EndSpec decode_end(Reader& in, Preset preset, const bevel::TableSpec& once
   }
   part::EndSpec out{.cut = once};
   out.cut.partners = decode_cutters(in);
+  decode_end_joints(in, out.cut);
   decode_cut(in, false, preset, out.cut);
   return out;
 }
@@ -128,6 +186,18 @@ void decode_ends(Reader& in, Preset preset, const bevel::TableSpec& once, part::
     out.start = ends.object("start", end);
     out.finish = ends.object("finish", end);
     return 0;
+  });
+}
+
+/// Where others stand on the part, in the start's frame.
+std::vector<part::Mark> decode_marks(Reader& in) {
+  in.note("marks");
+  if (!in.has("marks")) return {};
+  return in.array("marks", {.min = 0, .max = kMostMarks}, [](Reader& m) {
+    part::Mark out{.kind = part::Mark::Kind::partner, .text = m.text("text")};
+    out.phi = m.angle("phi_deg", kAnyAngleDeg).rad();
+    out.z_from = out.z_to = m.number("z_mm", kOffset);
+    return out;
   });
 }
 
@@ -150,6 +220,7 @@ void decode_direct(Reader& in, PartRequest& out) {
   once.target = p.target;
   decode_once(in, out.preset, once);
   decode_ends(in, out.preset, once, p);
+  p.partners = decode_marks(in);
   in.note("holes");
   if (!in.has("holes")) return;
   in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {

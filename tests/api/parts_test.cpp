@@ -255,6 +255,70 @@ TEST(Parts, OneJointIsSaidInOneWay) {
   EXPECT_TRUE(warned(post(kPath, missing), "hole_missing", "/members/2"));
 }
 
+/// One end of a member of this request's node, given by itself: cutter and joint as /v1/nodes says.
+Json direct(const Json& request, std::string_view member) {
+  const auto nodes = post("/v1/nodes", Json{Json::Object{{"members", at(request, "members")},
+                                                         {"connect", at(request, "connect")}}});
+  Json end, chord{Json::Object{{"kind", Json{"tube"}}, {"outer_diameter_mm", Json{219.1}}}};
+  for (const auto& one : list(nodes.body, "result/ends"))
+    if (text(one, "member") == member && text(one, "end") == "start") end = one;
+  for (const auto& [name, value] : *at(end, "cut_by/0/placement").as<Json::Object>())
+    chord = with(chord, name, value);
+  Json cut{Json::Object{
+      {"cutters", Json{Json::Array{chord}}},
+      {"joints", Json{Json::Array{with(at(end, "cut_by/0/joint"), "cutter", Json{0.0})}}}}};
+  for (const auto* name : {"root_surface", "groove", "smoothing"})
+    cut = with(cut, name, at(request, name));
+  const Json square{Json::Object{{"square_at_mm", Json{0.0}}}};
+  return Json{
+      Json::Object{{"target", *api::parse(R"({"size": "CHS 114.3x6.3", "length_mm": 700})")},
+                   {"ends", Json{Json::Object{{"start", cut}, {"finish", square}}}},
+                   {"marks", *api::parse(R"([{"text": "P", "phi_deg": 30, "z_mm": 400}])")},
+                   {"kerf_mm", at(request, "kerf_mm")},
+                   {"sampling", at(request, "sampling")}}};
+}
+
+TEST(Parts, EndsSayHowTheirCuttersAreJoined) {
+  const auto whole = post(kPath, set_in());
+  const auto request = direct(set_in(), "B2");
+  const auto part = post(kPath, request);
+  ASSERT_FALSE(part.outcome.error) << part.outcome.body.substr(0, 800);
+  for (const char* column : {"z_inner_mm", "z_outer_mm", "torch_outer_mm"}) {
+    const auto at_end = std::string("result/ends/start/points/") + column;
+    const auto a = numbers(whole.body, at_end), b = numbers(part.body, at_end);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9);
+  }
+  EXPECT_EQ(number(part.body, "result/ends/start/weld_mm"), 0.0) << "it is that of the hole";
+  const auto& mark = list(part.body, "result/marks").back();
+  EXPECT_EQ(text(mark, "kind"), "partner");
+  EXPECT_NEAR(number(mark, "phi_deg"), 30.0, 1e-12);
+  EXPECT_NEAR(number(mark, "z_from_mm") - 400.0, -number(part.body, "result/frame/origin_mm/2"),
+              1e-9);
+  const auto without_joint = post(kPath, without(request, "ends/start/joints"));
+  EXPECT_GT(number(without_joint.body, "result/ends/start/weld_mm"), 300.0);
+}
+
+TEST(Parts, JointsOfAnEndAreChecked) {
+  const auto request = direct(set_in(), "B2");
+  const auto refused = [&](std::string_view path, Json value) {
+    const auto answer = post(kPath, with(request, path, std::move(value)));
+    return text(answer.body, "errors/0/code") + " " + text(answer.body, "errors/0/pointer");
+  };
+  EXPECT_EQ(refused("ends/start/joints/0/cutter", Json{1.0}),
+            "out_of_range /ends/start/joints/0/cutter");
+  EXPECT_EQ(refused("ends/start/joints/0/depth_mm", Json{109.55}),
+            "out_of_range /ends/start/joints/0/depth_mm");
+  EXPECT_EQ(refused("ends/start/joints/0/kind", Json{"through"}),
+            "bad_choice /ends/start/joints/0/kind");
+  const auto joint = at(request, "ends/start/joints/0");
+  EXPECT_EQ(refused("ends/start/joints", Json{Json::Array{joint, joint}}),
+            "duplicate_id /ends/start/joints/1/cutter");
+  EXPECT_EQ(refused("ends/start/joints", *api::parse(R"([{"cutter": 0, "kind": "mitre"}])")),
+            "unsupported_combination /ends/start/joints/0/kind");
+  EXPECT_EQ(refused("marks/0/text", Json{""}), "bad_text /marks/0/text");
+}
+
 TEST(Parts, EveryFieldIsChecked) {
   const auto t = table_1();
   EXPECT_EQ(refusal(without(t, "target/length_mm"), "/target/length_mm"), "missing_field");
