@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "api/answer_text.hpp"
 #include "api/api.hpp"
 #include "api/batch.hpp"
 #include "api/catalogue.hpp"
@@ -166,20 +167,6 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   return answer(endpoint, common, std::move(std::get<Answer>(reply)), *choice, query);
 }
 
-void write_checks(Writer& w, const std::vector<Check>& checks) {
-  w.object("verification", [&](Writer& v) {
-    v.field("passed", true);  // a check that fails never gets here
-    v.array("checks", checks, [](Writer& each, const Check& check) {
-      each.object([&](Writer& o) {
-        o.field("name", check.name);
-        o.field("value", check.value);
-        o.field("limit", check.limit);
-        o.field("unit", check.unit);
-      });
-    });
-  });
-}
-
 /// What has happened so far, counted from the request's first byte.
 void write_events(Writer& w, const Context& context, double begun,
                   const std::vector<Stage>& stages) {
@@ -199,7 +186,7 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   const auto& stop = context_.stop;
   auto& job = out_.job;
   job.input_sha256 = answer.input_sha256;
-  job.id = call_.job_id.empty() ? job.input_sha256.substr(0, 16) : call_.job_id;
+  job.id = call_.job_id.empty() ? own_job_id(answer) : call_.job_id;
   const auto& verdict = answer.verdict;
   out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
   job.result_sha256 = answer.result_sha256;
@@ -217,23 +204,9 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   const bool cbor = choice.encoding == Encoding::cbor;
   Writer out(answer.result.size() + call_.body.size() + 4096, stop, choice.encoding);
   out.object([&](Writer& w) {
-    w.object("job", [&](Writer& o) {
-      o.field("id", job.id);
-      o.field("endpoint", endpoint.id);
-      o.field("engine", "tubecut " + std::string(version()));
-      o.field("numerics", numerics());
-      o.field("input_sha256", job.input_sha256);
-      o.field("result_sha256", job.result_sha256);
-    });
-    w.field("request", echo);
+    write_head(w, endpoint.id, job.id, answer, echo);
     if (!query.validate_only) w.raw("result", answer.result);
-    write_checks(w, answer.checks);
-    w.object("verdict", [&](Writer& o) {
-      o.field("status", verdict.status);
-      o.column("reasons", verdict.reasons);
-    });
-    write_warnings(w, answer.warnings,
-                   [&](const std::string& member) { return pointer_of(member, answer.request); });
+    write_judgement(w, answer, echo);
     if (query.validate_only && estimate_)
       w.object("estimate", [&](Writer& o) { o.field("cpu_s", *estimate_); });
     if (common.inline_log) write_events(w, context_, begun_, job.stages);

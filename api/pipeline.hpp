@@ -55,6 +55,23 @@ std::optional<Problem> print_document(const typename E::Spec& spec, const typena
   return std::nullopt;
 }
 
+/// A request read, computed, proved and judged; not encoded yet.
+template <class E>
+struct Worked {
+  typename E::Spec spec;
+  typename E::Out out;
+  Answer answer;
+
+  void encode(Writer& writer) const {
+    writer.object([&](Writer& w) { E::encode(spec, out, w); });
+  }
+  [[nodiscard]] std::string hashed(const std::stop_token& stop) const {
+    auto writer = Writer::hashing(stop);
+    encode(writer);
+    return writer.sha256();
+  }
+};
+
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;
 ///   static Spec decode(Reader&);
@@ -72,12 +89,12 @@ std::optional<Problem> print_document(const typename E::Spec& spec, const typena
 ///   static const std::vector<Format<Spec, Out>>& formats();
 ///   kId, kPath, kMaxBody, kBudgetS, kAccepts, kChecks
 template <class E>
-Reply run(Reader& in, Run& run) {
+tl::expected<Worked<E>, Problem> worked(Reader& in, Run& run) {
   auto spec = E::decode(in);
   auto issues = in.finish_root();
   Answer answer{.request = Json{in.take_echo()}};
   const auto suspecting = [&](Problem problem) {
-    return with_suspicions(std::move(problem), answer.request, run.stop);
+    return tl::unexpected(with_suspicions(std::move(problem), answer.request, run.stop));
   };
   if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
   const auto places = filled_in(in.body(), answer.request, run.stop);
@@ -106,26 +123,34 @@ Reply run(Reader& in, Run& run) {
   if (!out) return of_core(out.error());
   answer.checks = prove<E>(spec, *out, run.stop);
   run.stage("verify");
-  if (auto failed = failed_check(answer.checks)) return *std::move(failed);
+  if (auto failed = failed_check(answer.checks)) return tl::unexpected(*std::move(failed));
   answer.warnings = E::warnings(spec, *out);
   for (auto& warning : unit_suspicions(answer.request, run.stop))
     answer.warnings.push_back(std::move(warning));
   answer.measures = E::measure(spec, *out);
   answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
   run.judged(answer);
-  const auto encoded = [&](Writer writer) {
-    writer.object([&](Writer& w) { E::encode(spec, *out, w); });
-    return writer;
-  };
-  if (run.format == nullptr)
-    answer.result = encoded(Writer(1 << 16, run.stop, run.encoding)).take();
+  return Worked<E>{std::move(spec), *std::move(out), std::move(answer)};
+}
+
+template <class E>
+Reply run(Reader& in, Run& run) {
+  auto made = worked<E>(in, run);
+  if (!made) return std::move(made).error();
+  auto& answer = made->answer;
+  if (run.format == nullptr) {
+    Writer writer(1 << 16, run.stop, run.encoding);
+    made->encode(writer);
+    answer.result = writer.take();
+  }
   answer.result_sha256 = run.format == nullptr && run.encoding == Encoding::json
                              ? sha256(answer.result, run.stop)
-                             : encoded(Writer::hashing(run.stop)).sha256();
+                             : made->hashed(run.stop);
   if (run.format != nullptr)
-    if (auto refused = print_document<E>(spec, *out, run, answer)) return *std::move(refused);
+    if (auto refused = print_document<E>(made->spec, made->out, run, answer))
+      return *std::move(refused);
   run.stage("encode");
-  return answer;
+  return std::move(answer);
 }
 
 template <class E>

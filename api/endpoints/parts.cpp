@@ -1,3 +1,5 @@
+#include "api/endpoints/parts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -27,214 +29,184 @@ using part::Step;
 
 std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-struct Parts {
-  using Spec = PartRequest;
-  struct Laser {
-    EndReport start, finish;
-    part::Webs webs;
+Parts::Laser laser_of(const PartRequest& spec, const part::Part& p, const std::stop_token& stop) {
+  return {.start = end_report(p.start.spec, p.start.table, false, stop),
+          .finish = end_report(p.finish.spec, p.finish.table, true, stop),
+          .webs = part::webs(spec.part, p, stop)};
+}
+
+void add_laser(const PartRequest& spec, const Parts::Out& out, std::vector<Measure>& all) {
+  const auto add = [&](const std::vector<Measure>& more) {
+    for (const auto& one : more) add_worst(one, all);
   };
-  struct Out : part::Part {
-    std::optional<Laser> laser = {};
+  add(measures_of(out.start.table, out.laser->start));
+  add(measures_of(out.finish.table, out.laser->finish));
+  for (const auto& placed : out.holes)
+    add({{"max_reach_mm", bevel::reach(placed.hole.torch_z_inner, placed.hole.torch_z)}});
+  add(measures_of(out.laser->webs, spec.seam_known()));
+}
+
+void encode_end(const PartRequest& spec, const Parts::Out& out, bool finish, Writer& w) {
+  const auto& end = finish ? out.finish : out.start;
+  w.object("points", [&](Writer& p) { bevel_columns(end.spec, end.table).write(p); });
+  w.field("b_sign", kBSignInPart);
+  w.field("scrap", name_of(finish ? motion::Scrap::plus_z : motion::Scrap::minus_z));
+  w.field("surface", name_of(end.spec.root_surface));
+  encode_bevel_lists(end.table, w);
+  encode_torch_binds(end.table, w);
+  encode_penetration(end.table.penetration, w);
+  encode_torch_line(end.table.torch_line, w);
+  const auto point = [&](std::string_view name, const part::EdgePoint& p) {
+    w.object(name, [&](Writer& o) {
+      o.degrees("phi_deg", p.phi);
+      o.field("girth_mm", spec.part.target.outer_radius * p.phi);
+      o.field("z_mm", p.z);
+    });
   };
-  static constexpr std::string_view kId = "parts";
-  static constexpr std::string_view kPath = "/v1/parts";
-  static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
-  static constexpr double kBudgetS = kLongBudgetS;
-  static constexpr auto kAccepts =
-      joined(std::array<std::string_view, 3>{"max_root_gap_mm", "max_extra_bevel_deg", "max_b_deg"},
-             kEndAccepts, kPartAccepts);
-  static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
-      {"hole_on_branch", "1e-6", "mm"},
-      {"hole_gap", "1e-6", "mm"},
-      {"hole_fit_up", "1e-6", "mm"},
-      {"hole_dihedral", "1e-6", "deg"},
-      {"hole_groove", "1e-6", "deg"},
-      {"hole_tilt", "1e-6", "deg"},
-      {"hole_kerf", "1e-6", "mm"},
-      {"hole_branch_end", "1e-6", "mm"},
-      {"hole_gap_stated", "1e-3", "mm"},
-      {"hole_gap_between", "sampling.tolerance_mm", "mm"},
-      {"hole_gouge", "0.01", "mm"},
-      {"hole_gouge_stated", "1e-3", "mm"},
-      {"hole_left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
-      {"placed", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
-      {"volume", "1e-9, of itself", ""},
-      {"check_dimensions", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
+  point("long_point", end.longest);
+  point("short_point", end.shortest);
+  w.field("length_mm", end.table.length_total);
+  w.field("developed_length_mm", end.table.developed_total);
+  w.field("weld_mm", end.weld_length);
+  w.field("groove_mm3", end.groove_volume);
+  w.column("cutter_ids", finish ? spec.finish_ids : spec.start_ids);
+  if (out.laser) encode_end_report(end.table, finish ? out.laser->finish : out.laser->start, w);
+}
+
+void encode_lengths(const part::Lengths& lengths, Writer& o) {
+  o.field("work_point_mm", lengths.work_point);
+  o.field("long_mm", lengths.longest);
+  o.field("short_mm", lengths.shortest);
+  o.field("blank_mm", lengths.blank);
+  o.field("weld_mm", lengths.weld);
+  o.field("volume_mm3", lengths.volume);
+  o.field("mass_kg", lengths.mass);
+}
+
+void encode_dimension(Writer& each, const part::CheckDimension& d) {
+  each.object([&](Writer& o) {
+    std::vector<std::string> mistakes;
+    for (const auto m : d.changes_with) mistakes.emplace_back(name_of(m));
+    o.field("name", d.name);
+    o.field("value_mm", d.value);
+    o.field("tool", name_of(d.tool));
+    o.field("measured_from", d.measured_from);
+    o.column("changes_with", mistakes);
   });
-  static constexpr auto kChecks = joined(kTableChecks, kOwnChecks);
+}
 
-  static Spec decode(Reader& in) { return decode_part_request(in); }
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    return api::resolve(std::move(spec), stop);
-  }
-  static void count(const Spec& spec, Work& work) {
-    for (const auto* end : {&spec.part.start, &spec.part.finish}) add_work(end->cut, work);
-    for (const auto& one : spec.part.holes) add_work(one.hole, work);
-  }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    auto part = part::part(spec.part, stop);
-    if (!part) return tl::unexpected(on_request(spec, part.error()));
-    Out out{*std::move(part)};
-    if (spec.preset == Preset::tube_laser) out.laser = laser_of(spec, out, stop);
-    return out;
-  }
-  static Laser laser_of(const Spec& spec, const part::Part& p, const std::stop_token& stop) {
-    return {.start = end_report(p.start.spec, p.start.table, false, stop),
-            .finish = end_report(p.finish.spec, p.finish.table, true, stop),
-            .webs = part::webs(spec.part, p, stop)};
-  }
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    return part::verify(spec.part, out, stop);
-  }
-  static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
-    auto all = on_request(spec, out.warnings);
-    all.insert(all.end(), spec.warnings.begin(), spec.warnings.end());
-    return all;
-  }
+void encode_step(Writer& each, const Step& step) {
+  each.object([&](Writer& o) {
+    o.field("what", name_of(step.what));
+    o.field("index", step.index);
+    o.field("z_from_mm", step.z_from);
+    o.field("z_to_mm", step.z_to);
+  });
+}
 
-  static std::vector<Measure> measure(const Spec& spec, const Out& out) {
-    double gap = 0.0, extra = 0.0, b = 0.0;
-    for (const auto* end : {&out.start, &out.finish}) {
-      const auto& t = end->own;
-      for (std::size_t i = 0; i < t.b.size(); ++i) {
-        gap = std::max(gap, t.gap[i]);
-        extra = std::max(extra, t.b[i] - t.b_raw[i]);
-        b = std::max(b, std::abs(t.b[i]));
-      }
-    }
-    for (const auto& placed : out.holes) {
-      gap = std::max(gap, placed.hole.fit.greatest_root_between);
-      for (const double one : placed.hole.b) b = std::max(b, std::abs(one));
-    }
-    std::vector<Measure> all{{"max_root_gap_mm", gap},
-                             {"max_extra_bevel_deg", extra * kDegPerRad},
-                             {"max_b_deg", b * kDegPerRad}};
-    if (out.laser) add_laser(spec, out, all);
-    return all;
-  }
-  static void add_laser(const Spec& spec, const Out& out, std::vector<Measure>& all) {
-    const auto add = [&](const std::vector<Measure>& more) {
-      for (const auto& one : more) add_worst(one, all);
-    };
-    add(measures_of(out.start.table, out.laser->start));
-    add(measures_of(out.finish.table, out.laser->finish));
-    for (const auto& placed : out.holes)
-      add({{"max_reach_mm", bevel::reach(placed.hole.torch_z_inner, placed.hole.torch_z)}});
-    add(measures_of(out.laser->webs, spec.seam_known()));
-  }
-
-  static void encode(const Spec& spec, const Out& out, Writer& w) {
-    w.object("frame", [&](Writer& o) {
-      o.column("origin_mm", components(out.frame.origin));
-      o.column("x", components(out.frame.rows.row(0)));
-      o.column("y", components(out.frame.rows.row(1)));
-      o.column("z", components(out.frame.rows.row(2)));
-      o.field("in", spec.member ? "world" : "start");
-    });
-    w.object("ends", [&](Writer& ends) {
-      ends.object("start", [&](Writer& o) { encode_end(spec, out, false, o); });
-      ends.object("finish", [&](Writer& o) { encode_end(spec, out, true, o); });
-    });
-    w.array("holes", out.holes, [&](Writer& each, const part::PlacedHole& placed) {
-      each.object([&](Writer& o) {
-        const auto& asked = spec.part.holes[placed.asked];
-        o.field("branch", asked.name);
-        encode_hole(asked.hole, placed.hole, o);
-      });
-    });
-    w.degrees("clocking_between_ends_deg", out.clocking);
-    w.object("lengths", [&](Writer& o) { encode_lengths(out.lengths, o); });
-    w.array("check_dimensions", out.check_dimensions, encode_dimension);
-    w.array("marks", out.marks, [&](Writer& each, const Mark& mark) {
-      each.object([&](Writer& o) {
-        o.field("kind", name_of(mark.kind));
-        o.field("text", mark.text);
-        o.degrees("phi_deg", mark.phi);
-        o.field("girth_mm", spec.part.target.outer_radius * mark.phi);
-        o.field("z_from_mm", mark.z_from);
-        o.field("z_to_mm", mark.z_to);
-      });
-    });
-    w.array("sequence", out.sequence, encode_step);
-    if (out.laser) encode_webs(out.laser->webs, spec.seam_known(), w);
-  }
-
-  static void encode_end(const Spec& spec, const Out& out, bool finish, Writer& w) {
-    const auto& end = finish ? out.finish : out.start;
-    w.object("points", [&](Writer& p) { bevel_columns(end.spec, end.table).write(p); });
-    w.field("b_sign", kBSignInPart);
-    w.field("scrap", name_of(finish ? motion::Scrap::plus_z : motion::Scrap::minus_z));
-    w.field("surface", name_of(end.spec.root_surface));
-    encode_bevel_lists(end.table, w);
-    encode_torch_binds(end.table, w);
-    encode_penetration(end.table.penetration, w);
-    encode_torch_line(end.table.torch_line, w);
-    const auto point = [&](std::string_view name, const part::EdgePoint& p) {
-      w.object(name, [&](Writer& o) {
-        o.degrees("phi_deg", p.phi);
-        o.field("girth_mm", spec.part.target.outer_radius * p.phi);
-        o.field("z_mm", p.z);
-      });
-    };
-    point("long_point", end.longest);
-    point("short_point", end.shortest);
-    w.field("length_mm", end.table.length_total);
-    w.field("developed_length_mm", end.table.developed_total);
-    w.field("weld_mm", end.weld_length);
-    w.field("groove_mm3", end.groove_volume);
-    w.column("cutter_ids", finish ? spec.finish_ids : spec.start_ids);
-    if (out.laser) encode_end_report(end.table, finish ? out.laser->finish : out.laser->start, w);
-  }
-
-  static void encode_lengths(const part::Lengths& lengths, Writer& o) {
-    o.field("work_point_mm", lengths.work_point);
-    o.field("long_mm", lengths.longest);
-    o.field("short_mm", lengths.shortest);
-    o.field("blank_mm", lengths.blank);
-    o.field("weld_mm", lengths.weld);
-    o.field("volume_mm3", lengths.volume);
-    o.field("mass_kg", lengths.mass);
-  }
-
-  static void encode_dimension(Writer& each, const part::CheckDimension& d) {
-    each.object([&](Writer& o) {
-      std::vector<std::string> mistakes;
-      for (const auto m : d.changes_with) mistakes.emplace_back(name_of(m));
-      o.field("name", d.name);
-      o.field("value_mm", d.value);
-      o.field("tool", name_of(d.tool));
-      o.field("measured_from", d.measured_from);
-      o.column("changes_with", mistakes);
-    });
-  }
-
-  static void encode_step(Writer& each, const Step& step) {
-    each.object([&](Writer& o) {
-      o.field("what", name_of(step.what));
-      o.field("index", step.index);
-      o.field("z_from_mm", step.z_from);
-      o.field("z_to_mm", step.z_to);
-    });
-  }
-
-  template <auto Print>
-  static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
-    return Print(spec.part, out, caption);
-  }
-
-  static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
-        {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
-        {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
-        {"step", "model/step", &print<part_step>, {"straight", "smooth"}},
-        {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},
-        {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
-    return kFormats;
-  }
-};
+template <auto Print>
+std::string print(const PartRequest& spec, const Parts::Out& out, const Caption& caption) {
+  return Print(spec.part, out, caption);
+}
 
 }  // namespace
+
+Parts::Spec Parts::decode(Reader& in) { return decode_part_request(in); }
+
+Result<Parts::Spec> Parts::resolve(Spec spec, const std::stop_token& stop) {
+  return api::resolve(std::move(spec), stop);
+}
+
+void Parts::count(const Spec& spec, Work& work) {
+  for (const auto* end : {&spec.part.start, &spec.part.finish}) add_work(end->cut, work);
+  for (const auto& one : spec.part.holes) add_work(one.hole, work);
+}
+
+Result<Parts::Out> Parts::compute(const Spec& spec, const std::stop_token& stop) {
+  auto part = part::part(spec.part, stop);
+  if (!part) return tl::unexpected(on_request(spec, part.error()));
+  Out out{*std::move(part)};
+  if (spec.preset == Preset::tube_laser) out.laser = laser_of(spec, out, stop);
+  return out;
+}
+
+std::vector<Check> Parts::verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+  return part::verify(spec.part, out, stop);
+}
+
+std::vector<Warning> Parts::warnings(const Spec& spec, const Out& out) {
+  auto all = on_request(spec, out.warnings);
+  all.insert(all.end(), spec.warnings.begin(), spec.warnings.end());
+  return all;
+}
+
+std::vector<Measure> Parts::measure(const Spec& spec, const Out& out) {
+  double gap = 0.0, extra = 0.0, b = 0.0;
+  for (const auto* end : {&out.start, &out.finish}) {
+    const auto& t = end->own;
+    for (std::size_t i = 0; i < t.b.size(); ++i) {
+      gap = std::max(gap, t.gap[i]);
+      extra = std::max(extra, t.b[i] - t.b_raw[i]);
+      b = std::max(b, std::abs(t.b[i]));
+    }
+  }
+  for (const auto& placed : out.holes) {
+    gap = std::max(gap, placed.hole.fit.greatest_root_between);
+    for (const double one : placed.hole.b) b = std::max(b, std::abs(one));
+  }
+  std::vector<Measure> all{{"max_root_gap_mm", gap},
+                           {"max_extra_bevel_deg", extra * kDegPerRad},
+                           {"max_b_deg", b * kDegPerRad}};
+  if (out.laser) add_laser(spec, out, all);
+  return all;
+}
+
+void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
+  w.object("frame", [&](Writer& o) {
+    o.column("origin_mm", components(out.frame.origin));
+    o.column("x", components(out.frame.rows.row(0)));
+    o.column("y", components(out.frame.rows.row(1)));
+    o.column("z", components(out.frame.rows.row(2)));
+    o.field("in", spec.member ? "world" : "start");
+  });
+  w.object("ends", [&](Writer& ends) {
+    ends.object("start", [&](Writer& o) { encode_end(spec, out, false, o); });
+    ends.object("finish", [&](Writer& o) { encode_end(spec, out, true, o); });
+  });
+  w.array("holes", out.holes, [&](Writer& each, const part::PlacedHole& placed) {
+    each.object([&](Writer& o) {
+      const auto& asked = spec.part.holes[placed.asked];
+      o.field("branch", asked.name);
+      encode_hole(asked.hole, placed.hole, o);
+    });
+  });
+  w.degrees("clocking_between_ends_deg", out.clocking);
+  w.object("lengths", [&](Writer& o) { encode_lengths(out.lengths, o); });
+  w.array("check_dimensions", out.check_dimensions, encode_dimension);
+  w.array("marks", out.marks, [&](Writer& each, const Mark& mark) {
+    each.object([&](Writer& o) {
+      o.field("kind", name_of(mark.kind));
+      o.field("text", mark.text);
+      o.degrees("phi_deg", mark.phi);
+      o.field("girth_mm", spec.part.target.outer_radius * mark.phi);
+      o.field("z_from_mm", mark.z_from);
+      o.field("z_to_mm", mark.z_to);
+    });
+  });
+  w.array("sequence", out.sequence, encode_step);
+  if (out.laser) encode_webs(out.laser->webs, spec.seam_known(), w);
+}
+
+const std::vector<Format<Parts::Spec, Parts::Out>>& Parts::formats() {
+  static const std::vector<Format<Spec, Out>> kFormats{
+      {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
+      {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
+      {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
+      {"step", "model/step", &print<part_step>, {"straight", "smooth"}},
+      {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},
+      {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
+  return kFormats;
+}
 
 Endpoint parts() { return endpoint<Parts>(); }
 

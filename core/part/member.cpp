@@ -66,9 +66,9 @@ Result<std::pair<MemberFrame, MemberFrame>> frames(const joint::Member& m, const
   return std::pair{first, last};
 }
 
-/// Where the axis of a member that stands here leaves the outer surface; on the nearest side
-/// when it passes by.
-Mark mark_of(const joint::Member& branch, End end, const MemberFrame& frame, double radius) {
+}  // namespace
+
+Mark mark_of(const joint::Member& branch, joint::End end, const MemberFrame& frame, double radius) {
   const AxisLine line = frame.local(AxisLine{branch.at(end), into(branch, end)});
   const Vector3d d = line.direction / line.direction.norm();
   const Vector3d& p = line.point;
@@ -80,6 +80,8 @@ Mark mark_of(const joint::Member& branch, End end, const MemberFrame& frame, dou
   return {Mark::Kind::partner, branch.name, math::whole_turn(elementary::atan2(out.y(), out.x())),
           out.z(), out.z()};
 }
+
+namespace {
 
 bool cut_by(const MemberEnd& end, std::size_t member) {
   return std::ranges::any_of(end.cut_by,

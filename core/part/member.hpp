@@ -25,6 +25,11 @@ enum class Datum {
 /// A plane square to the axis, `height` from the work point into the member, instead of partners.
 [[nodiscard]] EndSpec square_end(const bevel::TableSpec& options, double height);
 
+/// Where the axis of a member that stands on a part of this outer radius leaves its surface; on the
+/// nearest side when it passes by. `frame`: of the part's start.
+[[nodiscard]] Mark mark_of(const joint::Member& branch, joint::End end,
+                           const joint::MemberFrame& frame, double radius);
+
 /// A hole for a member of the node: `cut` but for chord and branch.
 struct BranchHole {
   bevel::HoleSpec cut;

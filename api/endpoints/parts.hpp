@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "api/check_limit.hpp"
+#include "api/cost.hpp"
+#include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/part_request.hpp"
+#include "api/endpoints/tube_laser.hpp"
+#include "api/format.hpp"
+#include "api/limits.hpp"
+#include "api/verdict.hpp"
+#include "api/writer.hpp"
+
+namespace tubecut::api {
+
+/// /v1/parts, by itself and of every member of a frame: see pipeline.hpp.
+struct Parts {
+  using Spec = PartRequest;
+  struct Laser {
+    EndReport start, finish;
+    part::Webs webs;
+  };
+  struct Out : part::Part {
+    std::optional<Laser> laser = {};
+  };
+  static constexpr std::string_view kId = "parts";
+  static constexpr std::string_view kPath = "/v1/parts";
+  static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
+  static constexpr double kBudgetS = kLongBudgetS;
+  static constexpr auto kAccepts =
+      joined(std::array<std::string_view, 3>{"max_root_gap_mm", "max_extra_bevel_deg", "max_b_deg"},
+             kEndAccepts, kPartAccepts);
+  static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
+      {"hole_on_branch", "1e-6", "mm"},
+      {"hole_gap", "1e-6", "mm"},
+      {"hole_fit_up", "1e-6", "mm"},
+      {"hole_dihedral", "1e-6", "deg"},
+      {"hole_groove", "1e-6", "deg"},
+      {"hole_tilt", "1e-6", "deg"},
+      {"hole_kerf", "1e-6", "mm"},
+      {"hole_branch_end", "1e-6", "mm"},
+      {"hole_gap_stated", "1e-3", "mm"},
+      {"hole_gap_between", "sampling.tolerance_mm", "mm"},
+      {"hole_gouge", "0.01", "mm"},
+      {"hole_gouge_stated", "1e-3", "mm"},
+      {"hole_left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
+      {"placed", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
+      {"volume", "1e-9, of itself", ""},
+      {"check_dimensions", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
+  });
+  static constexpr auto kChecks = joined(kTableChecks, kOwnChecks);
+
+  static Spec decode(Reader& in);
+  static Result<Spec> resolve(Spec spec, const std::stop_token& stop);
+  static void count(const Spec& spec, Work& work);
+  static Result<Out> compute(const Spec& spec, const std::stop_token& stop);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop);
+  static std::vector<Warning> warnings(const Spec& spec, const Out& out);
+  static std::vector<Measure> measure(const Spec& spec, const Out& out);
+  static void encode(const Spec& spec, const Out& out, Writer& w);
+  static const std::vector<Format<Spec, Out>>& formats();
+};
+
+}  // namespace tubecut::api

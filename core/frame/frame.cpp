@@ -1,0 +1,279 @@
+#include "core/frame/frame.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "core/base/try.hpp"
+#include "core/frame/frame_parts.hpp"
+#include "core/joint/nearness.hpp"
+#include "core/joint/node_parts.hpp"
+#include "core/joint/overlap.hpp"
+
+namespace tubecut::frame {
+namespace {
+
+using detail::Joined;
+using Eigen::Vector3d;
+using joint::End;
+
+constexpr double kInLine = 0.5 * kRadPerDeg;  // two ends face each other
+constexpr double kEquallyNear = 1e-6;         // mm
+
+std::string at_joint(std::size_t i) { return "joints/" + std::to_string(i); }
+std::string at_other(std::size_t i) { return "others/" + std::to_string(i); }
+
+tl::unexpected<Error> contradicts(std::size_t joint, const std::string& field,
+                                  const std::string& hint) {
+  return fail({.code = ErrorCode::joint_contradicts,
+               .member = at_joint(joint) + (field.empty() ? "" : "/" + field),
+               .hint = hint});
+}
+
+/// What core's nodes know it as: a butt joint is a mitre of two in line.
+joint::Joint of_node(const How& how) {
+  static constexpr joint::JointKind kKinds[] = {joint::JointKind::set_on, joint::JointKind::set_in,
+                                                joint::JointKind::through, joint::JointKind::mitre,
+                                                joint::JointKind::mitre};
+  return {kKinds[static_cast<std::size_t>(how.kind)], how.gap, how.depth};
+}
+
+/// The vectors that say how one stands: none may be without length.
+struct Directions {
+  using All = std::vector<std::pair<std::string, Vector3d>>;
+  All operator()(const joint::AxisTube& t) const { return {{"axis/direction", t.axis.direction}}; }
+  All operator()(const joint::TubeCutter&) const { return {}; }
+  All operator()(const joint::PlaneCutter& p) const { return {{"normal", p.normal}}; }
+  All operator()(const joint::RectangularTubeCutter& t) const {
+    return {{"axis/direction", t.direction}, {"up", t.up}};
+  }
+  All operator()(const joint::ConeCutter& c) const { return {{"axis/direction", c.direction}}; }
+  All operator()(const joint::ElbowCutter& e) const {
+    return {{"axis/direction", e.direction}, {"inwards", e.inwards}};
+  }
+};
+
+Result<void> check_others(const FrameSpec& spec) {
+  for (std::size_t i = 0; i < spec.others.size(); ++i)
+    for (const auto& [field, v] : joint::by_kind(spec.others[i].partner, Directions{}))
+      if (!(v.norm() > 0.0))
+        return fail({.code = ErrorCode::zero_length,
+                     .member = at_other(i) + "/" + field,
+                     .got = 0.0,
+                     .limit = 0.0,
+                     .hint = "the vector's length must be greater than the limit"});
+  return {};
+}
+
+/// From a point to the surface, either way.
+struct Off {
+  const Vector3d& point;
+  double operator()(const joint::AxisTube& t) const {
+    const Vector3d d = t.axis.direction.normalized();
+    return std::abs((point - t.axis.point).cross(d).norm() - t.radius);
+  }
+  template <class Kind>
+  double operator()(const Kind& kind) const {
+    return std::abs(kind.solid().distance(point));
+  }
+};
+
+/// The end that a stated joint with one of the others is of.
+Result<End> end_at(const FrameSpec& spec, std::size_t index) {
+  const auto& said = spec.joints[index];
+  if (said.end) return *said.end;
+  const auto& m = spec.members[said.member];
+  const auto& partner = spec.others[said.with].partner;
+  const double start = joint::by_kind(partner, Off{m.start});
+  const double finish = joint::by_kind(partner, Off{m.finish});
+  if (std::abs(start - finish) > kEquallyNear) return start < finish ? End::start : End::finish;
+  return fail({.code = ErrorCode::ambiguous_connection,
+               .member = at_joint(index),
+               .hint = "both ends are equally near; say which with end"});
+}
+
+/// Of two members that join by what is stated alone: the branch's end at the chord.
+joint::Link link(const FrameSpec& spec, const joint::NodeSpec& node, const StatedJoint& said) {
+  const bool first = joint::detail::goes_before(node, said.member, said.with);
+  const auto chord = first ? said.member : said.with, branch = first ? said.with : said.member;
+  const auto& c = spec.members[chord];
+  const auto& b = spec.members[branch];
+  const auto off = [&](const Vector3d& p) {
+    return joint::nearness(p, {c.start, c.finish, 0.0}).distance;
+  };
+  const auto nearer = off(b.start) <= off(b.finish) ? End::start : End::finish;
+  return {.member = branch, .end = said.end.value_or(nearer), .to = {chord}};
+}
+
+/// The joints that are stated, of members and of others.
+Result<Joined> stated(const FrameSpec& spec) {
+  Joined out;
+  out.node.members = spec.members;
+  out.others.resize(2 * spec.members.size());
+  std::set<std::pair<std::size_t, std::size_t>> at_others;
+  std::vector<joint::Link> links;
+  for (std::size_t i = 0; i < spec.joints.size(); ++i) {
+    const auto& said = spec.joints[i];
+    out.joints.push_back({said.member, said.with, said.other, said.how, i});
+    if (said.other) {
+      TRY(const auto end, end_at(spec, i));
+      const auto index = 2 * said.member + (end == End::finish ? 1 : 0);
+      if (!at_others.emplace(index, said.with).second)
+        return contradicts(i, {}, "this end's joint with it is stated already");
+      out.others[index].push_back({said.with, i});
+      continue;
+    }
+    if (!out.of_members.emplace(std::minmax(said.member, said.with), i).second)
+      return contradicts(i, {}, "the joint of these two is stated already");
+    out.node.joints.push_back({said.member, said.with, of_node(said.how)});
+    if (said.how.kind != JointKind::through) links.push_back(link(spec, out.node, said));
+  }
+  if (spec.within)
+    out.node.connect = joint::Within{*spec.within};
+  else
+    out.node.connect = std::move(links);
+  return out;
+}
+
+/// Takes "members/3/" off the text's head: 3.
+std::optional<std::size_t> taken(std::string_view& text, std::string_view word) {
+  if (!text.starts_with(word)) return std::nullopt;
+  std::size_t out = 0;
+  const auto* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + word.size(), end, out);
+  if (read.ec != std::errc{}) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
+  return out;
+}
+
+/// core's "members/3/joints/0" is the statement of that place among that member's own.
+std::string renamed(const Joined& joined, const std::string& member) {
+  std::string_view rest = member;
+  const auto at = taken(rest, "members/");
+  auto ordinal = at ? taken(rest, "/joints/") : std::nullopt;
+  if (!ordinal) return member;
+  for (const auto& said : joined.node.joints) {
+    if (said.member != *at || (*ordinal)-- > 0) continue;
+    const auto& one = joined.joints[joined.joint_of(said.member, said.with)];
+    return (one.stated ? at_joint(*one.stated) : "defaults") + std::string(rest);
+  }
+  return member;
+}
+
+Result<joint::Nodes> solve_nodes(const Joined& joined, const std::stop_token& stop) {
+  return joint::solve(joined.node, stop).map_error([&](Error error) {
+    for (auto& issue : error.issues) issue.member = renamed(joined, issue.member);
+    return error;
+  });
+}
+
+/// Pairs that meet and of which nobody says how, each by its branch.
+void add_found(const FrameSpec& spec, Joined& joined) {
+  for (const auto& end : joined.nodes.ends)
+    for (const auto& cut : end.cut_by) {
+      const auto pair = std::minmax(end.member, cut.member);
+      if (!joined.of_members.emplace(pair, joined.joints.size()).second) continue;
+      joined.joints.push_back({end.member, cut.member, false, spec.found, std::nullopt});
+      joined.node.joints.push_back({end.member, cut.member, of_node(spec.found)});
+    }
+}
+
+/// Two ends in line, or a joint that is none.
+Result<void> check_butt(const joint::CutBy& cut, const Joint& one) {
+  if (one.how.kind != JointKind::butt) return {};
+  const Vector3d z = Vector3d::UnitZ();
+  const double off = 2.0 * z.cross(cut.plane->normal.normalized()).norm();
+  if (off <= kInLine) return {};
+  return contradicts(*one.stated, "kind",
+                     "the two lie " + brief(off * kDegPerRad) + " deg out of line; mitre them");
+}
+
+/// Who is the branch, and how deep it is set in, as the nodes have it.
+Result<void> settle(const FrameSpec& spec, Joined& joined) {
+  for (const auto& end : joined.nodes.ends)
+    for (const auto& cut : end.cut_by) {
+      auto& one = joined.joints[joined.joint_of(end.member, cut.member)];
+      if (cut.plane) {
+        TRY(check_butt(cut, one));
+        continue;
+      }
+      one.branch = end.member;
+      one.chord = cut.member;
+      if (cut.stated) one.how.depth = cut.stated->depth;
+    }
+  for (auto& one : joined.joints) {
+    if (one.how.kind != JointKind::through) continue;
+    const double a = spec.members[one.branch].outer_radius;
+    const double b = spec.members[one.chord].outer_radius;
+    if (a == b)
+      return contradicts(*one.stated, "kind",
+                         "of two equally thick neither passes through the other");
+    if (a > b) std::swap(one.branch, one.chord);
+  }
+  return {};
+}
+
+std::vector<NotCut> not_cut(const FrameSpec& spec, const Joined& joined) {
+  std::vector<NotCut> out;
+  std::set<std::string> parallel;
+  for (const auto& w : joined.nodes.warnings)
+    if (w.code == WarningCode::parallel_members) parallel.insert(w.member);
+  for (std::size_t i = 0; i < joined.nodes.ends.size(); ++i) {
+    const auto& end = joined.nodes.ends[i];
+    if (!end.cut_by.empty() || !joined.others[i].empty()) continue;
+    const bool along = parallel.contains(joint::place_of(end.member, end.end));
+    out.push_back({end.free ? Why::free
+                   : along  ? Why::parallel
+                            : Why::cuts_the_others,
+                   end.member, end.end});
+  }
+  std::set<std::size_t> used;
+  for (const auto& one : spec.joints)
+    if (one.other) used.insert(one.with);
+  for (std::size_t i = 0; i < spec.others.size(); ++i)
+    if (!used.contains(i)) out.push_back({Why::not_joined, i, std::nullopt});
+  return out;
+}
+
+/// Those of the nodes, but for what one of the others makes good: an end without members, or open
+/// to them.
+std::vector<Warning> warnings(const Joined& joined) {
+  std::set<std::string> cut_by_others;
+  for (std::size_t i = 0; i < joined.others.size(); ++i)
+    if (!joined.others[i].empty())
+      cut_by_others.insert(joint::place_of(joined.nodes.ends[i].member, joined.nodes.ends[i].end));
+  std::vector<Warning> out;
+  for (const auto& w : joined.nodes.warnings) {
+    const bool good = w.code == WarningCode::free_end || w.code == WarningCode::end_open ||
+                      w.code == WarningCode::parallel_members;
+    if (!good || !cut_by_others.contains(w.member)) out.push_back(w);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
+  TRY(check_others(spec));
+  TRY(auto joined, stated(spec));
+  TRY(joined.nodes, solve_nodes(joined, stop));
+  const auto before = joined.joints.size();
+  add_found(spec, joined);
+  if (joined.joints.size() > before) {
+    TRY(joined.nodes, solve_nodes(joined, stop));
+  }
+  TRY(settle(spec, joined));
+  Frame out;
+  TRY(out.pieces, detail::pieces(spec, joined, stop));
+  out.not_cut = not_cut(spec, joined);
+  out.warnings = warnings(joined);
+  TRY(const auto shared, joint::overlaps(joined.node, joined.nodes, {}, stop));
+  for (auto& warning : joint::warnings_of(joined.node, shared))
+    out.warnings.push_back(std::move(warning));
+  out.joints = std::move(joined.joints);
+  return out;
+}
+
+}  // namespace tubecut::frame

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/frame/frame.hpp"
+
+/// For `solve` only.
+namespace tubecut::frame::detail {
+
+/// One of the others that cuts an end, by its joint.
+struct OtherAt {
+  std::size_t other = 0, joint = 0;
+};
+
+/// The joints and who meets where, before anything stands in a frame of its own.
+struct Joined {
+  joint::NodeSpec node;
+  joint::Nodes nodes;
+  std::vector<Joint> joints;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_members;  // earlier first
+  std::vector<std::vector<OtherAt>> others;                               // of each end
+
+  [[nodiscard]] std::size_t joint_of(std::size_t a, std::size_t b) const {
+    return of_members.at(std::minmax(a, b));
+  }
+};
+
+/// Errors  as `solve`.
+[[nodiscard]] Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
+                                                const std::stop_token& stop);
+
+/// From an end into its member.
+[[nodiscard]] Eigen::Vector3d into(const joint::Member& m, joint::End end);
+
+}  // namespace tubecut::frame::detail

@@ -1,0 +1,300 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+#include "core/frame/frame_parts.hpp"
+#include "core/part/member.hpp"
+
+namespace tubecut::frame::detail {
+namespace {
+
+using Eigen::Vector3d;
+using joint::AxisLine;
+using joint::AxisTube;
+using joint::End;
+using joint::MemberFrame;
+using joint::Partner;
+
+/// Of an axis at right angles to the member: it rises no way.
+constexpr double kLevel = 1e-9;
+
+constexpr double kWritten = 1e6;  // numbers are told apart to six decimals
+
+/// Foot of the perpendicular from the frame's origin: of a line and of a plane any point will do.
+Vector3d foot_on_line(const Vector3d& point, const Vector3d& unit) {
+  return point - point.dot(unit) * unit;
+}
+
+/// A partner of the world in a frame: one case for every kind.
+struct In {
+  const MemberFrame& frame;
+
+  [[nodiscard]] Vector3d turned(const Vector3d& v) const { return (frame.rows * v).normalized(); }
+
+  /// The axis turned so that it rises with z; one that does not rise, so that its common
+  /// perpendicular lies in the first half turn.
+  Result<Partner> operator()(const AxisTube& tube) const {
+    auto axis = frame.local(tube.axis);
+    axis.direction.normalize();
+    const auto& d = axis.direction;
+    const bool level = std::abs(d.z()) <= kLevel;
+    // The perpendicular is z x d = (-d.y, d.x).
+    const bool back = level ? d.x() < -kLevel || (d.x() < kLevel && d.y() > 0.0) : d.z() < 0.0;
+    if (back) axis.direction = -axis.direction;
+    TRY(const auto placed, joint::place(axis, tube.radius));
+    return Partner(placed.tube);
+  }
+  Result<Partner> operator()(const joint::TubeCutter& tube) const {
+    return (*this)(AxisTube{tube.radius, joint::axis_of(tube)});
+  }
+  Result<Partner> operator()(joint::PlaneCutter plane) const {
+    const Vector3d normal = turned(plane.normal);
+    return Partner(joint::PlaneCutter{normal * normal.dot(frame.local(plane.point)), normal});
+  }
+  Result<Partner> operator()(joint::RectangularTubeCutter tube) const {
+    tube.direction = turned(tube.direction);
+    tube.point = foot_on_line(frame.local(tube.point), tube.direction);
+    tube.up = turned(tube.up);
+    return Partner(tube);
+  }
+  Result<Partner> operator()(joint::ConeCutter cone) const {
+    cone.direction = turned(cone.direction);
+    cone.point = frame.local(cone.point);
+    return Partner(cone);
+  }
+  Result<Partner> operator()(joint::ElbowCutter elbow) const {
+    elbow.direction = turned(elbow.direction);
+    elbow.inwards = turned(elbow.inwards);
+    elbow.point = frame.local(elbow.point);
+    return Partner(elbow);
+  }
+};
+
+/// What cuts an end, in the world.
+struct InWorld {
+  Partner partner;
+  std::optional<joint::Joint> stated;
+  std::size_t joint = 0;
+  std::string at;  // for errors
+};
+
+std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std::size_t index) {
+  std::vector<InWorld> out;
+  const auto& end = joined.nodes.ends[index];
+  for (const auto& cut : end.cut_by) {
+    const auto& m = spec.members[cut.member];
+    InWorld one{.partner = AxisTube{m.outer_radius, {m.start, m.finish - m.start}},
+                .stated = cut.stated,
+                .joint = joined.joint_of(end.member, cut.member),
+                .at = "members/" + std::to_string(cut.member)};
+    if (cut.plane)
+      one.partner =
+          joint::PlaneCutter{end.frame.origin + end.frame.rows.transpose() * cut.plane->point,
+                             end.frame.rows.transpose() * cut.plane->normal};
+    out.push_back(std::move(one));
+  }
+  for (const auto& one : joined.others[index])
+    out.push_back({.partner = spec.others[one.other].partner,
+                   .stated = joint::Joint{.kind = joint::JointKind::set_on,
+                                          .gap = joined.joints[one.joint].how.gap},
+                   .joint = one.joint,
+                   .at = "others/" + std::to_string(one.other)});
+  return out;
+}
+
+Result<std::vector<Cutter>> placed(const std::vector<InWorld>& all, const MemberFrame& frame) {
+  std::vector<Cutter> out;
+  for (const auto& one : all) {
+    TRY(auto partner, under(one.at, joint::by_kind(one.partner, In{frame})));
+    out.push_back({std::move(partner), one.stated, one.joint});
+  }
+  return out;
+}
+
+std::vector<Partner> partners(const std::vector<Cutter>& cutters) {
+  std::vector<Partner> out;
+  for (const auto& one : cutters) out.push_back(one.partner);
+  return out;
+}
+
+/// An end of a branch that a member's tube cuts, or a branch that passes through it.
+struct Branch {
+  std::size_t member = 0, joint = 0;
+  End end = End::start;
+  bool passes = false;
+};
+
+/// Of each member those that stand on it or pass through it.
+std::vector<std::vector<Branch>> branches(const Joined& joined) {
+  std::vector<std::vector<Branch>> out(joined.node.members.size());
+  for (const auto& end : joined.nodes.ends)
+    for (const auto& cut : end.cut_by)
+      if (!cut.plane)
+        out[cut.member].push_back(
+            {end.member, joined.joint_of(end.member, cut.member), end.end, false});
+  for (std::size_t i = 0; i < joined.joints.size(); ++i)
+    if (const auto& one = joined.joints[i]; one.how.kind == JointKind::through)
+      out[one.chord].push_back({one.branch, i, End::start, true});
+  return out;
+}
+
+struct Frames {
+  MemberFrame start, finish;
+};
+Result<Frames> frames(const joint::Member& m, const Vector3d& x) {
+  Frames out;
+  TRY(out.start, joint::member_frame(m.start, m.finish, x));
+  TRY(out.finish, joint::member_frame(m.finish, m.start, x));
+  return out;
+}
+
+/// A side, and whether the one across from it would do as well: the first cutter rises neither way.
+struct Side {
+  Vector3d x;
+  bool either = false;
+};
+
+bool is_level(const std::vector<Cutter>& cutters) {
+  for (const auto& one : cutters)
+    if (const auto to = joint::bearing(one.partner)) return !to->lean.has_value();
+  return false;
+}
+
+/// The member's own side: of `up`, of the first cutter that has one, of the first branch.
+Result<Side> side(const FrameSpec& spec, const joint::Member& m, const std::vector<InWorld>& start,
+                  const std::vector<InWorld>& finish, const std::vector<Branch>& on_it) {
+  if (m.up) return Side{*m.up};
+  TRY(const auto any, frames(m, (m.finish - m.start).unitOrthogonal()));
+  TRY(const auto at_start, placed(start, any.start));
+  TRY(const auto at_finish, placed(finish, any.finish));
+  auto turn =
+      part::datum_angle(part::Datum::first_cutter, {}, partners(at_start), partners(at_finish));
+  if (!turn && !on_it.empty()) {
+    const auto& branch = spec.members[on_it.front().member];
+    const Vector3d along = any.start.rows * into(branch, on_it.front().end);
+    turn = Angle::rad(joint::bearing_of_axis(along).perpendicular);
+  }
+  const auto by = elementary::sincos(turn ? turn->rad() : 0.0);
+  const auto& of = at_start.empty() ? at_finish : at_start;
+  return Side{by.cos * any.start.rows.row(0) + by.sin * any.start.rows.row(1), is_level(of)};
+}
+
+/// Numbers by which two ways to see one piece are told apart, as they are written.
+class Written {
+ public:
+  void operator()(const joint::TubeCutter& t) {
+    const auto turn = elementary::sincos(t.clocking.rad());
+    add({t.inclination.rad(), turn.cos, turn.sin, t.offset, t.height});
+  }
+  void operator()(const AxisTube& t) { add(t.axis.point, t.axis.direction); }
+  void operator()(const joint::PlaneCutter& p) { add(p.point, p.normal); }
+  void operator()(const joint::RectangularTubeCutter& t) { add(t.point, t.direction, t.up); }
+  void operator()(const joint::ConeCutter& c) { add(c.point, c.direction); }
+  void operator()(const joint::ElbowCutter& e) { add(e.point, e.direction, e.inwards); }
+
+  [[nodiscard]] std::vector<double> take() { return std::move(out_); }
+
+ private:
+  void add(std::initializer_list<double> numbers) {
+    for (const double one : numbers) out_.push_back(std::round(one * kWritten));
+  }
+  template <class... V>
+  void add(const V&... vectors) {
+    (add({vectors.x(), vectors.y(), vectors.z()}), ...);
+  }
+  std::vector<double> out_;
+};
+
+std::vector<double> written(const Piece& piece) {
+  Written out;
+  for (const auto* end : {&piece.start, &piece.finish})
+    for (const auto& one : *end) joint::by_kind(one.partner, out);
+  for (const auto& one : piece.holes) out(one.branch);
+  for (const auto& one : piece.stands) out(joint::TubeCutter{.clocking = Angle::rad(one.mark.phi)});
+  return out.take();
+}
+
+/// Along the member, then round it, within what is written.
+auto order(double z, double turn) {
+  return std::tuple(std::round(z * kWritten), std::round(turn * kWritten));
+}
+
+Result<void> add_branches(const FrameSpec& spec, const Joined& joined,
+                          const std::vector<Branch>& on_it, Piece& out) {
+  for (const auto& one : on_it) {
+    const auto& branch = spec.members[one.member];
+    const auto& how = joined.joints[one.joint].how;
+    if (!one.passes)
+      out.stands.push_back(
+          {part::mark_of(branch, one.end, out.frame, out.target.outer_radius), one.member});
+    if (!how.hole) continue;
+    const AxisLine axis{branch.at(one.end), into(branch, one.end)};
+    TRY(const auto at, under("members/" + std::to_string(one.member),
+                             joint::place(out.frame.local(axis), branch.outer_radius)));
+    out.holes.push_back({at.tube, branch.wall, one.member, one.joint});
+  }
+  std::ranges::stable_sort(
+      out.holes, {}, [](const Hole& h) { return order(h.branch.height, h.branch.clocking.rad()); });
+  std::ranges::stable_sort(out.stands, {},
+                           [](const Stand& s) { return order(s.mark.z_from, s.mark.phi); });
+  return {};
+}
+
+/// What cuts a member, and what stands on it.
+struct Around {
+  std::vector<InWorld> start, finish;
+  const std::vector<Branch>& on_it;
+};
+
+Result<Piece> seen_from(const FrameSpec& spec, const Joined& joined, std::size_t member,
+                        const Around& around, const Vector3d& x) {
+  const auto& m = spec.members[member];
+  TRY(const auto own, under("members/" + std::to_string(member), frames(m, x)));
+  Piece out{.target = {.outer_radius = m.outer_radius,
+                       .wall = m.wall,
+                       .length = (m.finish - m.start).norm()},
+            .frame = own.start,
+            .start = {},
+            .finish = {},
+            .holes = {},
+            .stands = {}};
+  TRY(out.start, placed(around.start, own.start));
+  TRY(out.finish, placed(around.finish, own.finish));
+  TRY(add_branches(spec, joined, around.on_it, out));
+  return out;
+}
+
+Result<Piece> piece(const FrameSpec& spec, const Joined& joined, std::size_t member,
+                    const std::vector<Branch>& on_it) {
+  const Around around{cutters_at(spec, joined, 2 * member),
+                      cutters_at(spec, joined, 2 * member + 1), on_it};
+  TRY(const auto to, side(spec, spec.members[member], around.start, around.finish, on_it));
+  TRY(auto out, seen_from(spec, joined, member, around, to.x));
+  if (!to.either) return out;
+  TRY(auto across, seen_from(spec, joined, member, around, -to.x));
+  return written(across) < written(out) ? across : out;
+}
+
+}  // namespace
+
+Eigen::Vector3d into(const joint::Member& m, joint::End end) {
+  return m.at(end == End::start ? End::finish : End::start) - m.at(end);
+}
+
+Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
+                                  const std::stop_token& stop) {
+  const auto on = branches(joined);
+  std::vector<Piece> out;
+  out.reserve(spec.members.size());
+  for (std::size_t i = 0; i < spec.members.size(); ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    TRY(auto one, piece(spec, joined, i, on[i]));
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace tubecut::frame::detail

@@ -1,0 +1,163 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/frame/frame.hpp"
+
+namespace tubecut::frame {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using joint::End;
+
+constexpr double kWritten = 1e-5;  // mm: numbers are written to six decimals, angles to nine
+
+/// A frame of an end, made again from the centre-line and the side alone.
+struct Seen {
+  Vector3d origin;
+  Matrix3d axes;  // columns
+};
+Seen seen(const joint::Member& m, const Piece& piece, End end) {
+  const Vector3d z = (m.at(end == End::start ? End::finish : End::start) - m.at(end)).normalized();
+  const Vector3d x = piece.frame.rows.row(0);
+  Seen out{m.at(end), {}};
+  out.axes << x, z.cross(x), z;
+  return out;
+}
+
+struct Line {
+  Vector3d point, unit;
+};
+Line axis_of(const joint::Member& m) { return {m.start, (m.finish - m.start).normalized()}; }
+
+/// How far a tube's axis by its four numbers, turned and tilted step by step, passes beside a line,
+/// where they are used: as far to both sides as the two are thick.
+double beside(const Seen& frame, const joint::TubeCutter& t, const Line& line, double reach) {
+  const auto a = elementary::sincos(t.inclination.rad());
+  const auto b = elementary::sincos(t.clocking.rad());
+  Matrix3d tilt, clock;
+  tilt << 1, 0, 0, 0, a.cos, -a.sin, 0, a.sin, a.cos;
+  clock << b.cos, -b.sin, 0, b.sin, b.cos, 0, 0, 0, 1;
+  const Vector3d along = frame.axes * clock * tilt * Vector3d::UnitZ();
+  const Vector3d point = frame.origin + frame.axes * Vector3d(0, 0, t.height) -
+                         t.offset * (frame.axes * clock * Vector3d::UnitX());
+  double worst = 0.0;
+  for (const double s : {-reach, 0.0, reach})
+    worst = std::max(worst, (point + s * along - line.point).cross(line.unit).norm());
+  return worst;
+}
+
+struct Worst {
+  double axis = 0.0, face = 0.0, sides = 0.0;
+};
+
+/// Two mitred faces, each in its own frame: planes alike, seen from both.
+double apart(const Seen& frame, const joint::PlaneCutter& plane, const Seen& other_frame,
+             const joint::PlaneCutter& other, double reach) {
+  const Vector3d n = (frame.axes * plane.normal).normalized();
+  const Vector3d m = (other_frame.axes * other.normal).normalized();
+  const Vector3d p = frame.origin + frame.axes * plane.point;
+  const Vector3d q = other_frame.origin + other_frame.axes * other.point;
+  return std::max(std::abs((p - q).dot(n)), reach * (n + m).norm());
+}
+
+const bevel::TableSpec& cut_of(const part::PartSpec& part, End end) {
+  return end == End::start ? part.start.cut : part.finish.cut;
+}
+
+class Proof {
+ public:
+  Proof(const FrameSpec& spec, const Frame& frame, std::span<const part::PartSpec* const> asked)
+      : spec_(spec), frame_(frame), asked_(asked), mates_(frame.joints.size()) {}
+
+  void see(std::size_t member) {
+    for (const auto end : {End::start, End::finish}) see_end(member, end);
+    see_holes(member);
+  }
+  void see_sides() {
+    for (std::size_t i = 0; i < frame_.joints.size(); ++i) see_sides(i);
+  }
+  [[nodiscard]] const Worst& worst() const { return worst_; }
+
+ private:
+  /// What either part is cut for, of one joint.
+  struct Mate {
+    std::vector<joint::Joint> of_ends, of_holes;
+    std::vector<std::pair<Seen, joint::PlaneCutter>> faces;
+    double reach = 0.0;
+  };
+
+  void see_end(std::size_t member, End end) {
+    const auto& m = spec_.members[member];
+    const auto& cutters =
+        end == End::start ? frame_.pieces[member].start : frame_.pieces[member].finish;
+    const auto at = seen(m, frame_.pieces[member], end);
+    const auto& cut = cut_of(*asked_[member], end);
+    for (std::size_t k = 0; k < cutters.size(); ++k) {
+      const auto& one = frame_.joints[cutters[k].joint];
+      if (one.other) continue;
+      auto& mate = mates_[cutters[k].joint];
+      const auto other = one.branch == member ? one.chord : one.branch;
+      mate.reach = m.outer_radius + spec_.members[other].outer_radius;
+      if (const auto* tube = std::get_if<joint::TubeCutter>(&cut.partners[k]))
+        worst_.axis =
+            std::max(worst_.axis, beside(at, *tube, axis_of(spec_.members[other]), mate.reach));
+      if (const auto* plane = std::get_if<joint::PlaneCutter>(&cut.partners[k]))
+        mate.faces.emplace_back(at, *plane);
+      mate.of_ends.push_back(bevel::stated_joint(cut, k).value_or(joint::Joint{}));
+    }
+  }
+
+  void see_holes(std::size_t member) {
+    const auto& m = spec_.members[member];
+    const auto at = seen(m, frame_.pieces[member], End::start);
+    for (std::size_t k = 0; k < frame_.pieces[member].holes.size(); ++k) {
+      const auto& hole = frame_.pieces[member].holes[k];
+      const auto& asked = asked_[member]->holes[k].hole;
+      const auto& branch = spec_.members[hole.member];
+      if (const auto* tube = std::get_if<joint::TubeCutter>(&asked.branch))
+        worst_.axis = std::max(
+            worst_.axis, beside(at, *tube, axis_of(branch), m.outer_radius + branch.outer_radius));
+      mates_[hole.joint].of_holes.push_back({asked.kind, asked.gap, asked.depth});
+    }
+  }
+
+  void see_sides(std::size_t index) {
+    const auto& mate = mates_[index];
+    for (const auto& end : mate.of_ends)
+      for (const auto& hole : mate.of_holes)
+        worst_.sides =
+            std::max({worst_.sides, end.kind == hole.kind ? 0.0 : 1.0, std::abs(end.gap - hole.gap),
+                      std::abs(end.depth.value_or(0.0) - hole.depth.value_or(0.0))});
+    for (std::size_t k = 1; k < mate.faces.size(); ++k)
+      worst_.face =
+          std::max(worst_.face, apart(mate.faces[0].first, mate.faces[0].second,
+                                      mate.faces[k].first, mate.faces[k].second, mate.reach));
+  }
+
+  const FrameSpec& spec_;
+  const Frame& frame_;
+  std::span<const part::PartSpec* const> asked_;
+  std::vector<Mate> mates_;
+  Worst worst_;
+};
+
+}  // namespace
+
+std::vector<Check> verify(const FrameSpec& spec, const Frame& frame,
+                          std::span<const part::PartSpec* const> asked,
+                          const std::stop_token& stop) {
+  Proof proof(spec, frame, asked);
+  for (std::size_t i = 0; i < spec.members.size(); ++i) {
+    if (stop.stop_requested()) return {};
+    proof.see(i);
+  }
+  proof.see_sides();
+  return {{"joint_in_world", proof.worst().axis, kWritten, "mm"},
+          {"joint_faces", proof.worst().face, kWritten, "mm"},
+          {"joint_sides", proof.worst().sides, 0.0, "mm"}};
+}
+
+}  // namespace tubecut::frame
