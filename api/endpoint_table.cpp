@@ -10,7 +10,7 @@ namespace tubecut::api {
 
 std::span<const Endpoint> endpoints() {
   static const std::vector<Endpoint> kTable{
-      intersections(),   nodes(),   bevel_tables(), holes(),   parts(),
+      intersections(),   nodes(),   bevel_tables(), holes(),   parts(),      frames(),
       pulse_schedules(), replays(), feed_curves(),  grooves(), mill_paths(),
   };
   return kTable;

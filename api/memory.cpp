@@ -18,11 +18,11 @@ struct PerByte {
 };
 constexpr std::size_t kPerByte = 48;
 constexpr PerByte kPerBytes[] = {
-    {"nodes", 96}, {"parts", 96}, {"pulse-schedules", 96}, {"replays", 144}};
+    {"nodes", 96}, {"parts", 96}, {"frames", 160}, {"pulse-schedules", 96}, {"replays", 144}};
 
-/// By what makes an answer long: points of a sampled curve (of a part: of each end and hole; of
-/// nodes: of each table), sections, positions, samples or rows of a table, periods. A replay's
-/// periods are in its body.
+/// By what makes an answer long: points of a sampled curve (of a part: of each end and hole, of
+/// a frame: of each part; of nodes: of each table), sections, positions, samples or rows of a
+/// table, periods. A replay's periods are in its body.
 struct PerItem {
   std::string_view endpoint;
   std::string_view format;
@@ -44,7 +44,8 @@ constexpr PerItem kPerItems[] = {
     {"parts", "cbor", 2'700},         {"parts", "csv", 4'000},
     {"parts", "svg", 2'400},          {"parts", "dxf", 5'000},
     {"parts", "step", 8'000},         {"parts", "nc1", 3'000},
-    {"parts", "gcode", 2'800},        {"grooves", "json", 1'800},
+    {"parts", "gcode", 2'800},        {"frames", "json", 4'000},
+    {"frames", "cbor", 4'000},        {"grooves", "json", 1'800},
     {"grooves", "cbor", 2'500},       {"grooves", "csv", 3'400},
     {"grooves", "svg", 1'800},        {"grooves", "glb", 3'100},
     {"mill-paths", "json", 3'000},    {"mill-paths", "cbor", 3'000},

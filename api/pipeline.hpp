@@ -13,6 +13,7 @@
 #include "api/suspicion.hpp"
 #include "api/text_encoding.hpp"
 #include "api/verdict.hpp"
+#include "api/worked.hpp"
 #include "api/writer.hpp"
 #include "core/base/error.hpp"
 
@@ -54,23 +55,6 @@ std::optional<Problem> print_document(const typename E::Spec& spec, const typena
   }
   return std::nullopt;
 }
-
-/// A request read, computed, proved and judged; not encoded yet.
-template <class E>
-struct Worked {
-  typename E::Spec spec;
-  typename E::Out out;
-  Answer answer;
-
-  void encode(Writer& writer) const {
-    writer.object([&](Writer& w) { E::encode(spec, out, w); });
-  }
-  [[nodiscard]] std::string hashed(const std::stop_token& stop) const {
-    auto writer = Writer::hashing(stop);
-    encode(writer);
-    return writer.sha256();
-  }
-};
 
 /// The one pipeline. An endpoint `E` plugs in:
 ///   using Spec, Out;

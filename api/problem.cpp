@@ -185,6 +185,16 @@ Problem pointing_no_further(Problem problem, const std::vector<std::string>& pla
   return problem;
 }
 
+void keep_worst(std::vector<Check>& worst, const std::vector<Check>& checks) {
+  for (const auto& check : checks) {
+    const auto known = std::ranges::find(worst, check.name, &Check::name);
+    if (known == worst.end())
+      worst.push_back(check);
+    else if (!(check.value * known->limit <= known->value * check.limit))
+      *known = check;
+  }
+}
+
 std::optional<Problem> failed_check(const std::vector<Check>& checks) {
   for (const auto& check : checks)
     if (!check.passed())
@@ -220,6 +230,19 @@ void write_warnings(Writer& w, const std::vector<Warning>& warnings,
   });
 }
 
+void write_issues(Writer& w, const std::vector<FieldIssue>& issues) {
+  w.array("errors", issues, [](Writer& each, const FieldIssue& issue) {
+    each.object([&](Writer& o) {
+      o.field("code", info(issue.code).code);
+      o.field("pointer", issue.pointer);
+      o.field("got", issue.got);
+      o.field("limit", issue.limit);
+      o.field("unit", issue.unit);
+      o.field("hint", issue.hint);
+    });
+  });
+}
+
 std::string print(const Problem& problem, std::string_view request_id, int status) {
   const auto& about = info(problem.code);
   Writer out;
@@ -232,16 +255,7 @@ std::string print(const Problem& problem, std::string_view request_id, int statu
     w.field("request_id", request_id);
     w.field("retryable", retryable(about.kind));
     w.field("action", about.action);
-    w.array("errors", problem.issues, [](Writer& each, const FieldIssue& issue) {
-      each.object([&](Writer& o) {
-        o.field("code", info(issue.code).code);
-        o.field("pointer", issue.pointer);
-        o.field("got", issue.got);
-        o.field("limit", issue.limit);
-        o.field("unit", issue.unit);
-        o.field("hint", issue.hint);
-      });
-    });
+    write_issues(w, problem.issues);
     if (!problem.suspicions.empty())
       write_warnings(w, problem.suspicions, [](const std::string& pointer) { return pointer; });
   });

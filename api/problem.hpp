@@ -47,6 +47,9 @@ struct Problem {
 /// The first check that does not hold; an answer with one is withheld.
 [[nodiscard]] std::optional<Problem> failed_check(const std::vector<Check>& checks);
 
+/// Checks of many results as one of each name, the one that uses most of its limit.
+void keep_worst(std::vector<Check>& worst, const std::vector<Check>& checks);
+
 /// "cutters/1/offset" -> "/cutters/1/offset_mm", by the names the request has.
 [[nodiscard]] std::string pointer_of(std::string_view member, const Json& request);
 
@@ -57,6 +60,9 @@ struct Problem {
 /// Member `warnings` of an answer or a problem; `pointer` makes one of a warning's member.
 void write_warnings(Writer& w, const std::vector<Warning>& warnings,
                     const std::function<std::string(const std::string&)>& pointer);
+
+/// Member `errors` of a problem.
+void write_issues(Writer& w, const std::vector<FieldIssue>& issues);
 
 /// application/problem+json (RFC 9457).
 [[nodiscard]] std::string print(const Problem& problem, std::string_view request_id, int status);

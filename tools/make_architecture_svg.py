@@ -21,6 +21,7 @@ HOLDS = {
     "core/joint": ("where tubes meet: cutters,", "events, contour, node"),
     "core/bevel": ("the angle of the cut:", "groove, B, torch line, holes"),
     "core/part": ("a whole member: ends,", "holes, marks, order"),
+    "core/frame": ("a whole frame:", "each joint once, its parts"),
     "core/motion": ("from a cut to pulses:", "path, plan, schedule, replay"),
     "core/cutoff": ("rotary cut-off:", "the feed curve"),
     "core/groove": ("equal-area groove", "and its mill path"),

@@ -10,6 +10,7 @@ namespace tubecut::api {
 [[nodiscard]] Endpoint bevel_tables();
 [[nodiscard]] Endpoint holes();
 [[nodiscard]] Endpoint parts();
+[[nodiscard]] Endpoint frames();
 [[nodiscard]] Endpoint pulse_schedules();
 [[nodiscard]] Endpoint replays();
 [[nodiscard]] Endpoint feed_curves();

@@ -139,28 +139,6 @@ Smoothing decode_smoothing(Reader& in) {
   return out;
 }
 
-/// Refuses what is not offered: which surface holds the root, which one touches, which angle
-/// counts.
-void check_combination(const bevel::TableSpec& s, Reader& in) {
-  const bool outer = s.root_surface == RootSurface::outer;
-  const bool weld = s.dihedral == Dihedral::weld_side;
-  if (!weld && !(outer && s.contact == Contact::none))
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "dihedral",
-              .limit = Json{"weld_side"},
-              .hint = "inside and as_published go with root_surface outer and contact none"},
-             in.find("dihedral"));
-  const bool goes = s.contact == Contact::none || (s.contact == Contact::outer) == outer;
-  if (goes) return;
-  in.issue({.code = ErrorCode::unsupported_combination,
-            .pointer = "contact",
-            .got = Json{"inner"},
-            .limit = Json{outer ? "outer|none" : "inner|auto|none"},
-            .hint = outer ? "root_surface outer goes with contact outer or none"
-                          : "root_surface inner goes with contact inner, auto or none"},
-           in.find("contact"));
-}
-
 /// The land at the root, and how far the cut keeps off.
 void decode_stand_off(Reader& in, bool known, bevel::TableSpec& out) {
   out.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm}, 0.0);
@@ -216,6 +194,26 @@ void encode_limits(const bevel::TableSpec& spec, Writer& o) {
 }
 
 }  // namespace
+
+void check_combination(const bevel::TableSpec& s, Reader& in) {
+  const bool outer = s.root_surface == RootSurface::outer;
+  const bool weld = s.dihedral == Dihedral::weld_side;
+  if (!weld && !(outer && s.contact == Contact::none))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "dihedral",
+              .limit = Json{"weld_side"},
+              .hint = "inside and as_published go with root_surface outer and contact none"},
+             in.find("dihedral"));
+  const bool goes = s.contact == Contact::none || (s.contact == Contact::outer) == outer;
+  if (goes) return;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "contact",
+            .got = Json{"inner"},
+            .limit = Json{outer ? "outer|none" : "inner|auto|none"},
+            .hint = outer ? "root_surface outer goes with contact outer or none"
+                          : "root_surface inner goes with contact inner, auto or none"},
+           in.find("contact"));
+}
 
 GrooveRule decode_groove(Reader& in, bool zones) {
   const auto rule = zones ? in.tag("rule", kRules) : in.tag("rule", first<4>(kRules));

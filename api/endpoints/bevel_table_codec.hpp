@@ -54,6 +54,9 @@ struct BevelTableRequest : bevel::TableSpec {
 /// How an end is cut: root, groove, contact, smoothing and the like. `whole`: also dihedral, kerf
 /// and torch, which a part has once.
 void decode_cut(Reader& in, bool whole, Preset preset, bevel::TableSpec& out);
+/// Refuses what is not offered: which surface holds the root, which one touches, which angle
+/// counts.
+void check_combination(const bevel::TableSpec& s, Reader& in);
 void decode_torch_and_kerf(Reader& in, Preset preset, bevel::TableSpec& out);
 
 /// A table's events, mutations and windows; where the torch binds.

@@ -37,6 +37,11 @@ joint::Partner decode_tube(Reader& in) {
   return out;
 }
 
+joint::Partner decode_axis_tube(Reader& in) {
+  const double radius = decode_tube_section(in, false).outer_radius;
+  return joint::AxisTube{.radius = radius, .axis = in.object("axis", decode_axis)};
+}
+
 joint::Partner decode_plane(Reader& in) {
   return joint::PlaneCutter{.point = in.vector3("point_mm", kOffset),
                             .normal = in.vector3("normal", kComponent)};
@@ -83,6 +88,13 @@ constexpr std::array kKinds{
     Option<Decode>{"rectangular_tube", decode_rectangular_tube},
     Option<Decode>{"cone", decode_cone}, Option<Decode>{"elbow", decode_elbow}};
 static_assert(kKinds.size() == std::variant_size_v<joint::Cutter>, "every kind is read");
+
+/// In the world there is no target to give angles to.
+constexpr auto kWorldKinds = [] {
+  auto out = kKinds;
+  out[0].value = decode_axis_tube;
+  return out;
+}();
 
 joint::Partner decode_cutter(Reader& in) {
   const auto decode = in.tag("kind", kKinds);
@@ -147,6 +159,13 @@ joint::Target decode_target(Reader& in) {
 std::vector<joint::Partner> decode_cutters(Reader& in) {
   return in.array("cutters", {.min = 1, .max = static_cast<std::size_t>(limit::cutters_max)},
                   decode_cutter);
+}
+
+WorldCutter decode_world_cutter(Reader& in) {
+  const auto decode = in.tag("kind", kWorldKinds);
+  WorldCutter out{.partner = {}, .name = in.optional_text("id").value_or("")};
+  out.partner = decode.value_or(decode_axis_tube)(in);
+  return out;
 }
 
 joint::Sampling decode_sampling(Reader& in) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "api/check_limit.hpp"
@@ -22,6 +23,12 @@ struct TubeSection {
 /// Fields that every request about a joint shares.
 [[nodiscard]] joint::Target decode_target(Reader& in);
 [[nodiscard]] std::vector<joint::Partner> decode_cutters(Reader& in);
+/// One placed in the world; a tube by its axis alone.
+struct WorldCutter {
+  joint::Partner partner;
+  std::string name;
+};
+[[nodiscard]] WorldCutter decode_world_cutter(Reader& in);
 [[nodiscard]] joint::Sampling decode_sampling(Reader& in);
 
 /// What proves a curve.

@@ -22,7 +22,7 @@ struct NamedMember {
   std::vector<std::pair<std::string, joint::Joint>> joints;
 };
 
-NamedMember decode_member(Reader& in) {
+NamedMember decode_member(Reader& in, bool with_joints) {
   NamedMember named;
   auto& out = named.member;
   out.name = in.text("id");
@@ -34,8 +34,8 @@ NamedMember decode_member(Reader& in) {
   out.priority = in.integer("priority", 0, kPriorities, 0);
   in.note("up");
   if (in.has("up")) out.up = in.vector3("up", kComponent);
-  in.note("joints");
-  if (in.has("joints"))
+  if (with_joints) in.note("joints");
+  if (with_joints && in.has("joints"))
     named.joints = in.array("joints", {.min = 0, .max = kMostJoints}, [](Reader& j) {
       auto with = j.text("member");
       return std::pair{std::move(with), decode_joint_kind(j, kDiameter.max / 2.0, true)};
@@ -141,7 +141,8 @@ std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id
 
 NamedNode decode_named_node(Reader& in) {
   NamedNode out;
-  const auto members = in.array("members", {.min = 1, .max = kMembers}, decode_member);
+  const auto members = in.array("members", {.min = 1, .max = kMembers},
+                                [](Reader& m) { return decode_member(m, true); });
   for (const auto& one : members) out.spec.members.push_back(one.member);
   out.ids = decode_ids(in, out.spec.members);
   out.spec.joints = stated_joints(in, out.ids, members);
@@ -151,6 +152,15 @@ NamedNode decode_named_node(Reader& in) {
   else
     out.spec.connect = in.object(
         "connect", [](Reader& c) { return joint::Within{c.number("within_mm", kDistance)}; });
+  return out;
+}
+
+NamedMembers decode_named_members(Reader& in) {
+  NamedMembers out;
+  for (auto& one : in.array("members", {.min = 1, .max = kMembers},
+                            [](Reader& m) { return decode_member(m, false); }))
+    out.members.push_back(std::move(one.member));
+  out.ids = decode_ids(in, out.members);
   return out;
 }
 

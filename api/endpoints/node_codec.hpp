@@ -19,6 +19,13 @@ struct MemberIds {
 /// The member whose id is `id`; `pointer` names the field for an issue.
 std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id,
                          const std::string& pointer);
+/// `members` of a frame, whose joints are said elsewhere.
+struct NamedMembers {
+  std::vector<joint::Member> members;
+  MemberIds ids;
+};
+[[nodiscard]] NamedMembers decode_named_members(Reader& in);
+
 struct NamedNode {
   joint::NodeSpec spec;
   MemberIds ids;

@@ -84,17 +84,6 @@ std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include
   return std::nullopt;
 }
 
-/// Checks of many tables as one of each name, the one that uses most of its limit.
-void keep_worst(std::vector<Check>& worst, const std::vector<Check>& checks) {
-  for (const auto& check : checks) {
-    const auto known = std::ranges::find(worst, check.name, &Check::name);
-    if (known == worst.end())
-      worst.push_back(check);
-    else if (!(check.value * known->limit <= known->value * check.limit))
-      *known = check;
-  }
-}
-
 std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void encode_placement(const joint::TubeCutter& tube, Writer& p) {

@@ -19,7 +19,7 @@ using part::Datum;
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 constexpr Range kAllowance{.min = 0.0, .max = 1e5};
 constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
-constexpr std::size_t kMostHoles = 64, kMostMarks = 256;
+constexpr std::size_t kMostHoles = 64, kMostMarks = 1'000;
 constexpr auto kMostCutters = static_cast<std::size_t>(limit::cutters_max);
 constexpr Range kGap{.min = 0.0, .max = 50.0};
 

@@ -433,6 +433,10 @@ class Client:
         """Both ends and the holes of one part in one frame."""
         return self.post("parts", request, **options)
 
+    def frames(self, request: Mapping[str, Any], **options: Any) -> Answer:
+        """A whole frame: each joint stated once, every member a finished part."""
+        return self.post("frames", request, **options)
+
     def pulse_schedules(self, request: Mapping[str, Any], **options: Any) -> Answer:
         """Integer pulses per axis and control period."""
         return self.post("pulse-schedules", request, **options)

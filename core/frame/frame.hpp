@@ -70,6 +70,7 @@ struct Hole {
   joint::TubeCutter branch;
   double wall = 0.0;  // of the branch
   std::size_t member = 0, joint = 0;
+  joint::End end = joint::End::start;  // of the branch; passing through it has none
 };
 /// Where a branch stands, in the start's frame.
 struct Stand {

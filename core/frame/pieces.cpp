@@ -234,7 +234,7 @@ Result<void> add_branches(const FrameSpec& spec, const Joined& joined,
     const AxisLine axis{branch.at(one.end), into(branch, one.end)};
     TRY(const auto at, under("members/" + std::to_string(one.member),
                              joint::place(out.frame.local(axis), branch.outer_radius)));
-    out.holes.push_back({at.tube, branch.wall, one.member, one.joint});
+    out.holes.push_back({at.tube, branch.wall, one.member, one.joint, one.end});
   }
   std::ranges::stable_sort(
       out.holes, {}, [](const Hole& h) { return order(h.branch.height, h.branch.clocking.rad()); });

@@ -12,7 +12,20 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using joint::End;
 
-constexpr double kWritten = 1e-5;  // mm: numbers are written to six decimals, angles to nine
+constexpr double kWritten = 1e-5;  // mm: numbers are written to six decimals, angles to eleven
+constexpr double kFar = 1e5;       // mm: beyond it digits are lost with the distance
+
+/// The worst of many by what each may be.
+struct Most {
+  double value = 0.0, limit = kWritten;
+  void see(double one, double size) {
+    const double most = kWritten * std::max(1.0, size / kFar);
+    if (!(one * limit <= value * most)) {
+      value = one;
+      limit = most;
+    }
+  }
+};
 
 /// A frame of an end, made again from the centre-line and the side alone.
 struct Seen {
@@ -32,25 +45,32 @@ struct Line {
 };
 Line axis_of(const joint::Member& m) { return {m.start, (m.finish - m.start).normalized()}; }
 
-/// How far a tube's axis by its four numbers, turned and tilted step by step, passes beside a line,
-/// where they are used: as far to both sides as the two are thick.
-double beside(const Seen& frame, const joint::TubeCutter& t, const Line& line, double reach) {
+/// A tube's axis by its four numbers, turned and tilted step by step.
+Line axis_of(const Seen& frame, const joint::TubeCutter& t) {
   const auto a = elementary::sincos(t.inclination.rad());
   const auto b = elementary::sincos(t.clocking.rad());
   Matrix3d tilt, clock;
   tilt << 1, 0, 0, 0, a.cos, -a.sin, 0, a.sin, a.cos;
   clock << b.cos, -b.sin, 0, b.sin, b.cos, 0, 0, 0, 1;
-  const Vector3d along = frame.axes * clock * tilt * Vector3d::UnitZ();
-  const Vector3d point = frame.origin + frame.axes * Vector3d(0, 0, t.height) -
-                         t.offset * (frame.axes * clock * Vector3d::UnitX());
-  double worst = 0.0;
-  for (const double s : {-reach, 0.0, reach})
-    worst = std::max(worst, (point + s * along - line.point).cross(line.unit).norm());
-  return worst;
+  return {frame.origin + frame.axes * Vector3d(0, 0, t.height) -
+              t.offset * (frame.axes * clock * Vector3d::UnitX()),
+          frame.axes * clock * tilt * Vector3d::UnitZ()};
 }
 
+/// How far it passes beside the line it stands for, where the two meet: next to `at`, and as far to
+/// both sides as they are thick.
+double beside(const Line& seen, const Line& line, const Vector3d& at, double reach) {
+  const Vector3d foot = line.point + (at - line.point).dot(line.unit) * line.unit;
+  double worst = 0.0;
+  for (const double s : {-reach, 0.0, reach})
+    worst = std::max(worst, (foot + s * line.unit - seen.point).cross(seen.unit).norm());
+  return worst;
+}
+double size_of(const joint::TubeCutter& t) { return std::abs(t.height) + std::abs(t.offset); }
+
 struct Worst {
-  double axis = 0.0, face = 0.0, sides = 0.0;
+  Most axis, face;
+  double sides = 0.0;
 };
 
 /// Two mitred faces, each in its own frame: planes alike, seen from both.
@@ -102,8 +122,9 @@ class Proof {
       const auto other = one.branch == member ? one.chord : one.branch;
       mate.reach = m.outer_radius + spec_.members[other].outer_radius;
       if (const auto* tube = std::get_if<joint::TubeCutter>(&cut.partners[k]))
-        worst_.axis =
-            std::max(worst_.axis, beside(at, *tube, axis_of(spec_.members[other]), mate.reach));
+        worst_.axis.see(
+            beside(axis_of(at, *tube), axis_of(spec_.members[other]), at.origin, mate.reach),
+            size_of(*tube));
       if (const auto* plane = std::get_if<joint::PlaneCutter>(&cut.partners[k]))
         mate.faces.emplace_back(at, *plane);
       mate.of_ends.push_back(bevel::stated_joint(cut, k).value_or(joint::Joint{}));
@@ -118,8 +139,9 @@ class Proof {
       const auto& asked = asked_[member]->holes[k].hole;
       const auto& branch = spec_.members[hole.member];
       if (const auto* tube = std::get_if<joint::TubeCutter>(&asked.branch))
-        worst_.axis = std::max(
-            worst_.axis, beside(at, *tube, axis_of(branch), m.outer_radius + branch.outer_radius));
+        worst_.axis.see(beside(axis_of(at, *tube), axis_of(branch), branch.at(hole.end),
+                               m.outer_radius + branch.outer_radius),
+                        size_of(*tube));
       mates_[hole.joint].of_holes.push_back({asked.kind, asked.gap, asked.depth});
     }
   }
@@ -132,9 +154,9 @@ class Proof {
             std::max({worst_.sides, end.kind == hole.kind ? 0.0 : 1.0, std::abs(end.gap - hole.gap),
                       std::abs(end.depth.value_or(0.0) - hole.depth.value_or(0.0))});
     for (std::size_t k = 1; k < mate.faces.size(); ++k)
-      worst_.face =
-          std::max(worst_.face, apart(mate.faces[0].first, mate.faces[0].second,
-                                      mate.faces[k].first, mate.faces[k].second, mate.reach));
+      worst_.face.see(apart(mate.faces[0].first, mate.faces[0].second, mate.faces[k].first,
+                            mate.faces[k].second, mate.reach),
+                      mate.faces[0].first.origin.norm());
   }
 
   const FrameSpec& spec_;
@@ -155,8 +177,8 @@ std::vector<Check> verify(const FrameSpec& spec, const Frame& frame,
     proof.see(i);
   }
   proof.see_sides();
-  return {{"joint_in_world", proof.worst().axis, kWritten, "mm"},
-          {"joint_faces", proof.worst().face, kWritten, "mm"},
+  return {{"joint_in_world", proof.worst().axis.value, proof.worst().axis.limit, "mm"},
+          {"joint_faces", proof.worst().face.value, proof.worst().face.limit, "mm"},
           {"joint_sides", proof.worst().sides, 0.0, "mm"}};
 }
 

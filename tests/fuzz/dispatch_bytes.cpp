@@ -19,8 +19,8 @@ namespace {
 /// Places in the corpus stand for these; a new endpoint goes behind them. A batch's line asks the
 /// endpoint that it names.
 constexpr std::string_view kIds[] = {
-    "intersections", "bevel-tables",    "feed-curves", "nodes", "holes",  "grooves",
-    "mill-paths",    "pulse-schedules", "replays",     "parts", "batches"};
+    "intersections", "bevel-tables",    "feed-curves", "nodes", "holes",   "grooves",
+    "mill-paths",    "pulse-schedules", "replays",     "parts", "batches", "frames"};
 
 std::string_view id_at(unsigned byte) { return kIds[(byte & 15u) % std::size(kIds)]; }
 

@@ -127,6 +127,13 @@ Costly part(const std::string& file, std::size_t points, std::size_t curves) {
   return one;
 }
 
+/// A frame of so many ends and holes, each sampled so.
+Costly welded(const std::string& file, std::size_t points, std::size_t curves) {
+  auto one = sampled("frames/" + file, points);
+  one.items = points * curves;
+  return one;
+}
+
 /// JSON whose values take the most memory for their bytes; no endpoint knows its fields.
 Costly hoard(const std::string& endpoint, const std::string& item) {
   std::string text = "[" + item;
@@ -152,6 +159,8 @@ std::vector<Costly> costliest() {
                           slow("square-cut-from-a-bare-contour", 20.0),
                           frame(500, 0),
                           frame(4, 3'000),
+                          welded("jacket-node-with-set-in-stubs", 1'000, 7),
+                          welded("roll-cage-of-12", 500, 24),
                           part("chord-with-holes", kMany, 2),
                           part("k-joint-brace", kMany, 1),
                           part("set-in-branch", kMany, 1),

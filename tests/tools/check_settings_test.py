@@ -21,7 +21,7 @@ BASE, OVERLAY, INGRESS = ("kubernetes/base/deployment.yaml", "kubernetes/overlay
 SPOILT = [
     ("timeout", "haproxy.cfg", "timeout server 10s", "timeout server 8s"),
     ("timeout", "haproxy.cfg", "set-timeout server 130s", "set-timeout server 120s"),
-    ("timeout", "haproxy.cfg", "acl long path /v1/batches /v1/mill-paths", "acl long path /v1/batches"),
+    ("timeout", "haproxy.cfg", "acl long path /v1/batches /v1/frames /v1/mill-paths", "acl long path /v1/batches"),
     ("timeout", "haproxy.cfg", "acl long path /v1/batches", "acl long path"),
     ("timeout, drain", "compose.yaml", "TUBECUT_KEYS: /etc", 'TUBECUT_BUDGET_S: "33"\n  TUBECUT_KEYS: /etc'),
     ("timeout", INGRESS, "timeout-server: 130s", "timeout-server: 100s"),

@@ -7,6 +7,7 @@ const endpointNames: Record<string, string> = {
   nodes: 'Node',
   holes: 'Hole',
   parts: 'Part',
+  frames: 'Frame',
   'pulse-schedules': 'Pulses',
   replays: 'Replay',
   'feed-curves': 'Feed curve',

@@ -1,0 +1,265 @@
+// The members of a frame as requests of /v1/parts.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "api/endpoints/frame_request.hpp"
+#include "api/frame_names.hpp"
+#include "api/sha256.hpp"
+#include "api/wire_names.hpp"
+#include "api/writer.hpp"
+#include "core/base/try.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Numbers are written as far as they matter, so that what is alike is written alike: lengths to
+/// 1e-6 mm, angles to 1e-11 deg, directions to 1e-12: an axis may be given by a far foot.
+Json tidy(double value, double to) {
+  const double out = std::round(value * to) / to;
+  return Json{out == 0.0 ? 0.0 : out};
+}
+Json mm(double value) { return tidy(value, 1e6); }
+Json deg(Angle angle) {
+  const auto out = tidy(angle.deg(), 1e11);
+  return out == Json{360.0} ? Json{0.0} : out;
+}
+Json vector(const Vector3d& v, double to) {
+  return Json{Json::Array{tidy(v.x(), to), tidy(v.y(), to), tidy(v.z(), to)}};
+}
+Json point(const Vector3d& v) { return vector(v, 1e6); }
+Json direction(const Vector3d& v) { return vector(v, 1e12); }
+Json axis(const Vector3d& at, const Vector3d& along) {
+  return Json{Json::Object{{"point_mm", point(at)}, {"direction", direction(along)}}};
+}
+
+/// A cutter's own members: one case for every kind.
+struct Fields {
+  using All = Json::Object;
+  All operator()(const joint::TubeCutter& t) const {
+    return {{"kind", Json{"tube"}},
+            {"outer_diameter_mm", mm(2.0 * t.radius)},
+            {"inclination_deg", deg(t.inclination)},
+            {"clocking_deg", deg(t.clocking)},
+            {"offset_mm", mm(t.offset)},
+            {"height_mm", mm(t.height)}};
+  }
+  All operator()(const joint::AxisTube& t) const {
+    return {{"kind", Json{"tube"}},
+            {"outer_diameter_mm", mm(2.0 * t.radius)},
+            {"axis", axis(t.axis.point, t.axis.direction)}};
+  }
+  All operator()(const joint::PlaneCutter& p) const {
+    return {{"kind", Json{"plane"}}, {"point_mm", point(p.point)}, {"normal", direction(p.normal)}};
+  }
+  All operator()(const joint::RectangularTubeCutter& t) const {
+    return {{"kind", Json{"rectangular_tube"}},   {"width_mm", Json{t.width}},
+            {"height_mm", Json{t.height}},        {"corner_radius_mm", Json{t.corner}},
+            {"axis", axis(t.point, t.direction)}, {"up", direction(t.up)}};
+  }
+  All operator()(const joint::ConeCutter& c) const {
+    return {{"kind", Json{"cone"}},
+            {"outer_diameter_mm", mm(2.0 * c.radius)},
+            {"half_angle_deg", deg(c.half_angle)},
+            {"axis", axis(c.point, c.direction)}};
+  }
+  All operator()(const joint::ElbowCutter& e) const {
+    return {{"kind", Json{"elbow"}},
+            {"outer_diameter_mm", mm(2.0 * e.radius)},
+            {"bend_radius_mm", Json{e.bend_radius}},
+            {"bend_deg", deg(e.bend)},
+            {"axis", axis(e.point, e.direction)},
+            {"inwards", direction(e.inwards)}};
+  }
+};
+
+/// What the parts are called. Without ids nothing is named but what stands on a part.
+struct Names {
+  bool ids = false;
+  std::vector<std::string> of_members;  // of the part that each is
+};
+
+class PartWriter {
+ public:
+  PartWriter(const FrameRequest& request, const frame::Frame& frame)
+      : request_(request), frame_(frame) {}
+
+  [[nodiscard]] Result<Json> part(std::size_t member, const Names& names) const {
+    const auto& piece = frame_.pieces[member];
+    Json::Object target{{"outer_diameter_mm", mm(2.0 * piece.target.outer_radius)},
+                        {"wall_mm", Json{piece.target.wall}},
+                        {"length_mm", mm(*piece.target.length)}};
+    if (names.ids) target.emplace(target.begin(), "id", Json{names.of_members[member]});
+    TRY(auto start, end(piece.start, names));
+    TRY(auto finish, end(piece.finish, names));
+    Json::Object out{
+        {"target", Json{std::move(target)}},
+        {"ends", Json{Json::Object{{"start", std::move(start)}, {"finish", std::move(finish)}}}}};
+    if (!piece.stands.empty()) out.emplace_back("marks", marks(piece, names));
+    if (!piece.holes.empty()) {
+      TRY(auto all, holes(piece, names));
+      out.emplace_back("holes", std::move(all));
+    }
+    for (const auto& one : request_.once) out.push_back(one);
+    return Json{std::move(out)};
+  }
+
+ private:
+  [[nodiscard]] const JointCut* said(std::size_t joint) const {
+    const auto& stated = frame_.joints[joint].stated;
+    return stated ? &request_.cuts[*stated] : nullptr;
+  }
+
+  /// How an end is cut: the defaults, and what its joints say instead.
+  [[nodiscard]] Result<Json::Object> cut(const std::vector<frame::Cutter>& cutters) const {
+    auto out = request_.end;
+    for (const auto& [field, of] : {std::pair{"groove", &JointCut::groove},
+                                    {"contact", &JointCut::contact},
+                                    {"root_face_mm", &JointCut::root_face}}) {
+      const Json* first = nullptr;
+      for (const auto& one : cutters) {
+        const auto* own = said(one.joint);
+        const bool on_hole = field == std::string_view("groove") &&
+                             frame_.joints[one.joint].how.kind == frame::JointKind::set_in;
+        if (own == nullptr || own->*of == Json{} || on_hole) continue;
+        if (first != nullptr && !(*first == own->*of))
+          return fail(
+              {.code = ErrorCode::joint_contradicts,
+               .member = "joints/" + std::to_string(*frame_.joints[one.joint].stated) + "/" + field,
+               .hint = "another joint of this end states it otherwise"});
+        first = &(own->*of);
+      }
+      for (auto& [name, value] : out)
+        if (first != nullptr && name == field) value = *first;
+    }
+    return out;
+  }
+
+  [[nodiscard]] Result<Json> end(const std::vector<frame::Cutter>& all, const Names& names) const {
+    if (all.empty()) return Json{Json::Object{{"square_at_mm", Json{0.0}}}};
+    Json::Array cutters, joints;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      auto fields = joint::by_kind(all[i].partner, Fields{});
+      if (names.ids)
+        if (const auto name = cutter_name(all[i], names); !name.empty())
+          fields.emplace(fields.begin() + 1, "id", Json{name});
+      cutters.emplace_back(std::move(fields));
+      if (all[i].stated) joints.push_back(joint(i, *all[i].stated));
+    }
+    Json::Object out{{"cutters", Json{std::move(cutters)}}, {"joints", Json{std::move(joints)}}};
+    TRY(auto how, cut(all));
+    for (auto& one : how) out.push_back(std::move(one));
+    return Json{std::move(out)};
+  }
+
+  /// A mitre's plane is nobody's.
+  [[nodiscard]] std::string cutter_name(const frame::Cutter& one, const Names& names) const {
+    const auto& joint = frame_.joints[one.joint];
+    if (joint.other) return request_.spec.others[joint.chord].name;
+    if (std::holds_alternative<joint::PlaneCutter>(one.partner)) return {};
+    return names.of_members[joint.chord];
+  }
+
+  static Json joint(std::size_t cutter, const joint::Joint& joint) {
+    Json::Object out{{"cutter", Json{static_cast<double>(cutter)}},
+                     {"kind", Json{std::string(name_of(joint.kind))}},
+                     {"gap_mm", Json{joint.gap}}};
+    if (joint.kind == joint::JointKind::set_in && joint.depth)
+      out.emplace_back("depth_mm", Json{*joint.depth});
+    return Json{std::move(out)};
+  }
+
+  static Json marks(const frame::Piece& piece, const Names& names) {
+    Json::Array out;
+    for (const auto& [mark, member] : piece.stands)
+      out.emplace_back(Json::Object{{"text", Json{names.of_members[member]}},
+                                    {"phi_deg", deg(Angle::rad(mark.phi))},
+                                    {"z_mm", mm(mark.z_from)}});
+    return Json{std::move(out)};
+  }
+
+  [[nodiscard]] Result<Json> holes(const frame::Piece& piece, const Names& names) const {
+    Json::Array out;
+    for (const auto& hole : piece.holes) {
+      const auto& how = frame_.joints[hole.joint].how;
+      auto branch = Fields{}(hole.branch);
+      branch.front() = {"id", Json{names.of_members[hole.member]}};
+      branch.insert(branch.begin() + 2, {"wall_mm", Json{hole.wall}});
+      Json::Object joint{{"kind", Json{std::string(name_of(how.kind))}}, {"gap_mm", Json{how.gap}}};
+      if (how.kind == frame::JointKind::set_in && how.depth)
+        joint.emplace_back("depth_mm", Json{*how.depth});
+      TRY(auto groove, hole_groove(hole));
+      const auto* own = said(hole.joint);
+      const auto& tilt = own != nullptr && !(own->tilt == Json{}) ? own->tilt : request_.tilt;
+      out.emplace_back(Json::Object{{"branch", Json{std::move(branch)}},
+                                    {"joint", Json{std::move(joint)}},
+                                    {"groove", std::move(groove)},
+                                    {"tilt", tilt}});
+    }
+    return Json{std::move(out)};
+  }
+
+  /// Set on: that of the branch's end.
+  [[nodiscard]] Result<Json> hole_groove(const frame::Hole& hole) const {
+    const auto& piece = frame_.pieces[hole.member];
+    const auto* own = said(hole.joint);
+    if (frame_.joints[hole.joint].how.kind == frame::JointKind::set_on) {
+      TRY(const auto end, cut(hole.end == joint::End::start ? piece.start : piece.finish));
+      for (const auto& [name, value] : end)
+        if (name == "groove") return value;
+    }
+    if (own != nullptr && !(own->groove == Json{})) return own->groove;
+    for (const auto& [name, value] : request_.end)
+      if (name == "groove") return value;
+    return Json{};
+  }
+
+  const FrameRequest& request_;
+  const frame::Frame& frame_;
+};
+
+/// Members whose requests without ids are alike, by the text.
+using Alike = std::map<std::string, std::vector<std::size_t>>;
+
+Result<Alike> alike(const PartWriter& writer, const Names& names, const std::stop_token& stop) {
+  Alike out;
+  for (std::size_t i = 0; i < names.of_members.size(); ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    TRY(const auto part, writer.part(i, names));
+    out[dump(part)].push_back(i);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<FramePart>> parts_of(const FrameRequest& request, const frame::Frame& frame,
+                                        const std::stop_token& stop) {
+  const auto& members = request.spec.members;
+  const PartWriter writer(request, frame);
+  // At first nothing tells parts apart but their shape; then what stands on them does too, by the
+  // part that it is: until no group falls apart any more.
+  Names names{.ids = false, .of_members = std::vector<std::string>(members.size(), "-")};
+  Alike groups;
+  for (std::size_t before = 0;;) {
+    TRY(groups, alike(writer, names, stop));
+    for (const auto& [text, all] : groups)
+      for (const auto i : all) names.of_members[i] = members[all.front()].name;
+    if (groups.size() == before) break;
+    before = groups.size();
+  }
+  names.ids = true;
+  std::vector<FramePart> out;
+  for (auto& [text, all] : groups) {
+    TRY(auto part, writer.part(all.front(), names));
+    out.push_back({std::move(all), std::move(part), sha256(text, stop)});
+  }
+  std::ranges::sort(out, {}, [](const FramePart& p) { return p.members.front(); });
+  return out;
+}
+
+}  // namespace tubecut::api

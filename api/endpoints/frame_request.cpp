@@ -1,0 +1,248 @@
+#include "api/endpoints/frame_request.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/node_codec.hpp"
+#include "api/frame_names.hpp"
+#include "api/limits.hpp"
+#include "api/wire_names.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using frame::How;
+using frame::JointKind;
+
+constexpr Range kGap{.min = 0.0, .max = 50.0};
+constexpr Range kDistance{.min = 0.0, .max = limit::offset_max_mm};
+constexpr Range kAllowance{.min = 0.0, .max = 1e5};
+constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
+constexpr std::size_t kMostOthers = 1'000;
+constexpr auto kMostJoints = 2 * static_cast<std::size_t>(limit::members_max);
+
+/// A member or one of the others.
+struct Place {
+  std::size_t index = 0;
+  bool other = false;
+};
+struct Places {
+  std::map<std::string, Place, std::less<>> by_id;
+  bool complete = true;
+};
+
+Places places_of(Reader& in, const NamedMembers& members, const std::vector<WorldCutter>& others) {
+  Places out{.by_id = {}, .complete = members.ids.complete && !in.refused()};
+  for (const auto& [id, index] : members.ids.places) out.by_id.emplace(id, Place{index, false});
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (!others[i].name.empty() && !out.by_id.emplace(others[i].name, Place{i, true}).second) {
+      out.complete = false;
+      in.issue({.code = ErrorCode::duplicate_id,
+                .pointer = "others/" + std::to_string(i) + "/id",
+                .got = Json{others[i].name},
+                .hint = "duplicate: another one has this id"});
+    }
+  return out;
+}
+
+std::optional<Place> known(Reader& in, const Places& places, const std::string& id,
+                           const std::string& pointer) {
+  if (const auto found = places.by_id.find(id); found != places.by_id.end()) return found->second;
+  if (id.empty() || !places.complete) return std::nullopt;  // has its issue already
+  std::vector<std::string> names;
+  for (const auto& [name, place] : places.by_id) names.push_back(name);
+  const auto near = nearest_name(id, names);
+  in.issue({.code = ErrorCode::bad_choice,
+            .pointer = pointer,
+            .got = Json{id},
+            .hint = near.empty() ? "no member has this id" : "did you mean " + near + "?"});
+  return std::nullopt;
+}
+
+/// Does the branch come into the chord's wall, so that it has a hole unless none is asked for?
+bool enters(JointKind kind) { return kind == JointKind::set_in || kind == JointKind::through; }
+
+/// `gap_mm`, `depth_mm` and `hole`, of a kind.
+void decode_how(Reader& in, bool known_kind, How& out) {
+  out.gap = in.number("gap_mm", kGap, 0.0);
+  if (out.kind == JointKind::set_in || !known_kind)
+    out.depth = in.optional_number(
+        "depth_mm", {.min = 0.0, .max = kDiameter.max / 2.0, .open_min = true, .open_max = true});
+  static constexpr std::array kHoles{Option<bool>{"cut", true}, Option<bool>{"none", false}};
+  if (known_kind && (out.kind == JointKind::mitre || out.kind == JointKind::butt)) return;
+  out.hole = in.choice("hole", kHoles, enters(out.kind));
+}
+
+/// A hole has no groove by zones.
+void check_hole_groove(Reader& in, const How& how, const bevel::GrooveRule& groove,
+                       std::string_view pointer) {
+  if (how.hole && std::holds_alternative<bevel::ZonedGroove>(groove))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = std::string(pointer),
+              .hint = "the hole of a joint takes no zones"},
+             in.find("groove"));
+}
+
+void check_root_face(Reader& in, const bevel::TableSpec& cut) {
+  if (cut.root_face > 0.0 && cut.contact != bevel::Contact::inner)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "root_face_mm",
+              .hint = "a root face goes with contact inner"},
+             in.find("root_face_mm"));
+}
+
+/// How found joints are made, and how ends and holes are cut where their joint says nothing.
+bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
+  return in.object("defaults", [&](Reader& d) {
+    static constexpr std::array kFound{Option<JointKind>{"set_on", JointKind::set_on},
+                                       Option<JointKind>{"set_in", JointKind::set_in}};
+    bevel::TableSpec cut;
+    out.spec.found.kind = d.choice("kind", kFound, JointKind::set_on);
+    decode_how(d, d.understood("kind"), out.spec.found);
+    decode_cut(d, false, Preset::none, cut);
+    if (cut.root_gap > 0.0)
+      d.issue({.code = ErrorCode::unsupported_combination,
+               .pointer = "root_gap_mm",
+               .limit = Json{0.0},
+               .hint = "a joint's gap_mm is the gap at its root"},
+              d.find("root_gap_mm"));
+    check_hole_groove(d, out.spec.found, cut.groove, "groove");
+    d.choice("tilt", bevel::Tilt::axial);
+    for (const auto& [name, value] : d.echo()) {
+      if (name == "tilt") out.tilt = value;
+      for (const auto* one : {"root_surface", "groove", "contact", "root_face_mm", "root_gap_mm",
+                              "coating_mm", "smoothing"})
+        if (name == one) out.end.emplace_back(name, value);
+    }
+    return cut;
+  });
+}
+
+JointCut decode_joint_cut(Reader& in, const How& how, bevel::TableSpec cut) {
+  for (const auto* name : {"groove", "root_face_mm", "contact", "tilt"}) in.note(name);
+  JointCut out;
+  const auto echoed = [&](const char* name) {
+    for (const auto& [field, value] : in.echo())
+      if (field == name) return value;
+    return Json{};
+  };
+  const bool again = in.has("contact") || in.has("root_face_mm");
+  if (in.has("groove"))
+    cut.groove = in.object("groove", [](Reader& g) { return decode_groove(g, true); });
+  check_hole_groove(in, how, cut.groove, "groove");
+  if (in.has("root_face_mm"))
+    cut.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm});
+  if (in.has("contact")) cut.contact = in.choice("contact", kNames<bevel::Contact>);
+  const bool sound = (!in.has("contact") || in.understood("contact")) &&
+                     (!in.has("root_face_mm") || in.understood("root_face_mm"));
+  if (again && sound) {
+    check_combination(cut, in);
+    check_root_face(in, cut);
+  }
+  if (in.has("tilt")) (void)in.choice("tilt", kNames<bevel::Tilt>);
+  out.groove = echoed("groove");
+  out.contact = echoed("contact");
+  out.root_face = echoed("root_face_mm");
+  out.tilt = echoed("tilt");
+  return out;
+}
+
+/// The two of `between`, the member first.
+void decode_between(Reader& in, const Places& places, frame::StatedJoint& out) {
+  const auto ids = in.text_column("between", {.min = 2, .max = 2});
+  if (ids.size() != 2) return;
+  auto a = known(in, places, ids[0], "between/0");
+  auto b = known(in, places, ids[1], "between/1");
+  if (!a || !b) return;
+  if (a->other) std::swap(a, b);
+  if (a->other || ids[0] == ids[1])
+    in.issue({.code = ErrorCode::bad_choice,
+              .pointer = "between",
+              .hint = a->other ? "one of the two must be a member" : "a member cannot join itself"},
+             in.find("between"));
+  out.member = a->index;
+  out.with = b->index;
+  out.other = b->other;
+}
+
+/// An end is named where it is not found: of the others, and of what is only stated.
+void decode_named_end(Reader& in, bool by_nearness, frame::StatedJoint& out) {
+  in.note("end");
+  if (!in.has("end")) return;
+  out.end = in.choice("end", kNames<joint::End>);
+  if (by_nearness && !out.other && !in.refused())
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "end",
+              .hint = "within_mm finds the ends of members; leave it out"},
+             in.find("end"));
+}
+
+void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
+                  FrameRequest& out) {
+  frame::StatedJoint joint;
+  decode_between(in, places, joint);
+  decode_named_end(in, out.spec.within.has_value(), joint);
+  const auto kind = in.tag("kind", kNames<JointKind>);
+  joint.how.kind = kind.value_or(JointKind::set_on);
+  decode_how(in, kind.has_value(), joint.how);
+  if (kind && joint.other && joint.how.kind != JointKind::set_on)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "kind",
+              .limit = Json{"set_on"},
+              .hint = "what is not cut itself is only stood on"},
+             in.find("kind"));
+  else if (joint.other && joint.how.hole)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "hole",
+              .limit = Json{"none"},
+              .hint = "what is not cut itself has no hole"},
+             in.find("hole"));
+  out.cuts.push_back(decode_joint_cut(in, joint.how, cut));
+  out.spec.joints.push_back(joint);
+}
+
+void decode_once(Reader& in, FrameRequest& out) {
+  bevel::TableSpec unused;
+  decode_torch_and_kerf(in, Preset::none, unused);
+  (void)decode_sampling(in);
+  in.defaulted_object("allowances", [](Reader& a) {
+    a.number("clamping_mm", kAllowance, 0.0);
+    return a.number("facing_mm", kAllowance, 0.0);
+  });
+  in.number("density_kg_m3", kDensity, 7850.0);
+  for (const auto& [name, value] : in.echo())
+    for (const auto* one :
+         {"kerf_mm", "torch", "sampling", "allowances", "density_kg_m3", "accept"})
+      if (name == one) out.once.emplace_back(name, value);
+}
+
+}  // namespace
+
+FrameRequest decode_frame_request(Reader& in) {
+  FrameRequest out;
+  auto members = decode_named_members(in);
+  std::vector<WorldCutter> others;
+  in.note("others");
+  if (in.has("others"))
+    others = in.array("others", {.min = 0, .max = kMostOthers}, decode_world_cutter);
+  const auto places = places_of(in, members, others);
+  out.spec.members = std::move(members.members);
+  for (auto& one : others) out.spec.others.push_back({std::move(one.partner), std::move(one.name)});
+  if (const auto within =
+          in.optional_object("connect", [](Reader& c) { return c.number("within_mm", kDistance); }))
+    out.spec.within = *within;
+  const auto cut = decode_defaults(in, out);
+  in.note("joints");
+  if (in.has("joints"))
+    in.array("joints", {.min = 0, .max = kMostJoints}, [&](Reader& j) {
+      decode_joint(j, places, cut, out);
+      return 0;
+    });
+  decode_once(in, out);
+  return out;
+}
+
+}  // namespace tubecut::api
