@@ -10,7 +10,10 @@ export function text(key: string, value: Json | undefined): string {
   if (typeof value === 'boolean') return value ? 'yes' : 'no';
   if (Array.isArray(value)) return value.map((each) => text(key, each)).join(', ');
   if (value === undefined || value === null) return '';
-  return isRow(value) ? JSON.stringify(value) : choice(value);
+  if (!isRow(value)) return choice(value);
+  return Object.entries(value)
+    .map(([name, each]) => (typeof each === 'number' ? `${label(name)} ${measured(name, each)}` : `${label(name)} ${text(name, each)}`))
+    .join(', ');
 }
 
 export const figure = (key: string, value: Json | undefined, within = ''): Figure => ({
