@@ -50,7 +50,7 @@ struct In {
   Result<Partner> operator()(const joint::TubeCutter& tube) const {
     return (*this)(AxisTube{tube.radius, joint::axis_of(tube)});
   }
-  Result<Partner> operator()(joint::PlaneCutter plane) const {
+  Result<Partner> operator()(const joint::PlaneCutter& plane) const {
     const Vector3d normal = turned(plane.normal);
     return Partner(joint::PlaneCutter{normal * normal.dot(frame.local(plane.point)), normal});
   }
