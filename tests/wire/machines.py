@@ -95,11 +95,12 @@ def reload(service, folder, check):
         one.start()
     seen = set()
     for turn in range(6):
-        before = told(service)
+        before, had = told(service), answered[0]
         (folder / "cell.json").write_text(json.dumps(cell(machines, 150.0 + (turn + 1) % 2)))
         service.process.send_signal(signal.SIGHUP)
         check(until(lambda: told(service) != before), f"turn {turn}: the configuration changes")
         seen |= told(service)
+        check(until(lambda: answered[0] > had + 1), f"turn {turn}: clients are answered")
     stop.set()
     for one in clients:
         one.join()
