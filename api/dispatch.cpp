@@ -205,7 +205,10 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   Writer out(answer.result.size() + call_.body.size() + 4096, stop, choice.encoding);
   out.object([&](Writer& w) {
     write_head(w, endpoint.id, job.id, answer, echo);
-    if (!query.validate_only) w.raw("result", answer.result);
+    if (!query.validate_only) {
+      w.raw("result", answer.result);
+      if (answer.beside) answer.beside(w);
+    }
     write_judgement(w, answer, echo);
     if (query.validate_only && estimate_)
       w.object("estimate", [&](Writer& o) { o.field("cpu_s", *estimate_); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -70,6 +71,8 @@ std::optional<Problem> print_document(const typename E::Spec& spec, const typena
 ///   static std::vector<Warning> warnings(const Spec&, const Out&);
 ///   static std::vector<Measure> measure(const Spec&, const Out&);
 ///   static void encode(const Spec&, const Out&, Writer&);  members of `result`
+///   static void encode_beside(const Spec&, const Out&, Writer&);
+///     optional: members beside `result`, whose hash does not cover them
 ///   static const std::vector<Format<Spec, Out>>& formats();
 ///   kId, kPath, kMaxBody, kBudgetS, kAccepts, kChecks
 template <class E>
@@ -134,7 +137,12 @@ Reply run(Reader& in, Run& run) {
     if (auto refused = print_document<E>(made->spec, made->out, run, answer))
       return *std::move(refused);
   run.stage("encode");
-  return std::move(answer);
+  auto reply = std::move(answer);
+  if constexpr (requires(Writer& w) { E::encode_beside(made->spec, made->out, w); })
+    reply.beside = [kept = std::make_shared<const Worked<E>>(*std::move(made))](Writer& w) {
+      E::encode_beside(kept->spec, kept->out, w);
+    };
+  return reply;
 }
 
 template <class E>

@@ -26,6 +26,7 @@ struct Answer {
   std::vector<Measure> measures = {};
   Verdict verdict = {};
   std::string text = {};  // in another format, if one was asked for
+  std::function<void(Writer&)> beside = {};  // members beside `result`, which its hash leaves out
 };
 using Reply = std::variant<Answer, Problem>;
 

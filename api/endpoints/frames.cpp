@@ -195,6 +195,10 @@ struct Frames {
     w.array("not_cut", spec.frame.not_cut, [&](Writer& each, const frame::NotCut& one) {
       each.object([&](Writer& o) { encode_not_cut(spec, one, o); });
     });
+  }
+  /// Whole answers say which engine made them, so they stand beside the result: its hash is of
+  /// numbers, and holds each part's.
+  static void encode_beside(const Spec& spec, const Out& out, Writer& w) {
     w.array("parts", indices(out.parts), [&](Writer& each, std::size_t i) {
       each.object([&](Writer& o) { encode_part(spec, i, out.parts[i], o); });
     });
@@ -312,6 +316,7 @@ struct Frames {
     o.field("girth_mm", kTwoPi * m.outer_radius);
     o.field("weld_mm", lengths.weld);
     o.field("mass_kg", lengths.mass);
+    o.field("result_sha256", part.made->answer.result_sha256);
   }
 
   static void encode_totals(const Spec& spec, const Out& out, Writer& w) {

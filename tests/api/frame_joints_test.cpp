@@ -149,7 +149,7 @@ Placed placed(const Json& frame, std::string_view id) {
   const Json *member = nullptr, *part = nullptr;
   for (const auto& one : *at(frame, "result/members").as<Json::Array>())
     if (text(one, "id") == id) member = &one;
-  for (const auto& one : *at(frame, "result/parts").as<Json::Array>())
+  for (const auto& one : *at(frame, "parts").as<Json::Array>())
     if (text(one, "part") == text(*member, "part")) part = &one;
   const auto vector = [&](const char* name) {
     const auto v = numbers(*member, std::string("frame/") + name);

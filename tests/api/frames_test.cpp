@@ -64,7 +64,7 @@ TEST(Frames, EveryPartIsTheAnswerToItsOwnRequest) {
     EXPECT_EQ(at(frame.body, "verification/passed"), Json{true});
     const std::string key = "\"answer\":";
     std::size_t place = 0;
-    for (const auto& part : list(frame.body, "result/parts")) {
+    for (const auto& part : list(frame.body, "parts")) {
       ASSERT_NE(part.find("answer"), nullptr) << name << ' ' << text(part, "part");
       place = frame.outcome.body.find(key, place) + key.size();
       const auto alone = post("/v1/parts", at(part, "answer/request"));
@@ -75,6 +75,21 @@ TEST(Frames, EveryPartIsTheAnswerToItsOwnRequest) {
     }
   }
   EXPECT_GE(parts, 30U);
+}
+
+// An engine of another version has the same hash where it has the same numbers.
+TEST(Frames, ResultHoldsTheHashOfEveryPartAndNothingOfItsEngine) {
+  for (const auto& [name, request] : all_examples()) {
+    const auto frame = asked(request);
+    EXPECT_EQ(dump(at(frame.body, "result")).find("engine"), std::string::npos) << name;
+    const auto& parts = list(frame.body, "parts");
+    const auto& rows = list(frame.body, "result/cut_list");
+    ASSERT_EQ(parts.size(), rows.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].find("answer") == nullptr) continue;
+      EXPECT_EQ(text(rows[i], "result_sha256"), text(parts[i], "answer/job/result_sha256"));
+    }
+  }
 }
 
 TEST(Frames, EchoedRequestGivesTheSameAnswer) {
@@ -126,13 +141,13 @@ TEST(Frames, PartsDoNotDependOnWhereTheFrameStands) {
   const auto request = example("frames/truss-of-19.json");
   const auto here = asked(request);
   std::set<std::string> hashes;
-  for (const auto& part : list(here.body, "result/parts"))
+  for (const auto& part : list(here.body, "parts"))
     hashes.insert(text(part, "canonical_sha256"));
   EXPECT_EQ(hashes.size(), 4U);
   for (const double deg : {37.0, 201.5}) {
     const auto there = asked(moved(request, deg, 1234.5));
-    ASSERT_EQ(list(there.body, "result/parts").size(), 4U);
-    for (const auto& part : list(there.body, "result/parts"))
+    ASSERT_EQ(list(there.body, "parts").size(), 4U);
+    for (const auto& part : list(there.body, "parts"))
       EXPECT_TRUE(hashes.contains(text(part, "canonical_sha256"))) << text(part, "part");
   }
 }
@@ -162,12 +177,12 @@ TEST(Frames, AMemberIsThatOfItsNode) {
     EXPECT_NEAR(high - low, most - least, 0.01) << column;
     EXPECT_GT(high - low, 1.0) << column;
   };
-  const auto& own = of_id(whole.body, "result/parts", "part", "C1");
+  const auto& own = of_id(whole.body, "parts", "part", "C1");
   for (const int hole : {0, 1})
     for (const char* column : {"z_mm", "z_inner_mm"})
       same(own, chord.body, "result/holes/" + std::to_string(hole) + "/points/" + column);
   EXPECT_EQ(list(own, "answer/result/marks").size(), list(chord.body, "result/marks").size());
-  const auto& in = of_id(whole.body, "result/parts", "part", "B2");
+  const auto& in = of_id(whole.body, "parts", "part", "B2");
   for (const char* column : {"z_inner_mm", "z_outer_mm"})
     same(in, stub.body, std::string("result/ends/start/points/") + column);
   // Its frame in the world is that of the node's part.
@@ -188,8 +203,8 @@ TEST(Frames, BothSidesOfAJointAreOfOneStatement) {
         std::string(R"({"between": ["S1", "leg"], "kind": "set_in", "gap_mm": 2)") + depth + "}");
     request = with(request, "joints/0", said);
     const auto frame = asked(request);
-    const auto& leg = of_id(frame.body, "result/parts", "part", "leg");
-    const auto& stub = of_id(frame.body, "result/parts", "part", "S1");
+    const auto& leg = of_id(frame.body, "parts", "part", "leg");
+    const auto& stub = of_id(frame.body, "parts", "part", "S1");
     const double deep = number(stub, "answer/request/ends/start/joints/0/depth_mm");
     EXPECT_EQ(deep, *depth == '\0' ? 25.0 : 8.0);
     bool found = false;
@@ -237,7 +252,7 @@ TEST(Frames, AMemberThatCannotBeCutSpoilsNoOther) {
   request = with(request, "members/2/outer_diameter_mm", Json{120.0});
   request = with(request, "members/2/priority", Json{1.0});
   const auto frame = asked(request);
-  const auto& part = of_id(frame.body, "result/parts", "part", "P0");
+  const auto& part = of_id(frame.body, "parts", "part", "P0");
   EXPECT_EQ(text(part, "problem/code"), "open_profile");
   const auto alone = post("/v1/parts", at(part, "request"));
   EXPECT_EQ(text(alone.body, "code"), "open_profile");
@@ -282,9 +297,9 @@ TEST(Frames, LimitsHoldForEveryPart) {
   const auto request = example("frames/truss-of-19.json");
   const auto frame = asked(with(request, "accept/max_b_deg", Json{50.0}));
   EXPECT_EQ(text(frame.body, "verdict/status"), "reject");
-  const auto& post_part = of_id(frame.body, "result/parts", "part", "D0");
+  const auto& post_part = of_id(frame.body, "parts", "part", "D0");
   EXPECT_EQ(text(post_part, "answer/verdict/status"), "reject");
-  EXPECT_EQ(text(of_id(frame.body, "result/parts", "part", "top"), "answer/verdict/status"), "ok");
+  EXPECT_EQ(text(of_id(frame.body, "parts", "part", "top"), "answer/verdict/status"), "ok");
 }
 
 /// A truss of `n` members.
@@ -314,7 +329,7 @@ Json truss(std::size_t n) {
 TEST(Frames, ATrussOf500IsAHandfulOfParts) {
   const auto frame = asked(truss(500));
   EXPECT_EQ(number(frame.body, "result/totals/made"), 500.0);
-  EXPECT_EQ(list(frame.body, "result/parts").size(), 4U);
+  EXPECT_EQ(list(frame.body, "parts").size(), 4U);
   EXPECT_EQ(list(frame.body, "result/joints").size(), 996U);
 }
 
