@@ -23,6 +23,18 @@ function echoFaults(sent, echo, where = '/request') {
   return Object.entries(sent).flatMap(([name, value]) => echoFaults(value, echo[name], `${where}/${name}`));
 }
 
+// The parts of a frame stand beside its result: each an answer of its own, whose hash is in its row of the cut list.
+function partFaults(contract, tree, {parts, result}) {
+  const endpoint = {id: 'parts', validResponse: contract.validPart};
+  const texts = member(tree, 'parts').items.map((part) => member(part, 'answer'));
+  return parts.flatMap(({answer}, i) => {
+    if (!answer) return [];
+    const faults = answerFaults(contract, endpoint, answer.request, print(texts[i])).map((fault) => `parts/${i}: ${fault}`);
+    if (result?.cut_list[i]?.result_sha256 !== answer.job.result_sha256) faults.push(`parts/${i}: its hash is not in the cut list`);
+    return faults;
+  });
+}
+
 // The text of a JSON answer to `sent`.
 export function answerFaults(contract, endpoint, sent, text, {validateOnly = false} = {}) {
   let body;
@@ -39,6 +51,10 @@ export function answerFaults(contract, endpoint, sent, text, {validateOnly = fal
   if (validateOnly === 'result' in body) faults.push(`result is ${validateOnly ? 'there' : 'missing'}`);
   if ('result' in body && sha256(print(member(tree, 'result'))) !== body.job.result_sha256) {
     faults.push('result_sha256 is not that of the result printed');
+  }
+  if (endpoint.id === 'frames') {
+    if (validateOnly === 'parts' in body) faults.push(`parts are ${validateOnly ? 'there' : 'missing'}`);
+    else if ('parts' in body) faults.push(...partFaults(contract, tree, body));
   }
   if (body.job.endpoint !== endpoint.id) faults.push(`endpoint ${body.job.endpoint}`);
   if ((sent.log === 'inline') !== ('log' in body)) faults.push('log');

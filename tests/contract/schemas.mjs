@@ -12,6 +12,7 @@ export class Contract {
     this.ajv = new Ajv2020({strict: false, allErrors: true, logger: false});
     addFormats(this.ajv);
     this.ajv.addSchema(this.document, ID);
+    this.validPart = this.validator('#/components/schemas/PartsResponse');
   }
 
   // What this service has: its endpoints (or the one to look at), and requests that run.
