@@ -149,6 +149,18 @@ def parts():
     yield "laser-64-holes", laser | {k: v for k, v in chord(64, {"tolerance_mm": 0.1}).items() if k in ("members", "connect", "sampling")}
 
 
+def frames():
+    truss = example("frames/truss-of-19")
+    whole = {k: truss[k] for k in ("connect", "defaults", "kerf_mm", "sampling")}
+    yield "truss-points", truss | {"sampling": POINTS}
+    yield "cage-fine", example("frames/roll-cage-of-12") | {"sampling": FINE}
+    yield "grid", whole | {"members": grid(6)["members"]}
+    yield "star", whole | {"members": star(60)["members"]}
+    yield "crossed", whole | {"members": crossed(2000)["members"]}
+    different = [m | {"end_mm": [*m["end_mm"][:2], 1000 + 0.1 * i]} for i, m in enumerate(apart(10000)["members"])]
+    yield "apart", whole | {"members": different}
+
+
 def contour(points, diameter, wave=0.0, lobes=4, b=0.0):
     phi = [360 * i / points for i in range(points)]
     return {"surface": "outer", "outer_diameter_mm": diameter, "wall_mm": 4, "closed": True, "b_sign": "outer_edge_to_plus_z", "scrap": "-z",
@@ -224,7 +236,7 @@ def mill_paths():
 
 def requests():
     """Endpoint, name, body."""
-    for endpoint in (bevel_tables, intersections, holes, nodes, parts, pulse_schedules, replays, feed_curves, grooves, mill_paths):
+    for endpoint in (bevel_tables, intersections, holes, nodes, parts, frames, pulse_schedules, replays, feed_curves, grooves, mill_paths):
         for name, body in endpoint():
             yield endpoint.__name__.replace("_", "-"), name, body
 
