@@ -77,6 +77,7 @@ struct Outcome {
   std::optional<ErrorKind> error;  // empty: an answer
   std::string content_type;
   std::string body;
+  std::string lines;  // of a batch, whose answers are the rest of this answer
   std::vector<std::pair<std::string, std::string>> headers;  // Allow and the like
   JobFacts job;
 };

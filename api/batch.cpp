@@ -16,7 +16,7 @@
 namespace tubecut::api {
 namespace {
 
-constexpr std::size_t kLongestId = 128;
+constexpr std::size_t kLongestId = 256;  // any text of a request, of 64 characters
 
 void refuse(BatchLine& line, const Problem& problem, std::string_view request_id,
             const Context& context) {

@@ -14,6 +14,7 @@ namespace tubecut::api {
 /// Where many calls come in one body, one line of JSON each, and are answered line by line.
 inline constexpr std::string_view kBatchesId = "batches";
 inline constexpr std::string_view kBatchesPath = "/v1/batches";
+inline constexpr std::string_view kLinesMedia = "application/x-ndjson";
 
 /// One line of a batch: `{"id": text, "endpoint": "bevel-tables", "body": {...}}`.
 struct BatchLine {

@@ -115,7 +115,7 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   const auto media = media_of(call_.content_type);
   if (media != kJsonMedia)
     return refuse(ErrorCode::unsupported_media_type, got_type(media) + std::string(kJsonMedia));
-  const auto choice = choose_format(query, call_.accept, endpoint.formats);
+  const auto choice = choose_format(query, call_.accept, endpoint);
   if (!choice) return refuse(choice.error());
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
@@ -160,7 +160,8 @@ Outcome CallRun::work(const Endpoint& endpoint) {
             work.add(Cost::body_byte, static_cast<double>(call_.body.size()));
             estimate_ = std::round(work.seconds() * 1e4) / 1e4;
           }};
-  auto reply = endpoint.handle(in, run);
+  const bool begins = choice->by_lines && !query.validate_only;
+  auto reply = begins ? endpoint.begin(in, run) : endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {
     return problem->code == ErrorCode::cancelled ? over_budget() : refuse(*problem);
   }
@@ -188,7 +189,8 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   job.input_sha256 = answer.input_sha256;
   job.id = call_.job_id.empty() ? own_job_id(answer) : call_.job_id;
   const auto& verdict = answer.verdict;
-  out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
+  if (answer.lines.empty())  // else it is that of its lines too
+    out_.headers.emplace_back(kVerdictHeader, verdict_header(verdict));
   job.result_sha256 = answer.result_sha256;
   out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
   out_.headers.emplace_back("Tubecut-Result-Sha256", job.result_sha256);
@@ -216,6 +218,10 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   });
   out_.content_type = cbor ? kCborMedia : kJsonMedia;
   out_.body = out.take();
+  if (answer.lines.empty()) return std::move(out_);
+  out_.content_type = kLinesMedia;
+  out_.body += '\n';
+  out_.lines = std::move(answer.lines);
   return std::move(out_);
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "api/batch.hpp"
 #include "api/header_list.hpp"
 
 namespace tubecut::api {
@@ -12,23 +13,25 @@ namespace {
 std::optional<FormatChoice> choice_by(std::string_view word, std::span<const FormatName> formats,
                                       bool by_name) {
   if (word == (by_name ? "json" : kJsonMedia)) return FormatChoice{};
-  if (word == (by_name ? "cbor" : kCborMedia)) return FormatChoice{Encoding::cbor, nullptr};
+  if (word == (by_name ? "cbor" : kCborMedia)) return FormatChoice{.encoding = Encoding::cbor};
   if (!by_name && (word == "*/*" || word == "application/*")) return FormatChoice{};
   for (const auto& format : formats)
-    if (word == (by_name ? format.name : format.media))
-      return FormatChoice{Encoding::json, &format};
+    if (word == (by_name ? format.name : format.media)) return FormatChoice{.format = &format};
   return std::nullopt;
 }
 
 std::optional<FormatChoice> choose(const Query& query, std::string_view accept,
-                                   std::span<const FormatName> formats) {
+                                   const Endpoint& endpoint) {
+  const auto formats = endpoint.formats;
   if (!query.format.empty()) return choice_by(query.format, formats, true);
   if (accept.empty()) return FormatChoice{};
   auto asked = header_list(accept);
   std::ranges::stable_sort(asked, std::greater{}, &ListElement::quality);
   for (const auto& type : asked) {
     if (type.quality == 0.0) break;
-    if (auto found = choice_by(media_of(type.name), formats, false)) return found;
+    const auto media = media_of(type.name);
+    if (endpoint.begin != nullptr && media == kLinesMedia) return FormatChoice{.by_lines = true};
+    if (auto found = choice_by(media, formats, false)) return found;
   }
   return std::nullopt;
 }
@@ -40,10 +43,12 @@ std::string listed(const std::vector<std::string_view>& names) {
 }
 
 /// Why none of the formats was meant: by its name a parameter is wrong, by Accept the call is.
-Problem no_format(const Query& query, std::span<const FormatName> formats) {
+Problem no_format(const Query& query, const Endpoint& endpoint) {
+  const auto formats = endpoint.formats;
   std::string out = "offered: application/json (json), application/cbor (cbor)";
   for (const auto& format : formats)
     out += ", " + std::string(format.media) + " (" + std::string(format.name) + ")";
+  if (endpoint.begin != nullptr) out += ", " + std::string(kLinesMedia) + " (by Accept alone)";
   if (query.format.empty()) return {.code = ErrorCode::not_acceptable, .detail = out, .issues = {}};
   std::vector<std::string_view> names{"json", "cbor"};
   for (const auto& format : formats) names.push_back(format.name);
@@ -99,9 +104,9 @@ std::string media_of(std::string_view header) {
 }
 
 tl::expected<FormatChoice, Problem> choose_format(const Query& query, std::string_view accept,
-                                                  std::span<const FormatName> formats) {
-  const auto choice = choose(query, accept, formats);
-  if (!choice) return tl::unexpected(no_format(query, formats));
+                                                  const Endpoint& endpoint) {
+  const auto choice = choose(query, accept, endpoint);
+  if (!choice) return tl::unexpected(no_format(query, endpoint));
   if (auto problem = format_problem(query, choice->format)) return tl::unexpected(*problem);
   return *choice;
 }

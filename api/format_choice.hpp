@@ -6,6 +6,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "api/endpoint.hpp"
 #include "api/format.hpp"
 #include "api/problem.hpp"
 #include "api/query.hpp"
@@ -20,6 +21,7 @@ inline constexpr std::string_view kCborMedia = "application/cbor";
 struct FormatChoice {
   Encoding encoding = Encoding::json;
   const FormatName* format = nullptr;  // instead, unless nullptr
+  bool by_lines = false;               // begun, and its lines left to be asked
 };
 
 /// Media type without parameters, in lower case.
@@ -28,8 +30,9 @@ struct FormatChoice {
 /// `?format=` first, then of the types in Accept that there are the one of most weight, then JSON.
 /// Errors  `not_acceptable` with what is offered; options and views that the format has not, all of
 ///         them at once; the speed that it needs.
-[[nodiscard]] tl::expected<FormatChoice, Problem> choose_format(
-    const Query& query, std::string_view accept, std::span<const FormatName> formats);
+[[nodiscard]] tl::expected<FormatChoice, Problem> choose_format(const Query& query,
+                                                                std::string_view accept,
+                                                                const Endpoint& endpoint);
 
 /// What is wrong with a query string, all of it at once.
 [[nodiscard]] Problem query_problem(std::vector<FieldIssue> issues,

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,28 +9,12 @@
 #include "api/endpoint.hpp"
 #include "api/problem.hpp"
 #include "api/sha256.hpp"
-#include "api/stop.hpp"
-#include "api/suspicion.hpp"
 #include "api/text_encoding.hpp"
 #include "api/verdict.hpp"
 #include "api/worked.hpp"
 #include "api/writer.hpp"
-#include "core/base/error.hpp"
 
 namespace tubecut::api {
-
-/// The checks of a result. Asks `stop`, since what a stopped proof found may not be all.
-template <class E>
-std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out,
-                         const std::stop_token& stop) {
-  if constexpr (requires { E::verify(spec, out, stop); }) {
-    auto checks = E::verify(spec, out, stop);
-    ask(stop);
-    return checks;
-  } else {
-    return E::verify(spec, out);
-  }
-}
 
 /// Prints the format that was asked for into the answer's text, or says why it may not be cut from
 /// cannot spell a name, or has no use for an option.
@@ -73,53 +56,10 @@ std::optional<Problem> print_document(const typename E::Spec& spec, const typena
 ///   static void encode(const Spec&, const Out&, Writer&);  members of `result`
 ///   static void encode_beside(const Spec&, const Out&, Writer&);
 ///     optional: members beside `result`, whose hash does not cover them
+///   static std::string lines(const Spec&, const std::stop_token&);
+///     optional: what is left to be asked, as lines of a batch
 ///   static const std::vector<Format<Spec, Out>>& formats();
 ///   kId, kPath, kMaxBody, kBudgetS, kAccepts, kChecks
-template <class E>
-tl::expected<Worked<E>, Problem> worked(Reader& in, Run& run) {
-  auto spec = E::decode(in);
-  auto issues = in.finish_root();
-  Answer answer{.request = Json{in.take_echo()}};
-  const auto suspecting = [&](Problem problem) {
-    return tl::unexpected(with_suspicions(std::move(problem), answer.request, run.stop));
-  };
-  if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
-  const auto places = filled_in(in.body(), answer.request, run.stop);
-  const auto of_core = [&](const Error& error) {
-    return suspecting(pointing_no_further(core_problem(error, answer.request), places));
-  };
-  run.forget_body();
-  answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
-  run.understood(answer.input_sha256);
-  run.stage("decode");
-  if constexpr (requires { E::resolve(spec, run.stop); }) {
-    auto resolved = E::resolve(std::move(spec), run.stop);
-    if (!resolved) {
-      ask(run.stop);
-      return of_core(resolved.error());
-    }
-    spec = *std::move(resolved);
-  }
-  Work work;
-  E::count(spec, work);
-  run.foresee(work);
-  ask(run.stop);
-  auto out = E::compute(spec, run.stop);
-  run.stage("compute");
-  ask(run.stop);  // what it found may not be all
-  if (!out) return of_core(out.error());
-  answer.checks = prove<E>(spec, *out, run.stop);
-  run.stage("verify");
-  if (auto failed = failed_check(answer.checks)) return tl::unexpected(*std::move(failed));
-  answer.warnings = E::warnings(spec, *out);
-  for (auto& warning : unit_suspicions(answer.request, run.stop))
-    answer.warnings.push_back(std::move(warning));
-  answer.measures = E::measure(spec, *out);
-  answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
-  run.judged(answer);
-  return Worked<E>{std::move(spec), *std::move(out), std::move(answer)};
-}
-
 template <class E>
 Reply run(Reader& in, Run& run) {
   auto made = worked<E>(in, run);
@@ -138,7 +78,9 @@ Reply run(Reader& in, Run& run) {
       return *std::move(refused);
   run.stage("encode");
   auto reply = std::move(answer);
-  if constexpr (requires(Writer& w) { E::encode_beside(made->spec, made->out, w); })
+  if constexpr (requires { E::lines(made->spec, run.stop); })
+    reply.lines = E::lines(made->spec, run.stop);
+  if constexpr (requires(Writer & w) { E::encode_beside(made->spec, made->out, w); })
     reply.beside = [kept = std::make_shared<const Worked<E>>(*std::move(made))](Writer& w) {
       E::encode_beside(kept->spec, kept->out, w);
     };
@@ -154,7 +96,14 @@ Endpoint endpoint() {
                       format.machine});
     return list;
   }();
-  return {E::kId, E::kPath, E::kMaxBody, E::kBudgetS, &run<E>, names, E::kAccepts, E::kChecks};
+  return {.id = E::kId,
+          .path = E::kPath,
+          .max_body = E::kMaxBody,
+          .budget_s = E::kBudgetS,
+          .handle = &run<E>,
+          .formats = names,
+          .accepts = E::kAccepts,
+          .checks = E::kChecks};
 }
 
 }  // namespace tubecut::api

@@ -25,7 +25,8 @@ struct Answer {
   std::vector<Warning> warnings = {};
   std::vector<Measure> measures = {};
   Verdict verdict = {};
-  std::string text = {};  // in another format, if one was asked for
+  std::string text = {};                     // in another format, if one was asked for
+  std::string lines = {};                    // what is left to be asked, as lines of a batch
   std::function<void(Writer&)> beside = {};  // members beside `result`, which its hash leaves out
 };
 using Reply = std::variant<Answer, Problem>;

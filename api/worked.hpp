@@ -2,13 +2,21 @@
 
 #include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "api/problem.hpp"
 #include "api/run.hpp"
+#include "api/sha256.hpp"
+#include "api/stop.hpp"
+#include "api/suspicion.hpp"
+#include "api/verdict.hpp"
 #include "api/writer.hpp"
+#include "core/base/error.hpp"
 
 namespace tubecut::api {
 
-/// A request of endpoint `E` read, computed, proved and judged; not encoded yet: see pipeline.hpp.
+/// A request of endpoint `E` read, computed, proved and judged; not encoded yet.
 template <class E>
 struct Worked {
   typename E::Spec spec;
@@ -24,5 +32,64 @@ struct Worked {
     return writer.sha256();
   }
 };
+
+/// The checks of a result. Asks `stop`, since what a stopped proof found may not be all.
+template <class E>
+std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out,
+                         const std::stop_token& stop) {
+  if constexpr (requires { E::verify(spec, out, stop); }) {
+    auto checks = E::verify(spec, out, stop);
+    ask(stop);
+    return checks;
+  } else {
+    return E::verify(spec, out);
+  }
+}
+
+/// Reads, computes, proves and judges.
+template <class E>
+tl::expected<Worked<E>, Problem> worked(Reader& in, Run& run) {
+  auto spec = E::decode(in);
+  auto issues = in.finish_root();
+  Answer answer{.request = Json{in.take_echo()}};
+  const auto suspecting = [&](Problem problem) {
+    return tl::unexpected(with_suspicions(std::move(problem), answer.request, run.stop));
+  };
+  if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
+  const auto places = filled_in(in.body(), answer.request, run.stop);
+  const auto of_core = [&](const Error& error) {
+    return suspecting(pointing_no_further(core_problem(error, answer.request), places));
+  };
+  run.forget_body();
+  answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
+  run.understood(answer.input_sha256);
+  run.stage("decode");
+  if constexpr (requires { E::resolve(spec, run.stop); }) {
+    auto resolved = E::resolve(std::move(spec), run.stop);
+    if (!resolved) {
+      ask(run.stop);
+      return of_core(resolved.error());
+    }
+    spec = *std::move(resolved);
+  }
+  Work work;
+  E::count(spec, work);
+  run.foresee(work);
+  ask(run.stop);
+  auto out = E::compute(spec, run.stop);
+  run.stage("compute");
+  ask(run.stop);  // what it found may not be all
+  if (!out) return of_core(out.error());
+  answer.checks = prove<E>(spec, *out, run.stop);
+  run.stage("verify");
+  if (auto failed = failed_check(answer.checks)) return tl::unexpected(*std::move(failed));
+  answer.warnings = E::warnings(spec, *out);
+  for (auto& warning : unit_suspicions(answer.request, run.stop))
+    answer.warnings.push_back(std::move(warning));
+  answer.measures = E::measure(spec, *out);
+  answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);
+  run.judged(answer);
+  return Worked<E>{std::move(spec), *std::move(out), std::move(answer)};
+}
 
 }  // namespace tubecut::api

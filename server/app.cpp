@@ -287,7 +287,8 @@ Response App::handle(const Request& request) const {
 
   Response response{.status = outcome.error ? status_of(*outcome.error) : 200,
                     .content_type = with_charset(std::move(outcome.content_type)),
-                    .body = std::move(outcome.body)};
+                    .body = std::move(outcome.body),
+                    .lines = std::move(outcome.lines)};
   response.headers = answer_headers(outcome, id, response.status);
   if (retryable(response.status)) {
     const int wait = request.refusal ? request.refusal->retry_after_s : 1;

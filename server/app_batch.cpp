@@ -13,7 +13,6 @@
 namespace tubecut::server {
 namespace {
 
-constexpr std::string_view kLinesMedia = "application/x-ndjson";
 constexpr std::size_t kPrefix = std::string_view("/v1/").size();
 
 /// What every line's request takes from the batch's: whose it is and how long it may take. Types
@@ -28,12 +27,13 @@ Headers line_headers(const Headers& of_batch, std::string request_id) {
 }
 
 bool is_lines(std::string_view media) {
-  return equal_ignoring_case(media.substr(0, media.find_first_of("; ")), kLinesMedia);
+  return equal_ignoring_case(media.substr(0, media.find_first_of("; ")), api::kLinesMedia);
 }
 
 bool takes_lines(std::string_view accept) {
   return accept.empty() || accept.find("*/*") != accept.npos ||
-         accept.find("application/*") != accept.npos || accept.find(kLinesMedia) != accept.npos;
+         accept.find("application/*") != accept.npos ||
+         accept.find(api::kLinesMedia) != accept.npos;
 }
 
 }  // namespace
@@ -44,10 +44,11 @@ bool App::is_batch(const Request& request) {
 
 std::optional<Refusal> App::batch_fault(const Request& request) {
   if (!is_lines(header(request.headers, "Content-Type")))
-    return Refusal{ErrorCode::unsupported_media_type, fmt::format("A batch is {}.", kLinesMedia)};
+    return Refusal{ErrorCode::unsupported_media_type,
+                   fmt::format("A batch is {}.", api::kLinesMedia)};
   if (!takes_lines(header(request.headers, "Accept")))
     return Refusal{ErrorCode::not_acceptable,
-                   fmt::format("A batch is answered in {}.", kLinesMedia)};
+                   fmt::format("A batch is answered in {}.", api::kLinesMedia)};
   if (const auto query = query_of(request.target); !query.empty())
     return Refusal{.code = ErrorCode::bad_request,
                    .detail = "A batch has no query parameters; its lines name format and options.",
@@ -58,7 +59,7 @@ std::optional<Refusal> App::batch_fault(const Request& request) {
 Response App::batch_head(const Request& request) const {
   if (batch_fault(request)) return {.status = 400};
   const Identity id = identify(request.headers);
-  Response head{.content_type = std::string(kLinesMedia)};
+  Response head{.content_type = std::string(api::kLinesMedia)};
   head.headers = {{"X-Request-Id", id.request_id}, {"X-Content-Type-Options", "nosniff"}};
   const std::pair<std::string_view, const std::string&> echoed[] = {
       {"Job-Id", id.job_id_header},

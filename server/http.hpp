@@ -73,6 +73,8 @@ struct Response {
   std::string content_type = {};
   Headers headers = {};
   std::string body = {};
+  /// Requests as a batch has them, one a line: their answers follow the body, in chunks.
+  std::string lines = {};
   /// Called once: when the last byte is handed to the kernel (true), or never will be (false).
   std::function<void(bool whole)> sent = {};
 };

@@ -44,10 +44,11 @@ struct Job {
   std::atomic<std::size_t> held = 0;  // bytes of memory, while it runs
   bool displaced = false;             // known to the port: it lost its place in the queue
   Printed answer = {};
-  bool refused = false;            // of a batch's line: its answer is a problem
-  bool malformed = false;          // of a batch's line: it is no job
-  bool finished = false;           // known to the port
-  std::shared_ptr<Job> next = {};  // handed over to the port after this one
+  std::optional<Response> begins = {};  // instead: an answer that its lines' answers follow
+  bool refused = false;                 // of a batch's line: its answer is a problem
+  bool malformed = false;               // of a batch's line: it is no job
+  bool finished = false;                // known to the port
+  std::shared_ptr<Job> next = {};       // handed over to the port after this one
 };
 
 /// The threads that compute, and the bounded queue before them. Beside the slots there is a lane

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "api/batch.hpp"
+
 namespace tubecut::server {
 namespace {
 
@@ -36,14 +38,21 @@ std::optional<Refusal> Batch::refusal() {
   const Request& whole = whole_->request;
   if (auto refusal = port_.service.screen(whole))
     return refusal;  // an empty one was whole at its head
-  if (!port_.lines.has(whole.body.size()) || !port_.make_memory(whole.body.size())) {
-    ++port_.counters.memory;
-    return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
-  }
+  if (auto refusal = memory_refusal(whole.body.size())) return refusal;
   return port_.service.admit ? port_.service.admit(whole) : std::nullopt;
 }
 
+std::optional<Refusal> Batch::memory_refusal(std::size_t bytes) {
+  if (port_.lines.has(bytes) && port_.make_memory(bytes)) return std::nullopt;
+  ++port_.counters.memory;
+  return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
+}
+
 Task<void> Batch::live() {
+  if (whole_->begins) {
+    co_await follow();
+    co_return;
+  }
   Request& request = whole_->request;
   request.refusal = refusal();
   const Response head = request.refusal ? Response{.status = 0} : port_.service.batch_head(request);
@@ -52,8 +61,30 @@ Task<void> Batch::live() {
     co_await on_.send(std::move(refused));
     co_return;
   }
+  auto lines = std::move(request.body);
+  co_await stream(head, std::move(lines));
+}
+
+/// Behind the answer that the whole job begins with.
+Task<void> Batch::follow() {
+  Response head = *std::move(whole_->begins);
+  whole_->memory = {};
+  if (head.sent) std::exchange(head.sent, nullptr)(true);
+  if (auto refusal = memory_refusal(head.lines.size())) {
+    whole_->request.refusal = std::move(refusal);
+    Printed refused = port_.answer(whole_->request, whole_->close);
+    co_await on_.send(std::move(refused));
+    co_return;
+  }
+  auto lines = std::exchange(head.lines, {});
+  head_.target = api::kBatchesPath;
+  co_await stream(std::move(head), std::move(lines));
+}
+
+Task<void> Batch::stream(Response head, std::string lines) {
+  Request& request = whole_->request;
   chunked_ = on_.reader_.takes_chunks();
-  lines_ = std::move(request.body);
+  lines_ = std::move(lines);
   held_.resize(lines_.size());
   count_.bytes_in = lines_.size();
   head_ = std::move(request);
@@ -66,6 +97,7 @@ Task<void> Batch::live() {
   const auto idle = std::chrono::ceil<std::chrono::seconds>(port_.options.idle);
   on_.out_ =
       print_head(head, whole_->close ? 0s : idle, chunked_ ? "Transfer-Encoding: chunked\r\n" : "");
+  if (!head.body.empty()) on_.out_ += chunked_ ? print_chunk(head.body) : head.body;
   try {
     co_await answer_lines();
   } catch (...) {

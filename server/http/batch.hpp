@@ -11,7 +11,7 @@
 namespace tubecut::server {
 
 /// A batch on a connection: its lines become jobs like others, a few at a time, and are answered in
-/// chunks as they are done.
+/// chunks as they are done. Its lines are a request's body, or what a job made of its request.
 class Batch {
  public:
   Batch(Session& session, std::shared_ptr<Job> whole);
@@ -21,6 +21,9 @@ class Batch {
 
  private:
   [[nodiscard]] std::optional<Refusal> refusal();
+  Task<void> follow();
+  [[nodiscard]] std::optional<Refusal> memory_refusal(std::size_t bytes);
+  Task<void> stream(Response head, std::string lines);
   Task<void> count_lines();
   [[nodiscard]] std::optional<std::string_view> next_line();
   Task<void> answer_lines();

@@ -87,15 +87,22 @@ Port::Port(const TransportOptions& of, Service service_of)
 
 Port::~Port() { slots.join(); }
 
-Printed Port::answer(const Request& request, const std::atomic<bool>& close) const {
-  Response response;
+Response Port::respond(const Request& request) const {
   try {
-    response = service.handle(request);
+    return service.handle(request);
   } catch (const std::exception&) {
-    response = {.status = 500,
-                .content_type = "text/plain; charset=utf-8",
-                .body = "The service failed.\n"};
+    return {.status = 500,
+            .content_type = "text/plain; charset=utf-8",
+            .body = "The service failed.\n"};
   }
+}
+
+Printed Port::answer(const Request& request, const std::atomic<bool>& close) const {
+  return printed(respond(request), request, close);
+}
+
+Printed Port::printed(Response response, const Request& request,
+                      const std::atomic<bool>& close) const {
   const auto idle = std::chrono::ceil<std::chrono::seconds>(options.idle);
   return print(std::move(response), request.method, close ? 0s : idle);
 }
@@ -129,8 +136,10 @@ void Port::answer(Job& job) const {
       job.answer.bytes = std::move(reply.text);
       job.refused = reply.refused;
       job.malformed = reply.malformed;
+    } else if (auto response = respond(job.request); response.lines.empty()) {
+      job.answer = printed(std::move(response), job.request, job.close);
     } else {
-      job.answer = answer(job.request, job.close);
+      job.begins = std::move(response);
     }
   } catch (const std::exception&) {  // no memory for the bytes: no answer, and its connection ends
     job.answer.bytes = {};

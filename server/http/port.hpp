@@ -97,6 +97,9 @@ class Port {
  private:
   void work(Job& job) const;
   void answer(Job& job) const;
+  [[nodiscard]] Response respond(const Request& request) const;
+  [[nodiscard]] Printed printed(Response response, const Request& request,
+                                const std::atomic<bool>& close) const;
   [[nodiscard]] JobMemory::Grant grow(Job& job, std::size_t bytes) const;
   void hand_over(std::shared_ptr<Job> job);
   void take_messages();

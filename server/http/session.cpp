@@ -271,16 +271,16 @@ Task<void> Session::answer_request() {
   const auto job = take_job();
   const bool batch = port_.service.is_batch && port_.service.is_batch(job->request);
   if (!job->request.refusal) job->request.refusal = know_client(*job);
-  if (!job->request.refusal && batch) {
+  if (!job->request.refusal && !batch) {
+    claim(*job);
+    job->request.refusal = offer(job);
+  }
+  if (!job->request.refusal && !batch) co_await take_turn(job);
+  if (job->begins || (batch && !job->request.refusal)) {
     Batch lines(*this, job);
     co_await lines.live();
     co_return;
   }
-  if (!job->request.refusal) {
-    claim(*job);
-    job->request.refusal = offer(job);
-  }
-  if (!job->request.refusal) co_await take_turn(job);
   if (job->request.refusal) job->answer = port_.answer(job->request, job->close);
   // Of its memory the answer keeps its own: it was counted, whether or not its client is slow.
   if (job->memory.bytes() > 0) sending_ = std::exchange(job->memory, {});

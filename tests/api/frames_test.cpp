@@ -141,8 +141,7 @@ TEST(Frames, PartsDoNotDependOnWhereTheFrameStands) {
   const auto request = example("frames/truss-of-19.json");
   const auto here = asked(request);
   std::set<std::string> hashes;
-  for (const auto& part : list(here.body, "parts"))
-    hashes.insert(text(part, "canonical_sha256"));
+  for (const auto& part : list(here.body, "parts")) hashes.insert(text(part, "canonical_sha256"));
   EXPECT_EQ(hashes.size(), 4U);
   for (const double deg : {37.0, 201.5}) {
     const auto there = asked(moved(request, deg, 1234.5));
