@@ -7,13 +7,13 @@ import {hints} from './hint';
 import {clone, type Row} from './json';
 import {askForKey, keyed, KeyNeeded} from './key';
 import {point} from './links';
+import {Motion} from './motion';
 import {endpointName, endpointOrder, exampleName, tabs} from './names';
 import * as panels from './panels';
 import type {Picture} from './picture';
 import * as preset from './preset';
 import {pictured} from './pictures';
 import {contextOf, without, type Context} from './pictures/context';
-import {motionFacts, scheduleCharts} from './pictures/machine';
 import {Contract} from './schema';
 import {ask, away, fetched, Latest, path, type Answer, type Endpoint, type Example, type Reply} from './service';
 import type {Stage} from './scene/stage';
@@ -35,7 +35,7 @@ class Console {
   private readonly latest = new Latest();
   private readonly form: Form;
   private readonly charts = new Board(byId('charts'));
-  private readonly motion = {root: el('div', {class: 'motion'}), board: null as Board | null, of: ''};
+  private readonly motion: Motion;
   private readonly context: Context;
   private state: State = {...firstJob, body: {}, edited: false, view: 'after', partners: true, tab: 'proof'};
   private stage: Promise<Stage | null> | null = null;
@@ -59,6 +59,7 @@ class Console {
     hints(byId('form'), byId('hint'));
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
+    this.motion = new Motion(this.context.machines);
     this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('preset').addEventListener('click', () => this.press());
@@ -362,57 +363,20 @@ class Console {
       panel.append(...(this.picture?.tables?.length ? [el('div', {class: 'columns'}, ...this.picture.tables.map(panels.table))] : []), panels.proof(answer));
     else if (state.tab === 'table') panel.append(panels.columns(answer));
     else if (state.tab === 'downloads') panel.append(panels.downloads(state.endpoint, name, state.body, this.contract.formats(path(state.endpoint))));
-    else if (state.tab === 'motion') this.fillMotion(panel).catch((failure) => this.trouble(failure));
+    else if (state.tab === 'motion')
+      this.motion
+        .fill(panel, without(state.body), {
+          open: (body) => this.follow('pulse-schedules', body),
+          focus: (pointer) => this.form.focus(pointer),
+          again: () => this.drawDetails(),
+        })
+        .catch((failure) => this.trouble(failure));
   }
 
-  /** The pulses of this cut on a machine, at a speed: the next job in line, shown without leaving this one. */
-  private async fillMotion(panel: HTMLElement): Promise<void> {
-    const body = {cut: without(this.state.body), machine: 'five_axis_cutter', motion: {speed: {mm_min: 600}}};
-    panel.append(
-      el(
-        'p',
-        {class: 'soft'},
-        'On the five-axis cutter at 600 mm/min. ',
-        el(
-          'button',
-          {
-            type: 'button',
-            id: 'open-pulses',
-            onclick: () => {
-              this.state.tab = 'proof';
-              this.begin('pulse-schedules', undefined, clone(body) as unknown as Row, true);
-            },
-          },
-          'Change machine, speed, lead …',
-        ),
-      ),
-      this.motion.root,
-    );
-    const key = JSON.stringify(body);
-    if (this.motion.of === key) return;
-    this.motion.of = key;
-    this.motion.board ??= new Board(this.motion.root);
-    const reply = await ask('pulse-schedules', body as never);
-    if (this.motion.of !== key) return;
-    if (!reply.answer) this.motion.of = ''; // asked again when next shown
-    this.motion.root.querySelectorAll('.extra').forEach((node) => node.remove());
-    this.motion.board.show(reply.answer ? scheduleCharts(reply.answer.result, this.context.machines.get(body.machine)) : []);
-    const extra = el('div', {class: 'extra'});
-    if (reply.answer) {
-      const facts = motionFacts(reply.answer.result);
-      const figures = el('div', {class: 'figures'});
-      panels.figures(figures, facts);
-      extra.append(figures, el('div', {class: 'columns'}, ...(facts.tables ?? []).map(panels.table)));
-    } else
-      panels.verdict(
-        extra,
-        undefined,
-        reply.problem,
-        0,
-        (pointer) => this.form.focus(pointer.replace(/^\/cut/, '')),
-        () => this.drawDetails(),
-      );
-    this.motion.root.append(extra);
+  /** Goes on to the next job in line. */
+  private follow(endpoint: string, body: Row): void {
+    this.state.tab = 'proof';
+    this.begin(endpoint, undefined, clone(body), true);
   }
 
   /** The hash follows a moment after the last change. */
@@ -455,7 +419,7 @@ class Console {
 
   recolour(): void {
     this.charts.recolour();
-    this.motion.board?.recolour();
+    this.motion.recolour();
     if (this.lost) return;
     this.form.show(this.contract.request(path(this.state.endpoint)) ?? {}, this.state.body);
     if (this.answer) this.form.understood(this.answer.request);
