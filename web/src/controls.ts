@@ -5,10 +5,10 @@ export const toggle = (text: string, pressed: boolean, id: string, act: () => vo
   el('button', {type: 'button', id: id, 'aria-pressed': String(pressed), onclick: act}, text);
 
 /** Tabs, of which the arrow keys choose the neighbour. */
-export const tabBar = (offered: [string, string][], chosen: string, choose: (id: string) => void) =>
+export const tabBar = (offered: [string, string][], chosen: string, choose: (id: string) => void, {label, panel} = {label: 'Details', panel: 'panel'}) =>
   el(
     'div',
-    {role: 'tablist', class: 'tabs', 'aria-label': 'Details'},
+    {role: 'tablist', class: 'tabs', 'aria-label': label},
     ...offered.map(([id, name], i) =>
       el(
         'button',
@@ -17,7 +17,7 @@ export const tabBar = (offered: [string, string][], chosen: string, choose: (id:
           role: 'tab',
           id: `tab-${id}`,
           'aria-selected': String(id === chosen),
-          'aria-controls': 'panel',
+          'aria-controls': panel,
           tabindex: id === chosen ? '0' : '-1',
           onclick: () => choose(id),
           onkeydown: (event: KeyboardEvent) => {
@@ -29,3 +29,11 @@ export const tabBar = (offered: [string, string][], chosen: string, choose: (id:
       ),
     ),
   );
+
+/** A colour of the style sheet beside what it stands for. */
+export function swatch(tone: string): HTMLElement {
+  const dot = el('span', {class: 'swatch'});
+  dot.style.background = `var(--${tone})`;
+  return dot;
+}
+export const key = (tone: string, text: string) => el('span', {class: 'key'}, swatch(tone), ` ${text}`);

@@ -19,4 +19,10 @@ export function point(link: string, index: number | null): void {
   quiet = false;
 }
 
+/** What is chosen stays when the cursor goes: a group of its own. */
+export const chosen = (link: string) => `${link}, chosen`;
+
+/** Nothing is pointed at, nor chosen. */
+export const rest = () => [...groups.keys()].forEach((link) => point(link, null));
+
 export const pointed = (link: string) => last.get(link) ?? null;

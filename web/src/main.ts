@@ -4,9 +4,10 @@ import * as controls from './controls';
 import {byId, el} from './dom';
 import {Form} from './form';
 import {hints} from './hint';
+import {Inspector} from './inspector';
 import {clone, type Row} from './json';
 import {askForKey, keyed, KeyNeeded} from './key';
-import {point} from './links';
+import {rest} from './links';
 import {Motion} from './motion';
 import {endpointName, endpointOrder, exampleName, tabs} from './names';
 import * as panels from './panels';
@@ -27,6 +28,7 @@ interface State {
   view: 'before' | 'after';
   partners: boolean;
   tab: string;
+  item: number | null; // chosen in the picture or beside it
 }
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
@@ -36,8 +38,16 @@ class Console {
   private readonly form: Form;
   private readonly charts = new Board(byId('charts'));
   private readonly motion: Motion;
+  private readonly inspector = new Inspector(byId('inspector'), {
+    open: (endpoint, body) => void this.follow(endpoint, body),
+    focus: (pointer) => this.seek(pointer),
+    chose: (item) => {
+      this.state.item = item;
+      this.remember();
+    },
+  });
   private readonly context: Context;
-  private state: State = {...firstJob, body: {}, edited: false, view: 'after', partners: true, tab: 'proof'};
+  private state: State = {...firstJob, body: {}, edited: false, view: 'after', partners: true, tab: 'proof', item: null};
   private stage: Promise<Stage | null> | null = null;
   private answer: Answer | undefined;
   private picture: Picture | undefined;
@@ -46,6 +56,7 @@ class Console {
   private drawnJob = 0; // the one that the pictures are of
   private lost = false; // the address holds a link that cannot be read
   private written = '';
+  private writtenJob = 0;
   private writing = 0;
   private unlisten: (() => void) | null = null;
 
@@ -86,6 +97,8 @@ class Console {
     this.state.tab = view['tab'] ?? 'proof';
     if (body) this.begin(endpoint, undefined, body, true);
     else this.open(endpoint, example);
+    this.state.item = /^\d+$/.test(view['item'] ?? '') ? Number(view['item']) : null;
+    this.writtenJob = this.job;
   }
 
   /** A link that cannot be read is said to be, and nothing of another job is shown in its place. */
@@ -126,10 +139,10 @@ class Console {
   }
 
   private begin(endpoint: string, example: string | undefined, body: Row, edited: boolean): void {
-    Object.assign(this.state, {endpoint, example, body, edited});
+    Object.assign(this.state, {endpoint, example, body, edited, item: null});
     this.job += 1;
     this.lost = false;
-    point('cut', null);
+    rest();
     this.form.show(this.contract.request(path(endpoint)) ?? {}, body);
     this.drawPick();
     this.compute();
@@ -180,10 +193,7 @@ class Console {
       reply.answer,
       reply.problem,
       reply.milliseconds,
-      (pointer) => {
-        this.formShown(true);
-        this.form.focus(pointer);
-      },
+      (pointer) => this.seek(pointer),
       () => this.compute(),
       drawn instanceof Error ? '' : drawn?.said,
     );
@@ -199,6 +209,12 @@ class Console {
     } else if (this.drawnJob !== this.job) this.clear(); // no picture of another job beside a refusal
     this.drawDetails();
     this.said();
+  }
+
+  /** Shows a field of the form. */
+  private seek(pointer: string): void {
+    this.formShown(true);
+    this.form.focus(pointer);
   }
 
   /** Counts what the page came to say: those who wait for it see this. */
@@ -217,6 +233,7 @@ class Console {
     this.answer = this.picture = undefined;
     this.trouble(undefined);
     this.charts.show([]);
+    this.inspector.show(undefined);
     byId('solid').hidden = true;
     byId('figures').replaceChildren();
   }
@@ -225,11 +242,13 @@ class Console {
     const {picture} = this;
     if (!picture) return;
     this.drawnJob = this.job;
-    byId('pictures').classList.toggle('alone', !picture.solid || picture.charts.length === 0);
+    byId('pictures').classList.toggle('alone', !picture.solid || !(picture.charts.length || picture.inspected));
+    byId('pictures').classList.toggle('inspected', picture.inspected !== undefined);
     panels.figures(byId('figures'), picture);
     this.drawSolid(picture).catch((failure) => this.trouble(failure)); // first: the readout stands under the solid
     try {
       this.charts.show(picture.charts);
+      this.inspector.show(picture.inspected, this.state.item);
       this.unlisten?.();
       this.unlisten = panels.readout(picture);
     } catch (failure) {
@@ -306,8 +325,9 @@ class Console {
       el('button', {type: 'button', title: 'The picture, the curves and the tables on paper', onclick: () => print()}, 'Print'),
     );
     const [low, high] = picture.solid?.scale ?? [];
-    byId('scale').replaceChildren(low ?? '', el('i'), high ?? '');
-    byId('scale').hidden = low === undefined;
+    const legend = picture.solid?.legend?.map(({tone, text}) => controls.key(tone, text));
+    byId('scale').replaceChildren(...(legend ?? [low ?? '', el('i'), high ?? '']));
+    byId('scale').hidden = low === undefined && !legend;
   }
 
   private drawNavigation(): void {
@@ -366,15 +386,17 @@ class Console {
     else if (state.tab === 'motion')
       this.motion
         .fill(panel, without(state.body), {
-          open: (body) => this.follow('pulse-schedules', body),
+          open: (body) => void this.follow('pulse-schedules', body),
           focus: (pointer) => this.form.focus(pointer),
           again: () => this.drawDetails(),
         })
         .catch((failure) => this.trouble(failure));
   }
 
-  /** Goes on to the next job in line. */
-  private follow(endpoint: string, body: Row): void {
+  /** Goes on to the next job in line; this one is a step to go back to, as it is seen now. */
+  private async follow(endpoint: string, body: Row): Promise<void> {
+    clearTimeout(this.writing);
+    await this.writeHash();
     this.state.tab = 'proof';
     this.begin(endpoint, undefined, clone(body), true);
   }
@@ -387,17 +409,25 @@ class Console {
 
   private async writeHash(): Promise<void> {
     if (this.lost) return;
-    const {endpoint, example, edited, body, view, partners, tab} = this.state;
-    const shown = {...(view === 'before' ? {view} : {}), ...(partners ? {} : {partners: 'off'}), ...(tab === 'proof' ? {} : {tab})};
+    const {endpoint, example, edited, body, view, partners, tab, item} = this.state;
+    const {job} = this;
+    const shown = {
+      ...(view === 'before' ? {view} : {}),
+      ...(partners ? {} : {partners: 'off'}),
+      ...(tab === 'proof' ? {} : {tab}),
+      ...(item === null ? {} : {item: String(item)}),
+    };
     const was = location.hash;
     const hash = await address.written({endpoint, view: shown, ...(edited || !example ? {body} : {example})});
     if (location.hash !== was) return; // somebody went elsewhere meanwhile
+    const another = this.writtenJob !== job;
     this.written = hash;
+    this.writtenJob = job;
     if (location.hash === hash) return;
     const before = location.hash.split(/[~?]/)[0],
       now = hash.split(/[~?]/)[0];
     // Another job is a step to go back to; a change of this one is not.
-    history[before === now || edited ? 'replaceState' : 'pushState'](null, '', hash);
+    history[another && before !== now ? 'pushState' : 'replaceState'](null, '', hash);
   }
 
   private async share(): Promise<void> {

@@ -75,7 +75,7 @@ const meanings = {
   made: {ok: 'Cuttable.', review: 'Look before you cut.', reject: 'Not to be cut.'},
   known: {ok: 'Sound.', review: 'Look at this first.', reject: 'Not to be used.'},
 };
-const made = new Set(['bevel-tables', 'holes', 'parts', 'pulse-schedules', 'mill-paths', 'replays']);
+const made = new Set(['bevel-tables', 'holes', 'parts', 'frames', 'pulse-schedules', 'mill-paths', 'replays']);
 
 function approval(answer: Answer, milliseconds: number, focus: (pointer: string) => void, facts: string): HTMLElement[] {
   const {status, reasons} = answer.verdict;
@@ -104,7 +104,7 @@ function approval(answer: Answer, milliseconds: number, focus: (pointer: string)
   ];
 }
 
-const told = (warning: Warning, focus: (pointer: string) => void) =>
+export const told = (warning: Warning, focus: (pointer: string) => void) =>
   el(
     'li',
     {class: warning.severity},
@@ -172,7 +172,7 @@ export function table(given: Table): HTMLElement {
         'table',
         {},
         bare ? null : el('thead', {}, el('tr', {}, ...given.head.map((each) => cell('th', capital(each))))),
-        el('tbody', {}, ...given.rows.map((row) => el('tr', {}, ...row.map((each, i) => cell('td', i ? each : capital(each)))))),
+        el('tbody', {}, ...given.rows.map((row) => el('tr', {}, ...row.map((each, i) => cell('td', i || given.names ? each : capital(each)))))),
       ),
     ),
   );

@@ -1,4 +1,5 @@
-import type {Json} from './json';
+import type {Json, Row} from './json';
+import type {Warning} from './service';
 import type {Term} from './words';
 
 /** What there is to see of an answer, as data: the pictures of one endpoint are a function from request and answer to this. */
@@ -11,8 +12,30 @@ export interface Picture {
   readout?: (index: number, link: string) => [Term, string][];
   /** What the answer comes to, for the verdict. */
   said?: string;
+  inspected?: Inspected;
   /** There is a before and an after to switch between. */
   beforeAfter?: boolean;
+}
+
+/** What can be chosen in lists beside the solid and in it. The places of items go on from list to list: the cursor and the choice of `link` are such places. */
+export interface Inspected {
+  link: string;
+  lists: {id: string; title: string; items: Item[]}[];
+}
+export interface Item {
+  name: string;
+  detail: string;
+  mark?: {text: string; tone: string}; // a colour of the style sheet
+  facts(): Facts;
+}
+export interface Facts {
+  said: string[];
+  figures: Figure[];
+  warnings: Warning[];
+  /** Items that belong to this one. */
+  leads: {name: string; to: number}[];
+  /** A job of its own. */
+  opens?: {name: string; endpoint: string; body: Row};
 }
 
 export interface Figure {
@@ -26,6 +49,8 @@ export interface Table {
   head: Term[];
   rows: Term[][];
   id?: string;
+  /** The first column holds names as they were given. */
+  names?: true;
 }
 
 export interface Series {
@@ -118,6 +143,13 @@ export interface HoledTube {
   to: EndCurve;
   holes: {outer: {phi: number[]; z: number[]}; inner: {phi: number[]; z: number[]}; b: number[]; gaps?: Gaps}[];
 }
+/** Members of a frame: parts, each in its own frame, and where they stand. */
+export interface Assembly {
+  parts: HoledTube[];
+  members: {name: string; part: number; frame: Frame; tone: string}[];
+  /** The members that each item lights up. */
+  lights: number[][];
+}
 export type Partner =
   | {kind: 'tube'; point: Vector; direction: Vector; radius: number; half: number; tone: number}
   | {kind: 'cone'; point: Vector; direction: Vector; radius: number; slope: number; half: number; tone: number}
@@ -133,6 +165,7 @@ export interface Solid {
   link: string;
   tubes: CutTube[];
   holed?: HoledTube[];
+  assembly?: Assembly;
   partners: Partner[];
   ribbons?: Ribbon[];
   lines?: {points: Vector[]; tone: string}[];
@@ -141,6 +174,10 @@ export interface Solid {
   up?: Vector;
   centre: Vector;
   size: number;
+  /** What it shows, for those who do not see it. */
+  told?: string;
+  /** What its colours mean. */
+  legend?: {tone: string; text: string}[];
   /** What the two ends of the tint are. */
   scale?: [string, string];
   /** The bevels that the tint spans, in degrees. */

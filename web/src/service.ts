@@ -35,6 +35,7 @@ export interface Answer {
   job: Row & {id: string; endpoint: string; engine: string; input_sha256: string; result_sha256: string};
   request: Row;
   result: Row;
+  parts?: Row[]; // of a frame
   verification: {passed: boolean; checks: Check[]};
   verdict: {status: 'ok' | 'review' | 'reject'; reasons: string[]};
   warnings: Warning[];

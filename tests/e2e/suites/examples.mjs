@@ -86,7 +86,7 @@ async function every({browser, origin, service}, width, height, theme) {
       const faults = [...faultsOf(text, names), ...faultsOf(hints, names).map((each) => `${each} in a hint`), ...await unseen(page)];
       wrong.push(...[...new Set(faults)].map((fault) => `${endpoint}/${name} ${where}: ${fault}`));
     };
-    if (!NOT_DRAWN.has(endpoint)) wrong.push(...(await drawn(page)).map((fault) => `${endpoint}/${name}: ${fault}`));
+    wrong.push(...(await drawn(page)).map((fault) => `${endpoint}/${name}: ${fault}`));
     await unfolded(page);
     await look('proof');
     if (!seen.has(endpoint)) {
@@ -101,8 +101,6 @@ async function every({browser, origin, service}, width, height, theme) {
   assert.deepEqual(page.faults, [], 'errors in the browser');
   await page.context().close();
 }
-
-const NOT_DRAWN = new Set(['frames']);  // their answer is of parts, each of which has its picture
 
 /** Names of fields, checks and warnings without a row in the glossary. */
 async function unnamed(service) {

@@ -3,6 +3,7 @@ import type {Picture} from '../picture';
 import type {Answer} from '../service';
 import type {Context, Draw} from './context';
 import {bevelTable, intersection} from './cut';
+import {wholeFrame} from './frame';
 import {generic} from './generic';
 import {groove, millPath} from './groove';
 import {hole} from './hole';
@@ -16,6 +17,7 @@ const known: Record<string, Draw> = {
   nodes: node,
   holes: hole,
   parts: part,
+  frames: wholeFrame,
   'pulse-schedules': schedule,
   replays: replay,
   'feed-curves': feedCurve,

@@ -1,6 +1,6 @@
-import {isRow, type Row} from '../json';
+import {isRow, rowsOf, type Row} from '../json';
 import {pressed} from '../preset';
-import {column, type EndCurve, type Frame, type Partner, type Picture, type Solid} from '../picture';
+import {column, type EndCurve, type Frame, type HoledTube, type Partner, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
 import {withUnit} from '../units';
 import {sentence} from '../words';
@@ -12,7 +12,6 @@ import {table} from './generic';
 import {bounds, frame, onTube, partner, placed, seenFrom, tube, type Sizes} from './geometry';
 import {holeCharts, opening} from './hole';
 
-const rowsOf = (value: unknown) => (Array.isArray(value) ? value.filter(isRow) : []);
 const member = (request: Row, id: unknown) => rowsOf(request['members']).find((each) => each['id'] === id);
 
 /** A whole member: lengths, check dimensions, and each end as the table it is. */
@@ -53,11 +52,24 @@ function endCurve(end: Row): EndCurve {
   return {phi: column(points['phi_deg']), zInner: column(points['z_inner_mm']), zOuter: column(points['z_outer_mm']), b: column(points['b_deg']), gaps};
 }
 
+const endsOf = (result: Row): [EndCurve, EndCurve] => {
+  const ends = result['ends'] as Row;
+  return [endCurve(ends['start'] as Row), endCurve(ends['finish'] as Row)];
+};
+/** From where to where it goes along its axis. */
+export const reach = (from: EndCurve, to: EndCurve) => bounds([...from.zInner, ...from.zOuter, ...to.zInner, ...to.zOuter]);
+
+/** The finished part in its own frame. */
+export function finished(result: Row, {outer, wall}: {outer: number; wall: number}): HoledTube {
+  const [from, to] = endsOf(result);
+  const holes = rowsOf(result['holes']).map((hole) => opening(hole['points'] as Row));
+  return {outer: outer / 2, inner: outer / 2 - wall, from, to, holes};
+}
+
 /** The member on its side, the datum line up, its start to the left. */
 function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall: number}, sizes: Sizes): Solid {
-  const ends = result['ends'] as Row;
-  const [from, to] = [endCurve(ends['start'] as Row), endCurve(ends['finish'] as Row)];
-  const [low, high] = bounds([...from.zInner, ...from.zOuter, ...to.zInner, ...to.zOuter]);
+  const [from, to] = endsOf(result);
+  const [low, high] = reach(from, to);
   const openings = rowsOf(result['holes']).map((hole) => ({...opening(hole['points'] as Row), fit: hole['fit_up'] as Row}));
   const cuts = laser(request, [from, to], openings);
   const holes = openings.map((hole, i) => ({...hole, gaps: cuts?.holes[i]}));

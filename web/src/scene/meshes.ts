@@ -100,14 +100,14 @@ function kept<M extends Material>(name: string, make: () => M): M {
 
 // A little further off than it is: an edge drawn on it is whole.
 const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
-const metal = (name: string, hue: string) => kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide, ...behind}));
+export const metal = (name: string, hue: string) => kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide, ...behind}));
 const steel = (tone: string) => metal(tone, colour(tone));
 const face = (tinted: boolean) =>
   kept(
     `face ${tinted}`,
     () => new MeshLambertMaterial({color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, side: DoubleSide, flatShading: true, ...behind}),
   );
-const ink = (tone: string) => kept(`line ${tone}`, () => new LineBasicMaterial({color: colour(tone)}));
+export const ink = (tone: string) => kept(`line ${tone}`, () => new LineBasicMaterial({color: colour(tone)}));
 /** Seen through everything: the cursor. */
 const signal = () => kept('signal', () => new MeshBasicMaterial({color: colour('mark'), depthTest: false, transparent: true}));
 
@@ -151,39 +151,38 @@ export function cutTube(tube: CutTube, before: boolean, span: Span): Group {
   return group;
 }
 
-/** A member with its holes: each wall in columns of constant phi, each column open where a hole is. */
-export function holedTube(tube: HoledTube, span: Span): Group {
+/** A member with its holes: each wall in columns of constant phi, `step` degrees wide at most, each column open where a hole is. */
+export function holedTube(tube: HoledTube, span: Span, step = 2): Group {
   const group = new Group();
   for (const [side, radius, tone] of [
     ['outer', tube.outer, 'steel'],
     ['inner', tube.inner, 'bore'],
   ] as const) {
-    group.add(
-      new Mesh(
-        openWall(
-          radius,
-          edge(tube.from, side),
-          edge(tube.to, side),
-          tube.holes.map((hole) => hole[side]),
-        ),
-        steel(tone),
-      ),
-    );
+    const holes = tube.holes.map((hole) => hole[side]);
+    const wall = new Mesh(openWall(radius, edge(tube.from, side), edge(tube.to, side), holes, step), steel(tone));
+    wall.name = side;
+    group.add(wall);
   }
   for (const hole of tube.holes) {
     const inside = hole.inner.phi.map((p, i) => around(tube.inner, p, hole.inner.z[i] as number));
     const outside = hole.outer.phi.map((p, i) => around(tube.outer, p, hole.outer.z[i] as number));
     const tint = tintOf(hole.b, hole.gaps, span);
     const bevel = new Mesh(strip(inside, outside, true, undefined, tint), face(Boolean(tint)));
-    group.add(bevel, outline(inside, 'edge'), outline(outside, 'edge'));
+    group.add(bevel, ...rims(inside, outside));
   }
   for (const end of [tube.from, tube.to]) {
     const inside = end.phi.map((p, i) => around(tube.inner, p, end.zInner[i] as number));
     const outside = end.phi.map((p, i) => around(tube.outer, p, end.zOuter[i] as number));
     const tint = tintOf(end.b, end.gaps, span);
-    group.add(new Mesh(strip(inside, outside, true, undefined, tint), tint ? face(true) : steel('bore')), outline(inside, 'edge'), outline(outside, 'edge'));
+    group.add(new Mesh(strip(inside, outside, true, undefined, tint), tint ? face(true) : steel('bore')), ...rims(inside, outside));
   }
   return group;
+}
+
+function rims(inside: Vector[], outside: Vector[]): Line[] {
+  const outer = outline(outside, 'edge');
+  outer.name = 'outer';
+  return [outline(inside, 'edge'), outer];
 }
 
 interface Curve {
@@ -214,8 +213,8 @@ function heights({phi, z}: Curve, angles: number[]): number[] {
 }
 
 /** A wall between two edges, open where holes are. Every point of a curve begins a column, so that within one all edges are straight. */
-function openWall(radius: number, from: Curve, to: Curve, holes: Curve[]): BufferGeometry {
-  const columns = stopsOf([from, to, ...holes]);
+function openWall(radius: number, from: Curve, to: Curve, holes: Curve[], step: number): BufferGeometry {
+  const columns = stopsOf([from, to, ...holes], step);
   const [starts, ends] = [heights(from, columns), heights(to, columns)];
   const positions: number[] = [],
     normals: number[] = [];
@@ -243,9 +242,9 @@ function openWall(radius: number, from: Curve, to: Curve, holes: Curve[]): Buffe
   return geometry;
 }
 
-/** All angles that curves have a point at, and every second degree, once each. */
-function stopsOf(curves: Curve[]): number[] {
-  const all = [...Array.from({length: 181}, (_, i) => 2 * i), ...curves.flatMap((curve) => curve.phi.map(turn))].sort((a, b) => a - b);
+/** All angles that curves have a point at, and every `step` degrees, once each. */
+function stopsOf(curves: Curve[], step: number): number[] {
+  const all = [...Array.from({length: 360 / step + 1}, (_, i) => step * i), ...curves.flatMap((curve) => curve.phi.map(turn))].sort((a, b) => a - b);
   return all.filter((angle, i) => i === 0 || angle - (all[i - 1] as number) > 1e-7);
 }
 

@@ -3,6 +3,7 @@ import {
   DirectionalLight,
   Group,
   HemisphereLight,
+  InstancedMesh,
   type Mesh,
   PerspectiveCamera,
   Raycaster,
@@ -14,8 +15,10 @@ import {
   type Object3D,
 } from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
-import {listen, point, pointed} from '../links';
+import {chosen, listen, point, pointed} from '../links';
 import type {Solid} from '../picture';
+import {Labels} from './labels';
+import {Members} from './members';
 import {Beam, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
 
 // Pixels drawn for one of the page, each way. Without a graphics card one takes 30 ms and four take 90: what changes is
@@ -23,6 +26,8 @@ import {Beam, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from '
 const coarse = 1,
   fine = 2;
 const settled = 250; // ms
+const touch = 6; // pixels by which a member may be missed
+const still = 4; // pixels that a click may move
 
 /** The joint in 3D. Draws only when something changed. */
 export class Stage {
@@ -33,10 +38,13 @@ export class Stage {
   private content = new Group();
   private partners = new Group();
   private beam = new Beam();
+  private members: Members | null = null;
+  private readonly labels: Labels;
   private solid: Solid | null = null;
   private before = false;
   private seen = '';
-  private forget: (() => void) | null = null;
+  private forget: (() => void)[] = [];
+  private pressed: PointerEvent | null = null;
   private waiting = false;
   private settling = 0;
   private turned = false; // by hand; until then the view fits the frame
@@ -48,6 +56,7 @@ export class Stage {
     domElement.tabIndex = 0;
     domElement.setAttribute('role', 'img');
     root.append(domElement);
+    this.labels = new Labels(root);
     const key = new DirectionalLight(0xffffff, 1.7),
       fill = new DirectionalLight(0xffffff, 0.55);
     key.position.set(0.6, 0.9, 1);
@@ -57,6 +66,10 @@ export class Stage {
     this.controls = this.control();
     domElement.addEventListener('pointermove', (event) => this.hover(event));
     domElement.addEventListener('pointerleave', () => this.solid && point(this.solid.link, null));
+    domElement.addEventListener('pointerdown', (event) => {
+      this.pressed = event;
+    });
+    domElement.addEventListener('click', (event) => this.choose(event));
     domElement.addEventListener('keydown', (event) => this.turn(event));
     new ResizeObserver(() => this.fit()).observe(root);
     this.fit();
@@ -75,7 +88,10 @@ export class Stage {
   show(solid: Solid, before: boolean, label: string, job: number): void {
     this.solid = solid;
     this.before = before;
-    this.renderer.domElement.setAttribute('aria-label', `${label}. Arrow keys turn it, plus and minus zoom, Home resets.`);
+    this.renderer.domElement.setAttribute(
+      'aria-label',
+      [`${label}.`, solid.told ? `${solid.told}.` : '', 'Arrow keys turn it, plus and minus zoom, Home resets.'].filter(Boolean).join(' '),
+    );
     release(this.content);
     this.scene.remove(this.content);
     this.content = new Group();
@@ -87,8 +103,12 @@ export class Stage {
       ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)),
       this.partners,
     );
+    this.members = solid.assembly ? new Members(solid.assembly) : null;
+    if (this.members) this.content.add(this.members);
+    this.labels.show(solid.assembly?.members.map(({name}) => name) ?? []);
     if (solid.partners.length) this.partners.add(...solid.partners.map(partnerMesh));
     this.renderer.domElement.dataset['state'] = before ? 'before' : 'after';
+    this.renderer.domElement.dataset['members'] = String(this.members?.axes.length ?? 0);
     this.beam = new Beam();
     this.content.add(this.beam);
     this.scene.add(this.content);
@@ -96,8 +116,8 @@ export class Stage {
     if (view !== this.seen) this.reset();
     else this.move(new Vector3(...solid.centre));
     this.seen = view;
-    this.forget?.();
-    this.forget = listen(solid.link, (index) => this.follow(index));
+    this.forget.forEach((each) => each());
+    this.forget = [listen(solid.link, (index) => this.follow(index)), listen(chosen(solid.link), () => this.light())];
     this.follow(pointed(solid.link));
     this.controls.update();
     this.draw();
@@ -123,14 +143,19 @@ export class Stage {
     this.controls.dispose();
     this.controls = this.control();
     this.controls.target.set(...centre);
-    const narrow = Math.min(1, this.camera.aspect);
-    const distance = (size / Math.tan((this.camera.fov * Math.PI) / 360) / narrow) * 0.72;
-    this.camera.position.copy(new Vector3(...eye).normalize().multiplyScalar(distance).add(this.controls.target));
+    const towards = new Vector3(...eye).normalize();
+    const distance = this.members?.distance(this.camera, towards, this.controls.target) ?? this.away(size);
+    this.camera.position.copy(towards.multiplyScalar(distance).add(this.controls.target));
     this.camera.near = distance / 50;
     this.camera.far = distance * 50;
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
+  }
+
+  /** From where something of a size is seen whole. */
+  private away(size: number): number {
+    return (size / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect)) * 0.72;
   }
 
   /** At the next frame, however often asked. */
@@ -152,6 +177,10 @@ export class Stage {
   private render(ratio: number): void {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
     this.renderer.render(this.scene, this.camera);
+    if (this.members && this.solid) {
+      const {clientWidth, clientHeight} = this.root;
+      this.labels.place(this.members, this.camera, clientWidth, clientHeight, ...this.lit(this.members, this.solid.link));
+    }
     this.renderer.domElement.dataset['drawn'] = ratio === fine ? 'fine' : 'coarse';
   }
 
@@ -165,20 +194,54 @@ export class Stage {
     this.now(); // before the page is painted: another size has cleared the canvas
   }
 
+  /** The members that are chosen, and those pointed at. */
+  private lit(members: Members, link: string): [Set<number>, Set<number>] {
+    return [members.of(pointed(chosen(link))), members.of(pointed(link))];
+  }
+
+  private light(): void {
+    if (this.members && this.solid) this.members.light(...this.lit(this.members, this.solid.link));
+    this.draw();
+  }
+
   private follow(index: number | null): void {
+    if (this.members) this.light();
     const tube = this.solid?.tubes[0];
     if (index === null || !tube || this.solid?.tubes.length !== 1) this.beam.visible = false;
     else this.beam.put(tube, this.before, index % tube.phi.length); // a closed curve's end is its beginning
     this.draw();
   }
 
-  private hover(event: PointerEvent): void {
-    const tube = this.solid?.tubes[0];
-    if (!tube || !this.solid || this.solid.tubes.length !== 1 || event.buttons !== 0) return;
+  private ray(event: MouseEvent): Raycaster {
     const box = this.renderer.domElement.getBoundingClientRect();
     const at = new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
     const ray = new Raycaster();
     ray.setFromCamera(at, this.camera);
+    return ray;
+  }
+
+  private member(event: MouseEvent): number | null {
+    const pixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.root.clientHeight;
+    return this.members?.hit(this.ray(event).ray, touch * pixel) ?? null;
+  }
+
+  /** A click that turned nothing chooses a member, or none. */
+  private choose(event: MouseEvent): void {
+    const from = this.pressed;
+    if (!this.members || !this.solid || (from && Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > still)) return;
+    point(chosen(this.solid.link), this.member(event));
+  }
+
+  private hover(event: PointerEvent): void {
+    if (this.members && this.solid && event.buttons === 0) {
+      const over = this.member(event);
+      this.renderer.domElement.classList.toggle('over', over !== null);
+      point(this.solid.link, over);
+      return;
+    }
+    const tube = this.solid?.tubes[0];
+    if (!tube || !this.solid || this.solid.tubes.length !== 1 || event.buttons !== 0) return;
+    const ray = this.ray(event);
     const walls: Object3D[] = [];
     this.content.traverse((node) => node.name === 'wall' && walls.push(node));
     const hit = ray.intersectObjects(walls)[0];
@@ -226,5 +289,6 @@ function release(group: Group): void {
   group.traverse((node) => {
     const {geometry} = node as Mesh as {geometry?: BufferGeometry};
     geometry?.dispose();
+    if (node instanceof InstancedMesh) node.dispose();
   });
 }

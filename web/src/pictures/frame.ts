@@ -1,0 +1,148 @@
+import {rowsOf, type Json, type Row} from '../json';
+import type {Assembly, Frame, HoledTube, Partner, Picture, Solid, Table, Vector} from '../picture';
+import type {Answer} from '../service';
+import {withUnit} from '../units';
+import {choice, term} from '../words';
+import type {Context} from './context';
+import {figures, plural, text} from './facts';
+import {itemsOf, size, standings, told, toneOf, type Told} from './frame_items';
+import {add, bounds, dot, frame, partner, placed, squareEnd, tube, unitVector, vector, type Sizes} from './geometry';
+import {finished, reach} from './part';
+
+const link = 'frame';
+
+/** The finished parts where they stand in the world. */
+export async function wholeFrame(_: Row, answer: Answer, context: Context): Promise<Picture> {
+  const given = told(answer);
+  const {result, request} = answer;
+  const totals = result['totals'] as Row;
+  const notCut = rowsOf(result['not_cut']);
+  const said = [plural(given.members.length, 'member'), plural(given.cuts.length, 'different part'), plural(given.joints.length, 'joint')].join(', ');
+  return {
+    solid: solidOf(given, rowsOf(request['others']), context.sizes, said),
+    charts: [],
+    figures: figures(totals, Object.keys(totals), 'totals'),
+    said: `${said}; ${withUnit(Number(totals['mass_kg']), 'kg')} in all.`,
+    inspected: {link, lists: itemsOf(given)},
+    tables: [cutList(given.cuts), ...(notCut.length ? [notCutTable(notCut)] : [])],
+  };
+}
+
+function cutList(cuts: Row[]): Table {
+  const lengths = ['long_mm', 'blank_mm', 'girth_mm', 'mass_kg', 'weld_mm'];
+  const head = ['part', 'count'].map((key) => term(key, 'cut_list'));
+  return {
+    id: 'cut_list',
+    title: 'Cut list',
+    names: true,
+    head: [...head, {text: 'size mm', about: 'Outer diameter × wall.'}, ...lengths.map((key) => term(key, 'cut_list')), term('verdict')],
+    rows: cuts.map((cut) => [
+      {text: String(cut['part']), about: (cut['members'] as string[]).join(', ')},
+      text('count', cut['count']),
+      size(cut),
+      ...lengths.map((key) => text(key, cut[key])),
+      choice(cut['verdict']),
+    ]),
+  };
+}
+
+const notCutTable = (rows: Row[]): Table => ({
+  id: 'not_cut',
+  title: 'Not cut',
+  names: true,
+  head: ['id', 'end', 'why'].map((key) => term(key)),
+  rows: rows.map((row) => [String(row['id']), ...['end', 'why'].map((key) => text(key, row[key]))]),
+});
+
+function solidOf(given: Told, others: Row[], sizes: Sizes, said: string): Solid {
+  const lines = rowsOf(given.answer.request['members']);
+  const assembly = assemblyOf(given, lines);
+  const corners = assembly.members.flatMap(({part, frame: to}) => {
+    const {outer, from, to: end} = assembly.parts[part] as HoledTube;
+    return reach(from, end).flatMap((z) => [-outer, outer].map((x) => placed(to, [x, x, z])));
+  });
+  const box = [0, 1, 2].map((k) => bounds(corners.map((p) => p[k] as number)));
+  const centre = box.map(([low, high]) => (low + high) / 2) as Vector;
+  const extent = box.map(([low, high]) => high - low);
+  const there = standings.filter((standing) => given.standing.includes(standing));
+  return {
+    link,
+    tubes: [],
+    assembly,
+    partners: partners(given, lines, others, sizes),
+    legend: there.map((standing) => ({tone: toneOf(standing), text: choice(standing)})),
+    told: `${said}. ${there.map((standing) => `${choice(standing)}: ${given.standing.filter((each) => each === standing).length}`).join(', ')}`,
+    centre,
+    size: Math.hypot(...extent),
+    eye: eyeOn(extent),
+    up: [0, 0, 1],
+  };
+}
+
+/** A flat frame is looked at from before its plane. */
+function eyeOn(extent: number[]): Vector {
+  const least = Math.min(...extent);
+  if (least > 0.35 * Math.max(...extent)) return [0.75, -1, 0.5];
+  if (least === extent[0]) return [1, -0.3, 0.3];
+  return least === extent[1] ? [0.3, -1, 0.3] : [0.15, -0.6, 1];
+}
+
+/** A member without a part is drawn as the tube it would be cut from. */
+function assemblyOf(given: Told, lines: Row[]): Assembly {
+  const parts = given.cuts.map((cut, i): HoledTube => {
+    const dimensions = {outer: Number(cut['outer_diameter_mm']), wall: Number(cut['wall_mm'])};
+    const made = given.parts[i]?.['answer'] as unknown as Answer | undefined;
+    if (made) return finished(made.result, dimensions);
+    const line = lines.find((each) => each['id'] === cut['part']);
+    return {...finishedPlain(dimensions), to: squareEnd(line ? lengthOf(line) : 0)};
+  });
+  const members = given.members.map((member, i) => ({
+    name: String(member['id']),
+    part: given.part[i] as number,
+    frame: frame(member['frame']) ?? along(lines[i] as Row),
+    tone: toneOf(given.standing[i] as string),
+  }));
+  const place = new Map(members.map(({name}, i) => [name, i]));
+  const joined = given.joints.map((joint) => [joint['branch'], joint['chord']].map((id) => place.get(String(id))).filter((i) => i !== undefined));
+  return {parts, members, lights: [...members.map((_, i) => [i]), ...joined]};
+}
+
+const finishedPlain = ({outer, wall}: {outer: number; wall: number}) => ({outer: outer / 2, inner: outer / 2 - wall, from: squareEnd(0), holes: []});
+
+const lineOf = (row: Row): [Vector, Vector] => [vector(row['start_mm']), vector(row['end_mm'])];
+const lengthOf = (row: Row) => Math.hypot(...add(...(lineOf(row).reverse() as [Vector, Vector]), -1));
+
+/** Any frame with z along a centre-line. */
+function along(row: Row): Frame {
+  const [start, end] = lineOf(row);
+  const z = unitVector(add(end, start, -1));
+  const least = z.map(Math.abs).indexOf(Math.min(...z.map(Math.abs)));
+  const axis = [0, 1, 2].map((k) => (k === least ? 1 : 0)) as Vector;
+  const x = unitVector(add(axis, z, -dot(axis, z)));
+  return {origin: start, x, y: [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]], z};
+}
+
+/** The other bodies, as large as what is joined to them asks for. */
+function partners(given: Told, lines: Row[], others: Row[], sizes: Sizes): Partner[] {
+  const byId = new Map(lines.map((line) => [line['id'], line]));
+  return others.map((other, tone) => {
+    const [origin, direction] = placeOf(other);
+    const joined = given.joints.filter((joint) => joint['chord'] === other['id']).map((joint) => byId.get(joint['branch'] as Json) as Row);
+    const off = (p: Vector) => {
+      const from = add(p, origin, -1);
+      const rise = dot(from, direction);
+      return other['kind'] === 'plane' ? Math.abs(rise) : Math.hypot(...add(from, direction, -rise));
+    };
+    const ends = joined.map((line) => lineOf(line).reduce((a, b) => (off(b) < off(a) ? b : a)));
+    const near = ends.length ? ends.reduce<Vector>((sum, p) => add(sum, p, 1 / ends.length), [0, 0, 0]) : origin;
+    const spread = Math.max(0, ...ends.map((p) => Math.hypot(...add(p, near, -1))));
+    const widest = Math.max(...joined.map((line) => tube(line, sizes).outer), 0) || tube(other, sizes).outer;
+    return partner(other, tone, near, 1.45 * spread + 2 * widest, sizes);
+  });
+}
+
+/** A point of a body and its normal or axis. */
+function placeOf(other: Row): [Vector, Vector] {
+  const axis = (other['axis'] ?? other) as Row;
+  return [vector(axis['point_mm']), unitVector(vector(axis['direction'] ?? axis['normal']))];
+}

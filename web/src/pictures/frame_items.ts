@@ -1,0 +1,119 @@
+import {said as complaint} from '../hint';
+import {isRow, rowsOf, type Json, type Row} from '../json';
+import type {Facts, Inspected, Item} from '../picture';
+import type {Answer, Issue, Warning} from '../service';
+import {measured} from '../units';
+import {choice, sentence} from '../words';
+import {figures, text} from './facts';
+
+/** What may be made of a member: its part's verdict, or what the frame says of it where that is worse. From good to bad. */
+export const standings = ['ok', 'review', 'reject', 'none'] as const;
+type Standing = (typeof standings)[number];
+export const toneOf = (standing: string) => `cut-${standing}`;
+
+/** An answer with its lists at hand; a member, its row of the cut list and its part have each other's places. */
+export interface Told {
+  answer: Answer;
+  members: Row[];
+  joints: Row[];
+  cuts: Row[];
+  parts: Row[];
+  part: number[]; // of each member
+  standing: Standing[]; // of each member
+}
+
+export function told(answer: Answer): Told {
+  const {result} = answer;
+  const [members, cuts] = [rowsOf(result['members']), rowsOf(result['cut_list'])];
+  const places = new Map(cuts.map((cut, i) => [cut['part'], i]));
+  const part = members.map((member) => places.get(member['part'] as Json) as number);
+  const named = new Set(answer.warnings.filter(({severity}) => severity === 'cut').map(({pointer}) => pointer.split('/').slice(0, 3).join('/')));
+  const standing = part.map((at, i): Standing => {
+    const own = (cuts[at] as Row)['verdict'] as Standing;
+    return own === 'ok' && named.has(`/members/${i}`) ? 'review' : own;
+  });
+  return {answer, members, joints: rowsOf(result['joints']), cuts, parts: answer.parts ?? [], part, standing};
+}
+
+/** "48.3 × 3.2" */
+export const size = (row: Row) => [row['outer_diameter_mm'], row['wall_mm']].map((value) => text('wall_mm', value)).join(' × ');
+
+/** Members and joints, each with what is known of it. */
+export function itemsOf(given: Told): Inspected['lists'] {
+  const place = new Map(given.members.map((member, i) => [String(member['id']), i]));
+  return [
+    {id: 'members', title: 'Members', items: given.members.map((_, i) => memberItem(given, i))},
+    {id: 'joints', title: 'Joints', items: given.joints.map((_, i) => jointItem(given, i, place))},
+  ];
+}
+
+function memberItem(given: Told, i: number): Item {
+  const cut = given.cuts[given.part[i] as number] as Row;
+  const standing = given.standing[i] as string;
+  const long = cut['long_mm'];
+  return {
+    name: String(given.members[i]?.['id']),
+    detail: [size(cut), typeof long === 'number' ? measured('long_mm', long) : ''].filter(Boolean).join(', '),
+    mark: {text: choice(standing), tone: toneOf(standing)},
+    facts: () => memberFacts(given, i),
+  };
+}
+
+function memberFacts(given: Told, i: number): Facts {
+  const {answer} = given;
+  const id = given.members[i]?.['id'] as string;
+  const at = given.part[i] as number;
+  const [cut, part] = [given.cuts[at] as Row, given.parts[at]];
+  const made = part?.['answer'] as unknown as Answer | undefined;
+  const request = made?.request ?? part?.['request'];
+  const warnings = [...about(answer.warnings, `/members/${i}`), ...(made?.warnings ?? []).map((each) => ({...each, pointer: ''}))];
+  const named = new Set(warnings.map(({code}) => code));
+  const open = rowsOf(answer.result['not_cut']).filter((row) => row['id'] === id);
+  return {
+    said: [
+      partSaid(cut, made),
+      ...(made?.verdict.reasons ?? []).filter((reason) => !named.has(reason)).map((reason) => sentence(choice(reason))),
+      ...open.map((row) => `${sentence(row['end'] ? choice(row['end']) : 'it')}: ${choice(row['why'])}.`),
+      ...problemSaid(part?.['problem']),
+    ],
+    figures: figures(
+      {...cut, ...(made?.result['lengths'] as Row | undefined)},
+      ['long_mm', 'short_mm', 'blank_mm', 'girth_mm', 'weld_mm', 'mass_kg'],
+      'cut_list',
+    ),
+    warnings,
+    leads: given.joints.flatMap((joint, j) => (joint['branch'] === id || joint['chord'] === id ? [{name: joined(joint), to: given.members.length + j}] : [])),
+    ...(isRow(request) ? {opens: {name: made ? 'Open this part' : 'Open its request', endpoint: 'parts', body: request}} : {}),
+  };
+}
+
+/** "9 alike, made as P0. Its own verdict: ok." */
+function partSaid(cut: Row, made: Answer | undefined): string {
+  const alike = cut['count'] === 1 ? 'The only one of its kind' : `${cut['count']} alike, made as ${cut['part']}`;
+  return `${alike}. ${made ? `Its own verdict: ${choice(made.verdict.status)}.` : 'It cannot be cut as asked.'}`;
+}
+
+const problemSaid = (problem: Json | undefined) => (isRow(problem) ? rowsOf(problem['errors']).map((issue) => complaint(issue as unknown as Issue)) : []);
+
+const about = (warnings: Warning[], pointer: string) => warnings.filter((each) => each.pointer === pointer || each.pointer.startsWith(`${pointer}/`));
+
+const words: Record<string, string> = {set_on: 'on', set_in: 'in', through: 'through'};
+/** "P0 on top", "left with top" */
+const joined = (joint: Row) => `${joint['branch']} ${words[String(joint['kind'])] ?? 'with'} ${joint['chord']}`;
+
+function jointItem(given: Told, j: number, place: Map<string, number>): Item {
+  const joint = given.joints[j] as Row;
+  const sides = [joint['branch'], joint['chord']].map(String);
+  return {
+    name: joined(joint),
+    detail: `${choice(joint['kind'])}, gap ${measured('gap_mm', Number(joint['gap_mm']))}`,
+    facts: () => ({
+      said: [`${sentence(choice(joint['kind']))}; ${joint['stated'] ? 'stated by the request' : 'found by nearness'}.`],
+      figures: [...figures(joint, ['gap_mm', 'depth_mm', 'weld_mm', 'groove_mm3', 'hole'], 'joints'), ...fitUp(joint['fit_up'])],
+      warnings: joint['stated'] ? about(given.answer.warnings, `/joints/${j}`) : [],
+      leads: sides.flatMap((name) => (place.has(name) ? [{name, to: place.get(name) as number}] : [])),
+    }),
+  };
+}
+
+const fitUp = (given: Json | undefined) => (isRow(given) ? figures(given, ['least_mm', 'greatest_root_mm'], 'fit_up') : []);

@@ -1,0 +1,133 @@
+import {
+  BufferGeometry,
+  Color,
+  Float32BufferAttribute,
+  Group,
+  InstancedMesh,
+  Line,
+  LineSegments,
+  type Matrix4,
+  Mesh,
+  type PerspectiveCamera,
+  Ray,
+  Vector3,
+} from 'three';
+import {colour} from '../dom';
+import type {Assembly, HoledTube} from '../picture';
+import {holedTube, ink, matrix, metal} from './meshes';
+
+const few = 30; // different parts whose walls are drawn in fine columns
+const columns = {fine: 4, coarse: 12}; // degrees
+const wholeEdges = 100; // members whose every edge is drawn
+
+/** A member's axis in the world. */
+interface Axis {
+  start: Vector3;
+  end: Vector3;
+  radius: number;
+}
+
+/** The members of a frame: each part's meshes once, shown in each place that it is made for. */
+export class Members extends Group {
+  readonly axes: Axis[];
+  private readonly meshes: {mesh: InstancedMesh; of: number[]}[] = [];
+
+  constructor(readonly assembly: Assembly) {
+    super();
+    const {parts, members} = assembly;
+    const placed = members.map(({frame}) => matrix(frame));
+    this.axes = members.map(({part}, i) => axisOf(parts[part] as HoledTube, placed[i] as Matrix4));
+    const lines: number[] = [];
+    parts.forEach((part, k) => {
+      const of = members.flatMap((member, i) => (member.part === k ? [i] : []));
+      const places = of.map((i) => placed[i] as Matrix4);
+      const made = holedTube(part, undefined, parts.length > few ? columns.coarse : columns.fine);
+      for (const each of made.children) {
+        if (each instanceof Mesh) this.instance(each, of, places);
+        else if (each instanceof Line && (members.length <= wholeEdges || each.name === 'outer')) places.forEach((place) => trace(each, place, lines));
+        if (each instanceof Line) each.geometry.dispose();
+      }
+    });
+    const edges = new BufferGeometry();
+    edges.setAttribute('position', new Float32BufferAttribute(lines, 3));
+    this.add(new LineSegments(edges, ink('edge')));
+    this.light(new Set(), new Set());
+  }
+
+  private instance(source: Mesh, of: number[], places: Matrix4[]): void {
+    const mesh = new InstancedMesh(source.geometry, source.name === 'outer' ? metal('member', '#ffffff') : metal('member bore', '#a0a0a0'), of.length);
+    places.forEach((place, n) => mesh.setMatrixAt(n, place));
+    this.meshes.push({mesh, of});
+    this.add(mesh);
+  }
+
+  /** What is chosen stands out, what is pointed at a little less. */
+  light(chosen: Set<number>, pointed: Set<number>): void {
+    const {members} = this.assembly;
+    const accent = new Color(colour('chosen'));
+    const hues = new Map<string, Color>();
+    for (const {tone} of members) if (!hues.has(tone)) hues.set(tone, new Color(colour(tone)));
+    for (const {mesh, of} of this.meshes) {
+      of.forEach((i, n) => {
+        const own = hues.get(members[i]?.tone as string) as Color;
+        mesh.setColorAt(n, chosen.has(i) ? accent : pointed.has(i) ? own.clone().lerp(accent, 0.6) : own);
+      });
+      if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
+    }
+  }
+
+  /** The members of an item. */
+  of(item: number | null): Set<number> {
+    return new Set(item === null ? [] : this.assembly.lights[item]);
+  }
+
+  /** Where a member's name stands: at its middle, or where else no other is before it. */
+  place(i: number, eye: Vector3): Vector3 {
+    const {start, end} = this.axes[i] as Axis;
+    const places = [0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92].map((share) => start.clone().lerp(end, share));
+    const open = places.find((at) => this.hit(new Ray(eye, at.clone().sub(eye).normalize()), 0) === i);
+    return open ?? (places[0] as Vector3);
+  }
+
+  /** How far off a camera that looks at `centre` sees them all. */
+  distance(camera: PerspectiveCamera, towards: Vector3, centre: Vector3): number {
+    const side = new Vector3().crossVectors(camera.up, towards).normalize();
+    const above = new Vector3().crossVectors(towards, side);
+    const tall = Math.tan((camera.fov * Math.PI) / 360) * 0.94; // a margin
+    return this.axes.reduce((most, {start, end, radius}) => {
+      const needed = [start, end].map((p) => {
+        const off = p.clone().sub(centre);
+        const half = Math.max((Math.abs(off.dot(side)) + radius) / camera.aspect, Math.abs(off.dot(above)) + radius);
+        return off.dot(towards) + half / tall;
+      });
+      return Math.max(most, ...needed);
+    }, 0);
+  }
+
+  /** The member whose tube a ray enters first, else the one it passes the closest, by the angle `slack` at most. */
+  hit(ray: Ray, slack: number): number | null {
+    const on = new Vector3();
+    let best = {i: -1, miss: slack, enters: Infinity};
+    for (const [i, {start, end, radius}] of this.axes.entries()) {
+      const apart = Math.sqrt(ray.distanceSqToSegment(start, end, on));
+      const depth = on.distanceTo(ray.origin);
+      const miss = Math.max(0, apart - radius) / depth;
+      const enters = depth - Math.sqrt(Math.max(0, radius ** 2 - apart ** 2));
+      if (miss < best.miss || (miss === best.miss && enters < best.enters)) best = {i, miss, enters};
+    }
+    return best.i < 0 ? null : best.i;
+  }
+}
+
+function axisOf({outer, from, to}: HoledTube, place: Matrix4): Axis {
+  const [low, high] = [mean([...from.zOuter, ...from.zInner]), mean([...to.zOuter, ...to.zInner])];
+  return {start: new Vector3(0, 0, low).applyMatrix4(place), end: new Vector3(0, 0, high).applyMatrix4(place), radius: outer};
+}
+const mean = (values: number[]) => values.reduce((a, b) => a + b, 0) / values.length;
+
+/** A line's stretches, moved to where they belong. */
+function trace(line: Line, place: Matrix4, into: number[]): void {
+  const points = line.geometry.getAttribute('position');
+  const at = (i: number) => new Vector3().fromBufferAttribute(points, i).applyMatrix4(place);
+  for (let i = 0; i + 1 < points.count; ++i) into.push(...at(i), ...at(i + 1));
+}
