@@ -260,6 +260,7 @@ export function columns(answer: Answer): HTMLElement {
     }
   };
   look(answer.result, '');
+  if (!found.length) return el('p', {class: 'soft'}, 'No curves in this answer: its tables stand with the proof.');
   const most = 1000;
   return el(
     'div',

@@ -21,7 +21,11 @@ export async function wholeFrame(_: Row, answer: Answer, context: Context): Prom
   return {
     solid: solidOf(given, rowsOf(request['others']), context.sizes, said),
     charts: [],
-    figures: figures(totals, Object.keys(totals), 'totals'),
+    figures: figures(
+      totals,
+      Object.keys(totals).filter((key) => key !== 'made' || totals['made'] !== totals['members']),
+      'totals',
+    ),
     said: `${said}; ${withUnit(Number(totals['mass_kg']), 'kg')} in all.`,
     inspected: {link, lists: itemsOf(given)},
     tables: [cutList(given.cuts), ...(notCut.length ? [notCutTable(notCut)] : [])],

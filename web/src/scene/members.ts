@@ -109,7 +109,7 @@ export class Members extends Group {
     const on = new Vector3();
     let best = {i: -1, miss: slack, enters: Infinity};
     for (const [i, {start, end, radius}] of this.axes.entries()) {
-      const apart = Math.sqrt(ray.distanceSqToSegment(start, end, on));
+      const apart = Math.sqrt(Math.max(0, ray.distanceSqToSegment(start, end, on))); // below 0 by rounding
       const depth = on.distanceTo(ray.origin);
       const miss = Math.max(0, apart - radius) / depth;
       const enters = depth - Math.sqrt(Math.max(0, radius ** 2 - apart ** 2));

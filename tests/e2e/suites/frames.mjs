@@ -1,0 +1,231 @@
+// A frame in the console: its members where they stand, what is chosen, and the part that it leads to.
+import {strict as assert} from 'node:assert';
+import {readdirSync, readFileSync} from 'node:fs';
+import {answered, open, pixels, then} from '../browser.mjs';
+
+const folder = new URL('../../../examples/frames/', import.meta.url);
+const names = readdirSync(folder).map((file) => file.replace('.json', ''));
+const example = (name) => JSON.parse(readFileSync(new URL(`${name}.json`, folder)));
+const answerTo = async (service, body) => JSON.parse((await service.post('/v1/frames', body)).text);
+
+const clean = (page) => {
+  assert.deepEqual(page.faults, [], 'errors in the browser');
+  assert.deepEqual(page.strangers, [], 'requests to others');
+};
+const frame = async (browser, origin, name, size) => {
+  const page = await open(browser, origin, `#/frames/${name}`, size);
+  await answered(page);
+  await pixels(page);
+  return page;
+};
+const canvas = (page) => page.locator('.canvas canvas');
+const facts = (page) => page.locator('.facts').innerText();
+const figure = (page, name) => page.locator('.facts .figure', {has: page.getByText(name, {exact: true})}).locator('b').innerText();
+const mm = (value) => `${Number(value.toFixed(2))}`;
+const choose = async (page, index) => {
+  await page.locator(`#item-${index}`).click();
+  await pixels(page);
+};
+
+/** Of the pixels in the colour of what is chosen: their number, and where their middle is, as shares of the canvas. */
+const lit = (page) => page.evaluate(() => {
+  const from = document.querySelector('.canvas canvas');
+  const copy = Object.assign(document.createElement('canvas'), {width: from.width, height: from.height});
+  const pen = copy.getContext('2d');
+  pen.drawImage(from, 0, 0);
+  const {data} = pen.getImageData(0, 0, copy.width, copy.height);
+  let count = 0, x = 0, y = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    const [r, g, b, a] = data.slice(i, i + 4);
+    if (a < 200 || b < 100 || b < 1.45 * g || b < 2 * r) continue;  // a blue that no verdict, edge or partner is
+    count += 1;
+    x += (i / 4) % copy.width;
+    y += Math.floor(i / 4 / copy.width);
+  }
+  return {count, x: x / count / copy.width, y: y / count / copy.height};
+});
+
+/** The names that are seen, with the middle of each. */
+const labels = (page) => page.locator('.labels .shown').evaluateAll((spans) => spans.map((span) => {
+  const {x, y, width, height} = span.getBoundingClientRect();
+  return {name: span.textContent, x: x + width / 2, y: y + height / 2, box: [x, y, x + width, y + height]};
+}));
+
+const apart = ([l, t, r, b], [left, top, right, bottom]) => left >= r || right <= l || top >= b || bottom <= t;
+
+async function agrees({browser, origin, service}, width, theme) {
+  assert.ok(names.length >= 6);
+  for (const name of names) {
+    const {result, verdict, parts} = await answerTo(service, example(name));
+    const page = await frame(browser, origin, name, {width, height: 844, theme});
+    assert.equal(await page.locator('#verdict .pill').innerText(), verdict.status, name);
+    assert.equal(await canvas(page).getAttribute('data-members'), String(result.members.length), name);
+    assert.deepEqual(await page.locator('#items [role=option] b').allInnerTexts(), result.members.map(({id}) => id), name);
+    assert.match(await canvas(page).getAttribute('aria-label'), new RegExp(`${result.members.length} members, ${parts.length} different parts?, ${result.joints.length} joints?`), name);
+    assert.equal(await page.locator('#tab-joints').innerText(), `Joints (${result.joints.length})`, name);
+    const rows = await page.locator('#table-cut_list tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+    assert.deepEqual(rows, result.cut_list.map((cut) => [cut.part, String(cut.count), `${mm(cut.outer_diameter_mm)} × ${mm(cut.wall_mm)}`,
+      ...[cut.long_mm, cut.blank_mm, cut.girth_mm, cut.mass_kg, cut.weld_mm].map(mm), cut.verdict]), name);
+    const seen = await labels(page);
+    assert.ok(seen.length > 0 && seen.every(({box}, i) => seen.slice(i + 1).every((other) => apart(box, other.box))), `${name}: names over names`);
+    const scroll = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(scroll <= width, `${name}: the page is ${scroll} px wide`);
+    clean(page);
+    await page.context().close();
+  }
+}
+
+export const checks = {
+  'lists, cut list and picture tell of the members that the answer has': (given) => agrees(given, 1280, 'light'),
+  'the same at 390 px, dark': (given) => agrees(given, 390, 'dark'),
+
+  'every member lights up where it stands': async ({browser, origin, service}) => {
+    for (const name of ['roll-cage-of-12', 'jacket-node-with-set-in-stubs']) {
+      const page = await frame(browser, origin, name);
+      assert.equal((await lit(page)).count, 0, 'before anything is chosen');
+      for (let i = 0; i < example(name).members.length; ++i) {
+        await choose(page, i);
+        assert.ok((await lit(page)).count > 100, `${name}, member ${i}`);
+      }
+      await page.context().close();
+    }
+    // The posts of a truss follow one another, evenly but for the perspective.
+    const page = await frame(browser, origin, 'truss-of-19');
+    const {members} = (await answerTo(service, example('truss-of-19'))).result;
+    const posts = members.flatMap(({id}, i) => (/^P/.test(id) ? [i] : []));
+    const places = [];
+    for (const i of posts) {
+      await choose(page, i);
+      places.push((await lit(page)).x);
+    }
+    const steps = places.slice(1).map((x, i) => x - places[i]);
+    assert.ok(posts.length === 9 && Math.min(...steps) > 0.05 && Math.max(...steps) < 1.4 * Math.min(...steps), `posts at ${places}`);
+    clean(page);
+    await page.context().close();
+  },
+
+  'a member is chosen in the picture, where its name stands, and another by the keyboard': async ({browser, origin}) => {
+    for (const [width, theme] of [[1280, 'light'], [390, 'dark']]) {
+      const page = await frame(browser, origin, 'roll-cage-of-12', {width, height: 844, theme});
+      await canvas(page).scrollIntoViewIfNeeded();
+      const seen = await labels(page);
+      assert.ok(seen.length >= (width > 1000 ? 9 : 5), `${seen.length} names`);
+      for (const {name, x, y} of seen) {
+        await page.mouse.click(x, y);
+        assert.equal((await page.locator('.facts h3').innerText()).split('\n')[0].trim(), name);
+        assert.equal(await page.locator('#items [aria-selected=true] b').innerText(), name);
+      }
+      const corner = await canvas(page).boundingBox();
+      await page.mouse.click(corner.x + corner.width - 5, corner.y + 60);
+      assert.match(await facts(page), /^Choose one/);
+      const list = page.locator('#items');
+      await list.focus();
+      for (const key of ['ArrowDown', 'ArrowDown', 'ArrowUp', 'End']) await page.keyboard.press(key);
+      const last = example('roll-cage-of-12').members.length - 1;
+      assert.equal(await list.getAttribute('aria-activedescendant'), `item-${last}`);
+      assert.ok((await facts(page)).includes('back right'));
+      await page.keyboard.press('Escape');
+      assert.match(await facts(page), /^Choose one/);
+      clean(page);
+      await page.context().close();
+    }
+  },
+
+  'a member tells its part, which opens as the answer that the cut list names': async ({browser, origin, service}) => {
+    const name = 'roll-cage-of-12';
+    const {result, parts, warnings} = await answerTo(service, example(name));
+    const page = await frame(browser, origin, name);
+    const i = result.members.findIndex(({id}) => id === 'pillar left');
+    await choose(page, i);
+    const cut = result.cut_list.find(({part}) => part === result.members[i].part);
+    assert.equal(await figure(page, 'Tip to tip'), `${mm(cut.long_mm)} mm`);
+    assert.equal(await figure(page, 'Mass'), `${mm(cut.mass_kg)} kg`);
+    assert.match(await facts(page), /pillar left\s*review/, 'the frame warns of it');
+    assert.match(await facts(page), /Its own verdict: ok\./);
+    const own = warnings.filter(({pointer}) => pointer.startsWith(`/members/${i}/`));
+    assert.ok(own.length > 0);
+    assert.equal(await page.locator('.facts li').count(), own.length);
+    await then(page, () => page.locator('#open-item').click());
+    assert.match(page.url(), /#\/frames|#\/parts/);
+    assert.equal(await page.locator('#verdict .pill').innerText(), 'ok');
+    await page.locator('#tab-json').click();
+    const shown = await page.locator('#answer-json').innerText();
+    assert.ok(shown.includes('"endpoint": "parts"') && shown.includes(cut.result_sha256), 'the part’s own answer');
+    assert.deepEqual(JSON.parse(await page.locator('#request-json').innerText()), parts.find(({part}) => part === cut.part).answer.request);
+    await page.waitForURL(/#\/parts\/~/);
+    await then(page, () => page.goBack());
+    assert.match(page.url(), new RegExp(`#/frames/${name}\\?.*item=${i}`));
+    assert.match(await facts(page), /^pillar left/, 'what was chosen is so again');
+    clean(page);
+    await page.context().close();
+  },
+
+  'a joint tells how its two are joined, lights both and leads to them': async ({browser, origin, service}) => {
+    const name = 'jacket-node-with-set-in-stubs';
+    const {result} = await answerTo(service, example(name));
+    const page = await frame(browser, origin, name);
+    await page.locator('#tab-joints').click();
+    for (const [j, joint] of result.joints.entries()) {
+      await choose(page, result.members.length + j);
+      assert.equal(await figure(page, 'Gap'), `${mm(joint.gap_mm)} mm`);
+      assert.equal(await figure(page, 'Weld length'), `${mm(joint.weld_mm)} mm`);
+      assert.equal(await figure(page, 'Least gap'), `${mm(joint.fit_up.least_mm)} mm`);
+      assert.equal(await figure(page, 'Widest root gap'), `${mm(joint.fit_up.greatest_root_mm)} mm`);
+      assert.deepEqual(await page.locator('.labels .chosen').allInnerTexts(), [joint.branch, joint.chord].sort((a, b) =>
+        result.members.findIndex(({id}) => id === a) - result.members.findIndex(({id}) => id === b)));
+    }
+    const {branch} = result.joints[0];
+    await choose(page, result.members.length);
+    await page.locator('.facts .offers button', {hasText: branch}).click();
+    assert.equal((await page.locator('.facts h3').innerText()).split('\n')[0].trim(), branch);
+    assert.equal(await page.locator('#tab-members').getAttribute('aria-selected'), 'true');
+    await page.locator('.facts .offers button').first().click();
+    assert.match(await facts(page), new RegExp(`^${branch} in leg`));
+    clean(page);
+    await page.context().close();
+  },
+
+  'a member without a part stands where it would, and says why': async ({browser, origin}) => {
+    const page = await frame(browser, origin, 'truss-of-19');
+    await page.route('**/v1/frames', async (route) => {
+      const reply = await route.fetch();
+      const answer = await reply.json();
+      const {part, canonical_sha256, answer: made} = answer.parts[0];
+      const issue = {code: 'no_contact', pointer: '/ends/start/cutters/0', got: null, limit: null, unit: '', hint: 'no partner here'};
+      answer.parts[0] = {part, canonical_sha256, request: made.request, problem: {code: 'no_contact', errors: [issue]}};
+      answer.result.cut_list[0].verdict = 'none';
+      for (const key of ['long_mm', 'blank_mm', 'mass_kg', 'weld_mm', 'result_sha256']) delete answer.result.cut_list[0][key];
+      delete answer.result.members[0].frame;
+      await route.fulfill({response: reply, json: answer});
+    });
+    await page.reload();
+    await answered(page);
+    await pixels(page);
+    assert.equal(await canvas(page).getAttribute('data-members'), '19');
+    await choose(page, 0);
+    assert.match(await facts(page), /It cannot be cut as asked\.[^]*no partner here/i);
+    assert.ok((await lit(page)).count > 100);
+    assert.equal(await page.locator('#open-item').innerText(), 'Open its request');
+    clean(page);
+    await page.context().close();
+  },
+
+  'a large frame names what is pointed at and what is chosen': async ({browser, origin}) => {
+    const body = example('truss-of-19');
+    const members = [0, 1, 2, 3].flatMap((k) => body.members.map((member) => ({...structuredClone(member), id: `${member.id}-${k}`,
+      start_mm: member.start_mm.map((v, axis) => (axis === 1 ? v + 600 * k : v)), end_mm: member.end_mm.map((v, axis) => (axis === 1 ? v + 600 * k : v))})));
+    const page = await frame(browser, origin, 'truss-of-19');
+    await page.route('**/v1/frames', (route) => route.continue({postData: JSON.stringify({...body, members})}));
+    await page.reload();
+    await answered(page);
+    await pixels(page);
+    assert.equal(await canvas(page).getAttribute('data-members'), String(members.length));
+    assert.deepEqual(await labels(page), []);
+    await choose(page, 40);
+    await page.locator('#item-41').hover();
+    await pixels(page);
+    assert.deepEqual((await labels(page)).map(({name}) => name).sort(), [members[40].id, members[41].id].sort());
+    clean(page);
+    await page.context().close();
+  },
+};
