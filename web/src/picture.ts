@@ -154,7 +154,7 @@ export type Partner =
   | {kind: 'tube'; point: Vector; direction: Vector; radius: number; half: number; tone: number}
   | {kind: 'cone'; point: Vector; direction: Vector; radius: number; slope: number; half: number; tone: number}
   | {kind: 'box'; point: Vector; direction: Vector; up: Vector; width: number; height: number; corner: number; half: number; tone: number}
-  | {kind: 'elbow'; point: Vector; direction: Vector; inwards: Vector; radius: number; bend: number; angle: number; half: number; tone: number}
+  | {kind: 'elbow'; point: Vector; direction: Vector; inwards: Vector; radius: number; bend: number; angle: number; half: [number, number]; tone: number}
   | {kind: 'plane'; point: Vector; normal: Vector; half: number; tone: number};
 export interface Ribbon {
   a: Vector[];

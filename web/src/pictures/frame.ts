@@ -141,7 +141,8 @@ function partners(given: Told, lines: Row[], others: Row[], sizes: Sizes): Partn
     const near = ends.length ? ends.reduce<Vector>((sum, p) => add(sum, p, 1 / ends.length), [0, 0, 0]) : origin;
     const spread = Math.max(0, ...ends.map((p) => Math.hypot(...add(p, near, -1))));
     const widest = Math.max(...joined.map((line) => tube(line, sizes).outer), 0) || tube(other, sizes).outer;
-    return partner(other, tone, near, 1.45 * spread + 2 * widest, sizes);
+    const body = partner(other, tone, near, 1.45 * spread + 2 * widest, sizes);
+    return body.kind === 'elbow' ? {...body, half: legsOf(body, ends, widest)} : body;
   });
 }
 
@@ -149,4 +150,13 @@ function partners(given: Told, lines: Row[], others: Row[], sizes: Sizes): Partn
 function placeOf(other: Row): [Vector, Vector] {
   const axis = (other['axis'] ?? other) as Row;
   return [vector(axis['point_mm']), unitVector(vector(axis['direction'] ?? axis['normal']))];
+}
+
+/** How far the straight legs of a bend go for what is joined to them. */
+function legsOf({point, direction, inwards, bend, angle}: Extract<Partner, {kind: 'elbow'}>, ends: Vector[], least: number): [number, number] {
+  const towards = unitVector(add(inwards, direction, -dot(inwards, direction)));
+  const out = add(direction.map((v) => v * Math.cos(angle)) as Vector, towards, Math.sin(angle));
+  const arcEnd = add(add(point, towards, bend * (1 - Math.cos(angle))), direction, bend * Math.sin(angle));
+  const leg = (from: Vector, way: Vector) => least + Math.max(0, ...ends.map((p) => dot(add(p, from, -1), way)));
+  return [leg(point, direction.map((v) => -v) as Vector), leg(arcEnd, out)];
 }

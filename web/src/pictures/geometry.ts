@@ -45,7 +45,7 @@ export function partner(row: Row, tone: number, near: Vector, reach: number, siz
       radius: outer / 2,
       bend: Number(row['bend_radius_mm']),
       angle: Number(row['bend_deg']) * radians,
-      half: reach * 0.5,
+      half: [reach * 0.5, reach * 0.5],
       tone,
     };
   }

@@ -386,11 +386,14 @@ function elbow(partner: Extract<Partner, {kind: 'elbow'}>, material: ShaderMater
       .addScaledVector(along, partner.bend * Math.sin(t));
   const arc = Array.from({length: 49}, (_, i) => onArc((partner.angle * i) / 48));
   const out = along.clone().multiplyScalar(Math.cos(partner.angle)).addScaledVector(inwards, Math.sin(partner.angle));
-  const leg = Array.from({length: 8}, (_, i) => ((i + 1) * partner.half) / 8);
+  const leg = (length: number) => Array.from({length: 8}, (_, i) => ((i + 1) * length) / 8);
+  const [before, after] = partner.half;
   const path = [
-    ...leg.map((s) => start.clone().addScaledVector(along, -s)).reverse(),
+    ...leg(before)
+      .map((s) => start.clone().addScaledVector(along, -s))
+      .reverse(),
     ...arc,
-    ...leg.map((s) => (arc[48] as Vector3).clone().addScaledVector(out, s)),
+    ...leg(after).map((s) => (arc[48] as Vector3).clone().addScaledVector(out, s)),
   ];
   return [new Mesh(new TubeGeometry(new CatmullRomCurve3(path), 160, partner.radius, 64, false), material)];
 }
