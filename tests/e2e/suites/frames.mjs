@@ -185,6 +185,22 @@ export const checks = {
     await page.context().close();
   },
 
+  'a part lights all its members': async ({browser, origin, service}) => {
+    const name = 'truss-of-19';
+    const {result} = await answerTo(service, example(name));
+    const page = await frame(browser, origin, name);
+    await page.locator('#tab-parts').click();
+    const last = result.members.length + result.joints.length;
+    for (const [k, cut] of result.cut_list.entries()) {
+      await choose(page, last + k);
+      assert.equal((await page.locator('.facts h3').innerText()).split('\n')[0].trim(), cut.part);
+      assert.deepEqual(await page.locator('.facts .offers button').allInnerTexts(), cut.members);
+      assert.deepEqual(await page.locator('.labels .chosen').allInnerTexts(), cut.members);
+    }
+    clean(page);
+    await page.context().close();
+  },
+
   'a member without a part stands where it would, and says why': async ({browser, origin}) => {
     const page = await frame(browser, origin, 'truss-of-19');
     await page.route('**/v1/frames', async (route) => {

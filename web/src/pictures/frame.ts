@@ -5,7 +5,7 @@ import {withUnit} from '../units';
 import {choice, term} from '../words';
 import type {Context} from './context';
 import {figures, plural, text} from './facts';
-import {itemsOf, size, standings, told, toneOf, type Told} from './frame_items';
+import {itemsOf, lightsOf, size, standings, told, toneOf, type Told} from './frame_items';
 import {add, bounds, dot, frame, partner, placed, squareEnd, tube, unitVector, vector, type Sizes} from './geometry';
 import {finished, reach} from './part';
 
@@ -106,9 +106,7 @@ function assemblyOf(given: Told, lines: Row[]): Assembly {
     frame: frame(member['frame']) ?? along(lines[i] as Row),
     tone: toneOf(given.standing[i] as string),
   }));
-  const place = new Map(members.map(({name}, i) => [name, i]));
-  const joined = given.joints.map((joint) => [joint['branch'], joint['chord']].map((id) => place.get(String(id))).filter((i) => i !== undefined));
-  return {parts, members, lights: [...members.map((_, i) => [i]), ...joined]};
+  return {parts, members, lights: lightsOf(given)};
 }
 
 const finishedPlain = ({outer, wall}: {outer: number; wall: number}) => ({outer: outer / 2, inner: outer / 2 - wall, from: squareEnd(0), holes: []});

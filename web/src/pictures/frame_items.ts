@@ -4,7 +4,7 @@ import type {Facts, Inspected, Item} from '../picture';
 import type {Answer, Issue, Warning} from '../service';
 import {measured} from '../units';
 import {choice, sentence} from '../words';
-import {figures, text} from './facts';
+import {figures, plural, text} from './facts';
 
 /** What may be made of a member: its part's verdict, or what the frame says of it where that is worse. From good to bad. */
 export const standings = ['ok', 'review', 'reject', 'none'] as const;
@@ -38,51 +38,80 @@ export function told(answer: Answer): Told {
 /** "48.3 × 3.2" */
 export const size = (row: Row) => [row['outer_diameter_mm'], row['wall_mm']].map((value) => text('wall_mm', value)).join(' × ');
 
-/** Members and joints, each with what is known of it. */
+/** Members, joints and different parts, each with what is known of it. */
 export function itemsOf(given: Told): Inspected['lists'] {
   const place = new Map(given.members.map((member, i) => [String(member['id']), i]));
   return [
     {id: 'members', title: 'Members', items: given.members.map((_, i) => memberItem(given, i))},
     {id: 'joints', title: 'Joints', items: given.joints.map((_, i) => jointItem(given, i, place))},
+    {id: 'parts', title: 'Parts', items: given.cuts.map((_, i) => partItem(given, i, place))},
   ];
 }
 
+/** The members that each item lights up. */
+export function lightsOf(given: Told): number[][] {
+  const place = new Map(given.members.map((member, i) => [member['id'], i]));
+  const placed = (ids: Json[]) => ids.map((id) => place.get(id)).filter((i) => i !== undefined);
+  return [
+    ...given.members.map((_, i) => [i]),
+    ...given.joints.map((joint) => placed([joint['branch'] as Json, joint['chord'] as Json])),
+    ...given.cuts.map((cut) => placed(cut['members'] as Json[])),
+  ];
+}
+
+const mark = (standing: string) => ({text: choice(standing), tone: toneOf(standing)});
+/** "48.3 × 3.2, 419.33 mm" */
+const dimensions = (cut: Row) => [size(cut), ...(typeof cut['long_mm'] === 'number' ? [measured('long_mm', cut['long_mm'])] : [])].join(', ');
+
 function memberItem(given: Told, i: number): Item {
-  const cut = given.cuts[given.part[i] as number] as Row;
-  const standing = given.standing[i] as string;
-  const long = cut['long_mm'];
+  const id = String(given.members[i]?.['id']);
+  const at = given.part[i] as number;
+  const {answer, joints, members} = given;
   return {
-    name: String(given.members[i]?.['id']),
-    detail: [size(cut), typeof long === 'number' ? measured('long_mm', long) : ''].filter(Boolean).join(', '),
-    mark: {text: choice(standing), tone: toneOf(standing)},
-    facts: () => memberFacts(given, i),
+    name: id,
+    detail: dimensions(given.cuts[at] as Row),
+    mark: mark(given.standing[i] as string),
+    facts: () => {
+      const open = rowsOf(answer.result['not_cut']).filter((row) => row['id'] === id);
+      const own = partFacts(given, at);
+      return {
+        ...own,
+        said: [...own.said, ...open.map((row) => `${sentence(row['end'] ? choice(row['end']) : 'it')}: ${choice(row['why'])}.`)],
+        warnings: [...about(answer.warnings, `/members/${i}`), ...own.warnings],
+        leads: joints.flatMap((joint, j) => (joint['branch'] === id || joint['chord'] === id ? [{name: joined(joint), to: members.length + j}] : [])),
+      };
+    },
   };
 }
 
-function memberFacts(given: Told, i: number): Facts {
-  const {answer} = given;
-  const id = given.members[i]?.['id'] as string;
-  const at = given.part[i] as number;
+function partItem(given: Told, at: number, place: Map<string, number>): Item {
+  const cut = given.cuts[at] as Row;
+  const leads = (cut['members'] as string[]).map((name) => ({name, to: place.get(name) as number}));
+  return {
+    name: String(cut['part']),
+    detail: `${dimensions(cut)}, ${plural(Number(cut['count']), 'piece')}`,
+    mark: mark(String(cut['verdict'])),
+    facts: () => ({...partFacts(given, at), leads}),
+  };
+}
+
+/** What is known of a part by itself; it leads nowhere. */
+function partFacts(given: Told, at: number): Facts {
   const [cut, part] = [given.cuts[at] as Row, given.parts[at]];
   const made = part?.['answer'] as unknown as Answer | undefined;
   const request = made?.request ?? part?.['request'];
-  const warnings = [...about(answer.warnings, `/members/${i}`), ...(made?.warnings ?? []).map((each) => ({...each, pointer: ''}))];
+  const warnings = (made?.warnings ?? []).map((each) => ({...each, pointer: ''})); // of the part's request, not of this one
   const named = new Set(warnings.map(({code}) => code));
-  const open = rowsOf(answer.result['not_cut']).filter((row) => row['id'] === id);
+  const lengths = {...cut, ...(made?.result['lengths'] as Row | undefined)};
   return {
     said: [
       partSaid(cut, made),
       ...(made?.verdict.reasons ?? []).filter((reason) => !named.has(reason)).map((reason) => sentence(choice(reason))),
-      ...open.map((row) => `${sentence(row['end'] ? choice(row['end']) : 'it')}: ${choice(row['why'])}.`),
       ...problemSaid(part?.['problem']),
     ],
-    figures: figures(
-      {...cut, ...(made?.result['lengths'] as Row | undefined)},
-      ['long_mm', 'short_mm', 'blank_mm', 'girth_mm', 'weld_mm', 'mass_kg'],
-      'cut_list',
-    ),
+    figures: figures(lengths, ['long_mm', 'short_mm', 'blank_mm', 'girth_mm', 'weld_mm', 'mass_kg'], 'cut_list'),
     warnings,
-    leads: given.joints.flatMap((joint, j) => (joint['branch'] === id || joint['chord'] === id ? [{name: joined(joint), to: given.members.length + j}] : [])),
+    leads: [],
     ...(isRow(request) ? {opens: {name: made ? 'Open this part' : 'Open its request', endpoint: 'parts', body: request}} : {}),
   };
 }

@@ -35,7 +35,8 @@ export class Labels {
     for (const i of offered) {
       const {node, width: w, height: h} = this.labels[i] as Label;
       const {x, y, z} = seen.get(i) as Vector3;
-      const [left, top] = [((x + 1) * width - w) / 2, ((1 - y) * height - h) / 2];
+      const lift = chosen.has(i) || pointed.has(i) ? h : 0; // above what is looked at
+      const [left, top] = [((x + 1) * width - w) / 2, ((1 - y) * height - h) / 2 - lift];
       const free = taken.every(([l, t, r, b]) => left > r || left + w < l || top > b || top + h < t);
       if (z > 1 || left < 0 || top < 0 || left + w > width || top + h > height || !free) continue;
       taken.push([left, top, left + w, top + h]);
