@@ -45,6 +45,28 @@ const lit = (page) => page.evaluate(() => {
   return {count, x: x / count / copy.width, y: y / count / copy.height};
 });
 
+/** Whether a place of the canvas, or one two pixels beside it, is in the colour of what is chosen, in the next picture. */
+const litAt = (page, at) => page.evaluate(async ([x, y]) => {
+  await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  const from = document.querySelector('.canvas canvas');
+  const size = 4 * Math.round(from.width / from.clientWidth) + 1;
+  const copy = Object.assign(document.createElement('canvas'), {width: size, height: size});
+  const pen = copy.getContext('2d');
+  pen.drawImage(from, Math.floor(x * from.width) - (size - 1) / 2, Math.floor(y * from.height) - (size - 1) / 2, size, size, 0, 0, size, size);
+  const {data} = pen.getImageData(0, 0, size, size);
+  return Array.from({length: data.length / 4}, (_, i) => data.slice(4 * i, 4 * i + 3)).some(([r, g, b]) => b > 1.2 * g && b > 1.2 * r && b > 90);
+}, at);
+
+/** Whether something solid is there and all round it. */
+const whole = (page, at) => page.evaluate(([x, y]) => {
+  const from = document.querySelector('.canvas canvas');
+  const size = 9;
+  const copy = Object.assign(document.createElement('canvas'), {width: size, height: size});
+  const pen = copy.getContext('2d');
+  pen.drawImage(from, Math.floor(x * from.width) - size / 2, Math.floor(y * from.height) - size / 2, size, size, 0, 0, size, size);
+  return pen.getImageData(0, 0, size, size).data.every((value, i) => i % 4 !== 3 || value > 250);
+}, at);
+
 /** The names that are seen, with the middle of each. */
 const labels = (page) => page.locator('.labels .shown').evaluateAll((spans) => spans.map((span) => {
   const {x, y, width, height} = span.getBoundingClientRect();
@@ -126,6 +148,24 @@ export const checks = {
       assert.ok((await facts(page)).includes('back right'));
       await page.keyboard.press('Escape');
       assert.match(await facts(page), /^Choose one/);
+      clean(page);
+      await page.context().close();
+    }
+  },
+
+  'where one clicks is what one sees': async ({browser, origin}) => {
+    for (const name of ['jacket-node-with-set-in-stubs', 'k-node-with-plate-and-square-brace']) {
+      const page = await frame(browser, origin, name);
+      const box = await canvas(page).boundingBox();
+      const solid = [];
+      for (let i = 0; i < 26; ++i) for (let j = 0; j < 26; ++j) solid.push([0.02 + 0.96 * i / 25, 0.1 + 0.88 * j / 25]);
+      const within = (await Promise.all(solid.map((at) => whole(page, at)))).flatMap((is, i) => (is ? [solid[i]] : []));
+      assert.ok(within.length > 60, `${within.length} places on ${name}`);
+      for (const at of within) {
+        await page.mouse.click(box.x + at[0] * box.width, box.y + at[1] * box.height);
+        assert.ok(await litAt(page, at), `${name}: at ${at} stands no ${await facts(page)}`);
+        await page.keyboard.press('Escape');
+      }
       clean(page);
       await page.context().close();
     }

@@ -10,15 +10,15 @@ import {
   Mesh,
   type PerspectiveCamera,
   Ray,
+  type Raycaster,
   Vector3,
 } from 'three';
 import {colour} from '../dom';
 import type {Assembly, HoledTube} from '../picture';
-import {holedTube, ink, matrix, metal} from './meshes';
+import {holedTube, ink, matrix, metal, thinned} from './meshes';
 
-const few = 30; // different parts whose walls are drawn in fine columns
-const columns = {fine: 4, coarse: 12}; // degrees
-const wholeEdges = 100; // members whose every edge is drawn
+const many = 60; // members, from which each is seen so small that a few columns and its outer edges do
+const columns = {fine: 4, coarse: 15}; // degrees
 
 /** A member's axis in the world. */
 interface Axis {
@@ -38,13 +38,16 @@ export class Members extends Group {
     const placed = members.map(({frame}) => matrix(frame));
     this.axes = members.map(({part}, i) => axisOf(parts[part] as HoledTube, placed[i] as Matrix4));
     const lines: number[] = [];
+    const afar = members.length > many;
     parts.forEach((part, k) => {
       const of = members.flatMap((member, i) => (member.part === k ? [i] : []));
       const places = of.map((i) => placed[i] as Matrix4);
-      const made = holedTube(part, undefined, parts.length > few ? columns.coarse : columns.fine);
+      const made = afar
+        ? holedTube({...part, from: thinned(part.from, columns.coarse), to: thinned(part.to, columns.coarse)}, undefined, columns.coarse)
+        : holedTube(part, undefined, columns.fine);
       for (const each of made.children) {
         if (each instanceof Mesh) this.instance(each, of, places);
-        else if (each instanceof Line && (members.length <= wholeEdges || each.name === 'outer')) places.forEach((place) => trace(each, place, lines));
+        else if (each instanceof Line && (!afar || each.name === 'outer')) places.forEach((place) => trace(each, place, lines));
         if (each instanceof Line) each.geometry.dispose();
       }
     });
@@ -85,7 +88,7 @@ export class Members extends Group {
   place(i: number, eye: Vector3): Vector3 {
     const {start, end} = this.axes[i] as Axis;
     const places = [0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92].map((share) => start.clone().lerp(end, share));
-    const open = places.find((at) => this.hit(new Ray(eye, at.clone().sub(eye).normalize()), 0) === i);
+    const open = places.find((at) => this.near(new Ray(eye, at.clone().sub(eye).normalize()), 0) === i);
     return open ?? (places[0] as Vector3);
   }
 
@@ -104,8 +107,15 @@ export class Members extends Group {
     }, 0);
   }
 
-  /** The member whose tube a ray enters first, else the one it passes the closest, by the angle `slack` at most. */
-  hit(ray: Ray, slack: number): number | null {
+  /** The member that is seen along a ray, else the one that it passes the closest, by the angle `slack` at most. */
+  under(caster: Raycaster, slack: number): number | null {
+    const [first] = caster.intersectObjects(this.meshes.map(({mesh}) => mesh));
+    const found = this.meshes.find(({mesh}) => mesh === first?.object);
+    return found?.of[first?.instanceId as number] ?? this.near(caster.ray, slack);
+  }
+
+  /** As `under`, of round bars with round ends: quick, and not to be clicked by. */
+  private near(ray: Ray, slack: number): number | null {
     const on = new Vector3();
     let best = {i: -1, miss: slack, enters: Infinity};
     for (const [i, {start, end, radius}] of this.axes.entries()) {

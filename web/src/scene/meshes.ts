@@ -198,6 +198,12 @@ function edge(end: EndCurve, side: 'outer' | 'inner'): Curve {
   return {phi: order.map((i) => turn(end.phi[i] as number)), z: order.map((i) => z[i] as number)};
 }
 
+/** An end with a point every `step` degrees, for a view from afar. */
+export function thinned(end: EndCurve, step: number): EndCurve {
+  const phi = Array.from({length: 360 / step}, (_, i) => step * i);
+  return {phi, zInner: heights(edge(end, 'inner'), phi), zOuter: heights(edge(end, 'outer'), phi)};
+}
+
 /** z of an edge at ascending angles. */
 function heights({phi, z}: Curve, angles: number[]): number[] {
   const last = phi.length - 1;

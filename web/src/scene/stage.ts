@@ -222,7 +222,7 @@ export class Stage {
 
   private member(event: MouseEvent): number | null {
     const pixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.root.clientHeight;
-    return this.members?.hit(this.ray(event).ray, touch * pixel) ?? null;
+    return this.members?.under(this.ray(event), touch * pixel) ?? null;
   }
 
   /** A click that turned nothing chooses a member, or none. */
