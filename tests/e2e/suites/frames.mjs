@@ -45,7 +45,7 @@ const lit = (page) => page.evaluate(() => {
   return {count, x: x / count / copy.width, y: y / count / copy.height};
 });
 
-/** Whether a place of the canvas, or one two pixels beside it, is in the colour of what is chosen, in the next picture. */
+/** How much round a place of the canvas, up to two pixels off, is in the colour of what is chosen, in the next picture. */
 const litAt = (page, at) => page.evaluate(async ([x, y]) => {
   await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
   const from = document.querySelector('.canvas canvas');
@@ -54,18 +54,19 @@ const litAt = (page, at) => page.evaluate(async ([x, y]) => {
   const pen = copy.getContext('2d');
   pen.drawImage(from, Math.floor(x * from.width) - (size - 1) / 2, Math.floor(y * from.height) - (size - 1) / 2, size, size, 0, 0, size, size);
   const {data} = pen.getImageData(0, 0, size, size);
-  return Array.from({length: data.length / 4}, (_, i) => data.slice(4 * i, 4 * i + 3)).some(([r, g, b]) => b > 1.2 * g && b > 1.2 * r && b > 90);
+  const colours = Array.from({length: data.length / 4}, (_, i) => data.slice(4 * i, 4 * i + 3));
+  return colours.filter(([r, g, b]) => b > 1.2 * g && b > 1.2 * r && b > 60).length / colours.length;
 }, at);
 
-/** Whether something solid is there and all round it. */
-const whole = (page, at) => page.evaluate(([x, y]) => {
+/** The share of something solid at a place of the canvas and `reach` of the page's pixels round it. */
+const solidAt = (page, at, reach) => page.evaluate(([x, y, far]) => {
   const from = document.querySelector('.canvas canvas');
-  const size = 9;
+  const size = 2 * far * Math.round(from.width / from.clientWidth) + 1;
   const copy = Object.assign(document.createElement('canvas'), {width: size, height: size});
   const pen = copy.getContext('2d');
-  pen.drawImage(from, Math.floor(x * from.width) - size / 2, Math.floor(y * from.height) - size / 2, size, size, 0, 0, size, size);
-  return pen.getImageData(0, 0, size, size).data.every((value, i) => i % 4 !== 3 || value > 250);
-}, at);
+  pen.drawImage(from, Math.floor(x * from.width) - (size - 1) / 2, Math.floor(y * from.height) - (size - 1) / 2, size, size, 0, 0, size, size);
+  return pen.getImageData(0, 0, size, size).data.filter((value, i) => i % 4 === 3 && value > 250).length / size ** 2;
+}, [...at, reach]);
 
 /** The names that are seen, with the middle of each. */
 const labels = (page) => page.locator('.labels .shown').evaluateAll((spans) => spans.map((span) => {
@@ -157,13 +158,19 @@ export const checks = {
     for (const name of ['jacket-node-with-set-in-stubs', 'k-node-with-plate-and-square-brace']) {
       const page = await frame(browser, origin, name);
       const box = await canvas(page).boundingBox();
-      const solid = [];
-      for (let i = 0; i < 26; ++i) for (let j = 0; j < 26; ++j) solid.push([0.02 + 0.96 * i / 25, 0.1 + 0.88 * j / 25]);
-      const within = (await Promise.all(solid.map((at) => whole(page, at)))).flatMap((is, i) => (is ? [solid[i]] : []));
-      assert.ok(within.length > 60, `${within.length} places on ${name}`);
+      const places = [];
+      for (let i = 0; i < 20; ++i) for (let j = 0; j < 20; ++j) places.push([0.02 + 0.96 * i / 19, 0.12 + 0.8 * j / 19]);
+      const shares = await Promise.all(places.map(async (at) => [await solidAt(page, at, 3), await solidAt(page, at, 12)]));
+      const within = places.filter((_, i) => shares[i][0] === 1);
+      const beside = places.filter((_, i) => shares[i][1] === 0);
+      assert.ok(within.length > 40 && beside.length > 40, `${name}: ${within.length} places on it, ${beside.length} beside it`);
+      for (const at of beside) {
+        await page.mouse.click(box.x + at[0] * box.width, box.y + at[1] * box.height);
+        assert.match(await facts(page), /^Choose one/, `${name}: nothing is at ${at}`);
+      }
       for (const at of within) {
         await page.mouse.click(box.x + at[0] * box.width, box.y + at[1] * box.height);
-        assert.ok(await litAt(page, at), `${name}: at ${at} stands no ${await facts(page)}`);
+        assert.ok(await litAt(page, at) > 0.3, `${name}: at ${at} stands no ${await facts(page)}`);  // at an edge about half
         await page.keyboard.press('Escape');
       }
       clean(page);

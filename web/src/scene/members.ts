@@ -24,6 +24,7 @@ const columns = {fine: 4, coarse: 15}; // degrees
 interface Axis {
   start: Vector3;
   end: Vector3;
+  bar: [Vector3, Vector3]; // that much shorter as round ends are long
   radius: number;
 }
 
@@ -118,8 +119,8 @@ export class Members extends Group {
   private near(ray: Ray, slack: number): number | null {
     const on = new Vector3();
     let best = {i: -1, miss: slack, enters: Infinity};
-    for (const [i, {start, end, radius}] of this.axes.entries()) {
-      const apart = Math.sqrt(Math.max(0, ray.distanceSqToSegment(start, end, on))); // below 0 by rounding
+    for (const [i, {bar, radius}] of this.axes.entries()) {
+      const apart = Math.sqrt(Math.max(0, ray.distanceSqToSegment(...bar, on))); // below 0 by rounding
       const depth = on.distanceTo(ray.origin);
       const miss = Math.max(0, apart - radius) / depth;
       const enters = depth - Math.sqrt(Math.max(0, radius ** 2 - apart ** 2));
@@ -131,7 +132,9 @@ export class Members extends Group {
 
 function axisOf({outer, from, to}: HoledTube, place: Matrix4): Axis {
   const [low, high] = [mean([...from.zOuter, ...from.zInner]), mean([...to.zOuter, ...to.zInner])];
-  return {start: new Vector3(0, 0, low).applyMatrix4(place), end: new Vector3(0, 0, high).applyMatrix4(place), radius: outer};
+  const at = (z: number) => new Vector3(0, 0, z).applyMatrix4(place);
+  const end = Math.min(outer, (high - low) / 2);
+  return {start: at(low), end: at(high), bar: [at(low + end), at(high - end)], radius: outer};
 }
 const mean = (values: number[]) => values.reduce((a, b) => a + b, 0) / values.length;
 
