@@ -80,7 +80,9 @@ export class Inspector {
       this.root.querySelector<HTMLElement>('[role=tab][aria-selected=true]')?.focus();
     };
     this.box = this.list();
-    this.root.replaceChildren(tabBar(tabs, this.shown, turn, {label: 'Lists', panel: 'items'}), this.box, this.facts);
+    const count = this.lists.find(({id}) => id === this.shown)?.items.length ?? 0;
+    const rest = count > most ? [el('p', {class: 'soft'}, `The first ${most} of ${count}; the others are chosen in the picture.`)] : [];
+    this.root.replaceChildren(tabBar(tabs, this.shown, turn, {label: 'Lists', panel: 'items'}), this.box, ...rest, this.facts);
     this.mark();
   }
 
