@@ -15,8 +15,8 @@ namespace tubecut::api {
 struct FrameJob : FrameRequest {
   frame::Frame frame;
   std::vector<FramePart> parts;
-  std::vector<Parts::Spec> asked;    // of each part
-  std::vector<std::size_t> part_of;  // of each member
+  std::vector<std::optional<Parts::Spec>> asked;  // of each part; none: it is refused when made
+  std::vector<std::size_t> part_of;               // of each member
 };
 
 /// A part as /v1/parts answers, or why there is none.

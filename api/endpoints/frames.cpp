@@ -75,7 +75,11 @@ struct FrameBase {
       for (const auto member : spec.parts[i].members) spec.part_of[member] = i;
       Reader in(spec.parts[i].request);
       (void)read_common_fields(in, Parts::kAccepts);
-      spec.asked.push_back(Parts::decode(in));
+      auto part = Parts::decode(in);
+      if (in.finish_root().empty())
+        spec.asked.emplace_back(std::move(part));
+      else
+        spec.asked.emplace_back();
     }
     return spec;
   }
@@ -85,7 +89,8 @@ struct FrameBase {
 
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
     std::vector<const part::PartSpec*> asked;
-    for (const auto part : spec.part_of) asked.push_back(&spec.asked[part].part);
+    for (const auto part : spec.part_of)
+      asked.push_back(spec.asked[part] ? &spec.asked[part]->part : nullptr);
     auto checks = frame::verify(spec.spec, spec.frame, asked, stop);
     for (const auto& part : out)
       if (part.made) keep_worst(checks, part.made->answer.checks);
@@ -101,7 +106,8 @@ struct FrameBase {
 struct Frames : FrameBase {
   static void count(const Spec& spec, Work& work) {
     count_members(spec, work);
-    for (const auto& part : spec.asked) Parts::count(part, work);
+    for (const auto& part : spec.asked)
+      if (part) Parts::count(*part, work);
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     Out out;

@@ -119,7 +119,7 @@ struct Frame {
 
 /// The parts as they are asked for, by their own numbers alone, put back into the world and held
 /// against the centre-lines; and the two sides of each joint against one another. `asked`: of each
-/// member.
+/// member; none is looked at where it is null, a part that is refused by itself.
 [[nodiscard]] std::vector<Check> verify(const FrameSpec& spec, const Frame& frame,
                                         std::span<const part::PartSpec* const> asked,
                                         const std::stop_token& stop = {});

@@ -260,6 +260,20 @@ TEST(Frames, AMemberThatCannotBeCutSpoilsNoOther) {
   EXPECT_EQ(text(frame.body, "verdict/status"), "review");
 }
 
+// So nearly parallel that the axes meet beyond what a part may be told: the part is refused, not
+// the proof failed on what was read of it.
+TEST(Frames, AJointTooFarAwayForAPartSpoilsNoProof) {
+  const auto request = *api::parse(R"({"members": [
+    {"id": "a", "start_mm": [-900.3564, -499.9965, 949.7226], "end_mm": [-900.0063, 500.308, 949.99715],
+     "outer_diameter_mm": 45, "wall_mm": 2.5, "priority": 1},
+    {"id": "b", "start_mm": [299.9994, -513.7536, 661.8428], "end_mm": [299.7009, 513.6149, 662.18],
+     "outer_diameter_mm": 40, "wall_mm": 2, "priority": 3}],
+    "connect": {"within_mm": 997314}, "kerf_mm": 0.3,
+    "defaults": {"root_surface": "inner", "groove": {"rule": "none"}, "smoothing": {"method": "none"}, "contact": "auto"}})");
+  const auto frame = asked(request);
+  EXPECT_EQ(text(of_id(frame.body, "parts", "part", "b"), "problem/code"), "out_of_range");
+}
+
 std::string first_problem(const Json& request) {
   const auto answer = post(kPath, request);
   if (!answer.outcome.error) return "answered";

@@ -67,7 +67,7 @@ export function answerFaults(contract, endpoint, sent, text, {validateOnly = fal
 
 // One reply with an error status.
 export function problemFaults(contract, valid, reply) {
-  if (reply.status >= 500) return [`status ${reply.status}: ${reply.text.slice(0, 400)}`];
+  if (reply.status >= 500) return [`status ${reply.status}: ${reply.text.slice(0, 2000)}`];
   const type = reply.headers['content-type'];
   if (type !== 'application/problem+json') return [`content type ${type}`];
   const body = JSON.parse(reply.text);

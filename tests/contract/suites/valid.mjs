@@ -34,9 +34,11 @@ const crossed = (endpoint, sounds, any) => fc.tuple(sounds, any, fc.infiniteStre
 // The faults of one reply to a body valid by the schema.
 function replyFaults({contract, problem}, endpoint, body, reply) {
   if (reply.status === 200) return answerFaults(contract, endpoint, body, reply.text);
+  const {code, errors} = JSON.parse(reply.text);
+  // A frame may ask for more than a minute's work; its estimate, within four times of what it takes, says so.
+  if (code === 'over_budget' && 4 * errors?.[0]?.got >= errors?.[0]?.limit) return [];
   const faults = problemFaults(contract, problem, reply);
   if (faults.length) return faults;
-  const {code, errors} = JSON.parse(reply.text);
   if (reply.status === 409 && Object.values(PINS).includes(code) && pinned(body)) return [];
   if (reply.status !== 422) return [`status ${reply.status} ${code}`];
   const named = new Set([code, ...errors.map((e) => e.code)]);
@@ -65,7 +67,7 @@ async function run(context, endpoint, name, arbitrary, runs) {
     if (faults.length && !failed) {
       failed = true;
       const less = await smallest(judge, arbitrary, seed);
-      report.fault(`${endpoint.id} ${name}`, `${faults[0]}\n  body: ${JSON.stringify(body).slice(0, 2000)}\n  smallest: ${less.slice(0, 2000)}`);
+      report.fault(`${endpoint.id} ${name}`, `${faults[0]}\n  body: ${JSON.stringify(body).slice(0, 40000)}\n  smallest: ${less.slice(0, 40000)}`);
     } else if (faults.length) {
       report.fault(`${endpoint.id} ${name}`, faults[0]);
     }
