@@ -41,6 +41,7 @@ async function whole({browser, origin}, width, height) {
     await formed(page);
     const clipped = () => page.evaluate(() => [...document.querySelectorAll('#form input[type=text]')]
       .filter((input) => input.offsetParent && input.scrollWidth > input.clientWidth).map((input) => `${input.dataset.pointer} ${input.value}`));
+    await page.evaluate(() => document.fonts.ready.then(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))));
     assert.deepEqual(await clipped(), [], hash);
     for (const fold of await page.locator('#form details:not([open]) > summary').all()) if (await fold.isVisible()) await fold.click();
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
