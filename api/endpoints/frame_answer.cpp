@@ -4,13 +4,12 @@
 #include <utility>
 
 #include "api/answer_text.hpp"
+#include "api/endpoints/place_text.hpp"
 #include "api/frame_names.hpp"
 #include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
-
-std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// What both parts of a joint have of it, once they are made.
 struct Seam {
@@ -36,26 +35,18 @@ std::vector<std::size_t> indices(const std::vector<T>& of) {
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = i;
   return out;
 }
-void write_place(std::string_view name, const Eigen::Vector3d& origin, const Eigen::Matrix3d& rows,
-                 Writer& o) {
-  o.object(name, [&](Writer& f) {
-    f.column("origin_mm", components(origin));
-    f.column("x", components(rows.row(0)));
-    f.column("y", components(rows.row(1)));
-    f.column("z", components(rows.row(2)));
-  });
-}
-
 /// Where the finished part lies in the world; where it is still to be made, its start.
 void write_member(const FrameJob& frame, const MadePart& part, std::size_t member, Writer& o) {
   o.field("id", frame.spec.members[member].name);
   o.field("part", name_of_part(frame, frame.part_of[member]));
   const auto& start = frame.frame.pieces[member].frame;
-  if (part.is_open()) write_place("start", start.origin, start.rows, o);
+  if (part.is_open())
+    o.object("start", [&](Writer& f) { write_place(start.origin, start.rows, f); });
   if (!part.made) return;
   const auto& own = part.made->out.frame;
-  write_place("frame", start.origin + start.rows.transpose() * own.origin, own.rows * start.rows,
-              o);
+  o.object("frame", [&](Writer& f) {
+    write_place(start.origin + start.rows.transpose() * own.origin, own.rows * start.rows, f);
+  });
 }
 
 void add_ends(const FrameJob& frame, const MadeParts& made, std::size_t member,

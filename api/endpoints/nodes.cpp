@@ -5,6 +5,7 @@
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/endpoints/place_text.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
@@ -84,8 +85,6 @@ std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include
   return std::nullopt;
 }
 
-std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 void encode_placement(const joint::TubeCutter& tube, Writer& p) {
   p.degrees("inclination_deg", tube.inclination.rad());
   p.degrees("clocking_deg", tube.clocking.rad());
@@ -106,13 +105,6 @@ void encode_cut(const joint::NodeSpec& spec, const joint::CutBy& cut, Writer& w)
   w.field("gap_mm", cut.gap);
   w.field("eccentricity_mm", cut.eccentricity);
   w.field("ghost", cut.ghost);
-}
-
-void encode_frame(const joint::MemberFrame& frame, Writer& w) {
-  w.column("origin_mm", components(frame.origin));
-  w.column("x", components(frame.rows.row(0)));
-  w.column("y", components(frame.rows.row(1)));
-  w.column("z", components(frame.rows.row(2)));
 }
 
 struct Nodes {
@@ -215,7 +207,7 @@ struct Nodes {
     w.array("cut_by", end.cut_by, [&](Writer& each, const joint::CutBy& cut) {
       each.object([&](Writer& o) { encode_cut(spec.node, cut, o); });
     });
-    w.object("frame", [&](Writer& o) { encode_frame(end.frame, o); });
+    w.object("frame", [&](Writer& o) { write_place(end.frame.origin, end.frame.rows, o); });
     w.field("free", end.free);
     w.field("open", end.open);
     w.field("consumed", end.consumed);

@@ -10,6 +10,7 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/part_request.hpp"
+#include "api/endpoints/place_text.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
@@ -26,8 +27,6 @@ namespace {
 
 using part::Mark;
 using part::Step;
-
-std::vector<double> components(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Parts::Laser laser_of(const PartRequest& spec, const part::Part& p, const std::stop_token& stop) {
   return {.start = end_report(p.start.spec, p.start.table, false, stop),
@@ -163,10 +162,7 @@ std::vector<Measure> Parts::measure(const Spec& spec, const Out& out) {
 
 void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
   w.object("frame", [&](Writer& o) {
-    o.column("origin_mm", components(out.frame.origin));
-    o.column("x", components(out.frame.rows.row(0)));
-    o.column("y", components(out.frame.rows.row(1)));
-    o.column("z", components(out.frame.rows.row(2)));
+    write_place(out.frame.origin, out.frame.rows, o);
     o.field("in", spec.member ? "world" : "start");
   });
   w.object("ends", [&](Writer& ends) {
