@@ -4,6 +4,7 @@ streams to its end, and frees its slots when its client hangs up."""
 
 import http.client
 import json
+import socket
 import sys
 import time
 
@@ -88,6 +89,27 @@ def refusals(service):
     assert connection.getresponse().status == 406
 
 
+def seams(service):
+    """A client that takes no chunks, one that only asks whether the frame is sound, one with no time, and names that want escaping."""
+    body = TRUSS | {"members": [m | ({"id": '"<b>\\'} if m["id"] == "P0" else {}) for m in TRUSS["members"]]}
+    text = json.dumps(body).encode()
+    with socket.create_connection(("127.0.0.1", service.port), timeout=60) as sock:
+        sock.sendall(b"POST /v1/frames HTTP/1.0\r\nHost: localhost\r\nContent-Type: application/json\r\nAccept: application/x-ndjson\r\n"
+                     b"Content-Length: %d\r\n\r\n" % len(text) + text)
+        head, lines = b"".join(iter(lambda: sock.recv(1 << 16), b"")).split(b"\r\n\r\n", 1)
+    assert b"chunked" not in head, head
+    frame, *parts, last = [json.loads(line) for line in lines.splitlines()]
+    assert last["summary"]["answered"] == len(parts) == 4 and '"<b>\\' in {part["id"] for part in parts}, last
+    for query, headers, status in (("?validate_only=true", {}, 200), ("", {"Tubecut-Budget-Ms": "30"}, 504)):
+        connection = http.client.HTTPConnection("127.0.0.1", service.port, timeout=60)
+        asked = json.dumps(trusses(100) if status == 504 else body)
+        connection.request("POST", "/v1/frames" + query, asked, {"Content-Type": "application/json", "Accept": "application/x-ndjson", **headers})
+        reply = connection.getresponse()
+        answer = json.loads(reply.read())
+        assert reply.status == status and ("estimate" in answer) == (status == 200), (reply.status, list(answer))
+        connection.close()
+
+
 def hung_up(service):
     """Slots of a frame of 100 trusses whose client leaves after its first part."""
     connection, reply = begin(service, trusses(100))
@@ -105,6 +127,7 @@ def main():
     with Service(sys.argv[1], "--slots", "2") as service:
         count = same_parts(service)
         refusals(service)
+        seams(service)
         hung_up(service)
         frame, parts, summary = streamed(service, trusses(20))
         assert summary["answered"] == len(parts) == len(frame["result"]["cut_list"]) > 200, summary
