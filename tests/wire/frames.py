@@ -134,4 +134,5 @@ def main():
         print(f"{count} frames alike in lines and at once; {len(parts)} different parts in lines")
 
 
-main()
+if __name__ == "__main__":
+    main()
