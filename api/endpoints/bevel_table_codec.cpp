@@ -80,11 +80,6 @@ bevel::BevelRateLimits decode_swing(Reader& in) {
   return {};
 }
 
-struct Smoothing {
-  bevel::Smoothing method = bevel::NoSmoothing{};
-  Angle mutation_limit = Angle::deg(10);
-};
-
 bevel::EnvelopeSmoothing decode_envelope(Reader& in) {
   bevel::EnvelopeSmoothing out;
   bool by_machine = false;
@@ -122,20 +117,6 @@ bevel::HermiteSmoothing decode_hermite(Reader& in) {
   } else {
     out.transition_points = in.integer("transition_points", 2, 5'000);
   }
-  return out;
-}
-
-Smoothing decode_smoothing(Reader& in) {
-  using Decode = bevel::Smoothing (*)(Reader&);
-  static constexpr std::array kMethods{
-      Option<Decode>{"envelope", [](Reader& m) -> bevel::Smoothing { return decode_envelope(m); }},
-      Option<Decode>{"hermite", [](Reader& m) -> bevel::Smoothing { return decode_hermite(m); }},
-      Option<Decode>{"none", [](Reader&) -> bevel::Smoothing { return bevel::NoSmoothing{}; }}};
-  Smoothing out;
-  const auto method = in.tag("method", kMethods);
-  out.mutation_limit =
-      in.angle("mutation_limit_deg", {.min = 0.0, .max = 180.0, .open_min = true}, Angle::deg(10));
-  if (method) out.method = (*method)(in);
   return out;
 }
 
@@ -234,8 +215,22 @@ bevel::TorchRange decode_torch(Reader& in) {
   return out;
 }
 
+Smoothing decode_smoothing(Reader& in) {
+  using Decode = bevel::Smoothing (*)(Reader&);
+  static constexpr std::array kMethods{
+      Option<Decode>{"envelope", [](Reader& m) -> bevel::Smoothing { return decode_envelope(m); }},
+      Option<Decode>{"hermite", [](Reader& m) -> bevel::Smoothing { return decode_hermite(m); }},
+      Option<Decode>{"none", [](Reader&) -> bevel::Smoothing { return bevel::NoSmoothing{}; }}};
+  Smoothing out;
+  const auto method = in.tag("method", kMethods);
+  out.mutation_limit =
+      in.angle("mutation_limit_deg", {.min = 0.0, .max = 180.0, .open_min = true}, Angle::deg(10));
+  if (method) out.method = (*method)(in);
+  return out;
+}
+
 void decode_torch_and_kerf(Reader& in, Preset preset, bevel::TableSpec& out) {
-  out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
+  out.kerf = in.number("kerf_mm", kKerf);
   out.torch = in.defaulted_object("torch", decode_torch);
   if (preset == Preset::tube_laser) check_torch_reaches_square(in, out.torch);
 }

@@ -19,9 +19,18 @@ namespace tubecut::api {
 /// smoothing. What a preset chooses may be absent.
 void decode_table_options(Reader& in, Preset preset, bevel::TableSpec& out);
 
+inline constexpr Range kKerf{.min = 0.0, .max = 50.0};  // mm
+
 /// The rule of a groove; `zones`: that rule too.
 [[nodiscard]] bevel::GrooveRule decode_groove(Reader& in, bool zones);
 [[nodiscard]] bevel::TorchRange decode_torch(Reader& in);
+
+/// Its method and the mutation limit.
+struct Smoothing {
+  bevel::Smoothing method = bevel::NoSmoothing{};
+  Angle mutation_limit = Angle::deg(10);
+};
+[[nodiscard]] Smoothing decode_smoothing(Reader& in);
 
 /// The members of a table's `result`.
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
@@ -44,8 +53,8 @@ inline constexpr std::array<CheckLimit, 15> kTableChecks{{
     {"left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
 }};
 
-/// A bevel table asked for by its joint, given directly or as an end of a node; `resolve` fills in
-/// target and partners.
+/// A bevel table asked for by its joint, given directly or as an end of a node; `resolve` fills
+/// in target and partners.
 struct BevelTableRequest : bevel::TableSpec {
   JointSource source;
   Preset preset = Preset::none;

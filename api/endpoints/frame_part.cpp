@@ -86,7 +86,10 @@ struct Names {
 class PartWriter {
  public:
   PartWriter(const FrameRequest& request, const frame::Frame& frame)
-      : request_(request), frame_(frame) {}
+      : request_(request), frame_(frame) {
+    for (std::size_t i = 0; i < request.ends.size(); ++i)
+      own_ends_.emplace(std::pair{request.ends[i].member, request.ends[i].end}, i);
+  }
 
   [[nodiscard]] Result<Json> part(std::size_t member, const Names& names) const {
     const auto& piece = frame_.pieces[member];
@@ -94,8 +97,8 @@ class PartWriter {
                         {"wall_mm", Json{piece.target.wall}},
                         {"length_mm", mm(*piece.target.length)}};
     if (names.ids) target.emplace(target.begin(), "id", Json{names.of_members[member]});
-    TRY(auto start, end(piece.start, names));
-    TRY(auto finish, end(piece.finish, names));
+    TRY(auto start, end(member, joint::End::start, names));
+    TRY(auto finish, end(member, joint::End::finish, names));
     Json::Object out{
         {"target", Json{std::move(target)}},
         {"ends", Json{Json::Object{{"start", std::move(start)}, {"finish", std::move(finish)}}}}};
@@ -109,38 +112,81 @@ class PartWriter {
   }
 
  private:
-  [[nodiscard]] const JointCut* said(std::size_t joint) const {
+  [[nodiscard]] const OwnCut* said(std::size_t joint) const {
     const auto& stated = frame_.joints[joint].stated;
     return stated ? &request_.cuts[*stated] : nullptr;
   }
 
-  /// How an end is cut: the defaults, and what its joints say instead.
-  [[nodiscard]] Result<Json::Object> cut(const std::vector<frame::Cutter>& cutters) const {
-    auto out = request_.end;
-    for (const auto& [field, of] : {std::pair{"groove", &JointCut::groove},
-                                    {"contact", &JointCut::contact},
-                                    {"root_face_mm", &JointCut::root_face}}) {
-      const Json* first = nullptr;
-      for (const auto& one : cutters) {
-        const auto* own = said(one.joint);
-        const bool on_hole = field == std::string_view("groove") &&
-                             frame_.joints[one.joint].how.kind == frame::JointKind::set_in;
-        if (own == nullptr || own->*of == Json{} || on_hole) continue;
-        if (first != nullptr && !(*first == own->*of))
-          return fail(
-              {.code = ErrorCode::joint_contradicts,
-               .member = "joints/" + std::to_string(*frame_.joints[one.joint].stated) + "/" + field,
-               .hint = "another joint of this end states it otherwise"});
-        first = &(own->*of);
-      }
-      for (auto& [name, value] : out)
-        if (first != nullptr && name == field) value = *first;
+  [[nodiscard]] const std::vector<frame::Cutter>& cutters(std::size_t member,
+                                                          joint::End end) const {
+    const auto& piece = frame_.pieces[member];
+    return end == joint::End::start ? piece.start : piece.finish;
+  }
+
+  /// What the joints of an end say of a field; null where none does.
+  [[nodiscard]] Result<Json> said_of(const std::vector<frame::Cutter>& cutters, const char* field,
+                                     Json OwnCut::*of) const {
+    const Json* first = nullptr;
+    for (const auto& one : cutters) {
+      const auto* own = said(one.joint);
+      const bool on_hole =
+          of == &OwnCut::groove && frame_.joints[one.joint].how.kind == frame::JointKind::set_in;
+      if (own == nullptr || own->*of == Json{} || on_hole) continue;
+      if (first != nullptr && !(*first == own->*of))
+        return fail(
+            {.code = ErrorCode::joint_contradicts,
+             .member = "joints/" + std::to_string(*frame_.joints[one.joint].stated) + "/" + field,
+             .hint = "another joint of this end states it otherwise"});
+      first = &(own->*of);
     }
+    return first == nullptr ? Json{} : *first;
+  }
+
+  /// How an end is cut: what it says itself, else what its joints say, else the defaults.
+  [[nodiscard]] Result<Json::Object> cut(std::size_t member, joint::End end) const {
+    auto out = request_.end;
+    const auto own = own_ends_.find({member, end});
+    for (const auto& [field, of] : {std::pair{"groove", &OwnCut::groove},
+                                    {"contact", &OwnCut::contact},
+                                    {"root_face_mm", &OwnCut::root_face},
+                                    {"smoothing", &OwnCut::smoothing}}) {
+      auto value = own == own_ends_.end() ? Json{} : request_.ends[own->second].cut.*of;
+      if (value == Json{}) {
+        TRY(value, said_of(cutters(member, end), field, of));
+      }
+      if (value == Json{}) continue;
+      std::ranges::find(out, field, &Json::Member::first)->second = std::move(value);
+    }
+    if (const auto kerf = own_kerf(own); !(kerf == Json{})) out.emplace_back("kerf_mm", kerf);
     return out;
   }
 
-  [[nodiscard]] Result<Json> end(const std::vector<frame::Cutter>& all, const Names& names) const {
-    if (all.empty()) return Json{Json::Object{{"square_at_mm", Json{0.0}}}};
+  using OwnEnds = std::map<std::pair<std::size_t, joint::End>, std::size_t>;
+  [[nodiscard]] Json own_kerf(OwnEnds::const_iterator own) const {
+    return own == own_ends_.end() ? Json{} : request_.ends[own->second].cut.kerf;
+  }
+
+  /// Left square: its kerf is all there is to say.
+  [[nodiscard]] Result<Json> square_end(std::size_t member, joint::End end) const {
+    Json::Object out{{"square_at_mm", Json{0.0}}};
+    const auto own = own_ends_.find({member, end});
+    if (own == own_ends_.end()) return Json{std::move(out)};
+    const auto& cut = request_.ends[own->second].cut;
+    for (const auto& [field, value] : {std::pair{"groove", &cut.groove},
+                                       {"contact", &cut.contact},
+                                       {"root_face_mm", &cut.root_face},
+                                       {"smoothing", &cut.smoothing}})
+      if (!(*value == Json{}))
+        return fail({.code = ErrorCode::unsupported_combination,
+                     .member = "ends/" + std::to_string(own->second) + "/" + field,
+                     .hint = "nothing is joined to this end: it is left square"});
+    if (!(cut.kerf == Json{})) out.emplace_back("kerf_mm", cut.kerf);
+    return Json{std::move(out)};
+  }
+
+  [[nodiscard]] Result<Json> end(std::size_t member, joint::End which, const Names& names) const {
+    const auto& all = cutters(member, which);
+    if (all.empty()) return square_end(member, which);
     Json::Array cutters, joints;
     for (std::size_t i = 0; i < all.size(); ++i) {
       auto fields = joint::by_kind(all[i].partner, Fields{});
@@ -151,7 +197,7 @@ class PartWriter {
       if (all[i].stated) joints.push_back(joint(i, *all[i].stated));
     }
     Json::Object out{{"cutters", Json{std::move(cutters)}}, {"joints", Json{std::move(joints)}}};
-    TRY(auto how, cut(all));
+    TRY(auto how, cut(member, which));
     for (auto& one : how) out.push_back(std::move(one));
     return Json{std::move(out)};
   }
@@ -205,10 +251,9 @@ class PartWriter {
 
   /// Set on: that of the branch's end.
   [[nodiscard]] Result<Json> hole_groove(const frame::Hole& hole) const {
-    const auto& piece = frame_.pieces[hole.member];
     const auto* own = said(hole.joint);
     if (frame_.joints[hole.joint].how.kind == frame::JointKind::set_on) {
-      TRY(const auto end, cut(hole.end == joint::End::start ? piece.start : piece.finish));
+      TRY(const auto end, cut(hole.member, hole.end));
       for (const auto& [name, value] : end)
         if (name == "groove") return value;
     }
@@ -220,6 +265,7 @@ class PartWriter {
 
   const FrameRequest& request_;
   const frame::Frame& frame_;
+  OwnEnds own_ends_;
 };
 
 /// Members whose requests without ids are alike, by the text.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
@@ -121,18 +122,18 @@ bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
   });
 }
 
-JointCut decode_joint_cut(Reader& in, const How& how, bevel::TableSpec cut) {
-  for (const auto* name : {"groove", "root_face_mm", "contact", "tilt"}) in.note(name);
-  JointCut out;
-  const auto echoed = [&](const char* name) {
-    for (const auto& [field, value] : in.echo())
-      if (field == name) return value;
-    return Json{};
-  };
+Json echoed(Reader& in, std::string_view name) {
+  for (const auto& [field, value] : in.echo())
+    if (field == name) return value;
+  return {};
+}
+
+/// What a joint or an end says instead of `cut`, which stands where it says nothing.
+OwnCut decode_own_cut(Reader& in, bevel::TableSpec& cut) {
+  for (const auto* name : {"groove", "root_face_mm", "contact"}) in.note(name);
   const bool again = in.has("contact") || in.has("root_face_mm");
   if (in.has("groove"))
     cut.groove = in.object("groove", [](Reader& g) { return decode_groove(g, true); });
-  check_hole_groove(in, how, cut.groove, "groove");
   if (in.has("root_face_mm"))
     cut.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm});
   if (in.has("contact")) cut.contact = in.choice("contact", kNames<bevel::Contact>);
@@ -142,12 +143,49 @@ JointCut decode_joint_cut(Reader& in, const How& how, bevel::TableSpec cut) {
     check_combination(cut, in);
     check_root_face(in, cut);
   }
+  return {
+      .groove = echoed(in, "groove"),
+      .contact = echoed(in, "contact"),
+      .root_face = echoed(in, "root_face_mm"),
+  };
+}
+
+OwnCut decode_joint_cut(Reader& in, const How& how, bevel::TableSpec cut) {
+  auto out = decode_own_cut(in, cut);
+  check_hole_groove(in, how, cut.groove, "groove");
+  in.note("tilt");
   if (in.has("tilt")) (void)in.choice("tilt", kNames<bevel::Tilt>);
-  out.groove = echoed("groove");
-  out.contact = echoed("contact");
-  out.root_face = echoed("root_face_mm");
-  out.tilt = echoed("tilt");
+  out.tilt = echoed(in, "tilt");
   return out;
+}
+
+/// One of `ends`.
+OwnEnd decode_own_end(Reader& in, const NamedMembers& members, bevel::TableSpec cut) {
+  OwnEnd out{.member = known_member(in, members.ids, in.text("member"), "member"),
+             .end = in.choice("end", kNames<joint::End>)};
+  out.cut = decode_own_cut(in, cut);
+  for (const auto* name : {"smoothing", "kerf_mm"}) in.note(name);
+  if (in.has("smoothing")) (void)in.object("smoothing", decode_smoothing);
+  if (in.has("kerf_mm")) (void)in.number("kerf_mm", kKerf);
+  out.cut.smoothing = echoed(in, "smoothing");
+  out.cut.kerf = echoed(in, "kerf_mm");
+  return out;
+}
+
+void decode_own_ends(Reader& in, const NamedMembers& members, const bevel::TableSpec& cut,
+                     FrameRequest& out) {
+  in.note("ends");
+  if (!in.has("ends")) return;
+  std::set<std::pair<std::size_t, joint::End>> said;
+  out.ends = in.array("ends", {.min = 0, .max = kMostJoints}, [&](Reader& e) {
+    auto own = decode_own_end(e, members, cut);
+    if (!e.refused() && !said.emplace(own.member, own.end).second)
+      e.issue({.code = ErrorCode::duplicate_id,
+               .pointer = "end",
+               .hint = "how this end is cut is said already"},
+              e.find("end"));
+    return own;
+  });
 }
 
 /// The two of `between`, the member first.
@@ -229,7 +267,7 @@ FrameRequest decode_frame_request(Reader& in) {
   if (in.has("others"))
     others = in.array("others", {.min = 0, .max = kMostOthers}, decode_world_cutter);
   const auto places = places_of(in, members, others);
-  out.spec.members = std::move(members.members);
+  out.spec.members = members.members;
   for (auto& one : others) out.spec.others.push_back({std::move(one.partner), std::move(one.name)});
   if (const auto within =
           in.optional_object("connect", [](Reader& c) { return c.number("within_mm", kDistance); }))
@@ -241,6 +279,7 @@ FrameRequest decode_frame_request(Reader& in) {
       decode_joint(j, places, cut, out);
       return 0;
     });
+  decode_own_ends(in, members, cut, out);
   decode_once(in, out);
   return out;
 }

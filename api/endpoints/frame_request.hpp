@@ -11,18 +11,28 @@
 
 namespace tubecut::api {
 
-/// What a stated joint says of its cuts beside `defaults`; null where it says nothing.
-struct JointCut {
-  Json groove = {}, contact = {}, root_face = {}, tilt = {};
+/// What a stated joint or an end says of its cuts beside `defaults`; null where it says nothing.
+struct OwnCut {
+  Json groove = {}, contact = {}, root_face = {};
+  Json tilt = {};                  // of a joint
+  Json smoothing = {}, kerf = {};  // of an end
+};
+
+/// How one end is cut, whatever its joints and the defaults say.
+struct OwnEnd {
+  std::size_t member = 0;
+  joint::End end = joint::End::start;
+  OwnCut cut = {};
 };
 
 /// A /v1/frames request.
 struct FrameRequest {
   frame::FrameSpec spec;
-  Json::Object end;            // how an end is cut by default, as a part's end says it
-  Json tilt;                   // of a hole by default
-  std::vector<JointCut> cuts;  // of each stated joint
-  Json::Object once;           // what every part has once: kerf, torch, sampling and the like
+  Json::Object end;          // how an end is cut by default, as a part's end says it
+  Json tilt;                 // of a hole by default
+  std::vector<OwnCut> cuts;  // of each stated joint
+  std::vector<OwnEnd> ends;  // each end once
+  Json::Object once;         // what every part has once: kerf, torch, sampling and the like
 };
 
 [[nodiscard]] FrameRequest decode_frame_request(Reader& in);
@@ -35,7 +45,8 @@ struct FramePart {
 };
 
 /// The part of every member, each made once: members that differ by nothing a part shows are one.
-/// Errors  joint_contradicts (joints/i/...: two joints of one end ask for other cuts), cancelled.
+/// Errors  joint_contradicts (joints/i/...: two joints of one end ask for other cuts),
+///         unsupported_combination (ends/i/...: the end is left square), cancelled.
 [[nodiscard]] Result<std::vector<FramePart>> parts_of(const FrameRequest& request,
                                                       const frame::Frame& frame,
                                                       const std::stop_token& stop);

@@ -168,23 +168,27 @@ void decode_end_joints(Reader& in, bevel::TableSpec& out) {
 
 part::EndSpec decode_end(Reader& in, Preset preset, const bevel::TableSpec& once) {
   const auto which = in.exactly_one({"cutters", "square_at_mm"});
-  if (which == 1) return part::square_end(once, in.number("square_at_mm", kOffset));
   if (!which) {
     in.silence();
     return {};
   }
   part::EndSpec out{.cut = once};
+  if (const auto own = in.optional_number("kerf_mm", kKerf)) out.cut.kerf = *own;
+  if (which == 1) return part::square_end(out.cut, in.number("square_at_mm", kOffset));
   out.cut.partners = decode_cutters(in);
   decode_end_joints(in, out.cut);
   decode_cut(in, false, preset, out.cut);
   return out;
 }
 
-void decode_ends(Reader& in, Preset preset, const bevel::TableSpec& once, part::PartSpec& out) {
+void decode_ends(Reader& in, const bevel::TableSpec& once, PartRequest& out) {
   in.object("ends", [&](Reader& ends) {
-    const auto end = [&](Reader& e) { return decode_end(e, preset, once); };
-    out.start = ends.object("start", end);
-    out.finish = ends.object("finish", end);
+    const auto end = [&](Reader& e, bool& own_kerf) {
+      own_kerf = e.has("kerf_mm");
+      return decode_end(e, out.preset, once);
+    };
+    out.part.start = ends.object("start", [&](Reader& e) { return end(e, out.start_kerf); });
+    out.part.finish = ends.object("finish", [&](Reader& e) { return end(e, out.finish_kerf); });
     return 0;
   });
 }
@@ -219,7 +223,7 @@ void decode_direct(Reader& in, PartRequest& out) {
   bevel::TableSpec once;
   once.target = p.target;
   decode_once(in, out.preset, once);
-  decode_ends(in, out.preset, once, p);
+  decode_ends(in, once, out);
   p.partners = decode_marks(in);
   in.note("holes");
   if (!in.has("holes")) return;
@@ -268,7 +272,8 @@ std::string renamed(const PartRequest& r, const std::string& member) {
   }
   const bool start = takes(path, "start/");
   if (!start && !takes(path, "finish/")) return member;
-  if (of_the_whole(path)) return std::string(path);
+  const bool own_kerf = path.starts_with("kerf") && (start ? r.start_kerf : r.finish_kerf);
+  if (of_the_whole(path) && !own_kerf) return std::string(path);
   if (path.starts_with("target")) return r.member ? of(r.member->member) : std::string(path);
   if (!r.member) return (start ? "ends/start/" : "ends/finish/") + std::string(path);
   if (path == "cutters") return of(r.member->member);

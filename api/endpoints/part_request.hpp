@@ -18,6 +18,7 @@ struct PartRequest {
   std::optional<part::MemberSpec> member = {};  // of a node
   part::Datum datum = part::Datum::up;          // of a part given directly
   Angle seam = {};
+  bool start_kerf = false, finish_kerf = false;  // an end has one of its own
   [[nodiscard]] bool seam_known() const {
     return (member ? member->datum : datum) == part::Datum::seam;
   }

@@ -82,8 +82,13 @@ struct Straightness {
 /// The same path with nodes between its nodes where a move of all axes would sag.
 TorchPath refined(const TorchPath& path, const TorchReach& reach, const std::stop_token& stop,
                   Straightness& told) {
-  TorchPath out{
-      .name = path.name, .phi = {}, .z = {}, .b = {}, .scrap = path.scrap, .room = path.room};
+  TorchPath out{.name = path.name,
+                .phi = {},
+                .z = {},
+                .b = {},
+                .scrap = path.scrap,
+                .room = path.room,
+                .kerf = path.kerf};
   append(out, place(path, 0));
   for (std::size_t i = 1; i < path.phi.size(); ++i) {
     ask(stop);
@@ -99,13 +104,23 @@ TorchPath refined(const TorchPath& path, const TorchReach& reach, const std::sto
   return out;
 }
 
+/// One for all cuts, or each in their order.
+std::string kerfs(const TorchJob& job) {
+  const double first = job.cuts.front().kerf;
+  std::string out = fixed(first, 3);
+  if (std::ranges::all_of(job.cuts, [&](const TorchPath& cut) { return cut.kerf == first; }))
+    return out;
+  for (std::size_t i = 1; i < job.cuts.size(); ++i) out += ", " + fixed(job.cuts[i].kerf, 3);
+  return out;
+}
+
 std::string header(const TorchJob& job, const Joints& joints, const Straightness& moves,
                    const Caption& caption) {
   const auto& o = caption.options;
   std::string out = gcode_job(caption);
   out += gcode_comment("tube " + fixed(2.0 * job.outer_radius, 3) + " x " + fixed(job.wall, 3) +
                        " mm") +
-         gcode_comment("tool: torch, kerf " + fixed(job.kerf, 3) + " mm, applied to the path") +
+         gcode_comment("tool: torch, kerf " + kerfs(job) + " mm, applied to the path") +
          gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
          gcode_comment(
              "B swings the torch in the axial plane, positive: outer edge towards +z, "
@@ -188,14 +203,18 @@ std::string print_cut(const TorchJob& job, const TorchPath& path, const Joints& 
   return out + "G94\n" + torch.off;
 }
 
-TorchPath hole_path(const joint::Target& chord, const bevel::Hole& hole, std::string name) {
-  TorchPath out{.name = std::move(name), .phi = hole.torch_phi, .z = hole.torch_z, .b = hole.b};
+TorchPath hole_path(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::string name) {
+  TorchPath out{.name = std::move(name),
+                .phi = hole.torch_phi,
+                .z = hole.torch_z,
+                .b = hole.b,
+                .kerf = spec.kerf};
   if (std::ranges::any_of(hole.a, [](double a) { return a != 0.0; })) out.a = hole.a;
   for (auto* column : {&out.phi, &out.z, &out.b, &out.a})
     if (!column->empty()) column->push_back(column->front());
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   const auto at = [&](std::size_t i) {
-    return Eigen::Vector2d{chord.outer_radius * hole.torch_phi[i], hole.torch_z[i]};
+    return Eigen::Vector2d{spec.chord.outer_radius * hole.torch_phi[i], hole.torch_z[i]};
   };
   for (std::size_t i = 0; i < hole.torch_phi.size(); ++i) middle += at(i);
   middle /= static_cast<double>(hole.torch_phi.size());
@@ -245,20 +264,21 @@ TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table) {
     swing.torch_outer[i] = elementary::tan(table.b[i]);
   auto b = developed(spec, swing).cuts.front().torch.z;
   for (auto& each : b) each = elementary::atan(each);
-  return {.name = {}, .phi = std::move(torch.phi), .z = std::move(torch.z), .b = std::move(b)};
+  return {.name = {},
+          .phi = std::move(torch.phi),
+          .z = std::move(torch.z),
+          .b = std::move(b),
+          .kerf = spec.kerf};
 }
 
 TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table) {
   return {.outer_radius = spec.target.outer_radius,
           .wall = spec.target.wall,
-          .kerf = spec.kerf,
           .cuts = {torch_path(spec, table)}};
 }
 
 TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
-  TorchJob out{.outer_radius = spec.target.outer_radius,
-               .wall = spec.target.wall,
-               .kerf = part.start.spec.kerf};
+  TorchJob out{.outer_radius = spec.target.outer_radius, .wall = spec.target.wall};
   for (const auto& step : part.sequence) {
     if (step.what == part::Step::What::mark) {
       out.remarks.push_back(remark(part.marks[step.index]));
@@ -266,7 +286,7 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
       const auto& hole = part.holes[step.index];
       const auto& branch = spec.holes[hole.asked].name;
       out.cuts.push_back(hole_path(
-          spec.target, hole.hole,
+          spec.holes[hole.asked].hole, hole.hole,
           "hole " + std::to_string(step.index) + (branch.empty() ? "" : " for " + branch)));
     } else {
       const bool finish = step.what == part::Step::What::finish;

@@ -21,6 +21,7 @@ struct TorchPath {
   // Where the scrap is from the first point, on the developed surface, and how far it reaches.
   Eigen::Vector2d scrap{0.0, -1.0};
   double room = std::numeric_limits<double>::infinity();
+  double kerf = 0.0;  // it stands off the finished edge by half of it
 };
 [[nodiscard]] TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table);
 
@@ -28,7 +29,6 @@ struct TorchPath {
 struct TorchJob {
   double outer_radius = 0.0;
   double wall = 0.0;
-  double kerf = 0.0;
   std::vector<TorchPath> cuts = {};
   std::vector<std::string> remarks = {};  // comment lines of the header
 };

@@ -258,6 +258,7 @@ TEST(Frames, AMemberThatCannotBeCutSpoilsNoOther) {
   EXPECT_EQ(at(alone.body, "errors"), at(part, "problem/errors"));
   EXPECT_EQ(number(frame.body, "result/totals/made"), 18.0);
   EXPECT_EQ(text(frame.body, "verdict/status"), "review");
+  EXPECT_EQ(text(of_id(frame.body, "warnings", "code", "no_part"), "pointer"), "/members/2");
 }
 
 // So nearly parallel that the axes meet beyond what a part may be told: the part is refused, not
@@ -304,6 +305,56 @@ TEST(Frames, EveryFieldIsChecked) {
       "out_of_range /joints/2/depth_mm");
   EXPECT_EQ(refused("joints/2", R"({"between": ["branch", "run 1"], "kind": "butt"})"),
             "joint_contradicts /joints/2/kind");
+}
+
+/// A part's request within a frame's answer.
+const Json& request_of(const Json& frame, std::string_view part) {
+  return at(of_id(frame, "parts", "part", part), "answer/request");
+}
+
+// What an end says of itself goes before its joint and the defaults, there alone.
+TEST(Frames, AnEndIsCutAsItSays) {
+  auto spool = example("frames/pipe-spool.json");
+  const auto own = *api::parse(R"([
+    {"member": "branch", "end": "start", "groove": {"rule": "none"}, "contact": "auto", "kerf_mm": 2.5},
+    {"member": "branch", "end": "finish", "kerf_mm": 4}])");
+  const auto before = asked(spool), after = asked(with(spool, "ends", own));
+  for (const auto& part : list(before.body, "parts")) {
+    const auto name = std::string(text(part, "part"));
+    if (name == "branch" || name == "run 1") continue;
+    EXPECT_EQ(request_of(before.body, name), request_of(after.body, name)) << name;
+  }
+  auto expected = request_of(before.body, "branch");
+  expected = with(expected, "ends/start/groove", at(own, "0/groove"));
+  expected = with(expected, "ends/start/contact", at(own, "0/contact"));
+  expected = with(expected, "ends/start/kerf_mm", Json{2.5});
+  expected = with(expected, "ends/finish/kerf_mm", Json{4.0});
+  const auto alone = post("/v1/parts", expected);
+  ASSERT_FALSE(alone.outcome.error) << alone.outcome.body.substr(0, 500);
+  EXPECT_EQ(at(alone.body, "result"),
+            at(of_id(after.body, "parts", "part", "branch"), "answer/result"));
+  // Of a set-on branch the hole's edge goes with its groove.
+  EXPECT_EQ(at(request_of(after.body, "run 1"), "holes/0/groove"), at(own, "0/groove"));
+}
+
+TEST(Frames, EndsAreChecked) {
+  const auto spool = example("frames/pipe-spool.json");
+  const auto refused = [&](const char* ends) {
+    return first_problem(with(spool, "ends", *api::parse(ends)));
+  };
+  EXPECT_EQ(refused(R"([{"member": "run 3", "end": "start"}])"), "bad_choice /ends/0/member");
+  EXPECT_EQ(refused(R"([{"member": "run 1", "end": "top"}])"), "bad_choice /ends/0/end");
+  EXPECT_EQ(refused(R"([{"member": "branch", "end": "start", "kerf_mm": 51}])"),
+            "out_of_range /ends/0/kerf_mm");
+  EXPECT_EQ(refused(R"([{"member": "branch", "end": "start", "tilt": "free"}])"),
+            "unknown_field /ends/0/tilt");
+  EXPECT_EQ(
+      refused(R"([{"member": "branch", "end": "start"}, {"member": "branch", "end": "start"}])"),
+      "duplicate_id /ends/1/end");
+  EXPECT_EQ(refused(R"([{"member": "branch", "end": "finish", "groove": {"rule": "none"}}])"),
+            "unsupported_combination /ends/0/groove");
+  EXPECT_EQ(refused(R"([{"member": "branch", "end": "start", "smoothing": {"method": "soft"}}])"),
+            "bad_choice /ends/0/smoothing/method");
 }
 
 TEST(Frames, LimitsHoldForEveryPart) {

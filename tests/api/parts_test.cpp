@@ -386,5 +386,26 @@ TEST(Parts, WhatCannotBeCutNamesTheField) {
             "torch_range");
 }
 
+// A square end's kerf lies wholly beyond it: the blank is longer by what the kerf is wider.
+TEST(Parts, AnEndHasAKerfOfItsOwn) {
+  auto request =
+      *api::parse(R"({"target": {"outer_diameter_mm": 60.3, "wall_mm": 4, "length_mm": 500},
+    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "kerf_mm": 1})");
+  const auto blank = [&](double start, double finish) {
+    auto one = with(request, "ends/start/kerf_mm", Json{start});
+    one = with(one, "ends/finish/kerf_mm", Json{finish});
+    const auto answer = post("/v1/parts", one);
+    EXPECT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 500);
+    EXPECT_EQ(at(answer.body, "request/ends/start/kerf_mm"), Json{start});
+    return number(answer.body, "result/lengths/blank_mm");
+  };
+  EXPECT_NEAR(blank(3, 1) - blank(1, 1), 2.0, 1e-9);
+  EXPECT_NEAR(blank(3, 2.5) - blank(1, 1), 3.5, 1e-9);
+  EXPECT_EQ(blank(1, 1), number(post("/v1/parts", request).body, "result/lengths/blank_mm"));
+  const auto body = api::dump(with(request, "ends/start/kerf_mm", Json{3.0}));
+  const auto program = post("/v1/parts", std::string_view(body), "format=gcode&speed_mm_min=600");
+  EXPECT_NE(program.outcome.body.find("kerf 1.000, 3.000 mm"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tubecut::testing
