@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -8,6 +9,20 @@
 #include <vector>
 
 namespace tubecut::api {
+
+struct Json;
+
+/// A file of each part within a bundle, and the part's format that it is in.
+struct BundleFile {
+  std::string_view name;  // in ?files=
+  std::string_view format;
+  std::string_view ending;
+  bool needs_speed = false;  // and what else gcode reads
+};
+inline constexpr std::string_view kFilesOption = "files";
+inline constexpr BundleFile kBundleFiles[] = {
+    {"work-order", "svg", ".svg"}, {"nc1", "nc1", ".nc1"}, {"dxf", "dxf", ".dxf"},
+    {"step", "step", ".step"},     {"csv", "csv", ".csv"}, {"gcode", "gcode", ".ngc", true}};
 
 /// The dialect of a G-code program.
 enum class Dialect { linuxcnc, qtplasmac };
@@ -22,6 +37,7 @@ struct FormatOptions {
   std::optional<double> speed = {};         // mm/min, of the torch on the outer wall
   double lead = 0.0;                        // straight run-in and run-out on the scrap side
   std::optional<double> pivot_length = {};  // torch pivot to tip; empty: the control knows the tip
+  std::vector<BundleFile> files = {};       // of each part, in a bundle
 };
 
 /// What is to be thought of an answer; verdict.hpp makes it and says it.
@@ -44,7 +60,8 @@ struct Caption {
   std::string result_sha256;
   std::string view;  // ?view=, empty: the format's default
   FormatOptions options = {};
-  Verdict verdict = {};  // stands in the head of every file: verdict_lines
+  Verdict verdict = {};           // stands in the head of every file: verdict_lines
+  const Json* request = nullptr;  // as understood
   std::stop_token stop = {};
 };
 
@@ -76,6 +93,10 @@ struct FormatName {
   std::vector<std::string_view> options = {};
   bool needs_speed = false;
   bool machine = false;
+
+  [[nodiscard]] bool is_bundle() const {
+    return std::ranges::find(options, kFilesOption) != options.end();
+  }
 };
 
 }  // namespace tubecut::api

@@ -64,9 +64,18 @@ bool has(const std::vector<std::string_view>& all, std::string_view one) {
   return std::ranges::find(all, one) != all.end();
 }
 
+/// A bundle is asked what the files in it ask.
+FormatName as_asked(FormatName format, const Query& query) {
+  if (!format.is_bundle()) return format;
+  format.needs_speed = std::ranges::any_of(query.options.files, &BundleFile::needs_speed);
+  if (!format.needs_speed) format.options = {kFilesOption};
+  return format;
+}
+
 /// Why the answer cannot be printed as asked; nothing when it can. JSON and CBOR have no options.
 std::optional<Problem> format_problem(const Query& query, const FormatName* chosen) {
-  const auto format = chosen != nullptr ? *chosen : FormatName{.name = "json", .media = kJsonMedia};
+  const auto format = chosen != nullptr ? as_asked(*chosen, query)
+                                        : FormatName{.name = "json", .media = kJsonMedia};
   const std::string name(format.name);
   std::vector<FieldIssue> issues;
   for (const auto& [option, value] : query.given)

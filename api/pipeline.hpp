@@ -1,7 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,28 +17,43 @@
 
 namespace tubecut::api {
 
-/// Prints the format that was asked for into the answer's text, or says why it may not be cut from
-/// cannot spell a name, or has no use for an option.
+/// The formats of an endpoint without their types.
 template <class E>
-std::optional<Problem> print_document(const typename E::Spec& spec, const typename E::Out& out,
-                                      Run& run, Answer& answer) {
-  if (auto refused = refuse_to_cut(answer.verdict, *run.format, run.caption.options))
-    return refused;
-  run.caption.input_sha256 = answer.input_sha256;
-  run.caption.result_sha256 = answer.result_sha256;
-  run.caption.stop = run.stop;
-  run.caption.verdict = answer.verdict;
+std::span<const FormatName> format_names() {
+  static const auto names = [] {
+    std::vector<FormatName> list;
+    for (const auto& format : E::formats())
+      list.push_back({format.name, format.media, format.views, format.options, format.needs_speed,
+                      format.machine});
+    return list;
+  }();
+  return names;
+}
+
+/// An answer as a document. Of `caption` are read what a request says: reference, view, options and
+/// stop. Nothing may be cut from it, a name cannot be spelled, or an option has no use: a problem.
+template <class E>
+tl::expected<std::string, Problem> print_document(const typename E::Spec& spec,
+                                                  const typename E::Out& out,
+                                                  const FormatName& name, Caption caption,
+                                                  const Answer& answer) {
+  if (auto refused = refuse_to_cut(answer.verdict, name, caption.options))
+    return tl::unexpected(*std::move(refused));
+  caption.input_sha256 = answer.input_sha256;
+  caption.result_sha256 = answer.result_sha256;
+  caption.verdict = answer.verdict;
+  caption.request = &answer.request;
   try {
     for (const auto& format : E::formats())
-      if (format.name == run.format->name) answer.text = format.print(spec, out, run.caption);
+      if (format.name == name.name) return format.print(spec, out, caption);
   } catch (const Unspellable& met) {
-    return unspellable_problem(met, *run.format, run.caption.reference, answer.request);
+    return tl::unexpected(unspellable_problem(met, name, caption.reference, answer.request));
   } catch (const UnfitOption& met) {
-    return field_problem({{.code = ErrorCode::unsupported_combination,
-                           .pointer = "?" + std::string(met.name),
-                           .hint = met.hint}});
+    return tl::unexpected(field_problem({{.code = ErrorCode::unsupported_combination,
+                                          .pointer = "?" + std::string(met.name),
+                                          .hint = met.hint}}));
   }
-  return std::nullopt;
+  throw std::logic_error("a format that the endpoint does not have");
 }
 
 /// The one pipeline. An endpoint `E` plugs in:
@@ -73,9 +89,13 @@ Reply run(Reader& in, Run& run) {
   answer.result_sha256 = run.format == nullptr && run.encoding == Encoding::json
                              ? sha256(answer.result, run.stop)
                              : made->hashed(run.stop);
-  if (run.format != nullptr)
-    if (auto refused = print_document<E>(made->spec, made->out, run, answer))
-      return *std::move(refused);
+  if (run.format != nullptr) {
+    run.caption.stop = run.stop;
+    auto text =
+        print_document<E>(made->spec, made->out, *run.format, std::move(run.caption), answer);
+    if (!text) return std::move(text).error();
+    answer.text = *std::move(text);
+  }
   run.stage("encode");
   auto reply = std::move(answer);
   if constexpr (requires { E::lines(made->spec, run.stop); })
@@ -89,19 +109,12 @@ Reply run(Reader& in, Run& run) {
 
 template <class E>
 Endpoint endpoint() {
-  static const auto names = [] {
-    std::vector<FormatName> list;
-    for (const auto& format : E::formats())
-      list.push_back({format.name, format.media, format.views, format.options, format.needs_speed,
-                      format.machine});
-    return list;
-  }();
   return {.id = E::kId,
           .path = E::kPath,
           .max_body = E::kMaxBody,
           .budget_s = E::kBudgetS,
           .handle = &run<E>,
-          .formats = names,
+          .formats = format_names<E>(),
           .accepts = E::kAccepts,
           .checks = E::kChecks};
 }

@@ -69,18 +69,50 @@ Json::Object members(std::string_view text, std::vector<FieldIssue>& issues) {
   return out;
 }
 
-/// "free_end,standoff": codes between commas. Which are meant is judged when the answer is there.
-std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
-  constexpr std::size_t kLongest = 1'000;
-  const auto text = in.optional_text("acknowledge", kLongest);
-  if (!text) return {};
+std::vector<std::string> between_commas(std::string_view text) {
   std::vector<std::string> out(1);
-  for (const char c : *text) {
+  for (const char c : text) {
     if (c == ',')
       out.emplace_back();
     else
       out.back() += c;
   }
+  return out;
+}
+
+/// "nc1,step": files of a bundle, each once; the first five where nothing is said.
+std::vector<BundleFile> read_files(Reader& in) {
+  constexpr std::size_t kLongest = 100;
+  const auto text = in.optional_text("files", kLongest);
+  std::vector<BundleFile> out;
+  std::string list;
+  for (const auto& file : kBundleFiles) {
+    list += (list.empty() ? "" : ", ") + std::string(file.name);
+    if (!text && !file.needs_speed) out.push_back(file);
+  }
+  if (!text) return out;
+  for (const auto& name : between_commas(*text)) {
+    const auto found = std::ranges::find(kBundleFiles, name, &BundleFile::name);
+    const bool again = std::ranges::find(out, name, &BundleFile::name) != out.end();
+    if (found != std::end(kBundleFiles) && !again)
+      out.push_back(*found);
+    else
+      in.issue({.code = ErrorCode::bad_choice,
+                .pointer = "files",
+                .got = Json{name},
+                .limit = Json{list},
+                .hint = again ? "each once" : "names between commas, of " + list},
+               nullptr);
+  }
+  return out;
+}
+
+/// "free_end,standoff": codes between commas. Which are meant is judged when the answer is there.
+std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
+  constexpr std::size_t kLongest = 1'000;
+  const auto text = in.optional_text("acknowledge", kLongest);
+  if (!text) return {};
+  auto out = between_commas(*text);
   const auto odd = [](char c) {
     return !(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9') && c != '_';
   };
@@ -111,6 +143,7 @@ FormatOptions read_options(Reader& in) {
   out.speed = in.optional_number("speed_mm_min", kSpeed);
   out.lead = in.number("lead_mm", kLead, 0.0);
   out.pivot_length = in.optional_number("pivot_length_mm", kPivotLength);
+  out.files = read_files(in);
   return out;
 }
 

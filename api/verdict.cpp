@@ -132,7 +132,7 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
     return Problem{.code = ErrorCode::comparison_only,
                    .detail = "a machine would work by a file of format " + std::string(format.name),
                    .issues = {}};
-  if (!options.torch) return std::nullopt;
+  if (!options.torch || format.is_bundle()) return std::nullopt;  // each part by itself
   if (verdict.status == "reject") {
     Problem out{.code = ErrorCode::rejected,
                 .detail = "The verdict is reject: " + joined(each_once(verdict.reasons)),

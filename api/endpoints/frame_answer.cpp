@@ -43,10 +43,8 @@ void write_member(const FrameJob& frame, const MadePart& part, std::size_t membe
   if (part.is_open())
     o.object("start", [&](Writer& f) { write_place(start.origin, start.rows, f); });
   if (!part.made) return;
-  const auto& own = part.made->out.frame;
-  o.object("frame", [&](Writer& f) {
-    write_place(start.origin + start.rows.transpose() * own.origin, own.rows * start.rows, f);
-  });
+  const auto [origin, rows] = place_of(frame, *part.made, member);
+  o.object("frame", [&](Writer& f) { write_place(origin, rows, f); });
 }
 
 void add_ends(const FrameJob& frame, const MadeParts& made, std::size_t member,
@@ -116,26 +114,6 @@ void write_joint(const FrameJob& frame, const frame::Joint& joint, const Seam& s
     });
 }
 
-void write_row(const FrameJob& frame, std::size_t i, const MadePart& part, Writer& o) {
-  const auto& m = frame.spec.members[frame.parts[i].members.front()];
-  std::vector<std::string> members;
-  for (const auto one : frame.parts[i].members) members.push_back(frame.spec.members[one].name);
-  o.field("part", name_of_part(frame, i));
-  o.field("count", members.size());
-  o.column("members", members);
-  o.field("outer_diameter_mm", 2.0 * m.outer_radius);
-  o.field("wall_mm", m.wall);
-  if (!part.is_open()) o.field("verdict", part.made ? part.made->answer.verdict.status : "none");
-  if (!part.made) return;
-  const auto& lengths = part.made->out.lengths;
-  o.field("long_mm", lengths.longest);
-  o.field("blank_mm", lengths.blank);
-  o.field("girth_mm", kTwoPi * m.outer_radius);
-  o.field("weld_mm", lengths.weld);
-  o.field("mass_kg", lengths.mass);
-  o.field("result_sha256", part.made->answer.result_sha256);
-}
-
 void write_not_cut(const FrameJob& frame, const frame::NotCut& one, Writer& o) {
   o.field("why", name_of(one.why));
   o.field("id", one.why == frame::Why::not_joined ? frame.spec.others[one.index].name
@@ -169,6 +147,18 @@ const std::string& name_of_part(const FrameJob& frame, std::size_t part) {
   return frame.spec.members[frame.parts[part].members.front()].name;
 }
 
+FramePlace place_of(const FrameJob& frame, const Worked<Parts>& part, std::size_t member) {
+  const auto& start = frame.frame.pieces[member].frame;
+  const auto& own = part.out.frame;
+  return {start.origin + start.rows.transpose() * own.origin, own.rows * start.rows};
+}
+
+std::vector<std::string> members_of_part(const FrameJob& frame, std::size_t part) {
+  std::vector<std::string> out;
+  for (const auto one : frame.parts[part].members) out.push_back(frame.spec.members[one].name);
+  return out;
+}
+
 void write_members(const FrameJob& frame, const MadeParts& made, Writer& w) {
   w.array("members", indices(frame.part_of), [&](Writer& each, std::size_t i) {
     each.object([&](Writer& o) { write_member(frame, made[frame.part_of[i]], i, o); });
@@ -184,7 +174,10 @@ void write_joints(const FrameJob& frame, const MadeParts& made, Writer& w) {
 
 void write_cut_list(const FrameJob& frame, const MadeParts& made, Writer& w) {
   w.array("cut_list", indices(made), [&](Writer& each, std::size_t i) {
-    each.object([&](Writer& o) { write_row(frame, i, made[i], o); });
+    each.object([&](Writer& o) {
+      o.field("part", name_of_part(frame, i));
+      cut_list_row(frame, i, made[i], o);
+    });
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "api/endpoints/frame_request.hpp"
@@ -40,5 +41,35 @@ void write_not_cut(const FrameJob& frame, Writer& w);
 void write_parts(const FrameJob& frame, const MadeParts& made, Writer& w);
 
 [[nodiscard]] const std::string& name_of_part(const FrameJob& frame, std::size_t part);
+[[nodiscard]] std::vector<std::string> members_of_part(const FrameJob& frame, std::size_t part);
+
+/// Where a finished part lies in the world as one of its members; rows are its x, y and z there.
+struct FramePlace {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d rows;
+};
+[[nodiscard]] FramePlace place_of(const FrameJob& frame, const Worked<Parts>& part,
+                                  std::size_t member);
+
+/// What stands in the cut list of one part behind its name, given to `row.field(name, value)` and
+/// `row.column(name, texts)`.
+template <class Row>
+void cut_list_row(const FrameJob& frame, std::size_t i, const MadePart& part, Row& row) {
+  const auto& m = frame.spec.members[frame.parts[i].members.front()];
+  const auto members = members_of_part(frame, i);
+  row.field("count", members.size());
+  row.column("members", members);
+  row.field("outer_diameter_mm", 2.0 * m.outer_radius);
+  row.field("wall_mm", m.wall);
+  if (!part.is_open()) row.field("verdict", part.made ? part.made->answer.verdict.status : "none");
+  if (!part.made) return;
+  const auto& lengths = part.made->out.lengths;
+  row.field("long_mm", lengths.longest);
+  row.field("blank_mm", lengths.blank);
+  row.field("girth_mm", kTwoPi * m.outer_radius);
+  row.field("weld_mm", lengths.weld);
+  row.field("mass_kg", lengths.mass);
+  row.field("result_sha256", part.made->answer.result_sha256);
+}
 
 }  // namespace tubecut::api

@@ -6,6 +6,8 @@
 #include "api/common_fields.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/frame_answer.hpp"
+#include "api/endpoints/frame_bundle.hpp"
+#include "api/endpoints/frame_formats.hpp"
 #include "api/endpoints/parts.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
@@ -98,8 +100,11 @@ struct FrameBase {
   }
 
   static const std::vector<Format<Spec, Out>>& formats() {
-    static const std::vector<Format<Spec, Out>> kNone;
-    return kNone;
+    static const std::vector<Format<Spec, Out>> kFormats{
+        {"csv", "text/csv", &cut_list_csv, {"cut_list"}},
+        {"step", "model/step", &frame_step, {"straight", "smooth"}},
+        {"zip", "application/zip", &frame_bundle, {}, bundle_options()}};
+    return kFormats;
   }
 };
 
@@ -127,7 +132,7 @@ struct Frames : FrameBase {
       const auto at = "members/" + std::to_string(first);
       const auto& name = spec.spec.members[first].name;
       if (const auto& why = out[i].problem) {
-        all.push_back({.code = WarningCode::no_table, .member = at, .detail = told(name, *why)});
+        all.push_back({.code = WarningCode::no_part, .member = at, .detail = told(name, *why)});
         continue;
       }
       std::vector<WarningCode> said;

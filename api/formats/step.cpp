@@ -16,19 +16,6 @@ namespace {
 
 constexpr double kFlat = 1e-9;  // mm: a cut square to the axis
 
-Product product_of(const joint::Target& tube, const std::string& member, const Caption& caption) {
-  Product out{
-      .id = member,
-      .name = "tube " + fixed(2.0 * tube.outer_radius, 3) + " x " + fixed(tube.wall, 3) + " mm",
-      .revision = {}};
-  for (const auto& [key, text] : caption.reference) {
-    if (key == "part") out.id = text;
-    if (key == "revision") out.revision = text;
-  }
-  if (out.id.empty()) out.id = caption.input_sha256.substr(0, 16);
-  return out;
-}
-
 WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const Caption& caption) {
   if (caption.view != "smooth") return WallCurve::straight(wall);
   corners.resize(wall.gaps(), false);
@@ -58,9 +45,9 @@ TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string
 }
 
 std::string print(const joint::Target& tube, const std::vector<TubeCut>& cuts,
-                  const std::string& member, const Caption& caption) {
+                  const Caption& caption) {
   return print_step(tube_solid(tube.inner_radius(), tube.outer_radius, cuts, caption.stop),
-                    product_of(tube, member, caption), caption);
+                    product_of(tube, {}, caption), caption);
 }
 
 /// Where a hole lies to the cuts of both ends.
@@ -92,12 +79,25 @@ Lies lies(const part::Part& part, const bevel::Hole& hole) {
 
 }  // namespace
 
+Product product_of(const joint::Target& tube, const std::string& member, const Caption& caption) {
+  Product out{
+      .id = member,
+      .name = "tube " + fixed(2.0 * tube.outer_radius, 3) + " x " + fixed(tube.wall, 3) + " mm",
+      .revision = {}};
+  for (const auto& [key, text] : caption.reference) {
+    if (key == "part") out.id = text;
+    if (key == "revision") out.revision = text;
+  }
+  if (out.id.empty()) out.id = caption.input_sha256.substr(0, 16);
+  return out;
+}
+
 std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,
                              const Caption& caption) {
   return print(spec.target,
                {end_cut(TubeCut::Place::start, spec, table, caption),
                 {TubeCut::Place::finish, "far end", far_end(spec, table, caption.stop)}},
-               "", caption);
+               caption);
 }
 
 std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
@@ -118,10 +118,10 @@ std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
   }
   cuts.push_back({TubeCut::Place::start, "end", low - tube.outer_radius});
   cuts.push_back({TubeCut::Place::finish, "end", high + tube.outer_radius});
-  return print(tube, cuts, "", caption);
+  return print(tube, cuts, caption);
 }
 
-std::string part_step(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   const auto& tube = spec.target;
   std::vector<TubeCut> cuts{
       end_cut(TubeCut::Place::start, part.start.spec, part.start.table, caption),
@@ -139,7 +139,12 @@ std::string part_step(const part::PartSpec& spec, const part::Part& part, const 
     kept.push_back(&hole);
     cuts.push_back(hole_cut(tube, hole, "hole " + std::to_string(i), caption));
   }
-  return print(tube, cuts, spec.name, caption);
+  return tube_solid(tube.inner_radius(), tube.outer_radius, cuts, caption.stop);
+}
+
+std::string part_step(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return print_step(part_solid(spec, part, caption), product_of(spec.target, spec.name, caption),
+                    caption);
 }
 
 }  // namespace tubecut::api

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "api/format.hpp"
+#include "api/formats/step_solid.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 #include "core/part/part.hpp"
@@ -24,5 +25,11 @@ namespace tubecut::api {
 /// each other or a cut are no solid this can print, and are refused.
 [[nodiscard]] std::string part_step(const part::PartSpec& spec, const part::Part& part,
                                     const Caption& caption);
+/// The same solid, for a file of several. Throws UnfitOption.
+[[nodiscard]] TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part,
+                                   const Caption& caption);
+/// What a file calls a tube of this size: the reference's part goes before `member`.
+[[nodiscard]] Product product_of(const joint::Target& tube, const std::string& member,
+                                 const Caption& caption);
 
 }  // namespace tubecut::api

@@ -38,29 +38,16 @@ std::string knots_across(const std::string& along) {
   return along.substr(0, middle) + ",(2,2)" + along.substr(middle) + ",(0.,1.)";
 }
 
+/// The faces of one solid, and their colours.
 class Printer {
  public:
-  Printer(const TubeSolid& solid, const Caption& caption)
-      : solid_(solid), pace_(caption.stop), entities_(digits_for(solid.wall)) {}
+  Printer(const TubeSolid& solid, StepEntities& entities, Pace& pace)
+      : solid_(solid), pace_(pace), entities_(entities) {}
 
-  std::string print(const Product& product) {
-    name_product(product);
-    set_units();
-    const auto brep = boundary();
-    const auto shape = entities_.add("ADVANCED_BREP_SHAPE_REPRESENTATION(''," +
-                                     step_refs({entities_.placement({0, 0, 0}), brep}) + "," +
-                                     step_ref(context_) + ")");
-    entities_.add("SHAPE_DEFINITION_REPRESENTATION(" + step_ref(definition_) + "," +
-                  step_ref(shape) + ")");
-    colour(brep);
-    return entities_.text();
-  }
+  Id boundary();
+  void colour(Id brep, Id context);
 
  private:
-  void name_product(const Product& product);
-  void set_units();
-  Id boundary();
-  void colour(Id brep);
   Id style(const std::array<double, 3>& rgb);
   std::vector<Id> points(const TubeSolid::Piece& piece);
   Id curve(const TubeSolid::Edge& edge, const TubeSolid::Line&);
@@ -71,43 +58,10 @@ class Printer {
   Id surface(const TubeSolid::Ruled& ruled);
 
   const TubeSolid& solid_;
-  Pace pace_;
-  StepEntities entities_;
-  Id definition_ = 0, context_ = 0;
+  Pace& pace_;
+  StepEntities& entities_;
   std::vector<Id> cut_faces_;
 };
-
-void Printer::name_product(const Product& product) {
-  auto& e = entities_;
-  const auto application =
-      e.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
-  e.add("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2001," +
-        step_ref(application) + ")");
-  const auto context = e.add("PRODUCT_CONTEXT(''," + step_ref(application) + ",'mechanical')");
-  const auto one = e.add("PRODUCT(" + step_string(product.id) + "," + step_string(product.name) +
-                         ",''," + step_refs({context}) + ")");
-  e.add("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$," + step_refs({one}) + ")");
-  const auto formation = e.add("PRODUCT_DEFINITION_FORMATION(" + step_string(product.revision) +
-                               ",''," + step_ref(one) + ")");
-  const auto design =
-      e.add("PRODUCT_DEFINITION_CONTEXT('part definition'," + step_ref(application) + ",'design')");
-  const auto definition =
-      e.add("PRODUCT_DEFINITION('design',''," + step_ref(formation) + "," + step_ref(design) + ")");
-  definition_ = e.add("PRODUCT_DEFINITION_SHAPE('',''," + step_ref(definition) + ")");
-}
-
-void Printer::set_units() {
-  auto& e = entities_;
-  const auto mm = e.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
-  const auto rad = e.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
-  const auto sr = e.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
-  const auto within =
-      e.add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + step_real(kSplineError, kKnotDigits) +
-            ")," + step_ref(mm) + ",'distance_accuracy_value','of edges and cut faces')");
-  context_ = e.add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(" +
-                   step_refs({within}) + ")GLOBAL_UNIT_ASSIGNED_CONTEXT(" +
-                   step_refs({mm, rad, sr}) + ")REPRESENTATION_CONTEXT('',''))");
-}
 
 std::vector<Id> Printer::points(const TubeSolid::Piece& piece) {
   const auto& spline = solid_.walls[piece.wall];
@@ -204,7 +158,7 @@ Id Printer::style(const std::array<double, 3>& rgb) {
   return last;
 }
 
-void Printer::colour(Id brep) {
+void Printer::colour(Id brep, Id context) {
   std::vector<Id> styled;
   const auto paint = [&](const std::vector<Id>& items, Id with) {
     for (const auto item : items)
@@ -214,14 +168,26 @@ void Printer::colour(Id brep) {
   paint({brep}, style({0.62, 0.65, 0.68}));
   paint(cut_faces_, style({0.86, 0.45, 0.16}));
   entities_.add("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION(''," + step_refs(styled) +
-                "," + step_ref(context_) + ")");
+                "," + step_ref(context) + ")");
+}
+
+Id add_units(StepEntities& e) {
+  const auto mm = e.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
+  const auto rad = e.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
+  const auto sr = e.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
+  const auto within =
+      e.add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + step_real(kSplineError, kKnotDigits) +
+            ")," + step_ref(mm) + ",'distance_accuracy_value','of edges and cut faces')");
+  return e.add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(" +
+               step_refs({within}) + ")GLOBAL_UNIT_ASSIGNED_CONTEXT(" + step_refs({mm, rad, sr}) +
+               ")REPRESENTATION_CONTEXT('',''))");
 }
 
 /// The header's texts: job, reference, hashes, verdict. 256 characters are the most one may have.
-std::string description(const Caption& caption) {
+std::string description(const Caption& caption, std::string_view what) {
   std::vector<std::string> lines{
-      "tubecut " + std::string(version()) + ", one closed solid, mm; edges and cut faces within " +
-          step_real(kSplineError, kKnotDigits) + " mm",
+      "tubecut " + std::string(version()) + ", " + std::string(what) +
+          ", mm; edges and cut faces within " + step_real(kSplineError, kKnotDigits) + " mm",
       "input_sha256: " + caption.input_sha256, "result_sha256: " + caption.result_sha256};
   for (const auto& [key, text] : caption.reference) lines.push_back(key + ": " + text);
   for (const auto& line : verdict_lines(caption.verdict)) lines.push_back(line);
@@ -232,13 +198,89 @@ std::string description(const Caption& caption) {
 
 }  // namespace
 
-std::string print_step(const TubeSolid& solid, const Product& product, const Caption& caption) {
+StepFile::StepFile(double thinnest, const Caption& caption)
+    : caption_(caption), pace_(caption.stop), entities_(digits_for(thinnest)) {}
+
+/// Its definition.
+StepFile::Id StepFile::add_product(const Product& product) {
+  auto& e = entities_;
+  const auto application =
+      e.shared("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
+  e.shared("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2001," +
+           step_ref(application) + ")");
+  const auto context = e.shared("PRODUCT_CONTEXT(''," + step_ref(application) + ",'mechanical')");
+  const auto one = e.add("PRODUCT(" + step_string(product.id) + "," + step_string(product.name) +
+                         ",''," + step_refs({context}) + ")");
+  e.add("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$," + step_refs({one}) + ")");
+  const auto formation = e.add("PRODUCT_DEFINITION_FORMATION(" + step_string(product.revision) +
+                               ",''," + step_ref(one) + ")");
+  const auto design = e.shared("PRODUCT_DEFINITION_CONTEXT('part definition'," +
+                               step_ref(application) + ",'design')");
+  return e.add("PRODUCT_DEFINITION('design',''," + step_ref(formation) + "," + step_ref(design) +
+               ")");
+}
+
+StepFile::Shape StepFile::solid(const TubeSolid& solid, const Product& product) {
+  auto& e = entities_;
+  Shape out{.definition = add_product(product)};
+  const auto shape = e.add("PRODUCT_DEFINITION_SHAPE('',''," + step_ref(out.definition) + ")");
+  if (context_ == 0) context_ = add_units(e);
+  Printer printer(solid, e, pace_);
+  const auto brep = printer.boundary();
+  out.axes = e.placement({0, 0, 0});
+  out.representation = e.add("ADVANCED_BREP_SHAPE_REPRESENTATION(''," +
+                             step_refs({out.axes, brep}) + "," + step_ref(context_) + ")");
+  e.add("SHAPE_DEFINITION_REPRESENTATION(" + step_ref(shape) + "," + step_ref(out.representation) +
+        ")");
+  printer.colour(brep, context_);
+  return out;
+}
+
+void StepFile::assembly(const Product& product, const std::vector<Placed>& parts) {
+  auto& e = entities_;
+  const auto definition = add_product(product);
+  const auto shape = e.add("PRODUCT_DEFINITION_SHAPE('',''," + step_ref(definition) + ")");
+  if (context_ == 0) context_ = add_units(e);
+  std::vector<Id> places{e.placement({0, 0, 0})};
+  for (const auto& part : parts) {
+    pace_.turn();
+    const Eigen::Vector3d x = part.rows.row(0), z = part.rows.row(2);
+    places.push_back(e.add("AXIS2_PLACEMENT_3D(''," + step_ref(e.point(part.origin)) + "," +
+                           step_ref(e.direction(z)) + "," + step_ref(e.direction(x)) + ")"));
+  }
+  const auto representation =
+      e.add("SHAPE_REPRESENTATION(''," + step_refs(places) + "," + step_ref(context_) + ")");
+  e.add("SHAPE_DEFINITION_REPRESENTATION(" + step_ref(shape) + "," + step_ref(representation) +
+        ")");
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto& [of, name, origin, rows] = parts[i];
+    const auto moved = e.add("ITEM_DEFINED_TRANSFORMATION('',''," + step_ref(of.axes) + "," +
+                             step_ref(places[i + 1]) + ")");
+    const auto how =
+        e.add("(REPRESENTATION_RELATIONSHIP('',''," + step_ref(of.representation) + "," +
+              step_ref(representation) + ")REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(" +
+              step_ref(moved) + ")SHAPE_REPRESENTATION_RELATIONSHIP())");
+    const auto use = e.add("NEXT_ASSEMBLY_USAGE_OCCURRENCE(" + step_string(std::to_string(i + 1)) +
+                           "," + step_string(name) + ",''," + step_ref(definition) + "," +
+                           step_ref(of.definition) + ",$)");
+    const auto there = e.add("PRODUCT_DEFINITION_SHAPE('',''," + step_ref(use) + ")");
+    e.add("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(" + step_ref(how) + "," + step_ref(there) + ")");
+  }
+}
+
+std::string StepFile::print(const Product& product, std::string_view what) const {
   // No clock: the same request gives the same bytes, so the time stamp is empty.
-  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((" + description(caption) + "),'2;1');\n" +
-         "FILE_NAME(" + step_string(product.id) + ",'',(''),(''),'tubecut " +
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((" + description(caption_, what) +
+         "),'2;1');\n" + "FILE_NAME(" + step_string(product.id) + ",'',(''),(''),'tubecut " +
          std::string(version()) + "','tubecut','');\n" +
          "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" +
-         Printer(solid, caption).print(product) + "ENDSEC;\nEND-ISO-10303-21;\n";
+         entities_.text() + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+std::string print_step(const TubeSolid& solid, const Product& product, const Caption& caption) {
+  StepFile file(solid.wall, caption);
+  file.solid(solid, product);
+  return file.print(product, "one closed solid");
 }
 
 }  // namespace tubecut::api

@@ -33,6 +33,8 @@
     "Check the member's length and its partners' places.")                                        \
   X(no_table, cut, "This end has no bevel table: it cannot be cut as asked, for this reason.",    \
     "Mend what the reason says, or cut this end another way.")                                    \
+  X(no_part, cut, "This member has no part: it cannot be cut as asked, for this reason.",         \
+    "Mend what the reason says; the frame's other parts stand.")                                  \
   X(joint_not_stated, cut,                                                                        \
     "A hole is for a joint that the members do not state; the branch's own part is not cut so.",  \
     "State the joint of the two members.")                                                        \

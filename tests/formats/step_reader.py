@@ -149,7 +149,7 @@ class File:
         if used - set(self.entities):
             raise Malformed(f"named and not there: {sorted(used - set(self.entities))[:5]}")
         roots = {self.entities[n][0] for n in set(self.entities) - used if not isinstance(self.entities[n], dict)}
-        if roots - {"APPLICATION_PROTOCOL_DEFINITION", "PRODUCT_RELATED_PRODUCT_CATEGORY", "SHAPE_DEFINITION_REPRESENTATION",
+        if roots - {"APPLICATION_PROTOCOL_DEFINITION", "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", "PRODUCT_RELATED_PRODUCT_CATEGORY", "SHAPE_DEFINITION_REPRESENTATION",
                     "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION"}:
             raise Malformed(f"used by nobody: {roots}")
 
@@ -200,20 +200,59 @@ class Spline:
         return (self.knots[:-1, None] + wide[:, None] * np.asarray(places)[None, :]).ravel()
 
 
-class Solid:
-    """The one closed shell of a file: vertices, edges, faces, each with its geometry."""
+def axes(file, number):
+    """Origin and rows (x, y, z) of a placement."""
+    _, at, z, x = file.get(number, "AXIS2_PLACEMENT_3D")
+    point, up, along = (np.array(file.get(n, kind)[1]) for n, kind in ((at, "CARTESIAN_POINT"), (z, "DIRECTION"), (x, "DIRECTION")))
+    return point, np.array([along, np.cross(up, along), up])
 
-    def __init__(self, file):
+
+def assembly(file):
+    """[(name of the use, its part's product, the brep, origin, rows)] of the file's one assembly, as its own entities tie them together."""
+    def product(definition):
+        formation = file.get(definition, "PRODUCT_DEFINITION")[2]
+        return file.get(file.get(formation, "PRODUCT_DEFINITION_FORMATION")[2], "PRODUCT")[0]
+    shape_of = {}
+    for number in file.of("SHAPE_DEFINITION_REPRESENTATION"):
+        shape, representation = file.get(number, "SHAPE_DEFINITION_REPRESENTATION")
+        shape_of[int(file.get(shape, "PRODUCT_DEFINITION_SHAPE")[2])] = int(representation)
+    out, wholes = [], set()
+    for number in file.of("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"):
+        how, there = file.get(number, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION")
+        use = file.get(file.get(there, "PRODUCT_DEFINITION_SHAPE")[2], "NEXT_ASSEMBLY_USAGE_OCCURRENCE")
+        relation = file.entities[how]
+        part, whole = relation["REPRESENTATION_RELATIONSHIP"][2:]
+        wholes.add(int(use[3]))
+        if shape_of[int(use[4])] != part or shape_of[int(use[3])] != whole:
+            raise Malformed("a use whose shapes are not its products'")
+        moved = relation["REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION"][0]
+        own, place = file.get(moved, "ITEM_DEFINED_TRANSFORMATION")[2:]
+        own_axes, brep = file.get(part, "ADVANCED_BREP_SHAPE_REPRESENTATION")[1]
+        if own != own_axes or place not in file.get(whole, "SHAPE_REPRESENTATION")[1]:
+            raise Malformed("a move that is of neither shape")
+        if not np.array_equal(axes(file, own)[1], np.eye(3)) or np.any(axes(file, own)[0]):
+            raise Malformed("a part that is not in its own frame")
+        out.append((use[1], product(use[4]), int(brep), *axes(file, place)))
+    if len(wholes) != 1:
+        raise Malformed(f"{len(wholes)} assemblies")
+    return out
+
+
+class Solid:
+    """A closed shell of a file, the only one unless it is named: vertices, edges, faces, each with its geometry."""
+
+    def __init__(self, file, brep=None):
         self.file = file
         units = [e["SI_UNIT"] for e in file.entities.values() if isinstance(e, dict) and "LENGTH_UNIT" in e]
         if units != [[".MILLI.", ".METRE."]]:
             raise Malformed(f"lengths in {units}")
         shells = file.of("CLOSED_SHELL")
         breps = file.of("MANIFOLD_SOLID_BREP")
-        if len(shells) != 1 or len(breps) != 1 or file.get(breps[0], "MANIFOLD_SOLID_BREP")[1] != shells[0]:
+        if len(shells) != len(breps) or brep is None and len(breps) != 1:
             raise Malformed("not one solid of one shell")
+        shell = file.get(brep or breps[0], "MANIFOLD_SOLID_BREP")[1]
         self.edges, self.faces = {}, []
-        for number in file.get(shells[0], "CLOSED_SHELL")[1]:
+        for number in file.get(shell, "CLOSED_SHELL")[1]:
             name, bounds, surface, same = file.get(number, "ADVANCED_FACE")
             loops = []
             for i, bound in enumerate(bounds):

@@ -137,6 +137,28 @@ class Step(FormatTest):
         self.assertEqual(file.header["FILE_SCHEMA"], [["AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"]])
         self.assertEqual(len(file.of("COLOUR_RGB")), 2)
 
+    def test_a_frame_is_an_assembly(self):
+        for name in ("k-node-with-plate-and-square-brace", "jacket-node-with-set-in-stubs", "truss-of-19"):
+            body = examples("frames")[name]
+            answer = self.service.answer("frames", body)
+            file = step_reader.File(self.service.text("frames", body, "format=step").decode("ascii"))
+            used = {use[0]: use[1:] for use in step_reader.assembly(file)}
+            members = answer["result"]["members"]
+            self.assertEqual(set(used), {m["id"] for m in members})
+            parts = {p["part"]: p["answer"] for p in answer["parts"]}
+            self.assertEqual(len(file.of("MANIFOLD_SOLID_BREP")), len(parts))
+            for member in members:
+                product, brep, origin, rows = used[member["id"]]
+                self.assertEqual(product, member["part"])
+                place = member["frame"]
+                self.assertLess(np.abs(origin - place["origin_mm"]).max(), 1e-5)
+                self.assertLess(np.abs(rows - [place[axis] for axis in "xyz"]).max(), 1e-11)
+            for brep, part in {use[1]: parts[use[0]] for use in used.values()}.items():
+                solid = step_reader.Solid(file, brep)
+                self.assertEqual(step_reader.faults(solid, 1 + len(part["result"]["holes"])), [])
+                volume = part["result"]["lengths"]["volume_mm3"]
+                self.assertLess(abs(step_reader.volume(solid) - volume), VOLUME_OFF * volume)
+
     def test_what_is_no_solid_of_this_kind_is_refused(self):
         def hole(at):
             return {"branch": {"outer_diameter_mm": 60, "wall_mm": 4, "inclination_deg": 90, "clocking_deg": 0, "height_mm": at},

@@ -17,7 +17,7 @@ BUDGETS_MS = (5, 50, 500)
 ALL_MS = 120_000  # the budget of whoever has to end by itself
 ALLOWED = {"mill-paths/90-annealed", "mill-paths/3600", "mill-paths/20000", "pulse-schedules/crawler-table", "pulse-schedules/5-m",
            "pulse-schedules/compare", "pulse-schedules/3600-positions"}
-OPTIONS = {"gcode": "&speed_mm_min=600"}
+OPTIONS = {"gcode": "&speed_mm_min=600", "zip": "&files=work-order,nc1,dxf,step,csv,gcode&speed_mm_min=600"}
 VIEWS = {"step": ("step", "step&view=smooth")}  # that cost other than their format alone
 
 
@@ -39,14 +39,14 @@ def formats(service):
     page = json.loads(exchange(service.port, get("/v1/version"))[0].body)
     names = {"application/json": "json", "application/cbor": "cbor", "text/csv": "csv", "image/svg+xml": "svg", "image/vnd.dxf": "dxf",
              "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step", "application/x-dstv": "nc1", "text/x-gcode": "gcode",
-             "text/x-iec61131-st": "st"}
+             "text/x-iec61131-st": "st", "application/zip": "zip"}
     return {e["id"]: [form for media in e["formats"] for form in VIEWS.get(names.get(media, media), (names.get(media, media),))]
             for e in page["endpoints"]}
 
 
 def target_of(endpoint, form):
-    speed = OPTIONS.get(form, "") if endpoint in ("bevel-tables", "parts", "holes") else ""
-    return f"/v1/{endpoint}?format={form}{speed}"
+    options = OPTIONS.get(form, "") if endpoint in ("bevel-tables", "parts", "holes", "frames") else ""
+    return f"/v1/{endpoint}?format={form}{options}"
 
 
 def idle_again(service, seconds=5.0):

@@ -366,6 +366,7 @@ const endings: Record<string, [string, string]> = {
   'text/x-iec61131-st': ['IEC 61131-3 ST', 'st'],
   'text/html': ['HTML', 'html'],
   'application/pdf': ['PDF', 'pdf'],
+  'application/zip': ['Shop packet (zip)', 'zip'],
 };
 const known = (media: string): [string, string] => endings[media] ?? (/dstv|nc1/.test(media) ? ['DSTV', 'nc1'] : [media, 'txt']);
 
@@ -378,32 +379,78 @@ function fileName(name: string, body: Row, view: string | undefined, hash: strin
   return parts.join('-').replace(/[\\/:*?"<>|\s]+/g, '_');
 }
 
+/** The whole of a reply; the bar tells how much of it has come. */
+async function received(reply: Response, bar: HTMLProgressElement): Promise<Blob> {
+  const all = Number(reply.headers.get('Content-Length'));
+  const pieces: BlobPart[] = [];
+  const reader = reply.body?.getReader();
+  if (all > 0) bar.max = all;
+  for (let seen = 0; reader; ) {
+    const {done, value} = await reader.read();
+    if (done) break;
+    pieces.push(value);
+    seen += value.length;
+    if (all > 0) bar.value = seen;
+  }
+  return new Blob(pieces, {type: reply.headers.get('Content-Type') ?? ''});
+}
+
+/** An option that is a list of choices: a box to tick for each. */
+function listField(option: Format['options'][number], users: string, given: Map<string, () => string>): HTMLElement {
+  const chosen = (option.schema.default ?? []) as unknown as string[];
+  const boxes = (option.schema.items as {enum: string[]}).enum.map((value) => {
+    const box = el('input', {type: 'checkbox', value, 'data-option': option.name});
+    box.checked = chosen.includes(value);
+    return {box, view: el('label', {class: 'tick'}, box, choice(value))};
+  });
+  given.set(option.name, () =>
+    boxes
+      .filter(({box}) => box.checked)
+      .map(({box}) => box.value)
+      .join(','),
+  );
+  return el(
+    'fieldset',
+    {class: 'field ticks', title: plain(option.description)},
+    el('legend', {class: 'name'}, `${label(option.name)} (${users})`),
+    ...boxes.map(({view}) => view),
+  );
+}
+
 /** A button for every format that the contract offers here, and a field for what a format asks. The file is what the service answers. */
 export function downloads(endpoint: string, name: string, body: Row, formats: Format[]): HTMLElement {
   const status = el('p', {class: 'soft', role: 'status'});
-  const given = new Map<string, HTMLInputElement | HTMLSelectElement>();
+  const given = new Map<string, () => string>();
+  const bar = el('progress', {'aria-label': 'Download', hidden: true});
   const fetchFile = async ({media, options}: Format, view?: string) => {
     status.textContent = '';
     const query = new URLSearchParams(view ? {view} : {});
+    const files = options.find(({name: of}) => of === 'files') && given.get('files')?.().split(',');
     for (const option of options) {
-      const value = given.get(option.name)?.value;
-      if (value) query.set(option.name, value);
+      const value = given.get(option.name)?.();
+      // What else a packet reads is its programs'.
+      if (value && (!files || option.name === 'files' || files.includes('gcode'))) query.set(option.name, value);
     }
+    bar.hidden = false;
+    bar.removeAttribute('value'); // not to be told while it is computed
     const reply = await fetch(`${path(endpoint)}${query.size ? `?${query}` : ''}`, {
       method: 'POST',
       body: JSON.stringify(body),
       headers: headed({'Content-Type': 'application/json', Accept: media}),
     }).catch(() => undefined);
     if (!reply) {
+      bar.hidden = true;
       status.textContent = `${known(media)[0]}: ${away.title}`;
       return;
     }
     if (!reply.ok) {
+      bar.hidden = true;
       const problem = (await reply.json().catch(() => ({title: `status ${reply.status}`}))) as Problem;
       status.textContent = `${known(media)[0]}: ${plain(`${problem.title} ${problem.detail ?? ''}`)}`;
       return;
     }
-    save(`${fileName(name, body, view, reply.headers.get('Tubecut-Input-Sha256'))}.${known(media)[1]}`, await reply.blob());
+    save(`${fileName(name, body, view, reply.headers.get('Tubecut-Input-Sha256'))}.${known(media)[1]}`, await received(reply, bar));
+    bar.hidden = true;
   };
   const button = (format: Format, view?: string) =>
     el(
@@ -418,6 +465,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
       .filter((format) => format.options.some((each) => each.name === option.name))
       .map(({media}) => known(media)[0])
       .join(', ');
+    if (option.schema.items) return listField(option, users, given);
     const choices = option.schema.enum ?? (option.schema.type === 'boolean' ? ['false', 'true'] : undefined);
     const input = choices
       ? el(
@@ -430,7 +478,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
         el('input', {type: 'text', inputmode: 'decimal', value: option.name === 'speed_mm_min' ? '600' : '', placeholder: option.schema.default ?? ''});
     input.setAttribute('aria-label', `${label(option.name)}, for ${users}`);
     input.dataset['option'] = option.name;
-    given.set(option.name, input);
+    given.set(option.name, () => input.value);
     return el(
       'label',
       {class: 'field', title: plain(option.description)},
@@ -444,6 +492,7 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
     el('h3', {}, `Download: ${endpointName(endpoint)}`),
     fields.length ? el('div', {class: 'options'}, ...fields) : null,
     el('div', {class: 'offers'}, ...buttons),
+    bar,
     status,
   );
 }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "api/endpoints/frame_answer.hpp"
+#include "api/format.hpp"
+
+namespace tubecut::api {
+
+/// The cut list as CSV: a row a part, one that is not there too.
+[[nodiscard]] std::string cut_list_csv(const FrameJob& frame, const MadeParts& made,
+                                       const Caption& caption);
+
+/// An assembly as ISO 10303-21: each part a solid, once, and each member one of these in its place
+/// in the world. Of members without a part the head has the warning. Throws UnfitOption where a
+/// part's holes meet.
+[[nodiscard]] std::string frame_step(const FrameJob& frame, const MadeParts& made,
+                                     const Caption& caption);
+
+}  // namespace tubecut::api
