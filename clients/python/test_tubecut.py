@@ -29,7 +29,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE))
 
 import tubecut  # noqa: E402
-from tubecut import Answer, BatchItem, Client, HashError, ProblemError, ProtocolError, UnreachableError  # noqa: E402
+from tubecut import Answer, BatchItem, BatchResult, Client, FrameSummary, HashError, ProblemError, ProtocolError, UnreachableError  # noqa: E402
 
 BINARY = ""
 
@@ -109,7 +109,7 @@ class OneByOne(Watched):
 
 
 class Batches(http.server.ThreadingHTTPServer):
-    """A stand-in for POST /v1/batches by its contract, which asks the real service; it can be made to fail."""
+    """A stand-in for POST /v1/batches, and for the lines of POST /v1/frames, by their contract, which asks the real service; it can be made to fail."""
 
     daemon_threads = True
 
@@ -178,7 +178,7 @@ class BatchHandler(http.server.BaseHTTPRequestHandler):
 
     def do_POST(self):
         try:
-            self.run_batch(int(self.headers["Content-Length"]))
+            (self.run_frame if self.path == "/v1/frames" else self.run_batch)(int(self.headers["Content-Length"]))
         except OSError:
             self.server.hung_up.set()
 
@@ -190,11 +190,7 @@ class BatchHandler(http.server.BaseHTTPRequestHandler):
             server.full_batches -= 1
             self.rfile.read(length)
             return self.answer_whole(503, json.dumps(self.busy).encode())
-        self.send_response(200)
-        self.send_header("Transfer-Encoding", "chunked")
-        self.send_header("Connection", "close")
-        self.end_headers()
-        self.close_connection = True
+        self.begin_lines()
         ids, left = [], length
         server.received.append(ids)
         while left:
@@ -208,6 +204,39 @@ class BatchHandler(http.server.BaseHTTPRequestHandler):
             self.chunk(server.edit(self.line(item)))
         self.chunk(json.dumps({"summary": {"items": len(ids)}}) + "\n")
         self.wfile.write(b"0\r\n\r\n")
+
+    def run_frame(self, length):
+        server, request = self.server, self.rfile.read(length)
+        if server.full_batches:
+            server.full_batches -= 1
+            return self.answer_whole(503, json.dumps(self.busy).encode())
+        reply = server.engine._exchange(server.engine._urls[0], "POST", "/v1/frames", request, {"Accept": "application/x-ndjson"})
+        if reply.status != 200:
+            return self.answer_whole(reply.status, reply.body)
+        head, *parts, summary = reply.body.decode().splitlines(keepends=True)
+        self.begin_lines()
+        ids = []
+        server.received.append(ids)
+        self.chunk(head)
+        for line in parts:
+            if len(ids) == server.dies_after:
+                return None
+            part = json.loads(line)
+            ids.append(part["id"])
+            time.sleep(server.pause_s)
+            if part["id"] in server.refused_once:
+                server.refused_once.discard(part["id"])
+                line = json.dumps({**part, "status": 503, "body": self.busy}) + "\n"
+            self.chunk(server.edit(line))
+        self.chunk(summary)
+        self.wfile.write(b"0\r\n\r\n")
+
+    def begin_lines(self):
+        self.send_response(200)
+        self.send_header("Transfer-Encoding", "chunked")
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.close_connection = True
 
     def line(self, item):
         server = self.server
@@ -278,10 +307,12 @@ class Readme(Case):
 
     def test_commands_run(self):
         commands = re.findall("^python3 tubecut.py (.*)$", self.text, re.MULTILINE)
-        self.assertEqual(len(commands), 3)
+        self.assertEqual(len(commands), 4)
         table = example("bevel-tables/source-000-table-1.json")
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "request.json").write_text(json.dumps(table))
+            pathlib.Path(folder, "my.key").write_text("any")
+            pathlib.Path(folder, "frame.json").write_text(json.dumps(example("frames/truss-of-19.json")))
             lines = [*jobs(5), BatchItem("B1", "bevel-tables", table)]
             pathlib.Path(folder, "jobs.ndjson").write_bytes(b"".join(item.line() for item in lines))
             for command in commands:
@@ -291,6 +322,8 @@ class Readme(Case):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 if ">" not in command:
                     Answer.of(done.stdout)
+            parts = pathlib.Path(folder, "parts.ndjson").read_text().splitlines()
+            self.assertEqual(json.loads(parts[-1])["summary"]["answered"], len(parts) - 2)
             self.assertIn("G93", pathlib.Path(folder, "cut.ngc").read_text())
             answers = pathlib.Path(folder, "answers.ndjson").read_text().splitlines()
             self.assertEqual({json.loads(line)["id"] for line in answers}, {item.id for item in lines})
@@ -687,6 +720,102 @@ class BatchesOfJobs(Case):
             list(self.client.batch([jobs(1)[0], jobs(1)[0]]))
 
 
+class Frames(Case):
+    def setUp(self):
+        self.roof = example("frames/truss-of-500.json")
+        self.cage = example("frames/roll-cage-of-12.json")
+        self.spoiled = example("frames/truss-of-19.json")
+        post = next(m for m in self.spoiled["members"] if m["id"] == "P0")
+        post["outer_diameter_mm"] = 120  # wider than its chords
+
+    def whole(self, client, request):
+        """The lines, each part once, as of the answer at once."""
+        head, *parts, summary = client.frame_lines(request)
+        self.assertIsInstance(head, Answer)
+        self.assertIsInstance(summary, FrameSummary)
+        made = {p["part"]: p for p in self.client.frames(request).parts}
+        self.assertEqual(sorted(p.id for p in parts), sorted(made))
+        for part in parts:
+            self.assertIsInstance(part, BatchResult)
+            if part.answer:
+                self.assertEqual(part.answer.job["result_sha256"], made[part.id]["answer"]["job"]["result_sha256"])
+            else:
+                self.assertEqual(part.problem.code, made[part.id]["problem"]["code"])
+        self.assertEqual(summary, FrameSummary(len(parts), sum(p.problem is None for p in parts), sum(p.answer is None for p in parts)))
+        return parts
+
+    def test_every_example(self):
+        for file in sorted((EXAMPLES / "frames").glob("*.json")):
+            with self.subTest(file.stem):
+                self.whole(self.client, json.loads(file.read_text()))
+
+    def test_the_frame_and_its_progress(self):
+        told = []
+        frame = self.client.frame(self.roof, job_id="roof", progress=lambda *numbers: told.append(numbers))
+        items = len(frame.parts)
+        self.assertGreater(items, 10)
+        self.assertEqual(told, [(n, items, 0) for n in range(items + 1)])
+        self.assertEqual((frame.head.job["id"], len(frame.head.result["members"])), ("roof", 500))
+        rows = {row["part"]: row for row in frame.head.result["cut_list"]}
+        for member in ("A top 1", "H top 2", "GH bottom 18", "C post 7"):
+            self.assertIn(member, rows[frame.part_of(member).id]["members"])
+        with self.assertRaises(KeyError):
+            frame.part_of("I top 1")
+
+    def test_parts_that_cannot_be_cut(self):
+        told = []
+        frame = self.client.frame(self.spoiled, progress=lambda *numbers: told.append(numbers))
+        self.assertEqual((frame.summary.refused, told[-1][2]), (1, 1))
+        with self.assertRaises(ProblemError):
+            frame.part_of("P0").unwrap()
+        self.assertTrue(frame.part_of("P1").unwrap().result)
+
+    def test_a_frame_that_is_refused(self):
+        with self.assertRaises(ProblemError) as refused:
+            self.client.frame({**self.cage, "kerf_mm": -1})
+        self.assertEqual(refused.exception.errors[0].pointer, "/kerf_mm")
+        with self.assertRaises(ProblemError) as refused:
+            self.client.frame({**self.cage, "numerics": 999})
+        self.assertEqual(refused.exception.problem.code, "numerics_mismatch")
+        with self.assertRaises(UnreachableError):
+            Client(unused_url(), patience_s=0.3).frame(self.cage)
+
+    def test_replicas_that_die_or_are_full(self):
+        first, second = self.stand_in(), self.stand_in()
+        first.dies_after, second.full_batches, second.refused_once = 5, 1, {"harness", "main top"}
+        parts = self.whole(Client(unused_url(), first.url, second.url), self.cage)
+        self.assertEqual([p.id for p in parts[:5]], first.received[0])
+        self.assertEqual(sum("harness" in ids for ids in second.received), 2)
+        for one in (first, second):
+            one.dies_after = 0
+        start = time.monotonic()
+        with self.assertRaises(UnreachableError):
+            Client(first.url, second.url, patience_s=0.5).frame(self.cage)
+        self.assertLess(time.monotonic() - start, 10)
+
+    def test_a_changed_byte_of_a_part(self):
+        stand_in = self.stand_in()
+        stand_in.edit = lambda line: line.replace('"wall_mm":2.5', '"wall_mm":2.6', 1)
+        with self.assertRaises(HashError):
+            Client(stand_in.url).frame(self.cage)
+        text = self.client.frames(self.cage).text
+        at = text.index('"developed_length_mm":') + len('"developed_length_mm":')
+        changed = f"{text[:at]}{(int(text[at]) + 1) % 10}{text[at + 1:]}"
+        with self.assertRaises(HashError):
+            Answer.of(changed)
+        Answer.of(changed, check_hashes=False)
+
+    def test_a_caller_that_stops_hangs_up(self):
+        stand_in = self.stand_in()
+        stand_in.pause_s = 0.1
+        lines = Client(stand_in.url).frame_lines(self.cage)
+        next(lines)
+        next(lines)
+        lines.close()
+        self.assertTrue(stand_in.hung_up.wait(10))
+        self.assertLess(len(stand_in.received[0]), 10)
+
+
 class Terminal(io.StringIO):
     def isatty(self):
         return True
@@ -765,6 +894,23 @@ class Program(Case):
         done = self.run_program("post", "intersections", "-", text=json.dumps(joint(200)))
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("/cutters/0/inclination_deg", done.stderr)
+
+    def test_frame(self):
+        done = self.run_program("frame", EXAMPLES / "frames/bike-frame-with-mitres.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        head, *parts, summary = done.stdout.splitlines()
+        rows = Answer.of(head).result["cut_list"]
+        self.assertEqual(sorted(json.loads(p)["id"] for p in parts), sorted(row["part"] for row in rows))
+        for part in parts:
+            Answer.of(part[part.index('"body":') + 7:-1])
+        self.assertEqual(json.loads(summary), {"summary": {"items": len(rows), "answered": len(rows), "refused": 0}})
+        spoiled = example("frames/truss-of-19.json")
+        spoiled["members"][2]["outer_diameter_mm"] = 120
+        self.assertEqual(self.run_program("frame", "-", text=json.dumps(spoiled)).returncode, 1)
+        done = self.run_program("frame", "-", text=json.dumps({**spoiled, "kerf_mm": -1}))
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("/kerf_mm", done.stderr)
+        self.assertEqual(self.run_program("frame", "-", text="{").returncode, 2)
 
     def test_batch(self):
         lines = [item.line().decode() for item in jobs(20)] + [BatchItem("bad", "intersections", joint(200)).line().decode()]

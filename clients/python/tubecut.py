@@ -32,8 +32,8 @@ import time
 import urllib.parse
 from typing import Any, Callable, Deque, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Set, TextIO, Tuple, Union
 
-__all__ = ["Answer", "BatchItem", "BatchResult", "Client", "FieldError", "HashError", "Problem", "ProblemError", "ProgressBar",
-           "ProtocolError", "TubecutError", "UnreachableError"]
+__all__ = ["Answer", "BatchItem", "BatchResult", "Client", "FieldError", "Frame", "FrameSummary", "HashError", "Problem", "ProblemError",
+           "ProgressBar", "ProtocolError", "TubecutError", "UnreachableError"]
 
 Json = Dict[str, Any]
 Option = Union[str, int, float, bool]
@@ -158,6 +158,16 @@ def _members(text: str, start: int = 0) -> Dict[str, Tuple[Any, int, int]]:
     return members
 
 
+def _elements(text: str, start: int) -> Iterator[int]:
+    """Where each element of the array at `start` begins; of one that was read before."""
+    at = _skip(text, start + 1)
+    while text[at] != "]":
+        yield at
+        at = _skip(text, _decoder.raw_decode(text, at)[1])
+        if text[at] == ",":
+            at = _skip(text, at + 1)
+
+
 def _sha256(text: str) -> str:
     return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
@@ -182,6 +192,7 @@ class Answer:
     log: List[Json]
     estimate: Json  # {"cpu_s": ...} with validate_only, else empty
     text: str = dataclasses.field(repr=False)
+    parts: List[Json] = dataclasses.field(default_factory=list)  # of a whole frame: {part, canonical_sha256, answer}, or {..., problem}
 
     @classmethod
     def of(cls, text: str, check_hashes: bool = True) -> Answer:
@@ -192,7 +203,7 @@ class Answer:
         values = {name: value for name, (value, _, _) in members.items()}
         answer = cls(job=values["job"], request=values["request"], verification=values["verification"],
                      verdict=values["verdict"], warnings=values["warnings"], result=values.get("result", {}),
-                     log=values.get("log", []), estimate=values.get("estimate", {}), text=text)
+                     log=values.get("log", []), estimate=values.get("estimate", {}), text=text, parts=values.get("parts", []))
         if check_hashes:
             answer._check_hashes(members)
         return answer
@@ -205,6 +216,11 @@ class Answer:
         for name, digest in found.items():
             if self.job.get(name) != digest:
                 raise HashError(f"{name} of job {self.job.get('id')} says {self.job.get(name)}, its bytes give {digest}")
+        if "parts" in members:
+            for begin in _elements(self.text, members["parts"][1]):
+                part = _members(self.text, begin)
+                if "answer" in part:
+                    Answer.of(self.text[part["answer"][1]:part["answer"][2]])
 
 
 # ---- batches
@@ -281,6 +297,31 @@ class BatchResult:
         if self.document is None:
             raise ValueError(f"{self.id} is no document")
         return self.document
+
+
+@dataclasses.dataclass(frozen=True)
+class FrameSummary:
+    """How a frame ended: its different parts, how many are made and how many cannot be."""
+
+    items: int
+    answered: int
+    refused: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Frame:
+    """A frame that came line by line: `head` is the answer whose parts were still to be made, `parts` what became of each, by its name."""
+
+    head: Answer
+    parts: Dict[str, BatchResult]
+    summary: FrameSummary
+
+    def part_of(self, member: str) -> BatchResult:
+        """The part that a member is; members that are alike are one."""
+        try:
+            return self.parts[next(one["part"] for one in self.head.result["members"] if one["id"] == member)]
+        except StopIteration:
+            raise KeyError(member) from None
 
 
 Progress = Callable[[int, Optional[int], int], None]  # done, of how many (None: not known yet), refused among them
@@ -476,6 +517,75 @@ class Client:
         reply = self._call("POST", f"/v1/{endpoint}?{_query(format=format, **options)}", self._encode(request), _job_headers(job_id))
         return Document.of(self._accepted(reply), reply.headers)
 
+    # -- a frame, line by line
+
+    def frame(self, request: Mapping[str, Any], *, job_id: Optional[str] = None, progress: Optional[Progress] = None) -> Frame:
+        """A whole frame of any size, asked for line by line: each part has a budget of its own, where that of `frames()` is one for all.
+        What needs the finished parts (weld and fit-up of joints, totals) is in the answer of `frames()` alone."""
+        head, *parts, summary = self.frame_lines(request, job_id=job_id, progress=progress)
+        return Frame(head, {part.id: part for part in parts}, summary)
+
+    def frame_lines(self, request: Mapping[str, Any], *, job_id: Optional[str] = None,
+                    progress: Optional[Progress] = None) -> Iterator[Union[Answer, BatchResult, FrameSummary]]:
+        """First the frame (an Answer: members, joints, cut list, what is not cut), then every different part once, as it is done (`id` is
+        its name; an answer of /v1/parts or a problem), last the summary.
+
+        A replica that dies or is full half-way is replaced by the next, and what is known already does not come again. A caller that
+        stops early hangs up, which ends the work.
+        """
+        run = _Run(self._patience_s)
+        items = done = refused = 0
+        try:
+            for one in self._frame(self._encode(request), _job_headers(job_id), run):
+                if isinstance(one, Answer):
+                    items = len(one.result["cut_list"])
+                else:
+                    done += 1
+                    refused += one.problem is not None
+                if progress:
+                    progress(done, items, refused)
+                yield one
+        finally:
+            run.stop()
+        yield FrameSummary(items, done - refused, refused)
+
+    def _frame(self, body: bytes, headers: Mapping[str, str], run: _Run) -> Iterator[Union[Answer, BatchResult]]:
+        parts: Optional[Set[str]] = None  # by name; not known yet
+        waiting: Set[str] = set()
+        tried: Set[str] = set()
+        others = _Others(self._urls)
+        while waiting or parts is None:
+            before = len(waiting)
+            wait = 0.1
+            behind: List[Optional[str]] = []
+            url = self._next_url(run, tried)
+            try:
+                with run.at(url), self._stream(url, "/v1/frames", {"Content-Type": "application/json", **headers}, [body], run, behind) as reply:
+                    head = Answer.of(_line_of(reply), self._check_hashes)
+                    if parts is None:
+                        parts = {row["part"] for row in head.result["cut_list"]}
+                        waiting = set(parts)
+                        yield head
+                    for one in self._answers(reply, parts):
+                        if one.status in _RETRYABLE or one.id not in waiting:
+                            continue  # asked for again below, or known already
+                        waiting.remove(one.id)
+                        run.answered()
+                        yield one
+                self._answered(url)
+            except _Down:
+                self._is_down(url, tried)
+            except _Full as full:
+                tried.add(url)
+                wait = full.wait_s
+            except ProblemError as refused:
+                if refused.problem.code not in _PINNED or not others.may_be(url, behind[0]):
+                    raise
+                tried.add(url)
+                continue
+            if waiting or parts is None:
+                self._again(run, tried, wait, len(waiting) != before, f"{len(waiting)} parts of the frame are unanswered")
+
     # -- catalogues
 
     def catalogue(self, name: str) -> Json:
@@ -575,8 +685,7 @@ class Client:
                             continue  # sent again below, or known already
                         run.answered()
                         yield one
-                self._first = self._urls.index(url)
-                self._away.pop(url, None)
+                self._answered(url)
                 if elsewhere and others.may_be(url, behind[0] if behind else None):
                     tried.add(url)
                 else:  # as they are refused everywhere, so they are
@@ -584,23 +693,35 @@ class Client:
                         if waiting.pop(one.id, None):
                             yield one
             except _Down:
-                tried.add(url)
-                self._away[url] = time.monotonic() + _AWAY_S
+                self._is_down(url, tried)
             except _Full as full:
                 tried.add(url)
                 wait = full.wait_s
-            if len(tried) == len(self._urls):
-                tried.clear()
             if run.stopped():
                 return  # hung up, which looks like a replica that is down
-            if waiting and run.lasts_too_long(wait):
-                raise UnreachableError(f"{len(waiting)} jobs of the batch are unanswered; tried {', '.join(self._urls)}")
-            if waiting and len(waiting) == before:
-                run.sleep(wait)
+            if waiting:
+                self._again(run, tried, wait, len(waiting) != before, f"{len(waiting)} jobs of the batch are unanswered")
+
+    def _answered(self, url: str) -> None:
+        self._first = self._urls.index(url)
+        self._away.pop(url, None)
+
+    def _is_down(self, url: str, tried: Set[str]) -> None:
+        tried.add(url)
+        self._away[url] = time.monotonic() + _AWAY_S
+
+    def _again(self, run: _Run, tried: Set[str], wait: float, moved: bool, what: str) -> None:
+        """Before the next replica is asked for what is left."""
+        if run.lasts_too_long(wait):
+            raise UnreachableError(f"{what}; tried {', '.join(self._urls)}")
+        if not moved:
+            run.sleep(wait)
 
     def _next_url(self, run: _Run, tried: Set[str]) -> str:
         """One not tried yet, not lately down, with the fewest parts at work; of such the one that answered last, and those after it."""
         now, count = time.monotonic(), len(self._urls)
+        if len(tried) == count:
+            tried.clear()
         turns = [self._urls[(self._first + i) % count] for i in range(count)]
         return min((url for url in turns if url not in tried), key=lambda url: (self._away.get(url, now) > now, run.parts_at(url)))
 
@@ -641,9 +762,15 @@ class Client:
             return self._batches[url]
 
     def _streamed(self, url: str, items: Sequence[BatchItem], run: _Run, behind: List[Optional[str]]) -> Iterator[BatchResult]:
-        """The answers of one POST /v1/batches, and the name of who gives them. Reads while it still sends, so neither side waits for
-        the other."""
-        lines = [item.line() for item in items]
+        """The answers of one POST /v1/batches."""
+        with self._stream(url, "/v1/batches", {"Content-Type": _NDJSON}, [item.line() for item in items], run, behind) as reply:
+            yield from self._answers(reply, {item.id for item in items})
+
+    @contextlib.contextmanager
+    def _stream(self, url: str, path: str, headers: Mapping[str, str], lines: Sequence[bytes], run: _Run,
+                behind: List[Optional[str]]) -> Iterator[http.client.HTTPResponse]:
+        """One POST whose answer comes in lines, and the name of who gives it. Reads while it still sends, so neither side waits for the
+        other."""
         connection = self._connect(url, min(_CONNECT_S, self._timeout_s))
         wire: Optional[socket.socket] = None
         sender: Optional[threading.Thread] = None
@@ -655,18 +782,17 @@ class Client:
             else:
                 wire.settimeout(self._timeout_s)
             run.opened(wire)
-            connection.putrequest("POST", urllib.parse.urlsplit(url).path + "/v1/batches")
-            headers = {**self._headers, "Content-Type": _NDJSON, "Accept": _NDJSON, "Content-Length": str(sum(map(len, lines)))}
-            for name, value in headers.items():
+            connection.putrequest("POST", urllib.parse.urlsplit(url).path + path)
+            for name, value in {**self._headers, **headers, "Accept": _NDJSON, "Content-Length": str(sum(map(len, lines)))}.items():
                 connection.putheader(name, value)
             connection.endheaders()
             sender = threading.Thread(target=_send_all, args=(wire, lines), daemon=True)
             sender.start()
             reply = connection.getresponse()
+            behind.append(reply.headers.get("Tubecut-Replica"))
             if reply.status != 200:
                 raise _refusal(_Reply(reply.status, reply.headers, reply.read()))
-            behind.append(reply.headers.get("Tubecut-Replica"))
-            yield from self._answers(reply, {item.id for item in items})
+            yield reply
         except (OSError, http.client.HTTPException) as broken:
             raise _Down(str(broken)) from None
         finally:
@@ -678,12 +804,9 @@ class Client:
     def _answers(self, reply: http.client.HTTPResponse, ids: Iterable[str]) -> Iterator[BatchResult]:
         known = set(ids)
         while True:
-            line = reply.readline()
-            if not line.endswith(b"\n"):
-                raise _Down("the batch broke off before its summary")
-            if line.isspace():
+            text = _line_of(reply)
+            if not text:
                 continue
-            text = line.decode("utf-8")
             members = _members(text)
             if "summary" in members or "id" not in members:
                 return
@@ -860,8 +983,15 @@ def _document_of(members: Mapping[str, Tuple[Any, int, int]]) -> bytes:
         raise ProtocolError(f"an unreadable document: {bad}") from None
 
 
+def _line_of(reply: http.client.HTTPResponse) -> str:
+    line = reply.readline()
+    if not line.endswith(b"\n"):
+        raise _Down("the answer broke off before its summary")
+    return line.decode("utf-8").strip()
+
+
 def _refusal(reply: _Reply) -> Exception:
-    """Of a whole batch."""
+    """Of a whole batch or frame."""
     return _Full(max(0.1, _wait_s(reply))) if reply.status in _RETRYABLE else ProblemError(_problem_of(reply))
 
 
@@ -1033,6 +1163,28 @@ def _run_batch(client: Client, path: str) -> int:
     return 1 if refused else 0
 
 
+def _run_frame(client: Client, path: str) -> int:
+    bar = ProgressBar()
+    refused = 0
+    try:
+        for one in client.frame_lines(_read(path), progress=bar):
+            if isinstance(one, FrameSummary):
+                refused = one.refused
+                print(json.dumps({"summary": dataclasses.asdict(one)}))
+            else:
+                print(one.text if isinstance(one, Answer) else _printed(one), flush=True)
+    finally:
+        bar.close()
+    return 1 if refused else 0
+
+
+def _read(path: str) -> Any:
+    if path == "-":
+        return json.load(sys.stdin)
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
 def _option(text: str) -> Tuple[str, str]:
     name, equals, value = text.partition("=")
     if not (name and equals):
@@ -1041,12 +1193,11 @@ def _option(text: str) -> Tuple[str, str]:
 
 
 def _run_post(client: Client, options: argparse.Namespace) -> int:
-    text = sys.stdin.read() if options.file == "-" else open(options.file, encoding="utf-8").read()
+    request = _read(options.file)
     if options.format:
-        document = client.document(options.endpoint, json.loads(text), options.format, **dict(options.option))
-        sys.stdout.buffer.write(document)
+        sys.stdout.buffer.write(client.document(options.endpoint, request, options.format, **dict(options.option)))
         return 0
-    print(client.post(options.endpoint, json.loads(text), validate_only=options.validate_only).text)
+    print(client.post(options.endpoint, request, validate_only=options.validate_only).text)
     return 0
 
 
@@ -1062,6 +1213,9 @@ def _arguments() -> argparse.ArgumentParser:
     post.add_argument("--format", help="csv, svg, gcode and what GET /v1/version lists; not with --validate-only")
     post.add_argument("--option", action="append", type=_option, default=[], metavar="NAME=VALUE",
                       help="of the format, such as speed_mm_min=600; may be given again")
+    frame = commands.add_parser("frame", help="a frame's request file; prints the frame, then {id, status, body} of each part as it is done, last "
+                                "{summary}. The whole answer at once: post frames FILE")
+    frame.add_argument("file", help="- for stdin")
     batch = commands.add_parser("batch", help="NDJSON of {id, endpoint, body}; prints {id, status, body} as they finish. A line may name "
                                 "a format and its options; then it has media and document (document_base64 where it is no text)")
     batch.add_argument("file", help="- for stdin")
@@ -1079,7 +1233,9 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         parser.error("--option belongs to --format, and --format has no --validate-only")
     try:
         client = Client(*(options.url or ["http://127.0.0.1:8080"]), key=_key(options.key_file))
-        return _run_batch(client, options.file) if options.command == "batch" else _run_post(client, options)
+        if options.command == "post":
+            return _run_post(client, options)
+        return (_run_batch if options.command == "batch" else _run_frame)(client, options.file)
     except ProblemError as refused:
         print(refused, file=sys.stderr)
         for error in refused.errors:
