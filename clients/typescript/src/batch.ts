@@ -1,16 +1,14 @@
 /** Many jobs over all replicas: parts side by side, each id answered once. */
-import {ContractError, isProblem, refusal, UnreachableError} from './errors.js';
+import {ContractError, UnreachableError} from './errors.js';
 import type {BatchLine, DocumentLine, Schemas} from './index.js';
-import {addressesOf, nameOf, Others, refusesPin, replicasAt, RETRYABLE, retryAfterMs, waitFor, type Addresses} from './replicas.js';
+import {Down, Full, linesOf, NDJSON, Run, type LineOptions} from './lines.js';
+import {Others, refusesPin, replicasAt, RETRYABLE, waitFor, type Addresses} from './replicas.js';
 
-const MEDIA = 'application/x-ndjson';
 const PART_BYTES = 4 << 20;  // the service takes 8 MiB
 const AHEAD = 2000;  // lines read before they are sent
 const PART_LINES = 8;  // at least, so that a replica of several slots has work for each
 const STREAMS = 32;  // at most
 const UNTAKEN = 256;  // answers that wait for a slow caller; then the service waits too
-const AWAY_MS = 5000;  // how long a replica that was down is asked last
-const LONGEST_WAIT_MS = 10_000;
 
 type Line = BatchLine | DocumentLine;
 type Reported = Pick<Schemas['BatchReply'], 'id' | 'line' | 'status' | 'verdict'>;
@@ -18,30 +16,14 @@ export type BatchReply = Reported & {body: Record<string, unknown>};
 export type DocumentReply = {id: string; line: number; status: 200; verdict?: NonNullable<Reported['verdict']>; document: Blob};
 export type BatchSummary = Schemas['BatchSummary']['summary'];
 
-export interface BatchOptions {
-  /** Ends the batch and the work on it. */
-  signal?: AbortSignal;
-  headers?: Record<string, string>;
-  fetch?: typeof fetch;
+export interface BatchOptions extends LineOptions {
   /** Parts at a time; else as many as there are replicas. 1: one after the other. */
   streams?: number;
-  /** How long it goes on while no replica answers. */
-  patienceMs?: number;
-  /** Called with each answer: how many there are, of how many lines where that is known, how many of them refusals. */
-  progress?: (done: number, total: number | undefined, refused: number) => void;
 }
 
 /** A line as it is sent; `at` is its number in the whole batch, from 1. */
 interface Job {at: number; id: string; text: string; bytes: number}
 interface Answered {at: number; reply: Schemas['BatchReply']}
-
-/** This replica could not be reached, or broke off. */
-class Down extends Error {}
-
-/** It has no room for the batch. */
-class Full extends Error {
-  constructor(readonly waitMs: number) { super(); }
-}
 
 const bytesOf = (base64: string): Uint8Array => {
   const text = atob(base64);
@@ -54,24 +36,6 @@ const bytesOf = (base64: string): Uint8Array => {
 function replyOf({at, reply: {media, document, document_base64, ...told}}: Answered): BatchReply | DocumentReply {
   const content = document ?? (document_base64 === undefined ? undefined : bytesOf(document_base64));
   return {...told, line: at, ...(content === undefined ? {} : {document: new Blob([content], {type: media})})} as BatchReply | DocumentReply;
-}
-
-/** Whole lines; the stream may break off anywhere. */
-async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
-  const decoder = new TextDecoder();
-  const reader = body.getReader();
-  let rest = '';
-  try {
-    for (;;) {
-      const {done, value} = await reader.read();
-      const lines = (rest + decoder.decode(value, {stream: !done})).split('\n');
-      rest = lines.pop() ?? '';
-      yield* lines;
-      if (done) return;
-    }
-  } finally {
-    await reader.cancel().catch(() => undefined);  // left early: the service stops
-  }
 }
 
 /** The lines not sent yet, read as far ahead as a part may be large. */
@@ -121,78 +85,14 @@ class Waiting {
   }
 }
 
-/** What the parts of one batch share: where they ask, how long, and whether it goes on. */
-class Run {
-  readonly addresses: string[];
-  readonly send: typeof fetch;
-  readonly headers: Record<string, string>;
-  readonly #patienceMs: number;
-  readonly #stop = new AbortController();
-  readonly #parts = new Map<string, number>();
-  readonly #away = new Map<string, number>();
-  #giveUp = 0;
-  #first = 0;
-
-  constructor(addresses: Addresses, {fetch: send = fetch, headers = {}, patienceMs = 30_000}: BatchOptions) {
-    this.addresses = addressesOf(addresses);
-    this.send = send;
-    this.headers = headers;
-    this.#patienceMs = patienceMs;
-    this.goesOn();
-  }
-
-  get signal(): AbortSignal { return this.#stop.signal; }
-  stop(reason?: unknown): void { this.#stop.abort(reason); }
-  goesOn(): void { this.#giveUp = Date.now() + this.#patienceMs; }
-  lastsTooLong(wait: number): boolean { return Date.now() + wait > this.#giveUp; }
-
-  begin(address: string): void { this.#parts.set(address, this.#at(address) + 1); }
-  end(address: string): void { this.#parts.set(address, this.#at(address) - 1); }
-  #at(address: string): number { return this.#parts.get(address) ?? 0; }
-
-  isDown(address: string): void { this.#away.set(address, Date.now() + AWAY_MS); }
-  answered(address: string): void {
-    this.#first = this.addresses.indexOf(address);
-    this.#away.delete(address);
-  }
-
-  /** One not tried yet, not lately down, with the fewest parts at work; of such the one that answered last, and those after it. */
-  next(tried: ReadonlySet<string>): string {
-    const now = Date.now();
-    const turns = [...this.addresses.slice(this.#first), ...this.addresses.slice(0, this.#first)].filter((one) => !tried.has(one));
-    const cost = (one: string) => ((this.#away.get(one) ?? 0) > now ? 1e6 : 0) + this.#at(one);
-    return turns.reduce((best, one) => (cost(one) < cost(best) ? one : best));
-  }
-}
-
 /** The answers of one POST; `told` gets the name of who gives them. Ends when the stream has its summary. */
 async function* streamed(run: Run, address: string, jobs: Job[], told: (name: string) => void): AsyncGenerator<Answered> {
-  const broken = (error: unknown): never => {
-    if (run.signal.aborted) throw run.signal.reason;
-    throw new Down(String(error));
-  };
-  const reply = await run.send(`${address}/v1/batches`, {
-    method: 'POST', headers: {...run.headers, 'Content-Type': MEDIA, Accept: MEDIA}, body: jobs.map(({text}) => text).join(''), signal: run.signal,
-  }).catch(broken);
-  if (RETRYABLE.has(reply.status)) {
-    await reply.body?.cancel();
-    throw new Full(Math.min(LONGEST_WAIT_MS, Math.max(100, retryAfterMs(reply, 0))));
-  }
-  if (!reply.ok || !reply.body) throw await refusal(reply);
-  told(nameOf(reply));
-  const lines = textLines(reply.body);
-  try {
-    for (;;) {
-      const {done, value: text} = await lines.next().catch(broken);
-      if (done) throw new Down('the batch broke off before its summary');
-      const answer = parsed(text);
-      if ('summary' in answer) return;
-      const job = jobs[answer.line - 1];
-      if (!job || (answer.id !== null && answer.id !== job.id)) throw new ContractError(`an answer to ${answer.id}, which was not asked`);
-      yield {at: job.at, reply: answer};
-    }
-  } finally {
-    await lines.return(undefined);
+  for await (const text of linesOf(run, `${address}/v1/batches`, {'Content-Type': NDJSON}, jobs.map((job) => job.text).join(''), told)) {
+    const answer = parsed(text);
+    if ('summary' in answer) return;
+    const job = jobs[answer.line - 1];
+    if (!job || (answer.id !== null && answer.id !== job.id)) throw new ContractError(`an answer to ${answer.id}, which was not asked`);
+    yield {at: job.at, reply: answer};
   }
 }
 
@@ -312,11 +212,8 @@ export function batch(
     baseUrl: Addresses, lines: Iterable<Line>, options?: BatchOptions): AsyncGenerator<BatchReply | DocumentReply, BatchSummary>;
 export async function* batch(
     baseUrl: Addresses, lines: Iterable<Line>, options: BatchOptions = {}): AsyncGenerator<BatchReply | DocumentReply, BatchSummary> {
-  const {signal, progress} = options;
+  const {progress} = options;
   const run = new Run(baseUrl, options);
-  const stop = () => run.stop(signal?.reason);
-  signal?.addEventListener('abort', stop, {once: true});
-  if (signal?.aborted) stop();
   const total = Array.isArray(lines) ? lines.length : undefined;
   const summary = {items: 0, answered: 0, refused: 0, unanswered: 0};
   try {
@@ -330,7 +227,6 @@ export async function* batch(
     }
     return summary;
   } finally {
-    signal?.removeEventListener('abort', stop);
     run.stop();
   }
 }

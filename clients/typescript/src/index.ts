@@ -5,6 +5,9 @@ import {ContractError, isProblem, ProblemError} from './errors.js';
 import {addressesOf, retryingFetch, type Addresses, type RetryOptions} from './replicas.js';
 
 export {batch, type BatchOptions, type BatchReply, type BatchSummary, type DocumentReply} from './batch.js';
+export {frame, type Frame, type FrameHead, frameLines, type FrameLine, type FrameOptions, type FramePart, type FrameSummary} from './frame.js';
+export type {LineOptions, Progress} from './lines.js';
+export {progressBar, type ProgressBarOptions, type Terminal} from './progress.js';
 export {ContractError, type Problem, ProblemError, UnreachableError} from './errors.js';
 export {type Addresses, retryingFetch, type RetryOptions} from './replicas.js';
 export type {components, operations, paths} from './schema.js';
@@ -50,16 +53,26 @@ export interface JobOptions {
   signal?: AbortSignal;
 }
 
+function sent<P extends PostPath, Data = Answer<P>>(
+    client: TubecutClient, path: P, body: RequestBody<P>, {jobId, signal}: JobOptions, init: object = {}): Promise<NonNullable<Data>> {
+  const send = client.POST as (path: P, init: object) => Promise<Reply<Data>>;
+  return answered(send(path, {
+    body, ...init, ...(jobId === undefined ? {} : {headers: {'Job-Id': jobId}}), ...(signal === undefined ? {} : {signal}),
+  }));
+}
+
+/** Everything but the result: the real verdict, and an estimate of the CPU that the job takes. */
+export function validated<P extends PostPath>(client: TubecutClient, path: P, body: RequestBody<P>, options: JobOptions = {}): Promise<NonNullable<Answer<P>>> {
+  return sent(client, path, body, options, {params: {query: {validate_only: true}}});
+}
+
 /**
  * One job: its whole answer with `result`, or a thrown ProblemError. Stricter than `client.POST`, whose inference lets unknown
  * fields of a literal through: here they do not compile.
  */
 export async function post<P extends PostPath>(
-    client: TubecutClient, path: P, body: RequestBody<P>, {jobId, signal}: JobOptions = {}): Promise<Answered<P>> {
-  const send = client.POST as (path: P, init: object) => Promise<Reply<Answer<P>>>;
-  const data = await answered(send(path, {
-    body, ...(jobId === undefined ? {} : {headers: {'Job-Id': jobId}}), ...(signal === undefined ? {} : {signal}),
-  }));
+    client: TubecutClient, path: P, body: RequestBody<P>, options: JobOptions = {}): Promise<Answered<P>> {
+  const data = await sent(client, path, body, options);
   if (data.result === undefined) throw new ContractError('an answer without result');
   return data as Answered<P>;
 }
@@ -80,12 +93,8 @@ export type FormatOptions<P extends PostPath> = Omit<NonNullable<paths[P]['post'
 /** The same answer as a drawing, table or machine file, or a thrown ProblemError. */
 export async function documentOf<P extends PostPath>(
     client: TubecutClient, path: P, body: RequestBody<P>, format: Format<P>, options?: FormatOptions<P>,
-    {jobId, signal}: JobOptions = {}): Promise<Blob> {
-  const send = client.POST as (path: P, init: object) => Promise<Reply<Blob>>;
-  return answered(send(path, {
-    body, params: {query: {...options, format}}, parseAs: 'blob',
-    ...(jobId === undefined ? {} : {headers: {'Job-Id': jobId}}), ...(signal === undefined ? {} : {signal}),
-  }));
+    job: JobOptions = {}): Promise<Blob> {
+  return sent<P, Blob>(client, path, body, job, {params: {query: {...options, format}}, parseAs: 'blob'});
 }
 
 /** One job of a batch; its body is the endpoint's own. */

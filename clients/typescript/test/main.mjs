@@ -19,6 +19,7 @@ console.log(`right.ts and the README compile; ${expected} wrong calls do not`);
 
 const {answered, batch, documentOf, FORMATS, post, ProblemError, retryingFetch, tubecut, UnreachableError} = await import('../dist/index.js');
 const replicas = await import('./replicas.mjs');
+const frames = await import('./frames.mjs');
 
 async function computesTableOne({client}) {
   const {job, result, verification, verdict} =
@@ -191,11 +192,12 @@ const service = await Service.start(values.server);
 const base = `http://127.0.0.1:${service.port}`;
 try {
   for (const test of [computesTableOne, chainsTableToSchedule, tellsEveryWrongField, reachesFormatsAndCatalogues, knowsEveryFormatAndOption,
-    repeatsWhatIsRetryable, streamsABatch, batchesDocuments, runsItsPage, ...replicas.tests]) {
+    repeatsWhatIsRetryable, streamsABatch, batchesDocuments, runsItsPage, ...frames.tests, ...replicas.tests]) {
     await test({base, client: tubecut(base), server: values.server});
     console.log(`ok ${test.name}`);
   }
 } finally {
+  frames.close();
   replicas.close();
   assert.equal(await service.stop(), 0);
 }

@@ -1,5 +1,5 @@
 // What the client must accept. Compiled, never run.
-import {answered, batch, documentOf, post, tubecut, type BatchLine, type DocumentLine, type Schemas} from '../src/index.js';
+import {answered, batch, documentOf, frame, frameLines, post, progressBar, tubecut, validated, type BatchLine, type DocumentLine, type Schemas} from '../src/index.js';
 
 const client = tubecut('http://127.0.0.1:8080');
 
@@ -68,6 +68,22 @@ export async function calls(): Promise<number> {
   const {done} = await stream.next();
   await post(tubecut(replicas, {retry: {attempts: 2}}), '/v1/bevel-tables', joint);
   console.log(done);
+
+  const roof = {
+    members: [{id: 'A', start_mm: [0, 0, 0], end_mm: [1000, 0, 0], size: 'CHS 60.3x4'}],
+    joints: [{between: ['A', 'floor'], kind: 'set_on', gap_mm: 1}], others: [{kind: 'plane', id: 'floor', point_mm: [0, 0, 0], normal: [1, 0, 0]}],
+    defaults: {root_surface: 'inner', groove: {rule: 'none'}, smoothing: {method: 'none'}}, kerf_mm: 1,
+  } satisfies Schemas['FramesRequest'];
+  for await (const {head, part, summary} of frameLines(replicas, roof, {jobId: 'roof', patienceMs: 5000})) {
+    const rows: number | undefined = head?.result.cut_list.length;
+    const code: string | undefined = part?.problem?.code;
+    const long: number | undefined = part?.answer?.result?.lengths.long_mm;
+    console.log(rows, code, long, summary?.refused);
+  }
+  const gathered = await frame(replicas, roof, {progress: progressBar(process.stderr)});
+  const first: string | undefined = gathered.parts.get(gathered.head.result.members[0]?.part ?? '')?.id;
+  const dry = await validated(client, '/v1/frames', roof);
+  console.log(first, dry.estimate?.cpu_s);
 
   const limits = await answered(client.GET('/v1/limits'));
   return Number(passed) + columns.length + sign.length + status.length + (text?.length ?? 0) + periods + (pointer?.length ?? 0) +

@@ -1,5 +1,5 @@
 // What the client must refuse. Each directive names the compiler's code and a word of its message; main.mjs holds both.
-import {documentOf, post, tubecut, type BatchLine, type DocumentLine} from '../src/index.js';
+import {documentOf, frame, frameLines, post, tubecut, type BatchLine, type DocumentLine} from '../src/index.js';
 import {joint} from './right.js';
 
 const client = tubecut('http://127.0.0.1:8080');
@@ -72,6 +72,16 @@ export async function calls(): Promise<void> {
   // @ts-expect-error 2322 "gcode"
   const files: DocumentLine[] = [{id: '2', endpoint: 'replays', body: {} as never, format: 'gcode'}];
   console.log(files);
+
+  const roof = {members: [], defaults: {root_surface: 'inner', groove: {rule: 'none'}, smoothing: {method: 'none'}}, kerf_mm: 1} as const;
+  // @ts-expect-error 2353 within
+  await frame('http://127.0.0.1:8080', {...roof, members: [], connect: {within: 1}});
+
+  // @ts-expect-error 2353 format
+  for await (const line of frameLines('http://127.0.0.1:8080', {...roof, members: []}, {format: 'csv'})) console.log(line);
+
+  // @ts-expect-error 2345 '"gcode"' is not assignable
+  await documentOf(client, '/v1/frames', {...roof, members: []}, 'gcode');
 
   // @ts-expect-error 2367 no overlap
   if (whole.data?.verdict.status === 'fine') console.log(text);
