@@ -7,6 +7,7 @@ script: `cut(document, target, partners, client, settings)`. Settings: the prefe
 import bisect
 import dataclasses
 import math
+import os
 import pathlib
 import sys
 
@@ -108,7 +109,10 @@ def node_of(target, partners, end):
 def frame_of(client, node, end):
     """Placement of the target's frame in the world: z from the cut end into the kept tube."""
     answer = client.nodes(node)
-    frame = next(e["frame"] for e in answer.result["ends"] if e["member"] == "target" and e["end"] == end)
+    return placement_of(next(e["frame"] for e in answer.result["ends"] if e["member"] == "target" and e["end"] == end))
+
+
+def placement_of(frame):
     rows = [*zip(frame["x"], frame["y"], frame["z"], frame["origin_mm"])]
     return App.Placement(App.Matrix(*rows[0], *rows[1], *rows[2], 0, 0, 0, 1))
 
@@ -127,7 +131,7 @@ def _closed(phi, *columns):
     return [*phi, 360.0], *([*column, column[0]] for column in columns)
 
 
-def _corners(events):
+def corners_of(events):
     for event in events:
         if event["kind"] == "jump":
             raise CutError(f"the cut jumps by {abs(event['z_to_mm'] - event['z_from_mm']):.3f} mm at {event['phi_deg']:.3f} deg, "
@@ -147,7 +151,7 @@ def _between(phi, z, corners, angle):
 def bevelled_profile(result):
     points = result["points"]
     phi, inner, outer = _closed(points["phi_deg"], points["z_inner_mm"], points["z_outer_mm"])
-    return Profile(phi, inner, outer, _corners(result["events"]))
+    return Profile(phi, inner, outer, corners_of(result["events"]))
 
 
 def plain_profile(result):
@@ -155,7 +159,7 @@ def plain_profile(result):
     walls = {}
     for wall in result["profiles"]:
         phi, z = _closed(wall["points"]["phi_deg"], wall["points"]["z_mm"])
-        walls[wall["surface"]] = phi, z, _corners(wall["events"])
+        walls[wall["surface"]] = phi, z, corners_of(wall["events"])
     both = sorted({phi for wall in walls.values() for phi in wall[0]})
     columns = {}
     for surface, (phi, z, corners) in walls.items():
@@ -249,15 +253,20 @@ class Cut:
     answer: tubecut.Answer
 
 
+def describe(item, verdict, job, **more):
+    """What the service said of it, as the item's properties."""
+    for name, value in {"Verdict": verdict["status"], "InputSha256": job["input_sha256"], "ResultSha256": job["result_sha256"],
+                        "Engine": job["engine"], **more}.items():
+        item.addProperty("App::PropertyString", name, "Tubecut")
+        setattr(item, name, value)
+    return item
+
+
 def _add(document, kind, label, shape, answer):
     item = document.addObject("Part::Feature", kind)
     item.Label = label
     item.Shape = shape
-    for name, value in (("Verdict", answer.verdict["status"]), ("InputSha256", answer.job["input_sha256"]),
-                        ("ResultSha256", answer.job["result_sha256"]), ("Engine", answer.job["engine"])):
-        item.addProperty("App::PropertyString", name, "Tubecut")
-        setattr(item, name, value)
-    return item
+    return describe(item, answer.verdict, answer.job)
 
 
 def cut(document, target, partners, client, settings=None, end=None):
@@ -294,12 +303,12 @@ def cut(document, target, partners, client, settings=None, end=None):
 # ---- as a macro
 
 
-def _preferences():
+def preferences():
     return App.ParamGet("User parameter:BaseApp/Preferences/Mod/Tubecut")
 
 
 def settings_from_preferences():
-    group = _preferences()
+    group = preferences()
     settings = Settings(bevel=group.GetBool("Bevel", True))
     settings.request["kerf_mm"] = group.GetFloat("KerfMm", 0.0)
     settings.request["contact"] = group.GetString("Contact", "inner")
@@ -308,17 +317,21 @@ def settings_from_preferences():
     return settings
 
 
-def _message(error):
+def message(error):
     if not isinstance(error, tubecut.ProblemError):
         return str(error)
     return "\n".join([error.problem.detail, *(f"{e.pointer}: {e.hint or e.code}" for e in error.errors)])
+
+
+def client_from_preferences():
+    return tubecut.Client(preferences().GetString("Url", "http://127.0.0.1:8080"), key=os.environ.get("TUBECUT_KEY"), patience_s=5)
 
 
 def run():
     import FreeCADGui as Gui
 
     selected = Gui.Selection.getSelection()
-    client = tubecut.Client(_preferences().GetString("Url", "http://127.0.0.1:8080"), patience_s=5)
+    client = client_from_preferences()
     App.ActiveDocument.openTransaction("Cut tube")
     try:
         made = cut(App.ActiveDocument, selected[0] if selected else None, selected[1:], client, settings_from_preferences())
@@ -330,7 +343,7 @@ def run():
             App.Console.PrintWarning(f"tubecut: {warning['detail']}\n")
     except (CutError, tubecut.TubecutError) as error:
         App.ActiveDocument.abortTransaction()
-        App.Console.PrintError(f"tubecut: {_message(error)}\n")
+        App.Console.PrintError(f"tubecut: {message(error)}\n")
 
 
 if __name__ == "__main__" and App.GuiUp:
