@@ -180,8 +180,10 @@ const connected = fc.tuple(members, between(5, 40), fc.boolean()).map(([all, wit
   ? all.slice(1).map(({id}, i) => ({member: id, end: 'start', to: all.slice(0, i + 1).map((other) => other.id)}))
   : {within_mm: within}}));
 
-// The endpoint's examples with every number that is no count moved by up to a thousandth.
+// The endpoint's examples with every number that is no count moved by up to a thousandth. Not those of hundreds of members: alike no more, each would be a
+// part of its own.
 function nearExamples(contract, endpoint) {
+  const examples = endpoint.examples.filter(({body}) => !(body.members?.length > 100));
   const move = (given, value, turns) => {
     if (given === true || value === null) return value;
     const schema = branchOf(contract, contract.resolve(given), value);
@@ -191,7 +193,7 @@ function nearExamples(contract, endpoint) {
     }
     return schema.type === 'number' ? value * (1 + turns() / 1e6) : value;
   };
-  return fc.tuple(fc.constantFrom(...endpoint.examples), fc.infiniteStream(fc.integer({min: -1000, max: 1000})))
+  return fc.tuple(fc.constantFrom(...examples), fc.infiniteStream(fc.integer({min: -1000, max: 1000})))
     .map(([{body}, stream]) => move(endpoint.request, body, () => stream.next().value))
     .filter((body) => endpoint.validRequest(body));
 }

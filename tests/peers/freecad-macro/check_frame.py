@@ -20,7 +20,7 @@ import tubecut  # noqa: E402
 
 SAG = 0.01  # mm between a surface and the triangles a volume is taken of
 VOLUME_OFF, MOST_SHARED = 4e-4, 1e-4  # of a part's steel: the triangles; of all steel
-FRAMES = {"jacket-node-with-set-in-stubs": ("S1", 20), "guard-rail-with-stair": ("post 6", 5)}  # and who is turned by how much, in deg
+FRAMES = {"jacket-node-with-set-in-stubs": ("S3", 30), "guard-rail-with-stair": ("post 6", 5)}  # and who is turned by how much, in deg
 PLACE = App.Placement(App.Vector(120, -40, 75), App.Rotation(App.Vector(1, 2, 3), 40))  # nothing may depend on where the document's origin is
 
 figures, failures = {}, []
