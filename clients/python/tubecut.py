@@ -522,8 +522,16 @@ class Client:
     def frame(self, request: Mapping[str, Any], *, job_id: Optional[str] = None, progress: Optional[Progress] = None) -> Frame:
         """A whole frame of any size, asked for line by line: each part has a budget of its own, where that of `frames()` is one for all.
         What needs the finished parts (weld and fit-up of joints, totals) is in the answer of `frames()` alone."""
-        head, *parts, summary = self.frame_lines(request, job_id=job_id, progress=progress)
-        return Frame(head, {part.id: part for part in parts}, summary)
+        head: Optional[Answer] = None
+        parts: Dict[str, BatchResult] = {}
+        for one in self.frame_lines(request, job_id=job_id, progress=progress):
+            if isinstance(one, Answer):
+                head = one
+            elif isinstance(one, BatchResult):
+                parts[one.id] = one
+            elif head:
+                return Frame(head, parts, one)
+        raise ProtocolError("a frame without a summary")
 
     def frame_lines(self, request: Mapping[str, Any], *, job_id: Optional[str] = None,
                     progress: Optional[Progress] = None) -> Iterator[Union[Answer, BatchResult, FrameSummary]]:
