@@ -24,7 +24,7 @@ export type TubecutOptions = Omit<ClientOptions, 'baseUrl' | 'fetch'> & {retry?:
  */
 export function tubecut(baseUrl: Addresses, {retry, ...rest}: TubecutOptions = {}): TubecutClient {
   const [first = ''] = addressesOf(baseUrl);
-  return createFetchClient<paths, Media>({...rest, baseUrl: first, fetch: retryingFetch(retry, baseUrl)});
+  return createFetchClient<paths, Media>({querySerializer: {array: {style: 'form', explode: false}}, ...rest, baseUrl: first, fetch: retryingFetch(retry, baseUrl)});
 }
 
 interface Reply<Data> {
@@ -80,14 +80,14 @@ export async function post<P extends PostPath>(
 /** What the service calls the media types of its documents (docs/formats.md). */
 export const FORMATS = {
   cbor: 'application/cbor', csv: 'text/csv', svg: 'image/svg+xml', dxf: 'image/vnd.dxf', glb: 'model/gltf-binary', stl: 'model/stl',
-  step: 'model/step', nc1: 'application/x-dstv', gcode: 'text/x-gcode', st: 'text/x-iec61131-st',
+  step: 'model/step', nc1: 'application/x-dstv', gcode: 'text/x-gcode', st: 'text/x-iec61131-st', zip: 'application/zip',
 } as const;
 type Content<P extends PostPath> = paths[P]['post']['responses'][200]['content'];
 /** The formats that the endpoint has. */
 export type Format<P extends PostPath> = {
   [F in keyof typeof FORMATS]: (typeof FORMATS)[F] extends keyof Content<P> ? F : never
 }[keyof typeof FORMATS];
-/** The options of its formats: view, mirror, and those of G-code. Which of them a format reads is the service's to say. */
+/** The options of its formats: view, mirror, those of G-code, and the files of a frame's packet. Which of them a format reads is the service's to say. */
 export type FormatOptions<P extends PostPath> = Omit<NonNullable<paths[P]['post']['parameters']['query']>, 'format' | 'validate_only'>;
 
 /** The same answer as a drawing, table or machine file, or a thrown ProblemError. */

@@ -99,7 +99,7 @@ async function completesAFrameThatBrokeOff({client, base}) {
 }
 
 async function hangsUpOnAFrame({base}) {
-  const slow = await standIn(base, {pauseMs: 100});
+  const slow = await standIn(base, {pauseMs: 800});
   let seen = 0;
   for await (const _ of frameLines(slow.url, cage)) if (++seen === 2) break;
   const stop = new AbortController();

@@ -72,11 +72,15 @@ async function knowsEveryFormatAndOption({client, base}) {
   media.delete('application/json');
   assert.deepEqual(new Set(Object.values(FORMATS)), media);
   const body = example('bevel-tables/source-000-table-1.json');
-  for (const format of Object.keys(FORMATS).filter((name) => name !== 'st')) {
+  for (const format of Object.keys(FORMATS).filter((name) => !['st', 'zip'].includes(name))) {
     const content = await documentOf(client, '/v1/bevel-tables', body, format, format === 'gcode' ? {speed_mm_min: 600} : {});
     assert.equal(content.type.split(';')[0], FORMATS[format]);
     assert.ok(content.size > 1000, format);
   }
+  const packet = await documentOf(client, '/v1/frames', example('frames/truss-of-19.json'), 'zip', {files: ['nc1', 'gcode'], speed_mm_min: 600});
+  const text = Buffer.from(await packet.arrayBuffer()).toString('latin1');
+  assert.equal(packet.type, FORMATS.zip);
+  assert.ok(text.startsWith('PK') && ['.nc1', '.ngc', 'manifest.json'].every((name) => text.includes(name)) && !text.includes('.step'));
   const {paths, components} = await (await fetch(`${base}/openapi.json`)).json();
   const names = paths['/v1/bevel-tables'].post.parameters.map(({$ref}) => components.parameters[$ref.split('/').pop()])
     .filter((one) => one.in === 'query' && !['format', 'validate_only', 'view'].includes(one.name)).map(({name}) => name);

@@ -1,5 +1,5 @@
 // What the client must accept. Compiled, never run.
-import {answered, batch, documentOf, frame, frameLines, post, progressBar, tubecut, validated, type BatchLine, type DocumentLine, type Schemas} from '../src/index.js';
+import {answered, batch, documentOf, frame, frameLines, post, progressBar, tubecut, validated, type BatchLine, type DocumentLine, type RequestBody, type Schemas} from '../src/index.js';
 
 const client = tubecut('http://127.0.0.1:8080');
 
@@ -55,12 +55,14 @@ export async function calls(): Promise<number> {
   const sheet = await documentOf(client, '/v1/parts',
     {members: [], connect: {within_mm: 1}, member: 'B1', root_surface: 'inner', groove: {rule: 'none'}, kerf_mm: 1.5, smoothing: {method: 'none'}}, 'svg', {view: 'work_order'}, {jobId: 'B1'});
 
+  const packet: Blob = await documentOf(client, '/v1/frames', {} as RequestBody<'/v1/frames'>, 'zip', {files: ['nc1', 'step']});
+
   const jobs: BatchLine[] = [{id: '1', endpoint: 'bevel-tables', body: joint}];
   for await (const {body, verdict} of batch('http://127.0.0.1:8080', jobs)) console.log(body['job'], verdict);
   const files: DocumentLine[] = [{id: '2', endpoint: 'bevel-tables', body: joint, format: 'svg', options: {view: 'template', mirror: true}}];
   for await (const reply of batch('http://127.0.0.1:8080', [...jobs, ...files])) {
     const size: number = 'document' in reply ? reply.document.size : reply.line;
-    console.log(size, program.size, sheet.size);
+    console.log(size, program.size, sheet.size, packet.size);
   }
 
   const replicas = ['http://10.0.0.1:8080', 'http://10.0.0.2:8080'] as const;
