@@ -22,7 +22,8 @@ async function downloads({browser, origin, service}, endpoint, name) {
       .catch(async () => assert.fail(`no download of ${media[i]} ${view}: ${await page.locator('#panel [role=status]').innerText()}`));
     const saved = await readFile(await download.path());
     const query = new URLSearchParams(view ? {view} : {});
-    if (contract.paths[`/v1/${endpoint}`].post.responses['200'].content[media[i]]['x-options']?.includes('speed_mm_min')) query.set('speed_mm_min', '600');
+    const options = contract.paths[`/v1/${endpoint}`].post.responses['200'].content[media[i]]['x-options'] ?? [];
+    if (options.includes('speed_mm_min') && !options.includes('files')) query.set('speed_mm_min', '600');
     const {status, body: bytes} = await service.ask(`/v1/${endpoint}?${query}`, {body, headers: {Accept: media[i]}});
     assert.equal(status, 200, `${media[i]} ${view}`);
     assert.ok(saved.length > 100 && saved.equals(bytes), `${media[i]} ${view}: ${saved.length} bytes saved, ${bytes.length} answered`);
@@ -56,12 +57,33 @@ async function named({browser, origin, service}) {
   }
 }
 
+/** A frame's packet with the files that are ticked; what its programs need goes with them alone. */
+async function packet({browser, origin, service}) {
+  const body = await readFile(new URL('../../../examples/frames/truss-of-19.json', import.meta.url));
+  const page = await open(browser, origin, '#/frames/truss-of-19?tab=downloads');
+  await answered(page);
+  for (const name of ['work-order', 'dxf', 'step', 'csv']) await page.locator(`#panel input[data-option=files][value="${name}"]`).uncheck();
+  for (const query of ['files=nc1', 'files=nc1,gcode&speed_mm_min=600']) {
+    await page.locator('#panel input[data-option=files][value=gcode]').setChecked(query.includes('gcode'));
+    const [download] = await Promise.all([page.waitForEvent('download', {timeout: 15000}), page.locator('#panel [data-media="application/zip"]').click()]);
+    const {status, body: bytes} = await service.ask(`/v1/frames?format=zip&${query}`, {body});
+    assert.equal(status, 200);
+    assert.ok((await readFile(await download.path())).equals(bytes), query);
+    assert.match(download.suggestedFilename(), /^truss-of-19-[0-9a-f]{8}\.zip$/);
+    await page.waitForTimeout(150);
+  }
+  assert.ok(await page.locator('#panel progress').isHidden());
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+}
+
 const jobs = {
   'bevel-tables': 'source-000-table-1', 'holes': 'set-in-branch', 'pulse-schedules': 'square-cut-from-a-bare-contour',
-  'feed-curves': 'cut-off-194-mm-whole-cycle', 'grooves': 'case-a-right-angle',
+  'feed-curves': 'cut-off-194-mm-whole-cycle', 'grooves': 'case-a-right-angle', 'frames': 'jacket-node-with-set-in-stubs',
 };
 export const checks = {
   ...Object.fromEntries(Object.entries(jobs).map(([endpoint, name]) => [endpoint, (given) => downloads(given, endpoint, name)])),
   'named by reference and input': named,
+  'a packet of a frame': packet,
 };
 
