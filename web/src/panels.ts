@@ -367,6 +367,7 @@ const endings: Record<string, [string, string]> = {
   'text/html': ['HTML', 'html'],
   'application/pdf': ['PDF', 'pdf'],
   'application/zip': ['Shop packet (zip)', 'zip'],
+  'application/x-ndjson': ['Lines (NDJSON)', 'ndjson'],
 };
 const known = (media: string): [string, string] => endings[media] ?? (/dstv|nc1/.test(media) ? ['DSTV', 'nc1'] : [media, 'txt']);
 
@@ -412,7 +413,7 @@ function listField(option: Format['options'][number], users: string, given: Map<
   return el(
     'fieldset',
     {class: 'field ticks', title: plain(option.description)},
-    el('legend', {class: 'name'}, `${label(option.name)} (${users})`),
+    el('legend', {class: 'name'}, `${label(option.name, 'download')} (${users})`),
     ...boxes.map(({view}) => view),
   );
 }
@@ -476,13 +477,13 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
         )
       : // A speed has no default; one to begin with spares a refusal.
         el('input', {type: 'text', inputmode: 'decimal', value: option.name === 'speed_mm_min' ? '600' : '', placeholder: option.schema.default ?? ''});
-    input.setAttribute('aria-label', `${label(option.name)}, for ${users}`);
+    input.setAttribute('aria-label', `${label(option.name, 'download')}, for ${users}`);
     input.dataset['option'] = option.name;
     given.set(option.name, () => input.value);
     return el(
       'label',
       {class: 'field', title: plain(option.description)},
-      el('span', {class: 'name'}, `${label(option.name)} (${users})`),
+      el('span', {class: 'name'}, `${label(option.name, 'download')} (${users})`),
       el('span', {class: 'box'}, input, unit(option.name) ? el('span', {class: 'unit'}, unit(option.name)) : null),
     );
   });
