@@ -97,13 +97,14 @@ void check_root_face(Reader& in, const bevel::TableSpec& cut) {
 
 /// How found joints are made, and how ends and holes are cut where their joint says nothing.
 bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
-  return in.object("defaults", [&](Reader& d) {
+  const bool laser = out.preset == Preset::tube_laser;
+  const auto decode = [&](Reader& d) {
     static constexpr std::array kFound{Option<JointKind>{"set_on", JointKind::set_on},
                                        Option<JointKind>{"set_in", JointKind::set_in}};
     bevel::TableSpec cut;
     out.spec.found.kind = d.choice("kind", kFound, JointKind::set_on);
     decode_how(d, d.understood("kind"), out.spec.found);
-    decode_cut(d, false, Preset::none, cut);
+    decode_cut(d, false, out.preset, cut);
     if (cut.root_gap > 0.0)
       d.issue({.code = ErrorCode::unsupported_combination,
                .pointer = "root_gap_mm",
@@ -111,7 +112,10 @@ bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
                .hint = "a joint's gap_mm is the gap at its root"},
               d.find("root_gap_mm"));
     check_hole_groove(d, out.spec.found, cut.groove, "groove");
-    d.choice("tilt", bevel::Tilt::axial);
+    if (laser)
+      (void)decode_no_tilt(d);
+    else
+      (void)d.choice("tilt", bevel::Tilt::axial);
     for (const auto& [name, value] : d.echo()) {
       if (name == "tilt") out.tilt = value;
       for (const auto* one : {"root_surface", "groove", "contact", "root_face_mm", "root_gap_mm",
@@ -119,7 +123,8 @@ bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
         if (name == one) out.end.emplace_back(name, value);
     }
     return cut;
-  });
+  };
+  return laser ? in.defaulted_object("defaults", decode) : in.object("defaults", decode);
 }
 
 Json echoed(Reader& in, std::string_view name) {
@@ -129,14 +134,18 @@ Json echoed(Reader& in, std::string_view name) {
 }
 
 /// What a joint or an end says instead of `cut`, which stands where it says nothing.
-OwnCut decode_own_cut(Reader& in, bevel::TableSpec& cut) {
+OwnCut decode_own_cut(Reader& in, Preset preset, bevel::TableSpec& cut) {
+  const bool laser = preset == Preset::tube_laser;
   for (const auto* name : {"groove", "root_face_mm", "contact"}) in.note(name);
   const bool again = in.has("contact") || in.has("root_face_mm");
   if (in.has("groove"))
-    cut.groove = in.object("groove", [](Reader& g) { return decode_groove(g, true); });
+    cut.groove = laser ? decode_square_groove(in)
+                       : in.object("groove", [](Reader& g) { return decode_groove(g, true); });
   if (in.has("root_face_mm"))
     cut.root_face = in.number("root_face_mm", {.min = 0.0, .max = limit::wall_max_mm});
-  if (in.has("contact")) cut.contact = in.choice("contact", kNames<bevel::Contact>);
+  if (in.has("contact"))
+    cut.contact =
+        laser ? decode_untilted_contact(in) : in.choice("contact", kNames<bevel::Contact>);
   const bool sound = (!in.has("contact") || in.understood("contact")) &&
                      (!in.has("root_face_mm") || in.understood("root_face_mm"));
   if (again && sound) {
@@ -150,22 +159,30 @@ OwnCut decode_own_cut(Reader& in, bevel::TableSpec& cut) {
   };
 }
 
-OwnCut decode_joint_cut(Reader& in, const How& how, bevel::TableSpec cut) {
-  auto out = decode_own_cut(in, cut);
+OwnCut decode_joint_cut(Reader& in, const How& how, Preset preset, bevel::TableSpec cut) {
+  auto out = decode_own_cut(in, preset, cut);
   check_hole_groove(in, how, cut.groove, "groove");
   in.note("tilt");
-  if (in.has("tilt")) (void)in.choice("tilt", kNames<bevel::Tilt>);
+  if (in.has("tilt"))
+    (void)(preset == Preset::tube_laser ? decode_no_tilt(in)
+                                        : in.choice("tilt", kNames<bevel::Tilt>));
   out.tilt = echoed(in, "tilt");
   return out;
 }
 
 /// One of `ends`.
-OwnEnd decode_own_end(Reader& in, const NamedMembers& members, bevel::TableSpec cut) {
+OwnEnd decode_own_end(Reader& in, const NamedMembers& members, Preset preset,
+                      bevel::TableSpec cut) {
   OwnEnd out{.member = known_member(in, members.ids, in.text("member"), "member"),
              .end = in.choice("end", kNames<joint::End>)};
-  out.cut = decode_own_cut(in, cut);
+  out.cut = decode_own_cut(in, preset, cut);
   for (const auto* name : {"smoothing", "kerf_mm"}) in.note(name);
-  if (in.has("smoothing")) (void)in.object("smoothing", decode_smoothing);
+  if (in.has("smoothing")) {
+    if (preset == Preset::tube_laser)
+      decode_no_smoothing(in, cut);
+    else
+      (void)in.object("smoothing", decode_smoothing);
+  }
   if (in.has("kerf_mm")) (void)in.number("kerf_mm", kKerf);
   out.cut.smoothing = echoed(in, "smoothing");
   out.cut.kerf = echoed(in, "kerf_mm");
@@ -178,7 +195,7 @@ void decode_own_ends(Reader& in, const NamedMembers& members, const bevel::Table
   if (!in.has("ends")) return;
   std::set<std::pair<std::size_t, joint::End>> said;
   out.ends = in.array("ends", {.min = 0, .max = kMostJoints}, [&](Reader& e) {
-    auto own = decode_own_end(e, members, cut);
+    auto own = decode_own_end(e, members, out.preset, cut);
     if (!e.refused() && !said.emplace(own.member, own.end).second)
       e.issue({.code = ErrorCode::duplicate_id,
                .pointer = "end",
@@ -238,13 +255,13 @@ void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
               .limit = Json{"none"},
               .hint = "what is not cut itself has no hole"},
              in.find("hole"));
-  out.cuts.push_back(decode_joint_cut(in, joint.how, cut));
+  out.cuts.push_back(decode_joint_cut(in, joint.how, out.preset, cut));
   out.spec.joints.push_back(joint);
 }
 
 void decode_once(Reader& in, FrameRequest& out) {
   bevel::TableSpec unused;
-  decode_torch_and_kerf(in, Preset::none, unused);
+  decode_torch_and_kerf(in, out.preset, unused);
   (void)decode_sampling(in);
   in.defaulted_object("allowances", [](Reader& a) {
     a.number("clamping_mm", kAllowance, 0.0);
@@ -253,7 +270,7 @@ void decode_once(Reader& in, FrameRequest& out) {
   in.number("density_kg_m3", kDensity, 7850.0);
   for (const auto& [name, value] : in.echo())
     for (const auto* one :
-         {"kerf_mm", "torch", "sampling", "allowances", "density_kg_m3", "accept"})
+         {"preset", "kerf_mm", "torch", "sampling", "allowances", "density_kg_m3", "accept"})
       if (name == one) out.once.emplace_back(name, value);
 }
 
@@ -261,6 +278,9 @@ void decode_once(Reader& in, FrameRequest& out) {
 
 FrameRequest decode_frame_request(Reader& in) {
   FrameRequest out;
+  out.preset = decode_preset(in);
+  check_accepts(in, out.preset);
+  check_seam_limit(in, out.preset, false);
   auto members = decode_named_members(in);
   std::vector<WorldCutter> others;
   in.note("others");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "api/endpoints/tube_laser.hpp"
 #include "api/json.hpp"
 #include "api/reader.hpp"
 #include "core/frame/frame.hpp"
@@ -27,12 +28,13 @@ struct OwnEnd {
 
 /// A /v1/frames request.
 struct FrameRequest {
+  Preset preset = Preset::none;
   frame::FrameSpec spec;
   Json::Object end;          // how an end is cut by default, as a part's end says it
   Json tilt;                 // of a hole by default
   std::vector<OwnCut> cuts;  // of each stated joint
   std::vector<OwnEnd> ends;  // each end once
-  Json::Object once;         // what every part has once: kerf, torch, sampling and the like
+  Json::Object once;         // what every part has once: preset, kerf, torch and the like
 };
 
 [[nodiscard]] FrameRequest decode_frame_request(Reader& in);

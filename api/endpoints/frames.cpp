@@ -56,8 +56,7 @@ struct FrameBase {
   static constexpr std::string_view kPath = "/v1/frames";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr double kBudgetS = kLongBudgetS;
-  static constexpr std::array<std::string_view, 3> kAccepts{"max_root_gap_mm",
-                                                            "max_extra_bevel_deg", "max_b_deg"};
+  static constexpr auto kAccepts = Parts::kAccepts;
   static constexpr auto kChecks =
       joined(std::to_array<CheckLimit>({
                  {"joint_in_world", "1e-5 max(1, 1e-5 (height + offset))", "mm"},

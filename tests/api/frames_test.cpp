@@ -357,6 +357,38 @@ TEST(Frames, EndsAreChecked) {
             "bad_choice /ends/0/smoothing/method");
 }
 
+// Every end and hole of every part is cut square; what would tilt the head is refused where it
+// stands.
+TEST(Frames, ATubeLaserTiltsNothing) {
+  const auto rack = example("frames/rack-by-tube-laser.json");
+  const auto frame = asked(rack);
+  std::size_t ends = 0;
+  for (const auto& part : list(frame.body, "parts")) {
+    EXPECT_EQ(text(part, "answer/request/preset"), "tube_laser");
+    for (const auto* end : {"start", "finish"})
+      for (const double b :
+           numbers(part, std::string("answer/result/ends/") + end + "/points/b_deg")) {
+        EXPECT_EQ(b, 0.0);
+        ++ends;
+      }
+    for (const auto& hole : list(part, "answer/result/holes"))
+      for (const double b : numbers(hole, "points/b_deg")) EXPECT_EQ(b, 0.0);
+  }
+  EXPECT_GT(ends, 100U);
+  const auto refused = [&](std::string_view path, const char* value) {
+    return first_problem(with(rack, path, *api::parse(value)));
+  };
+  EXPECT_EQ(refused("joints/2/groove", R"({"rule": "half_dihedral"})"),
+            "bad_choice /joints/2/groove/rule");
+  EXPECT_EQ(refused("defaults/smoothing", R"({"method": "envelope"})"),
+            "bad_choice /defaults/smoothing/method");
+  EXPECT_EQ(refused("joints/4/tilt", R"("free")"), "bad_choice /joints/4/tilt");
+  EXPECT_EQ(refused("accept/min_seam_to_hole_mm", "3"),
+            "unsupported_combination /accept/min_seam_to_hole_mm");
+  EXPECT_EQ(first_problem(with(example("frames/truss-of-19.json"), "accept/max_gap_mm", Json{3.0})),
+            "unsupported_combination /accept/max_gap_mm");
+}
+
 TEST(Frames, LimitsHoldForEveryPart) {
   const auto request = example("frames/truss-of-19.json");
   const auto frame = asked(with(request, "accept/max_b_deg", Json{50.0}));

@@ -9,11 +9,10 @@ export const pressed = (body: Row) => body['preset'] === word;
 export const offered = (contract: Contract, request: Schema | undefined) =>
   contract.branches(request ?? {}).some((branch) => branch.properties?.['preset'] !== undefined);
 
-/** The objects of a request that say how something is cut: itself, its ends and its holes. */
+/** The objects of a request that say how something is cut: itself, its ends and holes; a frame's defaults, joints and ends. */
 function cuts(body: Row): Row[] {
-  const ends = isRow(body['ends']) ? Object.values(body['ends']) : [];
-  const holes = Array.isArray(body['holes']) ? body['holes'] : [];
-  return [body, ...ends, ...holes].filter(isRow);
+  const within = (key: string) => (Array.isArray(body[key]) ? body[key] : isRow(body[key]) && key === 'ends' ? Object.values(body[key]) : []);
+  return [body, body['defaults'] ?? null, ...['ends', 'holes', 'joints'].flatMap(within)].filter(isRow);
 }
 
 const taken = new WeakMap<Row, Row[]>(); // out of a request, when the preset was pressed
