@@ -1,0 +1,175 @@
+import library, {type IDxf, type IEntity} from 'dxf-parser';
+import {exact, type Found, type FrameOptions, frameOf, type Imported, names, nothing, rounded, type Size} from './frame.js';
+import {distance, times, type Vector} from './geometry.js';
+import {lengths, type LengthUnit} from './units.js';
+
+export interface DxfOptions extends FrameOptions {
+  /** Of the drawing, where it does not tell ($INSUNITS). */
+  unit?: LengthUnit;
+}
+
+type Point = {x: number; y: number; z?: number};
+type Drawn = IEntity & {
+  vertices?: (Point & {bulge?: number})[];
+  center?: Point;
+  radius?: number;
+  startAngle?: number;
+  endAngle?: number;
+  shape?: boolean;
+  elevation?: number;
+  extrusionDirection?: Point;
+  extrusionDirectionX?: number;
+  extrusionDirectionY?: number;
+  extrusionDirectionZ?: number;
+};
+
+class Trouble extends Error {}
+
+// Its types tell of a module that exports the class by the name of default, which neither node nor a bundler sees.
+const Parser = library as unknown as new () => {parseSync(text: string): IDxf | null};
+
+// $INSUNITS, of those that a drawing of tubes is in.
+const units: Record<number, LengthUnit> = {1: 'in', 2: 'ft', 4: 'mm', 5: 'cm', 6: 'm'};
+
+const at = (p: Point): Vector => [p.x, p.y, p.z ?? 0];
+
+/** Flat entities are drawn in a plane of their own; only the world's is read. */
+function flat({extrusionDirection: d, extrusionDirectionX: x, extrusionDirectionY: y, extrusionDirectionZ: z}: Drawn): void {
+  const up = d ? [d.x, d.y, d.z ?? 1] : [x ?? 0, y ?? 0, z ?? 1];
+  if (up[0] !== 0 || up[1] !== 0 || up[2] !== 1) throw new Trouble('it is drawn in a plane of its own (extrusion direction)');
+}
+
+interface Arc {
+  centre: Vector;
+  radius: number;
+  from: number;
+  angle: number;
+}
+type Piece = {from: Vector; to: Vector} | Arc;
+
+function line({vertices = []}: Drawn): Piece[] {
+  const [from, to] = vertices;
+  if (!from || !to) throw new Trouble('it has no two points');
+  return [{from: at(from), to: at(to)}];
+}
+
+/** bulge: the tangent of a quarter of the arc's angle, positive anticlockwise. */
+function bulged(from: Vector, to: Vector, bulge: number): Arc {
+  const angle = 4 * Math.atan(bulge);
+  const chord = distance(from, to);
+  const away = chord / 2 / Math.tan(angle / 2) / chord; // from the middle to the centre, in chords, to the left
+  const centre: Vector = [(from[0] + to[0]) / 2 - (to[1] - from[1]) * away, (from[1] + to[1]) / 2 + (to[0] - from[0]) * away, from[2]];
+  return {centre, radius: distance(centre, from), from: Math.atan2(from[1] - centre[1], from[0] - centre[0]), angle};
+}
+
+function polyline(entity: Drawn): Piece[] {
+  const points = entity.vertices ?? [];
+  if (points.length < 2) throw new Trouble('it has no two points');
+  const curved = points.some(({bulge}) => bulge);
+  if (entity.type === 'LWPOLYLINE' || curved) flat(entity);
+  const lift = (p: Point): Vector => (entity.type === 'LWPOLYLINE' ? [p.x, p.y, entity.elevation ?? 0] : at(p));
+  const next = entity.shape ? [...points.slice(1), points[0] as Point] : points.slice(1);
+  return next.map((p, i) => {
+    const one = points[i] as Point & {bulge?: number};
+    const [from, to] = [lift(one), lift(p)];
+    return one.bulge ? bulged(from, to, one.bulge) : {from, to};
+  });
+}
+
+function arc(entity: Drawn): Piece[] {
+  flat(entity);
+  const {center, radius, startAngle, endAngle} = entity;
+  if (!center || !radius || startAngle === undefined || endAngle === undefined) throw new Trouble('it has no centre, radius or angles');
+  const whole = 2 * Math.PI;
+  return [{centre: at(center), radius, from: startAngle, angle: (((endAngle - startAngle) % whole) + whole) % whole}];
+}
+
+const kinds: Record<string, (entity: Drawn) => Piece[]> = {LINE: line, LWPOLYLINE: polyline, POLYLINE: polyline, ARC: arc};
+
+/** An arc's outside diameter must be a number: it has no name in the request. */
+function add(found: Found, piece: Piece, id: string, size: Size, mm: number): void {
+  if (!('centre' in piece)) {
+    if (distance(piece.from, piece.to) === 0) throw new Trouble('it has no length');
+    found.members.push({id, start_mm: rounded(times(piece.from, mm)), end_mm: rounded(times(piece.to, mm)), ...size});
+    return;
+  }
+  if (!('outer_diameter_mm' in size)) throw new Trouble('an arc needs a size in mm');
+  const {centre, radius, from, angle} = piece;
+  const out: Vector = [Math.cos(from), Math.sin(from), 0];
+  const turn = Math.sign(angle);
+  found.others.push({
+    other: {
+      kind: 'elbow',
+      id,
+      outer_diameter_mm: size.outer_diameter_mm,
+      bend_radius_mm: exact(radius * mm),
+      bend_deg: exact((Math.abs(angle) * 180) / Math.PI),
+      axis: {
+        point_mm: rounded(times([centre[0] + radius * out[0], centre[1] + radius * out[1], centre[2]], mm)),
+        direction: rounded([-turn * out[1], turn * out[0], 0]),
+      },
+      inwards: rounded(times(out, -1)),
+    },
+  });
+}
+
+function parsed(text: string): IDxf {
+  try {
+    const drawing = new Parser().parseSync(text);
+    if (drawing) return drawing;
+  } catch (failure) {
+    throw new Trouble(`it cannot be read: ${failure instanceof Error ? failure.message : String(failure)}`);
+  }
+  throw new Trouble('it cannot be read');
+}
+
+/** The layers that have something drawn on them: what sizes are asked for. */
+export function layersOf(text: string): string[] {
+  return [
+    ...new Set(
+      parsed(text)
+        .entities.filter(({type}) => kinds[type])
+        .map(({layer}) => layer),
+    ),
+  ].sort();
+}
+
+/** $INSUNITS of a drawing; none where it tells none that is known. */
+export const unitOf = (text: string): LengthUnit | undefined => units[Number(parsed(text).header?.['$INSUNITS'])];
+
+function every(text: string, sizesByLayer: Record<string, Size>, found: Found, options: DxfOptions): void {
+  const drawing = parsed(text);
+  const unit = options.unit ?? units[Number(drawing.header?.['$INSUNITS'])];
+  if (!unit) throw new Trouble('the drawing does not tell its unit ($INSUNITS), and none was given');
+  const mm = lengths[unit];
+  const name = names();
+  for (const entity of drawing.entities as Drawn[]) {
+    const mark = `handle ${entity.handle}`;
+    try {
+      const kind = kinds[entity.type];
+      if (!kind) throw new Trouble(`${entity.type} is not imported`);
+      const size = sizesByLayer[entity.layer];
+      if (!size) throw new Trouble(`no size was given for layer ${entity.layer}`);
+      const pieces = kind(entity);
+      const one = nothing();
+      pieces.forEach((piece, i) => add(one, piece, name(`${entity.layer} ${entity.handle}${pieces.length > 1 ? `/${i + 1}` : ''}`, mark), size, mm));
+      found.members.push(...one.members);
+      found.others.push(...one.others);
+    } catch (failure) {
+      if (!(failure instanceof Trouble)) throw failure;
+      found.notUnderstood.push({id: mark, type: entity.type, reason: failure.message});
+    }
+  }
+}
+
+/** Lines, polylines and arcs of a drawing as centre-lines; each layer's tubes are of one size. */
+export function fromDxf(text: string, sizesByLayer: Record<string, Size>, options: DxfOptions = {}): Imported {
+  const found = nothing();
+  try {
+    every(text, sizesByLayer, found, options);
+  } catch (failure) {
+    if (!(failure instanceof Trouble)) throw failure;
+    found.notUnderstood.push({id: 'file', type: 'DXF', reason: failure.message});
+  }
+  return frameOf(found, options);
+}
