@@ -20,7 +20,6 @@ const rows: [nps: string, inches: number, dn: number, outer_diameter_mm: number]
   ['18', 18, 450, 457],
   ['20', 20, 500, 508],
   ['24', 24, 600, 610],
-  ['30', 30, 750, 762],
 ];
 
 export interface Bore {

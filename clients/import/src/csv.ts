@@ -1,3 +1,4 @@
+/// <reference path="./papaparse.d.ts" />
 import Papa from 'papaparse';
 import {exact, type FrameOptions, frameOf, type Imported, type Member, names, nothing, rounded, type Size} from './frame.js';
 import {distance, type Vector} from './geometry.js';

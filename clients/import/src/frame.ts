@@ -181,3 +181,18 @@ export function frameOf(found: Found, options: FrameOptions = {}): Imported {
   };
   return {frame, notUnderstood};
 }
+
+/** As text that is good to read and to edit: a member, an other, a joint a line. */
+export function printed(frame: Frame): string {
+  const spaced = (value: unknown): string => {
+    if (Array.isArray(value)) return `[${value.map(spaced).join(', ')}]`;
+    if (value === null || typeof value !== 'object') return JSON.stringify(value);
+    const fields = Object.entries(value).map(([key, each]) => `${JSON.stringify(key)}: ${spaced(each)}`);
+    return `{${fields.join(', ')}}`;
+  };
+  const lines = Object.entries(frame).map(([key, value]) => {
+    const list = Array.isArray(value) && value.length > 0 && typeof value[0] === 'object';
+    return `  ${JSON.stringify(key)}: ${list ? `[\n${value.map((each) => `    ${spaced(each)}`).join(',\n')}\n  ]` : spaced(value)}`;
+  });
+  return `{\n${lines.join(',\n')}\n}\n`;
+}

@@ -3,7 +3,7 @@
 import {readFileSync} from 'node:fs';
 import {extname} from 'node:path';
 import {parseArgs} from 'node:util';
-import {fields, fromCsv, fromDxf, fromIfc, fromPcf, type Imported, lengths, type LengthUnit, type Size} from './index.js';
+import {fields, fromCsv, fromDxf, fromIfc, fromPcf, type Imported, lengths, type LengthUnit, printed, type Size} from './index.js';
 
 const usage = `usage: node dist/main.js FILE [options] > frame.json
 
@@ -90,7 +90,7 @@ async function imported(): Promise<Imported> {
 try {
   const {frame, notUnderstood} = await imported();
   for (const {id, type, reason} of notUnderstood) console.error(`${id} ${type}: ${reason}`);
-  if (frame) process.stdout.write(`${JSON.stringify(frame, null, 2)}\n`);
+  if (frame) process.stdout.write(printed(frame));
   else console.error('no member was found: there is no frame');
   process.exitCode = !frame ? 1 : notUnderstood.length > 0 ? 3 : 0;
 } catch (failure) {

@@ -1,0 +1,9 @@
+// What is used of it. Its published types bring those of node with them, which are wrong in a browser.
+declare module 'papaparse' {
+  interface Result<T> {
+    data: T[];
+    errors: {type: string; message: string; row?: number}[];
+  }
+  const Papa: {parse<T>(text: string, options: {preview?: number; skipEmptyLines?: boolean | 'greedy'}): Result<T>};
+  export default Papa;
+}
