@@ -9,11 +9,13 @@ namespace {
 
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 
-/// Nothing from elsewhere, nothing inline, no frames. The API reference sets styles on its
-/// elements and carries its icons as data.
+/// Nothing from elsewhere, nothing inline, no frames, no text run as script; the console compiles
+/// the WebAssembly that reads IFC files. The API reference sets styles on its elements and carries
+/// its icons as data.
 constexpr std::string_view kPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
+    "img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
 constexpr std::string_view kDocsPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; "

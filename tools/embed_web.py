@@ -9,7 +9,7 @@ import pathlib
 import sys
 
 TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8",
-         ".svg": "image/svg+xml", ".png": "image/png", ".json": "application/json", ".woff2": "font/woff2"}
+         ".svg": "image/svg+xml", ".png": "image/png", ".json": "application/json", ".woff2": "font/woff2", ".wasm": "application/wasm"}
 CHUNK = 12000  # bytes; compilers bound the length of one literal
 PLAIN = set(range(0x20, 0x7f)) - set(b'"\\?')
 
