@@ -8,6 +8,7 @@ import {Inspector} from './inspector';
 import {clone, type Row} from './json';
 import {askForKey, keyed, KeyNeeded} from './key';
 import {rest} from './links';
+import {Model} from './model';
 import {Motion} from './motion';
 import {endpointName, endpointOrder, exampleName, tabs} from './names';
 import * as panels from './panels';
@@ -47,6 +48,7 @@ class Console {
     },
   });
   private readonly context: Context;
+  private readonly model: Model;
   private state: State = {...firstJob, body: {}, edited: false, view: 'after', partners: true, tab: 'proof', item: null};
   private stage: Promise<Stage | null> | null = null;
   private answer: Answer | undefined;
@@ -71,6 +73,8 @@ class Console {
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
     this.motion = new Motion(this.context.machines);
+    const schedules = [...sizes.keys()].flatMap((size) => /^NPS \S+ (.+)$/.exec(size)?.[1] ?? []);
+    this.model = new Model([...new Set(schedules)], (frame) => this.begin('frames', undefined, frame, true));
     this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
     byId<HTMLSelectElement>('example').addEventListener('change', (event) => this.open(this.state.endpoint, (event.target as HTMLSelectElement).value));
     byId('preset').addEventListener('click', () => this.press());
@@ -142,6 +146,7 @@ class Console {
     Object.assign(this.state, {endpoint, example, body, edited, item: null});
     this.job += 1;
     this.lost = false;
+    this.model.began(endpoint, body);
     rest();
     this.form.show(this.contract.request(path(endpoint)) ?? {}, body);
     this.drawPick();

@@ -1,0 +1,175 @@
+// A model of another program in the console: dropped or chosen, its frame seen and gone on with, what was left out said.
+import {strict as assert} from 'node:assert';
+import {readFileSync} from 'node:fs';
+import {shift, Step} from '../../../clients/import/test/support/step.mjs';
+import {answered, answers, open, pixels, then} from '../browser.mjs';
+
+const beside = (path) => readFileSync(new URL(`../../../${path}`, import.meta.url), 'utf8');
+const spool = beside('clients/import/test/data/pipe-spool.pcf');
+const heavy = /importer-|web-ifc/;
+
+/** A chord with two braces and a square tube, in metres; and a plate, which is no tube. */
+function ifc() {
+  const step = new Step('IFC4');
+  step.units('metre');
+  const ring = (radius, wall) => step.add('IFCCIRCLEHOLLOWPROFILEDEF', '.AREA.', '$', '$', radius, wall);
+  const run = (type, name, profile, [x, y, z], [dx, dy, dz], long) => {
+    const direction = (d) => step.direction(d);
+    const size = Math.hypot(dx, dy, dz);
+    const axes = step.add('IFCAXIS2PLACEMENT3D', step.point([x, y, z]), direction([dx / size, dy / size, dz / size]), direction([0, 1, 0]));
+    const solid = step.add('IFCEXTRUDEDAREASOLID', profile, axes, direction([0, 0, 1]), long);
+    step.product(type, name, step.placement(shift(0, 0, 0)), step.body([solid]));
+  };
+  run('IFCBEAM', 'chord', ring(0.0603, 0.005), [-1, 0, 0], [1, 0, 0], 2);
+  run('IFCMEMBER', 'left', ring(0.03015, 0.004), [-0.2, 0, 0], [-1, 0, 1], 1);
+  run('IFCMEMBER', 'right', ring(0.03015, 0.004), [0.2, 0, 0], [1, 0, 1], 1);
+  run('IFCPLATE', 'gusset', ring(0.03015, 0.004), [0, 0, 0], [0, 0, 1], 1);
+  return step.text();
+}
+
+const clean = (page) => {
+  assert.deepEqual(page.faults, [], 'errors in the browser');
+  assert.deepEqual(page.strangers, [], 'requests to others');
+};
+const frames = async (browser, origin, size) => {
+  const page = await open(browser, origin, '#/frames/truss-of-19', size);
+  await answered(page);
+  await pixels(page);
+  return page;
+};
+const fetched = (page) => page.evaluate(() => performance.getEntriesByType('resource').map(({name, encodedBodySize}) => [new URL(name).pathname, encodedBodySize]));
+const request = async (page) => {
+  await page.locator('#tab-json').click();
+  return JSON.parse(await page.locator('#request-json').innerText());
+};
+const missed = (page) => page.locator('#not-understood li').allInnerTexts();
+
+async function drop(page, name, text) {
+  const data = await page.evaluateHandle(([file, content]) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([content], file));
+    return transfer;
+  }, [name, text]);
+  await page.dispatchEvent('body', 'dragover', {dataTransfer: data});
+  assert.ok(await page.evaluate(() => document.body.classList.contains('dropping')), 'the place to drop it is seen');
+  await page.dispatchEvent('body', 'drop', {dataTransfer: data});
+}
+const choose = (page, name, text) => page.locator('#model-file').setInputFiles({name, mimeType: 'application/octet-stream', buffer: Buffer.from(text)});
+
+async function dropsIfc({browser, origin}, width, theme) {
+  const page = await frames(browser, origin, {width, height: 844, theme});
+  assert.ok(!(await fetched(page)).some(([name]) => heavy.test(name)), 'nothing of the parsers comes before they are needed');
+  await then(page, () => drop(page, 'node.ifc', ifc()));
+  await pixels(page);
+  const came = (await fetched(page)).filter(([name]) => heavy.test(name));
+  assert.equal(came.filter(([name]) => name.endsWith('.wasm')).length, 1, `came: ${came}`);
+  assert.match(await page.locator('#imported-said').innerText(), /^3 members\. 1 thing is not in it:/);
+  assert.match((await missed(page)).join(), /^#\d+ IfcPlate: IfcPlate is not imported$/);
+  assert.equal(await page.locator('.canvas canvas').getAttribute('data-members'), '3');
+  assert.deepEqual(await page.locator('#items [role=option] b').allInnerTexts(), ['chord', 'left', 'right']);
+  await page.locator('.canvas canvas').scrollIntoViewIfNeeded();
+  const label = page.locator('.labels .shown', {hasText: 'left'});
+  const {x, y, width: w, height: h} = await label.boundingBox();
+  await page.mouse.click(x + w / 2, y + h / 2);
+  assert.equal((await page.locator('.facts h3').innerText()).split('\n')[0].trim(), 'left');
+  assert.equal(await page.locator('#items [aria-selected=true] b').innerText(), 'left');
+  const {members, connect} = await request(page);
+  const cos = Math.SQRT1_2;
+  assert.deepEqual(members[0], {id: 'chord', start_mm: [-1000, 0, 0], end_mm: [1000, 0, 0], outer_diameter_mm: 120.6, wall_mm: 5});
+  assert.ok(members[1].end_mm.every((v, i) => Math.abs(v - [-200 - 1000 * cos, 0, 1000 * cos][i]) < 1e-6));
+  assert.deepEqual(connect, {within_mm: 5});
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= width, 'the page is as wide as the screen');
+  assert.equal(await page.locator('#example option:checked').innerText(), 'A job of your own');
+  clean(page);
+  await page.context().close();
+}
+
+export const checks = {
+  'an IFC file is dropped: its frame is seen, a member clicked, what was left out said': (given) => dropsIfc(given, 1280, 'light'),
+  'the same at 390 px, dark': (given) => dropsIfc(given, 390, 'dark'),
+
+  'a PCF file is chosen by the keyboard, the walls that it does not tell by a schedule': async ({browser, origin}) => {
+    const page = await frames(browser, origin);
+    await page.locator('#model').focus();
+    const chooser = page.waitForEvent('filechooser');
+    await page.keyboard.press('Enter');
+    await then(page, async () => (await chooser).setFiles({name: 'spool.PCF', mimeType: 'text/plain', buffer: Buffer.from(spool)}));
+    assert.match(await page.locator('#imported-said').innerText(), /^1 member and 1 other that cuts\. 7 things are not in it:/);
+    assert.ok((await missed(page)).some((line) => /^line 18 PIPE: .*no schedule was given/.test(line)));
+    await then(page, () => page.locator('[data-question=schedule]').selectOption('SCH 40'));
+    assert.deepEqual(await missed(page), ['line 49 VALVE: VALVE is not imported']);
+    const {members, others, joints} = await request(page);
+    const expected = JSON.parse(beside('examples/frames/pipe-spool-from-pcf.json'));
+    assert.deepEqual({members, others, joints}, {members: expected.members, others: expected.others, joints: expected.joints});
+    assert.equal(await page.locator('#verdict .pill').innerText(), 'ok');
+    assert.ok(!(await fetched(page)).some(([name]) => /web-ifc/.test(name)), 'the parser of IFC is for IFC');
+    // The frame is edited and kept as any request; a field of it is no reason to forget what was left out.
+    await then(page, () => page.locator('[data-pointer="/members/0/end_mm/0"], [data-pointer="/members/0/id"]').first().fill('first'));
+    assert.equal((await missed(page)).length, 1);
+    clean(page);
+    await page.context().close();
+  },
+
+  'a CSV file asks for its columns, a drawing for the sizes of its layers': async ({browser, origin}) => {
+    const page = await frames(browser, origin);
+    const csv = 'Name;start_x;start_y;start_z;end_x;end_y;end_z;D;t\nA;0;0;0;40;0;0;3,5;0.2\nB;20;0;0;20;30;0;2.375;0.154\n'.replace('3,5', '3.5');
+    await choose(page, 'tubes.csv', csv);
+    await page.locator('#not-understood li').nth(1).waitFor();
+    assert.match(await page.locator('#imported-said').innerText(), /^No member was found/);
+    const columns = {id: 'Name', outer_diameter: 'D', wall: 't'};
+    await page.locator('[data-question=unit]').selectOption('in');
+    for (const [field, column] of Object.entries(columns).slice(0, 2)) await page.locator(`[data-question=${field}]`).selectOption(column);
+    await then(page, () => page.locator('[data-question=wall]').selectOption(columns.wall));
+    assert.match(await page.locator('#imported-said').innerText(), /^2 members\. Nothing was left out\./);
+    const {members} = await request(page);
+    assert.deepEqual(members, [
+      {id: 'A', start_mm: [0, 0, 0], end_mm: [1016, 0, 0], outer_diameter_mm: 88.9, wall_mm: 5.08},
+      {id: 'B', start_mm: [508, 0, 0], end_mm: [508, 762, 0], outer_diameter_mm: 60.325, wall_mm: 3.9116},
+    ]);
+    const pair = (...all) => all.map(([code, value]) => `${code}\n${value}\n`).join('');
+    const line = (handle, layer, x, z) => pair([0, 'LINE'], [5, handle], [8, layer], [10, 0], [20, 0], [30, 0], [11, x], [21, 0], [31, z]);
+    const dxf = `${pair([0, 'SECTION'], [2, 'HEADER'], [9, '$INSUNITS'], [70, 4], [0, 'ENDSEC'], [0, 'SECTION'], [2, 'ENTITIES'])}${
+      line('1', 'CHORD', 1000, 0)}${line('2', 'BRACE', 0, 800)}${pair([0, 'ENDSEC'], [0, 'EOF'])}`;
+    await choose(page, 'lines.dxf', dxf);
+    await page.locator('[data-question="layer BRACE"]').waitFor();
+    await then(page, async () => {
+      await page.locator('[data-question="layer CHORD"]').fill('88.9x5');
+      await page.locator('[data-question="layer CHORD"]').press('Enter');
+    });
+    await then(page, async () => {
+      await page.locator('[data-question="layer BRACE"]').fill('CHS 48.3x3.2');
+      await page.locator('[data-question="layer BRACE"]').press('Enter');
+    });
+    assert.deepEqual((await request(page)).members.map(({id, size, wall_mm}) => [id, size ?? wall_mm]), [['CHORD 1', 5], ['BRACE 2', 'CHS 48.3x3.2']]);
+    clean(page);
+    await page.context().close();
+  },
+
+  'a file that cannot be read leaves the job as it was': async ({browser, origin}) => {
+    const page = await frames(browser, origin);
+    const before = await request(page);
+    for (const [name, text, said] of [['bad.ifc', 'no model', /No member was found/], ['bad.dxf', '', /It cannot be read/], ['bad.step', 'x', /none of \.ifc, \.pcf, \.csv, \.dxf/]]) {
+      const count = await answers(page);
+      await choose(page, name, text);
+      await page.locator('#imported', {hasText: said}).waitFor();
+      assert.deepEqual(await request(page), before, name);
+      assert.equal(await answers(page), count, `${name}: nothing is asked`);
+    }
+    await page.locator('#imported button', {hasText: 'Close'}).click();
+    assert.ok(await page.locator('#imported').isHidden());
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'model');
+    clean(page);
+    await page.context().close();
+  },
+
+  'another job ends it, and only frames are imported': async ({browser, origin}) => {
+    const page = await frames(browser, origin);
+    await then(page, () => choose(page, 'node.ifc', ifc()));
+    await then(page, () => page.locator('#example').selectOption('truss-of-19'));
+    assert.ok(await page.locator('#imported').isHidden());
+    await then(page, () => page.locator('#endpoints [data-endpoint=bevel-tables]').click());
+    assert.ok(await page.locator('#model').isHidden());
+    clean(page);
+    await page.context().close();
+  },
+};
