@@ -33,7 +33,9 @@ const kinds: Record<string, Kind> = {
     read: (importer, file) => importer.fromIfc(file, {wasm: importer.wasm}),
   },
   pcf: {
-    questions: (_, __, schedules) => [{key: 'schedule', text: 'Walls that the file does not tell', choices: [['', 'none'], ...named(schedules)]}],
+    questions: (_, __, schedules) => [
+      {key: 'schedule', text: 'Schedule of pipes whose wall the file does not tell', choices: [['', 'none'], ...named(schedules)]},
+    ],
     read: (importer, file, {schedule}) => importer.fromPcf(text(file), schedule ? {schedule} : {}),
   },
   csv: {
@@ -43,7 +45,7 @@ const kinds: Record<string, Kind> = {
       return [
         {key: 'unit', text: 'Lengths in', choices: named(Object.keys(importer.lengths)), value: 'mm'},
         ...importer.fields.map((field) => ({key: field, text: `Column of ${field.replace(/_/g, ' ')}`, choices, value: columns[field]?.trim() ?? ''})),
-        {key: 'all', text: 'Size where no column tells it'},
+        {key: 'all', text: 'Size of the other rows'},
       ];
     },
     read: (importer, file, answers) => {
@@ -184,11 +186,11 @@ const counted = (n: number, one: string, many: string): string => `${n} ${n === 
 function told({frame, notUnderstood}: Imported): HTMLElement[] {
   const others = frame?.others?.length ?? 0;
   const also = others ? ` and ${counted(others, 'other that cuts', 'others that cut')}` : '';
-  const what = frame ? `${counted(frame.members.length, 'member', 'members')}${also}.` : 'No member was found: there is no frame.';
+  const what = frame ? `${counted(frame.members.length, 'member', 'members')}${also}.` : 'No member was found, so the job stays as it was.';
   const all = notUnderstood.length === 0;
   const lines = notUnderstood.map(({id, type, reason}) => el('li', {}, el('b', {}, id), ` ${type}: ${reason}`));
   return [
-    el('p', {id: 'imported-said'}, `${what} ${all ? 'Nothing was left out.' : `${counted(lines.length, 'thing is', 'things are')} not in it:`}`),
+    el('p', {id: 'imported-said'}, `${what} ${all ? 'Nothing was left out.' : `${counted(lines.length, 'thing was', 'things were')} not understood:`}`),
     ...(all ? [] : [el('ul', {id: 'not-understood', tabindex: '0', 'aria-label': 'What was not understood'}, ...lines)]),
   ];
 }

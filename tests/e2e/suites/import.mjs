@@ -63,7 +63,7 @@ async function dropsIfc({browser, origin}, width, theme) {
   await pixels(page);
   const came = (await fetched(page)).filter(([name]) => heavy.test(name));
   assert.equal(came.filter(([name]) => name.endsWith('.wasm')).length, 1, `came: ${came}`);
-  assert.match(await page.locator('#imported-said').innerText(), /^3 members\. 1 thing is not in it:/);
+  assert.match(await page.locator('#imported-said').innerText(), /^3 members\. 1 thing was not understood:/);
   assert.match((await missed(page)).join(), /^#\d+ IfcPlate: IfcPlate is not imported$/);
   assert.equal(await page.locator('.canvas canvas').getAttribute('data-members'), '3');
   assert.deepEqual(await page.locator('#items [role=option] b').allInnerTexts(), ['chord', 'left', 'right']);
@@ -94,7 +94,7 @@ export const checks = {
     const chooser = page.waitForEvent('filechooser');
     await page.keyboard.press('Enter');
     await then(page, async () => (await chooser).setFiles({name: 'spool.PCF', mimeType: 'text/plain', buffer: Buffer.from(spool)}));
-    assert.match(await page.locator('#imported-said').innerText(), /^1 member and 1 other that cuts\. 7 things are not in it:/);
+    assert.match(await page.locator('#imported-said').innerText(), /^1 member and 1 other that cuts\. 7 things were not understood:/);
     assert.ok((await missed(page)).some((line) => /^line 18 PIPE: .*no schedule was given/.test(line)));
     await then(page, () => page.locator('[data-question=schedule]').selectOption('SCH 40'));
     assert.deepEqual(await missed(page), ['line 49 VALVE: VALVE is not imported']);
