@@ -16,6 +16,10 @@ type Drawn = IEntity & {
   startAngle?: number;
   endAngle?: number;
   shape?: boolean;
+  is3dPolygonMesh?: boolean;
+  isPolyfaceMesh?: boolean;
+  includesCurveFitVertices?: boolean;
+  includesSplineFitVertices?: boolean;
   elevation?: number;
   extrusionDirection?: Point;
   extrusionDirectionX?: number;
@@ -63,7 +67,9 @@ function bulged(from: Vector, to: Vector, bulge: number): Arc {
 }
 
 function polyline(entity: Drawn): Piece[] {
-  const points = entity.vertices ?? [];
+  const {vertices: points = [], is3dPolygonMesh, isPolyfaceMesh, includesCurveFitVertices, includesSplineFitVertices} = entity;
+  if (is3dPolygonMesh || isPolyfaceMesh) throw new Trouble('it is a mesh');
+  if (includesCurveFitVertices || includesSplineFitVertices) throw new Trouble('it is fitted by a curve');
   if (points.length < 2) throw new Trouble('it has no two points');
   const curved = points.some(({bulge}) => bulge);
   if (entity.type === 'LWPOLYLINE' || curved) flat(entity);
@@ -148,6 +154,7 @@ function every(text: string, sizesByLayer: Record<string, Size>, found: Found, o
     try {
       const kind = kinds[entity.type];
       if (!kind) throw new Trouble(`${entity.type} is not imported`);
+      if (entity.inPaperSpace) throw new Trouble('it is drawn on a sheet, not in the model');
       const size = sizesByLayer[entity.layer];
       if (!size) throw new Trouble(`no size was given for layer ${entity.layer}`);
       const pieces = kind(entity);

@@ -48,6 +48,8 @@ export interface Frame {
 export interface FrameOptions {
   /** An end joins what it comes as near as this to, in mm (`connect` of the request). 5 without it. */
   within_mm?: number;
+  /** This point of the file, in mm, is the frame's origin: for coordinates of a country, where the service takes a kilometre. */
+  origin_mm?: Vector;
   /** Fields of the request instead of ours: `defaults`, `kerf_mm`, `torch`, ... */
   fields?: Record<string, unknown>;
 }
@@ -162,8 +164,21 @@ function inLine(members: Member[]): Joint[] {
   return [...joints.values()];
 }
 
+/** The same, seen from another origin. */
+function moved({members, others, ...rest}: Found, origin: Vector): Found {
+  const from = (p: Vector): Vector => rounded(minus(p, origin));
+  const of = (other: Other): Other =>
+    other.kind === 'plane' ? {...other, point_mm: from(other.point_mm)} : {...other, axis: {...other.axis, point_mm: from(other.axis.point_mm)}};
+  return {
+    ...rest,
+    members: members.map((member) => ({...member, start_mm: from(member.start_mm), end_mm: from(member.end_mm)})),
+    others: others.map(({other, ...more}) => ({...more, other: of(other)})),
+  };
+}
+
 /** The request of what was found, and what was not. */
-export function frameOf(found: Found, options: FrameOptions = {}): Imported {
+export function frameOf(given: Found, options: FrameOptions = {}): Imported {
+  const found = options.origin_mm ? moved(given, options.origin_mm) : given;
   const {members, notUnderstood} = found;
   if (members.length === 0) return {frame: null, notUnderstood};
   const within = options.within_mm ?? 5;

@@ -10,6 +10,7 @@ const usage = `usage: node dist/main.js FILE [options] > frame.json
 FILE is .ifc, .pcf, .csv or .dxf. What was not understood goes to the standard error, a line each.
 
   --within MM          an end joins what it comes as near as this to (5)
+  --origin X,Y,Z       this point of the file, in mm, is the frame's origin; the service takes 1 km about it
   --fields JSON        fields of the request instead of ours, for example {"kerf_mm": 2}
   --schedule NAME      PCF: of pipes whose wall the file does not tell, for example "SCH 40"
   --wall-attribute A   PCF: the attribute that tells a wall (WALL-THICKNESS)
@@ -53,11 +54,17 @@ function objectOf(text: string): Record<string, unknown> {
   throw new Usage('--fields is no JSON object');
 }
 
+function originOf(text: string): [number, number, number] {
+  const [x, y, z, ...rest] = text.split(',').map((each) => (each.trim() === '' ? Number.NaN : Number(each)));
+  if (x === undefined || y === undefined || z === undefined || rest.length > 0 || ![x, y, z].every(Number.isFinite)) throw new Usage('--origin is X,Y,Z in mm');
+  return [x, y, z];
+}
+
 function asked() {
   try {
     const text = {type: 'string'} as const;
     const list = {type: 'string', multiple: true} as const;
-    const options = {within: text, fields: text, schedule: text, 'wall-attribute': text, unit: text, column: list, size: text, layer: list};
+    const options = {within: text, origin: text, fields: text, schedule: text, 'wall-attribute': text, unit: text, column: list, size: text, layer: list};
     return parseArgs({allowPositionals: true, options});
   } catch (failure) {
     throw new Usage((failure as Error).message);
@@ -70,7 +77,11 @@ async function imported(): Promise<Imported> {
   if (file === undefined || rest.length > 0) throw new Usage('one FILE');
   const within = values.within === undefined ? undefined : Number(values.within);
   if (within !== undefined && !(within >= 0)) throw new Usage('--within is a number of mm');
-  const common = {...(within === undefined ? {} : {within_mm: within}), ...(values.fields === undefined ? {} : {fields: objectOf(values.fields)})};
+  const common = {
+    ...(within === undefined ? {} : {within_mm: within}),
+    ...(values.origin === undefined ? {} : {origin_mm: originOf(values.origin)}),
+    ...(values.fields === undefined ? {} : {fields: objectOf(values.fields)}),
+  };
   const columns = Object.fromEntries(pairs(values.column, 'column'));
   for (const field of Object.keys(columns)) if (!(fields as readonly string[]).includes(field)) throw new Usage(`--column knows no field ${field}`);
   const layers = Object.fromEntries(pairs(values.layer, 'layer').map(([layer, size]) => [layer, sizeOf(size)]));

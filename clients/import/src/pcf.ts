@@ -20,8 +20,9 @@ interface Units {
   bore: 'INCH' | 'MM';
 }
 
-// A joint or a thing without a body; and what a file says about itself or about its materials.
-const silent = /^(WELD|SUPPORT|ISOGEN-FILES|UNITS-.*|PIPELINE-REFERENCE|MATERIALS|ITEM-CODE|MESSAGE-.*|SPOOL-IDENTIFIER|END-CONNECTION-.*|END-POSITION-.*)$/;
+// Joints, marks of the drawing, and things without a tube's body.
+const silent = /^(WELD|SUPPORT|MESSAGE-.*|END-CONNECTION-.*|END-POSITION-.*)$/;
+const somewhere = /-POINT$|^CO-ORDS$/;
 const coordinateUnits: Record<string, number> = {MM: 1, 'MM-HUNDREDTH': 0.01, INCH: 25.4};
 
 class Trouble extends Error {}
@@ -134,17 +135,18 @@ const readers: Record<string, Reader> = {PIPE: pipe, ELBOW: elbow, BEND: elbow, 
 function every(text: string, found: Found, options: PcfOptions): void {
   const all = components(text);
   const given = units(all);
-  const name = names();
+  const id = names();
   const counts = new Map<string, number>();
   const called = (kind: string): string => {
     counts.set(kind, (counts.get(kind) ?? 0) + 1);
-    return name(`${kind} ${counts.get(kind)}`, '');
+    return id(`${kind} ${counts.get(kind)}`, '');
   };
   const missed: [number, string, string][] = [];
   for (const later of [false, true]) // flanges after the pipes that they are on
     for (const component of all) {
-      const {line, type} = component;
-      if (silent.test(type) || later !== (type === 'FLANGE')) continue;
+      const {line, type, attributes} = component;
+      const body = readers[type] || attributes.some(({name}) => somewhere.test(name)); // else it tells of the file
+      if (!body || silent.test(type) || later !== (type === 'FLANGE')) continue;
       try {
         const reader = readers[type];
         if (!reader) throw new Trouble(`${type} is not imported`);

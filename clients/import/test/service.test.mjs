@@ -77,12 +77,14 @@ test('the command line: the frame, what was not understood, how it ended', () =>
     assert.equal(ifc.stderr, '');
     const frame = JSON.parse(ifc.stdout);
     assert.deepEqual([frame.members.length, frame.connect], [models[0].members.length, {within_mm: 12}]);
+    const moved = JSON.parse(run(file('a.ifc', models[0].text), '--origin', '100,-200.5,3').stdout);
+    moved.members.forEach(({start_mm}, i) => start_mm.forEach((v, axis) => assert.ok(Math.abs(v + [100, -200.5, 3][axis] - frame.members[i].start_mm[axis]) < 1e-6)));
     const csv = run(file('a.csv', 'name,start_x,start_y,start_z,end_x,end_y,end_z\nA,0,0,0,1,0,0\n'), '--column', 'id=name', '--unit', 'm', '--size', '60.3x3.91');
     assert.equal(csv.status, 0, csv.stderr);
     assert.deepEqual(JSON.parse(csv.stdout).members, [{id: 'A', start_mm: [0, 0, 0], end_mm: [1000, 0, 0], outer_diameter_mm: 60.3, wall_mm: 3.91}]);
     assert.equal(run(file('b.ifc', 'no model')).status, 1);
     assert.equal(run(join(folder, 'missing.csv')).status, 1);
-    for (const wrong of [[], ['a.txt'], ['a.csv', 'b.csv'], ['a.csv', '--unit', 'mile'], ['a.csv', '--column', 'x=y'], ['a.csv', '--nothing'], ['a.csv', '--fields', '3']]) {
+    for (const wrong of [[], ['a.txt'], ['a.csv', 'b.csv'], ['a.csv', '--unit', 'mile'], ['a.csv', '--column', 'x=y'], ['a.csv', '--nothing'], ['a.csv', '--fields', '3'], ['a.csv', '--origin', '1,2'], ['a.csv', '--origin', '1,,2'], ['a.csv', '--within', '-1']]) {
       const {status, stderr} = run(...wrong);
       assert.equal(status, 2, wrong.join(' '));
       assert.match(stderr, /usage: /);

@@ -58,6 +58,8 @@ test('the same spool in inches, in hundredths and with DN bores is the same fram
 test('PCF: just what is wrong is listed', () => {
   const whole = fromPcf(spool, {schedule: 'SCH 40'});
   const cases = [
+    ['a thing of its own kind', spool.replace('VALVE', 'CHAMBER'), undefined, ['line 49']],
+    ['a word about the file', spool.replace('MATERIALS', 'PROJECT-IDENTIFIER X\nMATERIALS'), undefined, ['line 49']],
     ['no schedule', spool, {}, ['line 18', 'line 22', 'line 37', 'line 41', 'line 45', 'line 49', 'line 9']],
     ['another elbow', spool.replace('CENTRE-POINT 2628.6000 0.0000   0.0000', 'CENTRE-POINT 2600.0000 0.0000   0.0000'), undefined, ['line 26', 'line 49']],
     ['an unknown bore', spool.replace(/4 BW/g, '4.7 BW'), undefined, ['line 37', 'line 49']],
@@ -179,8 +181,9 @@ test('DXF: clockwise bulges, units and what is not understood', () => {
   }
   const circle = pair([0, 'CIRCLE'], [5, 'C1'], [8, 'CHORD'], [10, 0], [20, 0], [40, 5]);
   const odd = fromDxf(drawing(4, line('C0', 'CHORD', [0, 0, 0], [9, 0, 0]), circle, line('C2', 'NOTES', [0, 0, 0], [1, 1, 1]), line('C3', 'CHORD', [1, 1, 1], [1, 1, 1]),
-    arc('C4', 'BRACE', [0, 0, 0], 5, 0, 90), arc('C5', 'CHORD', [0, 0, 0], 500, 0, 90, [[210, 0], [220, 0], [230, -1]])), sizes);
-  assert.deepEqual(ids(odd), ['handle C1', 'handle C2', 'handle C3', 'handle C4', 'handle C5']);
+    arc('C4', 'BRACE', [0, 0, 0], 5, 0, 90), arc('C5', 'CHORD', [0, 0, 0], 500, 0, 90, [[210, 0], [220, 0], [230, -1]]),
+    poly('C6', 'CHORD', [[0, 0, 0], [5, 0, 0], [5, 5, 0]]).replace('70\n8\n', '70\n64\n'), line('C7', 'CHORD', [0, 0, 0], [7, 0, 0]).replace('8\n', '67\n1\n8\n')), sizes);
+  assert.deepEqual(ids(odd), ['handle C1', 'handle C2', 'handle C3', 'handle C4', 'handle C5', 'handle C6', 'handle C7']);
   assert.deepEqual(odd.frame.members.map(({id}) => id), ['CHORD C0']);
   for (const broken of ['', 'hello', '0\nSECTION\n'])
     assert.equal(fromDxf(broken, sizes).notUnderstood[0].id, 'file', broken);
