@@ -10,6 +10,7 @@ interface Question {
   text: string;
   choices?: [value: string, name: string][];
   value?: string;
+  hint?: string;
 }
 interface Kind {
   questions(importer: Importer, text: string, schedules: string[]): Question[];
@@ -27,10 +28,19 @@ function sizeOf(said: string | undefined): Size | undefined {
   return said?.trim() ? {size: said.trim()} : undefined;
 }
 
+function pointOf(said: string): [number, number, number] {
+  const [x, y, z, ...rest] = said
+    .split(/[\s,;]+/)
+    .filter(Boolean)
+    .map(Number);
+  if (x === undefined || y === undefined || z === undefined || rest.length > 0 || ![x, y, z].every(Number.isFinite)) throw new Error(`"${said}" is no point.`);
+  return [x, y, z];
+}
+
 const kinds: Record<string, Kind> = {
   ifc: {
-    questions: () => [],
-    read: (importer, file) => importer.fromIfc(file, {wasm: importer.wasm}),
+    questions: () => [{key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'}],
+    read: (importer, file, {origin}) => importer.fromIfc(file, {wasm: importer.wasm, ...(origin?.trim() ? {origin_mm: pointOf(origin)} : {})}),
   },
   pcf: {
     questions: (_, __, schedules) => [
@@ -125,8 +135,9 @@ export class Model {
       const [importer, bytes] = await Promise.all([import('./importer'), file.arrayBuffer()]);
       if (turn !== this.turn) return;
       const questions = kind.questions(importer, text(new Uint8Array(bytes)), this.schedules);
-      const asked = el('div', {class: 'questions'}, ...questions.map((question) => field(question, () => void read())));
+      const asked = el('div', {class: 'questions'}, ...questions.map((question) => field(question, () => void read().catch(failed))));
       const found = el('div', {class: 'found'});
+      const failed = (failure: unknown) => found.replaceChildren(refused(failure));
       const read = async () => {
         this.turn += 1;
         const mine = this.turn;
@@ -168,10 +179,15 @@ export class Model {
 const heading = (name: string, close: () => void): HTMLElement =>
   el('h3', {}, name, el('button', {type: 'button', class: 'right', 'aria-label': 'Close what is said of the model', onclick: close}, 'Close'));
 
-function field({key, text: said, choices, value}: Question, changed: () => void): HTMLElement {
+const refused = (failure: unknown): HTMLElement =>
+  el('p', {role: 'alert'}, `It cannot be read. ${failure instanceof Error ? failure.message : String(failure)}`);
+
+function field({key, text: said, choices, value, hint}: Question, changed: () => void): HTMLElement {
   const shared = {'data-question': key, onchange: changed};
   const options = choices?.map(([each, name]) => el('option', {value: each, selected: each === (value ?? '')}, name)) ?? [];
-  const input = choices ? el('select', shared, ...options) : el('input', {...shared, list: 'tube-sizes', placeholder: '114.3x6.3', value: value ?? ''});
+  const input = choices
+    ? el('select', shared, ...options)
+    : el('input', {...shared, list: hint ? undefined : 'tube-sizes', placeholder: hint ?? '114.3x6.3', value: value ?? ''});
   return el('label', {}, el('span', {}, said), input);
 }
 

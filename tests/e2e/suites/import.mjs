@@ -78,6 +78,13 @@ async function dropsIfc({browser, origin}, width, theme) {
   assert.deepEqual(members[0], {id: 'chord', start_mm: [-1000, 0, 0], end_mm: [1000, 0, 0], outer_diameter_mm: 120.6, wall_mm: 5});
   assert.ok(members[1].end_mm.every((v, i) => Math.abs(v - [-200 - 1000 * cos, 0, 1000 * cos][i]) < 1e-6));
   assert.deepEqual(connect, {within_mm: 5});
+  const shifted = page.locator('[data-question=origin]');
+  await shifted.fill('here');
+  await shifted.press('Enter');
+  await page.locator('#imported [role=alert]', {hasText: '"here" is no point'}).waitFor();
+  await shifted.fill('-1000, 0, 5');
+  await then(page, () => shifted.press('Enter'));
+  assert.deepEqual((await request(page)).members[0].end_mm, [2000, 0, -5]);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= width, 'the page is as wide as the screen');
   assert.equal(await page.locator('#example option:checked').innerText(), 'A job of your own');
   clean(page);
