@@ -2,6 +2,7 @@ import SwaggerUI from 'swagger-ui-dist/swagger-ui-es-bundle.js';
 import {el, save} from '../src/dom';
 import {askForKey, headed, keyed, KeyNeeded} from '../src/key';
 import {fetched, type Example} from '../src/service';
+import {themed} from '../src/theme';
 
 interface Operation {
   requestBody?: {content: Record<string, {examples?: Record<string, {value: unknown}>}>};
@@ -69,4 +70,5 @@ for (const link of document.querySelectorAll<HTMLAnchorElement>('a[href^="/opena
   });
 }
 
+themed(() => {});
 start();
