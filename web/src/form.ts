@@ -122,11 +122,14 @@ export class Form {
     this.measuring = requestAnimationFrame(() => this.room());
   }
 
-  private redraw(): void {
+  /** `towards`: the first field in what was made, or what is nearest to what is gone; else the focus stays. */
+  private redraw(towards?: string): void {
     const focused = [...this.inputs].find(([, node]) => node === document.activeElement)?.[0];
     this.draw();
     this.understood(this.echo);
-    if (focused !== undefined) this.nearest(focused)?.focus();
+    const first = [...this.inputs.keys()].find((pointer) => pointer.startsWith(`${towards}/`));
+    const to = first ?? towards ?? focused;
+    if (to !== undefined) this.nearest(to)?.focus();
     this.changed();
   }
 
@@ -215,7 +218,7 @@ export class Form {
         onclick: () => {
           put(this.body, pointer, this.contract.make(schema, undefined, key));
           this.folds.set(pointer, true);
-          this.redraw();
+          this.redraw(pointer);
         },
       },
       `+ ${called(pointer)}`,
@@ -240,7 +243,7 @@ export class Form {
             title: `Remove ${called(pointer)}`,
             onclick: () => {
               put(this.body, pointer, undefined);
-              this.redraw();
+              this.redraw(pointer);
             },
           },
           '×',
@@ -270,27 +273,20 @@ export class Form {
     const add = (branch: Schema) => {
       items.push(this.contract.make(branch, branch === kinds[kinds.length - 1] ? items[items.length - 1] : undefined));
       if (!Array.isArray(value)) put(this.body, pointer, items);
-      this.redraw();
+      this.redraw(join(pointer, items.length - 1));
     };
     const names = branches.map((branch) => this.contract.branchName(branches, branch));
-    const adder =
-      branches.length === 1
-        ? el('button', {type: 'button', title: `Add to ${called(pointer)}`, onclick: () => add(item)}, '+ add')
-        : el(
-            'select',
-            {
-              class: 'adder',
-              'aria-label': `Add to ${called(pointer)}`,
-              title: `Add to ${called(pointer)}`,
-              onchange: (event: Event) => {
-                const index = (event.target as HTMLSelectElement).selectedIndex - 1;
-                if (index >= 0) add(branches[index] as Schema);
-              },
-            },
-            el('option', {}, '+ add …'),
-            ...names.map((name) => el('option', {}, sentence(name))),
-          );
-    return [...rows, el('div', {class: 'offers'}, adder)];
+    // Not a list to choose from: by the keyboard its first choice would be made on the way to the others.
+    const adders = branches.map((branch, i) => {
+      const name = branches.length === 1 ? 'add' : (names[i] as string);
+      const title = `Add to ${called(pointer)}`;
+      return el(
+        'button',
+        {type: 'button', class: 'adder', 'aria-label': `${title}: ${name}`, title, onclick: () => add(branches.length === 1 ? item : branch)},
+        `+ ${name}`,
+      );
+    });
+    return [...rows, el('div', {class: 'offers'}, ...adders)];
   }
 
   /** Rows from `first` on, of one kind. */
@@ -338,7 +334,7 @@ export class Form {
         onclick: () => {
           put(this.body, pointer, undefined);
           if (at(this.echo, pointer) !== undefined) put(this.echo, pointer, undefined); // another row's hints are not those of the next
-          this.redraw();
+          this.redraw(pointer);
         },
       },
       '×',

@@ -11,6 +11,7 @@ import {rest} from './links';
 import {Model} from './model';
 import {Motion} from './motion';
 import {endpointName, endpointOrder, exampleName, tabs} from './names';
+import * as onward from './onward';
 import * as panels from './panels';
 import type {Picture} from './picture';
 import * as preset from './preset';
@@ -207,6 +208,13 @@ class Console {
       this.answer = reply.answer;
       this.form.understood(reply.answer.request);
       this.trouble(drawn instanceof Error ? drawn : undefined);
+      const {endpoint, body} = this.state;
+      onward.show(
+        byId('onward'),
+        onward.leadsOf(endpoint, body, reply.answer, this.context, this.contract).filter((lead) => this.endpoints.some(({id}) => id === lead.endpoint)),
+        (to, job) => void this.follow(to, job),
+        () => this.choose('downloads'),
+      );
       if (drawn && !(drawn instanceof Error)) {
         this.picture = drawn;
         this.draw();
@@ -239,6 +247,7 @@ class Console {
     this.trouble(undefined);
     this.charts.show([]);
     this.inspector.show(undefined);
+    byId('onward').hidden = true;
     byId('solid').hidden = true;
     byId('figures').replaceChildren();
   }
@@ -364,16 +373,17 @@ class Console {
       ([id]) => id !== 'motion' || (this.state.endpoint === 'bevel-tables' && this.endpoints.some((e) => e.id === 'pulse-schedules')),
     );
     if (!offered.some(([id]) => id === this.state.tab)) this.state.tab = 'proof';
-    const choose = (id: string) => {
-      this.state.tab = id;
-      this.drawDetails();
-      this.remember();
-      byId(`tab-${id}`).focus();
-    };
-    const bar = controls.tabBar(offered, this.state.tab, choose);
+    const bar = controls.tabBar(offered, this.state.tab, (id) => this.choose(id));
     const panel = el('div', {role: 'tabpanel', id: 'panel', 'aria-labelledby': `tab-${this.state.tab}`});
     byId('details').replaceChildren(bar, panel);
     this.fill(panel);
+  }
+
+  private choose(tab: string): void {
+    this.state.tab = tab;
+    this.drawDetails();
+    this.remember();
+    byId(`tab-${tab}`).focus();
   }
 
   private fill(panel: HTMLElement): void {
@@ -404,6 +414,8 @@ class Console {
     await this.writeHash();
     this.state.tab = 'proof';
     this.begin(endpoint, undefined, clone(body), true);
+    byId('views').focus({preventScroll: true}); // what was pressed is gone
+    scrollTo(0, 0);
   }
 
   /** The hash follows a moment after the last change. */

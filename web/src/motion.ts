@@ -2,6 +2,7 @@ import {Board} from './charts';
 import {el} from './dom';
 import type {Row} from './json';
 import * as panels from './panels';
+import {usualMotion} from './onward';
 import {motionFacts, scheduleCharts} from './pictures/machine';
 import {ask, type Reply} from './service';
 
@@ -24,7 +25,7 @@ export class Motion {
   }
 
   async fill(panel: HTMLElement, cut: Row, ways: Ways): Promise<void> {
-    const body = {cut, machine: 'five_axis_cutter', motion: {speed: {mm_min: 600}}};
+    const body = {cut, ...usualMotion};
     panel.append(
       el(
         'p',
@@ -42,7 +43,7 @@ export class Motion {
     if (this.of !== key) return;
     if (!reply.answer) this.of = ''; // asked again when next shown
     this.root.querySelectorAll('.extra').forEach((node) => node.remove());
-    this.board.show(reply.answer ? scheduleCharts(reply.answer.result, this.machines.get(body.machine)) : []);
+    this.board.show(reply.answer ? scheduleCharts(reply.answer.result, this.machines.get(String(usualMotion['machine']))) : []);
     this.root.append(extra(reply, ways));
   }
 }

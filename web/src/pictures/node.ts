@@ -1,15 +1,18 @@
-import {isRow, type Row} from '../json';
-import {column, type CutTube, type Picture, type Vector} from '../picture';
+import {isRow, rowsOf, type Json, type Row} from '../json';
+import {usualCut} from '../onward';
+import {column, type Assembly, type EndCurve, type Facts, type Frame, type HoledTube, type Item, type Picture, type Vector} from '../picture';
 import type {Answer} from '../service';
-import {choice, term} from '../words';
-import {plural, text} from './facts';
-import type {Context} from './context';
-import {add, bounds, frame, placed, plainTube, tube, vector} from './geometry';
+import {choice, sentence, term} from '../words';
 import {atPhi} from './cut';
+import {figures, plural, text} from './facts';
+import type {Context} from './context';
+import {add, bounds, dot, frame, onTube, placed, radians, squareEnd, tube, vector, type Sizes} from './geometry';
 
-/** The whole node in the world, every end as it is cut. */
+const link = 'node';
+
+/** The whole node in the world, every end as it is cut; a click on a member leads to its part. */
 export async function node(body: Row, answer: Answer, context: Context): Promise<Picture> {
-  const members = body['members'] as Row[];
+  const members = rowsOf(answer.request['members']);
   let ends = answer.result['ends'] as Row[];
   if (!body['include']) {
     // the curves are for the picture only
@@ -17,75 +20,139 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
     ends = whole.result['ends'] as Row[];
   }
   const cut = ends.filter((end) => (end['cut_by'] as Row[]).length > 0);
-  const biggest = Math.max(...members.map((member) => tube(member, context.sizes).outer));
-  const tubes = ends.map((end) => endTube(end, members, context));
-  const centre = middle(cut.length ? cut : ends);
+  const free = ends.filter((end) => end['free']).length;
+  const said = [plural(members.length, 'member'), `${plural(cut.length, 'end')} cut`, plural(free, 'free end')].join(', ');
+  const assembly = assemblyOf(members, ends, context.sizes);
+  const corners = assembly.members.flatMap(({part, frame: to}) => {
+    const {from, to: end} = assembly.parts[part] as HoledTube;
+    return bounds([...from.zOuter, ...end.zOuter]).map((z) => placed(to, [0, 0, z]));
+  });
+  const box = [0, 1, 2].map((k) => bounds(corners.map((p) => p[k] as number)));
   return {
-    solid: {link: 'node', tubes, partners: [], centre, size: 2.7 * biggest, eye: [0.3, -1, 0.4], up: [0, 0, 1]},
+    solid: {
+      link,
+      tubes: [],
+      assembly,
+      partners: [],
+      told: said,
+      centre: box.map(([low, high]) => (low + high) / 2) as Vector,
+      size: Math.hypot(...box.map(([low, high]) => high - low)),
+      eye: [0.3, -1, 0.4],
+      up: [0, 0, 1],
+    },
     charts: [],
-    said: `${plural(members.length, 'member')}, ${plural(cut.length, 'end')} cut, ${plural(ends.filter((e) => e['free']).length, 'free end')}.`,
+    said: `${said}.`,
+    inspected: {link, lists: [{id: 'members', title: 'Members', items: members.map((_, i) => item(answer.request, members, ends, i, context.sizes))}]},
     figures: [
       {name: 'members', value: String(members.length)},
       {name: 'cut ends', value: String(cut.length)},
-      {name: 'free ends', value: String(ends.filter((e) => e['free']).length)},
+      {name: 'free ends', value: String(free)},
     ],
-    tables: [
-      {
-        title: 'Who cuts whom',
-        head: ['member', 'end', 'cut by', ...placed4.map((key) => term(key)), term('gap_mm'), term('eccentricity_mm')],
-        rows: cut.flatMap((end) =>
-          (end['cut_by'] as Row[]).map((by) => {
-            const p = by['placement']; // a mitre is by a plane
-            return [
-              String(end['member']),
-              choice(end['end']),
-              String(by['member']),
-              ...placed4.map((key) => (isRow(p) ? text(key, p[key]) : '–')),
-              text('gap_mm', by['gap_mm']),
-              text('eccentricity_mm', by['eccentricity_mm']),
-            ];
-          }),
-        ),
-      },
-    ],
+    tables: [whoCutsWhom(cut)],
   };
 }
 
-const placed4 = ['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'];
+const placements = ['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'];
 
-function endTube(end: Row, members: Row[], context: Context): CutTube {
-  const index = members.findIndex((member) => member['id'] === end['member']);
-  const member = members[index] as Row;
-  const {outer, wall} = tube(member, context.sizes);
-  const length = Math.hypot(...add(vector(member['end_mm']), vector(member['start_mm']), -1));
-  const to = frame(end['frame']);
-  const profiles = (end['profiles'] ?? []) as Row[];
-  const outside = profiles.find((p) => p['surface'] === 'outer'),
-    inside = profiles.find((p) => p['surface'] === 'inner');
-  const far = length / 2; // half a member belongs to each of its ends
-  if (!outside || !inside) return plainTube(outer, wall, far, index, to);
-  const points = outside['points'] as Row;
-  const phi = column(points['phi_deg']),
-    zOuter = column(points['z_mm']),
-    zInner = atPhi(inside['points'] as Row, phi);
-  return {
-    ...(to ? {frame: to} : {}),
-    outer: outer / 2,
-    inner: outer / 2 - wall,
-    phi,
-    zOuter,
-    zInner,
-    far: Math.max(far, bounds([...zOuter, ...zInner])[1] + outer * 0.2),
-    marks: [],
-    tone: index,
-  };
-}
+const whoCutsWhom = (cut: Row[]) => ({
+  title: 'Who cuts whom',
+  names: true as const,
+  head: ['member', 'end', 'cut by', ...placements.map((key) => term(key)), term('gap_mm'), term('eccentricity_mm')],
+  rows: cut.flatMap((end) =>
+    (end['cut_by'] as Row[]).map((by) => {
+      const p = by['placement']; // a mitre is by a plane
+      return [
+        String(end['member']),
+        choice(end['end']),
+        String(by['member']),
+        ...placements.map((key) => (isRow(p) ? text(key, p[key]) : '–')),
+        text('gap_mm', by['gap_mm']),
+        text('eccentricity_mm', by['eccentricity_mm']),
+      ];
+    }),
+  ),
+});
 
-function middle(ends: Row[]): Vector {
-  const points = ends.map((end) => {
-    const profile = ((end['profiles'] ?? []) as Row[])[0];
-    const z = profile ? bounds(column((profile['points'] as Row)['z_mm'])) : [0, 0];
-    return placed(frame(end['frame']), [0, 0, ((z[0] as number) + (z[1] as number)) / 2]);
+const tone = (i: number) => `partner-${i % 6}`;
+const lineOf = (member: Row): [Vector, Vector] => [vector(member['start_mm']), vector(member['end_mm'])];
+const lengthOf = (member: Row) => Math.hypot(...add(...(lineOf(member).reverse() as [Vector, Vector]), -1));
+const endOf = (ends: Row[], id: Json | undefined, side: string) => ends.find((end) => end['member'] === id && end['end'] === side) as Row;
+
+function item(request: Row, members: Row[], ends: Row[], i: number, sizes: Sizes): Item {
+  const member = members[i] as Row;
+  const {outer, wall} = tube(member, sizes);
+  const id = String(member['id']);
+  const own = ['start', 'finish'].map((side) => endOf(ends, id, side));
+  const cutters = own.flatMap((end) => rowsOf(end['cut_by']).map((by) => String(by['member'])));
+  const facts = (): Facts => ({
+    said: own.map((end) => {
+      const by = rowsOf(end['cut_by']).map((each) => String(each['member']));
+      return `${sentence(choice(end['end']))}: ${by.length ? `cut by ${by.join(', ')}` : 'free'}.`;
+    }),
+    figures: figures({outer_diameter_mm: outer, wall_mm: wall, length_mm: lengthOf(member)}, ['outer_diameter_mm', 'wall_mm', 'length_mm']),
+    warnings: [],
+    leads: [...new Set(cutters)].map((name) => ({name, to: members.findIndex((each) => each['id'] === name)})).filter(({to}) => to >= 0),
+    opens: {name: 'Go on to its part', endpoint: 'parts', body: partOf(request, id)},
   });
-  return points.reduce<Vector>((sum, p) => add(sum, p, 1 / points.length), [0, 0, 0]);
+  return {name: id, detail: [outer, wall].map((value) => text('wall_mm', value)).join(' × '), mark: {text: '', tone: tone(i)}, facts};
+}
+
+/** The part of a member, cut as the node's tables are, or as usual. */
+function partOf(request: Row, member: string): Row {
+  const tables = isRow(request['tables']) ? request['tables'] : {};
+  const {dihedral: _, ...cut} = {...usualCut, ...tables};
+  return {members: request['members'] as Json, connect: request['connect'] as Json, member, ...cut};
+}
+
+/** Every member from end to end; of one that goes far beyond the node, what is near it. */
+function assemblyOf(members: Row[], ends: Row[], sizes: Sizes): Assembly {
+  const widest = Math.max(...members.map((member) => tube(member, sizes).outer));
+  const joints = ends.filter((end) => rowsOf(end['cut_by']).length).map((end) => vector((end['frame'] as Row)['origin_mm']));
+  const parts = members.map((member): HoledTube => {
+    const {outer, wall} = tube(member, sizes);
+    const [start, finish] = ['start', 'finish'].map((side) => endOf(ends, member['id'], side)) as [Row, Row];
+    const to = frame(start['frame']) as Frame;
+    const along = joints.map((point) => dot(add(point, to.origin, -1), to.z));
+    const [low, high] = joints.length ? bounds(along) : [-Infinity, Infinity];
+    const radii: [number, number] = [outer / 2, outer / 2 - wall];
+    return {
+      outer: radii[0],
+      inner: radii[1],
+      from: curveOf(start) ?? squareEnd(Math.max(0, low - 2.2 * widest)),
+      to: seen(finish, to, radii) ?? squareEnd(Math.min(lengthOf(member), high + 2.2 * widest)),
+      holes: [],
+    };
+  });
+  return {
+    parts,
+    members: members.map((member, i) => ({
+      name: String(member['id']),
+      part: i,
+      frame: frame(endOf(ends, member['id'], 'start')['frame']) as Frame,
+      tone: tone(i),
+    })),
+    lights: members.map((_, i) => [i]),
+  };
+}
+
+function curveOf(end: Row): EndCurve | undefined {
+  const profiles = rowsOf(end['profiles']);
+  const [outside, inside] = ['outer', 'inner'].map((surface) => profiles.find((each) => each['surface'] === surface)?.['points'] as Row | undefined);
+  if (!outside || !inside) return undefined;
+  const phi = column(outside['phi_deg']);
+  return {phi, zOuter: column(outside['z_mm']), zInner: atPhi(inside, phi)};
+}
+
+/** The finish's curve in the frame of the start. */
+function seen(finish: Row, to: Frame, [outer, inner]: [number, number]): EndCurve | undefined {
+  const curve = curveOf(finish);
+  if (!curve) return undefined;
+  const own = frame(finish['frame']);
+  const turned = (radius: number, z: number[]) => curve.phi.map((phi, i) => add(placed(own, onTube(radius, phi, z[i] as number)), to.origin, -1));
+  const [outside, inside] = [turned(outer, curve.zOuter), turned(inner, curve.zInner)];
+  return {
+    phi: outside.map((p) => Math.atan2(dot(p, to.y), dot(p, to.x)) / radians),
+    zOuter: outside.map((p) => dot(p, to.z)),
+    zInner: inside.map((p) => dot(p, to.z)),
+  };
 }

@@ -1,0 +1,86 @@
+import {el} from './dom';
+import {isRow, rowsOf, type Json, type Row} from './json';
+import {column} from './picture';
+import {without, type Context} from './pictures/context';
+import {tube} from './pictures/geometry';
+import type {Contract} from './schema';
+import {path, type Answer} from './service';
+import {choice} from './words';
+
+/** A job that an answer leads to. */
+export interface Lead {
+  name: string;
+  endpoint: string;
+  body: Row;
+}
+
+/** How a member is cut where nothing says so yet. */
+export const usualCut: Row = {
+  root_surface: 'inner',
+  groove: {rule: 'half_dihedral'},
+  kerf_mm: 1.5,
+  smoothing: {method: 'envelope', limits: {machine: 'five_axis_cutter', speed_mm_min: 600}},
+};
+export const usualMotion: Row = {machine: 'five_axis_cutter', motion: {speed: {mm_min: 600}}};
+
+const ofEnd = ['cutters', 'root_surface', 'groove', 'contact', 'root_face_mm', 'root_gap_mm', 'coating_mm', 'smoothing'];
+const ofPart = ['preset', 'reference', 'kerf_mm', 'sampling', 'torch'];
+const ofContour = ['phi_deg', 'b_deg', 'beam_mm', 'torch_inner_mm', 'torch_outer_mm', 'corner'];
+
+const picked = (row: Row, keys: string[]): Row => Object.fromEntries(keys.flatMap((key) => (key in row ? [[key, row[key] as Json]] : [])));
+
+/** Where an answer leads: from curve to cut, from cut to part and pulses, from groove to mill path and on. */
+export function leadsOf(endpoint: string, body: Row, answer: Answer, {sizes}: Pick<Context, 'sizes'>, contract: Contract): Lead[] {
+  const own = without(body);
+  if (endpoint === 'intersections')
+    return [{name: 'Cut and bevel', endpoint: 'bevel-tables', body: {...picked(own, ['target', 'cutters', 'node']), ...usualCut}}];
+  // Those for comparison only (`inward`) are cut by no machine.
+  if (endpoint === 'bevel-tables' && answer.result['b_sign'] !== 'inward')
+    return [
+      {name: 'Part', endpoint: 'parts', body: partOf(body, answer.result)},
+      {name: 'Pulses', endpoint: 'pulse-schedules', body: {cut: own, ...usualMotion}},
+    ];
+  if (endpoint === 'parts') return pulsesOf(answer, sizes);
+  if (endpoint === 'grooves') {
+    const schema = contract.request(path('mill-paths')) ?? {};
+    return [{name: 'Mill path', endpoint: 'mill-paths', body: contract.make(schema, {groove: own}) as Row}];
+  }
+  if (endpoint === 'mill-paths') return [{name: 'Pulses', endpoint: 'pulse-schedules', body: {mill_path: own, ...usualMotion, machine: 'cone_mill'}}];
+  return [];
+}
+
+/** The member of a node, or the tube that is cut, square at its other end and a little longer than the cut is high. */
+function partOf(body: Row, result: Row): Row {
+  const shared = picked(body, ofPart);
+  if (isRow(body['node'])) return {...picked(body['node'], ['members', 'connect', 'member']), ...picked(body, ofEnd), ...shared};
+  const points = result['points'] as Row;
+  const high = [...column(points['z_outer_mm']), ...column(points['z_inner_mm'])].reduce((a, b) => Math.max(a, b), 0);
+  const length = Math.ceil((high + Number(result['developed_length_mm'])) / 50) * 50;
+  return {target: {...(body['target'] as Row), length_mm: length}, ends: {start: picked(body, ofEnd), finish: {square_at_mm: 0}}, ...shared};
+}
+
+/** The pulses of each end that others cut. */
+function pulsesOf({request, result}: Answer, sizes: Context['sizes']): Lead[] {
+  const {outer, wall} = tube(request['target'] ?? rowsOf(request['members']).find((each) => each['id'] === request['member']), sizes);
+  return Object.entries(result['ends'] as Row).flatMap(([side, given]) => {
+    const end = given as Row;
+    if (Number(end['weld_mm']) === 0) return []; // square
+    const contour: Row = {...picked(end, ['surface', 'scrap', 'b_sign']), outer_diameter_mm: outer, wall_mm: wall, closed: true};
+    return [
+      {
+        name: `Pulses, ${choice(side)}`,
+        endpoint: 'pulse-schedules',
+        body: {contour: {...contour, points: picked(end['points'] as Row, ofContour)}, ...usualMotion},
+      },
+    ];
+  });
+}
+
+export function show(root: HTMLElement, leads: Lead[], open: (endpoint: string, body: Row) => void, files: () => void): void {
+  root.hidden = false;
+  root.replaceChildren(
+    el('span', {class: 'soft'}, 'Go on to'),
+    ...leads.map(({name, endpoint, body}) => el('button', {type: 'button', 'data-onward': endpoint, onclick: () => open(endpoint, body)}, name)),
+    el('button', {type: 'button', 'data-onward': 'files', onclick: files}, 'Files'),
+  );
+}
