@@ -3,7 +3,7 @@ import 'uplot/dist/uPlot.min.css';
 import {colour, el, partnerColour} from './dom';
 import {listen, point, pointed} from './links';
 import type {Chart} from './picture';
-import {ticks} from './units';
+import {number, ticks, withUnit} from './units';
 
 const left = 56,
   right = 12,
@@ -114,7 +114,7 @@ class Plot {
     this.frame.dataset['points'] = String(chart.x.values.length);
     this.frame.setAttribute(
       'aria-label',
-      `${chart.title}: ${chart.series.map((s) => s.name).join(', ')} over ${chart.x.name}; ${chart.x.values.length} points. Left and right move the cursor.`,
+      `${chart.title}: ${chart.series.map((s) => `${s.name} ${spread(s.values, chart.unit)}`).join(', ')} over ${chart.x.name}; ${chart.x.values.length} points. Left and right move the cursor.`,
     );
     const keys = chart.series.map((s) => {
       const line = el('i', {class: s.dash ? 'dashed' : ''});
@@ -204,6 +204,7 @@ class Plot {
       return [from, from + (this.size().height - 34 - named) * scale];
     }
     if (this.chart.zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
+    if (this.chart.within !== undefined) high = Math.max(high, this.chart.within);
     const flat = high - low < 1e-6 * Math.max(1, Math.abs(high)); // a straight line, not the rounding it is made of
     const space = flat ? 0.5 : (high - low) * 0.08;
     return [low - space * (this.chart.partners ? 1.8 : 1), high + space];
@@ -298,7 +299,9 @@ class Plot {
       ctx.moveTo(bbox.left, y);
       ctx.lineTo(bbox.left + bbox.width, y);
       ctx.stroke();
-      ctx.fillText(limit.text, bbox.left + 4 * scale, y + (y - bbox.top < 16 * scale ? 12 : -4) * scale);
+      // Events are named at both ends.
+      ctx.textAlign = lettered(this.chart) ? 'center' : 'left';
+      ctx.fillText(limit.text, bbox.left + (lettered(this.chart) ? bbox.width / 2 : 4 * scale), y + (y - bbox.top < 16 * scale ? 12 : -4) * scale);
     }
     ctx.setLineDash([]);
     if (this.chart.partners && !this.chart.wrap) this.ribbon(u);
@@ -352,6 +355,14 @@ class Plot {
     else return;
     event.preventDefault();
   }
+}
+
+/** "from 18.7 to 72.6°", for those who do not see it. */
+function spread(values: (number | null)[], of: string): string {
+  const known = values.filter((v): v is number => v !== null);
+  if (!known.length) return '';
+  const [low, high] = [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))];
+  return `from ${number(low, of)} to ${withUnit(high, of)}`;
 }
 
 function extent(chart: Chart): [number, number] {

@@ -14,6 +14,7 @@ import {endpointName, endpointOrder, exampleName, tabs} from './names';
 import * as onward from './onward';
 import * as panels from './panels';
 import type {Picture} from './picture';
+import {Player} from './play';
 import * as preset from './preset';
 import {pictured} from './pictures';
 import {contextOf, without, type Context} from './pictures/context';
@@ -40,6 +41,7 @@ class Console {
   private readonly form: Form;
   private readonly charts = new Board(byId('charts'));
   private readonly motion: Motion;
+  private readonly player = new Player(byId('player'));
   private readonly inspector = new Inspector(byId('inspector'), {
     open: (endpoint, body) => void this.follow(endpoint, body),
     focus: (pointer) => this.seek(pointer),
@@ -73,7 +75,7 @@ class Console {
     hints(byId('form'), byId('hint'));
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
-    this.motion = new Motion(this.context.machines);
+    this.motion = new Motion(this.context);
     const schedules = [...sizes.keys()].flatMap((size) => /^NPS \S+ (.+)$/.exec(size)?.[1] ?? []);
     this.model = new Model([...new Set(schedules)], (frame) => this.begin('frames', undefined, frame, true));
     this.form = new Form(byId('form'), contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.edited());
@@ -247,6 +249,7 @@ class Console {
     this.trouble(undefined);
     this.charts.show([]);
     this.inspector.show(undefined);
+    this.player.show(undefined);
     byId('onward').hidden = true;
     byId('solid').hidden = true;
     byId('figures').replaceChildren();
@@ -263,6 +266,7 @@ class Console {
     try {
       this.charts.show(picture.charts);
       this.inspector.show(picture.inspected, this.state.item);
+      this.player.show(picture.played);
       this.unlisten?.();
       this.unlisten = panels.readout(picture);
     } catch (failure) {

@@ -3,7 +3,8 @@ import {el} from './dom';
 import type {Row} from './json';
 import * as panels from './panels';
 import {usualMotion} from './onward';
-import {motionFacts, scheduleCharts} from './pictures/machine';
+import type {Context} from './pictures/context';
+import {machineOf, motionFacts, scheduleCharts, wayOf} from './pictures/schedule';
 import {ask, type Reply} from './service';
 
 interface Ways {
@@ -18,7 +19,7 @@ export class Motion {
   private board: Board | null = null;
   private of = '';
 
-  constructor(private readonly machines: Map<string, Row>) {}
+  constructor(private readonly context: Context) {}
 
   recolour(): void {
     this.board?.recolour();
@@ -42,8 +43,10 @@ export class Motion {
     const reply = await ask('pulse-schedules', body);
     if (this.of !== key) return;
     if (!reply.answer) this.of = ''; // asked again when next shown
+    const way = reply.answer && (await wayOf(body, reply.answer, this.context));
+    if (this.of !== key) return;
     this.root.querySelectorAll('.extra').forEach((node) => node.remove());
-    this.board.show(reply.answer ? scheduleCharts(reply.answer.result, this.machines.get(String(usualMotion['machine']))) : []);
+    this.board.show(reply.answer ? scheduleCharts(reply.answer, machineOf(usualMotion['machine'], this.context), way) : []);
     this.root.append(extra(reply, ways));
   }
 }
@@ -51,7 +54,7 @@ export class Motion {
 function extra(reply: Reply, ways: Ways): HTMLElement {
   const root = el('div', {class: 'extra'});
   if (reply.answer) {
-    const facts = motionFacts(reply.answer.result);
+    const facts = motionFacts(reply.answer);
     const figures = el('div', {class: 'figures'});
     panels.figures(figures, facts);
     root.append(figures, el('div', {class: 'columns'}, ...(facts.tables ?? []).map(panels.table)));

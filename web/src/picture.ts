@@ -13,6 +13,8 @@ export interface Picture {
   /** What the answer comes to, for the verdict. */
   said?: string;
   inspected?: Inspected;
+  /** What the cursor of a link is played along. */
+  played?: Played;
   /** There is a before and an after to switch between. */
   beforeAfter?: boolean;
 }
@@ -36,6 +38,13 @@ export interface Facts {
   leads: {name: string; to: number}[];
   /** A job of its own. */
   opens?: {name: string; endpoint: string; body: Row};
+}
+
+/** The cursor's points in time, and what happens at some of them. */
+export interface Played {
+  link: string;
+  seconds: number[];
+  events: {at: number; text: string}[];
 }
 
 export interface Figure {
@@ -95,6 +104,7 @@ export interface Chart {
   /** Millimetre for millimetre, kept side filled: the wrap. */
   wrap?: {lines: {x: number; text: string}[]};
   zero?: boolean; // the axis shows zero
+  within?: number; // and this
 }
 
 export type Vector = [number, number, number];
@@ -161,8 +171,12 @@ export interface Ribbon {
   b: Vector[];
   tone: string;
 }
+/** What cuts, at every point of the cursor: a torch along a line of the wall. */
+export type Tool = {kind: 'torch'; inner: Vector[]; outer: Vector[]; size: number};
+
 export interface Solid {
   link: string;
+  tool?: Tool;
   tubes: CutTube[];
   holed?: HoledTube[];
   assembly?: Assembly;

@@ -169,6 +169,64 @@ export const checks = {
   'values are shown whole at 1280 px': (given) => whole(given, 1280, 800),
   'values are shown whole at 390 px': (given) => whole(given, 390, 844),
 
+  'a schedule shows its speed first, and every peak however long it is': async ({browser, origin, service}) => {
+    const page = await open(browser, origin, '#/bevel-tables/mitre');
+    await answered(page);
+    const found = (await examplesOf(service)).filter(({name}) => ['source-002-offset-pair-on-the-crawler', 'square-cut-from-a-bare-contour'].includes(name));
+    for (const example of found) {
+      const {result} = JSON.parse((await service.post('/v1/pulse-schedules', example.body)).text);
+      await then(page, () => page.evaluate((to) => {
+        location.hash = to;
+      }, hashOf(example)));
+      const charts = await page.locator('#charts .chart').evaluateAll((all) => all.map(({id}) => id));
+      assert.deepEqual(charts, ['chart-tip', 'chart-speed', 'chart-pulses', 'chart-positions']);
+      const told = await page.locator('#chart-pulses .plot').getAttribute('aria-label');
+      for (const axis of result.axes) {
+        const [, low, high] = new RegExp(`${axis} from (-?\\d+) to (-?\\d+)`).exec(told);
+        assert.equal(Math.max(-low, high), result.report.peak[axis], `${example.name}: ${axis} in ${told}`);
+      }
+      const [, fastest] = /to (\d+) mm\/min/.exec(await page.locator('#chart-tip .plot').getAttribute('aria-label'));
+      const {mm_min: asked} = example.body.motion.speed;
+      if (asked) assert.ok(Math.abs(fastest - asked) < 0.03 * asked, `${example.name}: ${fastest} of ${asked} mm/min`);
+    }
+    assert.equal(found.length, 2);
+    clean(page);
+    await page.context().close();
+  },
+
+  'time is played and scrubbed, and the torch goes along': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/pulse-schedules/table-1-on-the-five-axis-cutter');
+    await answered(page);
+    const [slider, play] = [page.locator('#player input'), page.locator('#play')];
+    const seconds = async () => parseFloat(await page.locator('#readout dd').first().innerText());
+    assert.equal(await play.innerText(), 'Next event', 'where motion is unwanted');
+    const places = [];
+    const sums = new Set();
+    for (let i = 0; i < 3; ++i) {
+      await play.press('Enter');
+      places.push(await seconds());
+      sums.add((await pixels(page)).sum);
+    }
+    assert.ok(places.every((at, i) => i === 0 || at > places[i - 1]) && sums.size === 3, `events at ${places}`);
+    await slider.press('Home');
+    for (let i = 0; i < 3; ++i) await slider.press('PageUp');
+    const there = await seconds();
+    assert.ok(there > 8 && there < 11, `three tenths of 31.4 s is ${there} s`);
+    assert.match(await slider.getAttribute('aria-valuetext'), /^9\.4\d? s, after cut start$/);
+    const at = await page.locator('#chart-tip .u-cursor-x').evaluate((line) => (line.getBoundingClientRect().right - line.parentElement.getBoundingClientRect().left) / line.parentElement.clientWidth);
+    assert.ok(Math.abs(at - there / 31.4) < 0.02, `the cursor stands at ${at}`);
+    await page.emulateMedia({reducedMotion: 'no-preference'});
+    await page.locator('#play', {hasText: 'Play'}).waitFor();
+    await play.press('Enter');
+    while (await seconds() < there + 0.5) await page.waitForTimeout(50);
+    await play.press('Enter');
+    const stopped = await seconds();
+    await page.waitForTimeout(200);
+    assert.equal(await seconds(), stopped, 'it stands still');
+    clean(page);
+    await page.context().close();
+  },
+
   'one state at a time': async ({browser, origin}) => {
     const page = await open(browser, origin);
     await answered(page);

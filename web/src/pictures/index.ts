@@ -7,9 +7,10 @@ import {wholeFrame} from './frame';
 import {generic} from './generic';
 import {groove, millPath} from './groove';
 import {hole} from './hole';
-import {feedCurve, replay, schedule} from './machine';
+import {feedCurve, replay} from './machine';
 import {node} from './node';
 import {part} from './part';
+import {schedule} from './schedule';
 
 const known: Record<string, Draw> = {
   'bevel-tables': bevelTable,

@@ -433,12 +433,16 @@ export class Beam extends LineSegments {
   put(tube: CutTube, before: boolean, i: number): void {
     const chosen = before && tube.before ? tube.before : tube;
     const phi = tube.phi[i] as number;
-    const a = toVector(around(tube.inner, phi, chosen.zInner[i] as number)),
-      b = toVector(around(tube.outer, phi, chosen.zOuter[i] as number));
+    this.aim(around(tube.inner, phi, chosen.zInner[i] as number), around(tube.outer, phi, chosen.zOuter[i] as number), tube.outer, tube.frame);
+  }
+
+  /** Along the wall from its inner edge to its outer one, and beyond by the `size` of what is cut. */
+  aim(inner: Vector, outer: Vector, size: number, frame?: Frame): void {
+    const [a, b] = [toVector(inner), toVector(outer)];
     const out = b.clone().sub(a).normalize();
-    const tip = b.clone().addScaledVector(out, tube.outer * 0.75);
-    const back = a.clone().addScaledVector(out, -tube.outer * 0.08);
-    const m = matrix(tube.frame);
+    const tip = b.clone().addScaledVector(out, size * 0.75);
+    const back = a.clone().addScaledVector(out, -size * 0.08);
+    const m = matrix(frame);
     const p = this.geometry.getAttribute('position') as BufferAttribute;
     [back, tip].forEach((v, k) => {
       v.applyMatrix4(m);
@@ -447,7 +451,7 @@ export class Beam extends LineSegments {
     p.needsUpdate = true;
     const head = this.children[0] as Mesh;
     head.position.copy(tip);
-    head.scale.set(tube.outer * 0.09, tube.outer * 0.34, tube.outer * 0.09);
+    head.scale.set(size * 0.09, size * 0.34, size * 0.09);
     head.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), tip.clone().sub(back).normalize());
     this.visible = true;
   }

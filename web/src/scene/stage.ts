@@ -16,7 +16,7 @@ import {
 } from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {chosen, listen, point, pointed} from '../links';
-import type {Solid} from '../picture';
+import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
 import {Members} from './members';
 import {Beam, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
@@ -65,7 +65,7 @@ export class Stage {
     this.scene.add(this.camera, new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8899aa, 0.7));
     this.controls = this.control();
     domElement.addEventListener('pointermove', (event) => this.hover(event));
-    domElement.addEventListener('pointerleave', () => this.solid && point(this.solid.link, null));
+    domElement.addEventListener('pointerleave', () => this.solid && !this.solid.tool && point(this.solid.link, null));
     domElement.addEventListener('pointerdown', (event) => {
       this.pressed = event;
     });
@@ -206,8 +206,10 @@ export class Stage {
 
   private follow(index: number | null): void {
     if (this.members) this.light();
-    const tube = this.solid?.tubes[0];
-    if (index === null || !tube || this.solid?.tubes.length !== 1) this.beam.visible = false;
+    const {tool, tubes = []} = this.solid ?? {};
+    const tube = tubes[0];
+    if (index !== null && tool) this.beam.aim(tool.inner[index % tool.inner.length] as Vector, tool.outer[index % tool.outer.length] as Vector, tool.size);
+    else if (index === null || !tube || tubes.length !== 1) this.beam.visible = false;
     else this.beam.put(tube, this.before, index % tube.phi.length); // a closed curve's end is its beginning
     this.draw();
   }
@@ -240,6 +242,7 @@ export class Stage {
       return;
     }
     const tube = this.solid?.tubes[0];
+    if (this.solid?.tool) return; // its places are in time, which no place of the cut tells
     if (!tube || !this.solid || this.solid.tubes.length !== 1 || event.buttons !== 0) return;
     const ray = this.ray(event);
     const walls: Object3D[] = [];

@@ -1,0 +1,275 @@
+import {isRow, rowsOf, type Row} from '../json';
+import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Tool} from '../picture';
+import type {Answer} from '../service';
+import {measured, number, withUnit} from '../units';
+import {choice, label, term, type Term} from '../words';
+import {bevelTable, farEnd, joint} from './cut';
+import {without, type Context} from './context';
+import {figures, type Told} from './facts';
+import {bounds, onTube, radians} from './geometry';
+import {groove} from './groove';
+
+const link = 'motion';
+const tones = ['series-0', 'series-1', 'series-2', 'series-3', 'series-4', 'series-5'];
+const most = 3000; // points that a chart is drawn with; a schedule may have 400 000 periods
+const replayed = 100000; // periods up to which the torch's way is asked for: its answer is ten times as long
+const mean = 25; // periods over which the rounding of pulses averages out
+
+export async function schedule(body: Row, answer: Answer, context: Context): Promise<Picture> {
+  const way = await wayOf(body, answer, context);
+  const machine = machineOf(answer.request['machine'], context);
+  const times = timesOf(answer.result);
+  const solid = (await source(body, context)) ?? (way && contourSolid(way, answer.result));
+  return {
+    ...(solid ? {solid: {...solid, link, ...(way ? {tool: toolOf(way, times)} : {})}} : {}),
+    charts: scheduleCharts(answer, machine, way),
+    ...motionFacts(answer, way),
+    played: playedOf(answer.result, times),
+  };
+}
+
+export const machineOf = (machine: unknown, context: Context) => (isRow(machine) ? machine : context.machines.get(String(machine)));
+
+/** What is being cut, where the request tells: shown beside the pulses. */
+async function source(body: Row, context: Context): Promise<Solid | undefined> {
+  for (const [key, endpoint, draw] of [
+    ['cut', 'bevel-tables', bevelTable],
+    ['mill_path', 'grooves', groove],
+  ] as const) {
+    const inner = body[key];
+    if (!isRow(inner)) continue;
+    const request = key === 'mill_path' && isRow(inner['groove']) ? inner['groove'] : inner;
+    const answer = await context.ask(endpoint, without(request));
+    return (await draw(request, answer, context)).solid;
+  }
+  return undefined;
+}
+
+/** The torch at the end of each period, with the first place before them: on both walls. */
+export interface Way {
+  outer: number; // radii
+  inner: number;
+  on: number; // where the speed is asked for
+  phi: number[]; // degrees
+  zOuter: number[];
+  zInner: number[];
+  b: number[];
+}
+
+/** What the pulses make of it, by the service's own replay. */
+export async function wayOf(body: Row, answer: Answer, context: Context): Promise<Way | undefined> {
+  const {request, result} = answer;
+  const [cut, contour] = [request['cut'], request['contour']];
+  if ((!isRow(cut) && !isRow(contour)) || Number(result['periods']) > replayed) return undefined;
+  const again = await context.ask('replays', {
+    ...without(body, new Set(['reference', 'log', 'numerics', 'accept'])),
+    schedule: Object.fromEntries(['period_us', 'counts', 'start'].map((key) => [key, result[key]])) as Row,
+  });
+  const path = again.result['path'] as Row;
+  const given = isRow(contour) ? contour : await targetOf(cut as Row, context);
+  const outer = Number(given['outer_diameter_mm']) / 2;
+  const inner = outer - Number(given['wall_mm']);
+  const radius = given['surface'] === 'outer' ? outer : inner;
+  const machine = machineOf(request['machine'], context) ?? {};
+  const sigma = machine['b_positive'] === 'outer_edge_into_part' ? -1 : 1;
+  const b = column(path['b_deg']);
+  const z = column(path['z_mm']);
+  const at = (r: number) => z.map((v, i) => v - sigma * (r - radius) * Math.tan((b[i] as number) * radians));
+  const on = (request['motion'] as Row)['speed_on'] === 'inner' ? inner : outer;
+  return {outer, inner, on, phi: column(path['phi_deg']), zOuter: at(outer), zInner: at(inner), b};
+}
+
+/** Diameter, wall and the surface of the root of what is cut. */
+async function targetOf(cut: Row, context: Context): Promise<Row> {
+  const {outer, wall} = await joint(cut, context);
+  return {outer_diameter_mm: outer, wall_mm: wall, surface: cut['root_surface'] ?? 'inner'};
+}
+
+/** The periods that charts are drawn at: of more than fit, the first and the middle one of each stretch. */
+interface Times {
+  every: number;
+  period: number; // s
+  periods: number[];
+}
+function timesOf(result: Row): Times {
+  const counts = result['counts'] as Row;
+  const total = column(counts[Object.keys(counts)[0] ?? '']).length;
+  const every = total <= most ? 1 : 2 * Math.ceil(total / most);
+  const step = Math.max(1, every / 2);
+  return {every, period: Number(result['period_us']) * 1e-6, periods: Array.from({length: Math.ceil(total / step)}, (_, i) => i * step)};
+}
+
+/** The least and the greatest of each stretch, as they follow each other: nothing that peaks is lost. */
+function extremes(values: number[], {every, periods}: Times): number[] {
+  if (every === 1) return values;
+  return periods.map((from, i) => {
+    const start = i % 2 ? from - every / 2 : from;
+    const stretch = values.slice(start, start + every);
+    const [low, high] = bounds(stretch);
+    const rising = stretch.indexOf(low) < stretch.indexOf(high);
+    return (i % 2 === 0) === rising ? low : high;
+  });
+}
+
+export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Way | undefined): Chart[] {
+  const {result, request} = answer;
+  const counts = result['counts'] as Row;
+  const times = timesOf(result);
+  const {period, periods} = times;
+  const axes = Object.keys(counts);
+  const marks = rowsOf(result['events']).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: choice(e['what'])}));
+  const each = (make: (pulses: number[], axis: string) => number[]): Series[] =>
+    axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: make(column(counts[axis]), axis)}));
+  const shared = {link, x: {name: 'time', unit: 's', values: periods.map((i) => i * period)}, unit: '', marks, zero: true};
+  const charts: Chart[] = [{...shared, id: 'pulses', title: 'Pulses per period', series: each((pulses) => extremes(pulses, times)), height: 210}];
+  if (machine) {
+    const of = (pulses: number[], axis: string) => extremes(shares(pulses, machine, axis, period), times);
+    charts.unshift({
+      ...shared,
+      id: 'speed',
+      title: 'Speed of each axis, share of its limit',
+      unit: '%',
+      series: each(of),
+      limits: [{y: 100, text: 'what each axis may do'}],
+      within: 100,
+    });
+  }
+  if (way) charts.unshift(tipChart(shared, request, way, times, rowsOf((result['report'] as Row)['slow'])));
+  return [...charts, {...shared, id: 'positions', title: 'Pulses since the start', series: each((pulses) => summed(pulses, periods)), height: 150}];
+}
+
+const summed = (pulses: number[], periods: number[]) => {
+  let [sum, k] = [0, 0];
+  return periods.map((i) => {
+    for (; k <= i; ++k) sum += pulses[k] as number;
+    return sum;
+  });
+};
+
+/** mm/min, over the last 25 periods. */
+function tipSpeeds({on, outer, inner, phi, zOuter, zInner}: Way, period: number): number[] {
+  const z = on === inner && on !== outer ? zInner : zOuter;
+  return phi.slice(1).map((_, i) => {
+    const to = i + 1;
+    const from = Math.max(0, to - mean);
+    const way = Math.hypot(on * radians * ((phi[to] as number) - (phi[from] as number)), (z[to] as number) - (z[from] as number));
+    return (60 * way) / ((to - from) * period);
+  });
+}
+
+function tipChart(shared: Omit<Chart, 'id' | 'title' | 'series'>, request: Row, way: Way, times: Times, slow: Row[]): Chart {
+  const asked = Number(((request['motion'] as Row)['speed'] as Row)['mm_min'] ?? NaN);
+  return {
+    ...shared,
+    id: 'tip',
+    title: 'Speed of the cut',
+    unit: 'mm/min',
+    height: 210,
+    series: [
+      {
+        name: 'tip',
+        about: 'Mean of 25 periods, on the wall that the speed is asked for.',
+        values: extremes(tipSpeeds(way, times.period), times),
+        tone: 'after',
+        width: 2,
+      },
+    ],
+    bands: slow.map((zone) => ({from: Number(zone['from']) * times.period, to: Number(zone['to']) * times.period, tone: 'bad', text: 'slow'})),
+    ...(Number.isFinite(asked) ? {limits: [{y: asked, text: 'asked for'}], within: asked} : {}),
+  };
+}
+
+/** Pulses per period as speed in per cent of what the axis may do. */
+function shares(pulses: number[], machine: Row, axis: string, period: number): number[] {
+  const given = rowsOf(machine['axes']).find((each) => each['name'] === axis) ?? {};
+  const perUnit = Number(given['pulses_per_unit'] ?? Number(given['pulses_per_turn']) / 360);
+  return pulses.map((count) => (100 * Math.abs(count)) / perUnit / period / Number(given['v_max']));
+}
+
+const playedOf = (result: Row, {every, period, periods}: Times): Played => ({
+  link,
+  seconds: periods.map((i) => i * period),
+  events: rowsOf(result['events']).map((e) => ({
+    at: Math.min(periods.length - 1, Math.round(Number(e['period']) / Math.max(1, every / 2))),
+    text: choice(e['what']),
+  })),
+});
+
+function toolOf(way: Way, {periods}: Times): Tool {
+  const on = (radius: number, z: number[]) => periods.map((i) => onTube(radius, way.phi[i + 1] as number, z[i + 1] as number));
+  return {kind: 'torch', inner: on(way.inner, way.zInner), outer: on(way.outer, way.zOuter), size: way.outer};
+}
+
+/** A tube cut along the first turn of the torch's way, where no request says what else there is; of less than a turn there is none. */
+function contourSolid(way: Way, result: Row): Solid | undefined {
+  const begin = Number(rowsOf(result['events']).find((e) => e['what'] === 'cut_start')?.['period'] ?? 0);
+  const start = way.phi[begin] as number;
+  const turned = (i: number) => Math.abs((way.phi[i] as number) - start);
+  const step = Math.max(1, Math.ceil(way.phi.length / 2000));
+  const turn = way.phi.flatMap((_, i) => (i >= begin && (i - begin) % step === 0 && turned(i) < 360 - 1e-6 ? [i] : []));
+  if (turned(turn[turn.length - 1] as number) < 350) return undefined;
+  const of = (values: number[]) => turn.map((i) => values[i] as number);
+  const [zInner, zOuter] = [of(way.zInner), of(way.zOuter)];
+  const [low, high] = bounds([...zInner, ...zOuter]);
+  const cut: CutTube = {
+    outer: way.outer,
+    inner: way.inner,
+    phi: of(way.phi),
+    zInner,
+    zOuter,
+    far: farEnd(zInner, zOuter, 2 * way.outer),
+    marks: [],
+    tone: 'target',
+  };
+  const middle = (low + high) / 2;
+  const size = Math.max(2.7 * way.outer, 0.8 * (high - low + 2 * way.outer));
+  return {link, tubes: [cut], partners: [], centre: [0, 0, middle + 0.4 * way.outer], size, eye: [0.95, -0.75, -0.95], up: [0, 0, -1]};
+}
+
+export function motionFacts({result}: Answer, way?: Way): Told {
+  const report = (result['report'] ?? {}) as Row;
+  const use = (report['max_use'] ?? {}) as Record<string, number>;
+  const what: Record<string, string> = {v: 'speed', a: 'acceleration', j: 'jerk', n: 'pulses per period'};
+  const axes = [...new Set(Object.keys(use).map((key) => key.slice(2)))];
+  const names = ['time_s', 'ideal_s', 'length_mm', 'dev_tip_mm', 'dev_b_deg', 'sag_mm', 'min_tip_mm_min', 'slow_s'];
+  const {period, periods} = timesOf(result);
+  const counts = result['counts'] as Row;
+  const speeds = way ? tipSpeeds(way, period) : [];
+  return {
+    figures: figures(report, names, 'report'),
+    said: `${measured('time_s', Number(report['time_s']))} for ${measured('length_mm', Number(report['length_mm']))} of cut; ${limiting(use)}.`,
+    tables: [
+      {
+        title: 'Use of the machine’s limits',
+        head: ['axis', ...Object.values(what)],
+        rows: axes.map((axis) => [axis, ...Object.keys(what).map((key) => withUnit(100 * (use[`${key}_${axis}`] ?? 0), '%'))]),
+      },
+      {
+        title: 'Events',
+        head: [term('period'), 'time s', term('what')],
+        rows: rowsOf(result['events']).map((e) => [String(e['period']), number(Number(e['period']) * period, 's'), choice(e['what'])]),
+      },
+    ],
+    readout: (i) => {
+      const at = periods[i % periods.length] as number;
+      return [
+        ['time', withUnit(at * period, 's')],
+        ...(way ? placeOf(way, at + 1, speeds[at] as number) : []),
+        ...Object.keys(counts).map((axis): [Term, string] => [axis, `${column(counts[axis])[at] ?? 0} pulses`]),
+      ];
+    },
+  };
+}
+
+const placeOf = (way: Way, i: number, speed: number): [Term, string][] => [
+  ['speed of the cut', withUnit(speed, 'mm/min')],
+  [label('phi_deg'), withUnit(way.phi[i] as number, '°')],
+  ['z outside', withUnit(way.zOuter[i] as number, 'mm')],
+  ['B of the machine', withUnit(way.b[i] as number, '°')],
+];
+
+/** Which limits the motion runs at. */
+function limiting(use: Record<string, number>): string {
+  const axes = [...new Set(Object.entries(use).flatMap(([key, share]) => (share > 0.98 ? [key.slice(2)] : [])))];
+  return axes.length ? `at the limits of ${axes.join(', ')}` : 'no axis at its limits';
+}
