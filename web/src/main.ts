@@ -21,6 +21,7 @@ import {contextOf, without, type Context} from './pictures/context';
 import {Contract} from './schema';
 import {ask, away, fetched, Latest, path, type Answer, type Endpoint, type Example, type Reply} from './service';
 import type {Stage} from './scene/stage';
+import {SectionView} from './section';
 import {themed} from './theme';
 
 interface State {
@@ -42,6 +43,7 @@ class Console {
   private readonly charts = new Board(byId('charts'));
   private readonly motion: Motion;
   private readonly player = new Player(byId('player'));
+  private readonly section = new SectionView(byId('section'));
   private readonly inspector = new Inspector(byId('inspector'), {
     open: (endpoint, body) => void this.follow(endpoint, body),
     focus: (pointer) => this.seek(pointer),
@@ -250,6 +252,7 @@ class Console {
     this.charts.show([]);
     this.inspector.show(undefined);
     this.player.show(undefined);
+    this.section.show(undefined);
     byId('onward').hidden = true;
     byId('solid').hidden = true;
     byId('figures').replaceChildren();
@@ -267,6 +270,7 @@ class Console {
       this.charts.show(picture.charts);
       this.inspector.show(picture.inspected, this.state.item);
       this.player.show(picture.played);
+      this.section.show(picture.section);
       this.unlisten?.();
       this.unlisten = panels.readout(picture);
     } catch (failure) {

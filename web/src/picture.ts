@@ -15,6 +15,7 @@ export interface Picture {
   inspected?: Inspected;
   /** What the cursor of a link is played along. */
   played?: Played;
+  section?: Section;
   /** There is a before and an after to switch between. */
   beforeAfter?: boolean;
 }
@@ -38,6 +39,20 @@ export interface Facts {
   leads: {name: string; to: number}[];
   /** A job of its own. */
   opens?: {name: string; endpoint: string; body: Row};
+}
+
+/** What a plane through the cursor's point shows, mm, in the box from `low` to `high`. */
+export interface Section {
+  link: string;
+  count: number;
+  low: [number, number];
+  high: [number, number];
+  at(index: number): {title: string; lines: SectionLine[]};
+}
+export interface SectionLine {
+  points: [number, number][];
+  tone: 'steel' | 'before' | 'after';
+  dashed?: boolean;
 }
 
 /** The cursor's points in time, and what happens at some of them. */
@@ -171,8 +186,10 @@ export interface Ribbon {
   b: Vector[];
   tone: string;
 }
-/** What cuts, at every point of the cursor: a torch along a line of the wall. */
-export type Tool = {kind: 'torch'; inner: Vector[]; outer: Vector[]; size: number};
+/** What cuts, at every point of the cursor: a torch along a line of the wall, or a cone. */
+export type Tool =
+  | {kind: 'torch'; inner: Vector[]; outer: Vector[]; size: number}
+  | {kind: 'cone'; tip: number; back: number; length: number; poses: {tip: Vector; axis: Vector}[]; before?: {tip: Vector; axis: Vector}[]}; // radii at the face and at the spindle's end
 
 export interface Solid {
   link: string;

@@ -1,11 +1,12 @@
 import type {Json, Row} from '../json';
-import {column, type Chart, type Picture, type Ribbon, type Vector} from '../picture';
+import {column, type Chart, type Picture, type Ribbon, type Solid, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {measured, unit, withUnit} from '../units';
 import {about, label} from '../words';
 import {facts, figure, figures, plural, readings} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
+import {axesBefore, axesOf, coneTool, sectionOf, type Curves} from './mill';
 
 const round = 180; // sections of the picture, whatever number was asked for
 
@@ -26,8 +27,10 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
       .filter(([name]) => name in sections)
       .map(([name, tone]) => ({name: label(name, 'sections'), about: about(name, 'sections'), values: column(sections[name]), tone, width: 2})),
   });
+  const curves = await curvesOf(request, context);
   return {
-    solid: await solid(request, context),
+    solid: solid(request, context, curves),
+    section: sectionOf('groove', curves, omega),
     charts: [
       chart('height', 'Height of the groove', [['height_mm', 'after']], {zero: true}),
       chart(
@@ -53,7 +56,8 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
 
 const most = (values: Json | undefined) => column(values).reduce((a, b) => Math.max(a, b), 0);
 
-async function solid(request: Row, context: Context): Promise<Picture['solid']> {
+/** The curves of the groove, as finely as the picture needs them. */
+async function curvesOf(request: Row, context: Context): Promise<Curves> {
   const finer = await context.ask('grooves', {...without(request), sections: round});
   const curves = finer.result['curves'] as Row;
   const points = (name: string): Vector[] => {
@@ -61,7 +65,10 @@ async function solid(request: Row, context: Context): Promise<Picture['solid']> 
     const [xs, ys, zs] = [column(curve['x_mm']), column(curve['y_mm']), column(curve['z_mm'])];
     return xs.map((x, i) => [x, ys[i] as number, zs[i] as number]);
   };
-  const [c1, c2, c3, c4] = ['c1', 'c2', 'c3', 'c4'].map(points) as [Vector[], Vector[], Vector[], Vector[]];
+  return {omega: column((finer.result['sections'] as Row)['omega_deg']), points: ['c1', 'c2', 'c3', 'c4'].map(points) as Curves['points']};
+}
+
+function solid(request: Row, context: Context, {points: [c1, c2, c3, c4]}: Curves): Solid {
   const ribbons: Ribbon[] = [
     {a: c1, b: c2, tone: 'inner'},
     {a: c2, b: c3, tone: 'inner'},
@@ -109,6 +116,7 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
   const cut = await context.ask('grooves', without(inner));
   const shape = await groove(inner, cut, context);
   const x = {name: 'ω', unit: '°', values: column(p['omega_deg'])};
+  const tool = coneTool(answer.request, axesOf(p), axesBefore(p, answer.request));
   const chart = (id: string, title: string, names: [string, string, boolean?][], more: Partial<Chart> = {}): Chart => ({
     id,
     title,
@@ -129,7 +137,9 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
       })),
   });
   return {
-    ...(shape.solid ? {solid: {...shape.solid, link: 'mill-groove'}} : {}),
+    ...(shape.solid ? {solid: {...shape.solid, link: 'mill', tool}} : {}),
+    section: sectionOf('mill', await curvesOf(inner, context), x.values, tool),
+    beforeAfter: true,
     charts: [
       chart(
         'overcut',

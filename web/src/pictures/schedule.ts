@@ -8,6 +8,7 @@ import {without, type Context} from './context';
 import {figures, type Told} from './facts';
 import {bounds, onTube, radians} from './geometry';
 import {groove} from './groove';
+import {coneTool} from './mill';
 
 const link = 'motion';
 const tones = ['series-0', 'series-1', 'series-2', 'series-3', 'series-4', 'series-5'];
@@ -21,7 +22,7 @@ export async function schedule(body: Row, answer: Answer, context: Context): Pro
   const times = timesOf(answer.result);
   const solid = (await source(body, context)) ?? (way && contourSolid(way, answer.result));
   return {
-    ...(solid ? {solid: {...solid, link, ...(way ? {tool: toolOf(way, times)} : {})}} : {}),
+    ...(solid ? {solid: {...solid, link, ...toolOf(answer, machine, way, times)}} : {}),
     charts: scheduleCharts(answer, machine, way),
     ...motionFacts(answer, way),
     played: playedOf(answer.result, times),
@@ -179,12 +180,17 @@ function tipChart(shared: Omit<Chart, 'id' | 'title' | 'series'>, request: Row, 
   };
 }
 
-/** Pulses per period as speed in per cent of what the axis may do. */
-function shares(pulses: number[], machine: Row, axis: string, period: number): number[] {
-  const given = rowsOf(machine['axes']).find((each) => each['name'] === axis) ?? {};
-  const perUnit = Number(given['pulses_per_unit'] ?? Number(given['pulses_per_turn']) / 360);
-  return pulses.map((count) => (100 * Math.abs(count)) / perUnit / period / Number(given['v_max']));
+const axisOf = (machine: Row, name: string) => rowsOf(machine['axes']).find((each) => each['name'] === name) ?? {};
+
+/** Pulses to a millimetre or a degree. */
+function perUnit(machine: Row, axis: string): number {
+  const given = axisOf(machine, axis);
+  return Number(given['pulses_per_unit'] ?? Number(given['pulses_per_turn']) / 360);
 }
+
+/** Pulses per period as speed in per cent of what the axis may do. */
+const shares = (pulses: number[], machine: Row, axis: string, period: number) =>
+  pulses.map((count) => (100 * Math.abs(count)) / perUnit(machine, axis) / period / Number(axisOf(machine, axis)['v_max']));
 
 const playedOf = (result: Row, {every, period, periods}: Times): Played => ({
   link,
@@ -195,9 +201,24 @@ const playedOf = (result: Row, {every, period, periods}: Times): Played => ({
   })),
 });
 
-function toolOf(way: Way, {periods}: Times): Tool {
-  const on = (radius: number, z: number[]) => periods.map((i) => onTube(radius, way.phi[i + 1] as number, z[i + 1] as number));
-  return {kind: 'torch', inner: on(way.inner, way.zInner), outer: on(way.outer, way.zOuter), size: way.outer};
+/** What moves along: the torch, or the mill by its axes. */
+function toolOf({request, result}: Answer, machine: Row | undefined, way: Way | undefined, {periods}: Times): {tool?: Tool} {
+  if (way) {
+    const on = (radius: number, z: number[]) => periods.map((i) => onTube(radius, way.phi[i + 1] as number, z[i + 1] as number));
+    return {tool: {kind: 'torch', inner: on(way.inner, way.zInner), outer: on(way.outer, way.zOuter), size: way.outer}};
+  }
+  if (!isRow(request['mill_path']) || !machine) return {};
+  const axis = (name: string) => {
+    const pulses = summed(column((result['counts'] as Row)[name]), periods);
+    return periods.map((_, i) => Number((result['start'] as Row)[name]) + (pulses[i] ?? 0) / perUnit(machine, name));
+  };
+  const [c, x, z, b] = ['C', 'X', 'Z', 'B'].map(axis) as [number[], number[], number[], number[]];
+  return {
+    tool: coneTool(
+      request['mill_path'],
+      c.map((turn, i) => ({c: turn, x: x[i] as number, z: z[i] as number, b: b[i] as number})),
+    ),
+  };
 }
 
 /** A tube cut along the first turn of the torch's way, where no request says what else there is; of less than a turn there is none. */

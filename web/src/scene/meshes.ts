@@ -26,7 +26,7 @@ import {
   type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
-import type {CutTube, EndCurve, Frame, Gaps, HoledTube, Partner, Ribbon, Vector} from '../picture';
+import type {CutTube, EndCurve, Frame, Gaps, HoledTube, Partner, Ribbon, Tool, Vector} from '../picture';
 
 const radians = Math.PI / 180;
 const toVector = (v: Vector) => new Vector3(...v);
@@ -454,5 +454,23 @@ export class Beam extends LineSegments {
     head.scale.set(size * 0.09, size * 0.34, size * 0.09);
     head.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), tip.clone().sub(back).normalize());
     this.visible = true;
+  }
+}
+
+/** A mill's cutter, where the cursor is: its face and its flank. */
+export class Cone extends Mesh {
+  constructor(private readonly tool: Extract<Tool, {kind: 'cone'}>) {
+    super(
+      new CylinderGeometry(tool.back, tool.tip, tool.length, 64),
+      kept('cutter', () => new MeshLambertMaterial({color: colour('after'), transparent: true, opacity: 0.72, side: DoubleSide, depthWrite: false})),
+    );
+    this.visible = false;
+  }
+
+  put(pose: {tip: Vector; axis: Vector} | undefined): void {
+    this.visible = pose !== undefined;
+    if (!pose) return;
+    this.position.copy(toVector(pose.tip)).addScaledVector(toVector(pose.axis), this.tool.length / 2);
+    this.quaternion.copy(turned(pose.axis));
   }
 }

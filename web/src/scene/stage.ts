@@ -19,7 +19,7 @@ import {chosen, listen, point, pointed} from '../links';
 import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
 import {Members} from './members';
-import {Beam, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
+import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
 
 // Pixels drawn for one of the page, each way. Without a graphics card one takes 30 ms and four take 90: what changes is
 // drawn coarse, and once more fine when nothing changed for a moment.
@@ -38,6 +38,7 @@ export class Stage {
   private content = new Group();
   private partners = new Group();
   private beam = new Beam();
+  private cone: Cone | null = null;
   private members: Members | null = null;
   private readonly labels: Labels;
   private solid: Solid | null = null;
@@ -111,6 +112,8 @@ export class Stage {
     this.renderer.domElement.dataset['members'] = String(this.members?.axes.length ?? 0);
     this.beam = new Beam();
     this.content.add(this.beam);
+    this.cone = solid.tool?.kind === 'cone' ? new Cone(solid.tool) : null;
+    if (this.cone) this.content.add(this.cone);
     this.scene.add(this.content);
     const view = JSON.stringify([job, solid.link, solid.eye, solid.up]);
     if (view !== this.seen) this.reset();
@@ -208,7 +211,10 @@ export class Stage {
     if (this.members) this.light();
     const {tool, tubes = []} = this.solid ?? {};
     const tube = tubes[0];
-    if (index !== null && tool) this.beam.aim(tool.inner[index % tool.inner.length] as Vector, tool.outer[index % tool.outer.length] as Vector, tool.size);
+    const poses = tool?.kind === 'cone' ? (this.before && tool.before) || tool.poses : [];
+    this.cone?.put(index === null ? undefined : poses[index % poses.length]);
+    if (index !== null && tool?.kind === 'torch')
+      this.beam.aim(tool.inner[index % tool.inner.length] as Vector, tool.outer[index % tool.outer.length] as Vector, tool.size);
     else if (index === null || !tube || tubes.length !== 1) this.beam.visible = false;
     else this.beam.put(tube, this.before, index % tube.phi.length); // a closed curve's end is its beginning
     this.draw();
