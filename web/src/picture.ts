@@ -174,6 +174,8 @@ export interface Assembly {
   members: {name: string; part: number; frame: Frame; tone: string}[];
   /** The members that each item lights up. */
   lights: number[][];
+  /** Where items that are no members are chosen in the picture: seen where one of the members is. */
+  joints?: {at: Vector; item: number; of: number[]}[];
 }
 export type Partner =
   | {kind: 'tube'; point: Vector; direction: Vector; radius: number; half: number; tone: number}

@@ -233,6 +233,36 @@ export const checks = {
     await page.context().close();
   },
 
+  'a joint is chosen in the picture, by its dot, to its fit-up': async ({browser, origin, service}) => {
+    for (const [name, size, least] of [['jacket-node-with-set-in-stubs', {}, 3], ['roll-cage-of-12', {width: 390, height: 844, theme: 'dark'}, 5]]) {
+      const {result} = await answerTo(service, example(name));
+      const page = await frame(browser, origin, name, size);
+      await canvas(page).scrollIntoViewIfNeeded();
+      const box = await canvas(page).boundingBox();
+      const dots = await page.locator('.dots .shown').evaluateAll((all) => all.map((dot) => {
+        const {x, y, width, height} = dot.getBoundingClientRect();
+        return {item: Number(dot.dataset.item), x: x + width / 2, y: y + height / 2};
+      }));
+      assert.ok(dots.length >= least, `${name}: ${dots.length} dots`);
+      for (const {item, x, y} of dots.slice(0, 4)) {
+        await page.mouse.click(box.x + box.width - 5, box.y + 60);  // nothing: names move to what is chosen, over dots
+        await pixels(page);
+        await page.mouse.click(x, y);
+        const {branch, chord} = result.joints[item - result.members.length];
+        const told = (await page.locator('.facts h3').innerText()).split('\n')[0].trim();
+        assert.ok(told.startsWith(`${branch} `) && told.endsWith(` ${chord}`), `${told} is not ${branch} and ${chord}`);
+        await page.mouse.move(box.x + box.width - 5, box.y + 60);
+        await pixels(page);
+        const round = Array.from({length: 8}, (_, i) => [x - box.x + 7 * Math.cos(i * Math.PI / 4), y - box.y + 7 * Math.sin(i * Math.PI / 4)]);
+        const shares = await Promise.all(round.map(([u, v]) => litAt(page, [u / box.width, v / box.height])));
+        assert.ok(Math.max(...shares) > 0.3, `${told} is not where its dot is`);
+        assert.equal(await page.locator('#tab-joints').getAttribute('aria-selected'), 'true');
+      }
+      clean(page);
+      await page.context().close();
+    }
+  },
+
   'a part lights all its members': async ({browser, origin, service}) => {
     const name = 'truss-of-19';
     const {result} = await answerTo(service, example(name));

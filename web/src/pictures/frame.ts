@@ -106,7 +106,46 @@ function assemblyOf(given: Told, lines: Row[]): Assembly {
     frame: frame(member['frame']) ?? along(lines[i] as Row),
     tone: toneOf(given.standing[i] as string),
   }));
-  return {parts, members, lights: lightsOf(given)};
+  return {parts, members, lights: lightsOf(given), joints: jointsOf(given, {parts, members}, lines, rowsOf(given.answer.request['others']))};
+}
+
+/** Where branches end on what they are joined to, or pass through it. */
+function jointsOf(given: Told, {parts, members}: Pick<Assembly, 'parts' | 'members'>, lines: Row[], others: Row[]): Assembly['joints'] {
+  const places = new Map(members.map(({name}, i) => [name, i]));
+  return given.joints.flatMap((joint, j) => {
+    const [branch, chord] = [places.get(String(joint['branch'])), places.get(String(joint['chord']))];
+    const other = others.find((each) => each['id'] === joint['chord']);
+    if (branch === undefined || (chord === undefined && !other)) return [];
+    const {frame: own, part: at} = members[branch] as Assembly['members'][number];
+    const {from, to: end} = parts[at] as HoledTube;
+    const ends = [from, end].map(({zOuter}) => placed(own, [0, 0, bounds(zOuter).reduce((a, b) => a + b) / 2])) as [Vector, Vector];
+    const [origin, along, flat] =
+      chord === undefined ? [...placeOf(other as Row), (other as Row)['kind'] === 'plane'] : [...axisOf(lines[chord] as Row), false];
+    const off = (p: Vector) => distance(p, origin, along, flat);
+    const middle = joint['kind'] === 'through' && !flat ? passing(ends, origin, along) : undefined;
+    const item = given.members.length + j;
+    return [{at: middle ?? ends.reduce((a, b) => (off(b) < off(a) ? b : a)), item, of: chord === undefined ? [branch] : [branch, chord]}];
+  });
+}
+
+const axisOf = (line: Row): [Vector, Vector] => {
+  const [start, end] = lineOf(line);
+  return [start, unitVector(add(end, start, -1))];
+};
+
+/** Of a point to a plane by its normal, or to an axis by its direction. */
+function distance(p: Vector, origin: Vector, direction: Vector, flat: boolean): number {
+  const from = add(p, origin, -1);
+  const rise = dot(from, direction);
+  return flat ? Math.abs(rise) : Math.hypot(...add(from, direction, -rise));
+}
+
+/** Where a line passes an axis. */
+function passing([start, end]: [Vector, Vector], origin: Vector, axis: Vector): Vector {
+  const across = (v: Vector) => add(v, axis, -dot(v, axis));
+  const [way, from] = [across(add(end, start, -1)), across(add(start, origin, -1))];
+  const share = dot(way, way) > 0 ? -dot(way, from) / dot(way, way) : 0.5;
+  return add(start, add(end, start, -1), Math.min(1, Math.max(0, share)));
 }
 
 const finishedPlain = ({outer, wall}: {outer: number; wall: number}) => ({outer: outer / 2, inner: outer / 2 - wall, from: squareEnd(0), holes: []});
@@ -130,11 +169,7 @@ function partners(given: Told, lines: Row[], others: Row[], sizes: Sizes): Partn
   return others.map((other, tone) => {
     const [origin, direction] = placeOf(other);
     const joined = given.joints.filter((joint) => joint['chord'] === other['id']).map((joint) => byId.get(joint['branch'] as Json) as Row);
-    const off = (p: Vector) => {
-      const from = add(p, origin, -1);
-      const rise = dot(from, direction);
-      return other['kind'] === 'plane' ? Math.abs(rise) : Math.hypot(...add(from, direction, -rise));
-    };
+    const off = (p: Vector) => distance(p, origin, direction, other['kind'] === 'plane');
     const ends = joined.map((line) => lineOf(line).reduce((a, b) => (off(b) < off(a) ? b : a)));
     const near = ends.length ? ends.reduce<Vector>((sum, p) => add(sum, p, 1 / ends.length), [0, 0, 0]) : origin;
     const spread = Math.max(0, ...ends.map((p) => Math.hypot(...add(p, near, -1))));

@@ -1,52 +1,94 @@
 import type {Camera, Vector3} from 'three';
 import {el} from '../dom';
-import type {Members} from './members';
+import type {Joint, Members} from './members';
 
 const most = 60; // names at a time; of more, those that are chosen or pointed at
+const reach = 10; // pixels from a joint's dot that are still on it
 
 interface Label {
   node: HTMLElement;
   width: number;
   height: number;
 }
+type Box = [number, number, number, number];
 
-/** Members' names in the picture, none over another: what is chosen first, then from near to far. */
+/** Members' names in the picture, none over another: what is chosen first, then from near to far; and a dot where two are joined. */
 export class Labels {
   private readonly root = el('div', {class: 'labels', 'aria-hidden': 'true'});
+  private readonly places = el('div', {class: 'dots', 'aria-hidden': 'true'});
   private labels: Label[] = [];
+  private dots: {node: HTMLElement; joint: Joint}[] = [];
+  private taken: Box[] = [];
+  private seen: {item: number; x: number; y: number}[] = [];
 
   constructor(root: HTMLElement) {
-    root.append(this.root);
+    root.append(this.places, this.root);
   }
 
-  show(names: string[]): void {
+  show(names: string[], joints: Joint[]): void {
     const nodes = names.map((name) => el('span', {}, name));
+    this.dots = joints.map((joint) => ({node: el('i', {'data-item': joint.item}), joint}));
     this.root.replaceChildren(...nodes);
+    this.places.replaceChildren(...this.dots.map(({node}) => node));
     this.labels = nodes.map((node) => ({node, width: node.offsetWidth, height: node.offsetHeight}));
   }
 
-  place(members: Members, camera: Camera, width: number, height: number, chosen: Set<number>, pointed: Set<number>): void {
+  place(members: Members, camera: Camera, width: number, height: number, chosen: Set<number>, pointed: Set<number>, item: number | null): void {
     const all = [...this.labels.keys()].filter((i) => this.labels.length <= most || chosen.has(i) || pointed.has(i));
     const seen = new Map(all.map((i) => [i, members.place(i, camera.position).project(camera)]));
-    const rank = (i: number) => (chosen.has(i) ? -2 : pointed.has(i) ? -1 : (seen.get(i) as Vector3).z);
-    const offered = all.sort((a, b) => rank(a) - rank(b));
-    const taken: [number, number, number, number][] = [];
-    const shown = new Set<number>();
-    for (const i of offered) {
-      const {node, width: w, height: h} = this.labels[i] as Label;
-      const {x, y, z} = seen.get(i) as Vector3;
-      const lift = chosen.has(i) || pointed.has(i) ? h : 0; // above what is looked at
-      const [left, top] = [((x + 1) * width - w) / 2, ((1 - y) * height - h) / 2 - lift];
-      const free = taken.every(([l, t, r, b]) => left > r || left + w < l || top > b || top + h < t);
-      if (z > 1 || left < 0 || top < 0 || left + w > width || top + h > height || !free) continue;
-      taken.push([left, top, left + w, top + h]);
-      shown.add(i);
-      node.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
-    }
+    const lifted = (i: number) => chosen.has(i) || pointed.has(i); // above what is looked at
+    const depth = (i: number) => (seen.get(i) as Vector3).z;
+    const laid = (rank: (i: number) => number, lift: (i: number) => boolean) => {
+      const boxes = new Map<number, Box>();
+      for (const i of all.sort((a, b) => rank(a) - rank(b))) {
+        const {width: w, height: h} = this.labels[i] as Label;
+        const {x, y, z} = seen.get(i) as Vector3;
+        const [left, top] = [((x + 1) * width - w) / 2, ((1 - y) * height - h) / 2 - (lift(i) ? h : 0)];
+        const free = [...boxes.values()].every(([l, t, r, b]) => left > r || left + w < l || top > b || top + h < t);
+        if (z <= 1 && left >= 0 && top >= 0 && left + w <= width && top + h <= height && free) boxes.set(i, [left, top, left + w, top + h]);
+      }
+      return boxes;
+    };
+    const shown = laid((i) => (chosen.has(i) ? -2 : pointed.has(i) ? -1 : depth(i)), lifted);
+    for (const [i, [left, top]] of shown) (this.labels[i] as Label).node.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
     this.labels.forEach(({node}, i) => {
       node.classList.toggle('shown', shown.has(i));
       node.classList.toggle('chosen', chosen.has(i));
       node.classList.toggle('pointed', pointed.has(i));
     });
+    this.taken = [...shown.values()];
+    // Dots stay as they are at rest, whatever is chosen.
+    const rest = all.some(lifted) ? [...laid(depth, () => false).values()] : this.taken;
+    this.dot(members, camera, [width, height], rest, (of) => this.labels.length <= most || of.some((i) => chosen.has(i) || pointed.has(i)), item);
+  }
+
+  /** A dot is where no name is and nothing else hides what is joined. */
+  private dot(members: Members, camera: Camera, [width, height]: [number, number], rest: Box[], wanted: (of: number[]) => boolean, item: number | null): void {
+    this.seen = [];
+    for (const {node, joint} of this.dots) {
+      const at = wanted(joint.of) ? members.joint(joint, camera.position)?.project(camera) : undefined;
+      const [x, y] = at ? [((at.x + 1) * width) / 2, ((1 - at.y) * height) / 2] : [-1, -1];
+      const shown = x > 0 && y > 0 && x < width && y < height && (at?.z ?? 2) < 1 && !within(rest, x, y, 5) && this.nearest(x, y, reach) === null;
+      if (shown) {
+        this.seen.push({item: joint.item, x, y});
+        node.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+      }
+      node.classList.toggle('shown', shown && !within(this.taken, x, y, 5));
+      node.classList.toggle('chosen', joint.item === item);
+    }
+  }
+
+  /** The item of the joint that is seen at a place of the picture. */
+  under(x: number, y: number): number | null {
+    return within(this.taken, x, y, 0) ? null : this.nearest(x, y, reach);
+  }
+
+  private nearest(x: number, y: number, within: number): number | null {
+    const off = (each: {x: number; y: number}) => Math.hypot(each.x - x, each.y - y);
+    const near = this.seen.filter((each) => off(each) <= within).sort((a, b) => off(a) - off(b));
+    return near[0]?.item ?? null;
   }
 }
+
+const within = (boxes: Box[], x: number, y: number, margin: number) =>
+  boxes.some(([l, t, r, b]) => x > l - margin && x < r + margin && y > t - margin && y < b + margin);

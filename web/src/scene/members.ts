@@ -28,6 +28,8 @@ interface Axis {
   radius: number;
 }
 
+export type Joint = NonNullable<Assembly['joints']>[number];
+
 /** The members of a frame: each part's meshes once, shown in each place that it is made for. */
 export class Members extends Group {
   readonly axes: Axis[];
@@ -91,6 +93,13 @@ export class Members extends Group {
     const places = [0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92].map((share) => start.clone().lerp(end, share));
     const open = places.find((at) => this.near(new Ray(eye, at.clone().sub(eye).normalize()), 0) === i);
     return open ?? (places[0] as Vector3);
+  }
+
+  /** Where a joint is, if one of its members is the first to be seen there. */
+  joint({at, of}: Joint, eye: Vector3): Vector3 | undefined {
+    const place = new Vector3(...at);
+    const first = this.near(new Ray(eye, place.clone().sub(eye).normalize()), 0);
+    return first === null || of.includes(first) ? place : undefined;
   }
 
   /** How far off a camera that looks at `centre` sees them all. */

@@ -106,7 +106,7 @@ export class Stage {
     );
     this.members = solid.assembly ? new Members(solid.assembly) : null;
     if (this.members) this.content.add(this.members);
-    this.labels.show(solid.assembly?.members.map(({name}) => name) ?? []);
+    this.labels.show(solid.assembly?.members.map(({name}) => name) ?? [], solid.assembly?.joints ?? []);
     if (solid.partners.length) this.partners.add(...solid.partners.map(partnerMesh));
     this.renderer.domElement.dataset['state'] = before ? 'before' : 'after';
     this.renderer.domElement.dataset['members'] = String(this.members?.axes.length ?? 0);
@@ -182,7 +182,7 @@ export class Stage {
     this.renderer.render(this.scene, this.camera);
     if (this.members && this.solid) {
       const {clientWidth, clientHeight} = this.root;
-      this.labels.place(this.members, this.camera, clientWidth, clientHeight, ...this.lit(this.members, this.solid.link));
+      this.labels.place(this.members, this.camera, clientWidth, clientHeight, ...this.lit(this.members, this.solid.link), pointed(chosen(this.solid.link)));
     }
     this.renderer.domElement.dataset['drawn'] = ratio === fine ? 'fine' : 'coarse';
   }
@@ -228,7 +228,11 @@ export class Stage {
     return ray;
   }
 
-  private member(event: MouseEvent): number | null {
+  /** The item that is seen there: a joint's dot, or a member. */
+  private item(event: MouseEvent): number | null {
+    const box = this.renderer.domElement.getBoundingClientRect();
+    const joint = this.labels.under(event.clientX - box.left, event.clientY - box.top);
+    if (joint !== null) return joint;
     const pixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.root.clientHeight;
     return this.members?.under(this.ray(event), touch * pixel) ?? null;
   }
@@ -237,12 +241,12 @@ export class Stage {
   private choose(event: MouseEvent): void {
     const from = this.pressed;
     if (!this.members || !this.solid || (from && Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > still)) return;
-    point(chosen(this.solid.link), this.member(event));
+    point(chosen(this.solid.link), this.item(event));
   }
 
   private hover(event: PointerEvent): void {
     if (this.members && this.solid && event.buttons === 0) {
-      const over = this.member(event);
+      const over = this.item(event);
       this.renderer.domElement.classList.toggle('over', over !== null);
       point(this.solid.link, over);
       return;
