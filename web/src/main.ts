@@ -60,6 +60,7 @@ class Console {
   private picture: Picture | undefined;
   private reply: Reply | undefined;
   private job = 0; // counts what was opened; edits are of the same job
+  private askedJob = 0;
   private drawnJob = 0; // the one that the pictures are of
   private lost = false; // the address holds a link that cannot be read
   private written = '';
@@ -174,21 +175,22 @@ class Console {
 
   private compute(): void {
     const {job} = this;
-    this.latest.run(async () => {
+    this.latest.run(async (signal) => {
       if (job !== this.job) return;
       const {endpoint} = this.state;
       const body = clone(this.state.body);
       // Not at once: one more frame of the page costs as much as most answers.
       const busy = setTimeout(() => document.body.classList.add('busy'), 200);
       try {
-        const reply = await ask(endpoint, body);
-        const drawn = reply.answer ? await pictured(endpoint, body, reply.answer, this.context) : undefined;
-        if (job === this.job) this.take(reply, drawn);
+        const reply = await ask(endpoint, body, signal);
+        const drawn = reply.answer && !signal.aborted ? await pictured(endpoint, body, reply.answer, this.context) : undefined;
+        if (job === this.job && !signal.aborted) this.take(reply, drawn);
       } finally {
         clearTimeout(busy);
         document.body.classList.remove('busy');
       }
-    });
+    }, job !== this.askedJob);
+    this.askedJob = job;
     this.remember();
   }
 

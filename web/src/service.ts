@@ -80,7 +80,8 @@ export async function fetched<T>(address: string): Promise<T> {
   return (await reply.json()) as T;
 }
 
-export async function ask(endpoint: string, body: Json): Promise<Reply> {
+/** `signal` breaks it off; what is returned then is of no use. */
+export async function ask(endpoint: string, body: Json, signal?: AbortSignal): Promise<Reply> {
   const start = performance.now();
   let reply: Response, text: string;
   try {
@@ -88,6 +89,7 @@ export async function ask(endpoint: string, body: Json): Promise<Reply> {
       method: 'POST',
       body: JSON.stringify(body),
       headers: headed({'Content-Type': 'application/json', Accept: 'application/json'}),
+      ...(signal ? {signal} : {}),
     });
     text = await reply.text();
   } catch {
@@ -104,22 +106,32 @@ export async function ask(endpoint: string, body: Json): Promise<Reply> {
   }
 }
 
-/** Asks again only when the last question is answered; of those that queued up, only the newest. */
-export class Latest {
-  private busy = false;
-  private next: (() => Promise<void>) | null = null;
+const patience = 300; // ms for an answer that a newer question waits for
 
-  run(task: () => Promise<void>): void {
+/** One question at a time. Of those that come meanwhile the newest waits for the answer, so that the picture follows a value that is dragged; an
+ *  answer that takes too long for that, or is of another job, is broken off. */
+export class Latest {
+  private busy: {controller: AbortController; since: number} | null = null;
+  private next: ((signal: AbortSignal) => Promise<void>) | null = null;
+  private due = 0;
+
+  run(task: (signal: AbortSignal) => Promise<void>, another: boolean): void {
     if (this.busy) {
+      const {controller, since} = this.busy;
       this.next = task;
+      clearTimeout(this.due);
+      if (another) controller.abort();
+      else this.due = window.setTimeout(() => controller.abort(), patience - (performance.now() - since));
       return;
     }
-    this.busy = true;
-    void task().finally(() => {
-      this.busy = false;
+    const controller = new AbortController();
+    this.busy = {controller, since: performance.now()};
+    void task(controller.signal).finally(() => {
+      clearTimeout(this.due);
+      this.busy = null;
       const next = this.next;
       this.next = null;
-      if (next) this.run(next);
+      if (next) this.run(next, false);
     });
   }
 }

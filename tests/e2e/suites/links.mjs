@@ -80,6 +80,33 @@ export const checks = {
     await page.context().close();
   },
 
+  'a slow answer that a newer question waits for is broken off': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    const [asked, broken] = [[], []];
+    page.on('requestfailed', (request) => broken.push(JSON.parse(request.postData()).cutters?.[0].inclination_deg));
+    await page.route('**/v1/bevel-tables', async (route) => {
+      const tilt = JSON.parse(route.request().postData()).cutters[0].inclination_deg;
+      asked.push(tilt);
+      if (tilt === 80 || tilt === 70) return;  // never answered
+      await route.continue();
+    });
+    const tilt = field(page, '/cutters/0/inclination_deg');
+    await tilt.fill('80');
+    await then(page, () => tilt.fill('75'));
+    assert.deepEqual([asked, broken], [[80, 75], [80]]);
+    assert.equal(await page.locator('.stale').count(), 0);
+    await page.locator('#tab-json').click();
+    assert.equal(JSON.parse(await page.locator('#request-json').innerText()).cutters[0].inclination_deg, 75);
+    // Another job does not wait at all.
+    await tilt.fill('70');
+    await then(page, () => go(page, '#/holes/set-in-branch'));
+    assert.deepEqual(broken, [80, 70]);
+    assert.match(await verdict(page), /^ok/);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
   'links of old, without a checksum, open their job': async ({browser, origin}) => {
     const body = structuredClone(table1);
     body.cutters[0].inclination_deg = 77;
