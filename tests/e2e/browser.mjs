@@ -51,14 +51,14 @@ export async function formed(page) {
   if (await edit.isVisible() && await edit.getAttribute('aria-expanded') === 'false') await edit.click();
 }
 
-/** Share of the canvas that something solid covers, and a sum that changes with the picture: the fine one, that stays. */
-export async function pixels(page) {
+/** Share of the canvas that something solid covers, and a sum that changes with the picture: the fine one, that stays, or any that is there. */
+export async function pixels(page, ratio = 'fine') {
   await page.waitForSelector('.canvas canvas');
-  return page.evaluate(async () => {
+  return page.evaluate(async (wanted) => {
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
     const canvas = document.querySelector('.canvas canvas');
     const end = Date.now() + 10000;
-    while (canvas.dataset.drawn !== 'fine' && Date.now() < end) await new Promise((done) => setTimeout(done, 10));
+    while (wanted === 'fine' && canvas.dataset.drawn !== 'fine' && Date.now() < end) await new Promise((done) => setTimeout(done, 10));
     const copy = document.createElement('canvas');
     copy.width = canvas.width;
     copy.height = canvas.height;
@@ -71,5 +71,27 @@ export async function pixels(page) {
       sum = (sum * 31 + data[i] + 7 * data[i + 1] + 13 * data[i + 2]) % 1000000007;
     }
     return {share: covered / (data.length / 4), sum};
-  });
+  }, ratio);
 }
+
+/** Texts that stand out from what is behind them by less than 4.5 : 1, the bound of WCAG AA. */
+export const faint = (page) => page.evaluate(() => {
+  const channels = (colour) => (colour.match(/[\d.]+/g) ?? []).map(Number);
+  const over = ([r, g, b, a = 1], [R, G, B]) => [r * a + R * (1 - a), g * a + G * (1 - a), b * a + B * (1 - a)];
+  const light = (rgb) => rgb.map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4)).reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+  const grounds = new Map([[null, [255, 255, 255]]]);
+  const behind = (node) => {
+    if (!grounds.has(node)) grounds.set(node, over(channels(getComputedStyle(node).backgroundColor), behind(node.parentElement)));
+    return grounds.get(node);
+  };
+  const wrong = new Set();
+  for (const node of document.querySelectorAll('body *')) {
+    const own = [...node.childNodes].some((each) => each.nodeType === 3 && /\S/.test(each.data));
+    if (!(node instanceof HTMLElement) || !own || node.matches('option, script, :disabled') || node.closest('.labels') || !node.checkVisibility()) continue;
+    const back = behind(node);
+    const [a, b] = [light(over(channels(getComputedStyle(node).color), back)), light(back)].sort((x, y) => y - x);
+    const ratio = (a + 0.05) / (b + 0.05);
+    if (ratio < 4.5) wrong.add(`${ratio.toFixed(1)} : 1 ${node.className || node.tagName} ${node.textContent.slice(0, 40)}`);
+  }
+  return [...wrong];
+});

@@ -28,7 +28,7 @@ export const checks = Object.fromEntries(cases.map(([width, height, theme]) => [
   await formed(page);
   await then(page, () => page.locator('[data-pointer="/target/wall_mm"]').fill('0'));
   await sound(page, 'refused');
-  for (const hash of width > 1000 && theme === 'light' ? ['nodes', 'holes', 'feed-curves'] : []) {
+  for (const hash of width > 1000 && theme === 'light' ? ['nodes', 'holes', 'feed-curves', 'pulse-schedules', 'mill-paths'] : []) {
     await then(page, () => page.locator(`#endpoints [data-endpoint="${hash}"]`).click());
     await sound(page, hash);
   }

@@ -1,7 +1,7 @@
 // Every example as people see it: its picture, and words and numbers that need no dictionary.
 import {strict as assert} from 'node:assert';
 import {readFileSync} from 'node:fs';
-import {answered, formed, open, pixels, then} from '../browser.mjs';
+import {answered, faint, formed, open, pixels, then} from '../browser.mjs';
 
 /** Every name of the contract that no text for people would have: those of more words than one. */
 function wireNames(contract) {
@@ -55,15 +55,17 @@ const unfolded = async (page) => {
   }));
 };
 
-async function drawn(page) {
+async function drawn(page, ratio) {
   const points = await page.locator('.chart .plot').evaluateAll((plots) => plots.map((plot) => Number(plot.dataset.points)));
   const solid = await page.locator('#solid').isVisible();
   if (solid) {
-    const {share} = await pixels(page);
+    const {share} = await pixels(page, ratio);
     if (share < 0.02) return [`${share} of the 3D canvas is covered`];
   }
   return solid || (points.length && points.every((count) => count > 1)) ? [] : ['no picture'];
 }
+
+const other = (theme) => (theme === 'light' ? 'dark' : 'light');
 
 async function every({browser, origin, service}, width, height, theme) {
   const contract = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
@@ -89,11 +91,16 @@ async function every({browser, origin, service}, width, height, theme) {
     wrong.push(...(await drawn(page)).map((fault) => `${endpoint}/${name}: ${fault}`));
     await unfolded(page);
     await look('proof');
+    wrong.push(...(await faint(page)).map((fault) => `${endpoint}/${name}: ${fault}`));
     if (!seen.has(endpoint)) {
       for (const tab of ['table', 'downloads', 'proof']) {
         await page.locator(`#tab-${tab}`).click();
         if (tab !== 'proof') await look(tab);
       }
+      await page.emulateMedia({colorScheme: other(theme)});  // what differs by it are colours: one example of each kind
+      await page.locator(`:root[data-theme=${other(theme)}]`).waitFor();
+      wrong.push(...[...await drawn(page, 'coarse'), ...await faint(page)].map((fault) => `${endpoint}/${name}, ${other(theme)}: ${fault}`));
+      await page.emulateMedia({colorScheme: theme});
     }
     seen.add(endpoint);
   }
