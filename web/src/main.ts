@@ -214,13 +214,7 @@ class Console {
       this.answer = reply.answer;
       this.form.understood(reply.answer.request);
       this.trouble(drawn instanceof Error ? drawn : undefined);
-      const {endpoint, body} = this.state;
-      onward.show(
-        byId('onward'),
-        onward.leadsOf(endpoint, body, reply.answer, this.context, this.contract).filter((lead) => this.endpoints.some(({id}) => id === lead.endpoint)),
-        (to, job) => void this.follow(to, job),
-        () => this.choose('downloads'),
-      );
+      this.leadOn(reply.answer, drawn instanceof Error);
       if (drawn && !(drawn instanceof Error)) {
         this.picture = drawn;
         this.draw();
@@ -228,6 +222,19 @@ class Console {
     } else if (this.drawnJob !== this.job) this.clear(); // no picture of another job beside a refusal
     this.drawDetails();
     this.said();
+  }
+
+  /** What cannot be drawn leads to its files alone. */
+  private leadOn(answer: Answer, odd: boolean): void {
+    const {endpoint, body} = this.state;
+    const leads = odd ? [] : onward.leadsOf(endpoint, body, answer, this.context, this.contract);
+    const offered = leads.filter((lead) => this.endpoints.some(({id}) => id === lead.endpoint));
+    onward.show(
+      byId('onward'),
+      offered,
+      (to, job) => void this.follow(to, job),
+      () => this.choose('downloads'),
+    );
   }
 
   /** Shows a field of the form. */
