@@ -58,6 +58,7 @@ const unfolded = async (page) => {
 async function drawn(page, ratio) {
   const points = await page.locator('.chart .plot').evaluateAll((plots) => plots.map((plot) => Number(plot.dataset.points)));
   const solid = await page.locator('#solid').isVisible();
+  if (await page.locator('#trouble').isVisible()) return [await page.locator('#trouble').innerText()];
   if (solid) {
     const {share} = await pixels(page, ratio);
     if (share < 0.02) return [`${share} of the 3D canvas is covered`];

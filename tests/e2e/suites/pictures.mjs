@@ -108,21 +108,6 @@ export const checks = {
     await page.context().close();
   },
 
-  'every part has its picture': async ({browser, origin, service}) => {
-    const parts = (await examplesOf(service)).filter(({endpoint}) => endpoint === 'parts');
-    assert.ok(parts.length > 0);
-    for (const example of parts) {
-      const page = await open(browser, origin, hashOf(example));
-      await answered(page);
-      const {share} = await pixels(page);
-      assert.ok(share > 0.03, `${example.name}: ${share} of the 3D canvas is covered`);
-      assert.ok(await page.locator('.chart').count() >= 3, `${example.name}: no charts`);
-      assert.equal(await page.locator('#trouble').isVisible(), false, example.name);
-      clean(page);
-      await page.context().close();
-    }
-  },
-
   'what cannot be drawn is said, beside the verdict': async ({browser, origin}) => {
     for (const [hash, spoil] of Object.entries({
       '#/parts/k-joint-brace': ({result}) => delete result.ends.finish.points,
