@@ -12,6 +12,7 @@ FILE is .ifc, .pcf, .csv or .dxf. What was not understood goes to the standard e
   --within MM          an end joins what it comes as near as this to (5)
   --origin X,Y,Z       this point of the file, in mm, is the frame's origin; the service takes 1 km about it
   --fields JSON        fields of the request instead of ours, for example {"kerf_mm": 2}
+  --corner MM          IFC: corner radius of rectangular tubes that the file draws sharp; without it they are not understood
   --schedule NAME      PCF: of pipes whose wall the file does not tell, for example "SCH 40"
   --wall-attribute A   PCF: the attribute that tells a wall (WALL-THICKNESS)
   --unit UNIT          CSV, DXF: mm, cm, m, in or ft; CSV is in mm without it, DXF in what the drawing tells
@@ -64,7 +65,18 @@ function asked() {
   try {
     const text = {type: 'string'} as const;
     const list = {type: 'string', multiple: true} as const;
-    const options = {within: text, origin: text, fields: text, schedule: text, 'wall-attribute': text, unit: text, column: list, size: text, layer: list};
+    const options = {
+      within: text,
+      origin: text,
+      corner: text,
+      fields: text,
+      schedule: text,
+      'wall-attribute': text,
+      unit: text,
+      column: list,
+      size: text,
+      layer: list,
+    };
     return parseArgs({allowPositionals: true, options});
   } catch (failure) {
     throw new Usage((failure as Error).message);
@@ -75,8 +87,9 @@ async function imported(): Promise<Imported> {
   const {values, positionals} = asked();
   const [file, ...rest] = positionals;
   if (file === undefined || rest.length > 0) throw new Usage('one FILE');
-  const within = values.within === undefined ? undefined : Number(values.within);
+  const [within, corner] = [values.within, values.corner].map((each) => (each === undefined ? undefined : Number(each)));
   if (within !== undefined && !(within >= 0)) throw new Usage('--within is a number of mm');
+  if (corner !== undefined && !(corner > 0)) throw new Usage('--corner is a number of mm, more than 0');
   const common = {
     ...(within === undefined ? {} : {within_mm: within}),
     ...(values.origin === undefined ? {} : {origin_mm: originOf(values.origin)}),
@@ -88,7 +101,7 @@ async function imported(): Promise<Imported> {
   const unit = unitOf(values.unit);
   const {schedule, 'wall-attribute': wallAttribute, size} = values;
   const readers: Record<string, (bytes: Buffer) => Imported | Promise<Imported>> = {
-    '.ifc': (bytes) => fromIfc(bytes, common),
+    '.ifc': (bytes) => fromIfc(bytes, {...common, ...(corner === undefined ? {} : {corner_radius_mm: corner})}),
     '.pcf': (bytes) => fromPcf(bytes.toString(), {...common, ...(schedule ? {schedule} : {}), ...(wallAttribute ? {wallAttribute} : {})}),
     '.csv': (bytes) => fromCsv(bytes.toString(), {...common, ...unit, columns, ...(size ? {size: sizeOf(size)} : {})}),
     '.dxf': (bytes) => fromDxf(bytes.toString(), layers, {...common, ...unit}),

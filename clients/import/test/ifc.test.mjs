@@ -121,6 +121,15 @@ for (const [name, [edit, reason]] of Object.entries(spoils))
     assert.ok(notUnderstood[0].type.startsWith('Ifc'), notUnderstood[0].type);
   });
 
+test('corners that are drawn sharp are as the caller says', async () => {
+  const {text} = spoilt(spoils['a square tube with sharp corners'][0]);
+  const {frame, notUnderstood} = await read(text, {corner_radius_mm: 7.5});
+  assert.deepEqual(notUnderstood, []);
+  assert.deepEqual(frame.others.map(({id, width_mm, corner_radius_mm}) => [id, width_mm, corner_radius_mm]), [['X', 100, 7.5]]);
+  const own = models.find(({name}) => name === 'bend and box metre IFC2X3');
+  assert.deepEqual(faults(await read(own.text, {corner_radius_mm: 3}), own), [], 'a radius of its own stays');
+});
+
 test('a cut tube is imported whole, and its cut is listed', async () => {
   let clipping;
   const {text} = spoilt(({step, solid, ring, beam}) => {

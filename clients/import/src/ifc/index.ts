@@ -8,6 +8,8 @@ import {bodies, type Body} from './solids.js';
 import {millimetres, radians} from './units.js';
 
 export interface IfcOptions extends FrameOptions {
+  /** Of the corners of rectangular tubes that the file draws sharp, in mm: the service takes no sharp ones. */
+  corner_radius_mm?: number;
   /** The address of web-ifc's WebAssembly; node finds it by itself. */
   wasm?: string;
 }
@@ -71,7 +73,7 @@ function add(found: Found, body: Body, id: string, mm: number): void {
 }
 
 /** One product: all of it or nothing, so that no half of it passes for the whole. */
-function read(context: Context, product: Line, found: Found, name: ReturnType<typeof names>, mm: number): void {
+function read(context: Context & {corner: number | undefined}, product: Line, found: Found, name: ReturnType<typeof names>, mm: number): void {
   const {model} = context;
   const notes: NotUnderstood[] = [];
   const {items, world} = shape(model, product);
@@ -88,11 +90,13 @@ function read(context: Context, product: Line, found: Found, name: ReturnType<ty
   found.notUnderstood.push(...notes);
 }
 
-function every(library: typeof WebIfc, model: Model, found: Found): void {
+function every(library: typeof WebIfc, model: Model, found: Found, {corner_radius_mm}: IfcOptions): void {
   const project = model.all(library.IFCPROJECT)[0];
   if (project === undefined) throw new Trouble('there is no IfcProject');
   const mm = millimetres(model, model.line(project));
-  const context = {model, radians: radians(model, model.line(project)), codes: {line: library.IFCLINEINDEX, arc: library.IFCARCINDEX}};
+  const codes = {line: library.IFCLINEINDEX, arc: library.IFCARCINDEX};
+  const corner = corner_radius_mm === undefined ? undefined : corner_radius_mm / mm;
+  const context = {model, radians: radians(model, model.line(project)), codes, corner};
   const name = names();
   for (const id of [...model.all(library.IFCELEMENT), ...model.all(library.IFCPROXY)]) {
     let type = '';
@@ -121,7 +125,7 @@ export async function fromIfc(bytes: Uint8Array, options: IfcOptions = {}): Prom
   if (handle < 0) found.notUnderstood.push({id: 'file', type: 'IFC', reason: 'this is no IFC file of a known schema'});
   else
     try {
-      every(library, new Model(api, handle), found);
+      every(library, new Model(api, handle), found, options);
     } catch (failure) {
       found.notUnderstood.push({id: 'file', type: 'IFC', reason: why(failure)});
     } finally {

@@ -12,6 +12,7 @@ export type Body =
 
 interface Reading extends Context {
   notes: NotUnderstood[];
+  corner: number | undefined; // of rectangular tubes that tell none, in the file's unit
 }
 
 /** A ring's size, in the units of its own coordinates. */
@@ -22,11 +23,12 @@ function ring({model}: Reading, profile: Line): {outer: number; wall: number} {
   return {outer: 2 * radius, wall};
 }
 
-function box({model}: Reading, profile: Line) {
-  const corner = model.maybeNumber(profile, 'OuterFilletRadius') ?? 0;
-  if (!(corner > 0)) throw new Trouble(`${told(profile)} has no OuterFilletRadius: the service takes no sharp corners`);
+function box({model, corner}: Reading, profile: Line, scale: number) {
+  const own = model.maybeNumber(profile, 'OuterFilletRadius') ?? 0;
+  const corner_radius = own > 0 ? own * scale : corner;
+  if (corner_radius === undefined) throw new Trouble(`${told(profile)} has no OuterFilletRadius: the service takes no sharp corners`);
   model.positive(profile, 'WallThickness');
-  return {width: model.positive(profile, 'XDim'), height: model.positive(profile, 'YDim'), corner_radius: corner};
+  return {width: model.positive(profile, 'XDim') * scale, height: model.positive(profile, 'YDim') * scale, corner_radius};
 }
 
 function extruded(reading: Reading, solid: Line, world: Matrix): Body[] {
@@ -43,8 +45,7 @@ function extruded(reading: Reading, solid: Line, world: Matrix): Body[] {
     const {outer, wall} = ring(reading, profile);
     return [{kind: 'tube', from, to, outer: outer * scale, wall: wall * scale}];
   }
-  const {width, height, corner_radius} = box(reading, profile);
-  return [{kind: 'box', from, to, width: width * scale, height: height * scale, corner_radius: corner_radius * scale, up: unit(place.y) as Vector}];
+  return [{kind: 'box', from, to, up: unit(place.y) as Vector, ...box(reading, profile, scale)}];
 }
 
 /** Turned about an axis in the profile's plane: a bend. */
