@@ -58,7 +58,8 @@ def rows_of(text):
 class Csv(FormatTest):
     def endpoints(self):
         version = json.loads(self.service.get("/v1/version"))
-        found = [e["id"] for e in version["endpoints"] if "text/csv" in e["formats"]]
+        # A frame's is its cut list, a row a member, which the bundle's test reads.
+        found = [e["id"] for e in version["endpoints"] if "text/csv" in e["formats"] and e["id"] != "frames"]
         self.assertGreaterEqual(len(found), 8)
         return found
 

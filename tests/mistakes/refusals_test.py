@@ -78,7 +78,7 @@ class Refusals(FormatTest):
                 [error] = said[f"?{name}"]
                 self.assertEqual(error["got"], "never")
                 self.assertNotEqual(error["code"], "unknown_field")
-                for word in schema.get("enum") or [{"boolean": "true or false", "number": "number"}[schema["type"]]]:
+                for word in schema.get("enum") or schema.get("items", {}).get("enum") or [{"boolean": "true or false", "number": "number"}[schema["type"]]]:
                     self.assertIn(word, error["hint"])
                 count += 1
         self.assertGreater(count, 15)

@@ -34,6 +34,7 @@ const crossed = (endpoint, sounds, any) => fc.tuple(sounds, any, fc.infiniteStre
 // The faults of one reply to a body valid by the schema.
 function replyFaults({contract, problem}, endpoint, body, reply) {
   if (reply.status === 200) return answerFaults(contract, endpoint, body, reply.text);
+  if (reply.status === 599) return [reply.text];
   const {code, errors} = JSON.parse(reply.text);
   // A frame may ask for more than a minute's work; its estimate, within four times of what it takes, says so.
   if (code === 'over_budget' && 4 * errors?.[0]?.got >= errors?.[0]?.limit) return [];

@@ -29,7 +29,7 @@ async function downloads({browser, origin, service}, endpoint, name) {
     assert.ok(saved.length > 100 && saved.equals(bytes), `${media[i]} ${view}: ${saved.length} bytes saved, ${bytes.length} answered`);
     const reference = JSON.parse(body).reference;
     const words = [reference?.order, reference?.part].filter(Boolean).join('-').replace(/\s+/g, '_') || name;
-    assert.equal(download.suggestedFilename().replace(/\.[a-z0-9]{2,4}$/, ''), [words, view, hash].filter(Boolean).join('-'));
+    assert.equal(download.suggestedFilename().replace(/\.[a-z0-9]{2,6}$/, ''), [words, view, hash].filter(Boolean).join('-'));
   }
   assert.deepEqual(page.faults, []);
   await page.context().close();

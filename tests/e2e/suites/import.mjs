@@ -98,6 +98,7 @@ export const checks = {
   'a PCF file is chosen by the keyboard, the walls that it does not tell by a schedule': async ({browser, origin}) => {
     const page = await frames(browser, origin);
     await page.locator('#model').focus();
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'model');
     const chooser = page.waitForEvent('filechooser');
     await page.keyboard.press('Enter');
     await then(page, async () => (await chooser).setFiles({name: 'spool.PCF', mimeType: 'text/plain', buffer: Buffer.from(spool)}));
