@@ -267,8 +267,10 @@ TEST_P(FrameFaces, LieTheGapApart) {
     ++made;
     // From the corner into both tubes; the plane between them.
     const auto away = [&](const Tube& t, const Tube& from) {
-      const Point mid = Real{0.5} * (from.start + from.finish);
-      const bool at_start = norm(t.start - mid) < norm(t.finish - mid);
+      const auto to = [&](const Point& p) {
+        return std::min(norm(p - from.start), norm(p - from.finish));
+      };
+      const bool at_start = to(t.start) < to(t.finish);
       return unit(at_start ? t.finish - t.start : t.start - t.finish);
     };
     const Point u = away(pair.chord, pair.branch), v = away(pair.branch, pair.chord);
