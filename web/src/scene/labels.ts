@@ -38,18 +38,29 @@ export class Labels {
     const seen = new Map(all.map((i) => [i, members.place(i, camera.position).project(camera)]));
     const lifted = (i: number) => chosen.has(i) || pointed.has(i); // above what is looked at
     const depth = (i: number) => (seen.get(i) as Vector3).z;
-    const laid = (rank: (i: number) => number, lift: (i: number) => boolean) => {
+    const laid = (rank: (i: number) => number, lift: (i: number) => boolean, dots: {x: number; y: number}[]) => {
       const boxes = new Map<number, Box>();
       for (const i of all.sort((a, b) => rank(a) - rank(b))) {
         const {width: w, height: h} = this.labels[i] as Label;
         const {x, y, z} = seen.get(i) as Vector3;
-        const [left, top] = [((x + 1) * width - w) / 2, ((1 - y) * height - h) / 2 - (lift(i) ? h : 0)];
-        const free = [...boxes.values()].every(([l, t, r, b]) => left > r || left + w < l || top > b || top + h < t);
-        if (z <= 1 && left >= 0 && top >= 0 && left + w <= width && top + h <= height && free) boxes.set(i, [left, top, left + w, top + h]);
+        const [left, middle] = [((x + 1) * width - w) / 2, ((1 - y) * height - h) / 2];
+        const free = (top: number) =>
+          z <= 1 &&
+          left >= 0 &&
+          top >= 0 &&
+          left + w <= width &&
+          top + h <= height &&
+          [...boxes.values()].every(([l, t, r, b]) => left > r || left + w < l || top > b || top + h < t) &&
+          !dots.some((dot) => within([[left, top, left + w, top + h]], dot.x, dot.y, 5));
+        const top = (lift(i) ? [middle - h, middle + h, middle] : [middle]).find(free);
+        if (top !== undefined) boxes.set(i, [left, top, left + w, top + h]);
       }
       return boxes;
     };
-    const shown = laid((i) => (chosen.has(i) ? -2 : pointed.has(i) ? -1 : depth(i)), lifted);
+    // Dots stay as they are at rest, whatever is chosen; what is lifted keeps off them, so that a click is on what was pointed at.
+    const rest = laid(depth, () => false, []);
+    this.dot(members, camera, [width, height], [...rest.values()], (of) => this.labels.length <= most || of.some((i) => chosen.has(i) || pointed.has(i)), item);
+    const shown = all.some(lifted) ? laid((i) => (chosen.has(i) ? -2 : pointed.has(i) ? -1 : depth(i)), lifted, this.seen) : rest;
     for (const [i, [left, top]] of shown) (this.labels[i] as Label).node.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
     this.labels.forEach(({node}, i) => {
       node.classList.toggle('shown', shown.has(i));
@@ -57,9 +68,6 @@ export class Labels {
       node.classList.toggle('pointed', pointed.has(i));
     });
     this.taken = [...shown.values()];
-    // Dots stay as they are at rest, whatever is chosen.
-    const rest = all.some(lifted) ? [...laid(depth, () => false).values()] : this.taken;
-    this.dot(members, camera, [width, height], rest, (of) => this.labels.length <= most || of.some((i) => chosen.has(i) || pointed.has(i)), item);
   }
 
   /** A dot is where no name is and nothing else hides what is joined. */
@@ -73,7 +81,7 @@ export class Labels {
         this.seen.push({item: joint.item, x, y});
         node.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
       }
-      node.classList.toggle('shown', shown && !within(this.taken, x, y, 5));
+      node.classList.toggle('shown', shown);
       node.classList.toggle('chosen', joint.item === item);
     }
   }
