@@ -14,11 +14,9 @@
 
 /// Every enumeration that a request or an answer names.
 namespace tubecut::api {
-
 template <>
 inline constexpr auto kNames<Severity> =
     std::to_array<Option<Severity>>({{"cut", Severity::cut}, {"note", Severity::note}});
-
 template <>
 inline constexpr auto kNames<joint::Metric> = std::to_array<Option<joint::Metric>>(
     {{"developed", joint::Metric::developed}, {"chord", joint::Metric::chord}});
@@ -41,6 +39,10 @@ inline constexpr auto kNames<joint::JointKind> =
                                              {"set_in", joint::JointKind::set_in},
                                              {"through", joint::JointKind::through},
                                              {"mitre", joint::JointKind::mitre}});
+template <>
+inline constexpr auto kNames<joint::MitrePlane> = std::to_array<Option<joint::MitrePlane>>(
+    {{"bisecting", joint::MitrePlane::bisecting},
+     {"corner_to_corner", joint::MitrePlane::corner_to_corner}});
 
 template <>
 inline constexpr auto kNames<bevel::RootSurface> = std::to_array<Option<bevel::RootSurface>>(

@@ -102,6 +102,7 @@ void write_joint(const FrameJob& frame, const frame::Joint& joint, const Seam& s
   o.field("gap_mm", joint.how.gap);
   if (joint.how.kind == frame::JointKind::set_in && joint.how.depth)
     o.field("depth_mm", *joint.how.depth);
+  if (joint.how.kind == frame::JointKind::mitre) o.field("plane", name_of(joint.how.plane));
   o.field("hole", joint.how.hole ? "cut" : "none");
   o.field("stated", joint.stated.has_value());
   if (!seam.whole) return;

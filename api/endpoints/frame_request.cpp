@@ -66,13 +66,15 @@ std::optional<Place> known(Reader& in, const Places& places, const std::string& 
 /// Does the branch come into the chord's wall, so that it has a hole unless none is asked for?
 bool enters(JointKind kind) { return kind == JointKind::set_in || kind == JointKind::through; }
 
-/// `gap_mm`, `depth_mm` and `hole`, of a kind.
+/// `gap_mm`, `depth_mm`, `plane` and `hole`, of a kind.
 void decode_how(Reader& in, bool known_kind, How& out) {
   out.gap = in.number("gap_mm", kGap, 0.0);
   if (out.kind == JointKind::set_in || !known_kind)
     out.depth = in.optional_number(
         "depth_mm", {.min = 0.0, .max = kDiameter.max / 2.0, .open_min = true, .open_max = true});
   static constexpr std::array kHoles{Option<bool>{"cut", true}, Option<bool>{"none", false}};
+  if (out.kind == JointKind::mitre || !known_kind)
+    out.plane = in.choice("plane", joint::MitrePlane::bisecting);
   if (known_kind && (out.kind == JointKind::mitre || out.kind == JointKind::butt)) return;
   out.hole = in.choice("hole", kHoles, enters(out.kind));
 }

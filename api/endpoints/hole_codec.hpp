@@ -17,8 +17,8 @@ struct HoleBranch {
 /// The branch of a hole: its size and where it stands.
 [[nodiscard]] HoleBranch decode_hole_branch(Reader& in);
 
-/// `kind`, `gap_mm` and `depth_mm`. A set-in branch goes less deep than the chord's radius; a mitre
-/// is one of two members, not of a hole.
+/// `kind`, `gap_mm`, `depth_mm` and `plane`. A set-in branch goes less deep than the chord's
+/// radius; a mitre is one of two members, not of a hole.
 [[nodiscard]] joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members);
 void encode_joint_kind(const joint::Joint& joint, Writer& o);
 

@@ -67,6 +67,7 @@ joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members)
   const double deepest = std::max(chord_radius, kDiameter.min);
   out.depth = in.optional_number("depth_mm",
                                  {.min = 0.0, .max = deepest, .open_min = true, .open_max = true});
+  if (out.kind == JointKind::mitre) out.plane = in.choice("plane", joint::MitrePlane::bisecting);
   return out;
 }
 
@@ -74,6 +75,7 @@ void encode_joint_kind(const joint::Joint& joint, Writer& o) {
   o.field("kind", name_of(joint.kind));
   o.field("gap_mm", joint.gap);
   if (joint.depth) o.field("depth_mm", *joint.depth);
+  if (joint.kind == JointKind::mitre) o.field("plane", name_of(joint.plane));
 }
 
 void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated, Preset preset,

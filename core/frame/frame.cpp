@@ -37,7 +37,7 @@ joint::Joint of_node(const How& how) {
   static constexpr joint::JointKind kKinds[] = {joint::JointKind::set_on, joint::JointKind::set_in,
                                                 joint::JointKind::through, joint::JointKind::mitre,
                                                 joint::JointKind::mitre};
-  return {kKinds[static_cast<std::size_t>(how.kind)], how.gap, how.depth};
+  return {kKinds[static_cast<std::size_t>(how.kind)], how.gap, how.depth, how.plane};
 }
 
 /// The vectors that say how one stands: none may be without length.

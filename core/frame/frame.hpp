@@ -24,6 +24,7 @@ struct How {
   JointKind kind = JointKind::set_on;
   double gap = 0.0;
   std::optional<double> depth = {};
+  joint::MitrePlane plane = joint::MitrePlane::bisecting;
   bool hole = false;  // is the chord's hole cut? Set-on: the branch's bore
 };
 

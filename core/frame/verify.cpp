@@ -142,7 +142,8 @@ class Proof {
         worst_.axis.see(beside(axis_of(at, *tube), axis_of(branch), branch.at(hole.end),
                                m.outer_radius + branch.outer_radius),
                         size_of(*tube));
-      mates_[hole.joint].of_holes.push_back({asked.kind, asked.gap, asked.depth});
+      mates_[hole.joint].of_holes.push_back(
+          {.kind = asked.kind, .gap = asked.gap, .depth = asked.depth});
     }
   }
 

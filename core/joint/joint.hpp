@@ -12,12 +12,19 @@ enum class JointKind {
   mitre     // both end at the plane between them: no chord, no branch and no hole
 };
 
+/// The plane that both tubes of a mitre end at.
+enum class MitrePlane {
+  bisecting,        // leans alike to both axes
+  corner_to_corner  // through the corners of the two outlines: unlike tubes meet edge to edge there
+};
+
 /// How two members that meet are joined. Lengths in mm.
 struct Joint {
   JointKind kind = JointKind::set_on;
   double gap = 0.0;  // between the surfaces that face each other, normal to them; mitre: the faces
   std::optional<double> depth = {};  // set-in: the branch's end below the chord's outer surface;
                                      // empty: flush with the bore
+  MitrePlane plane = MitrePlane::bisecting;
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 

@@ -232,12 +232,15 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
 }
 
 /// How far the outer edges of two mitred ends stand apart at most: both are ellipses in one plane,
-/// leaning alike, their centres the axes' distance apart.
-double mitre_step(const NodeSpec& spec, std::size_t member, const CutBy& cut) {
+/// their centres the axes' distance apart, half as wide as their tubes and longer as these lean.
+double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) {
   if (!cut.plane) return 0.0;
-  const double wider =
-      std::abs(spec.members[member].outer_radius - spec.members[cut.member].outer_radius);
-  return wider / cut.plane->normal.normalized().z() + cut.eccentricity;
+  const auto& other = spec.members[cut.member];
+  const double r = spec.members[end.member].outer_radius, s = other.outer_radius;
+  const Vector3d normal = cut.plane->normal.normalized();
+  const Vector3d along = end.frame.rows * (other.finish - other.start).normalized();
+  return std::max(std::abs(r / normal.z() - s / std::abs(normal.dot(along))), std::abs(r - s)) +
+         cut.eccentricity;
 }
 
 void warn(const NodeSpec& spec, const MemberEnd& end, const std::optional<Touch>& missed,
@@ -256,7 +259,7 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const std::optional<Touch>
                      .member = at,
                      .detail = "cut by " + called(spec, cut.member) + " beyond that member's end"});
   for (const auto& cut : end.cut_by)
-    if (const double step = mitre_step(spec, end.member, cut); step > kStep)
+    if (const double step = mitre_step(spec, end, cut); step > kStep)
       out.push_back({.code = WarningCode::mitre_steps,
                      .member = at,
                      .detail = "its edge and that of " + called(spec, cut.member) +

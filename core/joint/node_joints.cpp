@@ -36,7 +36,8 @@ std::string name_of(JointKind kind) {
 /// "set_in, gap 1.5 mm, depth 8 mm"
 std::string told(const Joint& joint) {
   return name_of(joint.kind) + ", gap " + shown(joint.gap) + " mm" +
-         (joint.depth ? ", depth " + shown(*joint.depth) + " mm" : "");
+         (joint.depth ? ", depth " + shown(*joint.depth) + " mm" : "") +
+         (joint.plane == MitrePlane::corner_to_corner ? ", corner to corner" : "");
 }
 
 /// Both sides may say the same, and must not say different things.
@@ -112,14 +113,30 @@ void join(Joined& joined, const NodeSpec& spec, std::size_t end, std::size_t oth
   touches.insert(at, {end, other, nearness(point_of(spec, end), {m.start, m.finish, 0.0})});
 }
 
+/// Towards the first of two tubes that leave their corner along unit `u` and `v`. The outlines of
+/// radii r and s in the plane of both axes meet r / (n.u) and s / -(n.v) along the plane of normal
+/// n from its point: alike where n is normal to s u + r v.
+Vector3d mitre_normal(MitrePlane plane, const Vector3d& u, double r, const Vector3d& v, double s) {
+  if (plane == MitrePlane::bisecting) return u - v;
+  const double c = u.dot(v);
+  return ((r + s * c) * u - (s + r * c) * v) / (r + s);
+}
+
 Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
   const auto a = spec.joints[index].member, b = spec.joints[index].with;
   const auto [p, q] = facing_ends(spec, a, b);
-  const Vector3d normal = into(spec, p) - into(spec, q);
+  const Vector3d u = into(spec, p), v = into(spec, q);
+  const Vector3d normal =
+      mitre_normal(spec.joints[index].joint.plane, u, spec.members[a].outer_radius, v,
+                   spec.members[b].outer_radius);
   if (!(normal.norm() >= kParallel))
-    return fail({.code = ErrorCode::parallel_axes,
-                 .member = place_of(spec, index),
-                 .hint = "the two members lie along each other; no plane between them cuts both"});
+    return fail(
+        {.code = ErrorCode::parallel_axes,
+         .member = place_of(spec, index),
+         .hint = u.dot(v) > 0.0
+                     ? "the two members lie along each other; no plane between them cuts both"
+                     : "the two lie in line and their outlines have no corners; a bisecting "
+                       "plane cuts both square"});
   part(joined, a, b);
   part(joined, b, a);
   join(joined, spec, p, b);

@@ -53,8 +53,15 @@ double to_axis(const Vector3d& p, const Member& m) {
   return between_ends ? (p - m.start).cross(along).norm() / along.norm() : ends;
 }
 
-/// A mitre's plane leans alike to both members, the end's own before it and the other behind it;
-/// midway between them, its point is as far from both axes.
+/// Where two outlines cross, seen from where the axes do: tubes that leave along unit `u` and `v`.
+Vector3d corner_of(const Vector3d& u, double r, const Vector3d& v, double s) {
+  const Vector3d side = u.cross(v).normalized();
+  const Vector3d from_u = u.cross(side), from_v = side.cross(v);
+  return r * from_u + (s - r * from_u.dot(from_v)) / u.dot(from_v) * u;
+}
+
+/// A mitre's plane leans alike to both members, the end's own before it and the other behind it, or
+/// holds the corner of their outlines; midway between them, its point is as far from both axes.
 void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& worst) {
   const auto& member = spec.members[end.member];
   const auto& other = spec.members[cut.member];
@@ -63,8 +70,12 @@ void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Wor
   const Vector3d own = end.frame.rows.row(2);
   Vector3d along = (other.finish - other.start).normalized();
   if (along.dot(normal) > 0.0) along = -along;
-  worst.angle = std::max(
-      worst.angle, std::abs(between(own, normal) + between(along, normal) - kPi) * kDegPerRad);
+  const double off =
+      cut.stated && cut.stated->plane == MitrePlane::corner_to_corner
+          ? 0.5 * kPi -
+                between(corner_of(own, member.outer_radius, along, other.outer_radius), normal)
+          : between(own, normal) + between(along, normal) - kPi;
+  worst.angle = std::max(worst.angle, std::abs(off) * kDegPerRad);
   const double scale = (member.start - point).norm() + (other.start - point).norm();
   const auto aside = [&](const Member& m) {
     return from_line(point, {m.start, (m.finish - m.start).normalized()});

@@ -63,6 +63,7 @@ struct Pair {
   std::string kind;
   Real gap = 0, depth = 0;
   bool within = false;
+  std::string plane = {};  // of a mitre; empty: not said
 };
 
 Pair random_pair(Random& random, const std::string& kind) {
@@ -120,6 +121,7 @@ Json request_of(const Pair& pair, bool swapped) {
                      {"gap_mm", Json{static_cast<double>(pair.gap)}}};
   if (pair.kind == "set_in") joint.emplace_back("depth_mm", Json{static_cast<double>(pair.depth)});
   if (pair.kind == "set_on") joint.emplace_back("hole", Json{"cut"});
+  if (!pair.plane.empty()) joint.emplace_back("plane", Json{pair.plane});
   Json::Object out{
       {"members", Json{Json::Array{member("C", pair.chord, 0), member("B", pair.branch, 1)}}},
       {"joints", Json{Json::Array{Json{std::move(joint)}}}},
@@ -300,6 +302,57 @@ TEST_P(FrameFaces, LieTheGapApart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryKind, FrameFaces, ::testing::Values("mitre", "butt"));
+
+// The corners of two outlines lie in both faces, so that unlike tubes meet there edge to edge.
+TEST(FrameCorners, LieInBothFaces) {
+  Random random;
+  Real off = 0;
+  int made = 0;
+  for (int count = 0; count < count_of_each(); ++count) {
+    auto pair = random_pair(random, "mitre");
+    auto& b = pair.branch;
+    b.radius *= random.between(0.6L, 0.95L);
+    b.wall = b.radius * random.between(0.04L, 0.15L);
+    pair.plane = "corner_to_corner";
+    const auto request = with(request_of(pair, random.coin()), "defaults/groove",
+                              *api::parse(R"({"rule": "none"})"));
+    const auto answer = post("/v1/frames", request);
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 600);
+    if (number(answer.body, "result/totals/made") < 2.0) continue;
+    ++made;
+    EXPECT_EQ(text(answer.body, "result/joints/0/plane"), "corner_to_corner");
+    // Where the outlines cross, from the axes' crossing: r / sin of what the corner leans to
+    // either.
+    const auto& c = pair.chord;
+    const Point at_c = c.start, x = unit(c.finish - c.start);
+    const bool leaves = norm(b.finish - at_c) > norm(b.start - at_c);
+    const Point y = unit(leaves ? b.finish - b.start : b.start - b.finish);
+    const Point side = unit(cross(x, y));
+    const Point m = cross(x, side), n = cross(side, y);
+    const Point corner = c.radius * m + ((b.radius - c.radius * dot(m, n)) / dot(x, n)) * x;
+    const Point normal = unit(cross(corner, side));
+    Real least = 1e30L, most = -1e30L;
+    for (const auto* id : {"C", "B"}) {
+      const auto part = placed(answer.body, id);
+      const auto& tube = *id == 'C' ? c : b;
+      const bool at_start = at(part.answer, "request/ends/start").find("cutters") != nullptr;
+      const auto& points = at(
+          part.answer, std::string("result/ends/") + (at_start ? "start" : "finish") + "/points");
+      const Real shift = dot(x, normal) > 0 ? pair.gap : -pair.gap;
+      along(points, "phi_deg", "phi_deg", "z_inner_mm", "z_outer_mm", 360,
+            [&](Real phi, Real, Real inner, Real) {
+              const Real d = dot(part.at(tube.radius - tube.wall, phi, inner), normal) +
+                             (*id == 'C' ? 0 : shift);
+              least = std::min(least, d);
+              most = std::max(most, d);
+            });
+    }
+    off = std::max(off, most - least);
+  }
+  std::printf("%d corners: faces apart by what is asked within %.2Lg mm\n", made, off);
+  EXPECT_GE(3 * made, count_of_each());
+  EXPECT_LT(off, kFit);
+}
 
 }  // namespace
 }  // namespace tubecut::testing

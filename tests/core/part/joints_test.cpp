@@ -219,7 +219,7 @@ Real shape_off(const bevel::Table& a, const bevel::Table& b) {
 void measure(const Pair& pair, const Made& chord, const Made& branch, Seen& end, Seen& hole,
              Real& agree) {
   const auto& [c, b] = std::tie(pair.node.members[0], pair.node.members[1]);
-  const auto& [kind, gap, depth] = pair.joint;
+  const auto& [kind, gap, depth, plane] = pair.joint;
   if (kind != JointKind::through) {
     const Real seat = kind == JointKind::set_on ? c.outer_radius + static_cast<Real>(gap)
                                                 : c.outer_radius - depth.value_or(c.wall);
@@ -377,6 +377,82 @@ TEST(StatedMitre, AxesThatMissEachOtherAndDiametersThatDifferAreSaid) {
   EXPECT_EQ(steps, 2);
 }
 
+/// What the outer points of an edge span along a direction.
+std::pair<Real, Real> span_of(const std::vector<Point>& edge, const Point& along) {
+  std::pair<Real, Real> out{1e30L, -1e30L};
+  for (std::size_t i = 1; i < edge.size(); i += 2) {
+    out.first = std::min(out.first, dot(edge[i], along));
+    out.second = std::max(out.second, dot(edge[i], along));
+  }
+  return out;
+}
+
+ErrorCode refused(const joint::NodeSpec& node, std::string_view at) {
+  const auto nodes = joint::solve(node);
+  if (nodes) return ErrorCode::internal_error;
+  EXPECT_EQ(nodes.error().issues.front().member, at);
+  return nodes.error().code();
+}
+
+// Tubes of different sizes, trimmed at the plane through the corners of their outlines, meet edge
+// to edge there: in the plane of both axes neither stands out beyond the other. A bisecting plane
+// leaves a step.
+TEST(StatedMitre, UnlikeTubesMeetCornerToCorner) {
+  Random random{std::mt19937_64(77)};
+  Real off = 0, least_step = 1e30L;
+  for (int count = 0; count < count_of_each(); ++count) {
+    auto pair = random_mitre(random, 0.0);
+    const auto& a = pair.node.members[0];
+    auto& b = pair.node.members[1];
+    const Vector3d u = (a.finish - a.start).normalized();
+    const bool leaves = (b.finish - a.start).norm() > (b.start - a.start).norm();
+    const Vector3d v = (leaves ? 1.0 : -1.0) * (b.finish - b.start).normalized();
+    if (std::abs(u.dot(v)) > 0.8) continue;
+    b.outer_radius *= random.between(0.6, 0.95);
+    const Vector3d w = (u + v).normalized();
+    const Point along{w.x(), w.y(), w.z()};
+    pair.node.joints[0].joint.gap = 0.0;
+    for (const auto plane : {joint::MitrePlane::bisecting, joint::MitrePlane::corner_to_corner}) {
+      pair.node.joints[0].joint.plane = pair.joint.plane = plane;
+      const auto nodes = joint::solve(pair.node);
+      ASSERT_TRUE(nodes) << count;
+      for (const auto& check : joint::verify(pair.node, *nodes))
+        EXPECT_TRUE(check.passed()) << check.name << ' ' << check.value;
+      auto spec = member_spec(pair, 1);
+      const auto two = make(spec);
+      spec.member = 0;
+      const auto one = make(spec);
+      ASSERT_TRUE(one && two) << count;
+      const auto [from, to] = span_of(rim(*one, one->found.start_cutters), along);
+      const auto [other_from, other_to] = span_of(rim(*two, two->found.start_cutters), along);
+      const auto step = std::max(std::abs(from - other_from), std::abs(to - other_to));
+      if (plane == joint::MitrePlane::bisecting)
+        least_step = std::min(least_step, step);
+      else
+        off = std::max(off, step);
+    }
+  }
+  std::printf("corners apart by %.2Lg mm, bisected by at least %.2Lg mm\n", off, least_step);
+  EXPECT_LT(off, kFit);
+  EXPECT_GT(least_step, 20 * kFit);
+}
+
+TEST(StatedMitre, InOneLineUnlikeTubesHaveNoCorners) {
+  joint::NodeSpec node;
+  joint::Member a{.name = "A"}, b{.name = "B"};
+  a.start = {0, 0, 0};
+  a.finish = b.start = {1000, 0, 0};
+  b.finish = {2500, 0, 0};
+  a.outer_radius = 57.15;
+  b.outer_radius = 44.45;
+  a.wall = b.wall = 5;
+  node.members = {a, b};
+  node.connect = joint::Within{1.0};
+  node.joints = {
+      {0, 1, {.kind = JointKind::mitre, .gap = 3.0, .plane = joint::MitrePlane::corner_to_corner}}};
+  EXPECT_EQ(refused(node, "members/0/joints/0"), ErrorCode::parallel_axes);
+}
+
 // Laid end to end the mitre is a square butt.
 TEST(StatedMitre, InOneLineItIsASquareButt) {
   Pair pair;
@@ -400,13 +476,6 @@ TEST(StatedMitre, InOneLineItIsASquareButt) {
   ASSERT_TRUE(made);
   EXPECT_NEAR(made->part.lengths.longest, 1500 - 1.5, 1e-9);
   EXPECT_NEAR(made->part.lengths.shortest, 1500 - 1.5, 1e-9);
-}
-
-ErrorCode refused(const joint::NodeSpec& node, std::string_view at) {
-  const auto nodes = joint::solve(node);
-  if (nodes) return ErrorCode::internal_error;
-  EXPECT_EQ(nodes.error().issues.front().member, at);
-  return nodes.error().code();
 }
 
 TEST(StatedJoints, WhatCannotBothBeRightIsRefused) {
