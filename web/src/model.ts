@@ -28,6 +28,12 @@ function sizeOf(said: string | undefined): Size | undefined {
   return said?.trim() ? {size: said.trim()} : undefined;
 }
 
+function positive(said: string): number {
+  const value = Number(said);
+  if (!(value > 0 && Number.isFinite(value))) throw new Error(`"${said}" is no length.`);
+  return value;
+}
+
 function pointOf(said: string): [number, number, number] {
   const [x, y, z, ...rest] = said
     .split(/[\s,;]+/)
@@ -39,8 +45,14 @@ function pointOf(said: string): [number, number, number] {
 
 const kinds: Record<string, Kind> = {
   ifc: {
-    questions: () => [{key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'}],
-    read: (importer, file, {origin}) => importer.fromIfc(file, {wasm: importer.wasm, ...(origin?.trim() ? {origin_mm: pointOf(origin)} : {})}),
+    questions: () => [
+      {key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'},
+      {key: 'corner', text: 'Radius of square tubes’ sharp corners, mm', hint: 'none'},
+    ],
+    read: (importer, file, {origin, corner}) => {
+      const more = {...(origin?.trim() ? {origin_mm: pointOf(origin)} : {}), ...(corner?.trim() ? {corner_radius_mm: positive(corner)} : {})};
+      return importer.fromIfc(file, {wasm: importer.wasm, ...more});
+    },
   },
   pcf: {
     questions: (_, __, schedules) => [
