@@ -5,7 +5,7 @@ import {drawn, fromSchema, sound} from '../generate.mjs';
 import {each} from '../service.mjs';
 
 const ANY = 100;   // bodies from the schema alone, each endpoint
-const MORE = 20000;  // of them looked through, at most, for objects not seen yet
+const MORE = 60000;  // of them looked through, at most, for objects not seen yet
 const SOUND = 40;  // sound ones
 const AT_ONCE = 24;  // objects of one request: a problem names 32 fields
 const STRANGE = 'Q'.repeat(65);  // too long to be taken for a name misspelt
