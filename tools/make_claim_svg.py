@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SPEED, PERIOD, ARM, RADIUS, PULSES, MOST = 10.0, 0.004, 150.0, 35.0, 1000.0, 800
+PERIOD, MOST = 0.004, 800
 AXES = {"Y": "#1f5fbf", "Z1": "#1e8449", "B": "#c0392b"}
 INK, GRID = "#1c2733", "#d5dbe1"
 WIDTH, HEIGHT, LEFT, GAP = 470, 300, 70, 60
@@ -25,16 +25,12 @@ def columns(points):
     return table["phi_deg"], table["z_mm"], table["b_deg_by_transition_points"][str(points)]
 
 
-def naive(phi, z, b):
-    """[(time, {axis: pulses per period})] of every segment at full speed, axes linear between its ends."""
-    out, t = [], 0.0
-    place = lambda i: {"Y": z[i] - ARM * math.sin(math.radians(b[i])), "Z1": ARM * math.cos(math.radians(b[i])), "B": b[i]}
-    for i in range(1, len(phi)):
-        length = math.hypot(RADIUS * math.radians(phi[i] - phi[i - 1]), z[i] - z[i - 1])
-        here, before = place(i), place(i - 1)
-        out.append((t, {a: abs(here[a] - before[a]) * PULSES * SPEED * PERIOD / length for a in AXES}))
-        t += length / SPEED
-    return out, t
+def unplanned(answer):
+    """[(time, {axis: pulses per period})] of every segment at full speed, and when the last one ends."""
+    naive = answer["comparison"]["naive"]
+    starts = [0.0, *naive["end_s"]]
+    pulses = {axis["name"]: axis["pulses"] for axis in naive["axes"]}
+    return [(t, {a: pulses[a][i] for a in AXES}) for i, t in enumerate(starts[:-1])], starts[-1]
 
 
 def planned(server, phi, z, b):
@@ -42,7 +38,7 @@ def planned(server, phi, z, b):
     shelf = machine(server)
     shelf["b_positive"] = "outer_edge_to_waste"
     body = {"contour": {"phi_deg": phi, "z_mm": z, "b_deg": [-v for v in b], "outer_diameter_mm": 70, "wall_mm": 5, "surface": "outer",
-                        "closed": True, "b_sign": "outer_edge_to_plus_z"}, "machine": shelf, "motion": {"speed": {"mm_min": 600}, "direction": "ccw"}}
+                        "closed": True, "b_sign": "outer_edge_to_plus_z"}, "machine": shelf, "motion": {"speed": {"mm_min": 600}, "direction": "ccw", "compare": True}}
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(body, file)
         file.flush()
@@ -106,8 +102,8 @@ def main():
     panels, peaks = [], []
     for column, points in enumerate((0, 20)):
         phi, z, b = columns(points)
-        segments, end = naive(phi, z, b)
         answer = planned(sys.argv[1], phi, z, b)
+        segments, end = unplanned(answer)
         seconds = answer["report"]["time_s"]
         name = "B raw" if points == 0 else f"B over {points} points"
         top = Panel(column, 0, f"{name}: every segment at 600 mm/min, {end:.1f} s", 33)

@@ -71,6 +71,19 @@ void encode_comparison(const motion::Comparison& c, Writer& w) {
     o.field("slow_segments", c.slow_segments);
     o.field("segments_s", c.segments_time);
     o.field("segments_stop_s", c.segments_stop_time);
+    o.object("naive", [&](Writer& n) {
+      n.column("end_s", std::vector(c.naive.time.begin() + 1, c.naive.time.end()));
+      n.array("axes", c.naive.axes, [](Writer& each, const motion::NaiveAxis& axis) {
+        each.object([&](Writer& a) {
+          a.field("name", axis.name);
+          a.field("peak_pulses", axis.peak);
+          if (axis.periods_over) a.field("periods_over", *axis.periods_over);
+          a.field("largest_step_pulses", axis.largest_step);
+          a.field("step_in_16_bits", std::int64_t{axis.step_in_16_bits()});
+          a.column("pulses", axis.pulses);
+        });
+      });
+    });
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
@@ -33,6 +34,38 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
     const double length =
         std::hypot(radius * (path->phi[i] - path->phi[i - kMean]), along(i) - along(i - kMean));
     out.push_back(60.0 * length / (static_cast<double>(kMean) * s.period));
+  }
+  return out;
+}
+
+/// The same cut without a plan: what each segment asks for, and what a period can hold.
+Chart naive_chart(const motion::ScheduleSpec& spec, const motion::Naive& naive) {
+  Chart out{.title = "Before: pulses per period at constant speed, segment by segment",
+            .x_label = "time, s",
+            .y_label = "pulses",
+            .series = {},
+            .y_from_zero = true};
+  for (std::size_t a = 0; a < naive.axes.size(); ++a) {
+    const auto& axis = naive.axes[a];
+    if (axis.peak == 0) continue;
+    Series steps{.name = axis.name, .x = {}, .y = {}, .color = kColors[a % std::size(kColors)]};
+    for (std::size_t i = 0; i < axis.pulses.size(); ++i)
+      for (const auto end : {i, i + 1}) {
+        steps.x.push_back(naive.time[end]);
+        steps.y.push_back(axis.pulses[i]);
+      }
+    out.series.push_back(std::move(steps));
+  }
+  std::set<std::int64_t> limits;
+  for (const auto& axis : spec.machine.axes)
+    if (axis.n_max) limits.insert(*axis.n_max);
+  for (const auto most : limits) {
+    const auto held = static_cast<double>(most);
+    out.series.push_back({.name = std::to_string(most) + " at most",
+                          .x = {0.0, naive.time.back()},
+                          .y = {held, held},
+                          .color = "#555555",
+                          .dashed = true});
   }
   return out;
 }
@@ -80,6 +113,7 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
                              s.period * static_cast<double>(zone.to), "slow"});
     charts.push_back(std::move(speed));
   }
+  if (s.comparison) charts.push_back(naive_chart(spec, s.comparison->naive));
   return print_charts(charts, caption);
 }
 

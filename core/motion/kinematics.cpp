@@ -193,8 +193,7 @@ Result<double> standoff_growth(const ScheduleSpec& spec, const Program& program)
   }
   if (crawler->standoff_max && largest > *crawler->standoff_max) {
     return fail({ErrorCode::standoff_too_large, "machine/standoff_max", largest,
-                 *crawler->standoff_max, "mm",
-                 "at phi " + std::to_string(at_phi * kDegPerRad) + " deg"});
+                 *crawler->standoff_max, "mm", "at phi " + brief(at_phi * kDegPerRad) + " deg"});
   }
   return largest;
 }

@@ -391,7 +391,7 @@ Result<void> check_clear(const CutWithLead& cut, const PartBorder& part, double 
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (depth <= allowed) continue;
     return fail({ErrorCode::lead_blocked, "motion/lead", depth, allowed, "mm",
-                 "at phi " + std::to_string(p.phi * kDegPerRad) + " deg"});
+                 "at phi " + brief(p.phi * kDegPerRad) + " deg"});
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
 #include "core/motion/plan.hpp"
+#include "core/motion/schedule.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -113,6 +114,26 @@ Segment segment(const PreparedCut& job, const std::vector<double>& s, std::size_
   return out;
 }
 
+void add_segment(const PreparedCut& job, std::size_t i, double length, double speed, Naive& out) {
+  const Coordinates from = coordinates_of(job.program, i), to = coordinates_of(job.program, i + 1);
+  const double period = job.course.machine.period;
+  if (length > 0.0) out.time.push_back(out.time.back() + length / speed);
+  for (std::size_t a = 0; a < out.axes.size(); ++a) {
+    const Axis& axis = job.course.machine.axes[a];
+    auto& of = out.axes[a];
+    const double way = job.course.axes[a].at(to) - job.course.axes[a].at(from);
+    const double step = way * axis.pulses_per_axis_unit();
+    if (std::abs(step) > std::abs(static_cast<double>(of.largest_step)))
+      of.largest_step = rounded(step);
+    if (!(length > 0.0)) continue;
+    const double pulses = std::abs(step) * speed * period / length;
+    of.pulses.push_back(pulses);
+    of.peak = std::max(of.peak, rounded(pulses));
+    if (axis.n_max && pulses > static_cast<double>(*axis.n_max))
+      *of.periods_over += static_cast<std::int64_t>(std::ceil(length / (speed * period)));
+  }
+}
+
 std::vector<Use> largest_uses(const Course& course, const Plan& plan, bool jerk) {
   std::vector<Use> out;
   for (std::size_t i = 0; i < plan.uses.axes.size(); ++i) {
@@ -212,13 +233,23 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
   return out;
 }
 
+std::int16_t NaiveAxis::step_in_16_bits() const {
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(largest_step & 0xffff));
+}
+
 Comparison comparison(const PreparedCut& job, const std::stop_token& stop) {
   const std::vector<double> s = job.program.lengths();
   Comparison out;
+  out.naive.time.push_back(0.0);
+  for (const auto& axis : job.course.machine.axes) {
+    out.naive.axes.push_back({.name = axis.name});
+    if (axis.n_max) out.naive.axes.back().periods_over = 0;
+  }
   double share = 1.0;  // of the asked speed that the whole cut can keep
   for (std::size_t i = 0; i + 1 < job.program.size() && !stop.stop_requested(); ++i) {
     const Segment seg = segment(job, s, i);
     const double asked = seg.length / seg.speed;
+    add_segment(job, i, seg.length, seg.speed, out.naive);
     const bool slow = seg.axis_time > asked;
     out.slow_segments += slow ? 1 : 0;
     out.segments_time += std::max(asked, seg.axis_time);

@@ -41,13 +41,33 @@ struct Use {
   double share = 0.0;
 };
 
-/// Times of doing without a planner, for comparison.
+/// What one axis is asked for when every segment of the contour is run at the speed asked.
+struct NaiveAxis {
+  std::string name = {};
+  std::vector<double> pulses = {};                // per period, by segment
+  std::int64_t peak = 0;                          // the most in a period, rounded
+  std::optional<std::int64_t> periods_over = {};  // with more than n_max; empty: it has none
+  std::int64_t largest_step = 0;                  // from one point to the next, signed
+
+  /// The largest step as a register of 16 bits reads it.
+  [[nodiscard]] std::int16_t step_in_16_bits() const;
+};
+
+/// Segment by segment at constant speed, from one point's axis values straight to the next's. A
+/// segment along which the tip does not move has no time of its own and is left out.
+struct Naive {
+  std::vector<double> time = {};  // s at the ends of the segments, from 0
+  std::vector<NaiveAxis> axes = {};
+};
+
+/// Of doing without a planner.
 struct Comparison {
   double whole_cut_speed = 0.0;     // mm/s at which no axis breaks its speed anywhere
   double whole_cut_time = 0.0;      // s
   std::int64_t slow_segments = 0;   // contour segments that break an axis' speed at the speed asked
   double segments_time = 0.0;       // s, only these slowed; needs infinite acceleration
   double segments_stop_time = 0.0;  // s, these from rest to rest; no jerk limit
+  Naive naive = {};
 };
 
 struct Report {
@@ -96,9 +116,10 @@ struct Report {
                                                           const Program& program, const Path& path,
                                                           const std::stop_token& stop);
 
-/// The comparison with slowing the whole cut and with slowing its segments.
+/// The comparison with slowing the whole cut, with slowing its segments and with doing neither.
 ///
-/// Source  docs/theory/pulse-schedules.md, section 10.2.
+/// Cost    linear in the points of the contour.
+/// Source  docs/theory/pulse-schedules.md, sections 10.1 and 10.2.
 [[nodiscard]] Comparison comparison(const PreparedCut& job, const std::stop_token& stop = {});
 
 }  // namespace tubecut::motion

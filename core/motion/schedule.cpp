@@ -66,7 +66,7 @@ std::vector<Event> events(const PreparedCut& job, const Plan& plan) {
           {periods, EventKind::torch_off}};
 }
 
-std::string mm(double value) { return std::to_string(value) + " mm"; }
+std::string mm(double value) { return brief(value) + " mm"; }
 
 std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
   std::vector<Warning> out;
@@ -76,13 +76,12 @@ std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
   if (coarse && motion.expert.sag_warning) {
     out.push_back({WarningCode::contour_too_coarse, "contour",
                    "between its points the curve leaves the contour's chords by " +
-                       mm(report.sag_tip) + " and " + std::to_string(report.sag_b * kDegPerRad) +
-                       " deg"});
+                       mm(report.sag_tip) + " and " + brief(report.sag_b * kDegPerRad) + " deg"});
   }
   for (const SlowZone& zone : report.slow) {
     out.push_back({WarningCode::slow_zone, "contour",
                    "periods " + std::to_string(zone.from) + " to " + std::to_string(zone.to) +
-                       ": down to " + std::to_string(60.0 * zone.least_speed) + " mm/min, axis " +
+                       ": down to " + brief(60.0 * zone.least_speed) + " mm/min, axis " +
                        zone.axis});
   }
   if (report.standoff_growth > motion.eps_tip) {

@@ -43,6 +43,7 @@ const exampleNames: Record<string, string> = {
   'frames/roll-cage-of-12': 'A roll cage of 12 members',
   'frames/truss-of-19': 'A truss of 19 members',
   'pulse-schedules/table-1-on-the-five-axis-cutter': 'Four tubes on the five-axis cutter',
+  'pulse-schedules/source-000-table-1-before-and-after': 'Why a plan: jumps of B at full speed',
   'pulse-schedules/source-001-mill-path': 'A groove on the cone mill',
   'pulse-schedules/source-002-offset-pair-on-the-crawler': 'A branch on the crawler',
   'feed-curves/source-004-table-1-as-printed': 'A published feed curve, as printed',

@@ -197,39 +197,12 @@ INSTANTIATE_TEST_SUITE_P(Golden, Table1Case,
                          ::testing::Values(std::pair{"table1_raw", 0},
                                            std::pair{"table1_smoothed", 20}));
 
-/// What running every segment of the polyline at the asked speed would ask of one axis: section
-/// 10.1 of the theory.
-struct Naive {
-  std::int64_t peak = 0;          // pulses in a period, rounded
-  std::int64_t periods_over = 0;  // periods above n_max
-};
-Naive naive_pulses(const PreparedCut& job, std::size_t a) {
-  const Axis& axis = job.course.machine.axes[a];
-  const std::vector<double> s = job.program.lengths();
-  double peak = 0.0;
-  Naive out;
-  for (std::size_t i = 0; i + 1 < job.program.size(); ++i) {
-    const double length = tip_length(job.course.tip, job.program, i, i + 1);
-    if (length <= 0.0) continue;  // a pure swing has no time of its own to divide by
-    const double step = job.course.speed.least(s[i], s[i + 1]) * job.course.machine.period;
-    const double way = job.course.axes[a].at(coordinates_of(job.program, i + 1)) -
-                       job.course.axes[a].at(coordinates_of(job.program, i));
-    const double pulses = std::abs(way) * axis.pulses_per_axis_unit() * step / length;
-    peak = std::max(peak, pulses);
-    if (axis.n_max && pulses > static_cast<double>(*axis.n_max)) {
-      out.periods_over += static_cast<std::int64_t>(std::ceil(length / step));
-    }
-  }
-  out.peak = static_cast<std::int64_t>(std::floor(peak + 0.5));
-  return out;
-}
-
 /// One column of the tables of section 10.1 and 10.2.
 struct Published {
   int points;
   std::array<std::int64_t, 3> naive_peak, naive_over, peak;  // B, Y, Z1
   double whole_s, whole_mm_min, segments_s, stops_s;
-  std::int64_t segments;
+  std::int64_t segments, largest_b;
   double no_jerk_s, proven_s, time_s, least_mm_min, slow_s;
 };
 
@@ -241,12 +214,24 @@ TEST_P(Claim, NaivePulses) {
   const Published& p = GetParam();
   const auto job = prepare_cut(table1(p.points), {});
   ASSERT_TRUE(job);
+  const auto naive = comparison(*job).naive;
   const std::array<std::size_t, 3> axes{4, 1, 2};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Naive naive = naive_pulses(*job, axes[i]);
-    EXPECT_EQ(naive.peak, p.naive_peak[i]) << i;
-    EXPECT_EQ(naive.periods_over, p.naive_over[i]) << i;
+    const auto& axis = naive.axes[axes[i]];
+    EXPECT_EQ(axis.peak, p.naive_peak[i]) << axis.name;
+    EXPECT_EQ(axis.periods_over, p.naive_over[i]) << axis.name;
+    EXPECT_EQ(axis.pulses.size() + 1, naive.time.size());
   }
+  // Every segment in its own time: the whole cut in length over speed.
+  EXPECT_NEAR(naive.time.back(), 29.03, 0.005);
+  // By 000, section 2: 16 bits hold 32 767 pulses, and read a step of 41 791 as one of 23 745 the
+  // other way.
+  EXPECT_EQ(std::abs(naive.axes[4].largest_step), p.largest_b);
+  const auto read = naive.axes[4].step_in_16_bits();
+  if (p.largest_b == 41791)
+    EXPECT_EQ(read, naive.axes[4].largest_step < 0 ? 23745 : -23745);
+  else
+    EXPECT_EQ(read, naive.axes[4].largest_step);
 }
 
 TEST_P(Claim, Times) {
@@ -286,6 +271,7 @@ INSTANTIATE_TEST_SUITE_P(Golden, Claim,
                                                      31.06,
                                                      31.90,
                                                      5,
+                                                     41791,
                                                      31.65,
                                                      32.88,
                                                      32.21,
@@ -300,6 +286,7 @@ INSTANTIATE_TEST_SUITE_P(Golden, Claim,
                                                      29.80,
                                                      33.15,
                                                      23,
+                                                     7140,
                                                      29.88,
                                                      30.16,
                                                      30.05,
@@ -314,6 +301,7 @@ INSTANTIATE_TEST_SUITE_P(Golden, Claim,
                                                      29.17,
                                                      30.43,
                                                      9,
+                                                     3791,
                                                      29.27,
                                                      29.58,
                                                      29.46,
@@ -338,9 +326,9 @@ TEST(Golden, NaivePeaksInOtherPeriods) {
        {std::tuple{0, 610, 6095}, std::tuple{10, 112, 1124}, std::tuple{20, 62, 616}}) {
     ScheduleSpec spec = table1(points);
     spec.machine.period = 0.001;
-    EXPECT_EQ(naive_pulses(*prepare_cut(spec, {}), 4).peak, at_1ms);
+    EXPECT_EQ(comparison(*prepare_cut(spec, {})).naive.axes[4].peak, at_1ms);
     spec.machine.period = 0.010;
-    EXPECT_EQ(naive_pulses(*prepare_cut(spec, {}), 4).peak, at_10ms);
+    EXPECT_EQ(comparison(*prepare_cut(spec, {})).naive.axes[4].peak, at_10ms);
   }
 }
 
@@ -350,7 +338,7 @@ TEST(Golden, OtherSignOfSigma) {
        {std::tuple{0, 5043}, std::tuple{10, 993}, std::tuple{20, 549}}) {
     ScheduleSpec spec = table1(points);
     spec.machine.b_positive = BPositive::outer_edge_into_part;
-    EXPECT_EQ(naive_pulses(*prepare_cut(spec, {}), 1).peak, peak);
+    EXPECT_EQ(comparison(*prepare_cut(spec, {})).naive.axes[1].peak, peak);
   }
 }
 

@@ -136,7 +136,42 @@ export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Wa
     });
   }
   if (way) charts.unshift(tipChart(shared, request, way, times, rowsOf((result['report'] as Row)['slow'])));
+  const naive = (result['comparison'] as Row | undefined)?.['naive'] as Row | undefined;
+  if (naive) charts.push(beforeChart(shared, naive, machine, axes, times));
   return [...charts, {...shared, id: 'positions', title: 'Pulses since the start', series: each((pulses) => summed(pulses, periods)), height: 150}];
+}
+
+/** The cut without a plan: the most that any segment asks for, of those that a stretch of time holds. */
+function beforeChart(
+  shared: Omit<Chart, 'id' | 'title' | 'series' | 'height'>,
+  naive: Row,
+  machine: Row | undefined,
+  axes: string[],
+  {period, periods}: Times,
+): Chart {
+  const ends = column(naive['end_s']);
+  const step = ((periods[1] ?? 1) - (periods[0] ?? 0)) * period;
+  const most = (pulses: number[]) => {
+    let k = 0;
+    return periods.map((from) => {
+      while (k < ends.length && (ends[k] as number) <= from * period) ++k;
+      let found = 0;
+      for (let i = k; i < ends.length && (i === 0 || (ends[i - 1] as number) < from * period + step); ++i) found = Math.max(found, pulses[i] as number);
+      return found;
+    });
+  };
+  const limits = new Set(axes.flatMap((axis) => (machine ? [Number(axisOf(machine, axis)['n_max'] ?? 0)] : [])).filter((value) => value > 0));
+  return {
+    ...shared,
+    id: 'before',
+    title: 'Before: pulses per period at constant speed',
+    marks: [],
+    series: rowsOf(naive['axes'])
+      .filter(({name}) => axes.includes(String(name)))
+      .map(({name, pulses}, i) => ({name: String(name), tone: tones[i % tones.length] as string, values: most(column(pulses))})),
+    limits: [...limits].map((y) => ({y, text: 'what a period can hold'})),
+    height: 210,
+  };
 }
 
 const summed = (pulses: number[], periods: number[]) => {
@@ -256,6 +291,8 @@ export function motionFacts({result}: Answer, way?: Way): Told {
   const {period, periods} = timesOf(result);
   const counts = result['counts'] as Row;
   const speeds = way ? tipSpeeds(way, period) : [];
+  const naive = (result['comparison'] as Row | undefined)?.['naive'] as Row | undefined;
+  const unplanned = ['peak_pulses', 'periods_over', 'largest_step_pulses', 'step_in_16_bits'];
   return {
     figures: figures(report, names, 'report'),
     said: `${measured('time_s', Number(report['time_s']))} for ${measured('length_mm', Number(report['length_mm']))} of cut; ${limiting(use)}.`,
@@ -265,6 +302,15 @@ export function motionFacts({result}: Answer, way?: Way): Told {
         head: ['axis', ...Object.values(what)],
         rows: axes.map((axis) => [axis, ...Object.keys(what).map((key) => withUnit(100 * (use[`${key}_${axis}`] ?? 0), '%'))]),
       },
+      ...(naive
+        ? [
+            {
+              title: 'Before: every segment at the speed asked',
+              head: ['axis', ...unplanned.map((key) => term(key))],
+              rows: rowsOf(naive['axes']).map((axis): (Term | string)[] => [String(axis['name']), ...unplanned.map((key) => String(axis[key] ?? '–'))]),
+            },
+          ]
+        : []),
       {
         title: 'Events',
         head: [term('period'), 'time s', term('what')],
