@@ -31,7 +31,7 @@ namespace tubecut::api {
     "pair of members nearer than their radii of which neither cuts the other; not foreseen") \
   X(path, 5e-3, "pulse schedule")                                                            \
   X(path_knot, 32e-6, "0.1 mm of a schedule's path that bends or whose bevel changes")       \
-  X(straight_knot, 8e-6, "0.1 mm of a schedule's path straight round its tube")              \
+  X(straight_knot, 5e-6, "0.1 mm of a schedule's path straight round its tube")              \
   X(contour_point, 100e-6, "point of a contour")                                             \
   X(axis_row, 10e-6, "row of axis columns")                                                  \
   X(period, 1.5e-6, "period of a schedule, or of a replay")                                  \
