@@ -34,5 +34,8 @@ await shoot('console-refused-dark', '#/bevel-tables/table-1-torch-45-deg?view=be
   await answered(page, 2);
 });
 await shoot('console-phone', '#/holes/set-in-branch', {width: 390, height: 844}, walkTo('bevel-0', 9));
+await shoot('console-frame', '#/frames/roll-cage-of-12', {width: 1280, height: 960}, async (page) => page.locator('#items [role=option]', {hasText: 'diagonal'}).first().click());
+await shoot('console-part', '#/parts/table-1-with-a-square-far-end', {width: 1280, height: 960});
+await shoot('console-pulses', '#/pulse-schedules/source-000-table-1-before-and-after', {width: 1280, height: 1180});
 await browser.close();
 await service.stop();
