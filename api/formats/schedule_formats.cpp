@@ -70,6 +70,14 @@ Chart naive_chart(const motion::ScheduleSpec& spec, const motion::Naive& naive) 
   return out;
 }
 
+/// The same, a row a segment.
+Columns naive_columns(const motion::Naive& naive) {
+  Columns out;
+  out.column("naive_end_s", std::vector(naive.time.begin() + 1, naive.time.end()));
+  for (const auto& axis : naive.axes) out.column("naive_" + axis.name + "_pulses", axis.pulses);
+  return out;
+}
+
 }  // namespace
 
 std::string schedule_csv(const motion::Schedule& schedule, const Caption& caption) {
@@ -79,7 +87,10 @@ std::string schedule_csv(const motion::Schedule& schedule, const Caption& captio
   columns.integers("period", period);
   for (const auto& axis : schedule.axes)
     if (!axis.idle()) columns.integers(axis.name + "_pulses", axis.counts);
-  return Csv(caption).table(columns).print();
+  Csv csv(caption);
+  csv.table(columns);
+  if (schedule.comparison) csv.table(naive_columns(schedule.comparison->naive));
+  return csv.print();
 }
 
 std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedule& s,

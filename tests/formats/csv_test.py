@@ -38,8 +38,10 @@ def label_of(endpoint, result, path):
     return None
 
 
-def names_of(path):
+def names_of(path, result):
     """What the column may be called: its own name, or with that of the object it stands in."""
+    if axis := re.match(r"comparison\.naive\.axes\[(\d+)\]\.pulses$", path):
+        return (f"naive_{result['comparison']['naive']['axes'][int(axis[1])]['name']}_pulses",)
     *_, group, name = ["", *re.sub(r"\[\d+\]", "", path).split(".")]
     return (name + "_pulses",) if group == "counts" else (f"{group}_{name}", name)
 
@@ -82,7 +84,7 @@ class Csv(FormatTest):
                     if NO_COLUMNS.search(path):
                         continue
                     with self.subTest(f"{endpoint} {name} {path}"):
-                        column = next((n for n in names_of(path) if n in rows[0]), None)
+                        column = next((n for n in names_of(path, result) if n in rows[0]), None)
                         self.assertIsNotNone(column, "no such column in the CSV")
                         where = label_of(endpoint, result, path)
                         mine = [row[column] for row in rows if not where or row[where[0]] == where[1]]
