@@ -89,14 +89,18 @@ export class Console {
     byId('reset').addEventListener('click', () => this.open(this.state.endpoint, this.state.example));
     byId('share').addEventListener('click', () => void this.share());
     byId('forget').addEventListener('click', () => void this.forget());
-    addEventListener('hashchange', (event) => new URL(event.newURL).hash !== this.written && void this.arrive());
+    addEventListener('hashchange', ({newURL}) => {
+      const {hash} = new URL(newURL);
+      if (hash !== this.written) void this.arrive(hash);
+    });
     this.drawNavigation();
   }
 
-  async arrive(): Promise<void> {
+  /** Where the reader went: by the time this is heard of, the job before may have written its own address over it. */
+  async arrive(hash: string): Promise<void> {
     clearTimeout(this.writing);
-    const place = await address.read(location.hash);
-    if (!place && location.hash && this.job) return this.remember(); // a place in this page
+    const place = await address.read(hash);
+    if (!place && hash && this.job) return this.remember(); // a place in this page
     if (place && 'damage' in place) return this.lose(place.damage);
     const {endpoint, example, body, view} = place ?? {...firstJob, body: undefined, view: {} as Record<string, string>};
     if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`Nothing here is called "${endpoint}".`);

@@ -18,7 +18,7 @@ async function begin(started: (page: Console) => void): Promise<void> {
     ]);
     const page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes.tubes);
     started(page);
-    await page.arrive();
+    await page.arrive(location.hash);
   } catch (failure) {
     if (failure instanceof KeyNeeded) return askForKey(byId('verdict'), () => void begin(started));
     const why = failure instanceof Error ? failure.message : String(failure);

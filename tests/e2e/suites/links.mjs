@@ -57,6 +57,19 @@ export const checks = {
     await fresh.context().close();
   },
 
+  'a link is followed though the job before writes its address meanwhile': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    await then(page, () => page.evaluate((to) => {
+      const before = location.href;
+      location.hash = to;
+      history.replaceState(null, '', before);
+    }, '#/holes/through-brace'));
+    await page.waitForURL(/#\/holes\/through-brace/);
+    assert.equal(await page.locator('#endpoints [aria-current]').getAttribute('data-endpoint'), 'holes');
+    await page.context().close();
+  },
+
   'an answer that comes late is of no damaged link': async ({browser, origin}) => {
     const {page, hash} = await editedLink(browser, origin);
     let release;
