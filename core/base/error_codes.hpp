@@ -75,6 +75,8 @@
   X(torch_range, no_solution,                                                                      \
     "The bevel that keeps partners out of the wall is beyond the torch's range.",                  \
     "Use contact auto, a wider torch range, or another root surface.")                             \
+  X(edge_crosses, no_solution, "The edge of the hole would run through itself.",                   \
+    "Use tilt axial or none, another groove, or a smaller branch.")                                \
   X(cut_enters, no_solution, "With this bevel the cut enters a partner.",                          \
     "Use contact auto, another bevel, or root and contact inner.")                                 \
   X(sampling_not_uniform, no_solution, "The chosen smoothing needs uniform points.",               \

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/elementary.hpp"
@@ -11,6 +12,7 @@
 #include "core/bevel/hole_wall.hpp"
 #include "core/joint/length.hpp"
 #include "core/joint/placement.hpp"
+#include "core/math/polygon.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -20,6 +22,7 @@ using Eigen::Vector3d;
 constexpr int kCells = 36;  // before any deviation is measured: 10 deg
 constexpr int kProbes = 7;
 constexpr int kHalvings = 20;
+constexpr double kCrossed = 1e-9;               // of a hole's area, that rounding leaves
 constexpr double kShallow = 1e-9 * kRadPerDeg;  // rad; what counts as a groove lost
 
 double wrapped(double phi) { return phi - kTwoPi * std::floor(phi / kTwoPi); }
@@ -176,6 +179,49 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
                .hint = beyond_hint(spec.tilt)});
 }
 
+/// Of the wall from the bore (0) to the outside (1), rolled out.
+math::Polygon slice(const HoleSpec& spec, const WallLines& walls, const std::vector<Node>& nodes,
+                    double u) {
+  const double inside = spec.chord.inner_radius(), outside = spec.chord.outer_radius;
+  math::Polygon out;
+  for (const auto& [phase, w] : nodes) {
+    const double phi = (1.0 - u) * walls.phi(w.inner) + u * walls.phi(w.outer);
+    out.x.push_back(((1.0 - u) * inside + u * outside) * phi);
+    out.y.push_back((1.0 - u) * w.inner.z() + u * w.outer.z());
+  }
+  return out;
+}
+
+/// Where the wall's lines run together the other edge turns back over its own way: no cut leaves
+/// such a wall, with no kerf either.
+Result<void> check_edges(const HoleSpec& spec, const WallLines& walls,
+                         const std::vector<Node>& nodes, const std::stop_token& stop) {
+  const bool crosses = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double u) {
+    const auto polygon = slice(spec, walls, nodes, u);
+    return math::crossed_area(polygon, stop) > kCrossed * math::area(polygon);
+  });
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (!crosses) return {};
+  Intervals back;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto &a = nodes[i].line, &b = nodes[(i + 1) % nodes.size()].line;
+    if (!((b.outer - a.outer).dot(b.inner - a.inner) < 0.0)) continue;
+    const double from = nodes[i].phase * kDegPerRad;
+    const double to = i + 1 < nodes.size() ? nodes[i + 1].phase * kDegPerRad : 360.0;
+    if (!back.empty() && back.back().second == from)
+      back.back().second = to;
+    else
+      back.emplace_back(from, to);
+  }
+  return fail(
+      {.code = ErrorCode::edge_crosses,
+       .member = "branch",
+       .got = std::move(back),
+       .limit = "an edge that does not cross itself",
+       .unit = "deg",
+       .hint = "the wall's lines run together here before they are through the chord's wall"});
+}
+
 void note_lost(const HoleSpec& spec, const std::vector<Node>& nodes, std::vector<Warning>& out) {
   const bool on = spec.kind == JointKind::set_on;
   for (const auto& [from, to] : runs(nodes, [](const WallLine& w) { return w.lost > kShallow; })) {
@@ -273,6 +319,7 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   const WallLines walls(spec, branch, rho, root.cutters.front());
   TRY(auto nodes, sample(spec, walls, stop));
   TRY(check_lines(spec, nodes));
+  TRY(check_edges(spec, walls, nodes, stop));
   auto out = cleared(spec, walls, nodes, far, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   TRY(check_lines(spec, nodes));

@@ -124,4 +124,8 @@ double union_area(std::span<const Polygon> polygons, const Window& window,
   return sum;
 }
 
+double crossed_area(const Polygon& polygon, const std::stop_token& stop) {
+  return std::abs(union_area({&polygon, 1}, {}, stop) - area(polygon));
+}
+
 }  // namespace tubecut::math

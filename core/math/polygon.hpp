@@ -32,4 +32,10 @@ struct Window {
 [[nodiscard]] double union_area(std::span<const Polygon> polygons, const Window& window = {},
                                 const std::stop_token& stop = {});
 
+/// What a polygon encloses more than once, or the wrong way round; 0 of one that does not cross
+/// itself, but for rounding.
+///
+/// Cost      as union_area's.
+[[nodiscard]] double crossed_area(const Polygon& polygon, const std::stop_token& stop = {});
+
 }  // namespace tubecut::math

@@ -158,7 +158,7 @@ TEST(Hole, FiveHundredRandomPairsFitWithinAHundredth) {
         EXPECT_TRUE(hole(without));
       }
       EXPECT_TRUE(folds || code == ErrorCode::open_profile || code == ErrorCode::torch_range ||
-                  code == ErrorCode::no_contact)
+                  code == ErrorCode::no_contact || code == ErrorCode::edge_crosses)
           << info(code).code;
       continue;
     }
@@ -409,6 +409,76 @@ TEST(Hole, EveryDegenerateCaseHasItsName) {
                 },
                 JointKind::set_in),
             "ok");
+}
+
+/// Of a closed row of points, by every pair of its sides.
+bool crosses_itself(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto n = x.size();
+  const auto side = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return (x[j] - x[i]) * (y[k] - y[i]) - (x[k] - x[i]) * (y[j] - y[i]);
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      const auto a = (i + 1) % n, b = (j + 1) % n;
+      if (b == i) continue;
+      if (side(i, a, j) * side(i, a, b) < 0.0 && side(j, b, i) * side(j, b, a) < 0.0) return true;
+    }
+  return false;
+}
+
+TEST(Hole, NoEdgeCrossesItself) {
+  // A wide branch through a thick chord, the wall along the branch's surface: its lines run
+  // together beside the branch before they are outside.
+  HoleSpec wide{.chord = {.outer_radius = 90.0, .wall = 20.7},
+                .branch = joint::TubeCutter{.radius = 67.1,
+                                            .inclination = Angle::deg(111.0),
+                                            .clocking = Angle::deg(254.0)},
+                .branch_wall = 20.7,
+                .kind = JointKind::through,
+                .gap = 0.4,
+                .groove = NoGroove{},
+                .tilt = Tilt::free,
+                .torch = {.min = Angle::deg(-85), .max = Angle::deg(85)}};
+  wide.sampling.uniform_points = 360;
+  for (const double kerf : {0.0, 2.0}) {
+    wide.kerf = kerf;
+    const auto refused = hole(wide);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code(), ErrorCode::edge_crosses) << kerf;
+  }
+  std::mt19937_64 random(kSeed);
+  const auto drawn = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int answered = 0, refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    HoleSpec spec = wide;
+    spec.kerf = 0.0;
+    spec.chord.wall = drawn(4.0, 30.0);
+    spec.branch = joint::TubeCutter{.radius = drawn(30.0, 75.0),
+                                    .inclination = Angle::deg(drawn(60.0, 120.0)),
+                                    .offset = drawn(-9.0, 9.0)};
+    spec.branch_wall = 3.0;
+    spec.kind = i % 2 == 0 ? JointKind::set_in : JointKind::set_on;
+    if (i % 3 == 0) spec.groove = HalfDihedral{};
+    spec.tilt = i % 4 == 3 ? Tilt::axial : Tilt::free;
+    spec.sampling.uniform_points = 180;
+    const auto cut = hole(spec);
+    if (!cut) {
+      refused += cut.error().code() == ErrorCode::edge_crosses;
+      continue;
+    }
+    ++answered;
+    for (const auto& h : cut->holes) {
+      std::vector<double> inner(h.phi_inner);
+      for (auto& x : inner) x *= spec.chord.inner_radius();
+      EXPECT_FALSE(crosses_itself(h.developed, h.z)) << i;
+      EXPECT_FALSE(crosses_itself(inner, h.z_inner)) << i;
+    }
+  }
+  std::cout << answered << " answered, " << refused << " cross themselves\n";
+  EXPECT_GT(answered, 100);
+  EXPECT_GT(refused, 10);
 }
 
 TEST(Hole, TooFineASamplingIsRefusedAndACancelledCallToo) {
