@@ -7,6 +7,7 @@ namespace tubecut::api {
 namespace {
 
 constexpr int kDirectionDigits = 12;
+constexpr int kAngleDigits = 9;  // rad: 1e-6 mm at a radius of 1 m
 
 std::string triple(const Eigen::Vector3d& v, int digits) {
   return "(" + step_real(v.x(), digits) + "," + step_real(v.y(), digits) + "," +
@@ -47,6 +48,11 @@ StepEntities::Id StepEntities::shared(const std::string& entity) {
 
 StepEntities::Id StepEntities::point(const Eigen::Vector3d& p) {
   return shared("CARTESIAN_POINT(''," + triple(p, digits_) + ")");
+}
+
+StepEntities::Id StepEntities::point(const Eigen::Vector2d& p) {
+  return shared("CARTESIAN_POINT('',(" + step_real(p.x(), kAngleDigits) + "," +
+                step_real(p.y(), digits_) + "))");
 }
 
 StepEntities::Id StepEntities::direction(const Eigen::Vector3d& d) {

@@ -22,6 +22,8 @@ class StepEntities {
   /// The one there is that reads so, or a new one.
   Id shared(const std::string& entity);
   Id point(const Eigen::Vector3d& p);
+  /// (angle, height) on a cylinder.
+  Id point(const Eigen::Vector2d& p);
   Id direction(const Eigen::Vector3d& d);
   /// A frame with the world's z, and x turned by `phi` about it.
   Id placement(const Eigen::Vector3d& origin, double phi = 0.0);

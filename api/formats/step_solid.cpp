@@ -1,12 +1,15 @@
 #include "api/formats/step_solid.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "api/api.hpp"
 #include "api/formats/step_file.hpp"
 #include "api/stop.hpp"
 #include "api/verdict.hpp"
+#include "core/base/angle.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -16,18 +19,25 @@ using Id = StepEntities::Id;
 constexpr int kKnotDigits = 6;
 constexpr int kRadiusDigits = 9;
 constexpr double kThin = 3.0;  // mm
+/// mm: a cubic that is straight in (phi, z) is ahead of a line's parameter or behind it by at most
+/// 0.1 (angle^2 / 48) of its length; the line may stand for it up to this
+constexpr double kAhead = 1e-4;
+constexpr double kRounded = kSplineError / 3.0;  // mm
+constexpr double kInLine = 1e-7;                 // of a span's length, off its line
 
 /// A volume feels the mean of what is cut off, over the wall.
 int digits_for(double wall) { return wall < kThin ? 6 : 5; }
 
 std::string logical(bool value) { return value ? ".T." : ".F."; }
 
-/// Multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)".
-std::string knots(const WallSpline& spline, std::size_t from, std::size_t to) {
-  std::string counts = "(4", at = "(0.";
+/// Multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)"; degree 1
+/// where all joints are full.
+std::string knots(const WallSpline& spline, std::size_t from, std::size_t to, int degree = 3) {
+  const auto times = [](int count) { return std::to_string(count); };
+  std::string counts = "(" + times(degree + 1), at = "(0.";
   for (auto i = from + 1; i <= to; ++i) {
     const auto& joint = spline.joints[i];
-    counts += i == to ? ",4" : joint.full ? ",3" : ",2";
+    counts += "," + times(i == to ? degree + 1 : joint.full ? degree : degree - 1);
     at += "," + step_real(joint.u - spline.joints[from].u, kKnotDigits);
   }
   return counts + ")," + at + ")";
@@ -50,6 +60,10 @@ class Printer {
  private:
   Id style(const std::array<double, 3>& rgb);
   std::vector<Id> points(const TubeSolid::Piece& piece);
+  [[nodiscard]] bool has_corner(const TubeSolid::Piece& piece) const;
+  [[nodiscard]] bool polygonal(const TubeSolid::Piece& piece) const;
+  [[nodiscard]] std::vector<const TubeSolid::Cylinder*> cylinders() const;
+  Id on_cylinder(Id curve, const TubeSolid::Piece& piece, const TubeSolid::Cylinder& cylinder);
   Id curve(const TubeSolid::Edge& edge, const TubeSolid::Line&);
   Id curve(const TubeSolid::Edge& edge, const TubeSolid::Arc& arc);
   Id curve(const TubeSolid::Edge& edge, const TubeSolid::Piece& piece);
@@ -77,6 +91,87 @@ Id Printer::curve(const TubeSolid::Edge&, const TubeSolid::Piece& piece) {
   return entities_.add("B_SPLINE_CURVE_WITH_KNOTS('',3," + step_refs(points(piece)) +
                        ",.UNSPECIFIED.,.F.,.F.," +
                        knots(solid_.walls[piece.wall], piece.from, piece.to) + ",.UNSPECIFIED.)");
+}
+
+/// Whether a smooth curve through its joints would cut a corner within it by more than kRounded.
+bool Printer::has_corner(const TubeSolid::Piece& piece) const {
+  const auto& spline = solid_.walls[piece.wall];
+  const auto& points = spline.points[piece.edge];
+  for (auto i = piece.from + 1; i < piece.to; ++i) {
+    const auto& joint = spline.joints[i];
+    if (!joint.full) continue;
+    const auto c = joint.control;
+    const Eigen::Vector3d before = (points[c] - points[c - 1]).normalized();
+    const Eigen::Vector3d after = (points[c + 1] - points[c]).normalized();
+    const double span =
+        std::min(joint.u - spline.joints[i - 1].u, spline.joints[i + 1].u - joint.u);
+    if (before.cross(after).norm() * span > 8.0 * kRounded || before.dot(after) < 0.0) return true;
+  }
+  return false;
+}
+
+/// That each edge lies on; none where it is within a cut.
+std::vector<const TubeSolid::Cylinder*> Printer::cylinders() const {
+  std::vector<const TubeSolid::Cylinder*> out(solid_.edges.size(), nullptr);
+  for (const auto& face : solid_.faces) {
+    const auto* cylinder = std::get_if<TubeSolid::Cylinder>(&face.surface);
+    if (cylinder == nullptr) continue;
+    for (const auto& loop : face.loops)
+      for (const auto& use : loop) out[use.first] = cylinder;
+  }
+  return out;
+}
+
+/// Whether a piece is straight in (phi, z) from joint to joint, by its parameter too.
+bool Printer::polygonal(const TubeSolid::Piece& piece) const {
+  const auto& spline = solid_.walls[piece.wall];
+  const auto& flat = spline.flat[piece.edge];
+  const auto& points = spline.points[piece.edge];
+  for (auto i = piece.from; i < piece.to; ++i) {
+    const auto &a = spline.joints[i], &b = spline.joints[i + 1];
+    const double angle = flat[b.control].x() - flat[a.control].x();
+    const double length = (points[b.control] - points[a.control]).norm();
+    if (!b.full || angle * angle * length > 480.0 * kAhead) return false;
+    const Eigen::Vector2d along = flat[b.control] - flat[a.control];
+    for (const auto at : {a.control + 1, a.control + 2}) {
+      const Eigen::Vector2d d = flat[at] - flat[a.control];
+      if (std::abs(d.x() * along.y() - d.y() * along.x()) > kInLine * along.squaredNorm())
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Its corners are within it: readers that lay an edge on a cylinder for themselves make them
+/// round.
+/// With the cylinder's own (angle, height) of it beside it: readers that find those for themselves
+/// lay a smooth curve through its corners.
+Id Printer::on_cylinder(Id curve, const TubeSolid::Piece& piece,
+                        const TubeSolid::Cylinder& cylinder) {
+  const auto& spline = solid_.walls[piece.wall];
+  const auto& flat = spline.flat[piece.edge];
+  const bool lines = polygonal(piece);
+  const auto first = spline.joints[piece.from].control, last = spline.joints[piece.to].control;
+  const double middle = 0.5 * (flat[first].x() + flat[last].x()) - cylinder.begins;
+  const double begins = cylinder.begins + kTwoPi * std::floor(middle / kTwoPi);
+  std::vector<Id> points;
+  for (auto i = first; i <= last; i += lines ? 3 : 1) {
+    pace_.turn();
+    points.push_back(entities_.point(Eigen::Vector2d(flat[i].x() - begins, flat[i].y())));
+  }
+  const auto line =
+      entities_.add(std::string("B_SPLINE_CURVE_WITH_KNOTS('',") + (lines ? "1" : "3") + "," +
+                    step_refs(points) + ",.UNSPECIFIED.,.F.,.F.," +
+                    knots(spline, piece.from, piece.to, lines ? 1 : 3) + ",.UNSPECIFIED.)");
+  const auto context = entities_.shared(
+      "(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()"
+      "REPRESENTATION_CONTEXT('',''))");
+  const auto held = entities_.add("DEFINITIONAL_REPRESENTATION(''," + step_refs({line}) + "," +
+                                  step_ref(context) + ")");
+  const auto pcurve =
+      entities_.add("PCURVE(''," + step_ref(surface(cylinder)) + "," + step_ref(held) + ")");
+  return entities_.add("SURFACE_CURVE(''," + step_ref(curve) + "," + step_refs({pcurve}) +
+                       ",.CURVE_3D.)");
 }
 
 Id Printer::curve(const TubeSolid::Edge& edge, const TubeSolid::Line&) {
@@ -119,8 +214,13 @@ Id Printer::boundary() {
   std::vector<Id> vertices, edges, faces;
   for (const auto& p : solid_.vertices)
     vertices.push_back(entities_.add("VERTEX_POINT(''," + step_ref(entities_.point(p)) + ")"));
-  for (const auto& edge : solid_.edges) {
-    const auto along = std::visit([&](const auto& of) { return curve(edge, of); }, edge.curve);
+  const auto on = cylinders();
+  for (std::size_t i = 0; i < solid_.edges.size(); ++i) {
+    const auto& edge = solid_.edges[i];
+    auto along = std::visit([&](const auto& of) { return curve(edge, of); }, edge.curve);
+    const auto* piece = std::get_if<TubeSolid::Piece>(&edge.curve);
+    if (piece != nullptr && on[i] != nullptr && has_corner(*piece))
+      along = on_cylinder(along, *piece, *on[i]);
     edges.push_back(entities_.add("EDGE_CURVE(''," + step_ref(vertices[edge.from]) + "," +
                                   step_ref(vertices[edge.to]) + "," + step_ref(along) + ",.T.)"));
   }
@@ -135,9 +235,9 @@ Id Printer::boundary() {
       bounds.push_back(entities_.add((bounds.empty() ? "FACE_OUTER_BOUND(''," : "FACE_BOUND('',") +
                                      step_ref(all) + ",.T.)"));
     }
-    const auto on = std::visit([&](const auto& of) { return surface(of); }, face.surface);
+    const auto under = std::visit([&](const auto& of) { return surface(of); }, face.surface);
     faces.push_back(entities_.add("ADVANCED_FACE(" + step_string(face.name) + "," +
-                                  step_refs(bounds) + "," + step_ref(on) + "," +
+                                  step_refs(bounds) + "," + step_ref(under) + "," +
                                   logical(face.same) + ")"));
     if (face.cut) cut_faces_.push_back(faces.back());
   }

@@ -20,6 +20,9 @@ using Eigen::Vector3d;
 using Place = WallCurve::Place;
 
 constexpr double kApart = 3e-4;  // mm along a cut: nearer places are one
+/// A corner is a vertex of both edges where few rows are corners, some 0.6 kB; else it is within
+/// them, and the file has the edges on their cylinders too, some 0.1 kB a row.
+constexpr std::size_t kRowsPerCorner = 6;
 
 /// An edge used by a face.
 using Use = std::pair<std::size_t, bool>;
@@ -160,24 +163,36 @@ void part_across(const WallCurve& curve, std::vector<Station>& out) {
   }
 }
 
+/// The one there is at a place, or a new one.
+Station& station_at(const WallCurve& curve, const Place& place, bool across,
+                    std::vector<Station>& out) {
+  const double along = curve.along(place);
+  const auto known = std::ranges::find_if(out, [&](const Station& s) {
+    const double d = std::abs(s.along - along);
+    return std::min(d, curve.around() - d) <= kApart;
+  });
+  if (known != out.end()) return *known;
+  return out.emplace_back(place, along, std::vector<bool>(curve.edges(), across), across,
+                          decltype(Station::met){});
+}
+
 std::vector<Station> Builder::stations(const TubeCut& cut, const WallCurve& curve) const {
   std::vector<Station> out;
   const bool hole = cut.place == TubeCut::Place::hole;
   for (const std::size_t seam : {0U, 1U})
     for (const std::size_t k : {std::size_t{0}, curve.edges() - 1})
       for (const auto& place : curve.crossings(k, seams_[seam].phi)) {
-        const double along = curve.along(place);
-        auto known = std::ranges::find_if(out, [&](const Station& s) {
-          const double d = std::abs(s.along - along);
-          return std::min(d, curve.around() - d) <= kApart;
-        });
-        if (known == out.end())
-          known = out.insert(out.end(),
-                             {place, along, std::vector<bool>(curve.edges(), !hole), !hole, {}});
-        known->vertex[k] = true;
-        known->met.emplace_back(seam, k);
+        auto& station = station_at(curve, place, !hole, out);
+        station.vertex[k] = true;
+        station.met.emplace_back(seam, k);
       }
   if (hole) part_across(curve, out);
+  const auto corners = curve.corners();
+  if (corners.size() * kRowsPerCorner <= curve.rows())
+    for (const auto& corner : corners) {
+      auto& station = station_at(curve, corner, false, out);
+      station.vertex.front() = station.vertex.back() = true;
+    }
   std::ranges::sort(out, {}, &Station::along);
   // It begins where every edge has a vertex.
   std::ranges::rotate(out, std::ranges::find_if(out, &Station::across));

@@ -169,6 +169,13 @@ WallCurve::Node WallCurve::node(const Place& place) const {
 
 Vector2d WallCurve::at(std::size_t edge, const Place& place) const { return node(place).at[edge]; }
 
+std::vector<WallCurve::Place> WallCurve::corners() const {
+  std::vector<Place> out;
+  for (std::size_t i = 0; i < rows(); ++i)
+    if (corner_[i]) out.push_back({i, 0.0});
+  return out;
+}
+
 std::vector<WallCurve::Place> WallCurve::crossings(std::size_t edge, double phi) const {
   std::vector<Place> out;
   const auto& e = edges_[edge];

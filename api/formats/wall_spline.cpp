@@ -42,18 +42,28 @@ Vector3d slope(const std::array<Vector3d, 4>& c, double u) {
   return 3.0 * (v * v * (c[1] - c[0]) + 2.0 * u * v * (c[2] - c[1]) + u * u * (c[3] - c[2]));
 }
 
-/// The halves of a cubic.
-std::pair<std::array<Vector3d, 4>, std::array<Vector3d, 4>> halves(
-    const std::array<Vector3d, 4>& c) {
-  const Vector3d a = 0.5 * (c[0] + c[1]), b = 0.5 * (c[1] + c[2]), d = 0.5 * (c[2] + c[3]);
-  const Vector3d ab = 0.5 * (a + b), bd = 0.5 * (b + d), middle = 0.5 * (ab + bd);
-  return {{c[0], a, ab, middle}, {middle, bd, d, c[3]}};
+/// Both halves of a cubic behind what there is of each.
+template <typename Point>
+void halve(const std::array<Point, 4>& c, std::vector<std::array<Point, 4>>& low,
+           std::vector<std::array<Point, 4>>& high) {
+  const Point a = 0.5 * (c[0] + c[1]), b = 0.5 * (c[1] + c[2]), d = 0.5 * (c[2] + c[3]);
+  const Point ab = 0.5 * (a + b), bd = 0.5 * (b + d), middle = 0.5 * (ab + bd);
+  low.push_back({c[0], a, ab, middle});
+  high.push_back({middle, bd, d, c[3]});
+}
+
+/// The control points of a cubic behind the one it begins at; its end only where it counts as one.
+template <typename Point>
+void append(const std::array<Point, 4>& c, bool full, std::vector<Point>& out) {
+  out.insert(out.end(), {c[1], c[2]});
+  if (full) out.push_back(c[3]);
 }
 
 }  // namespace
 
 struct WallCurve::Span {
   std::vector<Bezier> curves;
+  std::vector<Flat> flats;
   double wide = 0.0;                   // of knots
   bool full = false, station = false;  // at its end
 };
@@ -66,6 +76,14 @@ WallCurve::Bezier WallCurve::cubic(std::size_t edge, const Node& from, const Nod
   const Vector3d first = on_wall(radius, a), last = on_wall(radius, b);
   return {first, first + reach * along_wall(radius, a.x(), from.beyond[edge]),
           last - reach * along_wall(radius, b.x(), to.before[edge]), last};
+}
+
+/// With the handles of the cubic in space, so that both reach a place at the same parameter.
+WallCurve::Flat WallCurve::flat_cubic(std::size_t edge, const Node& from, const Node& to) const {
+  const Vector2d a = from.at[edge] + Vector2d(from.turn * turn_, 0.0);
+  const Vector2d b = to.at[edge] + Vector2d(to.turn * turn_, 0.0);
+  const double reach = handle(b.x() - a.x()) * (to.along - from.along);
+  return {a, a + reach * from.beyond[edge], b - reach * to.before[edge], b};
 }
 
 bool WallCurve::near(const Bezier& curve, std::size_t edge, const Vector2d& point, double u) const {
@@ -125,9 +143,14 @@ std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
     ask(stop);
     const auto to = farthest(nodes, from);
     const auto &a = nodes[from], &b = nodes[to];
-    Span one{.curves = {}, .wide = 0.0, .full = b.corner || b.station, .station = b.station};
+    Span one{.curves = {},
+             .flats = {},
+             .wide = 0.0,
+             .full = b.corner || b.station,
+             .station = b.station};
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       one.curves.push_back(cubic(k, a, b));
+      one.flats.push_back(flat_cubic(k, a, b));
       const double dphi = b.at[k].x() - a.at[k].x() + (b.turn - a.turn) * turn_;
       one.wide = std::max(one.wide, 3.0 * handle(dphi) * (b.along - a.along));
     }
@@ -154,15 +177,12 @@ std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans,
         continue;
       }
       changed = true;
-      Span first{.curves = {}, .wide = 0.5 * spans[i].wide};
-      Span second{.curves = {}, .wide = 0.5 * spans[i].wide};
+      Span first{.curves = {}, .flats = {}, .wide = 0.5 * spans[i].wide};
+      Span second{.curves = {}, .flats = {}, .wide = 0.5 * spans[i].wide};
       second.full = spans[i].full;
       second.station = spans[i].station;
-      for (const auto& curve : spans[i].curves) {
-        const auto [low, high] = halves(curve);
-        first.curves.push_back(low);
-        second.curves.push_back(high);
-      }
+      for (const auto& curve : spans[i].curves) halve(curve, first.curves, second.curves);
+      for (const auto& flat : spans[i].flats) halve(flat, first.flats, second.flats);
       out.push_back(std::move(first));
       out.push_back(std::move(second));
     }
@@ -174,15 +194,15 @@ std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans,
 WallSpline WallCurve::spline(const std::vector<Place>& stations,
                              const std::stop_token& stop) const {
   const auto all = graded(spans(nodes(stations), stop), stop);
-  WallSpline out{.joints = {{}}, .points = {}, .stations = {0}};
+  WallSpline out{.joints = {{}}, .points = {}, .flat = {}, .stations = {0}};
   for (const auto& first : all.front().curves) out.points.push_back({first[0]});
+  for (const auto& first : all.front().flats) out.flat.push_back({first[0]});
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& one = all[i];
     const bool last = i + 1 == all.size();
     for (std::size_t k = 0; k < edges_.size(); ++k) {
-      const auto& curve = one.curves[k];
-      out.points[k].insert(out.points[k].end(), {curve[1], curve[2]});
-      if (one.full || last) out.points[k].push_back(curve[3]);
+      append(one.curves[k], one.full || last, out.points[k]);
+      append(one.flats[k], one.full || last, out.flat[k]);
     }
     out.joints.push_back({.u = out.joints.back().u + one.wide,
                           .full = one.full || last,

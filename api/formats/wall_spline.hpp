@@ -23,7 +23,8 @@ struct WallSpline {
   };
   std::vector<Joint> joints;                         // the last is the first again, a turn on
   std::vector<std::vector<Eigen::Vector3d>> points;  // of each edge, innermost first
-  std::vector<std::size_t> stations;                 // joint of each place that had to be one
+  std::vector<std::vector<Eigen::Vector2d>> flat;  // the same edges in (phi, z), by the same knots
+  std::vector<std::size_t> stations;               // joint of each place that had to be one
 };
 
 /// The edges of a cut wall as curves on their cylinders.
@@ -52,6 +53,8 @@ class WallCurve {
   /// How far along the rows, mm; `around()` in all.
   [[nodiscard]] double along(const Place& place) const;
   [[nodiscard]] double around() const { return around_; }
+  /// Where its edges have no one slope, ascending.
+  [[nodiscard]] std::vector<Place> corners() const;
   /// Where an edge crosses the generator phi, whatever the turn.
   [[nodiscard]] std::vector<Place> crossings(std::size_t edge, double phi) const;
 
@@ -76,7 +79,10 @@ class WallCurve {
   };
   /// From one knot to the next: a cubic of each edge.
   struct Span;
-  using Bezier = std::array<Eigen::Vector3d, 4>;
+  template <typename Point>
+  using Cubic = std::array<Point, 4>;
+  using Bezier = Cubic<Eigen::Vector3d>;
+  using Flat = Cubic<Eigen::Vector2d>;
 
   explicit WallCurve(const bevel::CutWall& wall);
   void find_corners();
@@ -86,6 +92,8 @@ class WallCurve {
   [[nodiscard]] Node node(const Place& place) const;
   [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations) const;
   [[nodiscard]] Bezier cubic(std::size_t edge, const Node& from, const Node& to) const;
+  /// The same in (phi, z): at every parameter the same place.
+  [[nodiscard]] Flat flat_cubic(std::size_t edge, const Node& from, const Node& to) const;
   [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from) const;
   [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes,
                                         const std::stop_token& stop) const;

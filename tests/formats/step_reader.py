@@ -261,7 +261,7 @@ class Solid:
                 if forward != ".T.":
                     raise Malformed("a bound against its loop")
                 loops.append([self.use(oriented) for oriented in file.get(loop, "EDGE_LOOP")[1]])
-            self.faces.append({"name": name, "loops": loops, "surface": self.surface(surface), "same": same == ".T."})
+            self.faces.append({"name": name, "loops": loops, "surface": self.surface(surface), "number": int(surface), "same": same == ".T."})
 
     def use(self, oriented):
         _, first, last, edge, forward = self.file.get(oriented, "ORIENTED_EDGE")
@@ -271,7 +271,8 @@ class Solid:
             _, start, end, curve, same = self.file.get(edge, "EDGE_CURVE")
             if same != ".T.":
                 raise Malformed("an edge against its curve")
-            self.edges[edge] = {"ends": (int(start), int(end)), "points": (self.vertex(start), self.vertex(end)), "curve": self.curve(curve)}
+            curve, flats = self.curve_and_flats(curve)
+            self.edges[edge] = {"ends": (int(start), int(end)), "points": (self.vertex(start), self.vertex(end)), "curve": curve, "flats": flats}
         return int(edge), forward == ".T."
 
     def triple(self, number, kind):
@@ -289,6 +290,39 @@ class Solid:
         if not (np.array_equal(self.triple(z, "DIRECTION"), (0, 0, 1)) and x[2] == 0.0 and abs(np.linalg.norm(x) - 1) < 1e-11):
             raise Malformed("a frame that is not about z")
         return self.triple(origin, "CARTESIAN_POINT")
+
+    def curve_and_flats(self, number):
+        """A curve, and what it is on surfaces: [(cylinder's number, where (angle, height) is on it, spline)]."""
+        if self.file.entities[number][0] != "SURFACE_CURVE":
+            return self.curve(number), []
+        _, curve, held, which = self.file.get(number, "SURFACE_CURVE")
+        if which != ".CURVE_3D.":
+            raise Malformed("a curve that is not first of all in space")
+        flats = []
+        for pcurve in held:
+            _, surface, definition = self.file.get(pcurve, "PCURVE")
+            (line,), context = self.file.get(definition, "DEFINITIONAL_REPRESENTATION")[1:]
+            if self.file.entities[context].keys() != {"GEOMETRIC_REPRESENTATION_CONTEXT", "PARAMETRIC_REPRESENTATION_CONTEXT", "REPRESENTATION_CONTEXT"} or \
+                    self.file.entities[context]["GEOMETRIC_REPRESENTATION_CONTEXT"] != [2]:
+                raise Malformed("a curve of two parameters elsewhere")
+            _, degree, points, _, _, _, counts, knots, _ = self.file.get(line, "B_SPLINE_CURVE_WITH_KNOTS")
+            at = Spline(degree, np.array([self.file.get(n, "CARTESIAN_POINT")[1] for n in points]), counts, knots)
+            flats.append((int(surface), self.place(surface), at))
+        return self.curve(curve), flats
+
+    def place(self, cylinder):
+        """Points at (angle, height) of a cylinder; none beyond a turn."""
+        _, frame, radius = self.file.get(cylinder, "CYLINDRICAL_SURFACE")
+        if np.any(self.frame(frame)):
+            raise Malformed("a cylinder that begins elsewhere")
+        x = self.triple(self.file.get(frame, "AXIS2_PLACEMENT_3D")[3], "DIRECTION")
+        begins = np.arctan2(x[1], x[0])
+
+        def on(at):
+            beyond = (at[:, :1] < 0) | (at[:, :1] > 2 * np.pi)
+            turn = begins + at[:, 0]
+            return np.where(beyond, np.inf, np.stack([radius * np.cos(turn), radius * np.sin(turn), at[:, 1]], axis=1))
+        return on
 
     def curve(self, number):
         kind, v = self.file.entities[number]
@@ -317,6 +351,7 @@ class Solid:
 PLACES, WEIGHTS = np.polynomial.legendre.leggauss(6)
 PLACES, WEIGHTS = (PLACES + 1) / 2, WEIGHTS / 2
 NEAR = 1e-3  # mm: an edge on both its faces
+FLAT_OFF = NEAR  # mm: an edge from what it is on its cylinder at the same parameter
 
 
 def curve_points(edge, forward=True):
@@ -372,6 +407,16 @@ def off_surface(surface, points):
     if kind == "plane":
         return np.abs(points[:, 2] - about[0][2])
     return nearest(about[0], points)
+
+
+def off_flat(edge, flat):
+    """A curve from what it is on a cylinder, at the same parameters, mm."""
+    _, place, spline = flat
+    whole = edge["curve"][1]
+    if not np.array_equal(spline.knots, whole.knots):
+        return np.inf
+    u = np.unique(np.append(whole.within((0, 0.25, 0.5, 0.75)), whole.knots[-1]))
+    return np.linalg.norm(place(spline.at(u)[0]) - whole.at(u)[0], axis=1).max()
 
 
 def signed_area(face, solid):
@@ -444,6 +489,12 @@ def faults(solid, genus):
             off = off_surface(solid.faces[face]["surface"], points).max()
             if not off <= NEAR:
                 out.append(f"edge {edge}: {off:.2g} mm off face {face}")
+        for flat in about["flats"]:
+            if flat[0] not in [solid.faces[face]["number"] for face, _ in uses[edge]]:
+                out.append(f"edge {edge}: a curve on a surface of neither face")
+            off = off_flat(about, flat)
+            if not off <= FLAT_OFF:
+                out.append(f"edge {edge}: {off:.2g} mm from what it is on its cylinder")
     loops = sum(len(face["loops"]) for face in solid.faces)
     vertices = {v for edge in solid.edges.values() for v in edge["ends"]}
     characteristic = len(vertices) - len(solid.edges) + 2 * len(solid.faces) - loops

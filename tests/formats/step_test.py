@@ -74,12 +74,22 @@ def length(phi_deg, z, radius):
     return float(np.hypot(radius * ((steps + math.pi) % (2 * math.pi) - math.pi), np.diff(rise)).sum())
 
 
+def meets_end(answer):
+    """A hole that reaches an end is refused, or lies beyond it and is no hole of the solid."""
+    return any(warning["code"] == "hole_meets_end" for warning in answer["warnings"])
+
+
 def least_cut_area(target, result):
     """Of all cut faces, each at least as wide as the wall, mm2."""
     radius = target["outer_diameter_mm"] / 2
     edges = [length(end["points"]["phi_deg"], end["points"]["z_outer_mm"], radius) for end in result["ends"].values()]
     edges += [length(hole["points"]["phi_deg"], hole["points"]["z_mm"], radius) for hole in result["holes"]]
     return sum(edges) * target["wall_mm"]
+
+
+def volume_off(target, result):
+    """What a file's volume may differ by, mm3."""
+    return VOLUME_OFF * result["lengths"]["volume_mm3"] + MEAN_OFF * least_cut_area(target, result)
 
 
 class Step(FormatTest):
@@ -99,12 +109,14 @@ class Step(FormatTest):
                 continue
             self.assertEqual(status, 200, content[:300])
             result = json.loads(answer)["result"]
+            if meets_end(json.loads(answer)):
+                continue
             with self.subTest(f"seed {seed}, part {read}: {json.dumps(body)}"):
                 solid = solid_of(content)
                 self.assertEqual(step_reader.faults(solid, 1 + len(result["holes"])), [])
                 volume = result["lengths"]["volume_mm3"]
                 off = abs(step_reader.volume(solid) - volume)
-                self.assertLess(off, VOLUME_OFF * volume + MEAN_OFF * least_cut_area(body["target"], result))
+                self.assertLess(off, volume_off(body["target"], result))
                 far = off_cut(solid, exact_points(r, body, result, 60))
                 self.assertLess(far, NEAR_CUT)
                 worst, farthest, holes = max(worst, off / volume), max(farthest, far), holes + len(result["holes"])
@@ -136,7 +148,7 @@ class Step(FormatTest):
             result = self.service.answer("bevel-tables", body)["result"]
             points = end_points(random.Random(7), result, body["target"], 0.0, 1000)
             # The tolerance holds the root's rows; the outer edge's lie further from what they stand for.
-            for view, near, size in (("straight", NEAR_CUT, 70_000), ("smooth", 5e-3, SMALL)):
+            for view, near, size in (("straight", NEAR_CUT, 110_000), ("smooth", 5e-3, SMALL)):
                 with self.subTest(f"{scale} {view}"):
                     content = self.service.text("bevel-tables", body, f"format=step&view={view}")
                     self.assertLess(len(content), size)

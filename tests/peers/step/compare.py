@@ -18,10 +18,6 @@ import step_test  # noqa: E402
 
 AT_ONCE = 50
 POINTS, OF_THEM_BY_READER = 1000, 4
-VOLUME_OFF = 1e-6
-# Open CASCADE lays curves of its own on the cylinders, smooth through a cut's corners: where rows are far apart they leave the edge by some
-# 0.01 mm, so that a volume is off by more, and seldom two of them cross. By the file's own edges volumes are nearer.
-MOST_INVALID, MOST_OFF = 0.01, 0.12  # of the parts
 NEAR_CUT = 2e-3  # mm
 
 
@@ -35,6 +31,8 @@ def answers(server, bodies, folder):
     found = {line["id"]: line for line in map(json.loads, ran.stdout.splitlines()) if "id" in line}
     for i, body in enumerate(bodies):
         one, other = found[f"{i} json"], found[f"{i} step"]
+        if one["status"] == 200 and step_test.meets_end(one["body"]):
+            continue
         if one["status"] == 200 and other["status"] == 200:
             yield body, one["body"]["result"], other["document"]
         elif one["status"] == 200 and b"step prints no such solid" not in json.dumps(other["body"]).encode():
@@ -44,7 +42,7 @@ def answers(server, bodies, folder):
 def main(server, reader, wanted="1000", seed=None):
     wanted, seed = int(wanted), int(seed or random.randrange(10**9))
     print(f"seed {seed}", flush=True)
-    r, read, holes, biggest, invalid, beyond = random.Random(seed), 0, 0, 0, 0, 0
+    r, read, holes, biggest, invalid, beyond, few = random.Random(seed), 0, 0, 0, 0, 0, 0
     worst = {"volume": 0.0, "volume by Open CASCADE": 0.0, "cut": 0.0, "cut by Open CASCADE": 0.0}
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place)
@@ -53,7 +51,10 @@ def main(server, reader, wanted="1000", seed=None):
             for i, (body, result, text) in enumerate(cases):
                 points = step_test.exact_points(r, body, result, POINTS // (2 + len(result["holes"])))
                 solid = step_test.solid_of(text.encode())
-                worst["cut"] = max(worst["cut"], step_test.off_cut(solid, points))
+                far = step_test.off_cut(solid, points)
+                if far > NEAR_CUT:
+                    print(f"the cut is {far:.2g} mm off: {json.dumps(body)}", flush=True)
+                worst["cut"] = max(worst["cut"], far)
                 worst["volume"] = max(worst["volume"], abs(step_reader.volume(solid) / result["lengths"]["volume_mm3"] - 1))
                 (folder / f"{i}.step").write_text(text)
                 some = points[r.sample(range(len(points)), OF_THEM_BY_READER)]
@@ -61,19 +62,22 @@ def main(server, reader, wanted="1000", seed=None):
             ran = subprocess.run([reader], input="".join(asked), capture_output=True, text=True, check=True)
             seen = [line.split() for line in ran.stdout.splitlines() if line.count(" ") == 5]
             for (body, result, text), (solids, shells, _, valid, volume, far) in zip(cases, seen, strict=True):
-                off = abs(float(volume) / result["lengths"]["volume_mm3"] - 1)
+                told = result["lengths"]["volume_mm3"]
+                off = abs(float(volume) / told - 1)
+                few += off > step_test.VOLUME_OFF
                 if (solids, shells, valid) != ("1", "1", "1"):
                     invalid += 1
                     print(f"{solids} solids, {shells} shells, valid {valid}, {len(text)} bytes: {json.dumps(body)}", flush=True)
-                beyond += not off <= VOLUME_OFF
+                beyond += not off <= step_test.volume_off(body["target"], result) / told
                 worst["volume by Open CASCADE"] = max(worst["volume by Open CASCADE"], off)
                 worst["cut by Open CASCADE"] = max(worst["cut by Open CASCADE"], float(far))
                 holes, biggest = holes + len(result["holes"]), max(biggest, len(text))
             read += len(cases)
-    print(f"{read} parts with {holes} holes, up to {biggest} bytes; to Open CASCADE {invalid} are not one valid solid, {beyond} off in volume; at worst " +
+    print(f"{read} parts with {holes} holes, up to {biggest} bytes; to Open CASCADE {invalid} are not one valid solid, {beyond} off in volume, " +
+          f"{few} by more than a millionth; at worst " +
           ", ".join(f"{name} {value:.2g}" for name, value in worst.items()))
-    good = invalid <= MOST_INVALID * read and beyond <= MOST_OFF * read
-    sys.exit(0 if good and worst["volume"] <= step_test.VOLUME_OFF and max(worst["cut"], worst["cut by Open CASCADE"]) <= NEAR_CUT else 1)
+    cut = max(worst["cut"], worst["cut by Open CASCADE"])
+    sys.exit(0 if invalid == beyond == 0 and few <= 0.01 * read and cut <= NEAR_CUT else 1)
 
 
 main(*sys.argv[1:])
