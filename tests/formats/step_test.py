@@ -11,7 +11,7 @@ import numpy as np
 import step_reader
 from service import FormatTest, examples, main
 
-PARTS = int(os.environ.get("TUBECUT_PARTS", "20"))  # 60 are two minutes
+PARTS = int(os.environ.get("TUBECUT_PARTS", "60"))
 NEAR_CUT = 2e-3   # mm from the exact cut
 VOLUME_OFF = 1e-6  # of the answer's, by the file's own edges and cut faces
 MEAN_OFF = 5e-4    # mm of the cut faces beside that: half of what a spline may leave the rows by; weighs in short thin tubes
@@ -211,7 +211,7 @@ class Step(FormatTest):
         curve = re.search(r"(=B_SPLINE_CURVE_WITH_KNOTS\('',3,\(#\d+,#\d+,#\d+,)#(\d+)", text)
         x, rest = re.search(rf"#{curve[2]}=CARTESIAN_POINT\('',\(([-\d.]+),(.*)\)\);", text).groups()
         moved = text[:curve.start()] + curve[1] + "#999999" + text[curve.end():]
-        moved = moved.replace("ENDSEC;\nEND-ISO", f"#999999=CARTESIAN_POINT('',({float(x) + 0.05:.6f},{rest}));\nENDSEC;\nEND-ISO")
+        moved = moved.replace("ENDSEC;\nEND-ISO", f"#999999=CARTESIAN_POINT('',({float(x) + 0.02:.6f},{rest}));\nENDSEC;\nEND-ISO")
         self.assertTrue(any("off face" in fault for fault in step_reader.faults(solid_of(moved.encode()), genus)))
 
         face = re.search(r"=ADVANCED_FACE\('[^']*',\([^)]*\),#\d+,(\.[TF]\.)\)", text)
