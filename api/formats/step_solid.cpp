@@ -33,11 +33,10 @@ std::string logical(bool value) { return value ? ".T." : ".F."; }
 /// Multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)"; degree 1
 /// where all joints are full.
 std::string knots(const WallSpline& spline, std::size_t from, std::size_t to, int degree = 3) {
-  const auto times = [](int count) { return std::to_string(count); };
-  std::string counts = "(" + times(degree + 1), at = "(0.";
+  std::string counts = "(" + std::to_string(degree + 1), at = "(0.";
   for (auto i = from + 1; i <= to; ++i) {
     const auto& joint = spline.joints[i];
-    counts += "," + times(i == to ? degree + 1 : joint.full ? degree : degree - 1);
+    counts += "," + std::to_string(i == to ? degree + 1 : joint.full ? degree : degree - 1);
     at += "," + step_real(joint.u - spline.joints[from].u, kKnotDigits);
   }
   return counts + ")," + at + ")";
@@ -142,8 +141,6 @@ bool Printer::polygonal(const TubeSolid::Piece& piece) const {
   return true;
 }
 
-/// Its corners are within it: readers that lay an edge on a cylinder for themselves make them
-/// round.
 /// With the cylinder's own (angle, height) of it beside it: readers that find those for themselves
 /// lay a smooth curve through its corners.
 Id Printer::on_cylinder(Id curve, const TubeSolid::Piece& piece,

@@ -9,6 +9,7 @@
 #include "core/base/try.hpp"
 #include "core/bevel/hole_end.hpp"
 #include "core/bevel/hole_fit.hpp"
+#include "core/bevel/hole_slice.hpp"
 #include "core/bevel/hole_wall.hpp"
 #include "core/joint/length.hpp"
 #include "core/joint/placement.hpp"
@@ -179,25 +180,12 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
                .hint = beyond_hint(spec.tilt)});
 }
 
-/// Of the wall from the bore (0) to the outside (1), rolled out.
-math::Polygon slice(const HoleSpec& spec, const WallLines& walls, const std::vector<Node>& nodes,
-                    double u) {
-  const double inside = spec.chord.inner_radius(), outside = spec.chord.outer_radius;
-  math::Polygon out;
-  for (const auto& [phase, w] : nodes) {
-    const double phi = (1.0 - u) * walls.phi(w.inner) + u * walls.phi(w.outer);
-    out.x.push_back(((1.0 - u) * inside + u * outside) * phi);
-    out.y.push_back((1.0 - u) * w.inner.z() + u * w.outer.z());
-  }
-  return out;
-}
-
 /// Where the wall's lines run together the other edge turns back over its own way: no cut leaves
 /// such a wall, with no kerf either.
-Result<void> check_edges(const HoleSpec& spec, const WallLines& walls,
-                         const std::vector<Node>& nodes, const std::stop_token& stop) {
+Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, const Hole& hole,
+                         const std::stop_token& stop) {
   const bool crosses = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double u) {
-    const auto polygon = slice(spec, walls, nodes, u);
+    const auto polygon = slice(spec.chord, hole, u);
     return math::crossed_area(polygon, stop) > kCrossed * math::area(polygon);
   });
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -319,7 +307,7 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   const WallLines walls(spec, branch, rho, root.cutters.front());
   TRY(auto nodes, sample(spec, walls, stop));
   TRY(check_lines(spec, nodes));
-  TRY(check_edges(spec, walls, nodes, stop));
+  TRY(check_edges(spec, nodes, tabulate(spec, walls, nodes, far), stop));
   auto out = cleared(spec, walls, nodes, far, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   TRY(check_lines(spec, nodes));

@@ -89,7 +89,8 @@ struct HoleCut {
 /// Frame     z along the chord, phi from x towards y. B > 0: the outer edge lies further towards
 ///           +z.
 /// Errors    open_profile (branch; phi intervals of the branch: it reaches beyond the chord's
-///           side), no_contact, parallel_axes, zero_length, out_of_range, torch_range,
+///           side), edge_crosses (branch; phi intervals of the branch: the wall's lines run
+///           together), no_contact, parallel_axes, zero_length, out_of_range, torch_range,
 ///           too_many_nodes, cancelled.
 /// Accuracy  the root's gap within 1e-9 mm of the asked one at the nodes, nowhere less across the
 ///           wall; between nodes, where both edges run straight in (phi, z), nowhere less than it

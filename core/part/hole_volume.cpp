@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/elementary.hpp"
+#include "core/bevel/hole_slice.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/quadrature.hpp"
 #include "core/part/place.hpp"
@@ -32,25 +32,6 @@ Box box_of(const bevel::Hole& hole) {
 
 double mixed(double inner, double outer, double u) { return inner + u * (outer - inner); }
 
-/// A hole's line on the cylinder between, developed to (phi, z), the share u of the way from the
-/// bore out: where the straight lines from edge to edge pass it.
-Polygon slice(const joint::Target& target, const bevel::Hole& hole, double u, double turn = 0.0) {
-  const double inner = target.inner_radius(), outer = target.outer_radius;
-  const double rho = mixed(inner, outer, u);
-  Polygon out;
-  for (std::size_t i = 0; i < hole.phi.size(); ++i) {
-    // Seen along the tube: from (inner, 0) by d, until rho away from the axis.
-    const auto swing = elementary::sincos(hole.phi[i] - hole.phi_inner[i]);
-    const Eigen::Vector2d d{outer * swing.cos - inner, outer * swing.sin};
-    const double half = inner * d.x(), square = d.squaredNorm();
-    const double root = half * half + square * (rho * rho - inner * inner);
-    const double s = (std::sqrt(std::max(0.0, root)) - half) / square;
-    out.x.push_back(turn + hole.phi_inner[i] + elementary::atan2(s * d.y(), inner + s * d.x()));
-    out.y.push_back(mixed(hole.z_inner[i], hole.z[i], s));
-  }
-  return out;
-}
-
 /// Holes near each other, by the boxes around their edges: each may meet another of its crowd, or,
 /// if one may, the cut of an end, and nothing else.
 struct Crowd {
@@ -62,7 +43,7 @@ struct Crowd {
 void add_turns(const joint::Target& target, const bevel::Hole& hole, double u,
                std::vector<Polygon>& to) {
   for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
-    auto polygon = slice(target, hole, u, turn);
+    auto polygon = bevel::slice(target, hole, u, turn);
     const auto [least, most] = std::ranges::minmax(polygon.x);
     if (most > 0.0 && least < kTwoPi) to.push_back(std::move(polygon));
   }
@@ -183,7 +164,7 @@ double holes_volume(const joint::Target& target, const Part& part, const std::st
       if (stop.stop_requested()) return 0.0;
       std::vector<Polygon> polygons;
       if (crowd.holes.size() == 1 && !crowd.at_end) {
-        sum += ring.weight * math::area(slice(target, *crowd.holes.front(), ring.u));
+        sum += ring.weight * math::area(bevel::slice(target, *crowd.holes.front(), ring.u));
         continue;
       }
       for (const auto* hole : crowd.holes) add_turns(target, *hole, ring.u, polygons);

@@ -364,6 +364,34 @@ TEST(Parts, AHoleBeyondAnEndIsRefusedAndOneOnItReviewed) {
   EXPECT_EQ(text(at_height(200.0, "set_on").body, "verdict/status"), "ok");
 }
 
+// A wide branch along whose surface the wall's lines run together within a thick chord.
+TEST(Parts, AnEdgeThatCrossesItselfIsRefusedAtItsBranchAndLeavesAFramesOtherParts) {
+  const auto refused = post(kPath, *api::parse(R"({
+    "target": {"outer_diameter_mm": 180, "wall_mm": 20.7, "length_mm": 1400},
+    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+    "holes": [{"branch": {"outer_diameter_mm": 134.2, "wall_mm": 20.7, "inclination_deg": 111,
+                          "height_mm": 700},
+               "joint": {"kind": "through", "gap_mm": 0.4}, "groove": {"rule": "none"},
+               "tilt": "free"}],
+    "kerf_mm": 0, "datum": "seam", "torch": {"min_deg": -85, "max_deg": 85},
+    "sampling": {"uniform_points": 90}})"));
+  EXPECT_EQ(text(refused.body, "code"), "edge_crosses") << refused.outcome.body.substr(0, 300);
+  EXPECT_EQ(text(refused.body, "errors/0/pointer"), "/holes/0/branch");
+  const auto frame = post("/v1/frames", *api::parse(R"({
+    "members": [{"id": "chord", "start_mm": [0, 0, -700], "end_mm": [0, 0, 700],
+                 "outer_diameter_mm": 180, "wall_mm": 20.7, "priority": 0, "up": [1, 0, 0]},
+                {"id": "brace", "start_mm": [0, 0, 0], "end_mm": [840, 0, -322],
+                 "outer_diameter_mm": 134.2, "wall_mm": 20, "priority": 1}],
+    "joints": [{"between": ["brace", "chord"], "kind": "set_in", "gap_mm": 0.4}],
+    "defaults": {"root_surface": "inner", "groove": {"rule": "none"},
+                 "smoothing": {"method": "none"}, "tilt": "free"},
+    "kerf_mm": 0, "torch": {"min_deg": -85, "max_deg": 85}, "sampling": {"uniform_points": 90}})"));
+  EXPECT_EQ(text(frame.body, "warnings/0/code"), "no_part") << frame.outcome.body.substr(0, 300);
+  EXPECT_NE(text(frame.body, "warnings/0/detail").find("edge_crosses at /holes/0/branch"),
+            std::string::npos);
+  EXPECT_EQ(text(frame.body, "result/cut_list/0/verdict"), "none");
+}
+
 TEST(Parts, WhatCannotBeCutNamesTheField) {
   const auto t = table_1();
   EXPECT_EQ(refusal(with(t, "target/length_mm", 80.0), "/target/length_mm"), "member_consumed");

@@ -55,7 +55,10 @@ def main(server, reader, wanted="1000", seed=None):
                 if far > NEAR_CUT:
                     print(f"the cut is {far:.2g} mm off: {json.dumps(body)}", flush=True)
                 worst["cut"] = max(worst["cut"], far)
-                worst["volume"] = max(worst["volume"], abs(step_reader.volume(solid) / result["lengths"]["volume_mm3"] - 1))
+                told = result["lengths"]["volume_mm3"]
+                own = abs(step_reader.volume(solid) - told)
+                beyond += not own <= step_test.volume_off(body["target"], result)
+                worst["volume"] = max(worst["volume"], own / told)
                 (folder / f"{i}.step").write_text(text)
                 some = points[r.sample(range(len(points)), OF_THEM_BY_READER)]
                 asked.append(f"{folder}/{i}.step {len(some)}\n" + "".join("%.9f %.9f %.9f\n" % tuple(p) for p in some))
