@@ -18,7 +18,9 @@ namespace tubecut::api {
   X(curve_point, 0.8e-6, "point of an intersection, on each wall")                           \
   X(curve_point_of_cutter, 0.06e-6, "point of an intersection, for each cutter")             \
   X(curve_cutter, 0.4e-3, "cutter of an intersection")                                       \
-  X(table, 6e-3, "bevel table")                                                              \
+  X(table, 5e-3, "bevel table")                                                              \
+  X(square_table, 1e-3, "bevel table of a plane square to its tube")                         \
+  X(square_table_point, 4e-6, "point of a bevel table of a plane square to its tube")        \
   X(table_with_kerf, 10e-3, "bevel table with a kerf")                                       \
   X(table_point, 28e-6, "point of a bevel table")                                            \
   X(table_point_of_cutter, 0.4e-6, "point of a bevel table, for each cutter")                \

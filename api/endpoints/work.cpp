@@ -120,8 +120,20 @@ double beam_pairs(double points, double kerf, double radius) {
   return points * points * std::min(1.0, kerf / (kTwoPi * radius));
 }
 
+/// Its bevel is 0 all round and nothing is to be smoothed.
+bool is_square(const bevel::TableSpec& spec) {
+  if (spec.partners.size() != 1) return false;
+  const auto* const plane = std::get_if<joint::PlaneCutter>(&spec.partners.front());
+  return plane != nullptr && plane->normal.x() == 0.0 && plane->normal.y() == 0.0;
+}
+
 void add_table(const bevel::TableSpec& spec, double radius, double cutters, Work& work) {
   const double points = points_of(spec.sampling, radius);
+  if (is_square(spec)) {
+    work.add(Cost::square_table);
+    work.add(Cost::square_table_point, points);
+    return;
+  }
   work.add(Cost::table);
   work.add(Cost::table_point, points);
   work.add(Cost::table_point_of_cutter, points * cutters);

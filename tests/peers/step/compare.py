@@ -68,6 +68,8 @@ def main(server, reader, wanted="1000", seed=None):
                 told = result["lengths"]["volume_mm3"]
                 off = abs(float(volume) / told - 1)
                 few += off > step_test.VOLUME_OFF
+                if off > step_test.VOLUME_OFF:
+                    print(f"volume off by {off:.2g}, {float(volume) - told:.3g} mm3: {json.dumps(body)}", flush=True)
                 if (solids, shells, valid) != ("1", "1", "1"):
                     invalid += 1
                     print(f"{solids} solids, {shells} shells, valid {valid}, {len(text)} bytes: {json.dumps(body)}", flush=True)
