@@ -207,30 +207,6 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut) {
   return out;
 }
 
-/// Rows but those at which the torch stands where it stood before: at a jump of the finished edge
-/// it waits below both.
-std::vector<std::size_t> distinct_rows(const motion::CutPath& c) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < c.phi.size(); ++i)
-    if (i == 0 || c.phi[i] != c.phi[i - 1] || c.z[i] != c.z[i - 1] || c.b[i] != c.b[i - 1])
-      out.push_back(i);
-  return out;
-}
-
-void keep_distinct_rows(motion::CutPath& c) {
-  const auto rows = distinct_rows(c);
-  if (rows.size() == c.phi.size()) return;
-  std::vector<bool> corner(rows.size(), false);  // a row left out hands its corner on
-  for (std::size_t i = 0, k = 0; i < c.corner.size(); ++i) {
-    while (k + 1 < rows.size() && rows[k + 1] <= i) ++k;
-    if (c.corner[i]) corner[k] = true;
-  }
-  c.corner = std::move(corner);
-  for (auto* column : {&c.phi, &c.z, &c.b, &c.beam})
-    for (std::size_t k = 0; k < rows.size(); ++k) (*column)[k] = (*column)[rows[k]];
-  for (auto* column : {&c.phi, &c.z, &c.b, &c.beam}) column->resize(rows.size());
-}
-
 /// The torch line of a table on its root surface, a corner at each event that is a node.
 motion::CutPath contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
   const bool outer = spec.root_surface == bevel::RootSurface::outer;
@@ -243,8 +219,7 @@ motion::CutPath contour_of(const bevel::TableSpec& spec, const bevel::Table& tab
   out.wall = spec.target.wall;
   out.surface = outer ? Surface::outer : Surface::inner;
   out.corner = corners(spec, table);
-  keep_distinct_rows(out);
-  return out;
+  return motion::without_repeats(std::move(out));
 }
 
 /// The mill's emitted positions, closed after one turn of C. A machine counts C on, not modulo a

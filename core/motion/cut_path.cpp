@@ -33,6 +33,7 @@ Result<void> check_columns(const CutPath& c) {
   if (c.b.size() != n) return wrong("b", c.b.size());
   if (!c.corner.empty() && c.corner.size() != n) return wrong("corner", c.corner.size());
   if (!c.beam.empty() && c.beam.size() != n) return wrong("beam", c.beam.size());
+  if (!c.a.empty() && c.a.size() != n) return wrong("a", c.a.size());
   if (!(c.outer_radius > 0.0 && c.outer_radius < kMostLength)) {
     return fail({.code = ErrorCode::bad_number, .member = "contour/outer_radius"});
   }
@@ -61,6 +62,9 @@ Result<void> check_numbers(const CutPath& c) {
       return fail(
           {ErrorCode::angle_out_of_range, member("b", i), c.b[i] * kDegPerRad, 85.0, "deg", {}});
     }
+    if (!c.a.empty() && !(std::abs(c.a[i]) < 0.5 * kPi)) {
+      return fail({.code = ErrorCode::bad_number, .member = member("a", i)});
+    }
     if (!c.beam.empty() && !(c.beam[i] >= 0.0 && c.beam[i] <= kMostLength)) {
       return fail({.code = ErrorCode::bad_number, .member = member("beam", i)});
     }
@@ -72,7 +76,9 @@ std::vector<CutPoint> rows(const CutPath& c) {
   std::vector<CutPoint> points(c.phi.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double beam = c.beam.empty() ? c.wall / elementary::cos(c.b[i]) : c.beam[i];
-    points[i] = {c.phi[i], c.z[i], c.b[i], !c.corner.empty() && c.corner[i], beam};
+    points[i] = {c.phi[i], c.z[i],
+                 c.b[i],   !c.corner.empty() && c.corner[i],
+                 beam,     c.a.empty() ? 0.0 : c.a[i]};
   }
   return points;
 }
@@ -163,12 +169,12 @@ Result<void> check_turns(const Track& t) {
 }
 
 constexpr double kSamePhi = 1e-9;          // rad; nearer than this a point is the asked one
-constexpr double kFromJunction = 5.0;      // mm an automatic start keeps from a corner, if it can
 constexpr double kCornerCos = 0.93969262;  // cos 20 deg: beyond it two steps make a corner
 
 CutPoint between(const CutPoint& a, const CutPoint& b, double share) {
   const auto mix = [share](double from, double to) { return from + share * (to - from); };
-  return {mix(a.phi, b.phi), mix(a.z, b.z), mix(a.b, b.b), false, mix(a.beam, b.beam)};
+  return {mix(a.phi, b.phi),   mix(a.z, b.z), mix(a.b, b.b), false,
+          mix(a.beam, b.beam), mix(a.a, b.a)};
 }
 
 /// Makes point `first` of a closed track its start.
@@ -234,15 +240,25 @@ std::vector<double> from_corner(const Track& t) {
   return distance;
 }
 
-/// Least |B| among the points well away from corners; without such, the point farthest from them.
-std::size_t automatic_start(const Track& t) {
-  const std::vector<double> distance = from_corner(t);
+/// Between the beam and the wall's normal.
+double tilt(const CutPoint& p) {
+  if (p.a == 0.0) return std::abs(p.b);
+  return elementary::atan(elementary::hypot(elementary::tan(p.a), elementary::tan(p.b)));
+}
+
+/// Least tilt among the points well away from corners; without such, the point farthest from them.
+std::size_t automatic_start(const Track& t, const std::optional<Angle>& seam) {
+  std::vector<double> distance = from_corner(t);
+  for (std::size_t i = 0; seam && i < distance.size(); ++i) {
+    const double turned = std::remainder(t.points[i].phi - seam->rad(), kTwoPi);
+    distance[i] = std::min(distance[i], t.radius * std::abs(turned));
+  }
   std::size_t best = 0;
   const auto better = [&](std::size_t a, std::size_t b) {
     const bool a_clear = distance[a] >= kFromJunction, b_clear = distance[b] >= kFromJunction;
     if (a_clear != b_clear) return a_clear;
     if (!a_clear) return distance[a] > distance[b];
-    return std::abs(t.points[a].b) < std::abs(t.points[b].b);
+    return tilt(t.points[a]) < tilt(t.points[b]);
   };
   for (std::size_t i = 1; i < distance.size(); ++i) {
     if (better(i, best)) best = i;
@@ -261,7 +277,7 @@ Result<Track> started(Track t, const Start& start) {
   if (!t.closed) {
     return fail({.code = ErrorCode::unsupported_combination, .member = "motion/start"});
   }
-  if (start.at == Start::At::automatic) return rotated(t, automatic_start(t));
+  if (start.at == Start::At::automatic) return rotated(t, automatic_start(t, start.seam));
   const auto first = at_phi(t, start.phi.rad());
   if (!first) {
     return fail({ErrorCode::out_of_range,
@@ -311,6 +327,26 @@ CutPath as_machine_counts(CutPath cut_path, BPositive b_positive) {
     for (double& b : cut_path.b) b = -b;
   }
   return cut_path;
+}
+
+CutPath without_repeats(CutPath c) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < c.phi.size(); ++i)
+    if (i == 0 || c.phi[i] != c.phi[i - 1] || c.z[i] != c.z[i - 1] || c.b[i] != c.b[i - 1])
+      rows.push_back(i);
+  if (rows.size() == c.phi.size()) return c;
+  std::vector<bool> corner(c.corner.empty() ? 0 : rows.size(), false);
+  for (std::size_t i = 0, k = 0; i < c.corner.size(); ++i) {
+    while (k + 1 < rows.size() && rows[k + 1] <= i) ++k;
+    if (c.corner[i]) corner[k] = true;
+  }
+  c.corner = std::move(corner);
+  for (auto* column : {&c.phi, &c.z, &c.b, &c.a, &c.beam}) {
+    if (column->empty()) continue;
+    for (std::size_t k = 0; k < rows.size(); ++k) (*column)[k] = (*column)[rows[k]];
+    column->resize(rows.size());
+  }
+  return c;
 }
 
 std::vector<CutPoint> first_stretch(const Track& t, double length) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/angle.hpp"
@@ -24,6 +25,7 @@ struct CutPath {
   std::vector<double> phi = {};
   std::vector<double> z = {};
   std::vector<double> b = {};
+  std::vector<double> a = {};     // the beam's tilt across, towards growing phi; empty: none
   std::vector<bool> corner = {};  // empty, or one per point
   std::vector<double> beam = {};  // metal along the beam, mm; empty: wall / cos b
   double outer_radius = 0.0;
@@ -46,7 +48,11 @@ struct Start {
   enum class At : std::uint8_t { first_point, phi, automatic };
   At at = At::first_point;
   Angle phi = {};
+  std::optional<Angle> seam = {};  // an automatic start keeps off it as off a corner
 };
+
+/// What an automatic start keeps from corners and the seam, mm, where the contour has room.
+inline constexpr double kFromJunction = 5.0;
 
 enum class Direction : std::uint8_t { as_given, ccw, cw };
 
@@ -64,6 +70,7 @@ struct CutPoint {
   double b = 0.0;
   bool corner = false;
   double beam = 0.0;
+  double a = 0.0;
 };
 
 /// A cut path as a row of points, closed ones with their first point repeated at the end, one turn
@@ -87,6 +94,10 @@ struct Track {
 ///         out_of_range.
 /// Source  docs/theory/pulse-schedules.md, section 2.1.
 [[nodiscard]] Result<Track> track(const CutPath& cut_path);
+
+/// The path without the points at which the torch stands where it stood before, as at a jump of
+/// the finished edge; their corners go to the point before.
+[[nodiscard]] CutPath without_repeats(CutPath path);
 
 /// The track in the asked direction and from the asked start point.
 ///

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/motion/border.hpp"
 #include "core/motion/cut_path.hpp"
 
 namespace tubecut::motion {
@@ -42,32 +43,6 @@ enum class LeadBevel { held, followed };
 [[nodiscard]] CutWithLead with_lead(const Track& cut, const Lead& lead, Scrap scrap,
                                     LeadBevel bevel = LeadBevel::held);
 
-/// The finished part's border and the side of it that falls away.
-struct PartBorder {
-  Track cut = {};  // the whole contour, whatever stretch of it is cut, smooth between its points
-  Scrap scrap = Scrap::minus_z;
-  double outer_radius = 0.0;
-  double inner_radius = 0.0;
-  double sigma = -1.0;             // of the machine that counts the B of `cut`
-  double sag = 0.0;                // mm, largest distance of the contour's chords to `cut`
-  std::vector<double> tan_b = {};  // of each point of `cut`
-  double from_phi = 0.0;           // a point is seen from the turn that begins here
-};
-
-/// The border of the part that `cut_path` cuts out: between its points lie points of the smooth
-/// curve through them, so that chords leave the curve by no more than a few micrometres. Corners
-/// stay: flagged, or turning by more than 20 deg. Its tangents are those of the leads.
-///
-/// Errors  those of `track`.
-/// Source  docs/theory/pulse-schedules.md, section 2.3.
-[[nodiscard]] Result<PartBorder> part_border(const CutPath& cut_path, double sigma);
-
-/// How far, in mm, the beam at a point reaches into the finished part, over both wall surfaces and
-/// their middle. Negative: how far it stays away. Zero on the cut itself. Half the kerf is in the
-/// torch line already.
-[[nodiscard]] double intrusion(const PartBorder& part, const CutPoint& point,
-                               const std::stop_token& stop = {});
-
 /// How far a lead may reach behind the border, mm: kLeadTouch and the contour's sag, this no more
 /// than the tolerance of the motion.
 [[nodiscard]] double lead_touch(const PartBorder& border, double eps_tip);
@@ -77,5 +52,13 @@ struct PartBorder {
 /// Errors  lead_blocked (with phi), cancelled.
 [[nodiscard]] Result<void> check_clear(const CutWithLead& cut, const PartBorder& part,
                                        double eps_tip, const std::stop_token& stop);
+
+/// The cut with its leads, clear of the part: with the bevel of the join where that is, else with
+/// what the cut has beside it.
+///
+/// Errors  lead_blocked (with phi), cancelled.
+[[nodiscard]] Result<CutWithLead> clear_lead(const PartBorder& border, const Track& cut,
+                                             const Lead& lead, double eps_tip,
+                                             const std::stop_token& stop);
 
 }  // namespace tubecut::motion

@@ -50,15 +50,7 @@ Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
   }
   const auto border = part_border(cut_path, spec.machine.sigma());
   if (!border) return tl::unexpected<Error>(border.error());
-  const auto lead = [&](LeadBevel bevel) {
-    CutWithLead out = with_lead(*cut, *spec.motion.lead, cut_path.scrap, bevel);
-    const auto ok = check_clear(out, *border, spec.motion.eps_tip, stop);
-    return ok ? Result<CutWithLead>(std::move(out)) : tl::unexpected<Error>(ok.error());
-  };
-  auto whole_way = lead(LeadBevel::held);
-  if (!whole_way && whole_way.error().code() == ErrorCode::lead_blocked) {
-    if (auto followed = lead(LeadBevel::followed)) whole_way = std::move(followed);
-  }
+  const auto whole_way = clear_lead(*border, *cut, *spec.motion.lead, spec.motion.eps_tip, stop);
   if (!whole_way) return tl::unexpected<Error>(whole_way.error());
   Program out = from_points(whole_way->points, cut->radius);
   out.cut_first = whole_way->cut_first;

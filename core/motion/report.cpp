@@ -7,6 +7,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
+#include "core/motion/border.hpp"
 #include "core/motion/plan.hpp"
 #include "core/motion/schedule.hpp"
 
@@ -15,18 +16,6 @@ namespace {
 
 constexpr std::size_t kPerKnot = 4;
 constexpr double kNear = 1.0;  // mm of generalised length either way: points of a corner cut off
-
-/// A point of one wall, developed.
-struct Flat {
-  double s = 0.0, z = 0.0;
-};
-
-double distance(Flat p, Flat a, Flat b) {
-  const double s = b.s - a.s, z = b.z - a.z, square = s * s + z * z;
-  const double along = square > 0.0 ? ((p.s - a.s) * s + (p.z - a.z) * z) / square : 0.0;
-  const double share = std::clamp(along, 0.0, 1.0);
-  return elementary::hypot(p.s - a.s - share * s, p.z - a.z - share * z);
-}
 
 /// The beam's traces on both walls.
 class Walls {
