@@ -33,11 +33,17 @@ struct FormatOptions {
   bool torch = false;                          // the program lights the torch; else it only moves
   std::vector<std::string> acknowledged = {};  // codes of warnings of a `review` that is cut
   Dialect dialect = Dialect::linuxcnc;
-  bool axial_z = false;                     // the axis along the tube is Z, not X
-  std::optional<double> speed = {};         // mm/min, of the torch on the outer wall
-  double lead = 0.0;                        // straight run-in and run-out on the scrap side
+  bool axial_z = false;                // the axis along the tube is Z, not X
+  std::optional<double> speed = {};    // mm/min, of the torch on the outer wall
+  double lead = 0.0;                   // radius of the arcs that run in and out on the scrap side
+  std::optional<double> overcut = {};  // of the cut again, before the run-out
+  std::optional<double> start = {};    // phi that each cut begins at, deg
+  std::optional<double> pierce_bevel = {};  // largest |B| at the pierce, deg
   std::optional<double> pivot_length = {};  // torch pivot to tip; empty: the control knows the tip
-  std::vector<BundleFile> files = {};       // of each part, in a bundle
+  std::optional<double> pierce_height = {}, cut_height = {};  // of the tip off the wall
+  std::optional<double> pierce_delay = {};                    // s
+  std::optional<double> clearance = {};  // of the tip over the tube between two cuts
+  std::vector<BundleFile> files = {};    // of each part, in a bundle
 };
 
 /// What is to be thought of an answer; verdict.hpp makes it and says it.

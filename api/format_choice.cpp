@@ -1,6 +1,7 @@
 #include "api/format_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -72,6 +73,49 @@ FormatName as_asked(FormatName format, const Query& query) {
   return format;
 }
 
+/// What a program along torch lines needs and has not, or has and cannot use.
+std::vector<FieldIssue> program_issues(const std::string& format, const FormatOptions& o) {
+  struct Rule {
+    std::string_view name, unit;
+    bool given, wanted, fits;
+    std::string_view why;
+  };
+  const bool plasmac = o.dialect == Dialect::qtplasmac;
+  const bool lit = o.torch, by_us = lit && !plasmac;
+  const bool has_lead = o.lead > 0.0, has_pivot = o.pivot_length.has_value();
+  constexpr std::string_view kLit = "a program that lights the torch needs it";
+  constexpr std::string_view kPlasmac = "QtPlasmaC has it in its material file";
+  constexpr std::string_view kOfLead = "goes with lead_mm";
+  const std::string_view height = plasmac ? kPlasmac : "goes with pivot_length_mm";
+  const bool heights = !plasmac && (has_pivot || lit);
+  const std::array rules{
+      Rule{"speed_mm_min", "mm_min", o.speed.has_value(), true, true,
+           "needs the torch's speed on the outer wall"},
+      Rule{"lead_mm", "mm", has_lead, lit, true,
+           "a pierce on the finished edge scraps it; above 0"},
+      Rule{"pivot_length_mm", "mm", has_pivot, by_us, true,
+           "the tip's height is in the program where the torch is lit"},
+      Rule{"pierce_height_mm", "mm", o.pierce_height.has_value(), by_us, heights,
+           by_us ? kLit : height},
+      Rule{"pierce_delay_s", "s", o.pierce_delay.has_value(), by_us, !plasmac,
+           plasmac ? kPlasmac : kLit},
+      Rule{"cut_height_mm", "mm", o.cut_height.has_value(), by_us, heights, by_us ? kLit : height},
+      Rule{"clearance_mm", "mm", o.clearance.has_value(), false, has_pivot,
+           "goes with pivot_length_mm"},
+      Rule{"overcut_mm", "mm", o.overcut.has_value(), false, has_lead, kOfLead},
+      Rule{"pierce_b_deg", "deg", o.pierce_bevel.has_value(), false, has_lead, kOfLead}};
+  std::vector<FieldIssue> out;
+  for (const auto& rule : rules) {
+    const bool missing = rule.wanted && !rule.given;
+    if (!missing && (!rule.given || rule.fits)) continue;
+    out.push_back({.code = missing ? ErrorCode::missing_field : ErrorCode::unsupported_combination,
+                   .pointer = "?" + std::string(rule.name),
+                   .unit = std::string(rule.unit),
+                   .hint = format + ": " + std::string(rule.why)});
+  }
+  return out;
+}
+
 /// Why the answer cannot be printed as asked; nothing when it can. JSON and CBOR have no options.
 std::optional<Problem> format_problem(const Query& query, const FormatName* chosen) {
   const auto format = chosen != nullptr ? as_asked(*chosen, query)
@@ -94,11 +138,8 @@ std::optional<Problem> format_problem(const Query& query, const FormatName* chos
                            .limit = Json{listed(format.views)},
                            .hint = "views of " + name + " offered: " + listed(format.views)}},
                          ErrorCode::not_acceptable);
-  if (format.needs_speed && !query.options.speed)
-    return query_problem({{.code = ErrorCode::missing_field,
-                           .pointer = "?speed_mm_min",
-                           .unit = "mm_min",
-                           .hint = name + " needs the torch's speed on the outer wall"}});
+  if (format.needs_speed) issues = program_issues(name, query.options);
+  if (!issues.empty()) return query_problem(std::move(issues));
   return std::nullopt;
 }
 

@@ -15,7 +15,13 @@ constexpr std::array kSwitch{Option<bool>{"on", true}, Option<bool>{"off", false
 constexpr std::array kAxial{Option<bool>{"x", false}, Option<bool>{"z", true}};
 constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};        // mm/min
 constexpr Range kLead{.min = 0.0, .max = 1'000.0};          // mm
+constexpr Range kOvercut{.min = 0.0, .max = 1'000.0};       // mm
+constexpr Range kStart{.min = -360.0, .max = 360.0};        // deg
+constexpr Range kPierceBevel{.min = 0.0, .max = 85.0};      // deg
 constexpr Range kPivotLength{.min = 0.0, .max = 10'000.0};  // mm
+constexpr Range kTipHeight{.min = 0.0, .max = 100.0};       // mm
+constexpr Range kPierceDelay{.min = 0.0, .max = 60.0};      // s
+constexpr Range kClearance{.min = 1.0, .max = 1'000.0};     // mm
 
 std::optional<int> hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -142,7 +148,14 @@ FormatOptions read_options(Reader& in) {
   out.axial_z = in.choice("axial", kAxial, false);
   out.speed = in.optional_number("speed_mm_min", kSpeed);
   out.lead = in.number("lead_mm", kLead, 0.0);
+  out.overcut = in.optional_number("overcut_mm", kOvercut);
+  out.start = in.optional_number("start_deg", kStart);
+  out.pierce_bevel = in.optional_number("pierce_b_deg", kPierceBevel);
   out.pivot_length = in.optional_number("pivot_length_mm", kPivotLength);
+  out.pierce_height = in.optional_number("pierce_height_mm", kTipHeight);
+  out.pierce_delay = in.optional_number("pierce_delay_s", kPierceDelay);
+  out.cut_height = in.optional_number("cut_height_mm", kTipHeight);
+  out.clearance = in.optional_number("clearance_mm", kClearance);
   out.files = read_files(in);
   return out;
 }

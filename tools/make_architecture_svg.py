@@ -23,6 +23,7 @@ HOLDS = {
     "core/part": ("a whole member: ends,", "holes, marks, order"),
     "core/frame": ("a whole frame:", "each joint once, its parts"),
     "core/motion": ("from a cut to pulses:", "path, plan, schedule, replay"),
+    "core/torch": ("the torch round each cut:", "start, leads, pierce"),
     "core/cutoff": ("rotary cut-off:", "the feed curve"),
     "core/groove": ("equal-area groove", "and its mill path"),
 }

@@ -95,13 +95,8 @@ std::string_view name_of_b_sign(const bevel::Table& table) {
 }
 
 std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& table) {
-  std::vector<bool> out(table.phi.size(), false);
-  if (!spec.sampling.tolerance) return out;
-  for (const auto* events : {&table.inner_events, &table.outer_events})
-    for (const auto& event : *events)
-      for (std::size_t i = 0; i < out.size(); ++i)
-        if (table.phi[i] == event.phi) out[i] = true;
-  return out;
+  if (!spec.sampling.tolerance) return std::vector<bool>(table.phi.size(), false);
+  return torch::corner_rows(table);
 }
 
 std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& table,

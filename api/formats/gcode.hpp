@@ -1,35 +1,19 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "api/format.hpp"
-#include "core/bevel/table.hpp"
-#include "core/part/part.hpp"
+#include "core/torch/torch_cut.hpp"
 
 namespace tubecut::api {
-
-/// The torch's way round one cut: its axis on the outer wall. mm and rad; B > 0: the outer edge
-/// lies further towards +z.
-struct TorchPath {
-  std::string name;               // empty: the only one
-  std::vector<double> phi, z, b;  // an end from the seam to the seam one turn on; a hole closed
-  std::vector<double> a = {};     // the torch's tilt across, towards growing phi; empty: none
-  // Where the scrap is from the first point, on the developed surface, and how far it reaches.
-  Eigen::Vector2d scrap{0.0, -1.0};
-  double room = std::numeric_limits<double>::infinity();
-  double kerf = 0.0;  // it stands off the finished edge by half of it
-};
-[[nodiscard]] TorchPath torch_path(const bevel::TableSpec& spec, const bevel::Table& table);
 
 /// What a program cuts, one cut after the other.
 struct TorchJob {
   double outer_radius = 0.0;
   double wall = 0.0;
-  std::vector<TorchPath> cuts = {};
+  std::vector<torch::TorchCut> cuts = {};
   std::vector<std::string> remarks = {};  // comment lines of the header
 };
 [[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table);
@@ -49,16 +33,18 @@ struct TorchWords {
 };
 [[nodiscard]] TorchWords torch_words(Dialect dialect);
 
-/// The cut as RS-274 for LinuxCNC: A turns the tube by phi, X (or Z) goes along it, B swings the
+/// The cuts as RS-274 for LinuxCNC: A turns the tube by phi, X (or Z) goes along it, B swings the
 /// torch; a G1 to each node and to as many places between as keep tip and both edges within 0.02 mm
 /// of straight lines in (phi, z), in inverse time (G93) so that the torch keeps its speed on the
 /// outer wall through every mix of axes. Speed is one parameter at the top.
 ///
-/// With a pivot length the linear axes are the pivot's, and the one square to the tube moves too;
-/// without, the control must know the tip. The torch is lit only by the option `torch`, for each
-/// cut anew; with a pivot length it is lifted between them. Where a hole's torch tilts across, C is
+/// Each cut: retract, turn, approach; pierce height, torch, delay; cutting height; lead-in, cut,
+/// overcut, lead-out; torch out, retract. With a pivot length the linear axes are the pivot's, and
+/// the one square to the tube moves too; without, the control must know the tip and move its
+/// height. The torch is lit only by the option `torch`. Where a hole's torch tilts across, C is
 /// that tilt and, with a pivot length, Y the pivot's way across.
 ///
+/// Errors    throws UnfitOption: lead_mm, start_deg, where a cut has no room or place for them.
 /// Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
 [[nodiscard]] std::string print_gcode(const TorchJob& job, const Caption& caption);
 

@@ -877,7 +877,8 @@ class Program(Case):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("?dialect: bad_choice one of linuxcnc|qtplasmac", done.stderr)
         self.assertEqual(self.run_program(*gcode[:3], "--option", "speed_mm_min=600").returncode, 2)
-        given = {"speed_mm_min": "600", "dialect": "linuxcnc", "torch": "on", "axial": "z", "lead_mm": "3", "pivot_length_mm": "200"}
+        given = {"speed_mm_min": "600", "dialect": "linuxcnc", "torch": "on", "axial": "z", "lead_mm": "3", "pivot_length_mm": "200",
+                 "pierce_height_mm": "4", "pierce_delay_s": "0.5", "cut_height_mm": "1.5"}
         done = self.run_program(*gcode, *(word for name in given for word in ("--option", f"{name}={given[name]}")))
         self.assertEqual(done.returncode, 0, done.stderr)
         body = example("bevel-tables/source-000-table-1.json")

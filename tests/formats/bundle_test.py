@@ -124,7 +124,7 @@ class Bundles(FormatTest):
         self.assertEqual(said["D1"]["left_out"], [])
 
     def test_only_what_may_be_cut_is_lit(self):
-        rejected = self.archive(frame("D1") | {"accept": {"max_b_deg": 0.5}}, "&files=gcode,nc1&speed_mm_min=600&torch=on")
+        rejected = self.archive(frame("D1") | {"accept": {"max_b_deg": 0.5}}, "&files=gcode,nc1&speed_mm_min=600&torch=on&dialect=qtplasmac&lead_mm=2")
         for part in self.manifest(rejected)["parts"]:
             if part["verdict"] == "reject":
                 self.assertEqual([(out["format"], out["code"]) for out in part["left_out"]], [("gcode", "rejected")])
@@ -144,7 +144,7 @@ class Bundles(FormatTest):
         body = frame("D1")
         for query, pointer in (("&files=gcode", "?speed_mm_min"), ("&files=nc1&speed_mm_min=600", "?speed_mm_min"), ("&files=nc1,nc1", "?files"),
                                ("&files=", "?files"), ("&files=nc1,pdf", "?files"), ("&dialect=linuxcnc", "?dialect"), ("&view=x", "?view"),
-                               ("&files=gcode&speed_mm_min=600&torch=on&acknowledge=free_cut", "?acknowledge")):
+                               ("&files=gcode&speed_mm_min=600&torch=on&dialect=qtplasmac&lead_mm=2&acknowledge=free_cut", "?acknowledge")):
             status, media, content = self.service.ask("frames", body, "format=zip" + query)
             self.assertGreaterEqual(status, 400, query)
             self.assertEqual(media, "application/problem+json")

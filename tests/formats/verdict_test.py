@@ -19,6 +19,11 @@ SVG = "{http://www.w3.org/2000/svg}"
 SPEED = "speed_mm_min=600"
 
 
+def lit(endpoint):
+    """The query of a program that lights the torch: a schedule's has its leads in the request."""
+    return "format=gcode&torch=on&dialect=qtplasmac" + ("" if endpoint == "pulse-schedules" else f"&lead_mm=2&{SPEED}")
+
+
 def csv_head(content):
     lines = content.decode("ascii").split("\r\n")
     head = [line for line in lines if line.startswith("#")]
@@ -206,7 +211,7 @@ class Verdict(FormatTest):
             codes = ",".join(sorted({w["code"] for w in cut_warnings(answer)}))
             speed = f"&{SPEED}" if endpoint != "pulse-schedules" else ""
             for more in ("", f"&acknowledge={codes}" if codes else ""):
-                status, _, content = self.service.ask(endpoint, body, f"format=gcode&torch=on{speed}{more}")
+                status, _, content = self.service.ask(endpoint, body, f"{lit(endpoint)}{more}")
                 problem = json.loads(content)
                 self.assertEqual((status, problem["code"]), (422, "rejected"))
                 self.assertIn(answer["verdict"]["reasons"][-1], problem["detail"])
@@ -221,7 +226,7 @@ class Verdict(FormatTest):
             body = examples(endpoint)[name] if name else swinging_schedule()
             codes = sorted({w["code"] for w in cut_warnings(self.service.answer(endpoint, body))})
             self.assertTrue(codes)
-            lit = "format=gcode&torch=on" + (f"&{SPEED}" if endpoint == "bevel-tables" else "")
+            light = lit(endpoint)
 
             def refused(query):
                 status, _, content = self.service.ask(endpoint, body, query)
@@ -231,26 +236,26 @@ class Verdict(FormatTest):
                     self.assertIn("acknowledge=" + problem["errors"][0]["limit"], problem["errors"][0]["hint"])
                 return status, problem["code"], problem["detail"]
 
-            status, code, detail = refused(lit)
+            status, code, detail = refused(light)
             self.assertEqual((status, code), (422, "not_acknowledged"))
             for one in codes:
                 self.assertIn(one, detail)
-            status, code, detail = refused(f"{lit}&acknowledge={','.join(codes)},free_end,made_up")
+            status, code, detail = refused(f"{light}&acknowledge={','.join(codes)},free_end,made_up")
             self.assertEqual((status, code), (422, "not_acknowledged"))
             self.assertIn("free_end, made_up", detail)
             for one in codes:
                 self.assertNotIn(one, detail)
-            for wrong in (f"{lit}&acknowledge=", f"{lit}&acknowledge=a,,b", f"{lit.replace('torch=on', 'torch=off')}&acknowledge={codes[0]}"):
+            for wrong in (f"{light}&acknowledge=", f"{light}&acknowledge=a,,b", f"{light.replace('torch=on', 'torch=off')}&acknowledge={codes[0]}"):
                 self.assertEqual(refused(wrong)[:2], (400, "bad_request"))
             for comma in (",", "%2C"):
-                program = self.service.text(endpoint, body, f"{lit}&acknowledge={comma.join(codes)}").decode()
+                program = self.service.text(endpoint, body, f"{light}&acknowledge={comma.join(codes)}").decode()
                 self.assertIn("(THIS PROGRAM LIGHTS THE TORCH)", program)
                 self.assertTrue(re.search(r"^M3 ", program, re.M))
 
     def test_nothing_to_review_needs_no_acknowledgement_and_takes_none(self):
         body = examples("bevel-tables")["source-002-offset-pair"]
-        self.assertIn(b"LIGHTS", self.service.text("bevel-tables", body, f"format=gcode&torch=on&{SPEED}"))
-        status, _, content = self.service.ask("bevel-tables", body, f"format=gcode&torch=on&{SPEED}&acknowledge=free_end")
+        self.assertIn(b"LIGHTS", self.service.text("bevel-tables", body, lit("bevel-tables")))
+        status, _, content = self.service.ask("bevel-tables", body, lit("bevel-tables") + "&acknowledge=free_end")
         self.assertEqual((status, json.loads(content)["code"]), (422, "not_acknowledged"))
 
     def test_what_is_for_comparison_drives_no_machine(self):
@@ -258,7 +263,7 @@ class Verdict(FormatTest):
             body = {**examples("bevel-tables")["source-000-table-1-as-published"], "dihedral": dihedral}
             answer = self.service.answer("bevel-tables", body)
             self.assertIn("comparison_only", answer["verdict"]["reasons"])
-            for query in (f"format=gcode&{SPEED}", f"format=gcode&{SPEED}&torch=on&acknowledge=comparison_only", "format=nc1"):
+            for query in (f"format=gcode&{SPEED}", lit("bevel-tables") + "&acknowledge=comparison_only", "format=nc1"):
                 status, _, content = self.service.ask("bevel-tables", body, query)
                 self.assertEqual((status, json.loads(content)["code"]), (422, "comparison_only"), query)
             drawn = squeezed(READERS["image/vnd.dxf"](self.service.text("bevel-tables", body, "format=dxf")))

@@ -1,0 +1,155 @@
+#include "core/torch/torch_cut.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+
+namespace tubecut::torch {
+namespace {
+
+constexpr double kSigma = -1.0;    // of TorchCut's B, see motion::PartBorder
+constexpr double kTouching = 0.1;  // mm, most of the chords' sag that a lead may touch the part by
+
+motion::CutPath on_tube(const joint::Target& tube, motion::Scrap scrap) {
+  return {.outer_radius = tube.outer_radius,
+          .wall = tube.wall,
+          .surface = motion::Surface::outer,
+          .closed = true,
+          .scrap = scrap};
+}
+
+/// A point at phi = 0, on the straight lines that both edges run in across it: tan B is straight
+/// there.
+void begin_at_seam(motion::CutPath& path) {
+  if (path.phi.empty() || !(path.phi.front() > 0.0)) return;
+  const double ahead = path.phi.front() + kTwoPi - path.phi.back();
+  const double share = ahead > 0.0 ? path.phi.front() / ahead : 0.0;
+  const double first = elementary::tan(path.b.front()), last = elementary::tan(path.b.back());
+  path.phi.insert(path.phi.begin(), 0.0);
+  path.z.insert(path.z.begin(), path.z.front() + share * (path.z.back() - path.z.front()));
+  path.b.insert(path.b.begin(), elementary::atan(first + share * (last - first)));
+  path.corner.insert(path.corner.begin(), false);
+}
+
+TorchCut end_cut(const bevel::TableSpec& spec, const bevel::Table& table, motion::Scrap scrap) {
+  TorchCut out{
+      .path = on_tube(spec.target, scrap), .kerf = spec.kerf, .counted_inward = table.inward};
+  out.path.phi = table.phi;
+  out.path.z = table.torch_outer;
+  out.path.b = table.b;
+  out.path.corner = corner_rows(table);
+  begin_at_seam(out.path);
+  return out;
+}
+
+TorchCut hole_cut(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::string name) {
+  TorchCut out{.name = std::move(name),
+               .path = on_tube(spec.chord, motion::Scrap::inside),
+               .kerf = spec.kerf};
+  out.path.phi = hole.torch_phi;
+  out.path.z = hole.torch_z;
+  out.path.b = hole.b;
+  if (std::ranges::any_of(hole.a, [](double a) { return a != 0.0; })) out.path.a = hole.a;
+  for (auto* column : {&out.path.phi, &out.path.z, &out.path.b, &out.path.a})
+    if (!column->empty()) column->push_back(column->front());
+  return out;
+}
+
+/// The points as they stand, from the first to the first again.
+motion::CutWithLead once_round(const motion::CutPath& path) {
+  motion::CutWithLead out;
+  for (std::size_t i = 0; i < path.phi.size(); ++i)
+    out.points.push_back({.phi = path.phi[i],
+                          .z = path.z[i],
+                          .b = path.b[i],
+                          .a = path.a.empty() ? 0.0 : path.a[i]});
+  const double turn = path.scrap == motion::Scrap::inside ? 0.0 : kTwoPi;
+  if (path.phi.back() != path.phi.front() + turn) {
+    out.points.push_back(out.points.front());
+    out.points.back().phi += turn;
+  }
+  out.cut_last = out.points.size() - 1;
+  return out;
+}
+
+/// The cut with these leads, or nothing where they or the pierce come too near the part.
+Result<std::optional<motion::CutWithLead>> lead_and_pierce(const motion::PartBorder& border,
+                                                           const motion::Track& from,
+                                                           const motion::Lead& lead,
+                                                           const std::stop_token& stop) {
+  using Found = std::optional<motion::CutWithLead>;
+  auto way = motion::clear_lead(border, from, lead, kTouching, stop);
+  if (!way && way.error().code() == ErrorCode::lead_blocked) return Found{};
+  if (!way) return tl::unexpected<Error>(way.error());
+  const double off = -motion::intrusion(border, way->points.front(), stop);
+  return off < kPierceOff * lead.radius ? Found{} : Found{*std::move(way)};
+}
+
+}  // namespace
+
+std::vector<bool> corner_rows(const bevel::Table& table) {
+  std::vector<bool> out(table.phi.size(), false);
+  for (const auto* events : {&table.inner_events, &table.outer_events})
+    for (const auto& event : *events)
+      for (std::size_t i = 0; i < out.size(); ++i)
+        if (table.phi[i] == event.phi) out[i] = true;
+  return out;
+}
+
+TorchCut torch_cut(const bevel::TableSpec& spec, const bevel::Table& table) {
+  return end_cut(spec, table, motion::Scrap::minus_z);
+}
+
+std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& part) {
+  using What = part::Step::What;
+  std::vector<TorchCut> out;
+  for (const auto& step : part.sequence) {
+    if (step.what == What::hole) {
+      const auto& hole = part.holes[step.index];
+      const auto& branch = spec.holes[hole.asked].name;
+      out.push_back(hole_cut(
+          spec.holes[hole.asked].hole, hole.hole,
+          "hole " + std::to_string(step.index) + (branch.empty() ? "" : " for " + branch)));
+    } else if (step.what != What::mark) {
+      const bool finish = step.what == What::finish;
+      const auto& end = finish ? part.finish : part.start;
+      out.push_back(
+          end_cut(end.spec, end.table, finish ? motion::Scrap::plus_z : motion::Scrap::minus_z));
+      out.back().name = finish ? "finish" : "start";
+    }
+  }
+  return out;
+}
+
+Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
+                           const std::stop_token& stop) {
+  const bool as_given = approach.start.at == motion::Start::At::first_point;
+  if (!approach.lead && as_given) return TorchWay{once_round(cut.path), 0.0};
+  const auto path = motion::without_repeats(cut.path);
+  TRY(auto whole, motion::track(path));
+  TRY(const auto from,
+      motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
+  if (!approach.lead) return TorchWay{{from.points, 0, from.points.size() - 1}, 0.0};
+  if (cut.counted_inward)
+    return fail({.code = ErrorCode::unsupported_combination,
+                 .member = "lead",
+                 .hint = "B is counted inward, as published, for comparison"});
+  TRY(const auto border, motion::part_border(path, kSigma));
+  auto lead = *approach.lead;
+  while (true) {
+    TRY(auto way, lead_and_pierce(border, from, lead, stop));
+    if (way) return TorchWay{*std::move(way), lead.radius};
+    lead.radius /= 2.0;
+    if (lead.radius < kShortestLead)
+      return fail({.code = ErrorCode::lead_blocked,
+                   .member = "lead",
+                   .got = lead.radius,
+                   .limit = kShortestLead,
+                   .unit = "mm"});
+  }
+}
+
+}  // namespace tubecut::torch

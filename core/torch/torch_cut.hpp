@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/bevel/table.hpp"
+#include "core/motion/lead.hpp"
+#include "core/part/part.hpp"
+
+namespace tubecut::torch {
+
+/// One cut as the torch goes round it: its axis on the outer wall, mm and rad.
+///
+/// Frame   that of the table or part it is of; B > 0: the outer edge lies further towards +z.
+struct TorchCut {
+  std::string name = {};        // empty: the only one
+  motion::CutPath path = {};    // closed, an end from the seam at phi = 0 on; a hole's ends meet
+  double kerf = 0.0;            // the path is half of it off the finished edge
+  bool counted_inward = false;  // B as published, for comparison: the other way round
+};
+
+/// The rows at which a corner of either wall's curve is a node.
+[[nodiscard]] std::vector<bool> corner_rows(const bevel::Table& table);
+
+/// What a table's end is cut along.
+[[nodiscard]] TorchCut torch_cut(const bevel::TableSpec& spec, const bevel::Table& table);
+/// The cuts of a part in the order of its sequence.
+[[nodiscard]] std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& part);
+
+/// Where a cut begins and how the torch comes to it.
+struct Approach {
+  std::optional<motion::Lead> lead = {};  // empty: straight onto the cut
+  motion::Start start = {};
+};
+
+/// Least radius that a lead is shortened to, mm: an arc of less is no longer than its pierce is
+/// wide.
+inline constexpr double kShortestLead = 1.0;
+
+/// How far the pierce's beam stays off the finished part, of its lead's radius: half of it along a
+/// straight edge, less in a hole.
+inline constexpr double kPierceOff = 0.25;
+
+/// The way of the torch round one cut, from its pierce to where it is put out.
+struct TorchWay {
+  motion::CutWithLead points = {};
+  double radius = 0.0;  // of the leads' arcs; less than asked where that would enter the part
+};
+
+/// The cut from its start on, with leads that stay clear of the finished part, and the
+/// pierce by `kPierceOff`: their radius halved, down to `kShortestLead`, where the scrap has no
+/// room for them.
+///
+/// Errors  lead_blocked, out_of_range (no point at the asked phi), unsupported_combination
+///         (B counted inward has no leads), cancelled; those of motion::track.
+/// Source  docs/theory/pulse-schedules.md, section 2.6.
+[[nodiscard]] Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
+                                         const std::stop_token& stop = {});
+
+}  // namespace tubecut::torch

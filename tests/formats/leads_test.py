@@ -1,0 +1,269 @@
+"""Programs that a machinist would run: leads on the scrap side, pierces off the part, heights, rapids over the clearance; replayed by a
+reader of its own, for the examples and parts drawn by a seed of the day."""
+
+import itertools
+import json
+import math
+import os
+import random
+import re
+
+import drawn_parts
+import torch_program
+from service import FormatTest, examples, main, seam_row
+from torch_program import Fault
+
+PARTS = int(os.environ.get("TUBECUT_PARTS", "20"))
+PIVOT, PIERCE, HEIGHT, DELAY, LEAD, OVERCUT, PIERCE_B = 150.0, 4.0, 1.5, 0.4, 3.0, 5.0, 20.0
+LIT = {"speed_mm_min": 600, "torch": "on", "lead_mm": LEAD, "pivot_length_mm": PIVOT, "pierce_height_mm": PIERCE, "pierce_delay_s": DELAY,
+       "cut_height_mm": HEIGHT}
+TOUCH = 0.02 + 0.1  # mm a lead may reach behind the line: rounding of the tangent, and chords that leave the curve
+
+
+def query(options, **more):
+    return "&".join(["format=gcode"] + [f"{name}={value}" for name, value in {**options, **more}.items() if value is not None])
+
+
+class Line:
+    """One cut of an answer: its torch line on both walls, unrolled on the outer and inner radius."""
+
+    def __init__(self, result, step, outer, wall):
+        self.hole = step["what"] == "hole"
+        self.outer, self.wall, self.inner = outer, wall, outer - wall
+        if self.hole:
+            p = result["holes"][step["index"]]["points"]
+            rows = list(zip(p["torch_phi_deg"], p["torch_z_mm"], p["b_deg"], p.get("a_deg") or [0.0] * len(p["b_deg"])))
+            self.rows = rows + rows[:1]
+        else:
+            p = result["ends"][step["what"]]["points"]
+            tangents = seam_row(p["phi_deg"], [math.tan(math.radians(b)) for b in p["b_deg"]])
+            self.rows = [(phi, z, math.degrees(math.atan(t)), 0.0) for (phi, z), (_, t) in
+                         zip(seam_row(p["phi_deg"], p["torch_outer_mm"]), tangents)]
+        self.side = {"start": -1, "finish": 1}.get(step["what"])
+        self.walls = [[self.flat(row, depth) for row in self.rows] for depth in (False, True)]
+        self.length = sum(math.dist(a, b) for a, b in zip(self.walls[0], self.walls[0][1:]))
+
+    def flat(self, at, deep):
+        """(round, along) on the outer wall, or where the beam comes out of the inner one."""
+        phi, z, b, a = at
+        if not deep:
+            return self.outer * math.radians(phi), z
+        across, rise = math.tan(math.radians(a)), math.tan(math.radians(b))
+        between = self.outer**2 - self.inner**2
+        h = between / (self.outer + math.sqrt(max(0.0, self.outer**2 - (1 + across**2) * between)))
+        return self.inner * (math.radians(phi) - math.atan2(h * across, self.outer - h)), z - h * rise
+
+    def off(self, at):
+        """mm from the torch line, whole turns apart."""
+        (x, y), girth = self.flat(at, False), 2 * math.pi * self.outer
+        if self.hole:
+            return distance((x, y), self.walls[0])
+        return min(distance((x % girth + turn * girth, y), self.walls[0]) for turn in (-1, 0, 1))
+
+    def into_part(self, at):
+        """How far the beam at a place reaches into the kept part, on either wall; negative: off it."""
+        return max(self.depth(self.flat(at, deep), line, 2 * math.pi * (self.inner if deep else self.outer))
+                   for deep, line in enumerate(self.walls))
+
+    def depth(self, point, line, girth):
+        if self.hole:
+            far = distance(point, line)
+            return -far if inside(point, line) else far
+        x, y = (point[0] - line[0][0]) % girth + line[0][0], point[1]
+        far = min(distance((x + turn * girth, y), line) for turn in (-1, 0, 1))
+        over = sum(1 for (ax, ay), (bx, by) in zip(line, line[1:]) if (ax <= x) != (bx <= x) and ay + (by - ay) * (x - ax) / (bx - ax) > y)
+        kept = over % 2 == (1 if self.side > 0 else 0)
+        return far if kept else -far
+
+
+def distance(point, line):
+    best = math.inf
+    px, py = point
+    for (ax, ay), (bx, by) in zip(line, line[1:]):
+        square = (bx - ax)**2 + (by - ay)**2
+        share = 0.0 if square == 0 else min(1.0, max(0.0, ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / square))
+        best = min(best, math.hypot(px - ax - share * (bx - ax), py - ay - share * (by - ay)))
+    return best
+
+
+def inside(point, line):
+    x, y = point
+    return sum(1 for (ax, ay), (bx, by) in zip(line, line[1:]) if (ax <= x) != (bx <= x) and ay + (by - ay) * (x - ax) / (bx - ax) > y) % 2 == 1
+
+
+def joins(cut):
+    """The place at which its lead meets a cut: where it says it starts."""
+    return next(i for i, p in enumerate(cut.places) if i > 0 and math.dist((p.phi, p.z, p.b), cut.start) < 2e-3)
+
+
+def check_cut(cut, line, near=1e-3):
+    """From its start on the torch line for all its length and the overcut; the leads clear of the part, the pierce well in the scrap.
+    How far off the line it is, mm."""
+    places = [(p.phi, p.z, p.b, p.a) for p in cut.places]
+    flat = [line.flat(at, False) for at in places]
+    first = joins(cut)
+    behind = list(itertools.accumulate((math.dist(a, b) for a, b in zip(flat[first:], flat[first + 1:])), initial=0.0))
+    length = line.length + OVERCUT
+    last = first + min(range(len(behind)), key=lambda i: abs(behind[i] - length))
+    if abs(behind[last - first] - length) > near + 1e-6 * length:
+        raise Fault(f"{cut.name} is {behind[last - first]:.4f} mm long, not {length:.4f}")
+    if first < 2 or last == len(places) - 1:
+        raise Fault(f"{cut.name} has no leads")
+    for at in places[:first] + places[last + 1:]:
+        if line.into_part(at) > TOUCH:
+            raise Fault(f"{cut.name}: a lead is {line.into_part(at):.3f} mm in the part")
+    if line.into_part(places[0]) > -0.2 * torch_program.SHORTEST:
+        raise Fault(f"{cut.name}: the pierce is {-line.into_part(places[0]):.3f} mm off the part")
+    off = max(map(line.off, places[first:last + 1]))
+    if off > 1e-3:
+        raise Fault(f"{cut.name} is {off:.4f} mm off its line")
+    return off
+
+
+class Leads(FormatTest):
+    def bodies(self):
+        for name, body in examples("parts").items():
+            if "target" in body and "tube_laser" not in json.dumps(body):
+                yield name, body
+        seed = random.randrange(10**9)
+        print(f"seed {seed}")
+        dice = random.Random(seed)
+        for i in range(PARTS):
+            body = drawn_parts.part(dice)
+            yield f"drawn {i}", {**body, "kerf_mm": round(dice.choice([0.0, 0.1]) * body["target"]["wall_mm"], 3)}
+
+    def test_every_cut_of_a_part(self):
+        cuts = holes = shortened = blocked = 0
+        for name, body in self.bodies():
+            status, _, content = self.service.ask("parts", body)
+            if status != 200:
+                continue
+            result = json.loads(content)["result"]
+            outer, wall = body["target"]["outer_diameter_mm"] / 2, body["target"]["wall_mm"]
+            status, _, program = self.service.ask("parts", body, query(LIT, torch="off"))
+            if status != 200:
+                self.assertIn(b"would enter the part", program)
+                blocked += 1
+                continue
+            program = program.decode("ascii")
+            with self.subTest(f"{name} {json.dumps(body)}"):
+                steps = [step for step in result["sequence"] if step["what"] != "mark"]
+                found = torch_program.replay(program, outer, PIVOT)
+                torch_program.check_heights(found, PIERCE, HEIGHT)
+                self.assertEqual(len(found), len(steps))
+                for cut, step in zip(found, steps):
+                    line = Line(result, step, outer, wall)
+                    self.check(cut, line)
+                    cuts, holes = cuts + 1, holes + line.hole
+                shortened += "has no room" in program
+        print(f"{cuts} cuts, {holes} of them holes; leads shortened in {shortened} parts, {blocked} without room for any")
+        self.assertGreater(cuts, PARTS)
+        self.assertGreater(holes, 0)
+        self.assertLess(blocked, 0.3 * PARTS + 2)
+
+    def check(self, cut, line):
+        check_cut(cut, line)
+        flat = [line.flat((p.phi, p.z, p.b, p.a), False) for p in cut.places]
+        self.assertEqual(cut.dwell, DELAY)
+        for a, b, length in zip(flat[1:], flat[2:], cut.lengths[1:]):
+            if math.dist(a, b) > 2e-3:
+                self.assertAlmostEqual(length, math.dist(a, b), delta=1e-4)
+
+    def test_the_lead_meets_the_cut_along_it(self):
+        for name, body in examples("parts").items():
+            if "target" not in body:
+                continue
+            result = self.service.answer("parts", body)["result"]
+            outer, wall = body["target"]["outer_diameter_mm"] / 2, body["target"]["wall_mm"]
+            for cut, step in zip(torch_program.replay(self.program(body), outer, PIVOT), [s for s in result["sequence"] if s["what"] != "mark"]):
+                line = Line(result, step, outer, wall)
+                places, first = [(p.phi, p.z, p.b, p.a) for p in cut.places], joins(cut)
+                a, b, c = (line.flat(places[i], False) for i in (first - 1, first, first + 1))
+                turn = math.degrees(math.atan2(c[1] - b[1], c[0] - b[0]) - math.atan2(b[1] - a[1], b[0] - a[0]))
+                self.assertLess(abs((turn + 180) % 360 - 180), 6, f"{name} {cut.name}")
+
+    def program(self, body, **more):
+        answer = self.service.answer("parts", body)
+        codes = sorted({w["code"] for w in answer["warnings"] if w["severity"] == "cut"})
+        return self.service.text("parts", body, query(LIT, **({"acknowledge": ",".join(codes)} if codes else {}), **more)).decode("ascii")
+
+    def lit(self):
+        body = examples("parts")["table-1-with-a-square-far-end"]
+        return body, body["target"]["outer_diameter_mm"] / 2
+
+    def test_the_torch_burns_from_pierce_to_the_end_of_the_lead_out(self):
+        body, outer = self.lit()
+        cuts = torch_program.replay(self.program(body), outer, PIVOT)
+        self.assertEqual([(cut.lit, cut.dwell) for cut in cuts], [(True, DELAY)] * 2)
+        lines = self.program(body).splitlines()
+        self.assertTrue(lines[-3].startswith("G0 Z"), "a retract at the end")
+
+    def test_a_start_and_a_bevel_of_the_pierce_as_asked(self):
+        body, outer = self.lit()
+        swung = 0
+        for cut in torch_program.replay(self.program(body, start_deg=50, pierce_b_deg=PIERCE_B, overcut_mm=0), outer, PIVOT):
+            at = cut.places[joins(cut)]
+            self.assertAlmostEqual(at.phi % 360, 50, delta=1e-6)
+            self.assertAlmostEqual(cut.places[0].b, min(max(at.b, -PIERCE_B), PIERCE_B), delta=1e-6)
+            swung += abs(at.b) > PIERCE_B
+        self.assertEqual(swung, 1)
+
+    def test_it_starts_off_the_seam_at_the_least_bevel_there_is(self):
+        body, outer = self.lit()
+        result = self.service.answer("parts", body)["result"]
+        program = self.program(body)
+        at = [(float(a), float(b)) for a, b in re.findall(r"^\(starts at A(-?[\d.]+), z -?[\d.]+ mm, B(-?[\d.]+)\)$", program, re.M)]
+        self.assertEqual(len(at), 2)
+        for (phi, b), what in zip(at, ("finish", "start")):
+            self.assertGreater(outer * math.radians(abs((phi + 180) % 360 - 180)), 5)
+            self.assertLess(abs(b), min(abs(v) for v in result["ends"][what]["points"]["b_deg"]) + 8)
+
+    def test_faults_are_seen(self):
+        body, outer = self.lit()
+        program = self.program(body)
+        lines = program.splitlines()
+
+        def fails(changed, text):
+            with self.assertRaisesRegex(Fault, text):
+                torch_program.check_heights(torch_program.replay("\n".join(changed), outer, PIVOT), PIERCE, HEIGHT)
+        torch_program.check_heights(torch_program.replay(program, outer, PIVOT), PIERCE, HEIGHT)
+        retracts = [i for i, line in enumerate(lines) if re.match(r"^G0 Z[\d.]+$", line) and float(line[4:]) > outer + PIVOT + 40]
+        self.assertEqual(len(retracts), 3)
+        fails(lines[:retracts[1]] + lines[retracts[1] + 1:], "a rapid at")
+        fails(lines[:retracts[0]] + lines[retracts[0] + 1:], "no retract")
+        fails(lines[:retracts[2]] + lines[retracts[2] + 1:], "left at the tube")
+        moved = [re.sub(r" Z([\d.]+)", lambda m: f" Z{float(m[1]) + 0.05:.5f}", line) if line.startswith("G1") else line for line in lines]
+        fails(moved, "cuts")
+        lit_early = [line for line in lines if line != "M5"]
+        fails(lit_early, "with the torch lit")
+        # A sign of B: the tip is then off its line.
+        result = self.service.answer("parts", body)["result"]
+        wrong = torch_program.replay("\n".join(re.sub(r" B(-?)([\d.]+)", lambda m: f" B{'' if m[1] else '-'}{m[2]}", line) for line in lines), outer, PIVOT)
+        line = Line(result, {"what": "start"}, outer, body["target"]["wall_mm"])
+        self.assertGreater(max(line.off((p.phi, p.z, p.b, p.a)) for p in wrong[1].places), 10)
+
+    def refused(self, body, **options):
+        status, _, content = self.service.ask("parts", body, query(options))
+        self.assertEqual(status, 400, content[:300])
+        return [(issue["pointer"], issue["code"]) for issue in json.loads(content)["errors"]]
+
+    def test_a_lit_program_says_all_that_it_lacks(self):
+        body, _ = self.lit()
+        missing = ["lead_mm", "pivot_length_mm", "pierce_height_mm", "pierce_delay_s", "cut_height_mm"]
+        self.assertEqual(self.refused(body, torch="on", speed_mm_min=600), [(f"?{name}", "missing_field") for name in missing])
+        self.assertEqual(self.refused(body, torch="on"), [(f"?{name}", "missing_field") for name in ["speed_mm_min", *missing]])
+        self.assertEqual(self.refused(body, torch="on", speed_mm_min=600, dialect="qtplasmac"), [("?lead_mm", "missing_field")])
+        for name in missing:
+            self.assertEqual(self.refused(body, **{**LIT, name: None}), [(f"?{name}", "missing_field")])
+
+    def test_what_has_no_use_is_refused(self):
+        body, _ = self.lit()
+        dry = {"speed_mm_min": 600}
+        for name in ("overcut_mm", "pierce_b_deg", "pierce_height_mm", "cut_height_mm", "clearance_mm"):
+            self.assertEqual(self.refused(body, **dry, **{name: 5}), [(f"?{name}", "unsupported_combination")])
+        for name in ("pierce_height_mm", "pierce_delay_s", "cut_height_mm"):
+            self.assertEqual(self.refused(body, **dry, dialect="qtplasmac", pivot_length_mm=150, **{name: 5}), [(f"?{name}", "unsupported_combination")])
+
+
+if __name__ == "__main__":
+    main()
