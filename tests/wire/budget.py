@@ -17,7 +17,8 @@ BUDGETS_MS = (5, 50, 500)
 ALL_MS = 120_000  # the budget of whoever has to end by itself
 ALLOWED = {"mill-paths/90-annealed", "mill-paths/3600", "mill-paths/20000", "pulse-schedules/crawler-table", "pulse-schedules/5-m",
            "pulse-schedules/compare", "pulse-schedules/3600-positions"}
-OPTIONS = {"gcode": "&speed_mm_min=600", "zip": "&files=work-order,nc1,dxf,step,csv,gcode&speed_mm_min=600"}
+PROGRAM = "&speed_mm_min=600&lead_mm=1000"  # the longest lead is halved most often
+OPTIONS = {"gcode": PROGRAM, "zip": "&files=work-order,nc1,dxf,step,csv,gcode" + PROGRAM}
 VIEWS = {"step": ("step", "step&view=smooth")}  # that cost other than their format alone
 
 
