@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,8 +19,23 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 struct Piece {
   Point a, b;
-  [[nodiscard]] double low() const { return std::min(a.y(), b.y()); }
-  [[nodiscard]] double high() const { return std::max(a.y(), b.y()); }
+};
+
+/// An upright box.
+struct Box {
+  Point least = Point::Constant(kFar), most = Point::Constant(-kFar);
+
+  void take(const Point& p) {
+    least = least.cwiseMin(p);
+    most = most.cwiseMax(p);
+  }
+  /// A bound of the way to another, `shift` further round, from below.
+  [[nodiscard]] double apart(const Box& other, double shift) const {
+    const double x =
+        std::max({0.0, other.least.x() + shift - most.x(), least.x() - other.most.x() - shift});
+    const double y = std::max({0.0, other.least.y() - most.y(), least.y() - other.most.y()});
+    return elementary::hypot(x, y);
+  }
 };
 
 struct Way {
@@ -56,34 +72,30 @@ Way way(const Piece& one, const Piece& other) {
   return out;
 }
 
-/// A line of pieces, in the order of their lowest points.
+/// A line of pieces, in blocks of neighbours that lie in a box each.
 class Line {
  public:
   Line(std::vector<Point> points, bool closed) : points_(std::move(points)) {
     const auto n = points_.size();
-    for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i)
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+      if (i % kBlock == 0) boxes_.emplace_back();
       pieces_.push_back({points_[i], points_[(i + 1) % n]});
-    std::ranges::sort(pieces_, {}, &Piece::low);
-    for (const auto& piece : pieces_) {
-      tallest_ = std::max(tallest_, piece.high() - piece.low());
-      for (const auto& p : {piece.a, piece.b}) {
-        least_ = least_.cwiseMin(p);
-        most_ = most_.cwiseMax(p);
+      for (const auto& p : {pieces_[i].a, pieces_[i].b}) {
+        boxes_.back().take(p);
+        whole_.take(p);
       }
     }
   }
 
-  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
 
   /// From where to where it goes round.
-  [[nodiscard]] std::pair<double, double> round() const { return {least_.x(), most_.x()}; }
+  [[nodiscard]] std::pair<double, double> round() const {
+    return {whole_.least.x(), whole_.most.x()};
+  }
   /// A bound of the way to another line, `shift` further round, from below.
   [[nodiscard]] double apart(const Line& other, double shift) const {
-    const double x =
-        std::max({0.0, other.least_.x() + shift - most_.x(), least_.x() - other.most_.x() - shift});
-    const double y = std::max({0.0, other.least_.y() - most_.y(), least_.y() - other.most_.y()});
-    return elementary::hypot(x, y);
+    return whole_.apart(other.whole_, shift);
   }
   /// Is a point within the closed line?
   [[nodiscard]] bool holds(const Point& p) const {
@@ -96,27 +108,44 @@ class Line {
   }
 
   /// The shortest way to another line, `shift` further round, if it is shorter than `best`.
+  /// Cost  the square of the blocks, and the pieces of those that are near.
   void shorten(const Line& other, double shift, Way& best, const std::stop_token& stop) const {
-    const Point by(shift, 0.0);
-    for (const auto& piece : pieces_) {
-      if (stop.stop_requested() || best.length == 0.0) return;
-      auto at = std::ranges::lower_bound(other.pieces_, piece.low() - best.length - other.tallest_,
-                                         {}, &Piece::low);
-      for (; at != other.pieces_.end() && at->low() <= piece.high() + best.length; ++at) {
-        const Piece moved{at->a + by, at->b + by};
-        if (std::min(moved.a.x(), moved.b.x()) > std::max(piece.a.x(), piece.b.x()) + best.length ||
-            std::max(moved.a.x(), moved.b.x()) < std::min(piece.a.x(), piece.b.x()) - best.length)
-          continue;
-        if (const auto w = way(piece, moved); w.length < best.length) best = w;
+    const double within = reach(other, shift);
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      for (std::size_t j = 0; j < other.boxes_.size(); ++j) {
+        if (boxes_[i].apart(other.boxes_[j], shift) > std::min(best.length, within)) continue;
+        if (stop.stop_requested() || best.length == 0.0) return;
+        shorten(block(i), other.block(j), shift, best);
       }
-    }
   }
 
  private:
+  static constexpr std::size_t kBlock = 32;
+
+  [[nodiscard]] std::span<const Piece> block(std::size_t i) const {
+    const auto from = i * kBlock;
+    return std::span(pieces_).subspan(from, std::min(kBlock, pieces_.size() - from));
+  }
+  /// A bound of the shortest way from above: between the blocks' first points.
+  [[nodiscard]] double reach(const Line& other, double shift) const {
+    double out = kFar;
+    for (std::size_t i = 0; i < pieces_.size(); i += kBlock)
+      for (std::size_t j = 0; j < other.pieces_.size(); j += kBlock)
+        out = std::min(out, (other.pieces_[j].a + Point(shift, 0.0) - pieces_[i].a).squaredNorm());
+    return std::sqrt(out) * (1.0 + 1e-12);  // rounding must not hide the pair itself
+  }
+  static void shorten(std::span<const Piece> one, std::span<const Piece> other, double shift,
+                      Way& best) {
+    const Point by(shift, 0.0);
+    for (const auto& piece : one)
+      for (const auto& [a, b] : other)
+        if (const auto w = way(piece, Piece{a + by, b + by}); w.length < best.length) best = w;
+  }
+
   std::vector<Point> points_;
   std::vector<Piece> pieces_;
-  double tallest_ = 0.0;
-  Point least_ = Point::Constant(kFar), most_ = Point::Constant(-kFar);
+  std::vector<Box> boxes_;
+  Box whole_;
 };
 
 /// One of the two walls, developed.
@@ -152,7 +181,10 @@ class Search {
 
   void on(const Wall& wall, Webs& out) const {
     std::vector<Line> holes;
-    for (const auto& placed : part_.holes) holes.push_back(wall.of(placed.hole));
+    for (const auto& placed : part_.holes) {
+      if (stop_.stop_requested()) return;
+      holes.push_back(wall.of(placed.hole));
+    }
     between(wall, holes, out);
     for (const bool finish : {false, true}) to_end(wall, holes, finish, out);
     to_seam(wall, holes, out);
@@ -194,6 +226,7 @@ class Search {
   void to_end(const Wall& wall, const std::vector<Line>& holes, bool finish, Webs& out) const {
     const auto& table = (finish ? part_.finish : part_.start).table;
     const part::Edge edge{table.phi, wall.outer ? table.z_outer : table.z_inner};
+    if (stop_.stop_requested()) return;
     const auto end = wall.of(table);
     for (std::size_t i = 0; i < holes.size() && !stop_.stop_requested(); ++i) {
       Way best{.length = out.to_end ? out.to_end->width : kFar};
