@@ -11,6 +11,7 @@
 #include "core/bevel/hole_fit.hpp"
 #include "core/bevel/hole_slice.hpp"
 #include "core/bevel/hole_wall.hpp"
+#include "core/bevel/torch_line.hpp"
 #include "core/joint/length.hpp"
 #include "core/joint/placement.hpp"
 #include "core/math/polygon.hpp"
@@ -296,6 +297,7 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
                       std::vector<Warning>& warnings, const std::stop_token& stop) {
   const bool on = spec.kind == JointKind::set_on;
   const double rho = on ? branch.radius - spec.branch_wall : branch.radius + spec.gap;
+  TRY(check_kerf(spec.kerf));
   if (!(0.5 * spec.kerf < rho))
     return fail({.code = ErrorCode::out_of_range,
                  .member = "kerf",

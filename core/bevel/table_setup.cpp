@@ -3,6 +3,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/table_parts.hpp"
+#include "core/bevel/torch_line.hpp"
 
 namespace tubecut::bevel::detail {
 namespace {
@@ -53,6 +54,7 @@ Result<void> check(const TableSpec& spec) {
                  .limit = spec.target.wall,
                  .unit = "mm",
                  .hint = "must be less than the wall"});
+  TRY(check_kerf(spec.kerf));
   if (!(spec.kerf < spec.target.outer_radius))
     return fail({.code = ErrorCode::out_of_range,
                  .member = "kerf",

@@ -72,8 +72,9 @@ struct Axis {
 
 class LeastDrop {
  public:
-  LeastDrop(const TableSpec& spec, const Table& t)
-      : half_(0.5 * spec.kerf),
+  LeastDrop(const TableSpec& spec, const Table& t, const std::stop_token& stop)
+      : stop_(stop),
+        half_(0.5 * spec.kerf),
         inner_(spec.target.inner_radius()),
         flat_(std::min(kFlattest * spec.target.outer_radius,
                        kFlat * (spec.kerf + 0.1 * spec.target.wall))),
@@ -294,6 +295,7 @@ class LeastDrop {
     int least, most;
   };
   void halve(std::size_t i, Place from, Place to, Halvings left, std::vector<Place>& out) const {
+    if (stop_.stop_requested()) return;
     const double u = 0.5 * (from.u + to.u);
     const Place middle{u, at(i, u)};
     const double bulge = middle.drop - 0.5 * (from.drop + to.drop);
@@ -306,6 +308,7 @@ class LeastDrop {
     if (deeper) halve(i, middle, to, next, out);
   }
 
+  const std::stop_token& stop_;
   double half_, inner_, flat_, widest_;
   const std::vector<double>& phi_;
   std::vector<double> foot_, slope_;
@@ -363,7 +366,7 @@ std::vector<double> torch_drops(const TableSpec& spec, const Table& table,
                                 const std::stop_token& stop) {
   const auto n = table.phi.size();
   if (spec.kerf == 0.0 && table.z_face.empty()) return std::vector<double>(n, 0.0);
-  const LeastDrop drop(spec, table);
+  const LeastDrop drop(spec, table, stop);
   const auto least = at_rows(drop, n, stop);
   auto out = least;
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
@@ -379,7 +382,7 @@ std::vector<double> torch_rows(const TableSpec& spec, const Table& table,
   constexpr double kNarrow = 2e-6;  // rad: no finer
   if ((spec.kerf == 0.0 && table.z_face.empty()) || !spec.sampling.tolerance) return {};
   const auto n = table.phi.size();
-  const LeastDrop drop(spec, table);
+  const LeastDrop drop(spec, table, stop);
   const auto least = at_rows(drop, n, stop);
   const double radius = spec.target.inner_radius();
   std::vector<double> out;

@@ -3,9 +3,25 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/bevel/beam.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::bevel {
+
+/// The narrowest kerf that is laid off, mm: what the beam takes is looked for at places as near to
+/// each other as it is wide, and a gouge of this counts as none.
+inline constexpr double kLeastKerf = kGougeLimit;
+
+/// Errors  out_of_range (kerf): neither 0 nor kLeastKerf or more.
+[[nodiscard]] inline Result<void> check_kerf(double kerf) {
+  if (kerf == 0.0 || kerf >= kLeastKerf) return {};
+  return fail({.code = ErrorCode::out_of_range,
+               .member = "kerf",
+               .got = kerf,
+               .limit = kLeastKerf,
+               .unit = "mm",
+               .hint = "no beam is narrower; 0: none is laid off"});
+}
 
 /// How far below the finished cut the torch's axis runs at each row, mm along z: the least with
 /// which a round beam of the kerf's width, on its way straight from row to row, stays out of the

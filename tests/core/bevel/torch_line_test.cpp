@@ -254,6 +254,23 @@ TEST(TorchLine, AKerfAsWideAsTheRadiusIsRefused) {
 }
 
 // What is left out between two places is a share of the kerf: wide ones show it.
+// One of 2e-322 mm was looked for at thousands of places between any two rows, unstoppably.
+TEST(TorchLine, AKerfNarrowerThanAnyBeamIsRefused) {
+  auto spec = pair(60.3, 4, 114.3, 60);
+  spec.sampling = {.tolerance = joint::Tolerance{1e-3}};
+  for (const double kerf : {2e-322, 1e-9, 0.0099}) {
+    spec.kerf = kerf;
+    const auto t = table(spec);
+    ASSERT_FALSE(t) << kerf;
+    EXPECT_EQ(t.error().code(), ErrorCode::out_of_range);
+    EXPECT_EQ(t.error().issues.front().member, "kerf");
+  }
+  for (const double kerf : {0.0, kLeastKerf}) {
+    spec.kerf = kerf;
+    EXPECT_TRUE(table(spec)) << kerf;
+  }
+}
+
 TEST(TorchLine, StaysOutWithWideKerfs) {
   std::mt19937_64 random(7);
   int cut = 0;
