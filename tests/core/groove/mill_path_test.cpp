@@ -200,6 +200,19 @@ class PointTest {
   Joint joint_;
 };
 
+// Slopes over one step had the flank's third derivative in them: 4e-7 mm of a certificate.
+TEST(MillPathProof, HoldsForALongToolWithASmallTip) {
+  auto spec = path_case("C_oblique_offset", Hold::tip);
+  spec.mill = {Angle::deg(10.2392578125), 1.1737453362814352, 1000.0};
+  spec.positions = 90;
+  spec.optimise.method = Method::annealing;
+  spec.optimise.seed = 36;
+  const auto path = mill_path(spec);
+  ASSERT_TRUE(path);
+  for (const Check& check : verify(spec, *path))
+    EXPECT_TRUE(check.passed()) << check.name << ' ' << check.value << " > " << check.limit;
+}
+
 TEST_P(Paths, DensePointsAgainstTheSweptTool) {
   const auto path = mill_path(spec);
   ASSERT_TRUE(path);
