@@ -202,8 +202,8 @@ TEST(TubeLaser, FilesCarryTheGapsAndTheVerdict) {
   EXPECT_NE(dry.outcome.body.find("min_web_mm: "), std::string::npos);
   EXPECT_EQ(dry.outcome.body.find(" < "), std::string::npos);
   EXPECT_NE(dry.outcome.body.find(" below 500"), std::string::npos);
-  const auto lit =
-      post(kParts, std::string_view(api::dump(thin)), "format=gcode&speed_mm_min=600&torch=on");
+  const auto lit = post(kParts, std::string_view(api::dump(thin)),
+                        "format=gcode&speed_mm_min=600&torch=on&dialect=qtplasmac&lead_mm=1");
   ASSERT_TRUE(lit.outcome.error);
   EXPECT_EQ(text(lit.body, "errors/0/pointer"), "/accept/min_web_mm");
 }

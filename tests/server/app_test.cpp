@@ -337,8 +337,8 @@ TEST(App, AnswersALineInTheFormatItNames) {
     const auto* value = member != nullptr ? member->as<std::string>() : nullptr;
     return value != nullptr ? *value : std::string{};
   };
-  const auto program =
-      answer(R"(, "format": "gcode", "options": {"speed_mm_min": 600, "torch": "on"})");
+  const auto program = answer(
+      R"(, "format": "gcode", "options": {"speed_mm_min": 600, "torch": "on", "dialect": "qtplasmac", "lead_mm": 3})");
   EXPECT_EQ(text(program, "media"), "text/x-gcode");
   EXPECT_NE(text(program, "document").find("\nM3"), std::string::npos);
   EXPECT_EQ(program.find("body"), nullptr);

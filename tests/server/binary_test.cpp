@@ -207,8 +207,9 @@ TEST(Binary, RunsOneRequestWithoutAServer) {
     words.push_back(file);
     return Program(words).exit_code();
   };
-  EXPECT_EQ(
-      in_format({"--format", "gcode", "--option", "speed_mm_min=600", "--option", "torch=on"}), 0);
+  EXPECT_EQ(in_format({"--format", "gcode", "--option", "speed_mm_min=600", "--option", "torch=on",
+                       "--option", "dialect=qtplasmac", "--option", "lead_mm=3"}),
+            0);
   EXPECT_EQ(in_format({"--format", "gcode"}), 1);  // a speed is wanted
   EXPECT_EQ(in_format({"--option", "torch=on"}), 2);
   EXPECT_EQ(Program({TUBECUT_BINARY, "run", "--format", "svg", file}).exit_code(), 2);
