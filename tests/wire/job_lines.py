@@ -27,7 +27,7 @@ JOBS = [
     ("as a document", "?format=csv", TABLE, {}, 200, {ASKED, RESULT}),
     ("refused where it cannot be cut", "", OPEN, {}, 422, {ASKED}),
     ("refused where a format cannot spell it", "?format=nc1", {**TABLE, "reference": {"part": "注"}}, {}, 422, {ASKED}),
-    ("refused by its verdict", "?format=gcode&speed_mm_min=600&torch=on", {**TABLE, "accept": {"max_b_deg": 1}}, {}, 422, {ASKED}),
+    ("refused by its verdict", "?format=gcode&speed_mm_min=600&torch=on&dialect=qtplasmac&lead_mm=2", {**TABLE, "accept": {"max_b_deg": 1}}, {}, 422, {ASKED}),
     ("timed out", "", LONG, {"Tubecut-Budget-Ms": "10"}, 504, {ASKED}),
     ("refused by a field", "", {**TABLE, "kerf_mm": -1}, {}, 422, {BODY}),
     ("refused by its query", "?torch=yes", TABLE, {}, 400, {BODY}),
