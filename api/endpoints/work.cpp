@@ -15,6 +15,7 @@ constexpr double kLeastNodes = 36.0;  // of a curve sampled by a tolerance
 constexpr double kNodes = 2.8;        // times sqrt(radius / tolerance), of joints of all kinds
 constexpr double kCutLength = 1.3;    // of a cut, in its tube's girths
 constexpr double kSpacing = 0.1;      // mm between the knots of a path
+constexpr double kSquarePair = 0.1;   // of a pair's price: nothing leans beside it
 constexpr double kMotions = 2.5;      // a cycle's whole motion, in times of its work feed
 
 /// Points of one curve round a tube.
@@ -132,6 +133,7 @@ void add_table(const bevel::TableSpec& spec, double radius, double cutters, Work
   if (is_square(spec)) {
     work.add(Cost::square_table);
     work.add(Cost::square_table_point, points);
+    work.add(Cost::beam_pair, kSquarePair * beam_pairs(points, spec.kerf, radius));
     return;
   }
   work.add(Cost::table);

@@ -133,7 +133,7 @@ Result<void> check_duplicates(const Track& t) {
   for (std::size_t i = 1; i < t.points.size(); ++i) {
     const CutPoint& a = t.points[i - 1];
     const CutPoint& b = t.points[i];
-    if (a.phi == b.phi && a.z == b.z && a.b == b.b) {
+    if (a.phi == b.phi && a.z == b.z && a.b == b.b && a.a == b.a) {
       return fail(
           {ErrorCode::duplicate_point, member("phi", i), a.phi * kDegPerRad, {}, "deg", {}});
     }
@@ -332,7 +332,8 @@ CutPath as_machine_counts(CutPath cut_path, BPositive b_positive) {
 CutPath without_repeats(CutPath c) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < c.phi.size(); ++i)
-    if (i == 0 || c.phi[i] != c.phi[i - 1] || c.z[i] != c.z[i - 1] || c.b[i] != c.b[i - 1])
+    if (i == 0 || c.phi[i] != c.phi[i - 1] || c.z[i] != c.z[i - 1] || c.b[i] != c.b[i - 1] ||
+        (!c.a.empty() && c.a[i] != c.a[i - 1]))
       rows.push_back(i);
   if (rows.size() == c.phi.size()) return c;
   std::vector<bool> corner(c.corner.empty() ? 0 : rows.size(), false);

@@ -44,6 +44,8 @@ def bevel_tables():
     yield "6-elbows", bent(TUBE, 6)
     yield "fine", example("bevel-tables/table-1-torch-45-deg") | {"sampling": FINE}
     yield "points", example("bevel-tables/table-1-torch-45-deg") | {"sampling": POINTS}
+    yield "square-kerf", {"target": {"outer_diameter_mm": 219.1, "wall_mm": 10}, "cutters": [{"kind": "plane", "point_mm": [0, 0, 50], "normal": [0, 0, 1]}],
+                          "root_surface": "inner", "groove": {"rule": "none"}, "kerf_mm": 50, "smoothing": {"method": "none"}, "sampling": POINTS}
     body = example("bevel-tables/table-1-five-axis-at-600-mm-min")
     yield "machine-points", body | {"sampling": POINTS}
     tubes = TABLE | {"target": {"outer_diameter_mm": 114.3, "wall_mm": 6.3}, "cutters": many_tubes(64)}
