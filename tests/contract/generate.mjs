@@ -108,6 +108,9 @@ const envelope = fc.record({method: fc.constant('envelope'), limits, refine: fc.
 const untreated = fc.record({method: fc.constant('none'), mutation_limit_deg: between(1, 30)}, {requiredKeys: ['method']});
 const hermite = fc.record({method: fc.constant('hermite'), transition_points: fc.integer({min: 4, max: 6}), mutation_limit_deg: between(40, 90)});
 
+// None, or one that a beam can have.
+const kerf = fc.oneof({weight: 1, arbitrary: fc.constant(0)}, {weight: 9, arbitrary: between(0.01, 4)});
+
 const groove = fc.oneof(
   fc.record({rule: fc.constant('half_dihedral'), cap_deg: between(20, 60)}, {requiredKeys: ['rule']}),
   fc.record({rule: fc.constant('fixed'), angle_deg: between(0, 60)}),
@@ -217,7 +220,7 @@ export function sound(contract, endpoint) {
 }
 
 // Cut square by a tube laser: what its preset chooses is said or left out.
-const untilted = joined(fc.record({preset: fc.constant('tube_laser'), kerf_mm: between(0, 1)}),
+const untilted = joined(fc.record({preset: fc.constant('tube_laser'), kerf_mm: kerf}),
   fc.oneof(fc.constant({}), fc.record({root_surface: fc.constantFrom('inner', 'outer'), contact: fc.constant('none')}), fc.record({contact: fc.constant('auto')})),
   maybe('groove', fc.constantFrom({}, {rule: 'square'})), maybe('smoothing', fc.constantFrom({}, {method: 'none'})), maybe('root_face_mm', fc.constant(0)));
 const laserAccept = fc.record({max_gap_mm: between(0, 5), max_reach_mm: between(0, 300), min_tongue_mm: between(0, 40), max_root_gap_mm: between(0, 2)}, {requiredKeys: []});
@@ -226,16 +229,16 @@ const holeAccept = fc.record({max_root_gap_mm: between(0, 2), max_b_deg: between
 // hermite asks for a bare grid.
 const tables = fc.record({
   include: fc.constantFrom(['tables'], ['tables', 'profiles']),
-  tables: joined(fc.record({groove, kerf_mm: between(0, 4)}), fc.oneof(
+  tables: joined(fc.record({groove, kerf_mm: kerf}), fc.oneof(
     fc.record({root_surface: fc.constant('inner'), contact: fc.constantFrom('inner', 'auto', 'none'), smoothing: fc.oneof(envelope, untreated)}),
     fc.record({root_surface: fc.constant('outer'), contact: fc.constantFrom('outer', 'none'), smoothing: fc.oneof(envelope, untreated)}))),
 });
 
 const own = {
   intersections: joined(joint, sampling, maybe('surfaces', fc.constantFrom('inner', 'outer', 'both')), common),
-  holes: joined(hole, fc.record({joint: holeJoint, groove, kerf_mm: between(0, 4)}), maybe('tilt', fc.constantFrom('axial', 'free', 'none')), sampling,
+  holes: joined(hole, fc.record({joint: holeJoint, groove, kerf_mm: kerf}), maybe('tilt', fc.constantFrom('axial', 'free', 'none')), sampling,
     maybe('torch', torch), maybe('accept', holeAccept), common),
   nodes: joined(connected, fc.oneof(fc.constant({}), fc.constant({include: ['profiles']}), tables), sampling, common),
-  'bevel-tables': fc.oneof({weight: 4, arbitrary: joined(joint, ways, fc.record({groove, kerf_mm: between(0, 4)}), maybe('torch', torch), maybe('accept', accept), common)},
+  'bevel-tables': fc.oneof({weight: 4, arbitrary: joined(joint, ways, fc.record({groove, kerf_mm: kerf}), maybe('torch', torch), maybe('accept', accept), common)},
     {weight: 1, arbitrary: joined(joint, untilted, sampling, maybe('torch', torch), maybe('accept', laserAccept), common)}),
 };
