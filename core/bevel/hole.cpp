@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
@@ -48,7 +49,7 @@ class Refiner {
     return out;
   }
 
-  std::vector<Node> adaptive() {
+  std::vector<Node> adaptive() const {
     std::vector<Node> all{at(0.0)};
     for (int k = 1; k <= kCells; ++k) {
       const Node to = k == kCells ? closing(all.front()) : at(kTwoPi * k / kCells);
@@ -56,6 +57,17 @@ class Refiner {
       if (k < kCells) all.push_back(to);
     }
     return all;
+  }
+
+  /// A node more half way across each flagged gap.
+  std::vector<Node> halved(const std::vector<Node>& nodes, const std::vector<bool>& gaps) const {
+    std::vector<Node> out;
+    for (std::size_t i = 0; i < nodes.size() && !stop_.stop_requested(); ++i) {
+      out.push_back(nodes[i]);
+      const double next = i + 1 < nodes.size() ? nodes[i + 1].phase : kTwoPi + nodes.front().phase;
+      if (gaps[i]) out.push_back(at(0.5 * (nodes[i].phase + next)));
+    }
+    return out;
   }
 
   /// The uniform phases that are not nodes already join them.
@@ -116,20 +128,25 @@ class Refiner {
   const std::stop_token& stop_;
 };
 
-Result<std::vector<Node>> sample(const HoleSpec& spec, const WallLines& walls,
+Result<void> check_count(const HoleSpec& spec, const std::vector<Node>& nodes,
+                         const std::stop_token& stop) {
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (nodes.size() > spec.sampling.max_nodes)
+    return fail({.code = ErrorCode::too_many_nodes,
+                 .member = "sampling",
+                 .got = static_cast<double>(nodes.size()),
+                 .limit = static_cast<double>(spec.sampling.max_nodes)});
+  return {};
+}
+
+Result<std::vector<Node>> sample(const HoleSpec& spec, const Refiner& refiner,
                                  const std::stop_token& stop) {
   const auto& s = spec.sampling;
   if (s.tolerance ? !(s.tolerance->value > 0.0) : s.uniform_points == 0)
     return fail({.code = ErrorCode::out_of_range, .member = "sampling"});
-  Refiner refiner(spec, walls, stop);
   auto nodes = s.tolerance ? refiner.with(refiner.adaptive(), s.uniform_points)
                            : refiner.uniform(s.uniform_points);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (nodes.size() > s.max_nodes)
-    return fail({.code = ErrorCode::too_many_nodes,
-                 .member = "sampling",
-                 .got = static_cast<double>(nodes.size()),
-                 .limit = static_cast<double>(s.max_nodes)});
+  TRY(check_count(spec, nodes, stop));
   return nodes;
 }
 
@@ -284,6 +301,30 @@ Hole cleared(const HoleSpec& spec, const WallLines& walls, std::vector<Node>& no
   return out;
 }
 
+/// The gaps between nodes in which the wall that faces the other member comes too near to it.
+Result<std::vector<bool>> too_near(const HoleSpec& spec, const joint::TubeCutter& branch,
+                                   const Hole& hole, const std::stop_token& stop) {
+  if (spec.kind != JointKind::set_on) return too_near_between(spec, branch, hole, stop);
+  TRY(const auto end, branch_end(spec, branch, hole.branch_phi, stop));
+  return too_near_between(spec, branch, end, stop);
+}
+
+/// Nodes more until the gap is kept between nodes too: edges within the tolerance of their curves
+/// at probes do not show that, and the branch's end has the hole's nodes.
+Result<void> keep_gap(const HoleSpec& spec, const joint::TubeCutter& branch, const Refiner& refiner,
+                      const WallLines& walls, bool far, std::vector<Node>& nodes,
+                      const std::stop_token& stop) {
+  if (!spec.sampling.tolerance) return {};
+  for (int k = 0; k < kHalvings; ++k) {
+    TRY(const auto gaps, too_near(spec, branch, tabulate(spec, walls, nodes, far), stop));
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (std::ranges::none_of(gaps, std::identity())) return {};
+    nodes = refiner.halved(nodes, gaps);
+    TRY(check_count(spec, nodes, stop));
+  }
+  return {};
+}
+
 void fill_lengths(const joint::Contour& root, const std::vector<Node>& nodes, Hole& out,
                   const std::stop_token& stop) {
   std::vector<double> phases;
@@ -307,7 +348,10 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   TRY(const auto root,
       joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho));
   const WallLines walls(spec, branch, rho, root.cutters.front());
-  TRY(auto nodes, sample(spec, walls, stop));
+  const Refiner refiner(spec, walls, stop);
+  TRY(auto nodes, sample(spec, refiner, stop));
+  TRY(check_lines(spec, nodes));
+  TRY(keep_gap(spec, branch, refiner, walls, far, nodes, stop));
   TRY(check_lines(spec, nodes));
   TRY(check_edges(spec, nodes, tabulate(spec, walls, nodes, far), stop));
   auto out = cleared(spec, walls, nodes, far, stop);

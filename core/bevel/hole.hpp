@@ -94,9 +94,9 @@ struct HoleCut {
 ///           too_many_nodes, cancelled.
 /// Accuracy  the root's gap within 1e-9 mm of the asked one at the nodes, nowhere less across the
 ///           wall; between nodes, where both edges run straight in (phi, z), nowhere less than it
-///           by more than the sampling's tolerance (worst seen 0.994 of it). A bare grid promises
-///           that at its nodes alone: by more than joint::Tolerance's it is the warning
-///           `enters_partner`.
+///           by more than the sampling's tolerance (nodes are added until `entering` finds no gap
+///           that is). A bare grid promises that at its nodes alone: by more than
+///           joint::Tolerance's it is the warning `enters_partner`.
 /// Source    docs/theory/intersections-and-bevels.md, section 8.
 [[nodiscard]] Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop = {});
 

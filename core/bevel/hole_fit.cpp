@@ -80,16 +80,23 @@ std::vector<Edges> edges(const HoleSpec& spec, const HoleCut& cut, const Hole& h
   return out;
 }
 
-/// The wall that faces the other member, by its edges.
+/// The hole's wall by its edges, and the branch's.
+CutWall wall_of(const HoleSpec& spec, const Hole& hole) {
+  return {.edges = {{spec.chord.inner_radius(), hole.phi_inner, hole.z_inner},
+                    {spec.chord.outer_radius, hole.phi, hole.z}},
+          .turn = 0.0};
+}
+
+CutWall wall_of(const HoleSpec& spec, const joint::TubeCutter& branch, const BranchEnd& end) {
+  return {.edges = {{branch.radius - spec.branch_wall, end.phi, end.z_inner},
+                    {branch.radius, end.phi, end.z_outer}},
+          .turn = kTwoPi};
+}
+
+/// The wall that faces the other member.
 CutWall facing_wall(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
                     const Hole& hole) {
-  if (spec.kind != JointKind::set_on)
-    return {.edges = {{spec.chord.inner_radius(), hole.phi_inner, hole.z_inner},
-                      {spec.chord.outer_radius, hole.phi, hole.z}},
-            .turn = 0.0};
-  return {.edges = {{branch.radius - spec.branch_wall, cut.branch->phi, cut.branch->z_inner},
-                    {branch.radius, cut.branch->phi, cut.branch->z_outer}},
-          .turn = kTwoPi};
+  return spec.kind == JointKind::set_on ? wall_of(spec, branch, *cut.branch) : wall_of(spec, hole);
 }
 
 /// What it faces, with the asked gap around it.
@@ -146,6 +153,18 @@ joint::TubeCutter chord_seen_from(const joint::TubeCutter& branch, double radius
           .clocking = {},
           .offset = branch.offset,
           .height = 0.0};
+}
+
+std::vector<bool> too_near_between(const HoleSpec& spec, const joint::TubeCutter& branch,
+                                   const Hole& hole, const std::stop_token& stop) {
+  const joint::Solid other{joint::Cutter(other_member(spec, branch))};
+  return entering(wall_of(spec, hole), {&other, 1}, spec.sampling.tolerance->value, stop);
+}
+
+std::vector<bool> too_near_between(const HoleSpec& spec, const joint::TubeCutter& branch,
+                                   const BranchEnd& end, const std::stop_token& stop) {
+  const joint::Solid other{joint::Cutter(other_member(spec, branch))};
+  return entering(wall_of(spec, branch, end), {&other, 1}, spec.sampling.tolerance->value, stop);
 }
 
 FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
