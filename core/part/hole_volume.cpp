@@ -15,6 +15,7 @@ namespace {
 using math::Polygon;
 
 constexpr int kRings = 16;
+constexpr int kRowsPerRow = 4;   // what lies between rows goes with the square of their distance
 constexpr double kTouch = 1e-9;  // of a hole's area, that rounding leaves two that only touch
 
 /// Rectangle around both edges of a cut on the developed plane.
@@ -82,11 +83,11 @@ bool near(const Box& a, const Box& b) {
   return false;
 }
 
-std::vector<Crowd> crowds(const Part& part) {
-  const auto n = part.holes.size();
+std::vector<Crowd> crowds(const Part& part, const std::vector<bevel::Hole>& holes) {
+  const auto n = holes.size();
   const double from = highest(part.start.table), to = lowest(part.finish.table);
   std::vector<Box> boxes;
-  for (const auto& placed : part.holes) boxes.push_back(box_of(placed.hole));
+  for (const auto& hole : holes) boxes.push_back(box_of(hole));
   std::vector<bool> seen(n, false);
   std::vector<Crowd> out;
   for (std::size_t first = 0; first < n; ++first) {
@@ -97,7 +98,7 @@ std::vector<Crowd> crowds(const Part& part) {
     while (!front.empty()) {
       const auto i = front.back();
       front.pop_back();
-      crowd.holes.push_back(&part.holes[i].hole);
+      crowd.holes.push_back(&holes[i]);
       crowd.at_end = crowd.at_end || boxes[i].z_from <= from || boxes[i].z_to >= to;
       for (std::size_t j = 0; j < n; ++j)
         if (!seen[j] && near(boxes[i], boxes[j])) {
@@ -111,6 +112,22 @@ std::vector<Crowd> crowds(const Part& part) {
 }
 
 }  // namespace
+
+bevel::Hole closer_rows(const bevel::Hole& hole) {
+  bevel::Hole out;
+  const auto n = hole.phi.size();
+  const int pieces = hole.phi == hole.phi_inner ? 1 : kRowsPerRow;
+  for (std::size_t i = 0; i < n; ++i)
+    for (int piece = 0; piece < pieces; ++piece) {
+      const auto next = (i + 1) % n;
+      const double share = static_cast<double>(piece) / pieces;
+      out.phi.push_back(mixed(hole.phi[i], hole.phi[next], share));
+      out.z.push_back(mixed(hole.z[i], hole.z[next], share));
+      out.phi_inner.push_back(mixed(hole.phi_inner[i], hole.phi_inner[next], share));
+      out.z_inner.push_back(mixed(hole.z_inner[i], hole.z_inner[next], share));
+    }
+  return out;
+}
 
 std::vector<Ring> wall_rings(const joint::Target& target) {
   const auto rule = math::gauss_legendre(kRings);
@@ -159,7 +176,9 @@ bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::
 double holes_volume(const joint::Target& target, const Part& part, const std::stop_token& stop) {
   double sum = 0.0;
   const auto rings = wall_rings(target);
-  for (const auto& crowd : crowds(part))
+  std::vector<bevel::Hole> holes;
+  for (const auto& placed : part.holes) holes.push_back(closer_rows(placed.hole));
+  for (const auto& crowd : crowds(part, holes))
     for (const auto& ring : rings) {
       if (stop.stop_requested()) return 0.0;
       std::vector<Polygon> polygons;

@@ -154,12 +154,14 @@ double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token
     from = std::max(from, std::ranges::max(*z));
   for (const auto* z : {&p.finish.table.z_inner, &p.finish.table.z_outer})
     to = std::min(to, std::ranges::min(*z));
+  std::vector<bevel::Hole> holes;
+  for (const auto& placed : p.holes) holes.push_back(closer_rows(placed.hole));
   double sum = 0.0;
   for (const auto& ring : wall_rings(spec.target)) {
     std::vector<math::Polygon> all, crowded;
-    for (const auto& placed : p.holes) {
+    for (const auto& hole : holes) {
       if (stop.stop_requested()) return 0.0;
-      all.push_back(passing(placed.hole, spec.target, ring.rho));
+      all.push_back(passing(hole, spec.target, ring.rho));
     }
     for (const auto& polygon : all) {
       if (stop.stop_requested()) return 0.0;
