@@ -95,7 +95,7 @@ struct BevelTables {
         {"dxf", "image/vnd.dxf", &print<bevel_table_dxf>, {"template", "tube"}},
         {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
         {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},
-        {"step", "model/step", &print<bevel_table_step>, {"straight", "smooth"}},
+        {"step", "model/step", &print<bevel_table_step>, {"smooth", "straight"}},
         {"nc1", "application/x-dstv", &print<bevel_table_dstv>, {}, {}, false, true},
         {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, gcode_options(), true, true}};
     return kFormats;

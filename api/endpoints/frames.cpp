@@ -101,7 +101,7 @@ struct FrameBase {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &cut_list_csv, {"cut_list"}},
-        {"step", "model/step", &frame_step, {"straight", "smooth"}},
+        {"step", "model/step", &frame_step, {"smooth", "straight"}},
         {"zip", "application/zip", &frame_bundle, {}, bundle_options()}};
     return kFormats;
   }

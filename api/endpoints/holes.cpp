@@ -193,7 +193,7 @@ struct Holes {
         {"csv", "text/csv", &hole_csv},
         {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror"}},
         {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}},
-        {"step", "model/step", &hole_step, {"straight", "smooth"}}};
+        {"step", "model/step", &hole_step, {"smooth", "straight"}}};
     return kFormats;
   }
 };

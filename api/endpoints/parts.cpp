@@ -198,7 +198,7 @@ const std::vector<Format<Parts::Spec, Parts::Out>>& Parts::formats() {
       {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
       {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
       {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
-      {"step", "model/step", &print<part_step>, {"straight", "smooth"}},
+      {"step", "model/step", &print<part_step>, {"smooth", "straight"}},
       {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},
       {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
   return kFormats;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kFlat = 1e-9;  // mm: a cut square to the axis
 
 WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const Caption& caption) {
-  if (caption.view != "smooth") return WallCurve::straight(wall);
+  if (caption.view == "straight") return WallCurve::straight(wall);
   corners.resize(wall.gaps(), false);
   return WallCurve::smooth(wall, corners);
 }

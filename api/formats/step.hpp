@@ -10,10 +10,10 @@
 
 namespace tubecut::api {
 
-// One closed solid as ISO 10303-21 text (AP214, mm), in the frame of the answer. View `straight`
-// (the default): the finished part as answered, straight between its rows; `smooth`: through the
-// rows, with corners at the junctions alone. See wall_spline.hpp for how near, tube_solid.hpp for
-// its faces. Own writer: Open CASCADE's would add 60 MB and seconds of start.
+// One closed solid as ISO 10303-21 text (AP214, mm), in the frame of the answer. View `smooth` (the
+// default): through the rows, with corners where the cut has them; `straight`: the finished part as
+// answered, straight between its rows. See wall_spline.hpp for how near, tube_solid.hpp for its
+// faces. Own writer: Open CASCADE's would add 60 MB and seconds of start.
 
 /// The cut end; the far end is square, where that of the other solids is.
 [[nodiscard]] std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,

@@ -14,11 +14,17 @@ using Eigen::Vector2d;
 constexpr double kOffCylinder = 1e-6;  // of the wall: how far an edge may leave its cylinder
 constexpr double kOffRows = 2e-4;      // mm: how far a curve may leave the rows as laid,
 constexpr double kOffRadius = 6e-6;    // and of the radius
+// Through the rows there is no such volume to keep; with the rounding of its numbers it stays
+// within 1e-3 mm of them.
+constexpr double kOffRowsThrough = 7e-4;
+constexpr double kOffRadiusThrough = 2e-5;
 constexpr double kRoundedSag = kSplineError / 0.75;  // mm, of rows that one curve may pass,
 constexpr double kRoundedRadius = 5e-5;              // and of the radius
 constexpr std::size_t kShortestRun = 8;              // of such rows
 constexpr double kSharp = 0.3;   // rad: a bend above it is a corner, however short its sides
+constexpr double kKink = 4.0;    // a turn to those on either side of it
 constexpr double kWidest = 0.5;  // rad, of a span
+constexpr int kSweeps = 27;      // 4^-27 is the last bit
 constexpr double kApart = 3e-4;  // mm along the rows: nearer places are one
 
 }  // namespace
@@ -67,38 +73,54 @@ Vector2d WallCurve::laid_gap(const Edge& edge, std::size_t row) const {
 
 WallCurve WallCurve::straight(const bevel::CutWall& wall) {
   WallCurve out(wall);
-  out.find_corners();
+  out.find_lines();
   out.lay(true);
   return out;
 }
 
 WallCurve WallCurve::smooth(const bevel::CutWall& wall, const std::vector<bool>& corners) {
   WallCurve out(wall);
-  out.straight_ = false;
-  out.find_corners();
+  out.off_rows_ = std::min(kOffRowsThrough, kOffRadiusThrough * out.edges_.back().radius);
   if (corners.size() == out.rows()) out.corner_ = corners;
+  out.find_kinks();
   out.lay(false);
+  return out;
+}
+
+/// How an edge turns at each of its rows: rad, per mm of the lines beside it, and how far a curve
+/// that turns so much lies off them.
+struct WallCurve::Bend {
+  double angle = 0.0, rate = 0.0, off = 0.0;
+  bool still = false;  // a row that is the one before it, on this edge
+};
+
+std::vector<WallCurve::Bend> WallCurve::bends(const Edge& edge) const {
+  const auto n = rows();
+  std::vector<Bend> out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2d scale(edge.radius, 1.0);
+    const Vector2d a = scale.cwiseProduct(gap(edge, (i + n - 1) % n));
+    const Vector2d b = scale.cwiseProduct(gap(edge, i));
+    const double cross = a.x() * b.y() - a.y() * b.x(), lines = a.norm() + b.norm();
+    out[i].angle = std::abs(elementary::atan2(cross, a.dot(b)));
+    out[i].rate = lines > 0.0 ? out[i].angle / lines : 0.0;
+    out[i].off = out[i].angle * std::max(a.norm(), b.norm()) / 8.0;
+    out[i].still = a.norm() == 0.0 || b.norm() == 0.0;
+  }
   return out;
 }
 
 /// A row is none where a curve can turn from the line before it to the one behind it near enough to
 /// both, and so at the rows beside it: a single one would gain nothing.
-void WallCurve::find_corners() {
+void WallCurve::find_lines() {
   const auto n = rows();
   const double most = std::min(kRoundedSag, kRoundedRadius * edges_.back().radius);
-  for (const auto& edge : edges_)
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vector2d scale(edge.radius, 1.0);
-      const Vector2d a = scale.cwiseProduct(gap(edge, (i + n - 1) % n));
-      const Vector2d b = scale.cwiseProduct(gap(edge, i));
-      const double cross = a.x() * b.y() - a.y() * b.x();
-      const double bend = std::abs(elementary::atan2(cross, a.dot(b)));
-      const double longer = std::max(a.norm(), b.norm());
-      const bool still = a.norm() == 0.0 || b.norm() == 0.0;
-      const bool bent = bend > kSharp || (straight_ && bend * longer / 8.0 > most);
-      if (still || (straight_ && bent)) corner_[i] = true;
-    }
-  if (!straight_ || std::ranges::find(corner_, true) == corner_.end()) return;
+  for (const auto& edge : edges_) {
+    const auto all = bends(edge);
+    for (std::size_t i = 0; i < n; ++i)
+      if (all[i].still || all[i].angle > kSharp || all[i].off > most) corner_[i] = true;
+  }
+  if (std::ranges::find(corner_, true) == corner_.end()) return;
   const auto first = static_cast<std::size_t>(std::ranges::find(corner_, true) - corner_.begin());
   std::size_t run = 0;  // of rows that are none
   for (std::size_t i = first + 1; i <= first + n; ++i) {
@@ -109,6 +131,22 @@ void WallCurve::find_corners() {
     if (run < kShortestRun)
       for (; run > 0; --run) corner_[(i - run) % n] = true;
     run = 0;
+  }
+}
+
+/// A row where an edge turns much more than on both sides of it; the turn of one that has its
+/// corner between two rows is at both.
+void WallCurve::find_kinks() {
+  const auto n = rows();
+  for (const auto& edge : edges_) {
+    const auto all = bends(edge);
+    const auto rate = [&](std::size_t i) { return all[i % n].rate; };
+    for (std::size_t i = 0; i < n; ++i) {
+      const double before = std::min(rate(i + n - 1), rate(i + n - 2));
+      const double behind = std::min(rate(i + 1), rate(i + 2));
+      const bool kink = rate(i) > kKink * std::max(before, behind) && all[i].off > off_rows_;
+      if (all[i].still || kink) corner_[i] = true;
+    }
   }
 }
 
@@ -128,6 +166,7 @@ void WallCurve::lay(bool centred) {
       edge.arriving[i] = edge.leaving[i] = (k * a + h * b) / (h + k);
       if (centred) edge.knot[i] += (b - a) * (h * h * h + k * k * k) / (6.0 * (h + k) * (h + k));
     }
+    if (!centred) bend_evenly(edge);
     for (std::size_t i = 0; i < n; ++i) {
       if (!corner_[i]) continue;
       const auto before = (i + n - 1) % n, next = (i + 1) % n;
@@ -137,6 +176,23 @@ void WallCurve::lay(bool centred) {
       edge.leaving[i] = corner_[next] ? b : Vector2d(2.0 * b - edge.arriving[next]);
     }
   }
+}
+
+/// Slopes with which the curve has one curvature at each row between two corners, beside a corner
+/// one from there to the next row: by sweeps, each of which leaves a quarter of what is wrong.
+void WallCurve::bend_evenly(Edge& edge) const {
+  const auto n = rows();
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (std::size_t i = 0; i < n; ++i) {
+      if (corner_[i]) continue;
+      const auto before = (i + n - 1) % n, next = (i + 1) % n;
+      const double h = length_[before], k = length_[i];
+      const Vector2d a = laid_gap(edge, before) / h, b = laid_gap(edge, i) / k;
+      const double own = (corner_[before] ? 1.0 : 2.0) / h + (corner_[next] ? 1.0 : 2.0) / k;
+      const Vector2d from = corner_[before] ? a : Vector2d(3.0 * a - edge.leaving[before]);
+      const Vector2d to = corner_[next] ? b : Vector2d(3.0 * b - edge.arriving[next]);
+      edge.arriving[i] = edge.leaving[i] = (from / h + to / k) / own;
+    }
 }
 
 double WallCurve::along(const Place& place) const {

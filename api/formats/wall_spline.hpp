@@ -33,7 +33,8 @@ struct WallSpline {
 /// near to each other that a smooth curve stays within kSplineError of those lines, it is that
 /// curve, a little off the rows so that it leaves as much on one side of the lines as on the other;
 /// elsewhere every row is a corner.
-/// `smooth`: through the rows, with corners at the given ones alone.
+/// `smooth`: through the rows, with one curvature at each, and corners at the given ones and where
+/// an edge turns far more than beside it.
 class WallCurve {
  public:
   /// Of a row and the share of the way to the next.
@@ -85,8 +86,12 @@ class WallCurve {
   using Flat = Cubic<Eigen::Vector2d>;
 
   explicit WallCurve(const bevel::CutWall& wall);
-  void find_corners();
+  struct Bend;
+  [[nodiscard]] std::vector<Bend> bends(const Edge& edge) const;
+  void find_lines();
+  void find_kinks();
   void lay(bool centred);
+  void bend_evenly(Edge& edge) const;
   [[nodiscard]] Eigen::Vector2d gap(const Edge& edge, std::size_t row) const;
   [[nodiscard]] Eigen::Vector2d laid_gap(const Edge& edge, std::size_t row) const;
   [[nodiscard]] Node node(const Place& place) const;
@@ -109,7 +114,6 @@ class WallCurve {
   std::vector<bool> corner_;
   double turn_ = 0.0, around_ = 0.0;
   double off_cylinder_ = 0.0, off_rows_ = 0.0;  // what a span may leave it by, mm
-  bool straight_ = true;
 };
 
 }  // namespace tubecut::api
