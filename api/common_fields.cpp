@@ -10,13 +10,19 @@ namespace {
 
 constexpr int kMaxNumerics = 1'000'000;
 
+constexpr int kMostPieces = 99'999;  // five digits of a header line
+
 std::vector<std::pair<std::string, std::string>> read_reference(Reader& in) {
   std::vector<std::pair<std::string, std::string>> out;
   in.optional_object("reference", [&](Reader& r) {
-    for (const auto* name : {"part", "order", "drawing", "revision", "heat", "customer_id"})
+    for (const auto* name :
+         {"part", "order", "drawing", "revision", "heat", "customer_id", "material"})
       if (auto value =
               r.optional_text(name, static_cast<std::size_t>(limit::reference_characters_max)))
         out.emplace_back(name, *value);
+    r.note("quantity");
+    if (r.has("quantity"))
+      out.emplace_back("quantity", std::to_string(r.integer("quantity", 1, kMostPieces)));
     return 0;
   });
   return out;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/field_names.hpp"
+#include "api/words.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -104,15 +105,15 @@ Verdict judge(const std::vector<Warning>& warnings, const Json& request,
 
 std::vector<std::string> verdict_lines(const Verdict& verdict, VerdictRoom room) {
   std::vector<std::string> out;
-  add_wrapped("verdict: " + std::string(verdict.status), room.width, out);
-  if (!verdict.reasons.empty())
-    add_wrapped("reasons: " + in_words(joined(each_once(verdict.reasons))), room.width, out);
+  const auto add = [&](const std::string& line) {
+    add_wrapped(room.plain ? in_plain_words(line) : line, room.width, out);
+  };
+  add("verdict: " + std::string(verdict.status));
+  if (!verdict.reasons.empty()) add("reasons: " + in_words(joined(each_once(verdict.reasons))));
   const auto shown = std::min(verdict.warnings.size(), room.warnings);
-  for (std::size_t i = 0; i < shown; ++i)
-    add_wrapped("warning: " + verdict.warnings[i], room.width, out);
+  for (std::size_t i = 0; i < shown; ++i) add("warning: " + verdict.warnings[i]);
   if (const auto more = verdict.warnings.size() - shown; more > 0)
-    add_wrapped("and " + std::to_string(more) + " more warnings of severity cut, all in the JSON",
-                room.width, out);
+    add("and " + std::to_string(more) + " more warnings of severity cut, all in the JSON");
   return out;
 }
 

@@ -27,6 +27,7 @@ struct Measure {
 struct VerdictRoom {
   std::size_t width = 100;    // characters a line; longer ones go on after "... "
   std::size_t warnings = 40;  // of more, the rest are counted
+  bool plain = false;         // in plain words: no codes, no names on the wire
 };
 
 /// The lines that stand in the head of every file, whatever its format: status, reasons, warnings

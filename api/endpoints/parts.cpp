@@ -14,8 +14,8 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/gcode.hpp"
 #include "api/formats/part_formats.hpp"
+#include "api/formats/partner_names.hpp"
 #include "api/formats/step.hpp"
-#include "api/formats/work_order.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"
@@ -105,7 +105,14 @@ void encode_step(Writer& each, const Step& step) {
 
 template <auto Print>
 std::string print(const PartRequest& spec, const Parts::Out& out, const Caption& caption) {
-  return Print(spec.part, out, caption);
+  auto named = caption;
+  const auto* ends = caption.request != nullptr ? caption.request->find("ends") : nullptr;
+  const auto of = [&](const char* end, const std::vector<std::string>& ids, std::size_t count) {
+    return partner_names(ends != nullptr ? ends->find(end) : nullptr, ids, count);
+  };
+  named.partners = of("start", spec.start_ids, out.start.spec.partners.size());
+  named.finish_partners = of("finish", spec.finish_ids, out.finish.spec.partners.size());
+  return Print(spec.part, out, named);
 }
 
 }  // namespace
@@ -196,7 +203,8 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
 const std::vector<Format<Parts::Spec, Parts::Out>>& Parts::formats() {
   static const std::vector<Format<Spec, Out>> kFormats{
       {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
-      {"svg", "image/svg+xml", &print<work_order>, {"work_order"}},
+      {"svg", "image/svg+xml", &print<part_svg>, {"work_order"}},
+      {"pdf", "application/pdf", &print<part_pdf>, {"work_order"}},
       {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
       {"step", "model/step", &print<part_step>, {"smooth", "straight"}},
       {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},

@@ -13,6 +13,7 @@
 #include "api/formats/wrap_template.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
+#include "api/words.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -35,7 +36,7 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
       before[i] = std::max(before[i], table.b_required[i]);
   Chart out{.title = "Cutting angle B before and after smoothing",
             .x_label = "developed length, mm",
-            .y_label = "B, deg, " + std::string(name_of_b_sign(table)),
+            .y_label = "B, °, " + called(name_of_b_sign(table), Term::value),
             .series = {{.name = "before",
                         .x = table.developed,
                         .y = degrees(std::move(before)),
@@ -55,7 +56,7 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
 Chart edge_chart(const bevel::Table& table) {
   const auto phi = degrees(table.phi);
   return {.title = "Finished edges",
-          .x_label = "phi, deg",
+          .x_label = "phi, °",
           .y_label = "z, mm",
           .series = {{.name = "inner edge", .x = phi, .y = table.z_inner, .color = "#1e8449"},
                      {.name = "outer edge", .x = phi, .y = table.z_outer}}};
@@ -78,7 +79,7 @@ std::vector<Band> zone_bands(const bevel::ZonedGroove& zoned, const bevel::Table
 Chart zone_chart(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
   Chart out{.title = "Zones: dihedral and groove angle",
             .x_label = "developed length, mm",
-            .y_label = "deg",
+            .y_label = "°",
             .series = {{.name = "dihedral", .x = table.developed, .y = degrees(table.dihedral)},
                        {.name = "groove",
                         .x = table.developed,

@@ -1,75 +1,85 @@
 #include "api/formats/canvas.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "api/formats/letter_widths.hpp"
 #include "api/formats/text.hpp"
 
 namespace tubecut::api {
 namespace {
 
-std::string named(std::string_view id) {
-  return id.empty() ? std::string{} : " id=\"" + xml_text(id) + "\"";
-}
+/// DejaVu Sans, which a system without Arial takes, over Helvetica.
+constexpr double kWidestPlain = 1.2, kWidestBold = 1.28;
 
-std::string look(const Stroke& s) {
-  std::string out = " fill=\"" + std::string(s.fill) + "\" stroke=\"" + std::string(s.color) +
-                    "\" stroke-width=\"" + fixed(s.width) + "\"";
-  if (!s.dashes.empty()) out += " stroke-dasharray=\"" + std::string(s.dashes) + "\"";
-  return out;
+void head(Canvas& canvas, DrawingPoint from, DrawingPoint to, const Stroke& stroke) {
+  constexpr double kLong = 2.0, kHalf = 0.55;  // mm
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  const double length = std::sqrt(dx * dx + dy * dy);
+  if (length <= 0.0) return;
+  const double ux = dx / length, uy = dy / length;
+  const DrawingPoint back{to.x - kLong * ux, to.y - kLong * uy};
+  canvas.polyline(
+      {to, {back.x - kHalf * uy, back.y + kHalf * ux}, {back.x + kHalf * uy, back.y - kHalf * ux}},
+      {.color = stroke.color, .width = 0.05, .fill = stroke.color}, {}, true);
 }
 
 }  // namespace
 
-std::string Canvas::place(DrawingPoint p) const {
-  return fixed(p.x, 3) + "," + fixed(height_ - p.y, 3);
+double text_width(std::string_view text, double height, bool bold) {
+  return height * (bold ? kWidestBold : kWidestPlain) * helvetica_width(text, bold);
+}
+
+Lettering fitted(std::string_view text, Lettering l, double room) {
+  const double width = text_width(text, l.height, l.bold);
+  if (width > room) l.height *= room / width;
+  return l;
 }
 
 void Canvas::line(DrawingPoint a, DrawingPoint b, const Stroke& stroke, std::string_view id) {
-  body_ += "<line" + named(id) + " x1=\"" + fixed(a.x, 3) + "\" y1=\"" + fixed(height_ - a.y, 3) +
-           "\" x2=\"" + fixed(b.x, 3) + "\" y2=\"" + fixed(height_ - b.y, 3) + "\"" + look(stroke) +
-           "/>\n";
+  drawn_.push_back(
+      {.kind = Ink::Kind::line, .points = {a, b}, .stroke = stroke, .id = std::string(id)});
 }
 
-void Canvas::polyline(const std::vector<DrawingPoint>& points, const Stroke& stroke,
-                      std::string_view id, bool closed) {
-  body_ += std::string(closed ? "<polygon" : "<polyline") + named(id) + look(stroke) +
-           " stroke-linejoin=\"round\" points=\"";
-  for (const auto& p : points) body_ += place(p) + " ";
-  body_ += "\"/>\n";
+void Canvas::polyline(std::vector<DrawingPoint> points, const Stroke& stroke, std::string_view id,
+                      bool closed) {
+  drawn_.push_back({.kind = closed ? Ink::Kind::polygon : Ink::Kind::polyline,
+                    .points = std::move(points),
+                    .stroke = stroke,
+                    .id = std::string(id)});
 }
 
 void Canvas::rectangle(DrawingPoint low, DrawingPoint high, const Stroke& stroke,
                        std::string_view id) {
-  body_ += "<rect" + named(id) + " x=\"" + fixed(low.x, 3) + "\" y=\"" +
-           fixed(height_ - high.y, 3) + "\" width=\"" + fixed(high.x - low.x, 3) + "\" height=\"" +
-           fixed(high.y - low.y, 3) + "\"" + look(stroke) + "/>\n";
+  drawn_.push_back({.kind = Ink::Kind::rectangle,
+                    .points = {low, high},
+                    .stroke = stroke,
+                    .id = std::string(id)});
 }
 
-void Canvas::text(DrawingPoint at, std::string_view what, const Lettering& l) {
-  body_ += "<text font-size=\"" + fixed(l.height) + "\" fill=\"" + std::string(l.color) + "\"";
-  if (l.bold) body_ += " font-weight=\"600\"";
-  if (l.anchor != Anchor::start)
-    body_ += l.anchor == Anchor::middle ? " text-anchor=\"middle\"" : " text-anchor=\"end\"";
-  if (l.turn != 0.0)
-    body_ += " transform=\"translate(" + place(at) + ") rotate(" + fixed(-l.turn) + ")\">";
-  else
-    body_ += " x=\"" + fixed(at.x, 3) + "\" y=\"" + fixed(height_ - at.y, 3) + "\">";
-  body_ += xml_text(what) + "</text>\n";
+void Canvas::text(DrawingPoint at, std::string_view what, const Lettering& lettering) {
+  drawn_.push_back(
+      {.kind = Ink::Kind::text, .points = {at}, .lettering = lettering, .text = std::string(what)});
 }
 
 void Canvas::begin_clip(DrawingPoint low, DrawingPoint high) {
-  const auto id = "clip-" + std::to_string(++clips_);
-  body_ += "<clipPath id=\"" + id + "\">";
-  rectangle(low, high);
-  body_ += "</clipPath><g clip-path=\"url(#" + id + ")\">\n";
+  begin_clip({low, {high.x, low.y}, high, {low.x, high.y}});
 }
 
-void Canvas::end_group() { body_ += "</g>\n"; }
+void Canvas::begin_clip(std::vector<DrawingPoint> border) {
+  drawn_.push_back({.kind = Ink::Kind::clip, .points = std::move(border)});
+}
 
-std::string Canvas::print(std::string_view title) const {
-  const auto w = fixed(width_, 3), h = fixed(height_, 3);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h +
-         "mm\" viewBox=\"0 0 " + w + " " + h +
-         "\" font-family=\"DejaVu Sans, Arial, sans-serif\">\n<title>" + xml_text(title) +
-         "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + body_ + "</svg>\n";
+void Canvas::end_group() { drawn_.push_back({.kind = Ink::Kind::end}); }
+
+void draw_arrows(Canvas& canvas, DrawingPoint from, DrawingPoint to, const Stroke& stroke) {
+  draw_arrow(canvas, from, to, stroke);
+  head(canvas, to, from, stroke);
+}
+
+void draw_arrow(Canvas& canvas, DrawingPoint from, DrawingPoint to, const Stroke& stroke) {
+  canvas.line(from, to, stroke);
+  head(canvas, from, to, stroke);
 }
 
 void draw_ruler(Canvas& canvas, DrawingPoint from, double length, bool upright,

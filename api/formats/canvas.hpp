@@ -13,7 +13,7 @@ struct DrawingPoint {
   double y = 0.0;
 };
 
-/// Stroke of a line; the width in mm.
+/// Stroke of a line; the width in mm. Colours are "#rrggbb" or "none".
 struct Stroke {
   std::string_view color = "#1d242b";
   double width = 0.25;
@@ -31,35 +31,53 @@ struct Lettering {
   std::string_view color = "#1d242b";
 };
 
-/// A drawing in millimetres, printed 1:1 as SVG: width and height in mm, one unit of the viewBox a
-/// mm. Coordinates to 0.001 mm.
+/// How wide a text is in mm, in the widest of the fonts that a viewer may take.
+[[nodiscard]] double text_width(std::string_view text, double height, bool bold = false);
+
+/// `l`, as much smaller as the text needs to fit into `room` mm.
+[[nodiscard]] Lettering fitted(std::string_view text, Lettering l, double room);
+
+/// One thing drawn.
+struct Ink {
+  enum class Kind { line, polyline, polygon, rectangle, text, clip, end };
+  Kind kind = Kind::line;
+  std::vector<DrawingPoint> points = {};  // of a rectangle: lower left, upper right
+  Stroke stroke = {};
+  Lettering lettering = {};
+  std::string text = {}, id = {};
+};
+
+/// A drawing in millimetres, 1:1. Printed by svg_sheets.hpp and pdf_sheets.hpp.
 class Canvas {
  public:
   /// The sheet's size; its origin is the lower left corner.
   Canvas(double width, double height) : width_(width), height_(height) {}
 
   void line(DrawingPoint a, DrawingPoint b, const Stroke& stroke = {}, std::string_view id = {});
-  void polyline(const std::vector<DrawingPoint>& points, const Stroke& stroke = {},
+  void polyline(std::vector<DrawingPoint> points, const Stroke& stroke = {},
                 std::string_view id = {}, bool closed = false);
   void rectangle(DrawingPoint low, DrawingPoint high, const Stroke& stroke = {},
                  std::string_view id = {});
   void text(DrawingPoint at, std::string_view what, const Lettering& lettering = {});
-  /// Everything drawn until `end_group` is cut off at the rectangle.
+  /// Everything drawn until `end_group` is cut off at the rectangle, or the polygon.
   void begin_clip(DrawingPoint low, DrawingPoint high);
+  void begin_clip(std::vector<DrawingPoint> border);
   void end_group();
 
   [[nodiscard]] double width() const { return width_; }
   [[nodiscard]] double height() const { return height_; }
-  [[nodiscard]] std::string print(std::string_view title) const;
+  [[nodiscard]] const std::vector<Ink>& drawn() const { return drawn_; }
 
  private:
-  [[nodiscard]] std::string place(DrawingPoint p) const;
-
   double width_;
   double height_;
-  int clips_ = 0;
-  std::string body_;
+  std::vector<Ink> drawn_;
 };
+
+/// A line of `length` with a head at both ends.
+void draw_arrows(Canvas& canvas, DrawingPoint from, DrawingPoint to, const Stroke& stroke);
+/// A line with a head at `to`.
+void draw_arrow(Canvas& canvas, DrawingPoint from, DrawingPoint to, const Stroke& stroke);
 
 /// A ruler of `length` mm with ticks every 10 mm, along x or y from `from`; its line has the id
 /// `id` and is exactly that long.

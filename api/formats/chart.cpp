@@ -209,7 +209,8 @@ void plot(std::string& out, const Chart& chart, double top) {
 }  // namespace
 
 std::string print_charts(const std::vector<Chart>& charts, const Caption& caption) {
-  const auto verdict = verdict_lines(caption.verdict, {.width = 130, .warnings = 12});
+  const auto verdict =
+      verdict_lines(caption.verdict, {.width = 130, .warnings = 12, .plain = true});
   const double head = kVerdictLine * static_cast<double>(verdict.size()) + 8.0;
   const double height = head + kHeight * static_cast<double>(charts.size()) + kLegendLine;
   std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(kWidth, 0) +

@@ -97,8 +97,10 @@ std::string header(const joint::Target& target, double density, const Lengths& l
   const double kg_per_m = kPi * (ro * ro - ri * ri) * density * 1e-6;
   const auto given = reference(c, "part");
   const auto part = given == "-" ? dstv_text(name) : given;
+  const auto quantity = reference(c, "quantity");
   std::string out = line(reference(c, "order")) + line(reference(c, "drawing")) + line("1") +
-                    line(part) + line("-") + line("1") +
+                    line(part) + line(reference(c, "material")) +
+                    line(quantity == "-" ? "1" : quantity) +
                     line("ROHR" + fixed(diameter, 1) + "x" + fixed(target.wall, 1)) + line("RO");
   out += field(l.over_long) + "," + field(l.saw) + "\r\n";
   for (const double v : {diameter, diameter, target.wall, target.wall, 0.0, kg_per_m,

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "api/formats/dxf_writer.hpp"
-#include "api/formats/text.hpp"
+#include "api/formats/numbers.hpp"
 #include "api/verdict.hpp"
+#include "api/words.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::api {
@@ -51,16 +52,17 @@ std::vector<Eigen::Vector3d> open_in_space(const CylinderCurve& c) {
 
 std::vector<std::string> captions(const Development& d, const std::string& frame,
                                   const Caption& caption) {
-  std::vector<std::string> out{
-      (d.around() ? "tube " : "openings of the chord, tube ") + fixed(2.0 * d.outer_radius, 3) +
-          " x " + fixed(d.wall, 3) + " mm",
-      "CUT_OUTER on radius " + fixed(d.outer_radius, 3) + ", CUT_INNER on radius " +
-          fixed(d.outer_radius - d.wall, 3) + " mm",
-      frame};
-  for (const auto& [name, text] : caption.reference) out.push_back(name + ": " + text);
+  std::vector<std::string> out{(d.around() ? "tube " : "openings of the chord, tube ") +
+                                   number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall),
+                               "CUT_OUTER on radius " + mm(d.outer_radius) +
+                                   ", CUT_INNER on radius " + mm(d.outer_radius - d.wall),
+                               frame};
+  for (const auto& [name, text] : caption.reference)
+    out.push_back(called(name, Term::field) + ": " + text);
   out.push_back(job_line(
       {.reference = {}, .input_sha256 = caption.input_sha256, .result_sha256 = {}, .view = {}}));
-  auto verdict = verdict_lines(caption.verdict);  // these are read from below upwards
+  auto verdict =
+      verdict_lines(caption.verdict, {.plain = true});  // these are read from below upwards
   out.insert(out.end(), verdict.rbegin(), verdict.rend());
   return out;
 }
@@ -152,7 +154,7 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   seams(w, d, e, datum, space);
   const double left = d.around() || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
   double y = datum;
-  const auto frame = "DATUM z = " + fixed(datum, 3) + " mm; SEAM phi = 0 and 360 deg; y = z, " +
+  const auto frame = "DATUM z = " + mm(datum) + "; SEAM phi = 0 and 360°; y = z, " +
                      (d.around() ? "kept side up" : "kept outside the contour");
   for (const auto& line : captions(d, frame, caption)) w.text("TEXT", {left, y += 5.0}, 3.0, line);
   return w.print();
@@ -189,12 +191,12 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
   }
   double y = extent(d).z_to + 10.0;
   const std::string frame =
-      "DATUM z = 0, the start's long point; SEAM phi = 0 and 360 deg; y = z, the finish up";
+      "DATUM z = 0, the start's long point; SEAM phi = 0 and 360°; y = z, the finish up";
   auto lines = captions(d, frame, caption);
   for (const auto& mark : marks)
     if (!mark.text.empty())
-      lines.push_back("MARK " + mark.text + ": phi " + fixed(mark.phi * kDegPerRad, 3) +
-                      " deg, z " + fixed(mark.z_from, 3) + " mm");
+      lines.push_back("MARK " + mark.text + ": phi " + degrees(mark.phi) + ", z " +
+                      mm(mark.z_from));
   for (const auto& line : lines) w.text("TEXT", {0.0, y += 5.0}, 3.0, line);
   return w.print();
 }

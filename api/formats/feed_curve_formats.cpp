@@ -4,6 +4,7 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
 #include "api/tables.hpp"
 
@@ -69,7 +70,7 @@ std::string feed_curve_svg(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve
        .series = {{.name = "exact", .x = curve.table.time, .y = curve.table.speed}}},
       {.title = "Polynomial command over the exact speed, degree " +
                 std::to_string(curve.fit.degree) + ", error " +
-                shown(curve.fit.errors.max_relative_error * 100.0).substr(0, 6) + " %",
+                measure(curve.fit.errors.max_relative_error * 100.0, Unit::percent),
        .x_label = "time, s",
        .y_label = "speed, mm/s",
        .series = {{.name = "exact", .x = curve.table.time, .y = curve.table.speed},

@@ -6,6 +6,7 @@
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/gltf.hpp"
+#include "api/formats/numbers.hpp"
 #include "api/stop.hpp"
 #include "api/tables.hpp"
 
@@ -25,10 +26,10 @@ using P = const groove::MillPosition&;
 /// Straight pieces from P1 and P2 up to P3, and the chord between them, in the section's own plane.
 Chart section_chart(const groove::Groove& g) {
   const auto& s = g.sections.front();
-  const auto title = "Section at " + shown(s.omega.deg()) + " deg: filler D " +
-                     shown(s.areas.d).substr(0, 7) + " mm2 (A " + shown(s.areas.a).substr(0, 6) +
-                     ", B " + shown(s.areas.b).substr(0, 6) + ", C " +
-                     shown(s.areas.c).substr(0, 6) + ", E " + shown(s.areas.e).substr(0, 6) + ")";
+  const auto title = "Section at omega " + degrees(s.omega.rad()) + ": filler D " +
+                     measure(s.areas.d, Unit::mm2) + " (A " + number(s.areas.a) + ", B " +
+                     number(s.areas.b) + ", C " + number(s.areas.c) + ", E " + number(s.areas.e) +
+                     ")";
   return {.title = title,
           .x_label = "from the branch axis, mm",
           .y_label = "along it, mm",
@@ -59,14 +60,14 @@ std::string groove_svg(const groove::GrooveSpec&, const groove::Groove& g, const
   const auto omega = each(g.sections, [](S s) { return s.omega.deg(); });
   std::vector<Chart> charts{
       {.title = "Groove height for equal filler area",
-       .x_label = "section omega, deg",
+       .x_label = "section omega, °",
        .y_label = "height, mm",
        .series = {
            {.name = "height", .x = omega, .y = each(g.sections, [](S s) { return s.height; })}}}};
   if (g.compare)
     charts.push_back({.title = "Filler area per section: ours beside a fixed bevel",
-                      .x_label = "section omega, deg",
-                      .y_label = "filler area, mm2",
+                      .x_label = "section omega, °",
+                      .y_label = "filler area, mm²",
                       .series = {{.name = "ours",
                                   .x = omega,
                                   .y = each(g.sections, [](S s) { return s.areas.d; })},
@@ -106,23 +107,23 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
   const auto um = [&](auto value) { return each(all, [&](P p) { return 1e3 * value(p); }); };
   return print_charts(
       {{.title = "Before: overcut of the initial position",
-        .x_label = "section omega, deg",
-        .y_label = "um",
+        .x_label = "section omega, °",
+        .y_label = "µm",
         .series = {{.name = "overcut",
                     .x = omega,
                     .y = um([](P p) { return p.before.over; }),
                     .color = "#c0392b"},
                    {.name = "undercut", .x = omega, .y = um([](P p) { return p.before.under; })}}},
        {.title = "After: what the optimised position leaves",
-        .x_label = "section omega, deg",
-        .y_label = "um",
+        .x_label = "section omega, °",
+        .y_label = "µm",
         .series = {{.name = "overcut",
                     .x = omega,
                     .y = um([](P p) { return p.after.over; }),
                     .color = "#c0392b"},
                    {.name = "undercut", .x = omega, .y = um([](P p) { return p.after.under; })}}},
        {.title = "Axes X and Z",
-        .x_label = "section omega, deg",
+        .x_label = "section omega, °",
         .y_label = "mm",
         .series = {{.name = "X", .x = omega, .y = each(all, [](P p) { return p.at.x; })},
                    {.name = "Z",
@@ -130,8 +131,8 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
                     .y = each(all, [](P p) { return p.at.z; }),
                     .color = "#1e8449"}}},
        {.title = "Axis B",
-        .x_label = "section omega, deg",
-        .y_label = "deg",
+        .x_label = "section omega, °",
+        .y_label = "B, °",
         .series = {{.name = "B", .x = omega, .y = each(all, [](P p) { return p.at.b.deg(); })}}}},
       caption);
 }

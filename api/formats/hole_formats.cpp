@@ -41,7 +41,7 @@ Chart gap_chart(const bevel::Hole& hole) {
   auto phase = hole.branch_phi;
   for (auto& v : phase) v *= kDegPerRad;
   return {.title = hole.far ? "Gap to the branch, far side" : "Gap between the cut surfaces",
-          .x_label = "phase on the branch, deg",
+          .x_label = "phase on the branch, °",
           .y_label = "gap, mm",
           .series = {{.name = "root", .x = phase, .y = hole.fit.root},
                      {.name = "other edge", .x = phase, .y = hole.fit.face, .color = "#1e8449"}},

@@ -14,7 +14,7 @@ namespace {
 
 Chart profile_chart(const joint::Intersection& cut) {
   Chart out{
-      .title = "The cut on both walls", .x_label = "phi, deg", .y_label = "z, mm", .series = {}};
+      .title = "The cut on both walls", .x_label = "phi, °", .y_label = "z, mm", .series = {}};
   for (const auto& p : cut.profiles) {
     Series s{.name = p.outer ? "outer wall" : "inner wall",
              .x = p.phi,

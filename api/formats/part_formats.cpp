@@ -6,6 +6,9 @@
 #include "api/formats/dstv.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/gcode.hpp"
+#include "api/formats/pdf_sheets.hpp"
+#include "api/formats/svg_sheets.hpp"
+#include "api/formats/work_order.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 
@@ -60,6 +63,14 @@ std::string part_csv(const part::PartSpec& spec, const part::Part& part, const C
       .remark(std::string("b_sign: ").append(kBSignInPart))
       .stacked("cut", cuts(spec, part))
       .print();
+}
+
+std::string part_svg(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return print_svg(work_order(spec, part, caption), "Work order");
+}
+
+std::string part_pdf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return print_pdf(work_order(spec, part, caption), "Work order");
 }
 
 std::string part_dxf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {

@@ -12,6 +12,12 @@ namespace tubecut::api {
 [[nodiscard]] std::string part_csv(const part::PartSpec& spec, const part::Part& part,
                                    const Caption& caption);
 
+/// Its work order (work_order.hpp), on sheets.
+[[nodiscard]] std::string part_svg(const part::PartSpec& spec, const part::Part& part,
+                                   const Caption& caption);
+[[nodiscard]] std::string part_pdf(const part::PartSpec& spec, const part::Part& part,
+                                   const Caption& caption);
+
 /// The whole part as drawing and machine files: dxf.hpp, dstv.hpp, gcode.hpp.
 [[nodiscard]] std::string part_dxf(const part::PartSpec& spec, const part::Part& part,
                                    const Caption& caption);

@@ -6,7 +6,9 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/numbers.hpp"
 #include "api/wire_names.hpp"
+#include "api/words.hpp"
 #include "core/base/elementary.hpp"
 #include "core/motion/replay.hpp"
 
@@ -95,7 +97,7 @@ std::string schedule_csv(const motion::Schedule& schedule, const Caption& captio
 
 std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedule& s,
                          const Caption& caption) {
-  Chart pulses{.title = "Pulses per period of " + shown(s.period * 1e3) + " ms",
+  Chart pulses{.title = "Pulses per period of " + number(s.period * 1e3) + " ms",
                .x_label = "time, s",
                .y_label = "pulses",
                .series = {}};
@@ -108,8 +110,8 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
                              .every = s.period});
   }
   for (const auto& event : s.events)
-    pulses.marks.push_back(
-        {s.period * static_cast<double>(event.period), std::string(motion::name_of(event.what))});
+    pulses.marks.push_back({s.period * static_cast<double>(event.period),
+                            called(motion::name_of(event.what), Term::value)});
   std::vector<Chart> charts{std::move(pulses)};
   if (std::holds_alternative<motion::CutPath>(spec.cut)) {
     Chart speed{.title = std::string("Speed of the cut on the ") +

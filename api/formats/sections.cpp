@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/formats/text.hpp"
+#include "api/formats/numbers.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::api {
@@ -26,10 +26,8 @@ std::vector<std::size_t> spread(const std::vector<double>& phi) {
   return out;
 }
 
-std::string degrees(double radians, int digits = 2) { return fixed(radians * kDegPerRad, digits); }
-
 std::string diameter(double radius, double wall) {
-  return fixed(2.0 * radius) + " x " + fixed(wall) + " mm";
+  return number(2.0 * radius, Unit::mm) + " x " + mm(wall);
 }
 
 /// Shifted so that the lowest point of the cut is at y = 0.
@@ -67,14 +65,13 @@ SectionSet sections_of(const bevel::TableSpec& spec, const bevel::Table& t) {
                  .wall = wall,
                  .along = "z along the tube, kept side up",
                  .facts = {{"tube", diameter(spec.target.outer_radius, wall)},
-                           {"cut length", fixed(t.length_total) + " mm on the root surface"},
+                           {"cut length", mm(t.length_total) + " on the root surface"},
                            {"B", t.inward ? "positive inwards, as published"
                                           : "positive: outer edge further into the part"}},
                  .sections = {}};
   for (const auto i : spread(t.phi)) {
-    WallSection s{.name = "phi " + degrees(t.phi[i]) + " deg",
-                  .cut = {{0.0, t.z_inner[i]}},
-                  .angle = degrees(t.b[i])};
+    WallSection s{
+        .name = "phi " + degrees(t.phi[i]), .cut = {{0.0, t.z_inner[i]}}, .angle = degrees(t.b[i])};
     if (!t.z_face.empty()) s.cut.push_back({spec.root_face, t.z_face[i]});
     s.cut.push_back({wall, t.z_outer[i]});
     out.sections.push_back(std::move(s));
@@ -103,7 +100,7 @@ SectionSet sections_of(const joint::IntersectionSpec& spec, const joint::Interse
       return p->z[b - 1] + std::clamp(share, 0.0, 1.0) * (p->z[b] - p->z[b - 1]);
     };
     const double zi = height(inner), zo = height(outer);
-    out.sections.push_back({.name = "phi " + degrees(lead.phi[i]) + " deg",
+    out.sections.push_back({.name = "phi " + degrees(lead.phi[i]),
                             .cut = {{0.0, zi}, {wall, zo}},
                             .angle = degrees(elementary::atan2(zo - zi, wall))});
   }
@@ -115,7 +112,7 @@ SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
   SectionSet out{.title = "Sections of the hole's edge",
                  .wall = wall,
                  .along = "square to the edge, from the hole into the wall",
-                 .angle = "bevel, deg",  // B is in the plane through the chord's axis
+                 .angle = "bevel",  // B is in the plane through the chord's axis
                  .facts = {{"chord", diameter(radius, wall)}},
                  .sections = {}};
   const auto& hole = cut.holes.front();
@@ -126,7 +123,7 @@ SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
     const double length = elementary::hypot(tx, tz);
     const double dx = radius * (hole.phi[i] - hole.phi_inner[i]), dz = hole.z[i] - hole.z_inner[i];
     const double out_of_hole = length > 0.0 ? (dx * tz - dz * tx) / length : 0.0;
-    out.sections.push_back({.name = "branch phi " + degrees(hole.branch_phi[i]) + " deg",
+    out.sections.push_back({.name = "branch phi " + degrees(hole.branch_phi[i]),
                             .cut = {{0.0, 0.0}, {wall, out_of_hole}},
                             .angle = degrees(elementary::atan2(out_of_hole, wall))});
   }
@@ -157,8 +154,8 @@ std::string print_sections(const SectionSet& set, const Caption& caption) {
     draw_section(sheet.canvas(), cell(sheet, kColumns, kRows, static_cast<int>(i)),
                  based_set.sections[i], set.wall, scale.factor, tallest);
     rows.push_back({set.sections[i].name, set.sections[i].angle,
-                    fixed(set.sections[i].cut.front().y, 3),
-                    fixed(set.sections[i].cut.back().y, 3)});
+                    number(set.sections[i].cut.front().y, Unit::mm),
+                    number(set.sections[i].cut.back().y, Unit::mm)});
   }
   const auto below = cell(sheet, 1, kRows, kRows - 1);
   draw_table(sheet.canvas(), {below.low.x + 4.0, below.high.y - 2.0}, {50.0, 25.0, 30.0, 30.0},

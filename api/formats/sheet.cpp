@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "api/api.hpp"
+#include "api/formats/svg_sheets.hpp"
 #include "api/formats/text.hpp"
 #include "api/verdict.hpp"
+#include "api/words.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -27,22 +30,26 @@ Sheet::Sheet(std::string title, const SheetFacts& facts, const Caption& caption)
     canvas_.text({x, y}, head, {.height = 3.6, .bold = true});
     for (const auto& [name, value] : rows) {
       const auto line = name + ": " + value;
-      const double fits = (half - 2.0 * kPad) / (0.64 * static_cast<double>(line.size()));
-      canvas_.text({x, y -= kLine}, line, {.height = std::min(2.6, fits)});
+      canvas_.text({x, y -= kLine}, line, fitted(line, {.height = 2.6}, half - 2.0 * kPad));
     }
   };
   column(kBorder + kPad, title_, facts);
-  auto job = caption.reference;
+  SheetFacts job;
+  for (const auto& [name, value] : caption.reference)
+    job.emplace_back(called(name, Term::field), value);
   job.emplace_back("engine", "tubecut " + std::string(version()));
   job.emplace_back("input", caption.input_sha256.substr(0, 32));
   job.emplace_back("result", caption.result_sha256.substr(0, 32));
   column(kBorder + half + kPad, "Job", job);
   high_ = kHeight - kBorder;
-  for (const auto& line : verdict_lines(caption.verdict, {.width = 120, .warnings = 5}))
+  for (const auto& line :
+       verdict_lines(caption.verdict, {.width = 120, .warnings = 5, .plain = true}))
     canvas_.text({kBorder + kPad, high_ -= kVerdictLine}, line, verdict_lettering(caption, 2.3));
   high_ -= kPad;
   canvas_.line({kBorder, high_}, {kWidth - kBorder, high_}, kRule);
 }
+
+std::string Sheet::print() const { return print_svg({canvas_}, title_); }
 
 Lettering verdict_lettering(const Caption& caption, double height) {
   if (caption.verdict.status == "ok") return {.height = height};

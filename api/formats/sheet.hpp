@@ -24,7 +24,7 @@ class Sheet {
   [[nodiscard]] DrawingPoint low() const { return {kBorder, low_}; }
   [[nodiscard]] DrawingPoint high() const { return {kWidth - kBorder, high_}; }
   [[nodiscard]] Canvas& canvas() { return canvas_; }
-  [[nodiscard]] std::string print() const { return canvas_.print(title_); }
+  [[nodiscard]] std::string print() const;
 
  private:
   std::string title_;

@@ -1,240 +1,246 @@
 #include "api/formats/work_order.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "api/formats/part_formats.hpp"
-#include "api/formats/sheet.hpp"
-#include "api/formats/text.hpp"
-#include "api/wire_names.hpp"
+#include "api/field_names.hpp"
+#include "api/formats/numbers.hpp"
+#include "api/formats/order_sheets.hpp"
+#include "api/formats/order_tables.hpp"
+#include "api/formats/part_development.hpp"
+#include "api/formats/part_edges.hpp"
+#include "api/formats/part_view.hpp"
+#include "api/json.hpp"
+#include "api/verdict.hpp"
+#include "api/words.hpp"
 
 namespace tubecut::api {
 namespace {
 
-constexpr double kPad = 4.0, kDevelopment = 78.0, kCheckRow = 8.0, kStepRow = 4.2;
-constexpr Stroke kCut{.width = 0.35};
-constexpr Stroke kInner{.width = 0.2, .dashes = "1.6 1"};
-constexpr Stroke kDatum{.color = "#7a8794", .width = 0.18, .dashes = "4 1 0.8 1"};
+constexpr double kLeft = OrderSheets::kLeft, kRight = OrderSheets::kRight,
+                 kWide = OrderSheets::kWide;
 constexpr Stroke kLine{.color = "#7a8794", .width = 0.18};
-constexpr Lettering kHead{.height = 3.4, .bold = true};
+constexpr Stroke kBox{.color = "#566370", .width = 0.25};
+constexpr Lettering kHead{.height = 3.2, .bold = true};
 constexpr Lettering kSmall{.height = 2.3};
-constexpr Lettering kGrey{.height = 2.1, .color = "#566370"};
+constexpr Lettering kGrey{.height = 2.0, .color = "#566370"};
 
-/// The outside laid flat as it is seen from outside: z to the right, hence phi downwards (x, y, z
-/// is right-handed), each with its own scale, for a long tube is thin.
-class Development {
- public:
-  Development(Canvas& canvas, const part::PartSpec& spec, const part::Part& part, Cell room)
-      : canvas_(canvas), spec_(spec), part_(part) {
-    const double girth = kTwoPi * spec.target.outer_radius;
-    double high = 0.0;
-    for (const auto* z : {&part.start.table.z_outer, &part.start.table.z_inner,
-                          &part.finish.table.z_outer, &part.finish.table.z_inner})
-      for (const double one : *z) {
-        low_ = std::min(low_, one);
-        high = std::max(high, one);
-      }
-    const double wide = room.high.x - room.low.x - 2.0 * kPad - 10.0;
-    const double tall = room.high.y - room.low.y - 14.0;
-    along_ = drawing_scale(high - low_, wide);
-    round_ = drawing_scale(girth, tall);
-    if (along_.factor > 0.5 * round_.factor) {  // one scale for both where that is still readable
-      if (along_.factor > round_.factor) along_ = round_;
-      round_ = along_;
-    }
-    at_ = {room.low.x + kPad + 10.0 - low_ * along_.factor,
-           room.high.y - 8.0 - girth * round_.factor};
-    top_ = girth;
-    end_ = high;
-  }
+/// A small name over a value; without one a line to write on.
+void draw_fact(Canvas& canvas, DrawingPoint at, double width, const std::string& name,
+               const std::string& value) {
+  canvas.text({at.x, at.y - 2.4}, name, fitted(name, kGrey, width - 2.0));
+  if (value.empty())
+    canvas.line({at.x, at.y - 6.2}, {at.x + width - 4.0, at.y - 6.2}, kLine);
+  else
+    canvas.text({at.x, at.y - 5.6}, value,
+                fitted(value, {.height = 2.7, .bold = true}, width - 2.0));
+}
 
-  void draw() {
-    canvas_.text(
-        {at_.x + low_ * along_.factor - 10.0, at_.y + top_ * round_.factor + 3.0},
-        "Outside developed, seen from outside: along " + along_.name + ", round " + round_.name,
-        kHead);
-    for (int quarter = 0; quarter <= 4; ++quarter) {
-      const double phi = 0.25 * kTwoPi * quarter;
-      canvas_.line(at(phi, low_), at(phi, end_), quarter % 4 == 0 ? kLine : kDatum);
-      canvas_.text({at_.x + low_ * along_.factor - 10.0, at(phi, 0.0).y - 0.8},
-                   fixed(90.0 * quarter, 0) + " deg", kGrey);
-    }
-    edge(part_.start.table, "start");
-    edge(part_.finish.table, "finish");
-    canvas_.begin_clip(at(kTwoPi, low_), at(0.0, end_));
-    for (const auto& placed : part_.holes) ring(placed.hole);
-    for (const auto& mark : part_.marks) line(mark);
-    canvas_.end_group();
-    canvas_.text(at(kTwoPi, low_) - down(4.0), "start, z = 0 at its long point", kGrey);
-    auto right = kGrey;
-    right.anchor = Anchor::end;
-    canvas_.text(at(kTwoPi, low_) - down(8.0), "full line: outer edge; dashes: inner edge", kGrey);
-    const auto corner = at(kTwoPi, low_);
-    canvas_.text({std::max(at(0.0, end_).x, corner.x + 100.0), corner.y - 4.0},
-                 "finish, long point " + fixed(part_.finish.longest.z) + " mm", right);
-  }
-
- private:
-  struct Down {
-    double by;
-  };
-  static Down down(double by) { return {by}; }
-  friend DrawingPoint operator-(DrawingPoint p, Down d) { return {p.x, p.y - d.by}; }
-
-  [[nodiscard]] DrawingPoint at(double phi, double z) const {
-    return {at_.x + z * along_.factor,
-            at_.y + (top_ - spec_.target.outer_radius * phi) * round_.factor};
-  }
-
-  void curve(const std::vector<double>& phi, const std::vector<double>& z, const Stroke& stroke,
-             const std::string& id) {
-    std::vector<std::pair<double, double>> sorted;
-    for (std::size_t i = 0; i < phi.size(); ++i)
-      sorted.emplace_back(phi[i] - kTwoPi * std::floor(phi[i] / kTwoPi), z[i]);
-    std::ranges::sort(sorted);
-    std::vector<DrawingPoint> points;
-    for (const auto& [p, height] : sorted) points.push_back(at(p, height));
-    if (!sorted.empty()) points.push_back(at(sorted.front().first + kTwoPi, sorted.front().second));
-    canvas_.polyline(points, stroke, id);
-  }
-  void edge(const bevel::Table& table, const std::string& end) {
-    curve(table.phi, table.z_outer, kCut, end + "_outer");
-    curve(table.phi, table.z_inner, kInner, end + "_inner");
-  }
-
-  /// Drawn three times, so that one across the seam shows both its parts.
-  void ring(const bevel::Hole& hole) {
-    for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
-      std::vector<DrawingPoint> outer, inner;
-      for (std::size_t i = 0; i < hole.phi.size(); ++i) {
-        outer.push_back(at(hole.phi[i] + turn, hole.z[i]));
-        inner.push_back(at(hole.phi_inner[i] + turn, hole.z_inner[i]));
-      }
-      canvas_.polyline(outer, kCut, {}, true);
-      canvas_.polyline(inner, kInner, {}, true);
-    }
-  }
-
-  void line(const part::Mark& mark) {
-    const double phi = mark.phi - kTwoPi * std::floor(mark.phi / kTwoPi);
-    constexpr Stroke kMark{.color = "#2b6ca3", .width = 0.3};
-    if (mark.z_to > mark.z_from)
-      canvas_.line(at(phi, mark.z_from), at(phi, mark.z_to), kMark);
-    else
-      cross(at(phi, mark.z_from), kMark);
-    const auto where = at(phi, 0.5 * (mark.z_from + mark.z_to));
-    if (mark.kind != part::Mark::Kind::datum_line)
-      canvas_.text({where.x + 0.5, where.y + (phi < kPi ? -2.6 : 1.0)}, mark.text, kSmall);
-  }
-
-  void cross(DrawingPoint place, const Stroke& stroke) {
-    constexpr double kArm = 1.0;  // mm on paper
-    canvas_.line({place.x - kArm, place.y}, {place.x + kArm, place.y}, stroke);
-    canvas_.line({place.x, place.y - kArm}, {place.x, place.y + kArm}, stroke);
-  }
-
-  Canvas& canvas_;
-  const part::PartSpec& spec_;
-  const part::Part& part_;
-  DrawingScale along_, round_;
-  DrawingPoint at_;
-  double low_ = 0.0, end_ = 0.0, top_ = 0.0;
+struct Fact {
+  std::string name, value;
 };
 
-std::string joined(const std::vector<part::Mistake>& mistakes) {
+void draw_facts(OrderSheets& sheets, const std::vector<Fact>& facts, std::size_t columns) {
+  constexpr double kRow = 7.4;
+  const std::size_t rows = (facts.size() + columns - 1) / columns;
+  const double top = sheets.take(kRow * static_cast<double>(rows) + 2.0) - 0.6;
+  const double width = kWide / static_cast<double>(columns);
+  for (std::size_t i = 0; i < facts.size(); ++i)
+    draw_fact(sheets.canvas(),
+              {kLeft + width * static_cast<double>(i % columns),
+               top - kRow * static_cast<double>(i / columns)},
+              width, facts[i].name, facts[i].value);
+}
+
+void rule(OrderSheets& sheets) {
+  const double y = sheets.take(0.6);
+  sheets.canvas().line({OrderSheets::kBorder, y}, {OrderSheets::kWidth - OrderSheets::kBorder, y},
+                       kLine);
+}
+
+std::vector<Fact> order_facts(const Caption& caption) {
+  std::vector<Fact> out;
+  for (const auto* name :
+       {"order", "drawing", "revision", "customer_id", "material", "heat", "quantity"}) {
+    std::string value;
+    for (const auto& [key, text] : caption.reference)
+      if (key == name) value = text;
+    out.push_back({called(name, Term::field), value});
+  }
+  out.push_back({"machine", ""});
+  return out;
+}
+
+std::vector<Fact> part_facts(const part::PartSpec& spec, const part::Part& part) {
+  const auto& target = spec.target;
+  const auto& l = part.lengths;
+  return {{"tube", number(2.0 * target.outer_radius, Unit::mm) + " x " + mm(target.wall)},
+          {"blank, with kerfs, clamping, facing", mm(l.blank)},
+          {"tip to tip", mm(l.longest)},
+          {"throat to throat", mm(l.shortest)},
+          {"finish turned against start", degrees(part.clocking)},
+          {"between work points", mm(l.work_point)},
+          {"weld", mm(l.weld)},
+          {"mass", measure(l.mass, Unit::kg)}};
+}
+
+/// "B from -12° to 44°; the torch leans from -80° to 80°."
+std::string bevel_range(const part::PartSpec& spec, const part::Part& part) {
+  double low = 0.0, high = 0.0;
+  bool any = false;
+  const auto take = [&](const std::vector<double>& all) {
+    for (const double b : all) {
+      low = any ? std::min(low, b) : b;
+      high = any ? std::max(high, b) : b;
+      any = true;
+    }
+  };
+  take(part.start.table.b);
+  take(part.finish.table.b);
+  for (const auto& placed : part.holes) take(placed.hole.b);
+  const auto& torch = spec.start.cut.torch;
+  const auto range = degrees(low) == degrees(high)
+                         ? "Bevel B " + degrees(low) + " throughout"
+                         : "Bevel B from " + degrees(low) + " to " + degrees(high);
+  return range + "; the torch leans from " + degrees(torch.min.rad()) + " to " +
+         degrees(torch.max.rad()) + ". B above 0: the outer edge lies further towards the finish.";
+}
+
+void draw_verdict(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+                  const Caption& caption) {
+  constexpr double kRow = 3.3;
+  auto lines = verdict_lines(caption.verdict, {.width = 125, .warnings = 8, .plain = true});
+  lines.push_back(bevel_range(spec, part));
+  double y = sheets.take(kRow * static_cast<double>(lines.size()) + 2.0) - 0.4;
+  for (const auto& line : lines) {
+    const bool loud = caption.verdict.status != "ok" && &line != &lines.back();
+    auto l = kSmall;
+    l.bold = loud;
+    if (loud) l.color = "#b3261e";
+    sheets.canvas().text({kLeft, y -= kRow}, line, fitted(line, l, kWide));
+  }
+}
+
+/// As tall as what else goes on the sheet leaves it.
+void draw_view(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+               double others) {
+  constexpr double kLeast = 50.0, kMost = 92.0;
+  const double tall = std::clamp(sheets.left() - others, kLeast, kMost);
+  const double top = sheets.take(tall);
+  auto& canvas = sheets.canvas();
+  draw_part_view(canvas, spec, part, {{kLeft, top - tall + 3.0}, {kRight, top - 2.0}});
+  canvas.text({kLeft, top - tall + 1.6},
+              "phi counts from the datum line, clockwise as seen from the start", kGrey);
+}
+
+/// Of sheet 1 below the view, where there is one strip.
+double height_below(const DevelopmentPlan& plan, const part::Part& part) {
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  const std::size_t partners = part.start.spec.partners.size() + part.finish.spec.partners.size();
+  return plan.height() + 6.0 + 4.0 * std::ceil(count(partners) / 4.0) +
+         (part.holes.empty() ? 0.0 : 10.0 + 6.4 * count(part.holes.size())) + 12.0 +
+         4.4 * std::ceil(count(part.sequence.size()) / 2.0);
+}
+
+/// What the colours of the two cuts mean, two lines of a sheet.
+void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+                   const Caption& caption) {
+  constexpr std::size_t kColumns = 4;
+  constexpr double kRow = 4.0;
+  std::vector<std::pair<std::string_view, std::string>> all;
+  const auto add = [&](const part::End& end, bool welded, const std::vector<std::string>& names,
+                       const std::string& which, std::size_t first) {
+    if (!welded) return all.emplace_back("none", which + ": cut square"), void();
+    for (std::size_t i = 0; i < end.spec.partners.size(); ++i)
+      all.emplace_back(partner_color(first + i),
+                       which + " by " + (i < names.size() ? names[i] : std::to_string(i + 1)));
+  };
+  add(part.start, spec.start.welded, caption.partners, "start", 0);
+  add(part.finish, spec.finish.welded, caption.finish_partners, "finish",
+      part.start.spec.partners.size());
+  const std::size_t rows = (all.size() + kColumns - 1) / kColumns;
+  const double top = sheets.take(kRow * static_cast<double>(rows) + 2.0), width = kWide / kColumns;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double x = kLeft + width * static_cast<double>(i % kColumns);
+    const double y = top - kRow * static_cast<double>(i / kColumns) - 3.0;
+    if (all[i].first != "none")
+      sheets.canvas().line({x, y + 0.8}, {x + 5.0, y + 0.8}, {.color = all[i].first, .width = 0.9});
+    sheets.canvas().text({x + 6.5, y}, all[i].second, fitted(all[i].second, kSmall, width - 8.0));
+  }
+}
+
+Unit unit_named(std::string_view name) {
+  const auto unit = unit_of(name);
+  return unit == "mm" ? Unit::mm : unit == "deg" ? Unit::deg : unit == "s" ? Unit::s : Unit::none;
+}
+
+/// What the request accepts, and how far its points are from the exact curve.
+std::string accepted(const Caption& caption) {
   std::string out;
-  for (const auto one : mistakes) out += (out.empty() ? "" : ", ") + std::string(name_of(one));
-  return out.empty() ? "none by more than 1 mm" : out;
+  const auto* request = caption.request;
+  const auto* accept = request != nullptr ? request->find("accept") : nullptr;
+  if (const auto* limits = accept != nullptr ? accept->as<Json::Object>() : nullptr)
+    for (const auto& [name, value] : *limits)
+      if (const auto* limit = value.as<double>())
+        out += (out.empty() ? "" : "; ") + called(name, Term::field) + " " +
+               measure(*limit, unit_named(name));
+  return out;
 }
 
-/// Returns the y below.
-double checks(Canvas& canvas, double y, const part::Part& part) {
-  const double left = Sheet::kBorder + kPad, right = Sheet::kWidth - Sheet::kBorder - kPad;
-  canvas.text({left, y}, "Check dimensions, mm", kHead);
-  auto measured = kGrey;
-  measured.anchor = Anchor::end;
-  canvas.text({right, y}, "measured", measured);
-  y -= 2.0;
-  for (const auto& d : part.check_dimensions) {
-    auto value = kHead;
-    value.anchor = Anchor::end;
-    canvas.text({left, y - 3.2}, d.name, {.height = 2.6, .bold = true});
-    canvas.text({left + 60.0, y - 3.2}, fixed(d.value, 1), value);
-    canvas.text({left + 64.0, y - 3.2}, name_of(d.tool), kSmall);
-    canvas.text({left + 80.0, y - 3.2}, "changes with: " + joined(d.changes_with), kGrey);
-    canvas.text({left, y - 6.4}, d.measured_from, kGrey);
-    canvas.rectangle({right - 22.0, y - kCheckRow + 1.0}, {right, y - 0.8}, kLine);
-    canvas.line({left, y - kCheckRow + 0.4}, {right, y - kCheckRow + 0.4}, kLine);
-    y -= kCheckRow;
+void draw_sign_off(OrderSheets& sheets, const part::PartSpec& spec, const Caption& caption) {
+  constexpr double kTall = 30.0, kBoxes = 14.0;
+  const double top = sheets.take(kTall);
+  auto& canvas = sheets.canvas();
+  canvas.text({kLeft, top - 5.0}, "Tolerances and release", kHead);
+  const auto limits = accepted(caption);
+  const auto& sampling = spec.start.cut.sampling;
+  std::string line = limits.empty() ? "The request states none; general tolerance as agreed: "
+                                      "................"
+                                    : "As the request accepts: " + limits + ".";
+  if (sampling.tolerance)
+    line += " Drawn within " + mm(sampling.tolerance->value) + " of the exact curve.";
+  canvas.text({kLeft, top - 9.4}, line, fitted(line, kSmall, kWide));
+  const double width = kWide / 4.0;
+  for (int i = 0; i < 4; ++i) {
+    static constexpr std::array<std::string_view, 4> kSigned{"cut by", "measured by", "released by",
+                                                             "parts measured"};
+    const double x = kLeft + width * i;
+    canvas.rectangle({x, top - kTall + 3.0}, {x + width, top - kTall + 3.0 + kBoxes}, kBox);
+    canvas.text({x + 1.5, top - kTall + kBoxes}, kSigned[static_cast<std::size_t>(i)], kGrey);
+    if (i < 3) canvas.text({x + 0.62 * width, top - kTall + kBoxes}, "on", kGrey);
   }
-  return y;
 }
 
-std::string words(const part::PartSpec& spec, const part::Part& part, const part::Step& step) {
-  const auto from = fixed(step.z_from, 1), to = fixed(step.z_to, 1);
-  const auto range = from == to ? " at z " + from : " from z " + from + " to " + to;
-  switch (step.what) {
-    case part::Step::What::mark: {
-      const auto& mark = part.marks[step.index];
-      const auto what = mark.kind == part::Mark::Kind::datum_line ? "the datum line" : mark.text;
-      return "mark " + what + " at " + fixed(mark.phi * kDegPerRad, 1) + " deg" + range;
-    }
-    case part::Step::What::hole: {
-      const auto& name = spec.holes[part.holes[step.index].asked].name;
-      return "cut hole" + (name.empty() ? "" : " " + name) + range;
-    }
-    case part::Step::What::finish:
-      return "cut the finish, scrap towards +z," + range;
-    case part::Step::What::start:
-      return "cut the start, scrap towards -z," + range;
-  }
-  return {};
-}
-
-/// In two columns; what does not fit is counted, and stands in the other formats.
-void steps(Canvas& canvas, double y, double low, const part::PartSpec& spec,
-           const part::Part& part) {
-  const double left = Sheet::kBorder + kPad, column = 0.5 * (Sheet::kWidth - 2.0 * Sheet::kBorder);
-  const bool none = y - low - 4.0 < kStepRow;
-  canvas.text({left, y},
-              none ? "Sequence: see the CSV or the JSON" : "Sequence, z in mm in the part's frame",
-              kHead);
-  const auto fit = static_cast<std::size_t>(std::max(0.0, (y - low - 4.0) / kStepRow));
-  const std::size_t count = part.sequence.size(), shown = std::min(count, 2 * fit);
-  const std::size_t half = std::min(fit, (shown + 1) / 2);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const bool last = i + 1 == shown && shown < count;
-    const DrawingPoint at{
-        left + (i < half ? 0.0 : column),
-        y - kStepRow * static_cast<double>(i % std::max<std::size_t>(half, 1) + 1)};
-    canvas.text(at,
-                last ? "and " + std::to_string(count - i) + " more steps: see the CSV or the JSON"
-                     : std::to_string(i + 1) + "  " + words(spec, part, part.sequence[i]),
-                kSmall);
-  }
+std::string name_of_part(const part::PartSpec& spec, const Caption& caption) {
+  for (const auto& [name, text] : caption.reference)
+    if (name == "part") return text;
+  return spec.name.empty() ? "Part" : spec.name;
 }
 
 }  // namespace
 
-std::string work_order(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  const auto& target = spec.target;
-  const auto mm = [](double value, int digits = 2) { return fixed(value, digits) + " mm"; };
-  const SheetFacts facts{
-      {"part", spec.name.empty() ? "-" : spec.name},
-      {"tube", mm(2.0 * target.outer_radius) + " x " + mm(target.wall)},
-      {"blank", mm(part.lengths.blank, 1) + " with kerfs, clamping and facing"},
-      {"long to long", mm(part.lengths.longest)},
-      {"short to short", mm(part.lengths.shortest)},
-      {"finish turned against start", fixed(part.clocking * kDegPerRad, 2) + " deg"},
-      {"weld", mm(part.lengths.weld, 1)},
-      {"mass", fixed(part.lengths.mass, 2) + " kg"}};
-  Sheet sheet("Work order", facts, caption);
-  auto& canvas = sheet.canvas();
-  const auto low = sheet.low(), high = sheet.high();
-  Development(canvas, spec, part, {{low.x, high.y - kDevelopment}, high}).draw();
-  const double below = checks(canvas, high.y - kDevelopment - 4.0, part);
-  steps(canvas, below - 6.0, low.y + 2.0, spec, part);
-  return sheet.print();
+std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& part,
+                               const Caption& caption) {
+  OrderSheets sheets("Work order", name_of_part(spec, caption), caption);
+  draw_facts(sheets, order_facts(caption), 4);
+  rule(sheets);
+  draw_facts(sheets, part_facts(spec, part), 4);
+  rule(sheets);
+  draw_verdict(sheets, spec, part, caption);
+  rule(sheets);
+  const auto plan = plan_development(spec, part, kWide);
+  draw_view(sheets, spec, part, height_below(plan, part));
+  for (std::size_t i = 0; i < plan.strips.size(); ++i) {
+    const double top = sheets.take(plan.height());
+    draw_strip(sheets.canvas(), plan, i, spec, part, {kLeft, top});
+  }
+  draw_partners(sheets, spec, part, caption);
+  draw_holes(sheets, spec, part);
+  draw_steps(sheets, spec, part);
+  draw_checks(sheets, part);
+  draw_sign_off(sheets, spec, caption);
+  return sheets.finished();
 }
 
 }  // namespace tubecut::api

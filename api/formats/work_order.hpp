@@ -1,17 +1,18 @@
 #pragma once
 
-#include <string>
+#include <vector>
 
 #include "api/format.hpp"
+#include "api/formats/canvas.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::api {
 
-/// The part on a sheet of A4 for those who cut and check it: its outside developed, as seen
-/// from outside (z to the right, phi downwards), with both ends,
-/// holes and marks, the check dimensions with room for what was measured and the mistakes that
-/// change them, and the steps in their order.
-[[nodiscard]] std::string work_order(const part::PartSpec& spec, const part::Part& part,
-                                     const Caption& caption);
+/// The part on sheets of A4 for those who cut and check it: what it is and whether to cut it; a
+/// view in space; its outside developed, true to shape, with both ends, holes and marks; where each
+/// hole is and how large, with room for what was measured; the check dimensions, and the mistakes
+/// that change them; the steps in their order; what is accepted; who made and checked it.
+[[nodiscard]] std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& part,
+                                             const Caption& caption);
 
 }  // namespace tubecut::api

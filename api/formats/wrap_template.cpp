@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/formats/numbers.hpp"
 #include "api/formats/sheet.hpp"
-#include "api/formats/text.hpp"
+#include "api/formats/svg_sheets.hpp"
 #include "api/verdict.hpp"
+#include "api/words.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -48,13 +50,14 @@ double scale_step(double radius) {
 
 std::vector<std::string> header(const Development& d, const Field& field, const Caption& c) {
   std::vector<std::string> lines{
-      "Tube " + fixed(2.0 * d.outer_radius) + " x " + fixed(d.wall) + " mm, " +
-          (d.around() ? "circumference " : "full circumference ") + fixed(kTwoPi * d.outer_radius) +
-          " mm; 1:1, wrap round the outside, " + (d.around() ? "kept side up" : "z upwards"),
+      "Tube " + number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall) + ", " +
+          (d.around() ? "circumference " : "full circumference ") + mm(kTwoPi * d.outer_radius) +
+          "; 1:1, wrap round the outside, " + (d.around() ? "kept side up" : "z upwards"),
       c.options.mirror ? "MIRRORED: print side towards the tube" : "print side out",
       "blue: outer edge; green dashed: inner edge, at its phi; red: torch line on the outer wall",
-      "datum z = " + fixed(field.z_datum) + " mm from the frame's origin"};
-  for (const auto& [name, text] : c.reference) lines.push_back(name + ": " + text);
+      "datum z = " + mm(field.z_datum) + " from the frame's origin"};
+  for (const auto& [name, text] : c.reference)
+    lines.push_back(called(name, Term::field) + ": " + text);
   lines.push_back(
       job_line({.reference = {}, .input_sha256 = c.input_sha256, .result_sha256 = {}, .view = {}}));
   return lines;
@@ -67,7 +70,7 @@ class Template {
         caption_(c),
         field_(field_of(d)),
         header_(header(d, field_, c)),
-        verdict_(verdict_lines(c.verdict, {.warnings = 12})),
+        verdict_(verdict_lines(c.verdict, {.warnings = 12, .plain = true})),
         canvas_(std::max(kLeastWidth, field_.width() + 2.0 * kMargin + kRulerRoom),
                 2.0 * kMargin + kRulerRoom + std::max(field_.height(), kRuler) + kScaleRoom +
                     kLine * (static_cast<double>(header_.size() + verdict_.size()) + 1.0)) {}
@@ -84,7 +87,7 @@ class Template {
     draw_ruler(canvas_, {kMargin, kMargin + 2.0}, kRuler, false, "ruler-x");
     draw_ruler(canvas_, {kMargin + field_.width() + 9.0, kMargin + kRulerRoom}, kRuler, true,
                "ruler-y");
-    return canvas_.print("Wrap template 1:1");
+    return print_svg({canvas_}, "Wrap template 1:1");
   }
 
  private:
@@ -122,10 +125,10 @@ class Template {
     for (int i = first; i <= last; ++i) {
       const auto top = at(mm * step * i, field_.z_datum);
       canvas_.line(top, {top.x, top.y + 2.0}, {.width = 0.2});
-      canvas_.text({top.x, top.y + 3.0}, fixed(step * i, 0),
+      canvas_.text({top.x, top.y + 3.0}, number(step * i, Unit::deg),
                    {.height = 2.4, .anchor = Anchor::middle});
     }
-    canvas_.text({kMargin, kMargin + kRulerRoom + field_.height() + 6.6}, "phi, deg",
+    canvas_.text({kMargin, kMargin + kRulerRoom + field_.height() + 6.6}, "phi, °",
                  {.height = 2.2, .color = "#56626e"});
   }
   void curve(const CylinderCurve& c, const Stroke& stroke, const std::string& id) {
@@ -134,7 +137,7 @@ class Template {
     points.reserve(c.phi.size());
     for (std::size_t i = 0; i < c.phi.size(); ++i)
       points.push_back(at(d_.outer_radius * c.phi[i], c.z[i]));
-    canvas_.polyline(points, stroke, id, !d_.around());
+    canvas_.polyline(std::move(points), stroke, id, !d_.around());
   }
   void outline(const CutOutline& cut, std::size_t i) {
     const auto number = i == 0 ? std::string{} : "-" + std::to_string(i + 1);

@@ -1,8 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "api/endpoint.hpp"
+#include "api/formats/labels.hpp"
+#include "api/formats/numbers.hpp"
+#include "api/formats/pdf_sheets.hpp"
 #include "api/formats/sheet.hpp"
 #include "api/formats/text.hpp"
+#include "api/text_encoding.hpp"
+#include "api/words.hpp"
+#include "core/base/angle.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
@@ -116,6 +122,55 @@ TEST(Formats, FixedNumbersHaveNoNegativeZero) {
   EXPECT_EQ(api::fixed(-0.0001, 3), "0.000");
   EXPECT_EQ(api::fixed(-0.0006, 3), "-0.001");
   EXPECT_EQ(api::fixed(1e6 + 0.125, 3), "1000000.125");
+}
+
+TEST(Formats, NumbersForPeopleAreShort) {
+  using api::Unit;
+  EXPECT_EQ(api::mm(411.604999), "411.6 mm");
+  EXPECT_EQ(api::mm(-0.0004), "< 0.001 mm");
+  EXPECT_EQ(api::mm(-1e-12), "0 mm");
+  EXPECT_EQ(api::mm(0.004), "0.004 mm");
+  EXPECT_EQ(api::mm(123456.789), "123457 mm");
+  EXPECT_EQ(api::mm(1234567.89), "1234570 mm");
+  EXPECT_EQ(api::mm(9999.996), "10000 mm");
+  EXPECT_EQ(api::measure(269.99999999999994, Unit::deg), "270°");
+  EXPECT_EQ(api::degrees(-kPi / 7.0), "-25.7°");
+  EXPECT_EQ(api::measure(0.0123456, Unit::s), "0.012 s");
+  EXPECT_EQ(api::measure(123.456, Unit::s), "123.5 s");
+  EXPECT_EQ(api::number(1234.5678), "1235");
+  EXPECT_EQ(api::number(360.0), "360");
+  EXPECT_EQ(api::number(7.1e-15), "0");
+  EXPECT_EQ(api::number(2e-8), "< 0.001");
+}
+
+TEST(Formats, SentencesForPeopleNameNoField) {
+  EXPECT_EQ(api::in_plain_words("root_opens at /cutters/1/wall_mm: by up to 2.3094010767585047 mm, "
+                                "at phi 269.99999999999994 deg"),
+            "root opens at partners 2, wall: by up to 2.31 mm, at phi 270°");
+  EXPECT_EQ(api::in_plain_words("max_b_deg: 41.6988 above 0.5, my_tube-4x4.2"),
+            "B at most: 41.7° above 0.5°, my tube-4x4.2");
+  EXPECT_EQ(api::called("torch_range_binds", api::Term::value), "torch range binds");
+  EXPECT_EQ(api::called("no_such_name", api::Term::field), "no such name");
+}
+
+TEST(Formats, LabelsAreSpreadAndKeepTheirOrder) {
+  const auto places = api::spread({10.0, 10.5, 30.0, 99.0, 11.0}, 3.0, 0.0, 100.0);
+  EXPECT_EQ(places, (std::vector<double>{7.5, 10.5, 30.0, 99.0, 13.5}));
+  const auto crowded = api::spread(std::vector<double>(11, 5.0), 3.0, 0.0, 20.0);
+  for (std::size_t i = 0; i < crowded.size(); ++i)
+    EXPECT_NEAR(crowded[i], 2.0 * static_cast<double>(i), 1e-12);
+  const auto at_the_edge = api::spread({-5.0, -4.0}, 3.0, 0.0, 20.0);
+  EXPECT_EQ(at_the_edge, (std::vector<double>{0.0, 3.0}));
+}
+
+TEST(Formats, APdfSpellsWhatItsFontsHaveNot) {
+  api::Canvas sheet(50.0, 20.0);
+  sheet.text({1.0, 1.0}, "(30\u00b0) \u0159");
+  const auto pdf = api::print_pdf({sheet}, "a");
+  EXPECT_NE(pdf.find("(\\05030\\260\\051 r)"), std::string::npos);
+  api::Canvas other(50.0, 20.0);
+  other.text({1.0, 1.0}, "\u7ba1");
+  EXPECT_THROW((void)api::print_pdf({other}, "a"), api::Unspellable);
 }
 
 TEST(Formats, DrawingScalesAreTheUsualOnesAndFit) {

@@ -11,9 +11,14 @@ import gi
 gi.require_version("Rsvg", "2.0")
 from gi.repository import Rsvg  # noqa: E402
 
+import pdf_reader  # noqa: E402
 from dxf_test import polylines, read  # noqa: E402
-from service import HOSTILE, FormatTest, examples, main, off_curve, rolled, seam_row  # noqa: E402
+from service import HOSTILE, ROOT, FormatTest, examples, main, off_curve, rolled, seam_row  # noqa: E402
 
+# What a work order calls them (docs/glossary.md), and the mistakes.
+CALLED = dict(re.findall(r"^\| `(length_at_\w+|\w+_(?:girth|chord|overhang))` \| ([^|]+) \|", (ROOT / "docs/glossary.md").read_text(), re.M))
+MISTAKES = {"diameter": "another diameter", "wall": "another wall", "clocking": "an end turned", "mirror": "an end mirrored",
+            "b_sign": "B the wrong way", "pivot_length": "pivot length off"}
 DPI = 254  # ten pixels a millimetre
 SVG = "{http://www.w3.org/2000/svg}"
 BLUE = (0x1f, 0x5f, 0xbf)
@@ -128,86 +133,128 @@ class Svg(FormatTest):
                 words = [e.text or "" for e in root.iter(f"{SVG}text")]
                 at = words.index("outer edge, mm") + 1
                 for k in range(at, at + 32, 4):
-                    angle, inner, outer = map(float, words[k + 1:k + 4])
+                    angle, inner, outer = (float(w.removesuffix("°")) for w in words[k + 1:k + 4])
                     with self.subTest(f"{endpoint} {name} {words[k]}"):
-                        self.assertAlmostEqual(abs(angle), math.degrees(math.atan(abs(outer - inner) / wall)), delta=0.02)
+                        self.assertAlmostEqual(abs(angle), math.degrees(math.atan(abs(outer - inner) / wall)), delta=0.15)
                         count += 1
         self.assertGreaterEqual(count, 8 * 8)
 
-    def test_work_orders(self):
+    def order(self, body):
+        """(texts, {id: points in mm}, the drawing's scale) of a work order."""
+        root = ElementTree.fromstring(self.service.text("parts", body, "format=svg&view=work_order"))
+        self.assertEqual(root.get("width"), "210.000mm")
+        self.assertEqual(float(root.get("height").removesuffix("mm")) % 297, 0)
+        words = [e.text or "" for e in root.iter(f"{SVG}text")]
+        curves = {e.get("id"): [tuple(map(float, p.split(","))) for p in e.get("points").split()] for e in root.iter() if e.get("id") and e.get("points")}
+        up, down = next(re.search(r", (\d+):(\d+)", w) for w in words if "developed" in w).groups()
+        return words, curves, float(up) / float(down)
+
+    def test_work_orders_say_what_the_answer_does(self):
         for name, body in examples("parts").items():
             with self.subTest(name):
                 result = self.service.answer("parts", body)["result"]
-                asked = {**body, "reference": HOSTILE}
-                root = ElementTree.fromstring(self.service.text("parts", asked, "format=svg&view=work_order"))
-                self.assertEqual((root.get("width"), root.get("height")), ("210.000mm", "297.000mm"))
-                words = [e.text or "" for e in root.iter(f"{SVG}text")]
-                for value in HOSTILE.values():
-                    self.assertIn(value, " ".join(words))
+                words, _, _ = self.order({**body, "reference": HOSTILE | {"material": "S355J2H", "quantity": 12}})
+                for value in (*HOSTILE.values(), "S355J2H", "12"):
+                    self.assertIn(value, words)
                 for check in result["check_dimensions"]:
-                    at = words.index(check["name"])
-                    self.assertAlmostEqual(float(words[at + 1]), check["value_mm"], delta=0.05)
-                    for mistake in check["changes_with"]:
-                        self.assertIn(mistake, words[at + 3])
+                    at = max(i for i, w in enumerate(words) if w == CALLED.get(check["name"], check["name"].replace("_", " ")))
+                    self.assertAlmostEqual(float(words[at + 1]), check["value_mm"], delta=0.00501)
+                    self.assertEqual(words[at + 2], check["tool"])
+                    said = [MISTAKES[m] for m in check["changes_with"]]
+                    self.assertEqual(words[at + 3], ", ".join(said) or "none of them by more than 1 mm")
                 for step in range(len(result["sequence"])):
                     self.assertTrue(any(w.startswith(f"{step + 1}  ") for w in words), step)
-                along, round_ = (float(scale.split(":")[0]) / float(scale.split(":")[1]) for scale in
-                                 re.search(r"along (\S+), round (\S+)", next(w for w in words if "developed" in w)).groups())
-                for end in ("start", "finish"):
-                    rows = result["ends"][end]["points"]
-                    drawn = next(e for e in root.iter() if e.get("id") == f"{end}_outer").get("points").split()
-                    xy = [tuple(map(float, p.split(","))) for p in drawn]
-                    self.assertEqual(len(xy), len(rows["phi_deg"]) + 1)
-                    z = rows["z_outer_mm"]
-                    order = sorted(range(len(z)), key=lambda i: rows["phi_deg"][i] % 360)
+                for i, hole in enumerate(result["holes"]):
+                    at = words.index(f"H{i + 1}", words.index("size along x round"))
+                    z = hole["points"]["z_mm"]
+                    low, high = map(float, words[at + 2].split(" to "))
+                    self.assertAlmostEqual(low, min(z), delta=0.00501)
+                    self.assertAlmostEqual(high, max(z), delta=0.00501)
+                    long, wide = map(float, words[at + 4].split(" x "))
+                    self.assertAlmostEqual(long, max(z) - min(z), delta=0.00501)
                     girth = result["check_dimensions"][0]["value_mm"]
-                    x0, y0 = xy[0]
-                    for (x, y), i in zip(xy, order):
-                        self.assertAlmostEqual((x - x0) / along, z[i] - z[order[0]], delta=2e-3 / along)
-                        turn = (rows["phi_deg"][i] - rows["phi_deg"][order[0]]) / 360
-                        self.assertAlmostEqual((y - y0) / round_, turn * girth, delta=2e-3 / round_)
+                    phi = hole["points"]["phi_deg"]
+                    self.assertAlmostEqual(wide, (max(phi) - min(phi)) / 360 * girth, delta=0.00501)
+
+    def test_work_orders_are_true_to_shape(self):
+        """Both ends as the answer has them, each by its own place on the paper: what is plain between them may be left out."""
+        for name, body in examples("parts").items():
+            with self.subTest(name):
+                result = self.service.answer("parts", body)["result"]
+                girth = result["check_dimensions"][0]["value_mm"]
+                _, curves, scale = self.order(body)
+                for end in ("start", "finish"):
+                    rows, drawn = result["ends"][end]["points"], curves[f"{end}_outer"]
+                    wanted = {}
+                    for phi, z in zip(rows["phi_deg"], rows["z_outer_mm"]):
+                        wanted.setdefault(round(phi % 360 / 360 * girth, 3) % girth, []).append(z)
+                    top = min(y for _, y in drawn)
+                    self.assertAlmostEqual((max(y for _, y in drawn) - top) / scale, girth, delta=2e-3 / scale)
+                    best = min(self.worst(drawn, wanted, girth, scale, top, turn) for turn in range(0, 360, 15))
+                    self.assertLess(best, 3e-3 / scale)
+
+    @staticmethod
+    def worst(drawn, wanted, girth, scale, top, turn):
+        """How far the drawn points that are rows are off them, were the surface cut open at `turn`."""
+        offsets = []
+        for around, heights in wanted.items():
+            y = (around - girth * turn / 360) % girth
+            x, where = min(((x, abs((v - top) / scale - y)) for x, v in drawn), key=lambda p: p[1])
+            if where > 3e-3 / scale:
+                return math.inf
+            offsets.append(x / scale - min(heights, key=lambda z: abs(x / scale - z - (offsets[0] if offsets else x / scale - z))))
+        return max(offsets) - min(offsets)
 
     def test_a_work_order_seen_from_outside_is_the_part_in_space(self):
         """Laid round the tube with its print side out the holes lie on the curves in space; mirrored they do not."""
         body = examples("parts")["chord-with-holes"]
-        root = ElementTree.fromstring(self.service.text("parts", body, "format=svg&view=work_order"))
-        title = next(e.text for e in root.iter(f"{SVG}text") if "developed" in (e.text or ""))
-        self.assertIn("seen from outside", title)
-        along, around = (float(a) / float(b) for a, b in re.findall(r"(\d+):(\d+)", title))
+        words, curves, scale = self.order(body)
+        self.assertTrue(any("seen from outside" in w for w in words))
         result = self.service.answer("parts", body)["result"]
         radius = next(d["value_mm"] for d in result["check_dimensions"] if d["name"] == "girth") / (2 * math.pi)
-        start = next(e for e in root.iter() if e.get("id") == "start_outer").get("points").split()[0].split(",")
-        first = min(zip((p % 360 for p in result["ends"]["start"]["points"]["phi_deg"]), result["ends"]["start"]["points"]["z_outer_mm"]))
+        z0 = result["ends"]["start"]["points"]["z_outer_mm"][0]
+        x0, top = curves["start_outer"][0]
+        space = [points for points, _ in polylines(read(self.service.text("parts", body, "format=dxf&view=tube")), "CUT_OUTER")][2:]
+        holes = [points for name, points in curves.items() if re.fullmatch(r"hole-\d+", name)]
+        self.assertEqual(len(holes), len(result["holes"]))
 
-        def sheet(polygon, side):
-            """(z, up) on the tube, up from phi = 0."""
-            xy = [tuple(map(float, p.split(","))) for p in polygon.get("points").split()]
-            return [((x - float(start[0])) / along + first[1], side * ((float(start[1]) - y) / around - radius * math.radians(first[0]))) for x, y in xy]
-        holes = [e for e in root.iter(f"{SVG}polygon") if e.get("stroke-dasharray") is None]
-        self.assertEqual(len(holes), 3 * len(result["holes"]))
-        curves = [points for points, _ in polylines(read(self.service.text("parts", body, "format=dxf&view=tube")), "CUT_OUTER")][2:]
-        off = {side: max(min(off_curve(rolled(sheet(hole, side), radius), curve) for curve in curves) for hole in holes) for side in (1, -1)}
-        self.assertLess(off[1], 0.1)  # a hundredth of a mm on paper is 0.05 mm on the tube here
-        self.assertGreater(off[-1], 5)
+        def off(side):
+            """The best of all places where the surface may be cut open."""
+            return min(max(min(off_curve(rolled([((x - x0) / scale + z0, side * ((top - y) / scale - radius * math.radians(turn))) for x, y in hole], radius),
+                                         curve) for curve in space) for hole in holes) for turn in range(0, 360, 15))
+        self.assertLess(off(1), 0.1)  # a hundredth of a mm on paper
+        self.assertGreater(off(-1), 5)
 
-    def test_marks_of_a_work_order_stand_in_their_contours(self):
-        """The name of each partner is where one of the rings of its hole is."""
+    def test_holes_of_a_work_order_are_whole(self):
+        """The surface is cut open off the holes: each is drawn once, within the outline."""
         count = 0
         for name, body in examples("parts").items():
-            result = self.service.answer("parts", body)["result"]
-            root = ElementTree.fromstring(self.service.text("parts", body, "format=svg&view=work_order"))
-            rings = [[tuple(map(float, p.split(","))) for p in e.get("points").split()]
-                     for e in root.iter(f"{SVG}polygon") if e.get("stroke-dasharray") is None]
-            for i, hole in enumerate(result["holes"]):
-                for mark in (one for one in result["marks"] if one["kind"] == "partner" and one["text"] == hole["branch"]):
-                    [place] = [(float(e.get("x")) - 0.5, float(e.get("y"))) for e in root.iter(f"{SVG}text") if e.text == mark["text"]]
-                    mine = rings[3 * i:3 * i + 3]
-                    with self.subTest(f"{name} {mark['text']}"):
-                        self.assertTrue(any(all(min(p[k] for p in ring) - 3 <= place[k] <= max(p[k] for p in ring) + 3 for k in (0, 1)) for ring in mine))
-                        for other in (ring for j in range(len(result["holes"])) if j != i for ring in rings[3 * j:3 * j + 3]):
-                            self.assertFalse(min(x for x, _ in other) <= place[0] <= max(x for x, _ in other))
-                        count += 1
-        self.assertGreaterEqual(count, 2)
+            _, curves, _ = self.order(body)
+            self.assertFalse([name for name in curves if "again" in name])
+            ys = [y for _, y in curves["start_outer"]]
+            for name, points in curves.items():
+                if name.startswith("hole-"):
+                    self.assertTrue(all(min(ys) <= y <= max(ys) for _, y in points))
+                    count += 1
+        self.assertGreaterEqual(count, 8)
+
+    def test_a_work_order_has_the_same_sheets_as_pdf(self):
+        count = 0
+        for name, body in examples("parts").items():
+            with self.subTest(name):
+                root = ElementTree.fromstring(self.service.text("parts", body, "format=svg"))
+                pages = pdf_reader.pages(self.service.text("parts", body, "format=pdf"))
+                sheets = [e for e in root.iter(f"{SVG}g") if (e.get("id") or "").startswith("sheet-")]
+                self.assertEqual(len(pages), max(1, len(sheets)))
+                for page, sheet in zip(pages, sheets or [root]):
+                    self.assertAlmostEqual(page.width, 210, delta=1e-3)
+                    self.assertAlmostEqual(page.height, 297, delta=1e-3)
+                    self.assertEqual([t[0] for t in page.texts], [e.text for e in sheet.iter(f"{SVG}text")])
+                    lines = [e for e in sheet.iter(f"{SVG}polyline")]
+                    drawn = [len(p) for p, closed, how, _ in page.paths if how == "S" and not closed and len(p) != 2]
+                    self.assertEqual(drawn, [len(e.get("points").split()) for e in lines])
+                    count += len(drawn)
+        self.assertGreater(count, 50)
 
     def test_a_mark_of_a_point_is_drawn(self):
         root = ElementTree.fromstring(self.service.text("parts", examples("parts")["chord-with-holes"], "format=svg&view=work_order"))

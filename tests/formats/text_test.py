@@ -8,6 +8,7 @@ import re
 import struct
 import xml.etree.ElementTree as ElementTree
 
+import pdf_reader
 import step_reader
 from dstv_test import parse
 from dxf_test import read
@@ -157,7 +158,13 @@ def step(content):
     return (others, file.entities), texts, str
 
 
-READERS = {"svg": xml, "dxf": dxf, "gcode": gcode, "nc1": dstv, "st": structured_text, "csv": table, "glb": glb, "stl": stl, "step": step}
+def pdf(content):
+    """What is drawn apart from the texts, and how those look; letters beyond WinAnsiEncoding are spelled."""
+    pages = pdf_reader.pages(content)
+    return [(page.width, page.height, page.paths, len(page.texts)) for page in pages], [t[0] for page in pages for t in page.texts], str
+
+
+READERS = {"svg": xml, "pdf": pdf, "dxf": dxf, "gcode": gcode, "nc1": dstv, "st": structured_text, "csv": table, "glb": glb, "stl": stl, "step": step}
 
 
 class Words(FormatTest):

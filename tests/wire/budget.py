@@ -39,7 +39,7 @@ def ask(service, body, target, budget_ms):
 def formats(service):
     page = json.loads(exchange(service.port, get("/v1/version"))[0].body)
     names = {"application/json": "json", "application/cbor": "cbor", "text/csv": "csv", "image/svg+xml": "svg", "image/vnd.dxf": "dxf",
-             "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step", "application/x-dstv": "nc1", "text/x-gcode": "gcode",
+             "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step", "application/x-dstv": "nc1", "text/x-gcode": "gcode", "application/pdf": "pdf",
              "text/x-iec61131-st": "st", "application/zip": "zip"}
     return {e["id"]: [form for media in e["formats"] for form in VIEWS.get(names.get(media, media), (names.get(media, media),))]
             for e in page["endpoints"]}

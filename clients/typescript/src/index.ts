@@ -80,7 +80,7 @@ export async function post<P extends PostPath>(
 /** What the service calls the media types of its documents (docs/formats.md). */
 export const FORMATS = {
   cbor: 'application/cbor', csv: 'text/csv', svg: 'image/svg+xml', dxf: 'image/vnd.dxf', glb: 'model/gltf-binary', stl: 'model/stl',
-  step: 'model/step', nc1: 'application/x-dstv', gcode: 'text/x-gcode', st: 'text/x-iec61131-st', zip: 'application/zip',
+  step: 'model/step', nc1: 'application/x-dstv', gcode: 'text/x-gcode', st: 'text/x-iec61131-st', zip: 'application/zip', pdf: 'application/pdf',
 } as const;
 type Content<P extends PostPath> = paths[P]['post']['responses'][200]['content'];
 /** The formats that the endpoint has. */

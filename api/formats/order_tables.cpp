@@ -1,0 +1,201 @@
+#include "api/formats/order_tables.hpp"
+
+#include <algorithm>
+
+#include "api/formats/numbers.hpp"
+#include "api/formats/part_edges.hpp"
+#include "api/wire_names.hpp"
+#include "api/words.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr Stroke kLine{.color = "#7a8794", .width = 0.18};
+constexpr Stroke kBox{.color = "#566370", .width = 0.25};
+constexpr Lettering kHead{.height = 3.2, .bold = true};
+constexpr Lettering kSmall{.height = 2.3};
+constexpr Lettering kGrey{.height = 2.0, .color = "#566370"};
+constexpr std::string_view kGreen = "#1d7a46";
+
+/// A table's head and rows, each with a box to write in at its right end.
+struct Column {
+  double at;
+  std::string head;
+};
+void draw_row_line(Canvas& canvas, double y) {
+  canvas.line({OrderSheets::kLeft, y}, {OrderSheets::kRight, y}, kLine);
+}
+void draw_box(Canvas& canvas, double y, double height) {
+  canvas.rectangle({OrderSheets::kRight - 22.0, y - height + 0.9}, {OrderSheets::kRight, y - 0.6},
+                   kBox);
+}
+
+void draw_head(OrderSheets& sheets, const std::string& title, const std::vector<Column>& columns,
+               double with) {
+  constexpr double kTall = 10.0;
+  sheets.keep_together(kTall + with);
+  const double top = sheets.take(kTall);
+  auto& canvas = sheets.canvas();
+  canvas.text({OrderSheets::kLeft, top - 5.0}, title, kHead);
+  for (const auto& column : columns)
+    canvas.text({OrderSheets::kLeft + column.at, top - 9.0}, column.head, kGrey);
+  draw_row_line(canvas, top - kTall);
+}
+
+}  // namespace
+
+void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part) {
+  if (part.holes.empty()) return;
+  constexpr double kRow = 6.4;
+  draw_head(sheets, "Holes: outer edge, in mm",
+            {{0.0, "hole"},
+             {10.0, "for"},
+             {38.0, "from the start's long point"},
+             {74.0, "round from the datum line"},
+             {108.0, "size along x round"},
+             {136.0, "B"},
+             {162.0, "measured"}},
+            2.0 * kRow);
+  for (std::size_t i = 0; i < part.holes.size(); ++i) {
+    const auto& placed = part.holes[i];
+    const auto place = place_of(placed.hole);
+    const double ro = spec.target.outer_radius, top = sheets.take(kRow), y = top - 4.2;
+    auto& canvas = sheets.canvas();
+    const auto put = [&](double x, const std::string& text, double room, bool bold = false) {
+      canvas.text({OrderSheets::kLeft + x, y}, text,
+                  fitted(text, {.height = 2.4, .bold = bold}, room));
+    };
+    const auto between = [](double a, double b) {
+      return number(a, Unit::mm) + " to " + number(b, Unit::mm);
+    };
+    const double middle = 0.5 * (place.phi_from + place.phi_to);
+    const double turn = turned_from(0.0, middle) - middle;
+    const auto b = std::ranges::minmax(placed.hole.b);
+    const auto& name = spec.holes[placed.asked].name;
+    put(0.0, hole_tag(i), 9.0, true);
+    put(10.0,
+        (name.empty() ? "branch " + std::to_string(placed.asked + 1) : name) +
+            (placed.hole.far ? ", far side" : ""),
+        27.0);
+    put(38.0, between(place.z_from, place.z_to), 37.0);
+    put(74.0, between(ro * (place.phi_from + turn), ro * (place.phi_to + turn)), 33.0);
+    put(108.0,
+        number(place.z_to - place.z_from, Unit::mm) + " x " +
+            number(ro * (place.phi_to - place.phi_from), Unit::mm),
+        27.0);
+    put(136.0, degrees(b.min) + " to " + degrees(b.max), 25.0);
+    draw_box(canvas, top, kRow);
+    draw_row_line(canvas, top - kRow);
+  }
+}
+
+namespace {
+
+std::string said(part::Mistake mistake) {
+  switch (mistake) {
+    case part::Mistake::diameter:
+      return "another diameter";
+    case part::Mistake::wall:
+      return "another wall";
+    case part::Mistake::clocking:
+      return "an end turned";
+    case part::Mistake::mirror:
+      return "an end mirrored";
+    case part::Mistake::b_sign:
+      return "B the wrong way";
+    case part::Mistake::pivot_length:
+      return "pivot length off";
+  }
+  return {};
+}
+
+std::string joined(const std::vector<part::Mistake>& mistakes) {
+  std::string out;
+  for (const auto one : mistakes) out += (out.empty() ? "" : ", ") + said(one);
+  return out.empty() ? "none of them by more than 1 mm" : out;
+}
+
+/// Broken at blanks.
+std::vector<std::string> lines_within(std::string_view text, double height, double room) {
+  std::vector<std::string> out(1);
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' ') + 1, text.size());
+    const auto word = end == 0 ? text : text.substr(0, end);
+    if (!out.back().empty() && text_width(out.back() + std::string(word), height) > room)
+      out.emplace_back();
+    out.back() += word;
+    text.remove_prefix(word.size());
+  }
+  return out;
+}
+
+}  // namespace
+
+void draw_checks(OrderSheets& sheets, const part::Part& part) {
+  constexpr double kRow = 7.6, kMore = 2.8;
+  draw_head(
+      sheets, "Check dimensions, in mm",
+      {{0.0, "what, and from where"}, {88.0, "by"}, {100.0, "changes with"}, {162.0, "measured"}},
+      kRow * static_cast<double>(part.check_dimensions.size()) + 3.0 * kMore);
+  for (const auto& d : part.check_dimensions) {
+    const auto from = lines_within(in_plain_words(d.measured_from), kGrey.height, 158.0);
+    const double tall = kRow + kMore * static_cast<double>(from.size() - 1);
+    const double top = sheets.take(tall);
+    auto& canvas = sheets.canvas();
+    const auto name = called(d.name, Term::value);
+    const auto mistakes = joined(d.changes_with);
+    canvas.text({OrderSheets::kLeft, top - 3.3}, name,
+                fitted(name, {.height = 2.5, .bold = true}, 66.0));
+    canvas.text({OrderSheets::kLeft + 85.0, top - 3.3}, number(d.value, Unit::mm),
+                {.height = 2.8, .anchor = Anchor::end, .bold = true, .color = kGreen});
+    canvas.text({OrderSheets::kLeft + 88.0, top - 3.3}, name_of(d.tool), kSmall);
+    canvas.text({OrderSheets::kLeft + 100.0, top - 3.3}, mistakes, fitted(mistakes, kGrey, 63.0));
+    for (std::size_t i = 0; i < from.size(); ++i)
+      canvas.text({OrderSheets::kLeft, top - 6.3 - kMore * static_cast<double>(i)}, from[i], kGrey);
+    draw_box(canvas, top, tall);
+    draw_row_line(canvas, top - tall);
+  }
+}
+
+namespace {
+
+std::string words(const part::PartSpec& spec, const part::Part& part, const part::Step& step) {
+  const auto from = number(step.z_from, Unit::mm), to = number(step.z_to, Unit::mm);
+  const auto range = from == to ? " at " + from : " from " + from + " to " + to;
+  switch (step.what) {
+    case part::Step::What::mark: {
+      const auto& mark = part.marks[step.index];
+      const auto what = mark.kind == part::Mark::Kind::datum_line ? "the datum line" : mark.text;
+      return "mark " + what + " at " + degrees(mark.phi) + "," + range;
+    }
+    case part::Step::What::hole: {
+      const auto& name = spec.holes[part.holes[step.index].asked].name;
+      return "cut hole " + hole_tag(step.index) + (name.empty() ? "" : ", " + name) + "," + range;
+    }
+    case part::Step::What::finish:
+      return "cut the finish, scrap towards the free end," + range;
+    case part::Step::What::start:
+      return "cut the start, scrap towards the clamp," + range;
+  }
+  return {};
+}
+
+}  // namespace
+
+void draw_steps(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part) {
+  constexpr double kRow = 4.4;
+  draw_head(sheets, "Sequence, in mm from the start's long point", {}, 3.0 * kRow);
+  const auto& all = part.sequence;
+  for (std::size_t i = 0; i < all.size(); i += 2) {
+    const double y = sheets.take(kRow) - 3.4;
+    for (std::size_t k = i; k < std::min(i + 2, all.size()); ++k) {
+      const double x = OrderSheets::kLeft + (k == i ? 0.0 : 0.5 * OrderSheets::kWide);
+      const auto text = std::to_string(k + 1) + "  " + words(spec, part, all[k]);
+      sheets.canvas().rectangle({x, y - 0.4}, {x + 2.4, y + 2.0}, kBox);
+      sheets.canvas().text({x + 4.0, y}, text,
+                           fitted(text, kSmall, 0.5 * OrderSheets::kWide - 6.0));
+    }
+  }
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "api/formats/order_sheets.hpp"
+#include "core/part/part.hpp"
+
+namespace tubecut::api {
+
+// The tables of a work order, each with its head, and room for what was measured or done.
+
+/// Each hole by its tag: where it is from the start's long point and round from the datum line, how
+/// large, its bevel.
+void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
+
+/// The check dimensions, on one sheet where they fit, with the mistakes that change them.
+void draw_checks(OrderSheets& sheets, const part::Part& part);
+
+/// What is done to the blank, in its order.
+void draw_steps(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
+
+}  // namespace tubecut::api
