@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "api/shortest.hpp"
 #include "api/stop.hpp"
 
 namespace tubecut::api {
@@ -178,16 +179,18 @@ void append_text(std::string& out, std::string_view text) {
   out += '"';
 }
 
-void append_number(std::string& out, double value) {
-  char buffer[32];
+char* print_number(char* to, double value) {
   value += 0.0;  // -0 is printed as 0: CBOR's integers have no other
   // Beyond 2^53 with an exponent: digits alone would be an integer that our own reader refuses.
   constexpr double kExact = 9007199254740992.0;
-  const auto end =
-      std::abs(value) > kExact
-          ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr
-          : std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  out.append(buffer, end);
+  return std::abs(value) > kExact
+             ? std::to_chars(to, to + kNumberBytes, value, std::chars_format::scientific).ptr
+             : print_shortest(to, value);
+}
+
+void append_number(std::string& out, double value) {
+  char buffer[kNumberBytes];
+  out.append(buffer, print_number(buffer, value));
 }
 
 const Json* Json::find(std::string_view key) const {

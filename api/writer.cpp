@@ -1,5 +1,6 @@
 #include "api/writer.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -34,6 +35,7 @@ void Writer::hash_so_far() {
 }
 
 std::string Writer::sha256() {
+  if (!hash_) return api::sha256(out_, pace_.stop());
   hash_so_far();
   return hash_->hex();
 }
@@ -133,14 +135,57 @@ void Writer::field(std::string_view name, const Json& value) {
 
 void Writer::degrees(std::string_view name, double radians) { field(name, radians * kDegPerRad); }
 
-void Writer::column(std::string_view name, std::span<const double> values) {
+/// One after the other into the buffer, which has room for the longest: a column costs what its
+/// numbers do.
+template <class Values, class F>
+void Writer::straight(const Values& values, F print) {
+  constexpr std::size_t kAtOnce = 256;
+  out_ += '[';
+  for (std::size_t i = 0; i < values.size();) {
+    ask(pace_.stop());
+    if (out_.size() >= kHashed && hash_) hash_so_far();
+    const std::size_t end = std::min(values.size(), i + kAtOnce);
+    const std::size_t before = out_.size();
+    out_.resize(before + (end - i) * (kNumberBytes + 1));
+    char* to = out_.data() + before;
+    for (; i < end; ++i) {
+      to = print(to, values[i]);
+      *to++ = ',';
+    }
+    out_.resize(static_cast<std::size_t>(to - out_.data()));
+  }
+  if (values.size() == 0) out_ += ',';
+  out_.back() = ']';
+  fresh_ = false;
+}
+
+void Writer::numbers(std::string_view name, std::span<const double> values, double unit) {
   key(name);
-  list(values, [&](double v) { number(v, name); });
+  if (cbor_) return list(values, [&](double v) { number(v * unit, name); });
+  straight(values, [&](char* to, double v) {
+    if (!std::isfinite(v * unit)) throw NotFinite("not finite: " + std::string(name));
+    return print_number(to, v * unit);
+  });
+}
+
+template <std::integral T>
+void Writer::column(std::string_view name, const std::vector<T>& values) {
+  key(name);
+  if constexpr (std::same_as<T, std::int32_t>)
+    if (cbor_ && cbor_->in_counts()) return cbor_->typed_array(values);
+  if (cbor_) return list(values, [this](T v) { integer(static_cast<std::int64_t>(v)); });
+  straight(values, [](char* to, T v) { return std::to_chars(to, to + kNumberBytes, v).ptr; });
+}
+template void Writer::column(std::string_view, const std::vector<std::int32_t>&);
+template void Writer::column(std::string_view, const std::vector<std::int64_t>&);
+template void Writer::column(std::string_view, const std::vector<std::size_t>&);
+
+void Writer::column(std::string_view name, std::span<const double> values) {
+  numbers(name, values, 1.0);
 }
 
 void Writer::degrees_column(std::string_view name, std::span<const double> radians) {
-  key(name);
-  list(radians, [&](double v) { number(v * kDegPerRad, name); });
+  numbers(name, radians, kDegPerRad);
 }
 
 void Writer::column(std::string_view name, const std::vector<std::string>& values) {
@@ -150,7 +195,11 @@ void Writer::column(std::string_view name, const std::vector<std::string>& value
 
 void Writer::flags(std::string_view name, const std::vector<bool>& values) {
   key(name);
-  list(values, [this](bool v) { boolean(v); });
+  if (cbor_) return list(values, [this](bool v) { boolean(v); });
+  straight(values, [](char* to, bool v) {
+    const std::string_view word = v ? "true" : "false";
+    return to + word.copy(to, word.size());
+  });
 }
 
 void Writer::raw(std::string_view name, std::string_view encoded) {

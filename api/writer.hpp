@@ -88,12 +88,7 @@ class Writer {
   /// Radians inside, degrees on the wire.
   void degrees_column(std::string_view name, std::span<const double> radians);
   template <std::integral T>
-  void column(std::string_view name, const std::vector<T>& values) {
-    key(name);
-    if constexpr (std::same_as<T, std::int32_t>)
-      if (cbor_ && cbor_->in_counts()) return cbor_->typed_array(values);
-    list(values, [this](T v) { integer(static_cast<std::int64_t>(v)); });
-  }
+  void column(std::string_view name, const std::vector<T>& values);
   void column(std::string_view name, const std::vector<std::string>& values);
   void flags(std::string_view name, const std::vector<bool>& values);
 
@@ -106,7 +101,7 @@ class Writer {
   void json(const Json& value);
 
   [[nodiscard]] std::string take() { return cbor_ ? cbor_->take() : std::move(out_); }
-  /// Of a hashing one, in lower-case hex.
+  /// Of all that was written as JSON, in lower-case hex. Before it is taken.
   [[nodiscard]] std::string sha256();
 
  private:
@@ -122,6 +117,9 @@ class Writer {
   void open(char c);
   void close(char c);
   void number(double value, std::string_view name);
+  void numbers(std::string_view name, std::span<const double> values, double unit);
+  template <class Values, class F>
+  void straight(const Values& values, F print);
   void integer(std::int64_t value);
   void boolean(bool value);
   void null();

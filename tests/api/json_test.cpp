@@ -93,6 +93,28 @@ TEST(Writer, HashesWhatItWouldKeep) {
   EXPECT_EQ(hashes.sha256(), sha256(keeps.take()));
 }
 
+TEST(Writer, ColumnsAreTheSameInOnePieceAndInMany) {
+  for (const std::size_t size : {0, 1, 255, 256, 257, 1'000}) {
+    std::vector<double> values(size);
+    std::string text = "[";
+    for (std::size_t i = 0; i < size; ++i) {
+      values[i] = static_cast<double>(i) / 8.0;
+      text += (i == 0 ? "" : ",") + dump(Json{values[i]});
+    }
+    Writer out;
+    out.object([&](Writer& w) {
+      w.column("x", values);
+      w.field("y", 1);
+    });
+    EXPECT_EQ(out.take(), "{\"x\":" + text + "],\"y\":1}");
+  }
+  Writer out;
+  EXPECT_THROW(out.object([](Writer& w) {
+    w.column("x", std::vector{1.0, 0.0 / 0.0});
+  }),
+               Writer::NotFinite);
+}
+
 /// RFC 8949: the shortest head of every length, whatever stands beside it.
 TEST(Cbor, HeadsAreTheShortest) {
   for (const std::size_t n : {0, 23, 24, 255, 256, 65'535, 65'536}) {
