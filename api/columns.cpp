@@ -1,5 +1,7 @@
 #include "api/columns.hpp"
 
+#include <algorithm>
+
 #include "core/base/angle.hpp"
 
 namespace tubecut::api {
@@ -14,16 +16,34 @@ Columns& Columns::append(std::string_view prefix, const Columns& other) {
   return *this;
 }
 
+Columns& Columns::only(const std::vector<std::string>& names) {
+  for (auto& column : all_)
+    column.seen = names.empty() || std::ranges::find(names, column.name) != names.end();
+  return *this;
+}
+
+namespace {
+
+void write_column(const Column& column, Writer& w) {
+  const auto& [name, values, seen] = column;
+  if (const auto* flags = std::get_if<std::vector<bool>>(&values))
+    w.flags(name, *flags);
+  else if (const auto* numbers = std::get_if<std::vector<double>>(&values))
+    w.column(name, *numbers);
+  else if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&values))
+    w.column(name, *integers);
+  else
+    w.column(name, std::get<std::vector<std::string>>(values));
+}
+
+}  // namespace
+
 void Columns::write(Writer& w) const {
-  for (const auto& [name, values] : all_) {
-    if (const auto* flags = std::get_if<std::vector<bool>>(&values))
-      w.flags(name, *flags);
-    else if (const auto* numbers = std::get_if<std::vector<double>>(&values))
-      w.column(name, *numbers);
-    else if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&values))
-      w.column(name, *integers);
+  for (const auto& column : all_) {
+    if (column.seen)
+      write_column(column, w);
     else
-      w.column(name, std::get<std::vector<std::string>>(values));
+      w.unseen([&column](Writer& whole) { write_column(column, whole); });
   }
 }
 

@@ -17,6 +17,7 @@ struct Column {
                          std::vector<bool>>;
   std::string name;
   Values values;
+  bool seen = true;  // in what is printed; if not, still in what is hashed
 };
 
 /// A table of an answer, said once: JSON and CBOR print it as members of an object, CSV as columns.
@@ -38,6 +39,8 @@ class Columns {
   Columns& flags(std::string_view name, std::vector<bool> values) {
     return add(name, std::move(values));
   }
+  /// Of all these only those of these names are seen, in the order they have; no names: all.
+  Columns& only(const std::vector<std::string>& names);
   /// The columns of another table, each name with `prefix` before it.
   Columns& append(std::string_view prefix, const Columns& other);
 

@@ -84,11 +84,10 @@ Reply run(Reader& in, Run& run) {
   if (run.format == nullptr) {
     Writer writer(1 << 16, run.stop, run.encoding);
     made->encode(writer);
+    if (run.encoding == Encoding::json) answer.result_sha256 = writer.sha256();
     answer.result = writer.take();
   }
-  answer.result_sha256 = run.format == nullptr && run.encoding == Encoding::json
-                             ? sha256(answer.result, run.stop)
-                             : made->hashed(run.stop);
+  if (answer.result_sha256.empty()) answer.result_sha256 = made->hashed(run.stop);
   if (run.format != nullptr) {
     run.caption.stop = run.stop;
     auto text =

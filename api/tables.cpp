@@ -59,13 +59,21 @@ Columns bevel_columns(const bevel::TableSpec& spec, const bevel::Table& t) {
   return out;
 }
 
+std::vector<std::string> bevel_column_names(const bevel::TableSpec& spec) {
+  bevel::TableSpec with;  // what decides which there are, and no rows
+  with.root_face = spec.root_face;
+  with.groove = spec.groove;
+  with.untilted = spec.untilted;
+  return each(bevel_columns(with, {}).all(), [](const Column& column) { return column.name; });
+}
+
 const std::vector<std::string>& bevel_column_names() {
   static const auto kNames = [] {
     bevel::TableSpec every;  // column
     every.root_face = 1.0;
     every.groove = bevel::ZonedGroove{};
     every.untilted = true;
-    return each(bevel_columns(every, {}).all(), [](const Column& column) { return column.name; });
+    return bevel_column_names(every);
   }();
   return kNames;
 }

@@ -20,8 +20,10 @@ namespace tubecut::api {
 
 /// Rows of a bevel table.
 [[nodiscard]] Columns bevel_columns(const bevel::TableSpec& spec, const bevel::Table& table);
-/// The names of all there are: a table's points come back as a contour.
+/// The names of all there are: a table's points come back as a contour. Of a spec: of those its
+/// table has.
 [[nodiscard]] const std::vector<std::string>& bevel_column_names();
+[[nodiscard]] std::vector<std::string> bevel_column_names(const bevel::TableSpec& spec);
 /// Points of one wall's profile.
 [[nodiscard]] Columns profile_columns(const joint::Profile& profile,
                                       const joint::Sampling& sampling);

@@ -29,6 +29,20 @@ std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values,
 
 }  // namespace
 
+Writer::Writer(std::size_t reserve, std::stop_token stop, Encoding encoding)
+    : pace_(std::move(stop)) {
+  if (encoding == Encoding::cbor)
+    cbor_.emplace(pace_.stop());
+  else
+    out_.reserve(reserve);
+}
+
+Writer Writer::hashing(std::stop_token stop) {
+  Writer out(2 * kHashed, std::move(stop));
+  out.hash_.emplace();
+  return out;
+}
+
 void Writer::hash_so_far() {
   hash_->add(out_);
   out_.clear();
@@ -38,6 +52,29 @@ std::string Writer::sha256() {
   if (!hash_) return api::sha256(out_, pace_.stop());
   hash_so_far();
   return hash_->hex();
+}
+
+void Writer::leave_out(Cut cut) {
+  if (hash_) return;
+  cut.to = out_.size();
+  if (!cuts_.empty() && cuts_.back().to == cut.from)
+    cuts_.back().to = cut.to;
+  else
+    cuts_.push_back(cut);
+}
+
+std::string Writer::take() {
+  if (cbor_) return cbor_->take();
+  if (cuts_.empty()) return std::move(out_);
+  std::string seen;
+  std::size_t at = 0;
+  for (const auto& cut : cuts_) {
+    append(seen, std::string_view(out_).substr(at, cut.from - at), pace_.stop());
+    at = cut.to;
+    if (cut.first && out_[at] == ',') ++at;
+  }
+  append(seen, std::string_view(out_).substr(at), pace_.stop());
+  return seen;
 }
 
 void Writer::key(std::string_view name) {
@@ -121,11 +158,6 @@ void Writer::json(const Json& of) {
 void Writer::field(std::string_view name, double value) {
   key(name);
   number(value, name);
-}
-
-void Writer::field(std::string_view name, std::string_view value) {
-  key(name);
-  this->value(value);
 }
 
 void Writer::field(std::string_view name, const Json& value) {

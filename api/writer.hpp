@@ -30,20 +30,10 @@ class Writer {
   };
 
   explicit Writer(std::size_t reserve = 4096, std::stop_token stop = {},
-                  Encoding encoding = Encoding::json)
-      : pace_(std::move(stop)) {
-    if (encoding == Encoding::cbor)
-      cbor_.emplace(pace_.stop());
-    else
-      out_.reserve(reserve);
-  }
+                  Encoding encoding = Encoding::json);
 
   /// One of JSON that keeps nothing but its sha256.
-  static Writer hashing(std::stop_token stop) {
-    Writer out(2 * kHashed, std::move(stop));
-    out.hash_.emplace();
-    return out;
-  }
+  static Writer hashing(std::stop_token stop);
 
   template <class F>
   void object(F body) {
@@ -73,10 +63,10 @@ class Writer {
     key(name);
     boolean(value);
   }
-  void field(std::string_view name, std::string_view value);
-  void field(std::string_view name, const char* value) { field(name, std::string_view(value)); }
-  void field(std::string_view name, const std::string& value) {
-    field(name, std::string_view(value));
+  template <std::convertible_to<std::string_view> T>
+  void field(std::string_view name, const T& text) {
+    key(name);
+    value(std::string_view(text));
   }
   void field(std::string_view name, const Json& value);
   void degrees(std::string_view name, double radians);
@@ -92,6 +82,15 @@ class Writer {
   void column(std::string_view name, const std::vector<std::string>& values);
   void flags(std::string_view name, const std::vector<bool>& values);
 
+  /// What `body` writes is hashed, and not taken: columns that nobody asked for.
+  template <class F>
+  void unseen(F body) {
+    if (cbor_) return;  // what is hashed is JSON
+    const Cut cut{.from = out_.size(), .first = fresh_};
+    body(*this);
+    leave_out(cut);
+  }
+
   /// What is in this writer's encoding already.
   void raw(std::string_view name, std::string_view encoded);
   /// An element of an array.
@@ -100,7 +99,7 @@ class Writer {
   /// An element, or the whole document.
   void json(const Json& value);
 
-  [[nodiscard]] std::string take() { return cbor_ ? cbor_->take() : std::move(out_); }
+  [[nodiscard]] std::string take();
   /// Of all that was written as JSON, in lower-case hex. Before it is taken.
   [[nodiscard]] std::string sha256();
 
@@ -113,6 +112,12 @@ class Writer {
   }
   static constexpr std::size_t kHashed = 1u << 16;  // bytes at once
   void hash_so_far();
+  /// Of out_, to be left out.
+  struct Cut {
+    std::size_t from = 0, to = 0;
+    bool first = false;  // of its object: the comma behind it goes with it
+  };
+  void leave_out(Cut cut);
   void key(std::string_view name);
   void open(char c);
   void close(char c);
@@ -136,6 +141,7 @@ class Writer {
   }
 
   std::string out_;
+  std::vector<Cut> cuts_;
   std::optional<CborWriter> cbor_;  // instead of out_
   std::optional<Sha256> hash_;      // of what was in out_
   Pace pace_;

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "api/column_choice.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
 #include "api/tables.hpp"
@@ -259,8 +260,13 @@ void decode_cut(Reader& in, bool whole, Preset preset, bevel::TableSpec& out) {
   out.mutation_limit = smoothing.mutation_limit;
 }
 
-void encode_table(const bevel::TableSpec& spec, const bevel::Table& out, Writer& w) {
-  w.object("points", [&](Writer& p) { bevel_columns(spec, out).write(p); });
+std::vector<std::string> decode_table_columns(Reader& in, const bevel::TableSpec& spec) {
+  return decode_columns(in, bevel_column_names(), bevel_column_names(spec));
+}
+
+void encode_table(const bevel::TableSpec& spec, const bevel::Table& out,
+                  const std::vector<std::string>& columns, Writer& w) {
+  w.object("points", [&](Writer& p) { bevel_columns(spec, out).only(columns).write(p); });
   w.field("b_sign", name_of_b_sign(out));
   encode_bevel_lists(out, w);
   w.object("limits", [&](Writer& o) { encode_limits(spec, o); });

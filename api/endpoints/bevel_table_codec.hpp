@@ -32,8 +32,13 @@ struct Smoothing {
 };
 [[nodiscard]] Smoothing decode_smoothing(Reader& in);
 
-/// The members of a table's `result`.
-void encode_table(const bevel::TableSpec& spec, const bevel::Table& table, Writer& w);
+/// `columns`, once the rest is read: those of the table that are printed; empty: all.
+[[nodiscard]] std::vector<std::string> decode_table_columns(Reader& in,
+                                                            const bevel::TableSpec& spec);
+
+/// The members of a table's `result`. Of its points only the `columns` are seen.
+void encode_table(const bevel::TableSpec& spec, const bevel::Table& table,
+                  const std::vector<std::string>& columns, Writer& w);
 
 inline constexpr std::array<CheckLimit, 15> kTableChecks{{
     {"dihedral", "1e-9", "deg"},
@@ -58,6 +63,7 @@ inline constexpr std::array<CheckLimit, 15> kTableChecks{{
 struct BevelTableRequest : bevel::TableSpec {
   JointSource source;
   Preset preset = Preset::none;
+  std::vector<std::string> columns = {};  // those that are printed; empty: all
 };
 
 /// How an end is cut: root, groove, contact, smoothing and the like. `whole`: also dihedral, kerf

@@ -39,6 +39,7 @@ struct BevelTables {
     out.source = decode_joint(in);
     out.sampling = decode_sampling(in);
     decode_table_options(in, out.preset, out);
+    out.columns = decode_table_columns(in, out);
     return out;
   }
 
@@ -75,18 +76,21 @@ struct BevelTables {
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
-    encode_table(spec, out, w);
+    encode_table(spec, out, spec.columns, w);
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
     if (out.laser) encode_end_report(out, *out.laser, w);
   }
 
+  static std::string print_csv(const Spec& spec, const Out& out, const Caption& caption) {
+    return bevel_table_csv(spec, out, spec.columns, caption);
+  }
   template <auto Print>
   static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
     return Print(spec, out, caption);
   }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv", &print<bevel_table_csv>},
+        {"csv", "text/csv", &print_csv},
         {"svg",
          "image/svg+xml",
          &print<bevel_table_svg>,

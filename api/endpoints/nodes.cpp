@@ -26,6 +26,7 @@ struct NodesRequest {
   bool profiles = false;
   joint::Sampling sampling;
   std::optional<bevel::TableSpec> tables;  // how, if asked for
+  std::vector<std::string> columns;        // of theirs that are printed; empty: all
   joint::Nodes solved;                     // once resolved
 };
 struct NodesAnswer {
@@ -67,7 +68,8 @@ Include decode_include(Reader& in) {
 
 /// `tables` tells how the tables are made: it goes with their name in `include`.
 std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include,
-                                              const joint::Sampling& sampling) {
+                                              const joint::Sampling& sampling,
+                                              std::vector<std::string>& columns) {
   in.note("tables");
   if (!include.understood) return std::nullopt;
   if (include.tables)
@@ -75,6 +77,7 @@ std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include
       bevel::TableSpec out;
       out.sampling = sampling;
       decode_table_options(t, Preset::none, out);
+      columns = decode_table_columns(t, out);
       return out;
     });
   if (in.has("tables"))
@@ -131,7 +134,7 @@ struct Nodes {
     const auto include = decode_include(in);
     out.profiles = include.profiles;
     out.sampling = decode_sampling(in);
-    out.tables = decode_tables(in, include, out.sampling);
+    out.tables = decode_tables(in, include, out.sampling, out.columns);
     return out;
   }
 
@@ -220,7 +223,7 @@ struct Nodes {
             });
     if (index >= out.tables.size() || !out.tables[index] || !out.tables[index]->table) return;
     const auto& made = *out.tables[index];
-    w.object("table", [&](Writer& o) { encode_table(made.spec, *made.table, o); });
+    w.object("table", [&](Writer& o) { encode_table(made.spec, *made.table, spec.columns, o); });
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {

@@ -101,10 +101,10 @@ std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& tabl
 }
 
 std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& table,
-                            const Caption& caption) {
+                            const std::vector<std::string>& columns, const Caption& caption) {
   return Csv(caption)
       .remark("b_sign: " + std::string(name_of_b_sign(table)))
-      .table(bevel_columns(spec, table))
+      .table(bevel_columns(spec, table).only(columns))
       .print();
 }
 

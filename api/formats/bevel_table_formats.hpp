@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "api/format.hpp"
 #include "core/bevel/table.hpp"
@@ -15,8 +16,9 @@ inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
 /// Rows at which the cut has a corner: its junctions, where the sampling makes them rows.
 [[nodiscard]] std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& table);
 
-/// Every column of the table.
+/// The named columns of the table; no names: every one.
 [[nodiscard]] std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& table,
+                                          const std::vector<std::string>& columns,
                                           const Caption& caption);
 
 /// B before and after smoothing over the developed length, with the junctions, the mutations and

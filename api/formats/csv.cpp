@@ -40,7 +40,8 @@ void print_cell(const Column::Values& values, std::size_t i, std::string& out) {
 }  // namespace
 
 Csv& Csv::table(const Columns& columns) {
-  for (const auto& [name, values] : columns.all()) columns_.push_back({name, {{0, values}}});
+  for (const auto& [name, values, seen] : columns.all())
+    if (seen) columns_.push_back({name, {{0, values}}});
   return *this;
 }
 

@@ -391,6 +391,13 @@ class SingleJobs(Case):
         wall = next(e for e in refused.exception.errors if e.pointer == "/target/wall_mm")
         self.assertEqual((wall.code, wall.got, wall.limit, wall.unit), ("out_of_range", 0, 0.5, "mm"))
 
+    def test_columns_that_are_named(self):
+        body = example("bevel-tables/source-000-table-1.json")
+        whole, some = self.client.bevel_tables(body), self.client.bevel_tables(body | {"columns": ["b_deg", "phi_deg"]})
+        self.assertEqual(list(some.result["points"]), ["phi_deg", "b_deg"])
+        self.assertEqual(some.result["points"]["b_deg"], whole.result["points"]["b_deg"])
+        self.assertEqual(some.job["result_sha256"], whole.job["result_sha256"])
+
     def test_other_formats_and_catalogues(self):
         body = example("bevel-tables/source-000-table-1.json")
         self.assertIn(b"<svg", self.client.document("bevel-tables", body, "svg"))

@@ -210,7 +210,9 @@ class Answer:
 
     def _check_hashes(self, members: Mapping[str, Tuple[Any, int, int]]) -> None:
         found = {"input_sha256": _sha256(_without(self.text, members["request"][1], ("reference", "log")))}
-        if "result" in members:
+        # Of named columns the hash is that of the whole table: more than is here.
+        named = "columns" in self.request or "columns" in self.request.get("tables", {})
+        if "result" in members and not named:
             _, begin, end = members["result"]
             found["result_sha256"] = _sha256(self.text[begin:end])
         for name, digest in found.items():

@@ -93,6 +93,43 @@ TEST(Writer, HashesWhatItWouldKeep) {
   EXPECT_EQ(hashes.sha256(), sha256(keeps.take()));
 }
 
+TEST(Writer, LeavesOutWhatIsUnseenAndHashesIt) {
+  struct Case {
+    std::string seen;  // of a, b and c
+    const char* text;
+  };
+  for (const auto& [seen, text] :
+       {Case{"abc", R"({"p":{"a":[1.5],"b":[2],"c":[true]},"d":4})"},
+        Case{"a", R"({"p":{"a":[1.5]},"d":4})"}, Case{"b", R"({"p":{"b":[2]},"d":4})"},
+        Case{"c", R"({"p":{"c":[true]},"d":4})"},
+        Case{"ac", R"({"p":{"a":[1.5],"c":[true]},"d":4})"},
+        Case{"bc", R"({"p":{"b":[2],"c":[true]},"d":4})"}, Case{"", R"({"p":{},"d":4})"}}) {
+    const auto write = [&seen = seen](Writer& out) {
+      out.object([&](Writer& w) {
+        w.object("p", [&](Writer& p) {
+          const auto column = [&](char name, auto body) {
+            if (seen.find(name) != std::string::npos)
+              body(p);
+            else
+              p.unseen(body);
+          };
+          column('a', [](Writer& o) { o.column("a", std::vector{1.5}); });
+          column('b', [](Writer& o) { o.column("b", std::vector<std::int64_t>{2}); });
+          column('c', [](Writer& o) { o.flags("c", {true}); });
+        });
+        w.field("d", 4);
+      });
+    };
+    Writer keeps, hashes = Writer::hashing({}), binary(0, {}, Encoding::cbor);
+    for (auto* const out : {&keeps, &hashes, &binary}) write(*out);
+    const auto whole = sha256(R"({"p":{"a":[1.5],"b":[2],"c":[true]},"d":4})");
+    EXPECT_EQ(keeps.sha256(), whole) << seen;
+    EXPECT_EQ(hashes.sha256(), whole) << seen;
+    EXPECT_EQ(keeps.take(), text);
+    EXPECT_EQ(binary.take(), cbor(text));
+  }
+}
+
 TEST(Writer, ColumnsAreTheSameInOnePieceAndInMany) {
   for (const std::size_t size : {0, 1, 255, 256, 257, 1'000}) {
     std::vector<double> values(size);

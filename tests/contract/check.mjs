@@ -49,7 +49,8 @@ export function answerFaults(contract, endpoint, sent, text, {validateOnly = fal
   const request = print(without(member(tree, 'request'), ['reference', 'log']));
   if (sha256(request) !== body.job.input_sha256) faults.push('input_sha256 is not that of the request printed');
   if (validateOnly === 'result' in body) faults.push(`result is ${validateOnly ? 'there' : 'missing'}`);
-  if ('result' in body && sha256(print(member(tree, 'result'))) !== body.job.result_sha256) {
+  const whole = !(body.request.columns ?? body.request.tables?.columns);  // else the hash is of more than is printed
+  if ('result' in body && whole && sha256(print(member(tree, 'result'))) !== body.job.result_sha256) {
     faults.push('result_sha256 is not that of the result printed');
   }
   if (endpoint.id === 'frames') {

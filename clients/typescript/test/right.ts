@@ -29,6 +29,8 @@ export async function calls(): Promise<number> {
   const passed: true = verification.passed;
   const columns: number[] = table.points.b_deg;
   const sign: string = table.b_sign;
+  const {result: narrow} = await post(client, '/v1/bevel-tables', {...joint, columns: ['phi_deg', 'b_deg']});
+  const named: number[] | undefined = narrow.points.b_deg;
 
   const whole = await answered(client.POST('/v1/bevel-tables', {
     body: joint,
