@@ -1,5 +1,3 @@
-#include "server/http/printer.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -7,11 +5,13 @@
 #include <ctime>
 #include <iterator>
 
+#include "server/http/printer.hpp"
+
 namespace tubecut::server {
 namespace {
 
-/// Head and body together cost one call of the kernel; a body beyond this costs less apart.
-constexpr std::size_t kCopied = 256u << 10;
+/// A body beyond this costs more to copy behind its head than to hand over beside it.
+constexpr std::size_t kCopied = 4u << 10;
 
 /// RFC 9110, 6.6.1. Printed once a second and thread.
 std::string_view http_date() {

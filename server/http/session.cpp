@@ -1,13 +1,13 @@
-#include "server/http/session.hpp"
-
 #include <fmt/format.h>
 #include <poll.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/error.hpp>
 
 #include "server/http/batch.hpp"
+#include "server/http/session.hpp"
 
 namespace tubecut::server {
 namespace {
@@ -396,13 +396,12 @@ Task<void> Session::send(Printed answer) {
 bool Session::send_some() {
   boost::system::error_code error;
   while (out_at_ < out_.size() && !error) {
-    const auto left = asio::buffer(out_.data() + out_at_, out_.size() - out_at_);
+    const std::array left{asio::buffer(out_.data() + out_at_, out_.size() - out_at_),
+                          asio::buffer(rest_.data(), rest_.size())};
     out_at_ += socket_.write_some(left, error);
     if (error == asio::error::interrupted) error = {};
-    if (out_at_ == out_.size() && !rest_.empty()) {
-      out_ = std::exchange(rest_, {});
-      out_at_ = 0;
-    }
+    if (out_at_ >= out_.size() && !rest_.empty())
+      out_at_ -= std::exchange(out_, std::exchange(rest_, {})).size();
   }
   if (error && error != asio::error::would_block) throw Gone{};
   if (out_at_ < out_.size()) return false;
