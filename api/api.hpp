@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/error_codes.hpp"
+#include "core/base/turns.hpp"
 
 namespace tubecut::api {
 
@@ -39,6 +40,8 @@ struct Context {
   std::size_t max_body = std::numeric_limits<std::size_t>::max();
   double budget_s = 0.0;       // CPU of any job here; 0: what its endpoint has by default
   double call_budget_s = 0.0;  // CPU that this call asked to be held to; 0: as any other job
+  Turns turns = in_order;      // by whom pieces of the job are done that know
+                               // nothing of each other
 };
 
 /// A job ends at the latest so many times its budget of CPU after its request came, whatever CPU it

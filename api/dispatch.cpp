@@ -159,7 +159,8 @@ Outcome CallRun::work(const Endpoint& endpoint) {
           [this](Work work) {
             work.add(Cost::body_byte, static_cast<double>(call_.body.size()));
             estimate_ = std::round(work.seconds() * 1e4) / 1e4;
-          }};
+          },
+      .turns = context_.turns};
   const bool begins = choice->by_lines && !query.validate_only;
   auto reply = begins ? endpoint.begin(in, run) : endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {

@@ -67,6 +67,7 @@ tl::expected<std::string, Problem> print_document(const typename E::Spec& spec,
 ///   static Result<Out> compute(const Spec&, const std::stop_token&);  pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);
 ///     the proof; with a stop token where it may take long
+///     compute, verify and encode take `const Turns&` last where a job has many pieces
 ///   static std::vector<Warning> warnings(const Spec&, const Out&);
 ///   static std::vector<Measure> measure(const Spec&, const Out&);
 ///   static void encode(const Spec&, const Out&, Writer&);  members of `result`
@@ -83,11 +84,11 @@ Reply run(Reader& in, Run& run) {
   auto& answer = made->answer;
   if (run.format == nullptr) {
     Writer writer(1 << 16, run.stop, run.encoding);
-    made->encode(writer);
+    made->encode(writer, run.turns);
     if (run.encoding == Encoding::json) answer.result_sha256 = writer.sha256();
     answer.result = writer.take();
   }
-  if (answer.result_sha256.empty()) answer.result_sha256 = made->hashed(run.stop);
+  if (answer.result_sha256.empty()) answer.result_sha256 = made->hashed(run.stop, run.turns);
   if (run.format != nullptr) {
     run.caption.stop = run.stop;
     auto text =

@@ -13,6 +13,7 @@
 #include "api/verdict.hpp"
 #include "api/writer.hpp"
 #include "core/base/error.hpp"
+#include "core/base/turns.hpp"
 
 namespace tubecut::api {
 
@@ -43,6 +44,7 @@ struct Run {
   std::function<void(const Answer&)> judged = {};         // called when the verdict is known
   std::function<void()> forget_body = [] {};              // called when all of it is read
   std::function<void(const Work&)> foresee = {};  // called when it is known what there is to do
+  Turns turns = in_order;                         // who does what knows nothing of each other
 };
 
 }  // namespace tubecut::api

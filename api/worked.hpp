@@ -23,21 +23,38 @@ struct Worked {
   typename E::Out out;
   Answer answer;
 
-  void encode(Writer& writer) const {
-    writer.object([&](Writer& w) { E::encode(spec, out, w); });
+  void encode(Writer& writer, const Turns& turns) const {
+    writer.object([&](Writer& w) {
+      if constexpr (requires { E::encode(spec, out, w, turns); })
+        E::encode(spec, out, w, turns);
+      else
+        E::encode(spec, out, w);
+    });
   }
-  [[nodiscard]] std::string hashed(const std::stop_token& stop) const {
+  [[nodiscard]] std::string hashed(const std::stop_token& stop, const Turns& turns) const {
     auto writer = Writer::hashing(stop);
-    encode(writer);
+    encode(writer, turns);
     return writer.sha256();
   }
 };
 
+template <class E>
+Result<typename E::Out> computed(const typename E::Spec& spec, const Run& run) {
+  if constexpr (requires { E::compute(spec, run.stop, run.turns); })
+    return E::compute(spec, run.stop, run.turns);
+  else
+    return E::compute(spec, run.stop);
+}
+
 /// The checks of a result. Asks `stop`, since what a stopped proof found may not be all.
 template <class E>
-std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out,
-                         const std::stop_token& stop) {
-  if constexpr (requires { E::verify(spec, out, stop); }) {
+std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out, const Run& run) {
+  const auto& stop = run.stop;
+  if constexpr (requires { E::verify(spec, out, stop, run.turns); }) {
+    auto checks = E::verify(spec, out, stop, run.turns);
+    ask(stop);
+    return checks;
+  } else if constexpr (requires { E::verify(spec, out, stop); }) {
     auto checks = E::verify(spec, out, stop);
     ask(stop);
     return checks;
@@ -76,11 +93,11 @@ tl::expected<Worked<E>, Problem> worked(Reader& in, Run& run) {
   E::count(spec, work);
   run.foresee(work);
   ask(run.stop);
-  auto out = E::compute(spec, run.stop);
+  auto out = computed<E>(spec, run);
   run.stage("compute");
   ask(run.stop);  // what it found may not be all
   if (!out) return of_core(out.error());
-  answer.checks = prove<E>(spec, *out, run.stop);
+  answer.checks = prove<E>(spec, *out, run);
   run.stage("verify");
   if (auto failed = failed_check(answer.checks)) return tl::unexpected(*std::move(failed));
   answer.warnings = E::warnings(spec, *out);

@@ -43,6 +43,10 @@ Writer Writer::hashing(std::stop_token stop) {
   return out;
 }
 
+Writer Writer::part() const {
+  return Writer(0, pace_.stop(), cbor_ ? Encoding::cbor : Encoding::json);
+}
+
 void Writer::hash_so_far() {
   hash_->add(out_);
   out_.clear();
@@ -61,6 +65,17 @@ void Writer::leave_out(Cut cut) {
     cuts_.back().to = cut.to;
   else
     cuts_.push_back(cut);
+}
+
+void Writer::put(Writer part) {
+  if (cbor_) return cbor_->raw(part.take());
+  for (auto cut : part.cuts_) {
+    cut.from += out_.size();
+    cut.to += out_.size();
+    if (!hash_) cuts_.push_back(cut);
+  }
+  append(out_, part.out_, pace_.stop());
+  fresh_ = false;
 }
 
 std::string Writer::take() {

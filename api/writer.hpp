@@ -91,6 +91,10 @@ class Writer {
     leave_out(cut);
   }
 
+  /// One for an element, to be put in where it belongs: several may be written at a time.
+  [[nodiscard]] Writer part() const;
+  void put(Writer part);
+
   /// What is in this writer's encoding already.
   void raw(std::string_view name, std::string_view encoded);
   /// An element of an array.

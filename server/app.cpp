@@ -224,6 +224,7 @@ api::Context App::context() const {
 api::Context App::context(const Request& request) const {
   api::Context with = context();
   if (request.stop.stop_possible()) with.stop = request.stop;
+  with.turns = request.turns;
   with.call_budget_s = std::chrono::duration<double>(budget(request).cpu).count();
   return with;
 }
@@ -297,7 +298,9 @@ Response App::handle(const Request& request) const {
   allow_origin(request, response.headers);
   add_if(response.headers, "Tubecut-Replica", x_.replica);
   record.seconds = steady_seconds() - start;
-  record.cpu = std::chrono::duration<double>(cpu.used()).count();
+  const std::chrono::nanoseconds helped(request.helped_ns != nullptr ? request.helped_ns->load()
+                                                                     : 0);
+  record.cpu = std::chrono::duration<double>(cpu.used() + helped).count();
   record.facts = std::move(outcome.job);
   response.headers.emplace_back("Server-Timing", server_timing(record));
   if (record.facts.id.empty()) record.facts.id = id.job_id;

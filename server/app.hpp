@@ -28,7 +28,7 @@ struct JobRecord {
   std::string failure = {};   // text of an unexpected exception; the caller never sees it
   int status = 0;
   double seconds = 0.0;  // in `handle`
-  double cpu = 0.0;      // seconds of its thread's CPU there
+  double cpu = 0.0;      // seconds of CPU for it there, of whatever threads
   std::size_t bytes_in = 0;
   std::size_t bytes_out = 0;
   std::size_t memory = 0;  // the most bytes it took at a time, its body aside; 0: not known

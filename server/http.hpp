@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "core/base/error_codes.hpp"
+#include "core/base/turns.hpp"
 
 /// Requests and answers as values: all that is left of HTTP once a transport has read a request.
 namespace tubecut::server {
@@ -43,11 +46,13 @@ struct Request {
   Times times = {};
   bool reports_sending = false;  // the transport will call `Response::sent`
   std::size_t line = 0;          // of a batch, from 1; 0: a request by itself
+  Turns turns = in_order;        // by whom pieces of the job are done
+  const std::atomic<std::int64_t>* helped_ns = nullptr;  // CPU of others than its thread for it
 };
 
 /// What a job may take; 0: no end.
 struct Budget {
-  std::chrono::milliseconds cpu{0};   // of its thread: what others on the machine do takes nothing
+  std::chrono::milliseconds cpu{0};   // of its threads: what others on the machine do takes nothing
   std::chrono::milliseconds wall{0};  // from its last byte in to its answer
 };
 

@@ -1,6 +1,6 @@
-#include "server/job_memory.hpp"
-
 #include <algorithm>
+
+#include "server/job_memory.hpp"
 
 namespace tubecut::server {
 namespace {
@@ -28,6 +28,13 @@ void JobMemory::take(std::size_t bytes) {
 void JobMemory::give(std::size_t bytes) noexcept {
   if (t_job != nullptr && !t_job->asking_)
     t_job->set_live(t_job->live() - std::min(t_job->live(), bytes));
+}
+
+void JobMemory::take_over(const Taken& taken) {
+  if (t_job == nullptr) return;
+  t_job->given_ += taken.given;
+  t_job->set_live(t_job->live() + taken.live);
+  t_job->peak_ = std::max(t_job->peak_, t_job->live());
 }
 
 void JobMemory::ask(std::size_t bytes) {

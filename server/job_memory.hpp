@@ -37,6 +37,14 @@ class JobMemory {
   /// The same of the job that this thread works on; 0: none.
   [[nodiscard]] static std::size_t peak_here();
 
+  /// What another thread has taken for the job, and what it was given for that, is this thread's
+  /// job's from now on.
+  struct Taken {
+    std::size_t given = 0, live = 0;
+  };
+  [[nodiscard]] Taken taken() const { return {given_, live()}; }
+  static void take_over(const Taken& taken);
+
   /// For operator new and delete: the thread's job takes a block, or gives it back. What it frees
   /// of others' is not held against them.
   static void take(std::size_t bytes);

@@ -1,5 +1,3 @@
-#include "server/slots.hpp"
-
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -7,6 +5,8 @@
 #include <algorithm>
 #include <exception>
 #include <utility>
+
+#include "server/slots.hpp"
 
 namespace tubecut::server {
 namespace {
@@ -44,7 +44,11 @@ void step_back(int by) {
   static_cast<void>(::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + by));
 }
 
-double cpu_s(const Job& job) { return std::chrono::duration<double>(job.cpu.used()).count(); }
+std::chrono::nanoseconds used(const Job& job) {
+  return job.cpu.used() + std::chrono::nanoseconds(job.helped_ns);
+}
+
+double cpu_s(const Job& job) { return std::chrono::duration<double>(used(job)).count(); }
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -56,7 +60,9 @@ Slots::Slots(int count, std::size_t queue, Step work, Step done)
     : work_(std::move(work)),
       done_(std::move(done)),
       count_(std::max(1, count)),
-      most_(queue + static_cast<std::size_t>(count_)) {
+      most_(queue + static_cast<std::size_t>(count_)),
+      helpers_(static_cast<std::size_t>(count_) - 1, [] { step_back(kNice); }) {
+  helpers_.allow(count_);
   const auto all = threads(count_);
   running_.reserve(all);
   while (threads_.size() < all)
@@ -76,6 +82,7 @@ void Slots::join() {
   for (auto& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
+  helpers_.join();
 }
 
 /// What the client's jobs of the kind take: others' long ones do not make its own long. One who has
@@ -114,7 +121,7 @@ double Slots::expected_wait(Job& job) const {
 
 std::chrono::nanoseconds Slots::cpu(const Job& job) const {
   const std::lock_guard lock(mutex_);  // a thread whose job runs lives
-  return job.cpu.used();
+  return used(job);
 }
 
 Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
@@ -132,6 +139,7 @@ Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
     }
     queue_.push(job);
     waiting_ = queue_.size();
+    tell_helpers();
   }
   if (free) some_.notify_all();  // else whoever is done next tells
   return out;
@@ -141,6 +149,7 @@ bool Slots::withdraw(const std::shared_ptr<Job>& job) {
   const std::lock_guard lock(mutex_);
   const bool waited = queue_.remove(job);
   waiting_ = queue_.size();
+  tell_helpers();
   return waited;
 }
 
@@ -161,6 +170,12 @@ void Slots::leave_lane(Job& job) {
   job.in_lane = false;
   --in_lane_;
   ++in_slots_;
+  tell_helpers();
+}
+
+/// Slots that nobody uses or waits for are theirs.
+void Slots::tell_helpers() {
+  helpers_.allow(queue_.size() > 0 ? 0 : std::max(0, count_ - in_slots_));
 }
 
 /// Whether a job that outgrows the lane can make room in it.
@@ -181,6 +196,7 @@ std::shared_ptr<Job> Slots::next(bool quick_only) {
   running_.push_back(job);
   waiting_ = queue_.size();
   busy_ = static_cast<int>(running_.size());
+  tell_helpers();
   return job;
 }
 
@@ -203,10 +219,13 @@ void Slots::finish(Job& job) {
   job.cpu.stop();
   const double own = cpu_s(job);
   --(job.in_lane ? in_lane_ : in_slots_);
-  queue_.done(job.claim, took);
+  queue_.done(
+      job.claim,
+      took + std::chrono::duration<double>(std::chrono::nanoseconds(job.helped_ns)).count());
   learn(job, own);  // not what others made it wait
   std::erase_if(running_, [&job](const auto& one) { return one.get() == &job; });
   busy_ = static_cast<int>(running_.size());
+  tell_helpers();
 }
 
 void Slots::run(bool quick_only) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "server/cpu_clock.hpp"
+#include "server/helpers.hpp"
 #include "server/http.hpp"
 #include "server/http/fair_queue.hpp"
 #include "server/http/memory_share.hpp"
@@ -30,6 +32,7 @@ struct Job {
   std::stop_source stop = {};
   std::atomic<bool> close = false;  // the connection ends after the answer
   MemoryShare memory = {};
+  std::mutex growing = {};           // of memory, while several threads work at it
   std::weak_ptr<Strand> owner = {};  // whom its end wakes; none once nobody waits for it
   Budget budget = {};
   std::chrono::steady_clock::time_point end =
@@ -38,9 +41,11 @@ struct Job {
       std::chrono::steady_clock::time_point::max();  // when the port has to look at it
   std::string_view kind = {};                        // jobs of a kind take about as long
   Claim claim = {};
-  bool in_lane = false;               // of the slots' mutex
-  double began_s = 0.0;               // of the slots' mutex; 0: it waits
-  CpuClock cpu = {};                  // of the slots' mutex; its thread's while it runs
+  bool in_lane = false;                     // of the slots' mutex
+  double began_s = 0.0;                     // of the slots' mutex; 0: it waits
+  CpuClock cpu = {};                        // of the slots' mutex; its thread's while it runs
+  std::atomic<std::int64_t> helped_ns = 0;  // CPU that others than its thread have had for it
+  std::atomic<int> helped_by = 0;
   std::atomic<std::size_t> held = 0;  // bytes of memory, while it runs
   bool displaced = false;             // known to the port: it lost its place in the queue
   Printed answer = {};
@@ -82,6 +87,11 @@ class Slots {
   /// To be called now and then while the job waits or runs: it takes the lane, or has outgrown it.
   void look(Job& job);
 
+  /// See Helpers; of a job that a slot has begun, by threads that hold none.
+  void take_turns(std::size_t count, const Turn& turn, const Helpers::Within& within) {
+    helpers_.take_turns(count, turn, within);
+  }
+
   /// CPU that the job has used since a slot began it. From any thread.
   [[nodiscard]] std::chrono::nanoseconds cpu(const Job& job) const;
 
@@ -99,6 +109,7 @@ class Slots {
   void leave_lane(Job& job);
   [[nodiscard]] bool has_spare() const;
   void finish(Job& job);
+  void tell_helpers();
   void learn(const Job& job, double took);
   [[nodiscard]] const double* mean_of(const Job& job) const;
 
@@ -118,6 +129,7 @@ class Slots {
   bool ending_ = false;
   std::atomic<std::size_t> waiting_ = 0;
   std::atomic<int> busy_ = 0;
+  Helpers helpers_;
   std::vector<std::thread> threads_;
 };
 

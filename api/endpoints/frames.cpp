@@ -43,7 +43,7 @@ Result<MadePart> make(const Json& request, const std::stop_token& stop) {
     out.problem = std::move(made).error();
     return out;
   }
-  made->answer.result_sha256 = made->hashed(stop);
+  made->answer.result_sha256 = made->hashed(stop, in_order);
   out.made = *std::move(made);
   return out;
 }
@@ -113,11 +113,15 @@ struct Frames : FrameBase {
     for (const auto& part : spec.asked)
       if (part) Parts::count(*part, work);
   }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    Out out;
-    for (const auto& part : spec.parts) {
+  static Result<Out> compute(const Spec& spec, const std::stop_token& stop, const Turns& turns) {
+    std::vector<std::optional<Result<MadePart>>> made(spec.parts.size());
+    turns(made.size(), [&](std::size_t i) {
       ask(stop);
-      TRY(auto one, make(part.request, stop));
+      made[i] = make(spec.parts[i].request, stop);
+    });
+    Out out;
+    for (auto& part : made) {
+      TRY(auto one, *std::move(part));
       out.push_back(std::move(one));
     }
     return out;

@@ -146,14 +146,14 @@ struct Nodes {
     add_work(spec.node, spec.solved, spec.profiles ? &spec.sampling : nullptr,
              spec.tables ? &*spec.tables : nullptr, work);
   }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
+  static Result<Out> compute(const Spec& spec, const std::stop_token& stop, const Turns& turns) {
     Out out;
     TRY(out.overlaps, joint::overlaps(spec.node, spec.solved, {}, stop));
     if (spec.profiles) {
       TRY(out.profiles, joint::profiles(spec.node, spec.solved, spec.sampling, stop));
     }
     if (!spec.tables) return out;
-    auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, stop);
+    auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, stop, turns);
     if (!tables) return tl::unexpected(in_tables(tables.error()));
     out.tables = *std::move(tables);
     return out;
@@ -166,7 +166,8 @@ struct Nodes {
     return error;
   }
 
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop,
+                                   const Turns& turns) {
     auto checks = joint::verify(spec.node, spec.solved, stop);
     for (std::size_t i = 0; i < out.profiles.size(); ++i)
       if (out.profiles[i]) {
@@ -177,8 +178,12 @@ struct Nodes {
                                                                  .sampling = spec.sampling},
                                          *out.profiles[i], stop));
       }
-    for (const auto& end : out.tables)
-      if (end && end->table) keep_worst(checks, bevel::verify(end->spec, *end->table, stop));
+    std::vector<std::vector<Check>> of_tables(out.tables.size());
+    turns(of_tables.size(), [&](std::size_t i) {
+      const auto& end = out.tables[i];
+      if (end && end->table) of_tables[i] = bevel::verify(end->spec, *end->table, stop);
+    });
+    for (const auto& table : of_tables) keep_worst(checks, table);
     return checks;
   }
 
@@ -226,9 +231,20 @@ struct Nodes {
     w.object("table", [&](Writer& o) { encode_table(made.spec, *made.table, spec.columns, o); });
   }
 
-  static void encode(const Spec& spec, const Out& out, Writer& w) {
-    w.array("ends", spec.solved.ends, [&](Writer& each, const joint::MemberEnd& end) {
-      each.object([&](Writer& o) { encode_end(spec, out, end, o); });
+  static void encode(const Spec& spec, const Out& out, Writer& w, const Turns& turns) {
+    constexpr std::size_t kAtOnce = 16;  // ends whose text is held beside the answer's
+    const auto& ends = spec.solved.ends;
+    std::vector<Writer> parts;
+    w.array("ends", ends, [&](Writer& each, const joint::MemberEnd& end) {
+      const auto i = static_cast<std::size_t>(&end - ends.data());
+      if (i % kAtOnce == 0) {
+        parts.clear();
+        while (parts.size() < std::min(kAtOnce, ends.size() - i)) parts.push_back(each.part());
+        turns(parts.size(), [&](std::size_t k) {
+          parts[k].object([&](Writer& o) { encode_end(spec, out, ends[i + k], o); });
+        });
+      }
+      each.put(std::move(parts[i % kAtOnce]));
     });
     w.array("overlaps", out.overlaps, [&](Writer& each, const joint::Overlap& one) {
       each.object([&](Writer& o) {

@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/base/turns.hpp"
 #include "core/bevel/table.hpp"
 #include "core/joint/node.hpp"
 
@@ -18,12 +19,12 @@ struct EndTable {
 
 /// The tables of every end that is cut all round and not consumed, in the order of `nodes.ends`;
 /// the others are empty. `asked` tells everything but target and partners. An end that cannot be
-/// cut as asked does not spoil the others: it says why.
+/// cut as asked does not spoil the others: it says why. Each table is a turn.
 ///
 /// Errors  wrong_count, out_of_range (groove/zones: the table of zones itself), too_many_nodes (of
 ///         all ends together), cancelled.
 [[nodiscard]] Result<std::vector<std::optional<EndTable>>> end_tables(
     const joint::NodeSpec& spec, const joint::Nodes& nodes, const TableSpec& asked,
-    const std::stop_token& stop = {});
+    const std::stop_token& stop = {}, const Turns& turns = in_order);
 
 }  // namespace tubecut::bevel

@@ -109,14 +109,50 @@ Printed Port::printed(Response response, const Request& request,
 
 /// More memory for a running job: only what others have not.
 JobMemory::Grant Port::grow(Job& job, std::size_t bytes) const {
+  const std::lock_guard lock(job.growing);
   if (job.memory.grow(bytes)) return JobMemory::Grant::given;
   const bool fits = job.memory.bytes() + bytes <= memory.most();
   return fits ? JobMemory::Grant::in_use : JobMemory::Grant::never;
 }
 
+/// In the job's thread, whose memory takes over what others took: the pieces they made are its own.
+void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
+  JobMemory::Taken all;
+  const auto give_over = [&] { JobMemory::take_over(all); };
+  const auto within = [&](const Helpers::Stint& stint) {
+    ++job.helped_by;
+    const auto clock = CpuClock::of_this_thread();
+    {
+      const std::chrono::nanoseconds budget = job.budget.cpu;
+      const CpuLimit limit(job.stop, budget > 0ns ? std::max(1ns, budget - slots.cpu(job)) : 0ns);
+      const JobMemory own(0, [&](std::size_t bytes) { return grow(job, bytes); });
+      stint();
+      const auto taken = own.taken();
+      const auto unused = taken.given - std::min(taken.given, taken.live);
+      const std::lock_guard lock(job.growing);
+      job.memory.resize(job.memory.bytes() - unused);
+      all.given += taken.given - unused;
+      all.live += taken.live;
+    }
+    job.helped_ns += clock.used().count();
+    --job.helped_by;
+  };
+  try {
+    slots.take_turns(count, turn, within);
+  } catch (...) {
+    give_over();
+    throw;
+  }
+  give_over();
+}
+
 /// In a slot's thread.
-void Port::work(Job& job) const {
+void Port::work(Job& job) {
   job.request.times.started = seconds(Clock::now());
+  job.request.helped_ns = &job.helped_ns;
+  job.request.turns = [this, &job](std::size_t count, const Turn& turn) {
+    take_turns(job, count, turn);
+  };
   const auto body = std::min(job.request.body.size(), job.memory.bytes());
   const auto given = kThreadBytes + job.memory.bytes() - body;
   std::size_t peak = 0;
@@ -126,6 +162,8 @@ void Port::work(Job& job) const {
     answer(job);
     peak = taken.peak();
   }
+  job.request.turns = in_order;  // what is left of it is not this job's
+  job.request.helped_ns = nullptr;
   if (peak > kLarge) ::malloc_trim(0);
 }
 
@@ -217,7 +255,8 @@ void Port::hold_to_budget(Job& job) const {
     job.stop.request_stop();
     job.due = Clock::time_point::max();
   } else {
-    const auto look = std::chrono::ceil<std::chrono::nanoseconds>(kLookShare * left);
+    const auto look =
+        std::chrono::ceil<std::chrono::nanoseconds>(kLookShare * left / (1 + job.helped_by));
     job.due = std::min(job.end, job.budget.cpu > 0ms ? now + std::max(look, kLeastLook)
                                                      : Clock::time_point::max());
   }

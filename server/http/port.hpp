@@ -95,7 +95,8 @@ class Port {
   std::string scratch;  // what a session has just received
 
  private:
-  void work(Job& job) const;
+  void work(Job& job);
+  void take_turns(Job& job, std::size_t count, const Turn& turn);
   void answer(Job& job) const;
   [[nodiscard]] Response respond(const Request& request) const;
   [[nodiscard]] Printed printed(Response response, const Request& request,

@@ -2,8 +2,6 @@
 // api/memory.cpp states, for the costliest valid requests of every endpoint in every format and
 // view; and no more than they are given.
 
-#include "server/job_memory.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,10 +10,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <thread>
 
 #include "api/endpoint.hpp"
 #include "api/memory.hpp"
 #include "server/app.hpp"
+#include "server/job_memory.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
@@ -271,6 +271,27 @@ TEST(JobMemory, TellsOthersWhatItHolds) {
     block = nullptr;
     EXPECT_LT(live, 100'000U);
   }
+}
+
+/// Pieces that another thread has made, and that this one frees.
+TEST(JobMemory, TakesOverWhatAnotherThreadHasMade) {
+  std::atomic<std::size_t> live = 0;
+  JobMemory memory(
+      10'000, [](std::size_t) { return Grant::in_use; }, &live);
+  std::unique_ptr<char[]> made;
+  JobMemory::Taken taken;
+  std::thread([&] {
+    const JobMemory of_another(2'000'000, [](std::size_t) { return Grant::in_use; });
+    made = std::make_unique<char[]>(1'000'000);
+    taken = of_another.taken();
+  }).join();
+  EXPECT_LT(live, 10'000U);
+  JobMemory::take_over(taken);
+  EXPECT_GE(live, 1'000'000U);
+  made = nullptr;
+  EXPECT_LT(live, 10'000U);
+  EXPECT_NO_THROW(made = std::make_unique<char[]>(1'900'000));
+  EXPECT_THROW(static_cast<void>(std::make_unique<char[]>(1'000'000)), NoRoom);
 }
 
 std::vector<Costly> everyday() {
