@@ -27,9 +27,13 @@ inline constexpr BundleFile kBundleFiles[] = {
 /// The dialect of a G-code program.
 enum class Dialect { linuxcnc, qtplasmac };
 
+/// What a template is tiled on.
+enum class Paper { a4, a3 };
+
 /// What the query says of a drawing or a machine file. Lengths in mm.
 struct FormatOptions {
   bool mirror = false;                         // drawn for the print side to lie on the tube
+  std::optional<Paper> paper = {};             // empty: one sheet as large as the template
   bool torch = false;                          // the program lights the torch; else it only moves
   std::vector<std::string> acknowledged = {};  // codes of warnings of a `review` that is cut
   Dialect dialect = Dialect::linuxcnc;

@@ -9,6 +9,7 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/gcode.hpp"
+#include "api/formats/partner_names.hpp"
 #include "api/formats/step.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
@@ -86,7 +87,9 @@ struct BevelTables {
   }
   template <auto Print>
   static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
-    return Print(spec, out, caption);
+    auto named = caption;
+    named.partners = partner_names(caption.request, cutter_ids(spec.source), spec.partners.size());
+    return Print(spec, out, named);
   }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
@@ -95,7 +98,12 @@ struct BevelTables {
          "image/svg+xml",
          &print<bevel_table_svg>,
          {"chart", "template", "section"},
-         {"mirror"}},
+         {"mirror", "paper"}},
+        {"pdf",
+         "application/pdf",
+         &print<bevel_table_pdf>,
+         {"template", "section"},
+         {"mirror", "paper"}},
         {"dxf", "image/vnd.dxf", &print<bevel_table_dxf>, {"template", "tube"}},
         {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
         {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},

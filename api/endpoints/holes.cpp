@@ -191,7 +191,8 @@ struct Holes {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &hole_csv},
-        {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror"}},
+        {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror", "paper"}},
+        {"pdf", "application/pdf", &hole_pdf, {"template", "section"}, {"mirror", "paper"}},
         {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}},
         {"step", "model/step", &hole_step, {"smooth", "straight"}}};
     return kFormats;

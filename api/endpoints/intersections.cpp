@@ -3,6 +3,7 @@
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/intersection_formats.hpp"
+#include "api/formats/partner_names.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/wire_names.hpp"
@@ -62,7 +63,9 @@ struct Intersections {
 
   template <auto Print>
   static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
-    return Print(spec, out, caption);
+    auto named = caption;
+    named.partners = partner_names(caption.request, cutter_ids(spec.source), spec.partners.size());
+    return Print(spec, out, named);
   }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
@@ -71,7 +74,12 @@ struct Intersections {
          "image/svg+xml",
          &print<intersection_svg>,
          {"chart", "template", "section"},
-         {"mirror"}},
+         {"mirror", "paper"}},
+        {"pdf",
+         "application/pdf",
+         &print<intersection_pdf>,
+         {"template", "section"},
+         {"mirror", "paper"}},
         {"dxf", "image/vnd.dxf", &print<intersection_dxf>, {"template", "tube"}}};
     return kFormats;
   }

@@ -203,8 +203,8 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
 const std::vector<Format<Parts::Spec, Parts::Out>>& Parts::formats() {
   static const std::vector<Format<Spec, Out>> kFormats{
       {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
-      {"svg", "image/svg+xml", &print<part_svg>, {"work_order"}},
-      {"pdf", "application/pdf", &print<part_pdf>, {"work_order"}},
+      {"svg", "image/svg+xml", &print<part_svg>, {"work_order", "template"}, {"mirror", "paper"}},
+      {"pdf", "application/pdf", &print<part_pdf>, {"work_order", "template"}, {"mirror", "paper"}},
       {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
       {"step", "model/step", &print<part_step>, {"smooth", "straight"}},
       {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},

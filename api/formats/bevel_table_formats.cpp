@@ -4,13 +4,13 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/cut_sheets.hpp"
 #include "api/formats/cut_solid.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/dstv.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/gcode.hpp"
-#include "api/formats/sections.hpp"
-#include "api/formats/wrap_template.hpp"
+#include "api/formats/partner_names.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 #include "api/words.hpp"
@@ -28,38 +28,45 @@ double root_radius(const bevel::TableSpec& spec) {
                                                         : spec.target.inner_radius();
 }
 
-Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table) {
+Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table, const Caption& caption) {
   const double rho = root_radius(spec);
   auto before = table.b_raw;
   if (spec.contact == bevel::Contact::inner || spec.contact == bevel::Contact::automatic)
     for (std::size_t i = 0; i < before.size(); ++i)
       before[i] = std::max(before[i], table.b_required[i]);
-  Chart out{.title = "Cutting angle B before and after smoothing",
-            .x_label = "developed length, mm",
-            .y_label = "B, °, " + called(name_of_b_sign(table), Term::value),
-            .series = {{.name = "before",
-                        .x = table.developed,
-                        .y = degrees(std::move(before)),
-                        .color = "#c0392b",
-                        .dashed = true},
-                       {.name = "after", .x = table.developed, .y = degrees(table.b)}}};
+  Chart out{
+      .title = "Cutting angle B before and after smoothing",
+      .x_label = "developed length, mm",
+      .y_label = "B, °, " + called(name_of_b_sign(table), Term::value),
+      .series = {
+          {.name = "before",
+           .x = table.developed,
+           .y = degrees(std::move(before)),
+           .color = "#a2998c",
+           .dashed = true},
+          {.name = "after", .x = table.developed, .y = degrees(table.b), .color = "#c2571a"}}};
   for (const auto& binding : table.torch_binds)
     out.bands.push_back({rho * binding.from, rho * binding.to, "torch range binds"});
   const auto& events =
       spec.root_surface == bevel::RootSurface::outer ? table.outer_events : table.inner_events;
   for (const auto& event : events)
-    out.marks.push_back(
-        {rho * event.phi, std::to_string(event.from) + " > " + std::to_string(event.to)});
+    out.marks.push_back({rho * event.phi, change_of_partner(caption, event.from, event.to)});
   return out;
 }
 
 Chart edge_chart(const bevel::Table& table) {
-  const auto phi = degrees(table.phi);
+  auto phi = degrees(table.phi);
+  auto inner = table.z_inner, outer = table.z_outer;
+  if (!phi.empty()) {  // closes where it began
+    phi.push_back(phi.front() + 360.0);
+    inner.push_back(inner.front());
+    outer.push_back(outer.front());
+  }
   return {.title = "Finished edges",
           .x_label = "phi, °",
           .y_label = "z, mm",
-          .series = {{.name = "inner edge", .x = phi, .y = table.z_inner, .color = "#1e8449"},
-                     {.name = "outer edge", .x = phi, .y = table.z_outer}}};
+          .series = {{.name = "inner edge", .x = phi, .y = std::move(inner), .color = "#6f8598"},
+                     {.name = "outer edge", .x = phi, .y = std::move(outer)}}};
 }
 
 /// Stretches of one zone after another, with their names.
@@ -79,12 +86,12 @@ std::vector<Band> zone_bands(const bevel::ZonedGroove& zoned, const bevel::Table
 Chart zone_chart(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
   Chart out{.title = "Zones: dihedral and groove angle",
             .x_label = "developed length, mm",
-            .y_label = "°",
+            .y_label = "angle, °",
             .series = {{.name = "dihedral", .x = table.developed, .y = degrees(table.dihedral)},
                        {.name = "groove",
                         .x = table.developed,
                         .y = degrees(table.groove),
-                        .color = "#1e8449"}}};
+                        .color = "#c2571a"}}};
   out.bands = zone_bands(zoned, table);
   return out;
 }
@@ -110,12 +117,17 @@ std::string bevel_table_csv(const bevel::TableSpec& spec, const bevel::Table& ta
 
 std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
                             const Caption& caption) {
-  if (caption.view == "template") return print_wrap_template(developed(spec, table), caption);
-  if (caption.view == "section") return print_sections(sections_of(spec, table), caption);
-  std::vector<Chart> charts{bevel_chart(spec, table), edge_chart(table)};
+  if (caption.view == "template" || caption.view == "section") return cut_svg(spec, table, caption);
+  refuse_paper(caption);
+  std::vector<Chart> charts{bevel_chart(spec, table, caption), edge_chart(table)};
   if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
     charts.push_back(zone_chart(*zoned, table));
   return print_charts(charts, caption);
+}
+
+std::string bevel_table_pdf(const bevel::TableSpec& spec, const bevel::Table& table,
+                            const Caption& caption) {
+  return cut_pdf(spec, table, caption);
 }
 
 std::string bevel_table_dxf(const bevel::TableSpec& spec, const bevel::Table& table,

@@ -27,6 +27,10 @@ inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
 [[nodiscard]] std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
                                           const Caption& caption);
 
+/// The views `template` and `section` again, on pages.
+[[nodiscard]] std::string bevel_table_pdf(const bevel::TableSpec& spec, const bevel::Table& table,
+                                          const Caption& caption);
+
 /// The developed cut; view `tube`: on the tube in space.
 [[nodiscard]] std::string bevel_table_dxf(const bevel::TableSpec& spec, const bevel::Table& table,
                                           const Caption& caption);

@@ -62,6 +62,23 @@ void Canvas::text(DrawingPoint at, std::string_view what, const Lettering& lette
       {.kind = Ink::Kind::text, .points = {at}, .lettering = lettering, .text = std::string(what)});
 }
 
+void Canvas::place(const Canvas& other, DrawingPoint by, std::string_view suffix) {
+  for (auto ink : other.drawn_) {
+    const double reach = text_width(ink.text, ink.lettering.height, true) + 1.0;
+    DrawingPoint low{width_, height_}, high{0.0, 0.0};
+    for (auto& p : ink.points) {
+      p = {p.x + by.x, p.y + by.y};
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    const bool off = high.x + reach < 0.0 || low.x - reach > width_ || high.y + reach < 0.0 ||
+                     low.y - reach > height_;
+    if (off && ink.kind != Ink::Kind::clip && ink.kind != Ink::Kind::end) continue;
+    if (!ink.id.empty()) ink.id += suffix;
+    drawn_.push_back(std::move(ink));
+  }
+}
+
 void Canvas::begin_clip(DrawingPoint low, DrawingPoint high) {
   begin_clip({low, {high.x, low.y}, high, {low.x, high.y}});
 }

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "api/formats/canvas.hpp"
 #include "api/formats/text.hpp"
 #include "api/verdict.hpp"
+#include "api/words.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 constexpr double kWidth = 960.0, kHeight = 360.0;  // px, of one chart
 constexpr double kLeft = 78.0, kRight = 24.0, kTop = 56.0, kBottom = 56.0;
 constexpr double kLegendLine = 18.0, kVerdictLine = 16.0;
+constexpr double kFont = 12.0, kSmall = 11.0;  // px, of words and of labels
 
 /// Round ticks that cover [low, high]: steps of 1, 2 or 5 times a power of ten.
 struct Scale {
@@ -47,9 +50,11 @@ Scale scale(double low, double high, int ticks) {
 
 struct Frame {
   Scale x, y;
-  double top = 0.0;  // of the plot area, px
+  double top = 0.0;      // of the plot area, px
+  double unit_px = 0.0;  // of an undistorted chart, for both axes
 
   [[nodiscard]] double px(double v) const {
+    if (unit_px > 0.0) return kLeft + unit_px * (v - x.low);
     return kLeft + (v - x.low) / (x.high - x.low) * (kWidth - kLeft - kRight);
   }
   [[nodiscard]] double py(double v) const {
@@ -81,6 +86,18 @@ Frame frame(const Chart& chart, double top) {
   auto out = Frame{scale(x0, x1, 12), scale(y0, y1, 6), top};
   out.x.low = x0;  // the data fill the width
   out.x.high = x1 > x0 ? x1 : out.x.high;
+  if (!chart.undistorted) return out;
+  const double wide = kWidth - kLeft - kRight, tall = kHeight - kTop - kBottom;
+  out.unit_px = std::min(tall / (out.y.high - out.y.low), wide / (out.x.high - out.x.low));
+  constexpr double kTick = 50.0;  // px, from one tick to the next at least
+  const double low = out.x.low, high = out.x.high;
+  const double half = 0.5 * tall / out.unit_px, middle = 0.5 * (out.y.low + out.y.high);
+  out.x = scale(low, high, std::max(1, static_cast<int>(out.unit_px * (high - low) / kTick)));
+  out.y = scale(middle - half, middle + half, static_cast<int>(tall / kTick));
+  out.x.low = low;
+  out.x.high = high;
+  out.y.low = middle - half;  // the plot is as tall as any
+  out.y.high = middle + half;
   return out;
 }
 
@@ -96,13 +113,14 @@ void line(std::string& out, double x1, double y1, double x2, double y2, const ch
 
 void axes(std::string& out, const Chart& chart, const Frame& f) {
   constexpr const char* kGrid = "stroke=\"#d8dde3\" stroke-width=\"1\"";
-  const double bottom = f.py(f.y.low), right = kWidth - kRight;
+  const double bottom = f.py(f.y.low), right = f.px(f.x.high);
   for (double v = std::ceil(f.x.low / f.x.step) * f.x.step; v <= f.x.high + 1e-9 * f.x.step;
        v += f.x.step) {
     line(out, f.px(v), f.top, f.px(v), bottom, kGrid);
     text(out, f.px(v), bottom + 16, fixed(v, f.x.digits), "text-anchor=\"middle\"");
   }
-  for (double v = f.y.low; v <= f.y.high + 1e-9 * f.y.step; v += f.y.step) {
+  for (double v = std::ceil(f.y.low / f.y.step - 1e-9) * f.y.step; v <= f.y.high + 1e-9 * f.y.step;
+       v += f.y.step) {
     line(out, kLeft, f.py(v), right, f.py(v), kGrid);
     text(out, kLeft - 8, f.py(v) + 4, fixed(v, f.y.digits), "text-anchor=\"end\"");
   }
@@ -125,7 +143,7 @@ void legend(std::string& out, const Chart& chart, const Frame& f) {
           (s.dashed ? " stroke-dasharray=\"6 4\"" : ""))
              .c_str());
     text(out, x + 30, f.top - 10, s.name);
-    x += 46 + 7.0 * static_cast<double>(s.name.size());
+    x += 46 + text_width(s.name, kFont);
   }
 }
 
@@ -176,34 +194,57 @@ void curve(std::string& out, const Series& s, const Frame& f) {
 /// Labels that would lie on each other go one above the other; near the right edge they end at
 /// their line.
 void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bottom) {
-  constexpr double kLabel = 80.0, kLine = 13.0;  // px
-  double before = -kLabel, y = bottom - 5.0;
+  constexpr double kLine = 13.0;          // px
+  double before = 0.0, y = bottom - 5.0;  // where the label before ends
   for (const auto& mark : chart.marks) {
-    const double x = f.px(mark.x);
+    const double x = f.px(mark.x), width = text_width(mark.label, kSmall) + 6.0;
     line(out, x, f.top, x, bottom,
          "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
-    y = x - before < kLabel ? y - kLine : bottom - 5.0;
-    before = x;
-    const bool last = x > kWidth - kRight - kLabel;
+    const bool last = x + width > kWidth - kRight;
+    const double from = last ? x - width : x;
+    y = from < before ? y - kLine : bottom - 5.0;
+    before = std::max(before, from + width);
     text(out, last ? x - 3.0 : x + 3.0, y, mark.label,
          last ? "font-size=\"11\" fill=\"#56626e\" text-anchor=\"end\""
               : "font-size=\"11\" fill=\"#56626e\"");
   }
 }
 
+/// Within the axis. Labels that would lie on each other go one below the other; near the right edge
+/// they end at it.
+void draw_bands(std::string& out, const Chart& chart, const Frame& f, double bottom) {
+  constexpr double kLine = 13.0;  // px
+  double before = 0.0, y = f.top + 12.0;
+  for (const auto& band : chart.bands) {
+    const double from = f.px(std::clamp(band.from, f.x.low, f.x.high));
+    const double to = f.px(std::clamp(band.to, f.x.low, f.x.high));
+    out += "<rect x=\"" + fixed(from) + "\" y=\"" + fixed(f.top) + "\" width=\"" +
+           fixed(std::max(1.0, to - from)) + "\" height=\"" + fixed(bottom - f.top) + "\" fill=\"" +
+           band.color + "\" fill-opacity=\"0.12\"/>\n";
+    const double width = text_width(band.label, kSmall) + 6.0;
+    const double at = std::min(from, kWidth - kRight - width);
+    y = at < before ? y + kLine : f.top + 12.0;
+    before = std::max(before, at + width);
+    text(out, at + 3.0, y, band.label, "font-size=\"11\"");
+  }
+}
+
 void plot(std::string& out, const Chart& chart, double top) {
   const auto f = frame(chart, top + kTop);
   const double bottom = f.py(f.y.low);
-  for (const auto& band : chart.bands) {
-    out += "<rect x=\"" + fixed(f.px(band.from)) + "\" y=\"" + fixed(f.top) + "\" width=\"" +
-           fixed(std::max(1.0, f.px(band.to) - f.px(band.from))) + "\" height=\"" +
-           fixed(bottom - f.top) + "\" fill=\"" + band.color + "\" fill-opacity=\"0.12\"/>\n";
-    text(out, f.px(band.from) + 3, f.top + 12, band.label, "font-size=\"11\"");
-  }
+  draw_bands(out, chart, f, bottom);
   axes(out, chart, f);
   draw_marks(out, chart, f, bottom);
   for (const auto& s : chart.series) curve(out, s, f);
   legend(out, chart, f);
+}
+
+std::string job_in_words(Caption caption) {
+  std::string references;
+  for (const auto& [name, text] : caption.reference)
+    references += ", " + called(name, Term::field) + " " + text;
+  caption.reference.clear();
+  return job_line(caption) + references;
 }
 
 }  // namespace
@@ -228,7 +269,7 @@ std::string print_charts(const std::vector<Chart>& charts, const Caption& captio
     plot(out, chart, top);
     top += kHeight;
   }
-  text(out, kLeft, height - 8, job_line(caption), "font-size=\"10\" fill=\"#56626e\"");
+  text(out, kLeft, height - 8, job_in_words(caption), "font-size=\"10\" fill=\"#56626e\"");
   return out + "</svg>\n";
 }
 

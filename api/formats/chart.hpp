@@ -11,7 +11,7 @@ namespace tubecut::api {
 struct Series {
   std::string name;  // in the legend
   std::vector<double> x, y;
-  std::string color = "#1f5fbf";
+  std::string color = "#2c6a9b";
   bool dashed = false;
   double every = 0.0;  // where x is empty: from 0, so far apart
 };
@@ -29,7 +29,8 @@ struct Mark {
   std::string label;
 };
 
-/// A line chart with axes, ticks, units and legend.
+/// A line chart, in the colours of the console (web/src/tokens.css), with axes, ticks, units and
+/// legend.
 struct Chart {
   std::string title;
   std::string x_label;  // with its unit, for example "time, s"
@@ -38,6 +39,7 @@ struct Chart {
   std::vector<Band> bands = {};
   std::vector<Mark> marks = {};
   bool y_from_zero = false;
+  bool undistorted = false;  // one scale for both axes: a drawing
 };
 
 /// The charts one below the other as image/svg+xml, over them the verdict, below them the job.

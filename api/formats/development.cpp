@@ -1,6 +1,7 @@
 #include "api/formats/development.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/base/elementary.hpp"
@@ -29,6 +30,34 @@ CylinderCurve profile_curve(const joint::Profile& p) {
   return round_the_tube(p.radius, p.phi, p.z);
 }
 
+/// Of both walls' edges what reaches further into the scrap.
+std::vector<double> scrap_side(const bevel::Table& t, bool finish) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < t.phi.size(); ++i)
+    out.push_back(finish ? std::max(t.z_outer[i], t.z_inner[i])
+                         : std::min(t.z_outer[i], t.z_inner[i]));
+  return out;
+}
+
+/// Of a column of partners, row by row; a stretch across the seam is two.
+std::vector<PartnerSpan> spans_of(const std::vector<double>& phi, const std::vector<double>& z,
+                                  const std::vector<std::size_t>& partner, bool finish) {
+  std::vector<PartnerSpan> out;
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    const double here = phi[i] - kTwoPi * std::floor(phi[i] / kTwoPi);
+    const bool next = out.empty() || out.back().partner != partner[i] || here < out.back().phi_to;
+    if (next) {
+      out.push_back(
+          {.phi_from = here, .phi_to = here, .z = z[i], .partner = partner[i], .finish = finish});
+      continue;
+    }
+    auto& span = out.back();
+    span.phi_to = here;
+    span.z = finish ? std::max(span.z, z[i]) : std::min(span.z, z[i]);
+  }
+  return out;
+}
+
 }  // namespace
 
 double CylinderCurve::developed_length(bool closing) const {
@@ -48,6 +77,7 @@ Development developed(const bevel::TableSpec& spec, const bevel::Table& t) {
                       .outer = round_the_tube(outer, t.phi, t.z_outer),
                       .inner = round_the_tube(inner, t.phi, t.z_inner),
                       .torch = round_the_tube(outer, t.phi, t.torch_outer)});
+  out.spans = spans_of(t.phi, scrap_side(t, false), t.cutter, false);
   const bool outer_root = spec.root_surface == bevel::RootSurface::outer;
   for (const auto& event : outer_root ? t.outer_events : t.inner_events)
     out.junctions.push_back(event.phi);
@@ -95,11 +125,20 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
                   .junctions = {}};
   for (const auto* end : {&part.start, &part.finish}) {
     auto one = developed(end->spec, end->table);
-    one.cuts.front().name = end == &part.start ? "start" : "finish";
+    const bool finish = end == &part.finish;
+    one.cuts.front().name = finish ? "finish" : "start";
+    if ((finish ? spec.finish : spec.start).welded) {
+      const auto& t = end->table;
+      const auto spans = spans_of(t.phi, scrap_side(t, finish), t.cutter, finish);
+      out.spans.insert(out.spans.end(), spans.begin(), spans.end());
+    }
     out.cuts.push_back(std::move(one.cuts.front()));
   }
   for (std::size_t i = 0; i < part.holes.size(); ++i)
     out.cuts.push_back(outline(spec.target, part.holes[i].hole, "hole " + std::to_string(i)));
+  out.marks = part.marks;
+  out.whole = true;
+  out.name = spec.name;
   return out;
 }
 

@@ -28,12 +28,24 @@ struct CutOutline {
   bool around = true;                 // it goes round the tube; else it is a hole
 };
 
+/// A stretch of an end's outer edge that one partner cuts: where it is, and how far down the waste
+/// reaches there at least.
+struct PartnerSpan {
+  double phi_from = 0.0, phi_to = 0.0, z = 0.0;
+  std::size_t partner = 0;
+  bool finish = false;  // of a part
+};
+
 /// A bent surface laid flat: x = radius * phi, y = z. Frame of the result it comes from.
 struct Development {
   double outer_radius = 0.0;
   double wall = 0.0;
   std::vector<CutOutline> cuts;
   std::vector<double> junctions;  // phi, rad, on the surface that holds the root
+  std::vector<PartnerSpan> spans = {};
+  std::vector<part::Mark> marks = {};  // of a part
+  bool whole = false;                  // a part, with both its ends
+  std::string name = {};               // of a part
 
   /// Whether a cut goes round the tube; else there are holes only.
   [[nodiscard]] bool around() const;

@@ -77,7 +77,7 @@ std::string feed_curve_svg(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve
                   {.name = "command",
                    .x = curve.table.time,
                    .y = command,
-                   .color = "#c0392b",
+                   .color = "#c2571a",
                    .dashed = true}}}};
   if (curve.cycle) {
     const auto& c = *curve.cycle;

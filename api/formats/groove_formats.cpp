@@ -38,11 +38,11 @@ Chart section_chart(const groove::Groove& g) {
               {.name = "weld face P2 P3",
                .x = {s.p2.x(), s.p3.x()},
                .y = {s.p2.y(), s.p3.y()},
-               .color = "#c0392b"},
+               .color = "#c2571a"},
               {.name = "chord P1 P2",
                .x = {s.p1.x(), s.p2.x()},
                .y = {s.p1.y(), s.p2.y()},
-               .color = "#1e8449"}}};
+               .color = "#4a8a57"}}};
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ std::string groove_svg(const groove::GrooveSpec&, const groove::Groove& g, const
                                  {.name = "fixed bevel",
                                   .x = omega,
                                   .y = g.compare->filler_area,
-                                  .color = "#c0392b",
+                                  .color = "#c2571a",
                                   .dashed = true}},
                       .y_from_zero = true});
   charts.push_back(section_chart(g));
@@ -112,7 +112,7 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
         .series = {{.name = "overcut",
                     .x = omega,
                     .y = um([](P p) { return p.before.over; }),
-                    .color = "#c0392b"},
+                    .color = "#c2571a"},
                    {.name = "undercut", .x = omega, .y = um([](P p) { return p.before.under; })}}},
        {.title = "After: what the optimised position leaves",
         .x_label = "section omega, °",
@@ -120,7 +120,7 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
         .series = {{.name = "overcut",
                     .x = omega,
                     .y = um([](P p) { return p.after.over; }),
-                    .color = "#c0392b"},
+                    .color = "#c2571a"},
                    {.name = "undercut", .x = omega, .y = um([](P p) { return p.after.under; })}}},
        {.title = "Axes X and Z",
         .x_label = "section omega, °",
@@ -129,7 +129,7 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
                    {.name = "Z",
                     .x = omega,
                     .y = each(all, [](P p) { return p.at.z; }),
-                    .color = "#1e8449"}}},
+                    .color = "#4a8a57"}}},
        {.title = "Axis B",
         .x_label = "section omega, °",
         .y_label = "B, °",

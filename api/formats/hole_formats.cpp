@@ -5,10 +5,9 @@
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/cut_sheets.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/dxf.hpp"
-#include "api/formats/sections.hpp"
-#include "api/formats/wrap_template.hpp"
 #include "api/tables.hpp"
 
 namespace tubecut::api {
@@ -29,22 +28,25 @@ Chart edge_chart(const bevel::HoleSpec& spec, const bevel::Hole& hole) {
                      {.name = "inner edge",
                       .x = closed(hole.phi_inner, ro),
                       .y = closed(hole.z_inner),
-                      .color = "#1e8449"},
+                      .color = "#6f8598"},
                      {.name = "torch",
                       .x = closed(hole.torch_phi, ro),
                       .y = closed(hole.torch_z),
                       .color = "#c0392b",
-                      .dashed = true}}};
+                      .dashed = true}},
+          .undistorted = true};
 }
 
 Chart gap_chart(const bevel::Hole& hole) {
   auto phase = hole.branch_phi;
   for (auto& v : phase) v *= kDegPerRad;
+  phase.push_back(phase.front() + 360.0);
   return {.title = hole.far ? "Gap to the branch, far side" : "Gap between the cut surfaces",
           .x_label = "phase on the branch, °",
           .y_label = "gap, mm",
-          .series = {{.name = "root", .x = phase, .y = hole.fit.root},
-                     {.name = "other edge", .x = phase, .y = hole.fit.face, .color = "#1e8449"}},
+          .series =
+              {{.name = "root", .x = phase, .y = closed(hole.fit.root)},
+               {.name = "other edge", .x = phase, .y = closed(hole.fit.face), .color = "#c2571a"}},
           .y_from_zero = true};
 }
 
@@ -62,14 +64,19 @@ std::string hole_csv(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
 
 std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
                      const Caption& caption) {
-  if (caption.view == "template") return print_wrap_template(developed(spec, cut), caption);
-  if (caption.view == "section") return print_sections(sections_of(spec, cut), caption);
+  if (caption.view == "template" || caption.view == "section") return cut_svg(spec, cut, caption);
+  refuse_paper(caption);
   std::vector<Chart> charts;
   for (const auto& hole : cut.holes) {
     charts.push_back(edge_chart(spec, hole));
     charts.push_back(gap_chart(hole));
   }
   return print_charts(charts, caption);
+}
+
+std::string hole_pdf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                     const Caption& caption) {
+  return cut_pdf(spec, cut, caption);
 }
 
 std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,

@@ -17,6 +17,10 @@ namespace tubecut::api {
 [[nodiscard]] std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
                                    const Caption& caption);
 
+/// The views `template` and `section` again, on pages.
+[[nodiscard]] std::string hole_pdf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                                   const Caption& caption);
+
 /// The holes on the developed chord; view `tube`: on the chord in space.
 [[nodiscard]] std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
                                    const Caption& caption);

@@ -2,30 +2,32 @@
 
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/cut_sheets.hpp"
 #include "api/formats/development.hpp"
 #include "api/formats/dxf.hpp"
-#include "api/formats/sections.hpp"
-#include "api/formats/wrap_template.hpp"
+#include "api/formats/partner_names.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {
 
-Chart profile_chart(const joint::Intersection& cut) {
+Chart profile_chart(const joint::Intersection& cut, const Caption& caption) {
   Chart out{
       .title = "The cut on both walls", .x_label = "phi, °", .y_label = "z, mm", .series = {}};
   for (const auto& p : cut.profiles) {
     Series s{.name = p.outer ? "outer wall" : "inner wall",
              .x = p.phi,
              .y = p.z,
-             .color = p.outer ? "#1f5fbf" : "#1e8449"};
+             .color = p.outer ? "#2c6a9b" : "#6f8598"};
     for (auto& phi : s.x) phi *= kDegPerRad;
+    s.x.push_back(s.x.front() + 360.0);  // closes where it began
+    s.y.push_back(s.y.front());
     out.series.push_back(std::move(s));
     if (!p.outer) continue;
     for (const auto& event : p.events)
       out.marks.push_back(
-          {event.phi * kDegPerRad, std::to_string(event.from) + " > " + std::to_string(event.to)});
+          {event.phi * kDegPerRad, change_of_partner(caption, event.from, event.to)});
   }
   return out;
 }
@@ -42,9 +44,14 @@ std::string intersection_csv(const joint::IntersectionSpec& spec, const joint::I
 
 std::string intersection_svg(const joint::IntersectionSpec& spec, const joint::Intersection& cut,
                              const Caption& caption) {
-  if (caption.view == "template") return print_wrap_template(developed(spec, cut), caption);
-  if (caption.view == "section") return print_sections(sections_of(spec, cut), caption);
-  return print_charts({profile_chart(cut)}, caption);
+  if (caption.view == "template" || caption.view == "section") return cut_svg(spec, cut, caption);
+  refuse_paper(caption);
+  return print_charts({profile_chart(cut, caption)}, caption);
+}
+
+std::string intersection_pdf(const joint::IntersectionSpec& spec, const joint::Intersection& cut,
+                             const Caption& caption) {
+  return cut_pdf(spec, cut, caption);
 }
 
 std::string intersection_dxf(const joint::IntersectionSpec& spec, const joint::Intersection& cut,

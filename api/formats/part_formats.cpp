@@ -9,6 +9,7 @@
 #include "api/formats/pdf_sheets.hpp"
 #include "api/formats/svg_sheets.hpp"
 #include "api/formats/work_order.hpp"
+#include "api/formats/wrap_template.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 
@@ -55,6 +56,18 @@ Columns dimensions(const part::Part& part) {
       .texts("changes_with", std::move(changes));
 }
 
+std::vector<Canvas> sheets(const part::PartSpec& spec, const part::Part& part,
+                           const Caption& caption) {
+  if (caption.view == "template") return wrap_template(developed(spec, part), caption);
+  refuse_paper(caption);
+  if (caption.options.mirror) throw UnfitOption{"mirror", "goes with view=template"};
+  return work_order(spec, part, caption);
+}
+
+std::string_view title(const Caption& caption) {
+  return caption.view == "template" ? "Wrap template 1:1" : "Work order";
+}
+
 }  // namespace
 
 std::string part_csv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
@@ -66,11 +79,11 @@ std::string part_csv(const part::PartSpec& spec, const part::Part& part, const C
 }
 
 std::string part_svg(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_svg(work_order(spec, part, caption), "Work order");
+  return print_svg(sheets(spec, part, caption), title(caption));
 }
 
 std::string part_pdf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_pdf(work_order(spec, part, caption), "Work order");
+  return print_pdf(sheets(spec, part, caption), title(caption));
 }
 
 std::string part_dxf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {

@@ -12,7 +12,7 @@ namespace tubecut::api {
 [[nodiscard]] std::string part_csv(const part::PartSpec& spec, const part::Part& part,
                                    const Caption& caption);
 
-/// Its work order (work_order.hpp), on sheets.
+/// Its work order (work_order.hpp), on sheets; view `template`: wrap_template.hpp.
 [[nodiscard]] std::string part_svg(const part::PartSpec& spec, const part::Part& part,
                                    const Caption& caption);
 [[nodiscard]] std::string part_pdf(const part::PartSpec& spec, const part::Part& part,

@@ -1,5 +1,6 @@
 #include "api/formats/partner_names.hpp"
 
+#include "api/format.hpp"
 #include "api/json.hpp"
 
 namespace tubecut::api {
@@ -18,6 +19,13 @@ std::vector<std::string> partner_names(const Json* cut, const std::vector<std::s
       out.push_back(text != nullptr && !text->empty() ? *text : "partner " + std::to_string(i + 1));
   }
   return out;
+}
+
+std::string change_of_partner(const Caption& caption, std::size_t from, std::size_t to) {
+  const auto name = [&](std::size_t i) {
+    return i < caption.partners.size() ? caption.partners[i] : std::to_string(i + 1);
+  };
+  return name(from) + " > " + name(to);
 }
 
 }  // namespace tubecut::api

@@ -15,7 +15,8 @@
 namespace tubecut::api {
 namespace {
 
-constexpr const char* kColors[] = {"#1f5fbf", "#c0392b", "#1e8449", "#8e44ad", "#b9770e"};
+constexpr const char* kColors[] = {"#2c6a9b", "#c2571a", "#4a8a57",
+                                   "#8a5f8f", "#a98545", "#3f8a9a"};
 /// On the surface where the speed is asked for, mm/min.
 std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s) {
   motion::ReplaySpec again{.job = spec, .period = s.period, .counts = {}, .start = {}};

@@ -130,7 +130,7 @@ SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
   return out;
 }
 
-std::string print_sections(const SectionSet& set, const Caption& caption) {
+Canvas section_sheet(const SectionSet& set, const Caption& caption) {
   auto based_set = set;
   for (auto& s : based_set.sections) s = based(std::move(s));
   const auto room = [](const Sheet& sheet) { return cell(sheet, kColumns, kRows, 0); };
@@ -160,7 +160,7 @@ std::string print_sections(const SectionSet& set, const Caption& caption) {
   const auto below = cell(sheet, 1, kRows, kRows - 1);
   draw_table(sheet.canvas(), {below.low.x + 4.0, below.high.y - 2.0}, {50.0, 25.0, 30.0, 30.0},
              rows);
-  return sheet.print();
+  return std::move(sheet.canvas());
 }
 
 }  // namespace tubecut::api

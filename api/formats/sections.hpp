@@ -19,8 +19,8 @@ struct WallSection {
 struct SectionSet {
   std::string title;
   double wall = 0.0;
-  std::string along;             // what y is
-  std::string angle = "B, deg";  // what the cut's angle is, between its line and square to the wall
+  std::string along;        // what y is
+  std::string angle = "B";  // what the cut's angle is, between its line and square to the wall
   SheetFacts facts;
   std::vector<WallSection> sections;
 };
@@ -31,6 +31,6 @@ struct SectionSet {
 [[nodiscard]] SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut);
 
 /// Eight sections through the wall on A4, all at one usual scale, with a table of their figures.
-[[nodiscard]] std::string print_sections(const SectionSet& set, const Caption& caption);
+[[nodiscard]] Canvas section_sheet(const SectionSet& set, const Caption& caption);
 
 }  // namespace tubecut::api

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "api/api.hpp"
-#include "api/formats/svg_sheets.hpp"
 #include "api/formats/text.hpp"
 #include "api/verdict.hpp"
 #include "api/words.hpp"
@@ -17,8 +16,8 @@ constexpr Stroke kRule{.color = "#7a8794", .width = 0.18};
 
 }  // namespace
 
-Sheet::Sheet(std::string title, const SheetFacts& facts, const Caption& caption)
-    : title_(std::move(title)), canvas_(kWidth, kHeight) {
+Sheet::Sheet(const std::string& title, const SheetFacts& facts, const Caption& caption)
+    : canvas_(kWidth, kHeight) {
   const double half = (kWidth - 2.0 * kBorder) / 2.0;
   const auto lines = static_cast<double>(std::max(facts.size(), caption.reference.size() + 3));
   low_ = kBorder + kLine * (lines + 2.0) + kPad;
@@ -33,7 +32,7 @@ Sheet::Sheet(std::string title, const SheetFacts& facts, const Caption& caption)
       canvas_.text({x, y -= kLine}, line, fitted(line, {.height = 2.6}, half - 2.0 * kPad));
     }
   };
-  column(kBorder + kPad, title_, facts);
+  column(kBorder + kPad, title, facts);
   SheetFacts job;
   for (const auto& [name, value] : caption.reference)
     job.emplace_back(called(name, Term::field), value);
@@ -48,8 +47,6 @@ Sheet::Sheet(std::string title, const SheetFacts& facts, const Caption& caption)
   high_ -= kPad;
   canvas_.line({kBorder, high_}, {kWidth - kBorder, high_}, kRule);
 }
-
-std::string Sheet::print() const { return print_svg({canvas_}, title_); }
 
 Lettering verdict_lettering(const Caption& caption, double height) {
   if (caption.verdict.status == "ok") return {.height = height};

@@ -18,16 +18,14 @@ class Sheet {
  public:
   static constexpr double kWidth = 210.0, kHeight = 297.0, kBorder = 10.0;
 
-  Sheet(std::string title, const SheetFacts& facts, const Caption& caption);
+  Sheet(const std::string& title, const SheetFacts& facts, const Caption& caption);
 
   /// The free part of the page.
   [[nodiscard]] DrawingPoint low() const { return {kBorder, low_}; }
   [[nodiscard]] DrawingPoint high() const { return {kWidth - kBorder, high_}; }
   [[nodiscard]] Canvas& canvas() { return canvas_; }
-  [[nodiscard]] std::string print() const;
 
  private:
-  std::string title_;
   Canvas canvas_;
   double low_ = 0.0, high_ = 0.0;
 };

@@ -32,6 +32,17 @@ def first_to_last(line):
     return (starts[-1] + ends[-1] - starts[0] - ends[0]) / 2
 
 
+def off_line(point, line):
+    """Distance of a point of the sheet to a polyline on it."""
+    best = math.inf
+    for (x0, y0), (x1, y1) in zip(line, line[1:]):
+        dx, dy = x1 - x0, y1 - y0
+        square = dx * dx + dy * dy
+        share = min(1.0, max(0.0, ((point[0] - x0) * dx + (point[1] - y0) * dy) / square)) if square else 0.0
+        best = min(best, math.dist(point, (x0 + share * dx, y0 + share * dy)))
+    return best
+
+
 class Drawing:
     def __init__(self, svg):
         self.root = ElementTree.fromstring(svg)
@@ -260,6 +271,106 @@ class Svg(FormatTest):
         root = ElementTree.fromstring(self.service.text("parts", examples("parts")["chord-with-holes"], "format=svg&view=work_order"))
         for e in root.iter(f"{SVG}line"):
             self.assertNotEqual((e.get("x1"), e.get("y1")), (e.get("x2"), e.get("y2")))
+
+    def tiles(self, endpoint, body, query):
+        """[(the page's group, its window, where on the developed surface the window begins)] of a tiled template, and the paper's size."""
+        content = self.service.text(endpoint, body, f"format=svg&view=template&{query}")
+        root = ElementTree.fromstring(content)
+        groups = [e for e in root.iter(f"{SVG}g") if re.fullmatch(r"sheet-\d+", e.get("id") or "")] or [root]
+        width, height = float(root.get("width").removesuffix("mm")), float(root.get("height").removesuffix("mm")) / len(groups)
+        out = []
+        for k, page in enumerate(groups):
+            window = next(e for e in page.iter(f"{SVG}rect") if e.get("id") == f"window-{k + 1}")
+            left, top, wide, tall = (float(window.get(a)) for a in ("x", "y", "width", "height"))
+            words = [e.text or "" for e in page.iter(f"{SVG}text")]
+            around, along = next(re.match(r"round (\S+) to \S+ mm, along (\S+) to", w) for w in words if w.startswith("round ")).groups()
+            out.append((page, (left, top, left + wide, top + tall), (float(around), float(along))))
+        return content, out, (width, height)
+
+    CASES = (("bevel-tables", "source-000-table-1", "z_outer_mm"), ("holes", "set-on-branch", None), ("intersections", "source-000-table-1", None),
+             ("parts", "chord-with-holes", "z_outer_mm"), ("parts", "k-joint-brace", "z_outer_mm"))
+
+    def test_tiles_are_pages_with_rulers_and_crop_marks(self):
+        for endpoint, name, _ in self.CASES:
+            for paper, sizes in (("a4", {(210, 297), (297, 210)}), ("a3", {(297, 420), (420, 297)})):
+                with self.subTest(f"{endpoint} {name} {paper}"):
+                    content, pages, size = self.tiles(endpoint, examples(endpoint)[name], f"paper={paper}")
+                    self.assertIn(size, sizes)
+                    again = pdf_reader.pages(self.service.text(endpoint, examples(endpoint)[name], f"format=pdf&view=template&paper={paper}"))
+                    self.assertEqual(len(again), len(pages))
+                    for k, (page, (left, top, right, low), _) in enumerate(pages):
+                        self.assertAlmostEqual(again[k].width, size[0], delta=1e-3)
+                        for axis, way in (("x", "x"), ("y", "y")):
+                            ruler = next(e for e in page.iter(f"{SVG}line") if e.get("id") == f"ruler-{axis}-{k + 1}")
+                            self.assertAlmostEqual(abs(float(ruler.get(f"{way}2")) - float(ruler.get(f"{way}1"))), 100.0, delta=1e-3)
+                            x1, y1, x2, y2 = (float(ruler.get(a)) for a in ("x1", "y1", "x2", "y2"))
+                            printed = [(x1, (k + 1) * size[1] - y1), (x2, (k + 1) * size[1] - y2)]
+                            self.assertTrue(any(len(p) == 2 and math.dist(p[0], printed[0]) < 2e-3 and math.dist(p[1], printed[1]) < 2e-3
+                                                for p, *_ in again[k].paths), "the PDF's ruler")
+                        crops = [e for e in page.iter(f"{SVG}line") if e.get("stroke-width") == "0.15" and any(
+                            math.dist((float(e.get("x1")), float(e.get("y1"))), corner) < 0.51 for corner in ((left, top), (right, top), (left, low), (right, low)))]
+                        self.assertGreaterEqual(len(crops), 8)
+                        self.assertTrue(0 < left < right < size[0] and k * size[1] < top < low < (k + 1) * size[1])
+                        words = " ".join(e.text or "" for e in page.iter(f"{SVG}text"))
+                        self.assertIn(f"page {k + 1} of {len(pages)}", words)
+                        self.assertIn("verdict: ", words)
+
+    def test_tiles_reassembled_give_the_whole_outline(self):
+        """Every point of the outer edges is on a page, where the page says that it is; and the page draws nothing else there."""
+        for endpoint, name, column in self.CASES:
+            body, count = examples(endpoint)[name], 0
+            result = self.service.answer(endpoint, body)["result"]
+            if endpoint == "parts":
+                radius = result["check_dimensions"][0]["value_mm"] / (2 * math.pi)
+                curves = [list(zip(result["ends"][end]["points"]["phi_deg"], result["ends"][end]["points"][column])) for end in ("start", "finish")]
+                curves += [list(zip(hole["points"]["phi_deg"], hole["points"]["z_mm"])) for hole in result["holes"]]
+            else:
+                radius = body.get("target", body.get("chord"))["outer_diameter_mm"] / 2
+                table = result["points"] if "points" in result else result["holes"][0]["points"] if "holes" in result else \
+                    next(p for p in result["profiles"] if p["surface"] == "outer")["points"]
+                curves = [list(zip(table["phi_deg"], table[column or "z_mm"]))]
+            for paper in ("a4", "a3"):
+                _, pages, _ = self.tiles(endpoint, body, f"paper={paper}")
+                pieces = []  # (window on the surface, polyline on the surface)
+                for page, (left, top, right, low), (around, along) in pages:
+                    for e in page.iter():
+                        if (e.get("id") or "").startswith("cut-outer"):
+                            line = [tuple(map(float, p.split(","))) for p in e.get("points").split()]
+                            line += line[:1] if e.tag == f"{SVG}polygon" else []
+                            pieces.append(((around, along, around + right - left, along + low - top), [(x - left + around, low - y + along) for x, y in line]))
+                with self.subTest(f"{endpoint} {name} {paper}"):
+                    self.assertTrue(pieces)
+                    worst = 0.0
+                    for curve in curves:
+                        for phi, z in curve[::max(1, len(curve) // 150)]:
+                            places = [(radius * math.radians(p), z) for p in ((phi, phi % 360) if endpoint == "parts" else (phi,))]
+                            seen = [off_line(place, line) for place in places for (x0, z0, x1, z1), line in pieces
+                                    if x0 - 0.01 <= place[0] <= x1 + 0.01 and z0 - 0.01 <= place[1] <= z1 + 0.01]
+                            self.assertTrue(seen, f"{phi}, {z} is on no page")
+                            worst = max(worst, min(seen))
+                            count += 1
+                    print(f"{endpoint} {name} on {paper}: {len(pages)} pages, {worst:.4f} mm off")
+                    self.assertLess(worst, 0.1)
+            self.assertGreater(count, 100)
+
+    def test_what_is_drawn_on_a_tile_is_there_in_pixels(self):
+        content, pages, size = self.tiles("bevel-tables", examples("bevel-tables")["source-000-table-1"], "paper=a4")
+        d = Drawing(content)
+        page, (left, top, right, low), _ = pages[0]
+        edge = next(e for e in page.iter() if (e.get("id") or "").startswith("cut-outer"))
+        inside = [(x, y) for x, y in (tuple(map(float, p.split(","))) for p in edge.get("points").split()) if left + 1 < x < right - 1 and top + 1 < y < low - 1]
+        self.assertGreater(len(inside), 100)
+        for x, y in inside[::7]:
+            near = [d.color(round(x * DPI / 25.4) + i, round(y * DPI / 25.4) + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+            self.assertLess(min(math.dist(c, BLUE) for c in near), 60)
+
+    def test_paper_goes_with_templates_only(self):
+        for endpoint, view in (("bevel-tables", "chart"), ("bevel-tables", "section"), ("parts", "work_order"), ("holes", "chart")):
+            body = next(iter(examples(endpoint).values()))
+            status, _, content = self.service.ask(endpoint, body, f"format=svg&view={view}&paper=a4")
+            self.assertEqual((status, json.loads(content)["errors"][0]["pointer"]), (422, "?paper"))
+        status, _, content = self.service.ask("parts", next(iter(examples("parts").values())), "format=pdf&view=template&paper=a5")
+        self.assertEqual((status, json.loads(content)["errors"][0]["pointer"]), (400, "?paper"))
 
     def test_templates_of_the_smallest_and_the_largest_tube(self):
         for diameter in (5, 5000):

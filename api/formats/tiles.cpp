@@ -1,0 +1,199 @@
+#include "api/formats/tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/formats/numbers.hpp"
+
+namespace tubecut::api {
+namespace {
+
+// mm
+constexpr double kMargin = 10.0;   // that printers leave white
+constexpr double kOverlap = 10.0;  // of two pages
+constexpr double kRuler = 100.0;
+constexpr double kRulerRoom = 9.0;  // left of the window
+constexpr double kFoot = 26.0;      // below it: ruler, map and words
+constexpr double kHead = 9.0;
+constexpr double kCrop = 4.0;
+constexpr Stroke kCropMark{.width = 0.15};
+constexpr Stroke kGlue{.color = "#7a8794", .width = 0.15, .dashes = "3 2"};
+constexpr Stroke kMapLine{.color = "#7a8794", .width = 0.15};
+
+/// How pages of one size and turn cover a drawing.
+struct Grid {
+  double width = 0.0, height = 0.0;  // of the page
+  double window_w = 0.0, window_h = 0.0;
+  int columns = 1, rows = 1;
+};
+
+Grid grid_on(double width, double height, const Canvas& drawing) {
+  Grid g{.width = width,
+         .height = height,
+         .window_w = width - 2.0 * kMargin - kRulerRoom,
+         .window_h = height - 2.0 * kMargin - kFoot - kHead};
+  const auto count = [](double size, double window) {
+    return std::max(1, static_cast<int>(std::ceil((size - kOverlap) / (window - kOverlap) - 1e-9)));
+  };
+  g.columns = count(drawing.width(), g.window_w);
+  g.rows = count(drawing.height(), g.window_h);
+  return g;
+}
+
+struct Box {
+  DrawingPoint low, high;
+
+  [[nodiscard]] bool meets(DrawingPoint a, DrawingPoint b) const {
+    return std::max(a.x, b.x) >= low.x && std::min(a.x, b.x) <= high.x &&
+           std::max(a.y, b.y) >= low.y && std::min(a.y, b.y) <= high.y;
+  }
+};
+
+/// A page of the grid that something is cut on.
+struct Tile {
+  int column, row;  // from the upper left
+  Box window;       // on the drawing
+};
+
+class Tiles {
+ public:
+  Tiles(const Canvas& drawing, const Canvas& cuts, const Grid& grid, const TileWords& words)
+      : drawing_(drawing), grid_(grid), words_(words) {
+    for (int row = 0; row < grid.rows; ++row)
+      for (int column = 0; column < grid.columns; ++column)
+        if (const auto window = window_of(column, row); holds(cuts, window))
+          tiles_.push_back({column, row, window});
+  }
+
+  std::vector<Canvas> pages() {
+    std::vector<Canvas> out;
+    for (std::size_t k = 0; k < tiles_.size(); ++k) out.push_back(page(k));
+    return out;
+  }
+
+ private:
+  [[nodiscard]] Box window_of(int column, int row) const {
+    const double x = column * (grid_.window_w - kOverlap);
+    const double top = drawing_.height() - row * (grid_.window_h - kOverlap);
+    return {{x, top - grid_.window_h}, {x + grid_.window_w, top}};
+  }
+  static bool holds(const Canvas& cuts, const Box& window) {
+    return std::ranges::any_of(cuts.drawn(), [&](const Ink& ink) {
+      for (std::size_t i = 0; i + 1 < ink.points.size(); ++i)
+        if (window.meets(ink.points[i], ink.points[i + 1])) return true;
+      return false;
+    });
+  }
+
+  Canvas page(std::size_t k) {
+    Canvas sheet(grid_.width, grid_.height);
+    const auto& tile = tiles_[k];
+    const DrawingPoint low{kMargin + kRulerRoom, kMargin + kFoot};
+    const DrawingPoint high{low.x + grid_.window_w, low.y + grid_.window_h};
+    sheet.begin_clip(low, high);
+    sheet.place(drawing_, {low.x - tile.window.low.x, low.y - tile.window.low.y},
+                "-" + std::to_string(k + 1));
+    sheet.end_group();
+    sheet.rectangle(low, high, {.color = "#b8c0c8", .width = 0.1},
+                    "window-" + std::to_string(k + 1));
+    crop_marks(sheet, low, high);
+    glue(sheet, tile, low, high);
+    draw_ruler(sheet, {low.x + 4.0, kMargin + 4.5}, kRuler, false,
+               "ruler-x-" + std::to_string(k + 1));
+    draw_ruler(sheet, {kMargin + 3.5, low.y + 4.0}, kRuler, true,
+               "ruler-y-" + std::to_string(k + 1));
+    words(sheet, k, low, high);
+    map(sheet, k);
+    return sheet;
+  }
+  static void crop_marks(Canvas& sheet, DrawingPoint low, DrawingPoint high) {
+    for (const double x : {low.x, high.x})
+      for (const double y : {low.y, high.y}) {
+        const double out_x = x == low.x ? -1.0 : 1.0, out_y = y == low.y ? -1.0 : 1.0;
+        sheet.line({x + out_x * 0.5, y}, {x + out_x * kCrop, y}, kCropMark);
+        sheet.line({x, y + out_y * 0.5}, {x, y + out_y * kCrop}, kCropMark);
+      }
+  }
+  [[nodiscard]] int number_at(int column, int row) const {
+    for (std::size_t k = 0; k < tiles_.size(); ++k)
+      if (tiles_[k].column == column && tiles_[k].row == row) return static_cast<int>(k) + 1;
+    return 0;
+  }
+  /// Where the pages to the right and below are glued on.
+  void glue(Canvas& sheet, const Tile& tile, DrawingPoint low, DrawingPoint high) {
+    constexpr Lettering kWord{.height = 2.1, .anchor = Anchor::middle, .color = "#56626e"};
+    if (const int next = number_at(tile.column + 1, tile.row); next > 0) {
+      const double x = high.x - kOverlap;
+      sheet.line({x, low.y}, {x, high.y}, kGlue);
+      auto turned = kWord;
+      turned.turn = 90.0;
+      sheet.text({high.x - 0.8, low.y + 0.12 * (high.y - low.y)},
+                 "page " + std::to_string(next) + " to this line", turned);
+    }
+    if (const int next = number_at(tile.column, tile.row + 1); next > 0) {
+      const double y = low.y + kOverlap;
+      sheet.line({low.x, y}, {high.x, y}, kGlue);
+      sheet.text({low.x + 0.15 * (high.x - low.x), low.y + 0.8},
+                 "page " + std::to_string(next) + " to this line", kWord);
+    }
+  }
+  void words(Canvas& sheet, std::size_t k, DrawingPoint low, DrawingPoint high) {
+    const auto& window = tiles_[k].window;
+    const double from = words_.mirrored ? words_.x - window.high.x : words_.x + window.low.x;
+    const auto range = [](std::string_view name, double a, double b) {
+      return std::string(name) + " " + number(a, Unit::mm) + " to " + mm(b);
+    };
+    const auto place = range("round", from, from + grid_.window_w) + ", " +
+                       range("along", words_.z + window.low.y, words_.z + window.high.y);
+    const auto page = "page " + std::to_string(k + 1) + " of " + std::to_string(tiles_.size());
+    constexpr double kPage = 30.0;
+    sheet.text({low.x + 5.0, high.y + 4.6}, words_.title,
+               fitted(words_.title, {.height = 4.0, .bold = true}, high.x - low.x - kPage - 12.0));
+    sheet.text({high.x - 5.0, high.y + 4.6}, page,
+               {.height = 3.4, .anchor = Anchor::end, .bold = true});
+    double y = low.y - 5.4;
+    const double x = low.x + kRuler + 12.0, room = high.x - kMapRoom - x;
+    sheet.text({low.x + 5.0, y}, place, fitted(place, {.height = 2.4, .bold = true}, kRuler));
+    for (const auto& line : words_.lines)
+      sheet.text({x, y}, line, fitted(line, {.height = 2.1}, room)), y -= 2.9;
+  }
+  /// Every page of the grid; those without a number are not printed.
+  void map(Canvas& sheet, std::size_t k) {
+    constexpr double kTall = 18.0;
+    const double size = std::min((kMapRoom - 4.0) / grid_.columns, kTall / grid_.rows);
+    const DrawingPoint top{grid_.width - kMargin - size * grid_.columns,
+                           kMargin + 1.0 + size * grid_.rows};
+    for (int row = 0; row < grid_.rows; ++row)
+      for (int column = 0; column < grid_.columns; ++column) {
+        const int number = number_at(column, row);
+        const DrawingPoint at{top.x + size * column, top.y - size * (row + 1)};
+        const bool here = number == static_cast<int>(k) + 1;
+        sheet.rectangle(
+            at, {at.x + size, at.y + size},
+            {.color = kMapLine.color, .width = kMapLine.width, .fill = here ? "#cfe0f5" : "none"});
+        if (number > 0 && size >= 2.0)
+          sheet.text({at.x + 0.5 * size, at.y + 0.5 * size - 0.3 * std::min(2.4, 0.6 * size)},
+                     std::to_string(number),
+                     {.height = std::min(2.4, 0.45 * size), .anchor = Anchor::middle});
+      }
+  }
+  static constexpr double kMapRoom = 34.0;
+
+  const Canvas& drawing_;
+  const Grid& grid_;
+  const TileWords& words_;
+  std::vector<Tile> tiles_;
+};
+
+}  // namespace
+
+std::vector<Canvas> tiles(const Canvas& drawing, const Canvas& cuts, Paper paper,
+                          const TileWords& words) {
+  const double small = paper == Paper::a4 ? 210.0 : 297.0,
+               large = paper == Paper::a4 ? 297.0 : 420.0;
+  const auto upright = grid_on(small, large, drawing), across = grid_on(large, small, drawing);
+  const bool turned = across.columns * across.rows < upright.columns * upright.rows;
+  return Tiles(drawing, cuts, turned ? across : upright, words).pages();
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "api/format.hpp"
+#include "api/formats/canvas.hpp"
+
+namespace tubecut::api {
+
+/// What every tile says of the template it is of.
+struct TileWords {
+  std::string title;  // and the part
+  std::vector<std::string> lines;
+  double x = 0.0, z = 0.0;  // of the drawing's lower left corner on the developed surface
+  bool mirrored = false;    // x counts from the right
+};
+
+/// A drawing at full size on pages of the paper, upright or across, whichever needs fewer: each
+/// shows a window of it, with what the next page overlaps marked to glue on, crop marks at its
+/// corners, a map of the pages, what the window shows, and a 100 mm ruler each way. Pages that
+/// nothing of `cuts` is on are left out. The window of page k has the id `window-k`.
+[[nodiscard]] std::vector<Canvas> tiles(const Canvas& drawing, const Canvas& cuts, Paper paper,
+                                        const TileWords& words);
+
+}  // namespace tubecut::api
