@@ -13,14 +13,12 @@
 
 namespace tubecut::server {
 
-/// Threads beside those of the slots that do turns of running jobs while slots
-/// are free: as many at a time as there are free slots. They hold no slot: a
-/// job that comes has it at once, and whoever helps then is gone after the turn
-/// at hand.
+/// Threads beside those of the slots that do turns of running jobs while slots are free: as many at
+/// a time as there are free slots. They hold no slot: a job that comes has it at once, and whoever
+/// helps then is gone after the turn at hand.
 class Helpers {
  public:
-  /// What a thread does for one job, in its own surroundings: `within` calls it
-  /// once.
+  /// What a thread does for one job, in its own surroundings: `within` calls it once.
   using Stint = std::function<void()>;
   using Within = std::function<void(const Stint&)>;
 
@@ -36,8 +34,8 @@ class Helpers {
   /// So many may help from now on. From any thread.
   void allow(int most);
 
-  /// See tubecut::Turns; in the job's thread, which does turns too. Each thread
-  /// that helps does so `within`, which throws nothing.
+  /// See tubecut::Turns; in the job's thread, which does turns too. Each thread that helps does so
+  /// `within`, which throws nothing.
   void take_turns(std::size_t count, const Turn& turn, const Within& within);
 
  private:

@@ -1,6 +1,6 @@
-#include <algorithm>
-
 #include "server/job_memory.hpp"
+
+#include <algorithm>
 
 namespace tubecut::server {
 namespace {

@@ -1,3 +1,5 @@
+#include "server/slots.hpp"
+
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -5,8 +7,6 @@
 #include <algorithm>
 #include <exception>
 #include <utility>
-
-#include "server/slots.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -1,11 +1,11 @@
+#include "server/http/printer.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <boost/beast/http/status.hpp>
 #include <ctime>
 #include <iterator>
-
-#include "server/http/printer.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -1,3 +1,5 @@
+#include "server/http/session.hpp"
+
 #include <fmt/format.h>
 #include <poll.h>
 
@@ -7,7 +9,6 @@
 #include <boost/asio/error.hpp>
 
 #include "server/http/batch.hpp"
-#include "server/http/session.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -2,6 +2,8 @@
 // api/memory.cpp states, for the costliest valid requests of every endpoint in every format and
 // view; and no more than they are given.
 
+#include "server/job_memory.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +17,6 @@
 #include "api/endpoint.hpp"
 #include "api/memory.hpp"
 #include "server/app.hpp"
-#include "server/job_memory.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
