@@ -10,20 +10,20 @@ ArmTip::ArmTip(const Linkage& linkage, double rad_per_mm)
     : linkage_(linkage),
       rate_(rad_per_mm),
       height_(std::sqrt(linkage.pivot_distance * linkage.pivot_distance -
-                        linkage.pivot_offset * linkage.pivot_offset)) {
+                        linkage.pivot_offset * linkage.pivot_offset)),
+      slot_(elementary::sincos(linkage.slot_angle.rad())) {
   rod_height_ = -at(0.0).feed;  // x0 - A tan psi0 = 0
 }
 
 TipFeed ArmTip::at(double stroke) const {
   const auto arm = elementary::sincos(linkage_.rest_angle.rad() + rate_ * stroke);
-  const auto slot = elementary::sincos(linkage_.slot_angle.rad());
   const double px = linkage_.arm * arm.cos;
   const double py = linkage_.arm * arm.sin;
   const double w = px - linkage_.pivot_offset;  // from O2 to P
   const double u = py - height_;
   const double along =
-      u * slot.sin - w * slot.cos;  // |O2 P| cos psi and |O2 P| sin psi, psi = pi - alpha - beta
-  const double across = w * slot.sin + u * slot.cos;
+      u * slot_.sin - w * slot_.cos;  // |O2 P| cos psi and |O2 P| sin psi, psi = pi - alpha - beta
+  const double across = w * slot_.sin + u * slot_.cos;
   const double tangent = across / along;
   const double secant2 = 1.0 + tangent * tangent;
   const double reach2 = w * w + u * u;

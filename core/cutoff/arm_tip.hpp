@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/elementary.hpp"
 #include "core/cutoff/linkage.hpp"
 
 namespace tubecut::cutoff {
@@ -30,6 +31,7 @@ class ArmTip {
   Linkage linkage_;
   double rate_;
   double height_;
+  elementary::SinCos slot_;
   double rod_height_ = 0.0;
 };
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 
 #include "core/cutoff/fits.hpp"
 
@@ -15,45 +16,84 @@ using math::ChebyshevSeries;
 constexpr int kMostDigits = 17;          // every double comes back from 17 significant digits
 constexpr double kRoundingShare = 1.01;  // rounding may raise the speed error by 1 %
 
+/// Of `f`, of which `sampled` holds the values on the grid.
 template <class F>
-Extent extent_of(const F& f, const std::vector<double>& grid) {
-  std::vector<double> sampled;
-  std::vector<double> negated;
-  for (const double t : grid) sampled.push_back(f(t));
-  for (const double value : sampled) negated.push_back(-value);
+Extent extent_of(const F& f, const std::vector<double>& grid, const std::vector<double>& sampled) {
+  std::vector<double> negated(sampled.size());
+  std::ranges::transform(sampled, negated.begin(), std::negate<>());
   const auto minus = [&f](double t) { return -f(t); };
   return {-math::grid_maximum(minus, grid, negated).value,
           math::grid_maximum(f, grid, sampled).value};
 }
 
+/// What a command does at one time.
+class Drive {
+ public:
+  Drive(const WorkFeed& work, const ChebyshevSeries& series)
+      : work_(work), series_(series), integral_(math::antiderivative(series)) {}
+
+  [[nodiscard]] double speed(double t) const { return math::value(series_, t); }
+  [[nodiscard]] double stroke(double t) const {
+    return work_.work().start_stroke + math::value(integral_, t);
+  }
+  [[nodiscard]] double speed_error(double t) const {
+    return speed_error(t, work_.cylinder_speed(t));
+  }
+  [[nodiscard]] double speed_error(double t, double exact) const {
+    return (speed(t) - exact) / exact;
+  }
+  [[nodiscard]] double ripple(double t) const { return ripple(t, tool(stroke(t))); }
+  [[nodiscard]] double ripple(double t, const Forward& tool) const {
+    return speed(t) * tool.rate / work_.work().feed - 1.0;
+  }
+  [[nodiscard]] double place_error(double t) const { return place_error(t, tool(stroke(t))); }
+  [[nodiscard]] double place_error(double t, const Forward& tool) const {
+    const auto& w = work_.work();
+    return tool.feed - (w.start_feed + w.feed * t);
+  }
+  [[nodiscard]] Forward tool(double stroke) const { return work_.mechanism().forward(stroke); }
+
+ private:
+  const WorkFeed& work_;
+  const ChebyshevSeries& series_;
+  ChebyshevSeries integral_;
+};
+
 /// Errors  tan_pole: the command drives the cylinder beyond the linkage's range.
+Result<void> check_range(const WorkFeed& work, const Drive& drive,
+                         const std::vector<double>& strokes) {
+  const auto& grid = work.speed().grid;
+  const Extent range = extent_of([&](double t) { return drive.stroke(t); }, grid, strokes);
+  for (const double end : {range.low, range.high})
+    if (auto inside = work.mechanism().tool_feed(end); !inside)
+      return fail({.code = ErrorCode::tan_pole, .member = "fit", .got = end, .unit = "mm"});
+  return {};
+}
+
+/// Errors  of `check_range`.
 Result<CommandErrors> assess(const WorkFeed& work, const ChebyshevSeries& series) {
   const auto& w = work.work();
-  const auto& mechanism = work.mechanism();
-  const auto integral = math::antiderivative(series);
-  const auto stroke = [&](double t) { return w.start_stroke + math::value(integral, t); };
-  const Extent driven_range = extent_of(stroke, work.speed().grid);
-  for (const double end : {driven_range.low, driven_range.high})
-    if (auto inside = mechanism.tool_feed(end); !inside)
-      return fail({.code = ErrorCode::tan_pole, .member = "fit", .got = end, .unit = "mm"});
-  const auto driven = [&](double t) { return mechanism.forward(stroke(t)); };
+  const auto& [at, grid, exact] = work.speed();
+  const Drive drive(work, series);
+  const std::size_t n = grid.size();
+  std::vector<double> stroke(n), speed(n), ripple(n), place(n);
+  for (std::size_t i = 0; i < n; ++i) stroke[i] = drive.stroke(grid[i]);
+  if (auto ok = check_range(work, drive, stroke); !ok) return tl::unexpected(ok.error());
+  for (std::size_t i = 0; i < n; ++i) {
+    const Forward tool = drive.tool(stroke[i]);
+    speed[i] = drive.speed_error(grid[i], exact[i]);
+    ripple[i] = drive.ripple(grid[i], tool);
+    place[i] = drive.place_error(grid[i], tool);
+  }
   CommandErrors out;
-  out.speed = extent_of(
-      [&](double t) {
-        const double exact = work.cylinder_speed(t);
-        return (math::value(series, t) - exact) / exact;
-      },
-      work.speed().grid);
-  out.tool_speed =
-      extent_of([&](double t) { return math::value(series, t) * driven(t).rate / w.feed - 1.0; },
-                work.speed().grid);
-  out.tool_position = extent_of(
-      [&](double t) { return driven(t).feed - (w.start_feed + w.feed * t); }, work.speed().grid);
+  out.speed = extent_of([&](double t) { return drive.speed_error(t); }, grid, speed);
+  out.tool_speed = extent_of([&](double t) { return drive.ripple(t); }, grid, ripple);
+  out.tool_position = extent_of([&](double t) { return drive.place_error(t); }, grid, place);
   out.max_relative_error = out.speed.largest();
   out.tool_ripple = out.tool_speed.largest();
   out.tool_position_error = out.tool_position.largest();
-  const double end = w.start_stroke + math::value(integral, w.duration);
-  out.end_drift = mechanism.forward(end).feed - w.end_feed;
+  const double end = drive.stroke(w.duration);
+  out.end_drift = drive.tool(end).feed - w.end_feed;
   out.cylinder_end_drift = end - w.end_stroke;
   return out;
 }
@@ -73,10 +113,9 @@ double speed_error(const WorkFeed& work, const std::vector<double>& seconds) {
     const double exact = curve.at(t);
     return std::abs(math::horner(seconds, t) - exact) / exact;
   };
-  std::vector<double> sampled;
-  for (std::size_t i = 0; i < curve.grid.size(); ++i)
-    sampled.push_back(std::abs(math::horner(seconds, curve.grid[i]) - curve.values[i]) /
-                      curve.values[i]);
+  std::vector<double> sampled(curve.grid.size());
+  for (std::size_t i = 0; i < sampled.size(); ++i)
+    sampled[i] = std::abs(math::horner(seconds, curve.grid[i]) - curve.values[i]) / curve.values[i];
   return math::grid_maximum(error, curve.grid, sampled).value;
 }
 

@@ -186,9 +186,13 @@ Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vec
                  .got = period,
                  .limit = c.end / static_cast<double>(kMostSamples - 1),
                  .unit = "s"});
+  const auto n = static_cast<std::size_t>(count);
   CycleSamples out;
+  for (auto* const column :
+       {&out.time, &out.stroke, &out.speed, &out.acceleration, &out.feed, &out.feed_speed})
+    column->reserve(n);
   std::size_t now = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     if (i % kStopEvery == 0 && stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     const double time = std::min(static_cast<double>(i) * period, c.end);
     while (now + 1 < motion.size() && motion[now + 1].start <= time) ++now;

@@ -11,10 +11,10 @@
 namespace tubecut::cutoff {
 namespace {
 
-using elementary::atan;
 using elementary::atan2;
 using elementary::cos;
 using elementary::sin;
+using elementary::SinCos;
 using elementary::sincos;
 
 constexpr double kDeadPointMargin =
@@ -26,6 +26,21 @@ constexpr int kPeakScan = 64;            // steps of psi that separate the roots
 
 double reduced(double angle) {  // to (-pi, pi]
   return angle - kTwoPi * std::ceil((angle - kPi) / kTwoPi);
+}
+
+/// Of a - b.
+SinCos difference(const SinCos& a, const SinCos& b) {
+  return {a.sin * b.cos - a.cos * b.sin, a.cos * b.cos + a.sin * b.sin};
+}
+
+/// Of half an angle within (-pi, pi), by the root that does not cancel.
+SinCos half_of(const SinCos& whole) {
+  if (whole.cos >= 0.0) {
+    const double cosine = std::sqrt(0.5 * (1.0 + whole.cos));
+    return {0.5 * whole.sin / cosine, cosine};
+  }
+  const double sine = std::copysign(std::sqrt(0.5 * (1.0 - whole.cos)), whole.sin);
+  return {sine, 0.5 * whole.sin / sine};
 }
 
 constexpr double kLeastPair = 1e-3;                  // mm; a shorter feed calibrates nothing
@@ -79,8 +94,8 @@ std::optional<Error> Mechanism::set_rest(const Linkage& l) {
   one_minus_ratio_ = (l.arm - l.pivot_distance) / l.arm;
   const double height2 = (l.pivot_distance - l.pivot_offset) * (l.pivot_distance + l.pivot_offset);
   lag_ = atan2(std::sqrt(height2), l.pivot_offset) - l.rest_angle.rad();
-  const double half_sine = sin(0.5 * lag_);
-  const double lead = one_minus_ratio_ + 2.0 * ratio_ * half_sine * half_sine;  // 1 - rho cos e0
+  lag_half_ = sincos(0.5 * lag_);
+  const double lead = lead_of(lag_half_);
   if (std::abs(lead) < kDeadPointMargin)
     return wrong(ErrorCode::dead_point, "linkage/rest_angle", l.rest_angle);
   if (lead < 0.0) return wrong(ErrorCode::reversed, "linkage/rest_angle", l.rest_angle);
@@ -88,41 +103,60 @@ std::optional<Error> Mechanism::set_rest(const Linkage& l) {
   const double reach = elementary::hypot(lead, across);  // |O2 P| / R1
   const double swing = atan2(across, lead);              // theta0 - beta0
   slot_lag_ = lag_ + swing;
+  slot_lag_sides_ = sincos(slot_lag_);
   sine_ = across / reach;
   cosine_ = lead / reach;
   const double psi = reduced(kPi - l.slot_angle.rad() - (l.rest_angle.rad() - swing));
   if (std::abs(psi) >= 0.5 * kPi)
     return wrong(ErrorCode::slot_off_rod, "linkage/slot_angle", l.slot_angle);
-  cos_psi_ = cos(psi);
+  psi_ = sincos(psi);
   geometry_.slot_elevation = Angle::rad(psi);
   geometry_.rod_height = l.pivot_offset * elementary::tan(psi);
   return std::nullopt;
 }
 
-/// Angle of slot 1 from rest at a feed: tan(psi0 - psi) from the two tangents, so nothing cancels
-/// near rest.
-double Mechanism::slot_turn(double feed) const {
+/// 1 - rho cos e by half of e, without cancellation near a dead point.
+double Mechanism::lead_of(const SinCos& half) const {
+  return one_minus_ratio_ + 2.0 * ratio_ * half.sin * half.sin;
+}
+
+/// The angle of slot 1 from rest at a feed: tan(psi0 - psi) from the two tangents, so nothing
+/// cancels near rest.
+Mechanism::SlotTurn Mechanism::slot_turn(double feed) const {
   const double x0 = geometry_.rod_height;
-  return atan2(feed / offset_, 1.0 + (x0 / offset_) * ((x0 - feed) / offset_));
+  const double across = feed / offset_;
+  const double along = 1.0 + (x0 / offset_) * ((x0 - feed) / offset_);
+  const double reach = elementary::hypot(across, along);
+  const SinCos whole{across / reach, along / reach};
+  return {whole, half_of(whole)};
+}
+
+Mechanism::SlotTurn Mechanism::slot_turned(double angle) {
+  return {sincos(angle), sincos(0.5 * angle)};
+}
+
+double Mechanism::arm_turn(const SlotTurn& slot) const {
+  const double sine = ratio_ * difference(slot_lag_sides_, slot.whole).sin;
+  return arm_turn(slot, std::sqrt(std::max(0.0, (1.0 - sine) * (1.0 + sine))));
 }
 
 /// theta - theta0 = (beta - beta0) + asin(rho sin delta) - asin(rho sin delta0); the difference of
 /// the two arcs is 2 atan of (difference of sines)/(sum of cosines), which keeps full relative
-/// accuracy near rest.
-double Mechanism::arm_turn(double turn) const {
-  const double sine = ratio_ * sin(slot_lag_ - turn);
-  const double cosine = std::sqrt(std::max(0.0, (1.0 - sine) * (1.0 + sine)));
-  const double rise = -2.0 * ratio_ * cos(slot_lag_ - 0.5 * turn) * sin(0.5 * turn);
-  return turn + 2.0 * atan(rise / (cosine + cosine_));
+/// accuracy near rest. Half of either term lies within a quarter turn: one arctangent has both.
+double Mechanism::arm_turn(const SlotTurn& slot, double cosine) const {
+  const SinCos& half = slot.half;
+  const double rise = -2.0 * ratio_ * difference(slot_lag_sides_, half).cos * half.sin;
+  const double run = cosine + cosine_;
+  return 2.0 * atan2(half.sin * run + half.cos * rise, half.cos * run - half.sin * rise);
 }
 
 Mechanism::Limit Mechanism::limit(double pole, double dead, bool upper) const {
   const bool dead_first = upper ? dead < pole : dead > pole;
-  if (!dead_first) return {arm_turn(pole), {}, false};
+  if (!dead_first) return {arm_turn(slot_turned(pole)), {}, false};
   const double psi = geometry_.slot_elevation.rad();
   // sin(theta - beta) is exactly 1 or -1 there; through its cosine half the digits would be lost
   const double turn = dead + (upper ? 0.5 * kPi : -0.5 * kPi) - atan2(sine_, cosine_);
-  return {turn, offset_ * sin(dead) / (cos_psi_ * cos(psi - dead)), true};
+  return {turn, offset_ * sin(dead) / (psi_.cos * cos(psi - dead)), true};
 }
 
 void Mechanism::set_limits() {
@@ -172,8 +206,8 @@ bool Mechanism::reaches(double feed) const {
       (high_.feed && feed >= *high_.feed))
     return false;
   const double margin = kStrokeMargin * (high_.turn - low_.turn);
-  const double slot = slot_turn(feed);
-  const double sine = ratio_ * sin(slot_lag_ - slot);
+  const SlotTurn slot = slot_turn(feed);
+  const double sine = ratio_ * difference(slot_lag_sides_, slot.whole).sin;
   if (!((1.0 - sine) * (1.0 + sine) > kTangentMargin)) return false;
   const double turn = arm_turn(slot);
   return turn > low_.turn + margin && turn < high_.turn - margin;
@@ -202,28 +236,33 @@ Result<double> Mechanism::cylinder_stroke(double feed) const {
   return fail(std::move(issue));
 }
 
+/// With sine and cosine of half the arm's turn all else is algebra: e = e0 - turn, beta's turn
+/// less the arm's as a quotient, sums of angles by their sines and cosines.
 Forward Mechanism::forward(double stroke) const {
-  const double turn = k_ * stroke;
-  const auto half = sincos(-0.5 * turn);
-  const double lag = lag_ - turn;
-  const double half_sine = sin(0.5 * lag);
-  const double half_rest = sin(0.5 * lag_);
-  const double lead = one_minus_ratio_ + 2.0 * ratio_ * half_sine * half_sine;  // 1 - rho cos e
-  const double lead_rest = one_minus_ratio_ + 2.0 * ratio_ * half_rest * half_rest;
-  const double cross = 2.0 * ratio_ * half.sin * (cos(lag_ - 0.5 * turn) - ratio_ * half.cos);
-  const double dot = lead * lead_rest + ratio_ * ratio_ * sin(lag) * sin(lag_);
-  const double slot = turn - atan2(cross, dot);
-  const double cos_psi = cos(geometry_.slot_elevation.rad() - slot);
-  const double reach2 = one_minus_ratio_ * one_minus_ratio_ + 4.0 * ratio_ * half_sine * half_sine;
-  return {offset_ * sin(slot) / (cos_psi_ * cos_psi),
+  const SinCos half = sincos(0.5 * k_ * stroke);
+  const SinCos turn{2.0 * half.sin * half.cos, (half.cos - half.sin) * (half.cos + half.sin)};
+  const SinCos lag_half = difference(lag_half_, half);
+  const double lead = lead_of(lag_half), lead_rest = lead_of(lag_half_);
+  const double across = 2.0 * ratio_ * lag_half.sin * lag_half.cos;
+  const double across_rest = 2.0 * ratio_ * lag_half_.sin * lag_half_.cos;
+  // e0 - turn / 2 = e0 / 2 + e / 2
+  const double middle = lag_half_.cos * lag_half.cos - lag_half_.sin * lag_half.sin;
+  const double cross = 2.0 * ratio_ * half.sin * (ratio_ * half.cos - middle);
+  const double dot = lead * lead_rest + across * across_rest;
+  const double size = elementary::hypot(cross, dot);
+  const SinCos slot = difference(turn, {cross / size, dot / size});
+  const double cos_psi = difference(psi_, slot).cos;
+  const double reach2 =
+      one_minus_ratio_ * one_minus_ratio_ + 4.0 * ratio_ * lag_half.sin * lag_half.sin;
+  return {offset_ * slot.sin / (psi_.cos * cos_psi),
           k_ * offset_ * lead / (cos_psi * cos_psi * reach2)};
 }
 
 Inverse Mechanism::inverse(double feed) const {
   const double a = offset_;
   const double q = geometry_.rod_height - feed;
-  const double turn = slot_turn(feed);
-  const auto delta = sincos(slot_lag_ - turn);
+  const SlotTurn slot = slot_turn(feed);
+  const SinCos delta = difference(slot_lag_sides_, slot.whole);
   const double rho = ratio_;
   const double u = rho * delta.sin;
   const double w = std::sqrt((1.0 - u) * (1.0 + u));
@@ -235,7 +274,7 @@ Inverse Mechanism::inverse(double feed) const {
   const double e = 2.0 * q * t / a - spread * u / w3;
   const double e1 = -2.0 * t / a - (2.0 * q * b / a) * spread * u / w3 +
                     b * spread * rho * delta.cos * (1.0 / w3 + 3.0 * u * u / (w3 * w * w));
-  return {arm_turn(turn) / k_, b * t / k_, b * b * e / k_,
+  return {arm_turn(slot, w) / k_, b * t / k_, b * b * e / k_,
           (4.0 * q * b * b * b * e / a + b * b * e1) / k_};
 }
 
@@ -243,11 +282,15 @@ Inverse Mechanism::inverse(double feed) const {
 /// bisection finds it.
 std::optional<double> Mechanism::find_peak() const {
   const double psi = geometry_.slot_elevation.rad();
-  const double turn_low = low_.feed ? slot_turn(*low_.feed) : psi - 0.5 * kPi;
-  const double turn_high = high_.feed ? slot_turn(*high_.feed) : psi + 0.5 * kPi;
+  const auto angle = [this](double feed) {
+    const SinCos turn = slot_turn(feed).whole;
+    return atan2(turn.sin, turn.cos);
+  };
+  const double turn_low = low_.feed ? angle(*low_.feed) : psi - 0.5 * kPi;
+  const double turn_high = high_.feed ? angle(*high_.feed) : psi + 0.5 * kPi;
   const auto feed_at = [&](int i) {
     const double turn = turn_low + (turn_high - turn_low) * (i + 0.5) / kPeakScan;
-    return offset_ * sin(turn) / (cos_psi_ * cos(psi - turn));
+    return offset_ * sin(turn) / (psi_.cos * cos(psi - turn));
   };
   std::optional<double> peak;
   double left = feed_at(0);

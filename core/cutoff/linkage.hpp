@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
 
 namespace tubecut::cutoff {
@@ -57,7 +58,7 @@ struct Inverse {
 /// form.
 ///
 /// Accuracy  feed(stroke(x)) = x within 1e-12 of |x| + A/cos^2 psi0, 1 % away from the limits
-///           (worst seen over 10^5 seeded linkages: 3.0e-13).
+///           (worst seen over 10^5 seeded linkages: 3.5e-13).
 /// Source    docs/theory/feed-curves.md, section 2.
 class Mechanism {
  public:
@@ -76,7 +77,7 @@ class Mechanism {
   [[nodiscard]] Result<double> cylinder_stroke(double feed) const;
 
   /// The same with derivatives, for arguments known to be in range.
-  /// Cost      some ten calls of elementary functions each.
+  /// Cost      one call of an elementary function each, three roots and some ten quotients.
   [[nodiscard]] Forward forward(double stroke) const;
   [[nodiscard]] Inverse inverse(double feed) const;
 
@@ -92,8 +93,15 @@ class Mechanism {
     bool dead_point = false;
   };
   Mechanism() = default;
-  [[nodiscard]] double slot_turn(double feed) const;      // beta - beta0
-  [[nodiscard]] double arm_turn(double slot_turn) const;  // theta - theta0
+  /// beta - beta0 and half of it.
+  struct SlotTurn {
+    elementary::SinCos whole, half;
+  };
+  [[nodiscard]] SlotTurn slot_turn(double feed) const;
+  [[nodiscard]] static SlotTurn slot_turned(double angle);
+  [[nodiscard]] double arm_turn(const SlotTurn& slot) const;  // theta - theta0
+  [[nodiscard]] double arm_turn(const SlotTurn& slot, double cosine) const;
+  [[nodiscard]] double lead_of(const elementary::SinCos& lag_half) const;
   [[nodiscard]] Limit limit(double slot_turn_at_pole, double slot_turn_at_dead_point,
                             bool upper) const;
   [[nodiscard]] std::optional<double> find_peak() const;
@@ -104,11 +112,13 @@ class Mechanism {
   double offset_ = 0.0;  // A
   double ratio_ = 0.0;   // rho = R2/R1
   double one_minus_ratio_ = 0.0;
-  double lag_ = 0.0;       // e0 = gamma - theta0
+  double lag_ = 0.0;  // e0 = gamma - theta0
+  elementary::SinCos lag_half_ = {};
   double slot_lag_ = 0.0;  // delta0 = gamma - beta0
-  double sine_ = 0.0;      // sin(theta0 - beta0)
-  double cosine_ = 0.0;    // cos(theta0 - beta0), > 0
-  double cos_psi_ = 0.0;   // cos psi0, > 0
+  elementary::SinCos slot_lag_sides_ = {};
+  double sine_ = 0.0;            // sin(theta0 - beta0)
+  double cosine_ = 0.0;          // cos(theta0 - beta0), > 0
+  elementary::SinCos psi_ = {};  // of psi0, its cosine > 0
   double k_ = 0.0;
   Limit low_ = {};
   Limit high_ = {};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 
 #include "core/cutoff/preconditions.hpp"
 
@@ -46,11 +45,11 @@ FeedWindow window_of(const Cut& cut) {
   return {d.clearance - d.slowdown, d.clearance + d.wall + d.overcut};
 }
 
-double largest_magnitude(const std::function<double(double)>& f, const std::vector<double>& grid) {
-  const auto magnitude = [&f](double t) { return std::abs(f(t)); };
-  std::vector<double> sampled;
-  for (const double t : grid) sampled.push_back(magnitude(t));
-  return math::grid_maximum(magnitude, grid, sampled).value;
+/// Of what `f` is at any time, of which `sampled` holds magnitudes on the grid.
+template <class F>
+double largest_magnitude(const F& f, const std::vector<double>& grid,
+                         const std::vector<double>& sampled) {
+  return math::grid_maximum([&f](double t) { return std::abs(f(t)); }, grid, sampled).value;
 }
 
 }  // namespace
@@ -107,27 +106,33 @@ void WorkFeed::find_extremes() {
   work_.start_stroke = mechanism_.inverse(work_.start_feed).stroke;
   work_.end_stroke = mechanism_.inverse(work_.end_feed).stroke;
   // A copy of this mechanism and window keeps the curve a value of its own.
-  const auto speed_at = [mechanism = mechanism_, w = work_](double time) {
+  speed_.at = [mechanism = mechanism_, w = work_](double time) {
     const double feed = time >= w.duration ? w.end_feed : w.start_feed + w.feed * time;
     return w.feed * mechanism.inverse(feed).first;
   };
-  speed_ = math::sample(speed_at, math::chebyshev_grid(kGridPoints, 0.0, work_.duration));
+  speed_.grid = math::chebyshev_grid(kGridPoints, 0.0, work_.duration);
   const auto& grid = speed_.grid;
+  std::vector<double> negated(grid.size()), acceleration(grid.size()), jerk(grid.size());
+  speed_.values.resize(grid.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const CylinderState here = at(grid[i]);
+    speed_.values[i] = here.speed;
+    negated[i] = -here.speed;
+    acceleration[i] = std::abs(here.acceleration);
+    jerk[i] = std::abs(here.jerk);
+  }
   const auto top =
       static_cast<std::size_t>(std::ranges::max_element(speed_.values) - speed_.values.begin());
+  const auto acceleration_at = [this](double t) { return at(t).acceleration; };
   work_.max_cylinder_speed = speed_.values[top];
   if (top > 0 && top + 1 < grid.size()) {
-    const auto acceleration = [this](double t) { return at(t).acceleration; };
-    work_.time_at_peak = math::sign_change(acceleration, grid[top - 1], grid[top + 1]);
+    work_.time_at_peak = math::sign_change(acceleration_at, grid[top - 1], grid[top + 1]);
     work_.max_cylinder_speed = at(*work_.time_at_peak).speed;
   }
-  std::vector<double> negated;
-  for (const double v : speed_.values) negated.push_back(-v);
   work_.min_cylinder_speed =
-      -math::grid_maximum([&](double t) { return -speed_at(t); }, grid, negated).value;
-  work_.max_cylinder_acceleration =
-      largest_magnitude([this](double t) { return at(t).acceleration; }, grid);
-  work_.max_cylinder_jerk = largest_magnitude([this](double t) { return at(t).jerk; }, grid);
+      -math::grid_maximum([this](double t) { return -at(t).speed; }, grid, negated).value;
+  work_.max_cylinder_acceleration = largest_magnitude(acceleration_at, grid, acceleration);
+  work_.max_cylinder_jerk = largest_magnitude([this](double t) { return at(t).jerk; }, grid, jerk);
 }
 
 }  // namespace tubecut::cutoff
