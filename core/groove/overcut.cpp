@@ -26,12 +26,34 @@ Eigen::Vector3d turn_of(const Joint& joint, const Neighbour& ruling, double v) {
   return {-s * ruling.sin, s * ruling.cos, ruling.z3_d + v * ruling.height_d};
 }
 
-tl::expected<Neighbour, ErrorCode> neighbour(const Joint& joint, Angle omega, double delta) {
-  const auto found = section(joint, omega + Angle::rad(delta));
+tl::expected<Neighbour, ErrorCode> neighbour(const Joint& joint, Angle omega, double delta,
+                                             std::optional<double> near) {
+  const auto found = section(joint, omega + Angle::rad(delta), near);
   if (!found) return tl::unexpected(found.error());
   const auto [s, c] = elementary::sincos(delta);
-  return Neighbour{delta, s, c, found->toe.y1, found->height, found->z3_d, found->height_d};
+  return Neighbour{
+      delta,        s,         c, found->toe.y1, found->height, found->z3_d, found->height_d,
+      found->toe.D, found->D_d};
 }
+
+/// The cubic by values and slopes at both ends of [0, width].
+struct Cubic {
+  double a, slope_a, b, slope_b, width;
+
+  [[nodiscard]] double at(double x) const {
+    const double t = x / width, u = 1.0 - t;
+    return u * u * ((1.0 + 2.0 * t) * a + x * slope_a) +
+           t * t * ((1.0 + 2.0 * u) * b - (width - x) * slope_b);
+  }
+  /// Where it is least, `slope_a` being negative and `slope_b` positive.
+  [[nodiscard]] double least() const {
+    const double secant = 3.0 * (b - a) / width;
+    const double mean = slope_a + slope_b - secant;  // of the slope's quadratic
+    const double root = std::sqrt(std::max(0.0, mean * mean - slope_a * slope_b));
+    const double below = slope_b + root - mean;
+    return width * (1.0 - below / (slope_b - slope_a + 2.0 * root));
+  }
+};
 
 /// Distance's derivative along omega at one level, and what it was read from.
 struct Slope {
@@ -52,30 +74,40 @@ Slope slope_at(const Neighbourhood& near, const Cone& cone, const ToolPose& pose
   return out;
 }
 
-/// The zero of the slope between two rulings whose slopes differ in sign, by the Illinois false
-/// position.
+/// Where D is asked for next, between two rulings that have it.
+double toe_near(const Neighbour& low, const Neighbour& high, double delta) {
+  const Cubic D{low.D, low.D_d, high.D, high.D_d, high.delta - low.delta};
+  return D.at(delta - low.delta);
+}
+
+/// The zero of the slope between two rulings whose slopes differ in sign: where the cubic through
+/// both distances and slopes is least, thrice, then by the Illinois false position.
 tl::expected<Contact, ErrorCode> solve_contact(const Neighbourhood& near, const Cone& cone,
-                                               const ToolPose& pose, double v, Slope low,
-                                               Slope high) {
-  constexpr double kFlat = 1e-10;  // mm/rad; moves the gap by less than 1e-20 mm
-  constexpr int kSteps = 100;      // Illinois at least halves within three steps
-  double a = low.contact.delta, b = high.contact.delta;
-  double f_a = low.value, f_b = high.value;
-  Slope best = std::abs(f_a) < std::abs(f_b) ? std::move(low) : std::move(high);
+                                               const ToolPose& pose, double v, int ruling,
+                                               Slope low, Slope high) {
+  constexpr double kFlat = 1e-9;  // mm/rad; moves the gap by less than 1e-18 mm
+  constexpr int kCubics = 3;
+  constexpr int kSteps = 100;  // Illinois at least halves within three steps
+  const Neighbour& first = near.rulings[std::size_t(ruling)];
+  const Neighbour& last = near.rulings[std::size_t(ruling + 1)];
   int last_side = 0;
-  for (int i = 0; i < kSteps && std::abs(best.value) > kFlat; ++i) {
-    const double delta = b - f_b * (b - a) / (f_b - f_a);
+  for (int i = 0; i < kSteps; ++i) {
+    const double a = low.contact.delta, b = high.contact.delta;
+    const Cubic distance{low.contact.gap, low.value, high.contact.gap, high.value, b - a};
+    double delta = a + distance.least();
+    if (i >= kCubics || !(delta > a && delta < b))
+      delta = b - high.value * (b - a) / (high.value - low.value);
     if (!(delta > a && delta < b)) break;  // no double is left between them
-    const auto ruling = neighbour(*near.joint, near.omega, delta);
-    if (!ruling) return tl::unexpected(ruling.error());
-    best = slope_at(near, cone, pose, *ruling, v);
-    const int side = best.value < 0.0 ? -1 : 1;
-    (side < 0 ? a : b) = delta;
-    (side < 0 ? f_a : f_b) = best.value;
-    if (side == last_side) (side < 0 ? f_b : f_a) *= 0.5;
+    const auto between = neighbour(*near.joint, near.omega, delta, toe_near(first, last, delta));
+    if (!between) return tl::unexpected(between.error());
+    Slope here = slope_at(near, cone, pose, *between, v);
+    if (std::abs(here.value) <= kFlat) return here.contact;
+    const int side = here.value < 0.0 ? -1 : 1;
+    if (i >= kCubics && side == last_side) (side < 0 ? high : low).value *= 0.5;
+    (side < 0 ? low : high) = std::move(here);
     last_side = side;
   }
-  return best.contact;
+  return std::abs(low.value) < std::abs(high.value) ? low.contact : high.contact;
 }
 
 tl::expected<Contact, ErrorCode> contact_at(const Neighbourhood& near, const Cone& cone,
@@ -103,8 +135,8 @@ tl::expected<Contact, ErrorCode> contact_at(const Neighbourhood& near, const Con
   // could differ; then no contact line can be trusted.
   if (!(low.value < 0.0 && high.value > 0.0)) return tl::unexpected(ErrorCode::contact);
   if (middle.value == 0.0) return middle.contact;
-  return middle.value > 0.0 ? solve_contact(near, cone, pose, v, low, middle)
-                            : solve_contact(near, cone, pose, v, middle, high);
+  return middle.value > 0.0 ? solve_contact(near, cone, pose, v, deepest - 1, low, middle)
+                            : solve_contact(near, cone, pose, v, deepest, middle, high);
 }
 
 }  // namespace
@@ -118,10 +150,14 @@ tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle o
                                                      const std::stop_token& stop) {
   Neighbourhood out{&joint, omega, check.points, {}, {}};
   const int reach = ruling_reach(check);
+  out.rulings.reserve(std::size_t(2 * reach + 1));
+  out.samples.reserve(std::size_t(2 * reach + 1) * std::size_t(check.points));
+  std::optional<double> near;  // D of the ruling before, and its way on
   for (int m = -reach; m <= reach; ++m) {
     if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
-    const auto found = neighbour(joint, omega, m * check.pitch.rad());
+    const auto found = neighbour(joint, omega, m * check.pitch.rad(), near);
     if (!found) return tl::unexpected(found.error());
+    near = found->D + found->D_d * check.pitch.rad();
     out.rulings.push_back(*found);
     for (int i = 0; i < check.points; ++i)
       out.samples.push_back(point_on(joint, *found, double(i) / (check.points - 1)));

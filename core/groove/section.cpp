@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/base/elementary.hpp"
 
@@ -53,19 +54,22 @@ void place_p2(const ChordLine& chord, double D, Toe& toe) {
 }
 
 /// D^2 + dy^2 = c^2 within (0, reach]: Newton while it stays in the bracket, bisection else and
-/// after 50 steps.
-bool solve_p2(const ChordLine& chord, Toe& toe) {
+/// after 50 steps, until the distance is c but for its rounding.
+bool solve_p2(const ChordLine& chord, std::optional<double> near, Toe& toe) {
   constexpr int kNewtonSteps = 50, kSteps = 120;  // 70 halvings leave less than 1e-21 c
+  constexpr double kRounding = 2e-15;             // of c^2
   const double c = chord.joint.weld_width;
-  double low = 0.0, high = std::min(c, chord.reach() - toe.x1);
-  place_p2(chord, high, toe);
-  const double at_high = toe.D * toe.D + toe.dy * toe.dy - c * c;
-  if (!(high > 0.0) || !(at_high >= 0.0)) return false;
-  if (at_high == 0.0) return true;
-  double D = std::min(high, c / std::sqrt(1.0 + toe.slope1 * toe.slope1));
-  for (int i = 0; i < kSteps; ++i) {
+  const auto place = [&](double D) {
     place_p2(chord, D, toe);
-    const double f = D * D + toe.dy * toe.dy - c * c;
+    return D * D + toe.dy * toe.dy - c * c;
+  };
+  double low = 0.0, high = std::min(c, chord.reach() - toe.x1);
+  if (!(high > 0.0)) return false;
+  if (high < c && !(place(high) >= 0.0)) return false;  // at D = c the distance is c or more
+  double D = std::clamp(near.value_or(c / std::sqrt(1.0 + toe.slope1 * toe.slope1)), 0.0, high);
+  for (int i = 0; i < kSteps; ++i) {
+    const double f = place(D);
+    if (std::abs(f) <= kRounding * c * c) break;
     (f < 0.0 ? low : high) = D;
     double next = D - f / (2.0 * (D + toe.dy * toe.slope2));
     if (i >= kNewtonSteps || !(next > low && next < high)) next = 0.5 * (low + high);
@@ -80,7 +84,8 @@ double bulge(double theta) {
   if (theta > 0.7) return theta - elementary::sin(theta);
   const double s = theta * theta;
   double sum = 1.0;
-  for (const double k : {272.0, 210.0, 156.0, 110.0, 72.0, 42.0, 20.0}) sum = 1.0 - s / k * sum;
+  for (const double k : {1.0 / 272, 1.0 / 210, 1.0 / 156, 1.0 / 110, 1.0 / 72, 1.0 / 42, 1.0 / 20})
+    sum = 1.0 - s * k * sum;
   return theta * s / 6.0 * sum;
 }
 
@@ -130,7 +135,7 @@ Direction direction(Angle omega) {
   return {s, c};
 }
 
-tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir) {
+tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir, std::optional<double> near) {
   const ChordLine chord{joint, dir};
   Toe toe;
   toe.x1 = joint.root_radius;
@@ -138,7 +143,7 @@ tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir) {
   toe.q1 = chord.q(toe.t1);
   toe.y1 = chord.y(toe.x1, toe.q1);
   toe.slope1 = chord.slope(toe.t1, toe.q1);
-  if (!solve_p2(chord, toe)) return tl::unexpected(ErrorCode::no_p2);
+  if (!solve_p2(chord, near, toe)) return tl::unexpected(ErrorCode::no_p2);
   toe.y2 = toe.y1 + toe.dy;
   // The chord is concave over x, so distance from P1 surely grows along it while it turns by less
   // than a right angle. With a right angle and no eccentricity both slopes have one sign and it
@@ -161,9 +166,10 @@ double filler_area(const Joint& joint, const Toe& toe, double height) {
   return 0.5 * (height * toe.D - joint.groove_width * toe.dy) - toe.bow;
 }
 
-tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega) {
+tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
+                                         std::optional<double> near) {
   Section out{.omega = omega, .dir = direction(omega)};
-  auto found = toe(joint, out.dir);
+  auto found = toe(joint, out.dir, near);
   if (!found) return tl::unexpected(found.error());
   out.toe = *found;
   const Toe& p = out.toe;
@@ -174,10 +180,10 @@ tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega) {
   out.y3 = p.y1 + out.height;
   out.z3_d = chord.turn(p.x1, p.t1, p.q1);
   const double turn2 = chord.turn(p.x2, p.t2, p.q2);
-  const double D_d = -p.dy * (turn2 - out.z3_d) / (p.D + p.dy * p.slope2);
-  const double dy_d = turn2 + p.slope2 * D_d - out.z3_d;
-  const double bow_d = bow_slope(joint, out.dir, p, D_d);
-  out.height_d = (2.0 * (area_d + bow_d) + H * dy_d - out.height * D_d) / p.D;
+  out.D_d = -p.dy * (turn2 - out.z3_d) / (p.D + p.dy * p.slope2);
+  const double dy_d = turn2 + p.slope2 * out.D_d - out.z3_d;
+  const double bow_d = bow_slope(joint, out.dir, p, out.D_d);
+  out.height_d = (2.0 * (area_d + bow_d) + H * dy_d - out.height * out.D_d) / p.D;
   return out;
 }
 

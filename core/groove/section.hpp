@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <tl/expected.hpp>
 
 #include "core/base/angle.hpp"
@@ -46,16 +47,19 @@ struct Section {
   double y3 = 0.0;
   double z3_d = 0.0;      // d y1 / d omega, mm/rad
   double height_d = 0.0;  // d h / d omega, mm/rad
+  double D_d = 0.0;       // d D / d omega, mm/rad
 };
 
-/// P1, P2 and the bow of the section in direction `dir`.
+/// P1, P2 and the bow of the section in direction `dir`; `near` is a guess of D, mm.
 ///
 /// Errors    no_p2, p2_ambiguous.
 /// Accuracy  |P1 P2| = c and both points on the chord within 1e-13 (R + r) / sin(alpha); worst seen
 ///           5e-16.
-/// Cost      about 4 Newton steps, never more than 120 (50 Newton, then bisection).
+/// Cost      about 4 Newton steps, 2 from a neighbour's guess, never more than 120 (50 Newton, then
+///           bisection).
 /// Source    docs/theory/grooves-and-milling.md, 4.1 and 4.2.
-[[nodiscard]] tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir);
+[[nodiscard]] tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir,
+                                               std::optional<double> near = {});
 
 /// The whole section: closed-form height and derivatives. The signs that make it a groove are
 /// checked by `survey`.
@@ -63,7 +67,8 @@ struct Section {
 /// Errors    as `toe`.
 /// Accuracy  1e-12 relative; worst seen 1.6e-15 against the golden file's 34 digits.
 /// Source    docs/theory/grooves-and-milling.md, 4.3 and 4.6.
-[[nodiscard]] tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega);
+[[nodiscard]] tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
+                                                       std::optional<double> near = {});
 
 /// Filler area of the axial section that a groove of this height has there.
 [[nodiscard]] double filler_area(const Joint& joint, const Toe& toe, double height);
