@@ -91,9 +91,8 @@ Cone::Cone(const Mill& mill) {
   generatrix = length / c;
 }
 
-double Cone::solid(const ToolPose& pose, const Eigen::Vector3d& p) const {
-  const auto [rho, l, across] = meridian(pose, p);
-  const double flank_distance = (rho - tip_radius) * cos_k - l * sin_k;
+double Cone::solid(double rho, double l) const {
+  const double flank_distance = flank(rho, l);
   if (l <= 0.0 && rho <= tip_radius) return -l;
   if (l >= length && rho <= back_radius) return l - length;
   if (flank_distance <= 0.0 && l >= 0.0 && l <= length)
@@ -102,6 +101,15 @@ double Cone::solid(const ToolPose& pose, const Eigen::Vector3d& p) const {
   if (along < 0.0) return elementary::hypot(rho - tip_radius, l);
   if (along > generatrix) return elementary::hypot(rho - back_radius, l - length);
   return flank_distance;
+}
+
+Cone::Rise Cone::solid_rise(double rho, double l) const {
+  const double distance = solid(rho, l), along = l * cos_k + (rho - tip_radius) * sin_k;
+  if (distance == -l) return {0.0, -1.0};
+  if (distance == l - length) return {0.0, 1.0};
+  if (distance <= 0.0 || (along >= 0.0 && along <= generatrix)) return flank_rise();
+  const bool tip = along < 0.0;
+  return {(rho - (tip ? tip_radius : back_radius)) / distance, (tip ? l : l - length) / distance};
 }
 
 FlankFoot Cone::foot(const ToolPose& pose, const Eigen::Vector3d& p) const {

@@ -97,13 +97,27 @@ struct Cone {
   /// Distance to the unbounded flank. Source 6.4.
   [[nodiscard]] double flank(const ToolPose& pose, const Eigen::Vector3d& p) const {
     const Meridian m = meridian(pose, p);
-    return (m.rho - tip_radius) * cos_k - m.l * sin_k;
+    return flank(m.rho, m.l);
+  }
+  [[nodiscard]] double flank(double rho, double l) const {
+    return (rho - tip_radius) * cos_k - l * sin_k;
   }
   /// Signed distance to the finite cutter, negative inside.
-  [[nodiscard]] double solid(const ToolPose& pose, const Eigen::Vector3d& p) const;
+  [[nodiscard]] double solid(const ToolPose& pose, const Eigen::Vector3d& p) const {
+    const Meridian m = meridian(pose, p);
+    return solid(m.rho, m.l);
+  }
+  [[nodiscard]] double solid(double rho, double l) const;
   [[nodiscard]] FlankFoot foot(const ToolPose& pose, const Eigen::Vector3d& p) const;
 
- private:
+  /// How a distance rises with rho and l; of the solid's, where it has a corner, one of the two.
+  struct Rise {
+    double by_rho = 0.0, by_l = 0.0;
+  };
+  [[nodiscard]] Rise flank_rise() const { return {cos_k, -sin_k}; }
+  [[nodiscard]] Rise solid_rise(double rho, double l) const;
+
+  /// A point in the tool's own terms.
   struct Meridian {
     double rho = 0.0, l = 0.0;  // from the axis, along it from the tip
     double across = 0.0;        // signed in-plane part of rho

@@ -3,131 +3,132 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "core/base/elementary.hpp"
+#include "core/groove/tool_motion.hpp"
 
 namespace tubecut::groove {
 namespace {
 
-// Steps of a golden section between two blocks. The flank's minimum is a parabola, the finite
-// cutter's may be a corner.
-constexpr int kSmoothSteps = 21;         // leaves 4e-5 of a block
-constexpr int kCornerSteps = 37;         // leaves 2e-8 of a block
-constexpr double kNear = 0.25 * kTwoPi;  // tools further round than this do not reach a ruling
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kSearched =
+    1e-6;  // mm; a search between blocks errs by less, and so do its bounds
 
-/// A point of the workpiece on its ruling.
-struct WorkPoint {
-  double sin = 0.0, cos = 1.0;  // of its omega
-  double s = 0.0, z = 0.0;
+/// Where a point lies among those looked at.
+struct At {
+  int ruling = 0, level = 0;
 };
 
-/// A tool with the direction of its section.
-struct Station {
-  double sin = 0.0, cos = 1.0;
-  ToolPose pose;
-
-  [[nodiscard]] Eigen::Vector3d seen(const WorkPoint& p) const {
-    return {p.s * (p.cos * cos + p.sin * sin), p.s * (p.sin * cos - p.cos * sin), p.z};
+/// A point and what its value is known not to be below.
+struct Bounded {
+  double bound = 0.0;
+  At at;
+  bool tight = true;  // false: `range` would bound it better
+  [[nodiscard]] bool operator<(const Bounded& other) const {
+    if (bound != other.bound) return bound > other.bound;  // the least on top of the heap
+    return std::pair(at.ruling, at.level) > std::pair(other.at.ruling, other.at.level);
   }
 };
 
-Station station_of(const Block& block, const Setup& setup) {
-  const auto [s, c] = elementary::sincos(block.omega);
-  return {s, c, pose_of(block, setup)};
-}
-
-/// The least of a distance over the motion.
-struct Least {
-  double value = std::numeric_limits<double>::infinity();
-  double station = 0.0;
-};
-
-class Motion {
+/// Least distances of all points, asked for only where their bounds leave something to win.
+class Sweep {
  public:
-  Motion(const Setup& setup, std::span<const Block> blocks, Between between)
-      : setup_(setup), blocks_(blocks), between_(between) {
-    for (const Block& block : blocks) stations_.push_back(station_of(block, setup));
-  }
+  Sweep(const Joint& joint, const SweptPoints& points, ToolMotion motion)
+      : joint_(joint), points_(points), motion_(std::move(motion)) {}
 
-  /// Blocks within a quarter turn of omega: first index and count; the index runs past the end
-  /// round the turn.
-  void look_at(double omega) {
-    const auto n = blocks_.size();
-    const auto first_at = [&](double from) {
-      const double turns = std::floor(from / kTwoPi);
-      const auto found =
-          std::lower_bound(blocks_.begin(), blocks_.end(), from - turns * kTwoPi,
-                           [](const Block& b, double value) { return b.omega < value; });
-      return std::ptrdiff_t(found - blocks_.begin()) + std::ptrdiff_t(turns) * std::ptrdiff_t(n);
-    };
-    first_ = first_at(omega - kNear);
-    count_ = first_at(omega + kNear) - first_;
-  }
-
-  /// Between the blocks it is only less: a caller after the greatest of such needs no more than a
-  /// bound where that is already below the greatest so far.
-  template <class Distance>
-  [[nodiscard]] Least least(const WorkPoint& point, Distance distance, int steps,
-                            double no_need_below) const {
-    const auto n = std::ptrdiff_t(blocks_.size());
-    Least best;
-    for (std::ptrdiff_t i = first_; i < first_ + count_; ++i) {
-      const Station& at = stations_[std::size_t((i % n + n) % n)];
-      const double d = distance(at.pose, at.seen(point));
-      if (d < best.value) best = {d, double((i % n + n) % n)};
+  tl::expected<Swept, ErrorCode> run(const std::stop_token& stop) {
+    for (int j = 0; j < points_.rulings; ++j) {
+      if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
+      const auto found = section(joint_, omega(j));
+      if (!found) return tl::unexpected(found.error());
+      sections_.push_back(*found);
+      motion_.look_at(omega(j).rad(), found->dir);
+      for (int i = 0; i < points_.per_ruling; ++i) look_on_groove({j, i});
+      for (int i = 0; i < points_.root_levels; ++i) look_on_root_face({j, i});
     }
-    if (best.value <= no_need_below) return best;
-    return between_ == Between::linear ? refined(point, distance, best, steps) : best;
+    const auto groove = [this](At at) { return on_groove(at); };
+    const auto root = [this](At at) { return on_root_face(at); };
+    Swept out;
+    out.flank_min = extreme(std::move(deepest_), groove, Part::flank, 1.0, stop);
+    out.flank_max = extreme(std::move(highest_), groove, Part::flank, -1.0, stop);
+    out.stock_left_max = extreme(std::move(left_), groove, Part::solid, -1.0, stop);
+    out.root_face_min = extreme(std::move(root_), root, Part::solid, 1.0, stop);
+    if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
+    return out;
   }
 
  private:
-  /// The two segments beside the best block, one by one: in each the distance falls and rises once,
-  /// and at the block the motion has a corner.
-  template <class Distance>
-  [[nodiscard]] Least refined(const WorkPoint& point, Distance distance, Least best,
-                              int steps) const {
-    const auto at = [&](double t) {
-      const Station there = station_of(block_at(blocks_, t), setup_);
-      return Least{distance(there.pose, there.seen(point)), t};
-    };
-    for (const double low : {best.station - 1.0, best.station}) {
-      const Least found = by_golden_section(low, low + 1.0, at, steps);
-      if (found.value < best.value) best = found;
-    }
-    return best;
+  struct Point {
+    WorkPoint place;
+    double level = 0.0;
+  };
+
+  [[nodiscard]] Angle omega(int ruling) const {
+    return Angle::rad(kTwoPi * ruling / points_.rulings);
   }
 
-  template <class At>
-  static Least by_golden_section(double low, double high, At at, int steps) {
-    constexpr double kGolden = 0.6180339887498949;
-    Least left = at(high - kGolden * (high - low)), right = at(low + kGolden * (high - low));
-    for (int i = 0; i < steps; ++i) {
-      if (left.value < right.value) {
-        high = right.station;
-        right = left;
-        left = at(high - kGolden * (high - low));
-      } else {
-        low = left.station;
-        left = right;
-        right = at(low + kGolden * (high - low));
+  [[nodiscard]] Point on_groove(At at) const {
+    const Section& s = sections_[std::size_t(at.ruling)];
+    const double v = double(at.level) / (points_.per_ruling - 1);
+    return {{s.dir, joint_.root_radius + v * joint_.groove_width, s.toe.y1 + v * s.height}, v};
+  }
+
+  [[nodiscard]] Point on_root_face(At at) const {
+    const Section& s = sections_[std::size_t(at.ruling)];
+    const double level = double(at.level) / (points_.root_levels - 1);
+    return {{s.dir, joint_.root_radius, s.toe.y1 - level * joint_.root_height}, level};
+  }
+
+  void look_on_groove(At at) {
+    const WorkPoint p = on_groove(at).place;
+    const LeastRange flank = motion_.range(p, Part::flank, motion_.at_blocks(p, Part::flank));
+    deepest_.push_back({flank.low, at});
+    highest_.push_back({-flank.met.value, at});
+    // Where the flank comes deepest the cutter itself comes no less than to its distance there.
+    left_.push_back({-motion_.distance(p, Part::solid, flank.met.station), at, false});
+  }
+
+  void look_on_root_face(At at) {
+    const WorkPoint p = on_root_face(at).place;
+    root_.push_back({motion_.range(p, Part::solid, motion_.at_blocks(p, Part::solid)).low, at});
+  }
+
+  /// The least of `sign` times the values, the first of equals: from the least bound on, until none
+  /// that is left can be less.
+  template <class PointAt>
+  Extreme extreme(std::vector<Bounded> heap, const PointAt& point_at, Part part, double sign,
+                  const std::stop_token& stop) {
+    std::make_heap(heap.begin(), heap.end());
+    Bounded best{kFar, {}};
+    Extreme out{.value = sign * kFar};
+    while (!heap.empty() && heap.front().bound <= best.bound + kSearched &&
+           !stop.stop_requested()) {
+      std::pop_heap(heap.begin(), heap.end());
+      const auto [bound, at, tight] = heap.back();
+      heap.pop_back();
+      const Point p = point_at(at);
+      motion_.look_at(omega(at.ruling).rad(), p.place.dir);
+      if (!tight) {
+        const LeastRange range = motion_.range(p.place, part, motion_.at_blocks(p.place, part));
+        heap.push_back({sign > 0.0 ? range.low : -range.met.value, at});
+        std::push_heap(heap.begin(), heap.end());
+        continue;
       }
+      const Least found = motion_.over_motion(p.place, part);
+      const Bounded here{sign * found.value, at};
+      if (!(best < here)) continue;
+      best = here;
+      out = {found.value, omega(at.ruling), p.level, found.station};
     }
-    return left.value < right.value ? left : right;
+    return out;
   }
 
-  const Setup& setup_;
-  std::span<const Block> blocks_;
-  Between between_;
-  std::vector<Station> stations_;
-  std::ptrdiff_t first_ = 0, count_ = 0;
+  const Joint& joint_;
+  const SweptPoints& points_;
+  ToolMotion motion_;
+  std::vector<Section> sections_;
+  std::vector<Bounded> deepest_, highest_, left_, root_;
 };
-
-void lower(Extreme& extreme, const Extreme& seen) {
-  if (seen.value < extreme.value) extreme = seen;
-}
-void raise(Extreme& extreme, const Extreme& seen) {
-  if (seen.value > extreme.value) extreme = seen;
-}
 
 }  // namespace
 
@@ -148,43 +149,7 @@ ToolPose pose_of(const Block& block, const Setup& setup) {
 tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const Setup& setup,
                                      std::span<const Block> blocks, Between between,
                                      const SweptPoints& points, std::stop_token stop) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Motion motion{setup, blocks, between};
-  Swept out{{.value = kFar}, {.value = -kFar}, {.value = -kFar}, {.value = kFar}};
-  const auto flank = [&cone](const ToolPose& pose, const Eigen::Vector3d& p) {
-    return cone.flank(pose, p);
-  };
-  const auto solid = [&cone](const ToolPose& pose, const Eigen::Vector3d& p) {
-    return cone.solid(pose, p);
-  };
-  for (int j = 0; j < points.rulings; ++j) {
-    if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
-    const Angle omega = Angle::rad(kTwoPi * j / points.rulings);
-    const auto found = section(joint, omega);
-    if (!found) return tl::unexpected(found.error());
-    motion.look_at(omega.rad());
-    const auto seen = [&](double s, double z, double level, const auto& distance, int steps,
-                          double no_need_below) {
-      const Least least =
-          motion.least({found->dir.sin, found->dir.cos, s, z}, distance, steps, no_need_below);
-      return Extreme{least.value, omega, level, least.station};
-    };
-    for (int i = 0; i < points.per_ruling; ++i) {
-      const double v = double(i) / (points.per_ruling - 1);
-      const double s = joint.root_radius + v * joint.groove_width,
-                   z = found->toe.y1 + v * found->height;
-      const Extreme on_flank = seen(s, z, v, flank, kSmoothSteps, -kFar);
-      lower(out.flank_min, on_flank);
-      raise(out.flank_max, on_flank);
-      raise(out.stock_left_max, seen(s, z, v, solid, kCornerSteps, out.stock_left_max.value));
-    }
-    for (int i = 0; i < points.root_levels; ++i) {
-      const double level = double(i) / (points.root_levels - 1);
-      lower(out.root_face_min, seen(joint.root_radius, found->toe.y1 - level * joint.root_height,
-                                    level, solid, kCornerSteps, -kFar));
-    }
-  }
-  return out;
+  return Sweep{joint, points, ToolMotion{cone, setup, blocks, between}}.run(stop);
 }
 
 }  // namespace tubecut::groove

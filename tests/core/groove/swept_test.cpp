@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "core/base/elementary.hpp"
 #include "core/groove/optimise.hpp"
 #include "core/groove/periodic_spline.hpp"
 #include "tests/core/groove/mill_cases.hpp"
@@ -116,6 +119,139 @@ TEST_P(GoldenSwept, InitialPositions) {
   for (const auto& row : lateral)
     for (const double value : numbers(row)) least = std::min(least, value);
   EXPECT_LE(got.flank_min.value, least + 1e-10);
+}
+
+/// Every point looked at in full: all blocks within a quarter turn, then golden sections in both
+/// segments beside the best. Nothing is skipped.
+class FullCheck {
+ public:
+  FullCheck(const Joint& joint, const Cone& cone, const groove::Setup& setup,
+            std::span<const Block> motion, Between between)
+      : joint_(joint), cone_(cone), setup_(setup), motion_(motion), between_(between) {}
+
+  [[nodiscard]] Swept run(const SweptPoints& points) const {
+    Swept out{{.value = kFar}, {.value = -kFar}, {.value = -kFar}, {.value = kFar}};
+    for (int j = 0; j < points.rulings; ++j) {
+      const Angle omega = Angle::rad(kTwoPi * j / points.rulings);
+      const Section here = *section(joint_, omega);
+      for (int i = 0; i < points.per_ruling; ++i) {
+        const double v = double(i) / (points.per_ruling - 1);
+        const double s = joint_.root_radius + v * joint_.groove_width;
+        const double z = here.toe.y1 + v * here.height;
+        const Extreme flank = least(here, s, z, v, false), solid = least(here, s, z, v, true);
+        if (flank.value < out.flank_min.value) out.flank_min = flank;
+        if (flank.value > out.flank_max.value) out.flank_max = flank;
+        if (solid.value > out.stock_left_max.value) out.stock_left_max = solid;
+      }
+      for (int i = 0; i < points.root_levels; ++i) {
+        const double level = double(i) / (points.root_levels - 1);
+        const double z = here.toe.y1 - level * joint_.root_height;
+        const Extreme root = least(here, joint_.root_radius, z, level, true);
+        if (root.value < out.root_face_min.value) out.root_face_min = root;
+      }
+    }
+    return out;
+  }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] double distance(const Section& at, double s, double z, double station,
+                                bool solid) const {
+    const Block block = block_at(motion_, station);
+    const ToolPose pose = pose_of(block, setup_);
+    const auto [sin, cos] = elementary::sincos(block.omega);
+    const Eigen::Vector3d p(s * (at.dir.cos * cos + at.dir.sin * sin),
+                            s * (at.dir.sin * cos - at.dir.cos * sin), z);
+    return solid ? cone_.solid(pose, p) : cone_.flank(pose, p);
+  }
+
+  [[nodiscard]] Extreme least(const Section& at, double s, double z, double level,
+                              bool solid) const {
+    Extreme best{.value = kFar, .omega = at.omega, .level = level};
+    const auto look = [&](double station) {
+      return Extreme{distance(at, s, z, station, solid), at.omega, level, station};
+    };
+    for (std::size_t i = 0; i < motion_.size(); ++i) {
+      const double apart = motion_[i].omega - at.omega.rad();
+      if (std::abs(apart - kTwoPi * std::round(apart / kTwoPi)) > 0.25 * kTwoPi) continue;
+      if (const Extreme here = look(double(i)); here.value < best.value) best = here;
+    }
+    if (between_ == Between::nothing) return best;
+    const double block = best.station;
+    for (const double low : {block - 1.0, block}) {
+      const Extreme found = golden(low, solid ? 37 : 21, look);
+      if (found.value < best.value) best = found;
+    }
+    return best;
+  }
+
+  template <class Look>
+  static Extreme golden(double low, int steps, const Look& look) {
+    constexpr double kGolden = 0.6180339887498949;
+    double high = low + 1.0;
+    Extreme left = look(high - kGolden * (high - low)), right = look(low + kGolden * (high - low));
+    for (int i = 0; i < steps; ++i) {
+      if (left.value < right.value) {
+        high = right.station;
+        right = left;
+        left = look(high - kGolden * (high - low));
+      } else {
+        low = left.station;
+        left = right;
+        right = look(low + kGolden * (high - low));
+      }
+    }
+    return left.value < right.value ? left : right;
+  }
+
+  const Joint& joint_;
+  const Cone& cone_;
+  const groove::Setup& setup_;
+  std::span<const Block> motion_;
+  Between between_;
+};
+
+/// Golden sections of nearly equal value may stop 1e-7 mm apart, so points of nearly equal value
+/// may stand for one another.
+void expect_same(const Extreme& got, const Extreme& want, const std::string& what) {
+  EXPECT_NEAR(got.value, want.value, 1e-7) << what;
+}
+
+// What is skipped cannot matter: smooth motions, motions with noise in every axis, coarse and fine,
+// for cones of every kind.
+TEST(Swept, SkipsNothingThatMatters) {
+  std::mt19937_64 random(18);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int compared = 0;
+  for (const char* const name : kCases) {
+    const Joint joint = joint_case(name);
+    const groove::Setup setup = setup_case(name);
+    for (const int count : {24, 90, 181}) {
+      for (const double noise : {0.0, 0.003, 0.3}) {
+        std::vector<Increment> noisy;
+        for (int i = 0; i < count; ++i)
+          noisy.push_back({noise * any(random), 0.02 * noise * any(random)});
+        const auto motion = blocks(name, count, hold_case(name), [&](double turn) {
+          return noisy[std::size_t(std::lround(turn * count)) % noisy.size()];
+        });
+        const Cone cone{mill_case(name)};
+        const SweptPoints points{.rulings = 60, .per_ruling = 5, .root_levels = 3};
+        for (const Between between : {Between::linear, Between::nothing}) {
+          const Swept got = *swept(joint, cone, setup, motion, between, points, {});
+          const Swept want = FullCheck{joint, cone, setup, motion, between}.run(points);
+          const std::string what =
+              std::string(name) + " " + std::to_string(count) + " " + std::to_string(noise);
+          expect_same(got.flank_min, want.flank_min, what + " flank_min");
+          expect_same(got.flank_max, want.flank_max, what + " flank_max");
+          expect_same(got.stock_left_max, want.stock_left_max, what + " stock_left_max");
+          expect_same(got.root_face_min, want.root_face_min, what + " root_face_min");
+          ++compared;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(compared, int(std::size(kCases)) * 18);
 }
 
 }  // namespace
