@@ -119,19 +119,7 @@ BENCHMARK(sample)->ArgName("60_s_at_1_ms")->Arg(0)->Arg(1)->Unit(benchmark::kMic
 /// Axis values and their rounding, all axes.
 void pulses(benchmark::State& state) {
   const auto& s = stages(state.range(0) != 0);
-  for (auto _ : state) {
-    for (std::size_t a = 0; a < s.job.course.axes.size(); ++a) {
-      motion::CourseCursor cursor(s.job.course);
-      std::vector<double> ideal;
-      ideal.reserve(s.plan.places.size());
-      const double start = s.job.course.axes[a].at(cursor.at(s.plan.places.front()));
-      for (const auto& place : s.plan.places)
-        ideal.push_back(motion::ideal_pulses(s.spec.machine.axes[a],
-                                             s.job.course.axes[a].at(cursor.at(place)), start));
-      benchmark::DoNotOptimize(
-          motion::increments(ideal.size(), [&](std::size_t k) { return ideal[k]; }));
-    }
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(motion::pulses(s.job, s.plan));
   share_of_cut(state, s);
 }
 BENCHMARK(pulses)->ArgName("60_s_at_1_ms")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);

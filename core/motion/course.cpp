@@ -1,7 +1,6 @@
 #include "core/motion/course.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/elementary.hpp"
@@ -43,18 +42,17 @@ constexpr double kEndMargin = 2.0;  // mm at both ends where a slow tip is a sta
 constexpr std::size_t kRest = 3;    // resting samples before and after
 
 /// First, second and third difference of a value that is given sample by sample.
-class Differences {
- public:
-  explicit Differences(double start) : last_{start, start, start, start} {}
-  void push(double value) { last_ = {last_[1], last_[2], last_[3], value}; }
-  [[nodiscard]] double first() const { return last_[3] - last_[2]; }
-  [[nodiscard]] double second() const { return (last_[3] - last_[2]) - (last_[2] - last_[1]); }
-  [[nodiscard]] double third() const {
-    return second() - ((last_[2] - last_[1]) - (last_[1] - last_[0]));
-  }
+struct Differences {
+  double value = 0.0;
+  double first = 0.0, second = 0.0, third = 0.0;
 
- private:
-  std::array<double, 4> last_;
+  void push(double next) {
+    const double one = next - value, two = one - first;
+    third = two - second;
+    second = two;
+    first = one;
+    value = next;
+  }
 };
 
 /// Rounding of one axis value: a few units in the last place of its largest part.
@@ -71,19 +69,29 @@ double rounding(const Course& course, const AxisFunction& f) {
 
 /// One moving axis under watch.
 struct Watched {
-  const AxisFunction* function;
   const Axis* axis;
   Differences differences;
   double noise;
+  double velocity, acceleration, jerk;  // limits of the differences; 0: none
 };
 
-std::vector<Watched> watched(const Course& course) {
-  const Pose start = CourseCursor(course).at({});
+std::vector<AxisFunction> moving(const Course& course) {
+  std::vector<AxisFunction> out;
+  for (const AxisBounds& bounds : course.limits.axes) out.push_back(course.axes[bounds.axis]);
+  return out;
+}
+
+std::vector<Watched> watched(const Course& course, const std::vector<double>& start) {
+  const double t = course.machine.period;
   std::vector<Watched> out;
   for (const AxisBounds& bounds : course.limits.axes) {
-    const AxisFunction& f = course.axes[bounds.axis];
-    out.push_back(
-        {&f, &course.machine.axes[bounds.axis], Differences(f.at(start)), rounding(course, f)});
+    const Axis& axis = course.machine.axes[bounds.axis];
+    out.push_back({&axis,
+                   {start[out.size()]},
+                   rounding(course, course.axes[bounds.axis]),
+                   axis.v_max * t,
+                   axis.a_max * t * t,
+                   axis.j_max.value_or(0.0) * t * t * t});
   }
   return out;
 }
@@ -92,53 +100,78 @@ double over(double difference, double noise, double limit) {
   return std::max(0.0, std::abs(difference) - noise) / limit;
 }
 
-double jerk_ratio(const Watched& w, double period) {
-  if (!w.axis->j_max) return 0.0;
-  return over(w.differences.third(), 8.0 * w.noise, *w.axis->j_max * period * period * period);
+/// Ratios of differences to their limits, 0 where those hold: hardly anywhere is a quotient taken.
+double jerk_excess(const Watched& w) {
+  const double size = std::abs(w.differences.third), noise = 8.0 * w.noise;
+  return w.jerk == 0.0 || size <= w.jerk + noise ? 0.0 : over(size, noise, w.jerk);
 }
 
-double acceleration_ratio(const Watched& w, double period) {
-  return over(w.differences.second(), 4.0 * w.noise, w.axis->a_max * period * period);
+double acceleration_excess(const Watched& w) {
+  const double size = std::abs(w.differences.second), noise = 4.0 * w.noise;
+  return size <= w.acceleration + noise ? 0.0 : over(size, noise, w.acceleration);
 }
 
-void note(const Watched& w, double period, bool jerk, AxisUse& use) {
-  const double v = over(w.differences.first(), 2.0 * w.noise, w.axis->v_max * period);
-  use.velocity = std::max(use.velocity, v);
-  use.acceleration = std::max(use.acceleration, acceleration_ratio(w, period));
-  if (jerk) use.jerk = std::max(use.jerk, jerk_ratio(w, period));
+/// Of the magnitudes of differences.
+struct Largest {
+  double first = 0.0, second = 0.0, third = 0.0;
+
+  void note(const Differences& d) {
+    first = std::max(first, std::abs(d.first));
+    second = std::max(second, std::abs(d.second));
+    third = std::max(third, std::abs(d.third));
+  }
+};
+
+/// Roots so that a stretch of time divides each once.
+AxisUse use_of(const Watched& w, const Largest& largest, bool jerk) {
+  AxisUse out;
+  out.velocity = over(largest.first, 2.0 * w.noise, w.velocity);
+  out.acceleration = std::sqrt(over(largest.second, 4.0 * w.noise, w.acceleration));
+  if (jerk && w.jerk > 0.0) {
+    out.jerk = elementary::cbrt(over(largest.third, 8.0 * w.noise, w.jerk));
+  }
   if (w.axis->n_max) {
-    const double pulses = std::abs(w.differences.first()) * w.axis->pulses_per_axis_unit();
-    use.pulses = std::max(use.pulses, pulses / static_cast<double>(*w.axis->n_max));
+    out.pulses =
+        largest.first * w.axis->pulses_per_axis_unit() / static_cast<double>(*w.axis->n_max);
   }
+  return out;
 }
 
-/// Calls `see(k)` after every sample, the resting ones behind the end included; k may pass the last
-/// place.
+/// Way from `before` to `now`, which takes its place.
+double way_to(const double* now, std::vector<double>& before) {
+  double square = 0.0;
+  for (std::size_t f = 0; f < before.size(); ++f) {
+    const double step = now[f] - before[f];
+    square += step * step;
+    before[f] = now[f];
+  }
+  return std::sqrt(square);
+}
+
+/// Calls `see(k, axes, values)` after every sample, the resting ones behind the end included; k may
+/// pass the last place. The values are those of the moving axes, then of `beside`.
 template <class See>
-void walk(const Course& course, const std::vector<Place>& places, std::vector<Watched>& axes,
-          const std::stop_token& stop, const See& see) {
-  CourseCursor cursor(course);
+void walk(const Course& course, const std::vector<Place>& places,
+          const std::vector<AxisFunction>& beside, const std::stop_token& stop, const See& see) {
+  std::vector<AxisFunction> functions = moving(course);
+  functions.insert(functions.end(), beside.begin(), beside.end());
+  ValueCursor cursor(course.path, functions);
+  std::vector<Watched> axes = watched(course, cursor.at({}));
   for (std::size_t k = 0; k < places.size() + kRest && !stops(stop, k); ++k) {
-    const Pose pose = cursor.at(places[std::min(k, places.size() - 1)]);
-    for (Watched& w : axes) w.differences.push(w.function->at(pose));
-    see(k);
+    const auto& values = cursor.at(places[std::min(k, places.size() - 1)]);
+    for (std::size_t a = 0; a < axes.size(); ++a) axes[a].differences.push(values[a]);
+    see(k, axes, values);
   }
 }
 
-void note_tip(const Course& course, const std::vector<Place>& places, const std::stop_token& stop,
+/// The tip's speed over the period that ends at place `k`.
+void note_tip(const Course& course, const std::vector<Place>& places, std::size_t k, double step,
               Uses& out) {
-  const double d = course.path.d, length = course.path.length(), period = course.machine.period;
-  CourseCursor cursor(course);
-  Pose from = cursor.at(places[0]);
-  for (std::size_t k = 1; k < places.size() && !stops(stop, k); ++k) {
-    const Pose to = cursor.at(places[k]);
-    const double speed = tip_step(course, from, to) / period;
-    const double start = places[k - 1].u(d), end = places[k].u(d);
-    out.tip = std::max(out.tip, speed / course.speed.greatest(start, end));
-    if (start >= kEndMargin && end <= length - kEndMargin) {
-      out.least_tip = std::min(out.least_tip, speed);
-    }
-    from = to;
+  const double d = course.path.d, speed = step / course.machine.period;
+  const double start = places[k - 1].u(d), end = places[k].u(d);
+  out.tip = std::max(out.tip, speed / course.speed.greatest(start, end));
+  if (start >= kEndMargin && end <= course.path.length() - kEndMargin) {
+    out.least_tip = std::min(out.least_tip, speed);
   }
 }
 
@@ -193,19 +226,10 @@ Result<PreparedCut> prepare_cut(const ScheduleSpec& spec, std::stop_token stop) 
   return job;
 }
 
-bool Course::bends() const {
-  const auto bent = [](const AxisFunction& f) { return !f.is_linear(); };
-  return std::ranges::any_of(axes, bent) || std::ranges::any_of(tip, bent);
-}
+TipCursor::TipCursor(const Course& course)
+    : values_(course.path, course.tip), before_(course.tip.size(), 0.0) {}
 
-double tip_step(const Course& course, const Pose& from, const Pose& to) {
-  double square = 0.0;
-  for (const AxisFunction& f : course.tip) {
-    const double step = f.at(to) - f.at(from);
-    square += step * step;
-  }
-  return std::sqrt(square);
-}
+double TipCursor::step_to(const Place& place) { return way_to(values_.at(place).data(), before_); }
 
 double Uses::worst() const {
   double most = tip;
@@ -218,39 +242,38 @@ double Uses::worst() const {
 Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
           const std::stop_token& stop) {
   Uses out;
-  std::vector<Watched> axes = watched(course);
-  out.axes.resize(axes.size());
-  walk(course, places, axes, stop, [&](std::size_t) {
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      note(axes[a], course.machine.period, jerk, out.axes[a]);
-    }
-  });
-  for (AxisUse& use : out.axes) {
-    use.acceleration = std::sqrt(use.acceleration);
-    use.jerk = elementary::cbrt(use.jerk);
+  std::vector<Largest> largest(course.limits.axes.size());
+  std::vector<double> tip(course.tip.size());
+  walk(course, places, course.tip, stop,
+       [&](std::size_t k, const std::vector<Watched>& axes, const std::vector<double>& values) {
+         for (std::size_t a = 0; a < axes.size(); ++a) largest[a].note(axes[a].differences);
+         const double step = way_to(values.data() + axes.size(), tip);
+         if (k > 0 && k < places.size()) note_tip(course, places, k, step, out);
+       });
+  const std::vector<Watched> axes = watched(course, std::vector<double>(largest.size()));
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    out.axes.push_back(use_of(axes[a], largest[a], jerk));
   }
-  note_tip(course, places, stop, out);
   return out;
 }
 
 Ratios ratios(const Course& course, const std::vector<Place>& places, const std::stop_token& stop) {
   Ratios out{std::vector<double>(places.size(), 0.0), std::vector<double>(places.size(), 0.0)};
-  const double period = course.machine.period;
-  std::vector<Watched> axes = watched(course);
   const auto note_at = [&](std::vector<double>& ratio, std::size_t k, double value) {
     double& at = ratio[std::min(k, places.size() - 1)];
     at = std::max(at, value);
   };
-  walk(course, places, axes, stop, [&](std::size_t k) {
-    double acceleration = 0.0, jerk = 0.0;
-    for (const Watched& w : axes) {
-      acceleration = std::max(acceleration, acceleration_ratio(w, period));
-      jerk = std::max(jerk, jerk_ratio(w, period));
-    }
-    if (k >= 1) note_at(out.acceleration, k - 1, acceleration);
-    if (k >= 1) note_at(out.jerk, k - 1, jerk);
-    if (k >= 2) note_at(out.jerk, k - 2, jerk);
-  });
+  walk(course, places, {}, stop,
+       [&](std::size_t k, const std::vector<Watched>& axes, const std::vector<double>&) {
+         double acceleration = 0.0, jerk = 0.0;
+         for (const Watched& w : axes) {
+           acceleration = std::max(acceleration, acceleration_excess(w));
+           jerk = std::max(jerk, jerk_excess(w));
+         }
+         if (k >= 1) note_at(out.acceleration, k - 1, acceleration);
+         if (k >= 1) note_at(out.jerk, k - 1, jerk);
+         if (k >= 2) note_at(out.jerk, k - 2, jerk);
+       });
   return out;
 }
 

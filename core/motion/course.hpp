@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "core/motion/path_limits.hpp"
-#include "core/motion/timing.hpp"
+#include "core/motion/places.hpp"
+#include "core/motion/value_cursor.hpp"
 
 namespace tubecut::motion {
 
@@ -17,23 +18,19 @@ struct Course {
   SpeedAlong speed;
   PathLimits limits = {};
   Machine machine = {};
-
-  /// Some axis or the tip needs sin B and cos B.
-  [[nodiscard]] bool bends() const;
 };
 
-/// Evaluates a course at its places, one after another.
-class CourseCursor {
+/// The way of the tip from one place to the next.
+class TipCursor {
  public:
-  explicit CourseCursor(const Course& course) : path_(course.path, course.bends()) {}
-  [[nodiscard]] Pose at(const Place& place) { return path_.at(place.interval, place.offset); }
+  explicit TipCursor(const Course& course);
+  /// mm from the place before; the first step is from nowhere.
+  double step_to(const Place& place);
 
  private:
-  PathCursor path_;
+  ValueCursor values_;
+  std::vector<double> before_;
 };
-
-/// Way of the tip between two poses, mm.
-[[nodiscard]] double tip_step(const Course& course, const Pose& from, const Pose& to);
 
 /// A checked request, ready to be timed.
 struct PreparedCut {
@@ -78,7 +75,7 @@ struct Uses {
 [[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
                         const std::stop_token& stop = {});
 
-/// Ratios of differences to their limits at every place, the worst of the axes.
+/// Ratios of differences to their limits at every place, the worst of the axes; 0 where all hold.
 struct Ratios {
   std::vector<double> acceleration = {};  // of the second difference that it is the middle of
   std::vector<double> jerk = {};          // of the third differences that it is a middle of

@@ -145,7 +145,7 @@ double AxisFunction::at(const Pose& pose) const {
 std::array<double, 3> AxisFunction::derivatives(const Jet& jet) const {
   std::array<double, 3> q{dot(linear, jet.first), dot(linear, jet.second), dot(linear, jet.third)};
   if (is_linear()) return q;
-  const auto [sin, cos] = elementary::sincos(jet.value[kB]);
+  const double sin = jet.sin_b, cos = jet.cos_b;
   const double tan = sin / cos, sec2 = 1.0 / (cos * cos);
   const double f1 = sin_b * cos - cos_b * sin + tan_b * sec2;
   const double f2 = -sin_b * sin - cos_b * cos + tan_b * 2.0 * sec2 * tan;

@@ -12,12 +12,15 @@ namespace tubecut::motion {
 inline constexpr std::size_t kMostCoordinates = 9;
 using Coordinates = std::array<double, kMostCoordinates>;
 
-/// A place of the path with three derivatives along it.
+/// A place of the path with three derivatives along it, and sin B and cos B, so that several axes
+/// share one evaluation.
 struct Jet {
   Coordinates value{};
   Coordinates first{};
   Coordinates second{};
   Coordinates third{};
+  double sin_b = 0.0;
+  double cos_b = 1.0;
 };
 
 /// Coordinates with sin B and cos B, so that several axes share one evaluation.

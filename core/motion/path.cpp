@@ -324,6 +324,11 @@ std::vector<double> box2(const std::vector<double>& x, std::size_t m, const std:
   return out;
 }
 
+std::array<double, 4> Path::cubic(std::size_t c, std::size_t i) const {
+  const auto [x, first, second, third] = motion::cubic(control[c], i, d);
+  return {x, first, 0.5 * second, third / 6.0};
+}
+
 Coordinates Path::at(std::size_t i, double offset) const {
   return PathCursor(*this, false).at(i, offset).x;
 }
@@ -331,17 +336,14 @@ Coordinates Path::at(std::size_t i, double offset) const {
 Pose PathCursor::at(std::size_t i, double w) {
   const std::size_t n = path_.control.size();
   if (i != interval_) {
-    for (std::size_t c = 0; c < n; ++c) {
-      const auto [x, first, second, third] = cubic(path_.control[c], i, path_.d);
-      cubic_[c] = {x, first, 0.5 * second, third / 6.0};
-    }
+    for (std::size_t c = 0; c < n; ++c) cubic_[c] = path_.cubic(c, i);
     interval_ = i;
   }
   const bool end = i + 1 == path_.intervals() && w >= path_.d;
   Pose out;
   for (std::size_t c = 0; c < n; ++c) {
-    const Cubic& q = cubic_[c];
-    out.x[c] = end ? path_.control[c].back() : q.x + w * (q.first + w * (q.second + w * q.third));
+    const auto& q = cubic_[c];
+    out.x[c] = end ? path_.control[c].back() : q[0] + w * (q[1] + w * (q[2] + w * q[3]));
   }
   if (bends_) {
     const auto [sin, cos] = elementary::sincos(out.x[2]);
@@ -351,14 +353,19 @@ Pose PathCursor::at(std::size_t i, double w) {
   return out;
 }
 
-Jet Path::jet(std::size_t i, double w) const {
+Jet Path::jet(std::size_t i, double w, bool bends) const {
   Jet out;
   for (std::size_t c = 0; c < control.size(); ++c) {
-    const Cubic q = cubic(control[c], i, d);
+    const Cubic q = motion::cubic(control[c], i, d);
     out.value[c] = q.x + w * (q.first + w * (0.5 * q.second + w * (q.third / 6.0)));
     out.first[c] = q.first + w * (q.second + w * 0.5 * q.third);
     out.second[c] = q.second + w * q.third;
     out.third[c] = q.third;
+  }
+  if (bends) {
+    const auto [sin, cos] = elementary::sincos(out.value[2]);
+    out.sin_b = sin;
+    out.cos_b = cos;
   }
   return out;
 }

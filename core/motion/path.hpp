@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <stop_token>
 #include <vector>
@@ -25,8 +26,10 @@ struct Path {
   [[nodiscard]] double length() const { return d * static_cast<double>(intervals()); }
   /// Coordinates at `offset` mm, 0..d, behind knot `i`. Exact at both ends of the path.
   [[nodiscard]] Coordinates at(std::size_t i, double offset) const;
-  /// The same with three derivatives along u.
-  [[nodiscard]] Jet jet(std::size_t interval, double offset) const;
+  /// Coordinate `c` on interval `i` by rising powers of the offset.
+  [[nodiscard]] std::array<double, 4> cubic(std::size_t c, std::size_t i) const;
+  /// The same with three derivatives along u; `bends`: sin B and cos B are wanted.
+  [[nodiscard]] Jet jet(std::size_t interval, double offset, bool bends) const;
 };
 
 /// Evaluates a path at places that follow one another, keeping the cubic of the current interval.
@@ -38,13 +41,10 @@ class PathCursor {
   [[nodiscard]] Pose at(std::size_t interval, double offset);
 
  private:
-  struct Cubic {
-    double x = 0.0, first = 0.0, second = 0.0, third = 0.0;
-  };
   const Path& path_;
   bool bends_;
   std::size_t interval_ = static_cast<std::size_t>(-1);
-  std::array<Cubic, kMostCoordinates> cubic_ = {};
+  std::array<std::array<double, 4>, kMostCoordinates> cubic_ = {};
 };
 
 /// Two centred means of width 2m+1 with odd reflection at the ends; the ends are kept exactly.

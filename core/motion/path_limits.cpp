@@ -21,15 +21,12 @@ double magnitude(double a, double b, double c) {
 }
 
 /// A linear axis: q' is quadratic, so its Bezier values bound it; q'' is linear, q''' constant.
-Bound3 linear_bounds(const AxisFunction& f, const Jet& start, const Jet& end, double d) {
-  const auto a = f.derivatives(start), b = f.derivatives(end);
+Bound3 linear_bounds(const Bound3& a, const Bound3& b, double d) {
   const double middle = a[0] + 0.5 * d * a[1];  // = (P_(i+1) - P_i) / d
   return {magnitude(a[0], middle, b[0]), magnitude(a[1], b[1], 0.0), std::abs(a[2])};
 }
 
-Bound3 sampled_bounds(const AxisFunction& f, const Jet& start, const Jet& middle, const Jet& end,
-                      double d) {
-  const auto a = f.derivatives(start), b = f.derivatives(middle), c = f.derivatives(end);
+Bound3 sampled_bounds(const Bound3& a, const Bound3& b, const Bound3& c, double d) {
   Bound3 out{};
   for (std::size_t k = 0; k < 3; ++k) out[k] = kSampledMargin * magnitude(a[k], b[k], c[k]);
   out[0] += d * d / 8.0 * out[2];
@@ -166,6 +163,8 @@ PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
                        const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
                        const Machine& machine, const std::stop_token& stop) {
   const std::size_t n = path.intervals();
+  const auto bent = [](const AxisFunction& f) { return !f.is_linear(); };
+  const bool bends = std::ranges::any_of(axes, bent) || std::ranges::any_of(tip, bent);
   PathLimits out;
   out.d = path.d;
   out.slowness.resize(n);
@@ -189,16 +188,17 @@ PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (stop.stop_requested()) return out;
-    const Jet start = path.jet(i, 0.0), middle = path.jet(i, 0.5 * path.d);
-    const Jet end = path.jet(i, path.d);
+    const Jet start = path.jet(i, 0.0, bends), middle = path.jet(i, 0.5 * path.d, bends);
+    const Jet end = path.jet(i, path.d, bends);
     for (std::size_t a = 0; a < axes.size(); ++a) {
+      const Bound3 first = axes[a].derivatives(start), last = axes[a].derivatives(end);
       const Bound3 bound = axes[a].is_linear()
-                               ? linear_bounds(axes[a], start, end, path.d)
-                               : sampled_bounds(axes[a], start, middle, end, path.d);
+                               ? linear_bounds(first, last, path.d)
+                               : sampled_bounds(first, axes[a].derivatives(middle), last, path.d);
       all[a].first[i] = bound[0];
       all[a].second[i] = bound[1];
       all[a].third[i] = bound[2];
-      note_signed(all[a], i, axes[a].derivatives(start), axes[a].derivatives(end));
+      note_signed(all[a], i, first, last);
     }
     const double u = path.d * static_cast<double>(i);
     const TipRate rate = tip_rate(tip, start, middle, end, path.d);

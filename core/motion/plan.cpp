@@ -30,8 +30,8 @@ constexpr double kCancels = 1.01;      // from here on, sums of magnitudes forbi
 
 constexpr double kLastCheck = 1.0 + 1e-8;
 
-/// Length in periods of the filter with which `time_of` is least: every octave is tried, from the
-/// longest that any axis can use down to one period.
+/// Length in periods of the filter with which `time_of` is least: octave by octave from the longest
+/// that any axis can use down to one period, until two in a row are slower than the best.
 double best_octave(const Course& course, const std::function<double(double)>& time_of,
                    const std::stop_token& stop) {
   const double period = course.machine.period;
@@ -40,14 +40,16 @@ double best_octave(const Course& course, const std::function<double(double)>& ti
     if (axis.j_max > 0.0) longest = std::max(longest, 2.0 * axis.a_max / axis.j_max);
   }
   double best_count = 1.0, best_time = 1e300;
+  int slower = 0;
   for (double ideal = longest / period;; ideal *= 0.5) {
     const double count = std::max(1.0, std::floor(ideal + 0.5));
     const double time = time_of(count * period);
-    if (time < best_time) {
+    slower = time < best_time ? 0 : slower + 1;
+    if (slower == 0) {
       best_time = time;
       best_count = count;
     }
-    if (count <= 1.0 || stop.stop_requested()) return best_count;
+    if (slower == 2 || count <= 1.0 || stop.stop_requested()) return best_count;
   }
 }
 
@@ -64,10 +66,11 @@ void for_reach_of(const std::vector<Place>& places, std::size_t k, std::size_t r
 /// One search over the ladder of filters for one optimism.
 class LadderSearch {
  public:
-  LadderSearch(const Course& course, const PlanOptions& options,
+  LadderSearch(const Course& course, const PlanOptions& options, FilteredProfiles& profiles,
                const std::vector<double>& without_jerk, std::stop_token stop)
       : course_(course),
         options_(options),
+        profiles_(profiles),
         without_jerk_(without_jerk),
         least_(duration(without_jerk, course.limits.d)),
         stop_(std::move(stop)) {}
@@ -93,7 +96,7 @@ class LadderSearch {
   [[nodiscard]] double period() const { return course_.machine.period; }
 
   [[nodiscard]] Timing profile(double filter, const Optimism& optimism, int rounds) const {
-    return filtered_profile(course_.limits, without_jerk_, filter, optimism, rounds, stop_);
+    return profiles_.by_magnitudes(without_jerk_, filter, optimism, rounds, stop_);
   }
 
   /// Scouts every octave with one round, then offers the best and its neighbours.
@@ -148,6 +151,7 @@ class LadderSearch {
 
   const Course& course_;
   const PlanOptions& options_;
+  FilteredProfiles& profiles_;
   const std::vector<double>& without_jerk_;
   double least_;
   std::stop_token stop_;
@@ -156,17 +160,16 @@ class LadderSearch {
 /// Repairs plans by signed rows, filter by filter.
 class SignedSearch {
  public:
-  SignedSearch(const Course& course, SignedRows rows, const std::stop_token& stop)
-      : course_(course), rows_(std::move(rows)), stop_(stop) {}
+  SignedSearch(const Course& course, FilteredProfiles& profiles, SignedRows rows,
+               const std::stop_token& stop)
+      : course_(course), profiles_(profiles), rows_(std::move(rows)), stop_(stop) {}
 
   Timing best(double bound) {
     const Optimism level(intervals(), kStart);
     rows_.share.assign(intervals(), 1.0);
     const double count = best_octave(
         course_,
-        [&](double filter) {
-          return filtered_signed_profile(course_.limits, rows_, filter, level, 1, stop_).time;
-        },
+        [&](double filter) { return profiles_.by_signs(rows_, filter, level, 1, stop_).time; },
         stop_);
     Timing found{{}, 0.0, bound};
     step_to(count, found);
@@ -208,8 +211,7 @@ class SignedSearch {
     Optimism optimism(intervals(), kStart);
     rows_.share.assign(intervals(), 1.0);
     for (int pass = 0; pass < kMostSignedPasses && !stop_.stop_requested(); ++pass) {
-      Timing timing =
-          filtered_signed_profile(course_.limits, rows_, filter, optimism, kFullRounds, stop_);
+      Timing timing = profiles_.by_signs(rows_, filter, optimism, kFullRounds, stop_);
       if (timing.time >= bound || stop_.stop_requested()) break;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
       const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
@@ -242,6 +244,7 @@ class SignedSearch {
   }
 
   const Course& course_;
+  FilteredProfiles& profiles_;
   SignedRows rows_;
   std::stop_token stop_;
 };
@@ -250,9 +253,11 @@ class SignedSearch {
 /// limit of acceleration and jerk; empty x where none is found.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 6.3.
-Timing best_by_signed_rows(const Course& course, const Profile& without_jerk,
-                           HalfPlanes acceleration, double bound, const std::stop_token& stop) {
-  return SignedSearch(course, {std::move(acceleration), without_jerk, {}}, stop).best(bound);
+Timing best_by_signed_rows(const Course& course, FilteredProfiles& profiles,
+                           const Profile& without_jerk, HalfPlanes acceleration, double bound,
+                           const std::stop_token& stop) {
+  return SignedSearch(course, profiles, {std::move(acceleration), without_jerk, {}}, stop)
+      .best(bound);
 }
 
 bool any_jerk(const PathLimits& limits) {
@@ -319,11 +324,12 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
   const bool jerk = options.jerk && any_jerk(course.limits);
   if (jerk) {
     const double by_magnitudes = duration(x, course.limits.d);
-    limit_jerk(out, LadderSearch(course, options, x, stop), course, options);
+    FilteredProfiles profiles(course.limits);
+    limit_jerk(out, LadderSearch(course, options, profiles, x, stop), course, options);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!options.filter && options.optimism > 1.0 && by_magnitudes > kCancels * out.least) {
-      Timing faster =
-          best_by_signed_rows(course, by_signs, std::move(acceleration), out.timing.time, stop);
+      Timing faster = best_by_signed_rows(course, profiles, by_signs, std::move(acceleration),
+                                          out.timing.time, stop);
       if (!faster.x.empty()) out.timing = std::move(faster);
     }
   }

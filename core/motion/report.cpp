@@ -43,9 +43,9 @@ double share(const Course& course, const std::vector<Place>& places, std::size_t
              std::size_t from, std::size_t to, const std::stop_token& stop) {
   const Axis& record = course.machine.axes[axis];
   const double t = course.machine.period;
-  CourseCursor cursor(course);
+  ValueCursor cursor(course.path, {&course.axes[axis], 1});
   const auto at = [&](std::size_t k) {
-    return course.axes[axis].at(cursor.at(places[std::min(k, places.size() - 1)]));
+    return cursor.at(places[std::min(k, places.size() - 1)]).front();
   };
   double speed = 0.0, acceleration = 0.0, jerk = 0.0;
   double a = at(from), b = at(from + 1), c = at(from + 2);
@@ -194,13 +194,11 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
   const double d = course.path.d, end = course.path.length() - kEndMargin;
   std::vector<SlowZone> out;
   bool inside = false;
-  CourseCursor cursor(course);
-  Pose at = cursor.at(places[0]);
+  TipCursor tip(course);
+  tip.step_to(places[0]);
   for (std::size_t k = 0; k + 1 < places.size() && !stops(stop, k); ++k) {
     const double from = places[k].u(d), to = places[k + 1].u(d);
-    const Pose next = cursor.at(places[k + 1]);
-    const double speed = tip_step(course, at, next) / course.machine.period;
-    at = next;
+    const double speed = tip.step_to(places[k + 1]) / course.machine.period;
     const bool slow =
         from >= kEndMargin && to <= end && speed < kSlow * course.speed.least(from, to);
     const auto period = static_cast<std::int64_t>(k);
@@ -272,7 +270,8 @@ Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan
   out.standoff_growth = job.standoff_growth;
   out.closing_residual = closing_residual(spec);
   out.max_use = largest_uses(job.course, plan, spec.motion.jerk);
-  out.slow = slow_zones(job, plan.places, stop);
+  const double fastest = job.course.speed.greatest(0.0, path.length());
+  if (plan.uses.least_tip < kSlow * fastest) out.slow = slow_zones(job, plan.places, stop);
   out.slow_time = 0.0;
   for (const SlowZone& zone : out.slow) {
     out.slow_time += static_cast<double>(zone.to - zone.from + 1) * spec.machine.period;

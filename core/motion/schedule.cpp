@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/stop.hpp"
-#include "core/motion/plan.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -23,29 +22,40 @@ std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& cour
   return total - rounded(ideal_pulses(axis, end, start));
 }
 
-AxisPulses pulses_of(const PreparedCut& job, const Plan& plan, std::size_t a,
-                     const std::stop_token& stop) {
+/// Counts of the moving axes in one walk over the places.
+void count(const Course& course, const std::vector<Place>& places, const std::stop_token& stop,
+           std::vector<AxisPulses>& out) {
+  std::vector<AxisFunction> functions;
+  std::vector<std::size_t> moving;
+  for (const AxisBounds& bounds : course.limits.axes) {
+    moving.push_back(bounds.axis);
+    functions.push_back(course.axes[bounds.axis]);
+    out[bounds.axis].counts.reserve(places.size() - 1);
+  }
+  ValueCursor cursor(course.path, functions);
+  std::vector<std::int64_t> before(moving.size(), 0);
+  for (std::size_t k = 0; k < places.size() && !stops(stop, k); ++k) {
+    const auto& values = cursor.at(places[k]);
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      AxisPulses& axis = out[moving[i]];
+      const std::int64_t now =
+          rounded(ideal_pulses(course.machine.axes[moving[i]], values[i], axis.start));
+      if (k > 0) axis.counts.push_back(static_cast<std::int32_t>(now - before[i]));
+      before[i] = now;
+    }
+  }
+}
+
+void sum_up(const PreparedCut& job, std::size_t a, AxisPulses& out) {
   const Course& course = job.course;
-  const Axis& axis = course.machine.axes[a];
-  const AxisFunction& f = course.axes[a];
-  AxisPulses out;
-  out.name = axis.name;
-  out.unit = axis.unit;
-  out.start = f.at(course.path.at(0, 0.0));
-  if (!is_moving(course, a)) return out;
-  CourseCursor cursor(course);
-  out.counts = increments(
-      plan.places.size(),
-      [&](std::size_t k) { return ideal_pulses(axis, f.at(cursor.at(plan.places[k])), out.start); },
-      stop);
-  for (std::size_t k = 0; k < out.counts.size(); ++k) {
-    if (stops(stop, k)) return out;
-    out.total += out.counts[k];
-    out.peak = std::max<std::int64_t>(out.peak, std::abs(out.counts[k]));
+  for (const std::int32_t n : out.counts) {
+    out.total += n;
+    out.peak = std::max<std::int64_t>(out.peak, std::abs(n));
   }
   if (out.peak == 0) out.counts = {};
-  if (job.program.closed) out.closure = closure(axis, f, course, out.total);
-  return out;
+  if (is_moving(course, a) && job.program.closed) {
+    out.closure = closure(course.machine.axes[a], course.axes[a], course, out.total);
+  }
 }
 
 /// First sample at or behind a point of the program.
@@ -101,21 +111,6 @@ double ideal_pulses(const Axis& axis, double q, double start) {
 
 std::int64_t rounded(double pulses) { return static_cast<std::int64_t>(std::floor(pulses + 0.5)); }
 
-std::vector<std::int32_t> increments(std::size_t n,
-                                     const std::function<double(std::size_t)>& cumulative,
-                                     const std::stop_token& stop) {
-  std::vector<std::int32_t> out;
-  if (n == 0) return out;
-  out.reserve(n - 1);
-  std::int64_t before = rounded(cumulative(0));
-  for (std::size_t k = 1; k < n && !stops(stop, k); ++k) {
-    const std::int64_t now = rounded(cumulative(k));
-    out.push_back(static_cast<std::int32_t>(now - before));
-    before = now;
-  }
-  return out;
-}
-
 std::string_view name_of(EventKind kind) {
   switch (kind) {
     case EventKind::pierce:
@@ -132,6 +127,20 @@ std::string_view name_of(EventKind kind) {
   return {};
 }
 
+std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
+                               const std::stop_token& stop) {
+  const Course& course = job.course;
+  std::vector<AxisPulses> out;
+  for (std::size_t a = 0; a < course.axes.size(); ++a) {
+    const Axis& axis = course.machine.axes[a];
+    out.push_back(
+        {.name = axis.name, .unit = axis.unit, .start = course.axes[a].at(course.path.at(0, 0.0))});
+  }
+  count(course, plan.places, stop, out);
+  for (std::size_t a = 0; a < out.size() && !stop.stop_requested(); ++a) sum_up(job, a, out[a]);
+  return out;
+}
+
 Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
   const auto job = prepare_cut(spec, stop);
   if (!job) return tl::unexpected<Error>(job.error());
@@ -142,9 +151,7 @@ Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
   Schedule out;
   out.period = spec.machine.period;
   out.periods = static_cast<std::int64_t>(timed->places.size()) - 1;
-  for (std::size_t a = 0; a < spec.machine.axes.size(); ++a) {
-    out.axes.push_back(pulses_of(*job, *timed, a, stop));
-  }
+  out.axes = pulses(*job, *timed, stop);
   out.events = events(*job, *timed);
   out.report = report(spec, *job, *timed, stop);
   out.report.edges = edge_deviation(spec, job->program, job->course.path, stop);

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/motion/plan.hpp"
 #include "core/motion/report.hpp"
 #include "core/motion/spec.hpp"
 
@@ -21,12 +21,6 @@ namespace tubecut::motion {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 7.
 [[nodiscard]] std::int64_t rounded(double pulses);
-
-/// Signed pulses of n - 1 periods from the cumulative ideal positions at their ends, the first of
-/// which is the start. All of them unless stopped.
-[[nodiscard]] std::vector<std::int32_t> increments(
-    std::size_t n, const std::function<double(std::size_t)>& cumulative,
-    const std::stop_token& stop = {});
 
 /// The pulses of one axis of the machine.
 struct AxisPulses {
@@ -58,6 +52,10 @@ struct Schedule {
   std::optional<Comparison> comparison = {};
   std::vector<Warning> warnings = {};
 };
+
+/// The pulses of every axis of the machine.
+[[nodiscard]] std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
+                                             const std::stop_token& stop = {});
 
 /// Integer pulses per axis and period for a cut on a machine: time-optimal without jerk limits,
 /// jerk-limited, no pulse lost.
