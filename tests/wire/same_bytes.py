@@ -13,8 +13,8 @@ from service import ROOT, Service, exchange, post
 
 CONNECTIONS = 8
 ROUNDS = 3  # each example meets others beside it
-FEW = ("bevel-tables/mitre", "bevel-tables/zones", "frames/gate-with-rails-through-uprights", "grooves/case-a-right-angle", "holes/through-brace", "intersections/source-000-table-1",
-       "nodes/k-joint-with-tables", "parts/k-joint-brace", "replays/square-cut")
+FEW = ("bevel-tables/mitre", "bevel-tables/zones", "frames/gate-with-rails-through-uprights", "grooves/case-a-right-angle", "holes/through-brace",
+       "intersections/source-000-table-1", "nodes/k-joint-with-tables", "parts/k-joint-brace", "replays/square-cut")
 PATIENT = ("--budget-s", "60", "--queue", "64")  # what is answered, not how soon
 
 

@@ -69,22 +69,21 @@ export function validated<P extends PostPath>(client: TubecutClient, path: P, bo
 type Points = Schemas['BevelPoints'];
 /** Those that a table has by what it is asked for: a land, zones, a preset. */
 type ByOption = 'z_face_mm' | 'b_face_deg' | 'zone' | 'gap_inner_mm' | 'gap_outer_mm' | 'bevelled_gap_inner_mm' | 'bevelled_gap_outer_mm';
-export type WholeTable = Omit<Answered<'/v1/bevel-tables'>, 'result'>
-  & {result: Omit<Schemas['BevelTable'], 'points'> & {points: Required<Omit<Points, ByOption>> & Pick<Points, ByOption>}};
-
+type Whole<T> = Omit<T, 'result'> & {result: Omit<Schemas['BevelTable'], 'points'> & {points: Required<Omit<Points, ByOption>> & Pick<Points, ByOption>}};
+type Columns = Schemas['BevelColumns'];
 /** A table of which no columns are named has them all. */
-export function post(
-    client: TubecutClient, path: '/v1/bevel-tables', body: RequestBody<'/v1/bevel-tables'> & {columns?: never}, options?: JobOptions): Promise<WholeTable>;
+type Seen<P extends PostPath, C> = P extends '/v1/bevel-tables' ? (C extends Columns ? Answered<P> : Whole<Answered<P>>) : Answered<P>;
+type Naming<P extends PostPath, C> = P extends '/v1/bevel-tables' ? {columns?: C} : unknown;
+
 /**
  * One job: its whole answer with `result`, or a thrown ProblemError. Stricter than `client.POST`, whose inference lets unknown
  * fields of a literal through: here they do not compile.
  */
-export function post<P extends PostPath>(client: TubecutClient, path: P, body: RequestBody<P>, options?: JobOptions): Promise<Answered<P>>;
-export async function post<P extends PostPath>(
-    client: TubecutClient, path: P, body: RequestBody<P>, options: JobOptions = {}): Promise<Answered<P>> {
+export async function post<P extends PostPath, C extends Columns | undefined = undefined>(
+    client: TubecutClient, path: P, body: RequestBody<P> & Naming<P, C>, options: JobOptions = {}): Promise<Seen<P, C>> {
   const data = await sent(client, path, body, options);
   if (data.result === undefined) throw new ContractError('an answer without result');
-  return data as Answered<P>;
+  return data as Seen<P, C>;
 }
 
 /** What the service calls the media types of its documents (docs/formats.md). */
