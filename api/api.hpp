@@ -117,17 +117,21 @@ struct CallMemory {
 /// The id of the endpoint, or of the batches, at a path; empty for other paths.
 [[nodiscard]] std::string_view endpoint_at(std::string_view path);
 
-/// A machine of one's own: a JSON object in the form of GET /v1/machines, and the file it is from.
-struct MachineText {
+/// A JSON text and the file it is from.
+struct FileText {
   std::string file;
   std::string json;
 };
 
-/// Puts these beside the built-in machines, instead of those that were there: all of them, or none.
-/// Jobs that have begun keep theirs. Returns the first file at fault and why, or nothing.
-[[nodiscard]] std::string set_machines(std::span<const MachineText> texts);
+/// Puts these, each an object in the form of GET /v1/machines, beside the built-in machines,
+/// instead of those that were there: all of them, or none. Jobs that have begun keep theirs.
+/// Returns the first file at fault and why, or nothing.
+[[nodiscard]] std::string set_machines(std::span<const FileText> texts);
+/// The same of posts, in the form of GET /v1/posts.
+[[nodiscard]] std::string set_posts(std::span<const FileText> texts);
 
-/// Of all that an answer depends on beside its request: engine, numerics and every machine's hash.
+/// Of all that an answer depends on beside its request: engine, numerics, and every machine's and
+/// post's hash.
 /// Replicas where it differs may answer one request with other bytes.
 [[nodiscard]] std::string configuration_sha256();
 

@@ -9,6 +9,7 @@
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
+#include "api/posts.hpp"
 #include "api/tube_sizes.hpp"
 #include "api/wire_names.hpp"
 
@@ -89,6 +90,7 @@ std::string version_page(const Context& /*context*/) {
     w.field("numerics", numerics());
     w.field("configuration_sha256", configuration_sha256());
     encode_machine_hashes(w);
+    encode_post_hashes(w);
     w.array("endpoints", endpoints(), [](Writer& each, const Endpoint& endpoint) {
       each.object([&](Writer& o) {
         o.field("id", endpoint.id);
@@ -135,11 +137,11 @@ std::string examples_page(const Context& /*context*/) {
   return out.take();
 }
 
+}  // namespace
+
 std::string embedded(std::string_view name) {
   return std::string(std::ranges::find(embedded_files(), name, &Embedded::name)->text);
 }
-
-}  // namespace
 
 /// examples/[<theme>/]<endpoint>/<name>.json: requests that run.
 std::vector<Example> examples() {
@@ -163,6 +165,7 @@ const Page* find_page(std::string_view path) {
        {"/v1/limits", kJson, limits_page},
        {"/v1/version", kJson, version_page},
        {"/v1/machines", kJson, [](const Context&) { return machines_page(); }},
+       {"/v1/posts", kJson, [](const Context&) { return posts_page(); }},
        {"/v1/tubes", kJson, tubes_page},
        {"/v1/examples", kJson, examples_page},
        {"/openapi.yaml", "application/yaml",

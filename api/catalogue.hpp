@@ -13,8 +13,10 @@ struct Embedded {
   std::string_view text;
 };
 
-/// openapi.yaml, openapi.json and every file under examples/, by its path.
+/// openapi.yaml, openapi.json and every file under examples/ and posts/, by its path.
 [[nodiscard]] std::span<const Embedded> embedded_files();
+/// One that is there.
+[[nodiscard]] std::string embedded(std::string_view name);
 
 struct Context;
 

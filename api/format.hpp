@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -11,6 +12,7 @@
 namespace tubecut::api {
 
 struct Json;
+struct Post;
 
 /// A file of each part within a bundle, and the part's format that it is in.
 struct BundleFile {
@@ -24,9 +26,6 @@ inline constexpr BundleFile kBundleFiles[] = {
     {"work-order", "svg", ".svg"}, {"nc1", "nc1", ".nc1"}, {"dxf", "dxf", ".dxf"},
     {"step", "step", ".step"},     {"csv", "csv", ".csv"}, {"gcode", "gcode", ".ngc", true}};
 
-/// The dialect of a G-code program.
-enum class Dialect { linuxcnc, qtplasmac };
-
 /// What a template is tiled on.
 enum class Paper { a4, a3 };
 
@@ -36,9 +35,9 @@ struct FormatOptions {
   std::optional<Paper> paper = {};             // empty: one sheet as large as the template
   bool torch = false;                          // the program lights the torch; else it only moves
   std::vector<std::string> acknowledged = {};  // codes of warnings of a `review` that is cut
-  Dialect dialect = Dialect::linuxcnc;
-  bool axial_z = false;                // the axis along the tube is Z, not X
-  std::optional<double> speed = {};    // mm/min, of the torch on the outer wall
+  std::shared_ptr<const Post> post = {};       // whose words a program is written in
+  bool axial_z = false;                        // the axis along the tube is Z, not X
+  std::optional<double> speed = {};            // mm/min, of the torch on the outer wall
   double lead = 0.0;                   // radius of the arcs that run in and out on the scrap side
   std::optional<double> overcut = {};  // of the cut again, before the run-out
   std::optional<double> start = {};    // phi that each cut begins at, deg

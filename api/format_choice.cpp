@@ -7,6 +7,7 @@
 
 #include "api/batch.hpp"
 #include "api/header_list.hpp"
+#include "api/posts.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -80,14 +81,15 @@ std::vector<FieldIssue> program_issues(const std::string& format, const FormatOp
     bool given, wanted, fits;
     std::string_view why;
   };
-  const bool plasmac = o.dialect == Dialect::qtplasmac;
-  const bool lit = o.torch, by_us = lit && !plasmac;
+  const auto& of_control = post_of(o).of_control;
+  const bool by_control = of_control.has_value();
+  const bool lit = o.torch, by_us = lit && !by_control;
   const bool has_lead = o.lead > 0.0, has_pivot = o.pivot_length.has_value();
   constexpr std::string_view kLit = "a program that lights the torch needs it";
-  constexpr std::string_view kPlasmac = "QtPlasmaC has it in its material file";
-  constexpr std::string_view kOfLead = "goes with lead_mm";
-  const std::string_view height = plasmac ? kPlasmac : "goes with pivot_length_mm";
-  const bool heights = !plasmac && (has_pivot || lit);
+  const std::string control = "the control has it: " + of_control.value_or("");
+  constexpr std::string_view kOfLead = "goes with lead_mm", kOfPivot = "goes with pivot_length_mm";
+  const std::string_view height = by_control ? std::string_view(control) : kOfPivot;
+  const bool heights = !by_control && (has_pivot || lit);
   const std::array rules{
       Rule{"speed_mm_min", "mm_min", o.speed.has_value(), true, true,
            "needs the torch's speed on the outer wall"},
@@ -97,8 +99,8 @@ std::vector<FieldIssue> program_issues(const std::string& format, const FormatOp
            "the tip's height is in the program where the torch is lit"},
       Rule{"pierce_height_mm", "mm", o.pierce_height.has_value(), by_us, heights,
            by_us ? kLit : height},
-      Rule{"pierce_delay_s", "s", o.pierce_delay.has_value(), by_us, !plasmac,
-           plasmac ? kPlasmac : kLit},
+      Rule{"pierce_delay_s", "s", o.pierce_delay.has_value(), by_us, !by_control,
+           by_control ? std::string_view(control) : kLit},
       Rule{"cut_height_mm", "mm", o.cut_height.has_value(), by_us, heights, by_us ? kLit : height},
       Rule{"clearance_mm", "mm", o.clearance.has_value(), false, has_pivot,
            "goes with pivot_length_mm"},

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "api/api.hpp"
+#include "api/posts.hpp"
 #include "api/sha256.hpp"
 #include "api/wire_names.hpp"
 
@@ -272,7 +273,7 @@ void encode_machine_hashes(Writer& w) {
   });
 }
 
-std::string set_machines(std::span<const MachineText> texts) {
+std::string set_machines(std::span<const FileText> texts) {
   auto all = built_in();
   for (const auto& [file, json] : texts)
     if (const auto wrong = add_machine(json, all); !wrong.empty()) return file + ": " + wrong;
@@ -286,6 +287,7 @@ std::string configuration_sha256() {
     w.field("version", version());
     w.field("numerics", numerics());
     encode_machine_hashes(w);
+    encode_post_hashes(w);
   });
   return sha256(out.take());
 }

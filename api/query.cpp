@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "api/posts.hpp"
 #include "api/wire_names.hpp"
 
 namespace tubecut::api {
@@ -139,6 +140,28 @@ std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
   return out;
 }
 
+constexpr std::array kDialects{Option<std::string_view>{"linuxcnc", "linuxcnc"},
+                               Option<std::string_view>{"qtplasmac", "qtplasmac"}};
+
+/// `post` names one of GET /v1/posts; `dialect`, which is older, one of two.
+std::shared_ptr<const Post> read_post(Reader& in) {
+  const auto name = in.optional_text("post");
+  const auto dialect = in.choice("dialect", kDialects, "linuxcnc");
+  if (name && in.has("dialect"))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "dialect",
+              .hint = "post names the post already; leave dialect out"},
+             in.find("dialect"));
+  auto out = find_post(name ? *name : std::string(dialect));
+  if (out == nullptr && in.understood("post"))
+    in.issue({.code = ErrorCode::bad_choice,
+              .pointer = "post",
+              .limit = Json{post_names()},
+              .hint = "one of GET /v1/posts: " + post_names()},
+             in.find("post"));
+  return out != nullptr ? out : find_post(kDialects.front().name);
+}
+
 /// The parameters that only drawings and machine files read.
 FormatOptions read_options(Reader& in) {
   FormatOptions out;
@@ -147,7 +170,7 @@ FormatOptions read_options(Reader& in) {
   if (in.has("paper")) out.paper = in.choice("paper", kPaper);
   out.torch = in.choice("torch", kSwitch, false);
   out.acknowledged = read_acknowledged(in, out.torch);
-  out.dialect = in.choice("dialect", Dialect::linuxcnc);
+  out.post = read_post(in);
   out.axial_z = in.choice("axial", kAxial, false);
   out.speed = in.optional_number("speed_mm_min", kSpeed);
   out.lead = in.number("lead_mm", kLead, 0.0);

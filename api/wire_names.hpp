@@ -114,10 +114,6 @@ inline constexpr auto kNames<BSign> =
                                   {"inward", BSign::inward}});
 
 template <>
-inline constexpr auto kNames<Dialect> = std::to_array<Option<Dialect>>(
-    {{"linuxcnc", Dialect::linuxcnc}, {"qtplasmac", Dialect::qtplasmac}});
-
-template <>
 inline constexpr auto kNames<part::Datum> =
     std::to_array<Option<part::Datum>>({{"up", part::Datum::up},
                                         {"seam", part::Datum::seam},

@@ -59,6 +59,7 @@ void add_network(CLI::App& app, Config& c) {
   option(app, "hosts", c.hosts, "names besides its own under which Host may call it; * for any")
       ->delimiter(',');
   option(app, "machines", c.machines, "folder whose *.json files join GET /v1/machines");
+  option(app, "posts", c.posts, "folder whose *.json files join GET /v1/posts");
   option(app, "replica", c.replica, "name sent as Tubecut-Replica; empty: the host's name");
 }
 

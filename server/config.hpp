@@ -16,6 +16,7 @@ struct Config {
   std::string admin_host;  // empty: as host
   int admin_port = 9090;
   std::string machines;  // folder of machines of one's own; empty: none
+  std::string posts;     // the same of posts
   std::string replica;   // empty: the host's name
   std::string keys;      // file of API keys; empty: none are asked for
   bool open = false;     // serve beyond this machine without keys

@@ -32,10 +32,12 @@ int main(int argc, char** argv) try {
     std::fputs(command.error().err.c_str(), stderr);
     return command.error().code;
   }
-  if (const auto wrong = server::load_machines(command->config.machines); !wrong.empty()) {
-    std::fprintf(stderr, "tubecut-server: %s\n", wrong.c_str());
-    return 1;
-  }
+  for (const auto& wrong :
+       {server::load_machines(command->config.machines), server::load_posts(command->config.posts)})
+    if (!wrong.empty()) {
+      std::fprintf(stderr, "tubecut-server: %s\n", wrong.c_str());
+      return 1;
+    }
   switch (command->kind) {
     case server::Command::Kind::health:
       return server::health(command->config);

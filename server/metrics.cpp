@@ -209,7 +209,7 @@ struct Metrics::Impl {
     auto endpoints = api::endpoint_ids();
     endpoints.emplace_back(kNoEndpoint);
     const auto codes = failures();
-    for (const auto* what : {"keys", "machines"}) reloads.Add({{"what", what}});
+    for (const auto* what : {"keys", "machines", "posts"}) reloads.Add({{"what", what}});
     for (const auto endpoint : endpoints) {
       unproven.Add({{"endpoint", std::string(endpoint)}});
       for (const auto& [code, status] : codes) {

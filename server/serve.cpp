@@ -206,10 +206,11 @@ struct Run {
             .ready = [this] { return ready.load(); },
             .transport = [this] { return work ? work->stats() : TransportStats{}; }};
   }
-  /// New keys and machines without a restart; a mistake in a file leaves the old ones.
-  void reload(const std::string& folder) {
+  /// New keys, machines and posts without a restart; a mistake in a file leaves the old ones.
+  void reload(const Config& c) {
     if (access->asks()) reloaded("keys", access->load());
-    if (!folder.empty()) reloaded("machines", load_machines(folder));
+    if (!c.machines.empty()) reloaded("machines", load_machines(c.machines));
+    if (!c.posts.empty()) reloaded("posts", load_posts(c.posts));
   }
   void reloaded(const char* what, const std::string& wrong) {
     if (!wrong.empty()) metrics.reload_failed(what);
@@ -339,7 +340,7 @@ int serve(const Config& c) noexcept {
   if (finished(work_served, 0s)) work_served.get();
   run.ready = true;
 
-  signals.wait([&] { run.reload(c.machines); });
+  signals.wait([&] { run.reload(c); });
   run.stopping();
   stop_work(*work, work_served, run.jobs, c);
   probes->stop();

@@ -6,7 +6,9 @@
 
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/text.hpp"
+#include "api/formats/torch_joints.hpp"
 #include "api/formats/torch_moves.hpp"
+#include "api/posts.hpp"
 #include "api/stop.hpp"
 #include "api/verdict.hpp"
 #include "api/wire_names.hpp"
@@ -15,83 +17,8 @@
 namespace tubecut::api {
 namespace {
 
-constexpr const char* kModes = "G21 G40 G49 G90 G94 G17\nG64 P0.01\n";
-constexpr double kClearance = 50.0;  // mm, of the tip over the tube between two cuts
-constexpr double kSlow = 1e-3;       // mm, least length a node's time is taken from
-constexpr double kSag = 0.019;       // mm, of one move; below 0.02 with the rounding of its words
-
-/// Joint values of one place of the torch.
-class Joints {
- public:
-  Joints(const TorchJob& job, const FormatOptions& options)
-      : radius_(job.outer_radius),
-        pivot_(options.pivot_length),
-        clearance_(options.clearance.value_or(kClearance)),
-        along_(options.axial_z ? 'Z' : 'X'),
-        across_(options.axial_z ? 'X' : 'Z'),
-        tilts_(std::ranges::any_of(job.cuts, [](const auto& cut) { return !cut.path.a.empty(); })) {
-  }
-
-  /// Of the tip this far off the wall along its own axis.
-  [[nodiscard]] std::string words(const TorchPlace& at, double off) const {
-    return travel(at, off) + (pivot_ ? " " + height(at, off) : "") + angles(at);
-  }
-  /// The same without the height.
-  [[nodiscard]] std::string level_words(const TorchPlace& at, double off) const {
-    return travel(at, off) + angles(at);
-  }
-  [[nodiscard]] std::string height(const TorchPlace& at, double off) const {
-    return std::string(1, across_) + fixed(radius_ + arm(at, off).out, 5);
-  }
-  /// Where the axis along the tube is.
-  [[nodiscard]] double along(const TorchPlace& at, double off) const {
-    return at.z + arm(at, off).along;
-  }
-  [[nodiscard]] std::string describe() const {
-    return std::string("A turns the tube: phi in deg, from x towards y. ") + along_ +
-           " goes along it: mm, +z of the result";
-  }
-  [[nodiscard]] char axis() const { return along_; }
-  [[nodiscard]] bool tilts() const { return tilts_; }
-  [[nodiscard]] bool has_pivot() const { return pivot_.has_value(); }
-  [[nodiscard]] double clearance() const { return clearance_; }
-  /// A rapid to the pivot's height between two cuts, its tip clear of the tube whichever way it
-  /// swings; nothing where the control moves the tip.
-  [[nodiscard]] std::string retract() const {
-    if (!pivot_) return {};
-    return "G0 " + std::string(1, across_) + fixed(radius_ + *pivot_ + clearance_, 5) + "\n";
-  }
-
- private:
-  /// From the wall to what the linear axes carry: outwards, along and round.
-  struct Arm {
-    double out, along, round;
-  };
-  [[nodiscard]] Arm arm(const TorchPlace& at, double off) const {
-    if (!pivot_) return {0.0, 0.0, 0.0};
-    // The torch's line: 1 outwards, tan a round, tan b along.
-    const double round = elementary::tan(at.a), rise = elementary::tan(at.b);
-    const double out = (*pivot_ + off) / std::sqrt(1.0 + round * round + rise * rise);
-    return {out, out * rise, out * round};
-  }
-  [[nodiscard]] std::string travel(const TorchPlace& at, double off) const {
-    std::string text = std::string(1, along_) + fixed(along(at, off), 5);
-    // Growing phi runs to -Y with the tube along X, to +Y with it along Z.
-    if (pivot_ && tilts_)
-      text += " Y" + fixed((along_ == 'Z' ? 1.0 : -1.0) * arm(at, off).round, 5);
-    return text;
-  }
-  [[nodiscard]] std::string angles(const TorchPlace& at) const {
-    const auto text = " A" + fixed(at.phi * kDegPerRad, 7) + " B" + fixed(at.b * kDegPerRad, 6);
-    return tilts_ ? text + " C" + fixed(at.a * kDegPerRad, 6) : text;
-  }
-
-  double radius_;
-  std::optional<double> pivot_;
-  double clearance_;
-  char along_, across_;
-  bool tilts_;
-};
+constexpr double kSlow = 1e-3;  // mm, least length a node's time is taken from
+constexpr double kSag = 0.019;  // mm, of one move; below 0.02 with the rounding of its words
 
 /// One cut as it is printed.
 struct Way {
@@ -193,135 +120,185 @@ double step(const TorchJob& job, const TorchPlace& from, const TorchPlace& to) {
 }
 
 /// Where the axis along the tube goes, and how long the torch burns.
-std::string extent(const TorchJob& job, const std::vector<Way>& ways, const Joints& joints,
+std::string extent(const TorchJob& job, const std::vector<Way>& ways, const TorchJoints& joints,
                    const FormatOptions& o) {
+  const auto& post = post_of(o);
   const double off = o.cut_height.value_or(0.0);
-  double least = joints.along(ways.front().places.front(), off), most = least, length = 0.0;
+  const auto along = [&](const TorchPlace& at) {
+    return joints.along().counted(joints.along_at(at, off));
+  };
+  double least = along(ways.front().places.front()), most = least, length = 0.0;
   for (const auto& way : ways)
     for (std::size_t i = 0; i < way.places.size(); ++i) {
-      const double at = joints.along(way.places[i], off);
+      const double at = along(way.places[i]);
       least = std::min(least, at);
       most = std::max(most, at);
       if (i > 0) length += step(job, way.places[i - 1], way.places[i]);
     }
-  const std::string axis(1, joints.axis());
   const double pierces = o.pierce_delay.value_or(0.0) * static_cast<double>(ways.size());
-  return gcode_comment(axis + " from " + fixed(least, 2) + " to " + fixed(most, 2) +
-                       " mm while cutting, " + axis + "0 is z 0 of the result, A0 its phi 0") +
-         gcode_comment(std::to_string(ways.size()) + (ways.size() == 1 ? " cut, " : " cuts, ") +
-                       fixed(length, 1) + " mm in " + fixed(60.0 * length / *o.speed + pierces, 1) +
-                       " s at the speed below, delays of the pierce with it, rapids not");
+  return post.comment(std::string(1, joints.along().letter) + " from " + fixed(least, 2) + " to " +
+                      fixed(most, 2) + " mm while cutting, " + joints.along().zero() +
+                      " is z 0 of the result, " + joints.turn().zero() + " its phi 0") +
+         post.comment(std::to_string(ways.size()) + (ways.size() == 1 ? " cut, " : " cuts, ") +
+                      fixed(length, 1) + " mm in " + fixed(60.0 * length / *o.speed + pierces, 1) +
+                      " s at the speed below, delays of the pierce with it, rapids not");
 }
 
-std::string how_it_starts(const FormatOptions& o) {
+std::string how_it_starts(const TorchJoints& joints, const FormatOptions& o) {
+  const auto& post = post_of(o);
   const std::string height = fixed(o.cut_height.value_or(0.0), 3);
   std::string out;
   if (o.pivot_length)
-    out +=
-        gcode_comment("pierce " + fixed(o.pierce_height.value_or(o.cut_height.value_or(0.0)), 3) +
-                      " mm off the wall, delay " + fixed(o.pierce_delay.value_or(0.0), 3) +
-                      " s, cut " + height + " mm off it along the torch");
+    out += post.comment("pierce " + fixed(o.pierce_height.value_or(o.cut_height.value_or(0.0)), 3) +
+                        " mm off the wall, delay " + fixed(o.pierce_delay.value_or(0.0), 3) +
+                        " s, cut " + height + " mm off it along the torch");
   else
-    out += gcode_comment(o.dialect == Dialect::qtplasmac
-                             ? "heights and delay of the pierce: QtPlasmaC's, of its material file"
-                             : "heights and the lift between cuts: the control's");
+    out += post.comment(post.of_control ? "heights and delay of the pierce: " + *post.of_control
+                                        : "heights and the lift between cuts: the control's");
   if (o.lead > 0.0)
-    out += gcode_comment("leads: arcs of 60 deg on the scrap side, radius " + fixed(o.lead, 3) +
-                         " mm, overcut " + fixed(o.overcut.value_or(motion::Lead{}.overcut), 3) +
-                         " mm, clear of the part");
+    out += post.comment("leads: arcs of 60 deg on the scrap side, radius " + fixed(o.lead, 3) +
+                        " mm, overcut " + fixed(o.overcut.value_or(motion::Lead{}.overcut), 3) +
+                        " mm, clear of the part");
   if (!o.start && o.lead > 0.0)
-    out += gcode_comment("each cut starts at its least bevel that is " +
-                         fixed(motion::kFromJunction, 0) +
-                         " mm and more off its junctions and off A0, the seam");
+    out += post.comment(
+        "each cut starts at its least bevel that is " + fixed(motion::kFromJunction, 0) +
+        " mm and more off its junctions and off " + joints.turn().zero() + ", the seam");
   return out;
 }
 
-std::string header(const TorchJob& job, const std::vector<Way>& ways, const Joints& joints,
+/// Which way an axis counts, as far as it is not the plain one.
+std::string sense(const PostAxis& axis) { return axis.reversed ? "negative" : "positive"; }
+
+std::string axes(const TorchJoints& joints, const FormatOptions& o) {
+  const auto& post = post_of(o);
+  const auto name = [](const PostAxis& axis) { return std::string(1, axis.letter); };
+  std::string out = post.comment(name(joints.swing()) + " swings the torch in the axial plane, " +
+                                 sense(joints.swing()) +
+                                 ": outer edge towards +z, b_sign: " + std::string(kBSignInPart));
+  if (joints.has_pivot())
+    out += post.comment("between cuts the torch is lifted " + fixed(joints.clearance(), 0) +
+                        " mm clear of the tube");
+  return out;
+}
+
+std::string linear_axes(const TorchJoints& joints, const FormatOptions& o) {
+  const auto& post = post_of(o);
+  std::string out;
+  if (joints.tilts() && o.pivot_length)
+    out += post.comment(std::string(1, joints.across().letter) +
+                        ": the pivot across, growing phi is " + (joints.phi_to_plus() ? "+" : "-") +
+                        joints.across().letter);
+  if (joints.tilts())
+    out += post.comment(std::string(1, joints.tilt().letter) + " tilts it across, " +
+                        sense(joints.tilt()) + ": outer edge towards growing phi, tan " +
+                        joints.swing().letter + " and tan " + joints.tilt().letter +
+                        " are each over the way outwards");
+  return out + post.comment(
+                   o.pivot_length
+                       ? "linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +
+                             " mm from the tip, the one across is its height over the tube axis"
+                       : "linear axes are the torch tip on the outer wall: the control must know "
+                         "it");
+}
+
+std::string header(const TorchJob& job, const std::vector<Way>& ways, const TorchJoints& joints,
                    const Straightness& moves, const Caption& caption) {
   const auto& o = caption.options;
+  const auto& post = post_of(o);
+  const auto& turn = joints.turn();
   std::string out = gcode_job(caption);
-  out += gcode_comment("tube " + fixed(2.0 * job.outer_radius, 3) + " x " + fixed(job.wall, 3) +
-                       " mm") +
-         gcode_comment("tool: torch, kerf " + kerfs(ways) + " mm, applied to the path") +
-         gcode_comment("units mm, deg, mm/min") + gcode_comment(joints.describe()) +
-         extent(job, ways, joints, o) +
-         gcode_comment(
-             "B swings the torch in the axial plane, positive: outer edge towards +z, "
-             "b_sign: " +
-             std::string(kBSignInPart));
-  if (joints.has_pivot())
-    out += gcode_comment("between cuts the torch is lifted " + fixed(joints.clearance(), 0) +
-                         " mm clear of the tube");
-  else if (ways.size() > 1)
-    out += gcode_comment(
+  out += post.comment("tube " + fixed(2.0 * job.outer_radius, 3) + " x " + fixed(job.wall, 3) +
+                      " mm") +
+         post.comment("tool: torch, kerf " + kerfs(ways) + " mm, applied to the path") +
+         post.comment("units mm, deg, mm/min") +
+         post.comment(
+             std::string(1, turn.letter) + " turns the tube: " + (turn.reversed ? "-phi" : "phi") +
+             " in deg, from x towards y. " + joints.along().letter + " goes along it: mm, " +
+             (joints.along().reversed ? "-z" : "+z") + " of the result") +
+         extent(job, ways, joints, o) + axes(joints, o);
+  if (!joints.has_pivot() && ways.size() > 1)
+    out += post.comment(
         "between cuts the control must lift the torch: after each that ends, "
         "before the rapid to the next");
-  if (joints.tilts() && o.pivot_length)
-    out += gcode_comment(
-        std::string("Y: the pivot across, growing phi is ").append(o.axial_z ? "+Y" : "-Y"));
-  if (joints.tilts())
-    out += gcode_comment(
-        "C tilts it across, positive: outer edge towards growing phi, tan B and "
-        "tan C are each over the way outwards");
-  out += o.pivot_length
-             ? gcode_comment("linear axes are the torch pivot, " + fixed(*o.pivot_length, 3) +
-                             " mm from the tip, the one across is its height over the tube axis")
-             : gcode_comment(
-                   "linear axes are the torch tip on the outer wall: the control must know it");
-  out += how_it_starts(o);
-  out += gcode_comment("moves: tip and both edges within " + fixed(moves.sag, 4) +
-                       " mm of straight lines between the rows, blocks inserted for it: " +
-                       std::to_string(moves.inserted));
-  out += gcode_comment(o.torch ? "THIS PROGRAM LIGHTS THE TORCH"
-                               : "dry run: the torch stays off, ask with torch=on");
-  for (const auto& remark : job.remarks) out += gcode_comment(remark);
+  out += linear_axes(joints, o) + how_it_starts(joints, o);
+  out += post.comment("moves: tip and both edges within " + fixed(moves.sag, 4) +
+                      " mm of straight lines between the rows, blocks inserted for it: " +
+                      std::to_string(moves.inserted));
+  out += post.comment(o.torch ? "THIS PROGRAM LIGHTS THE TORCH"
+                              : "dry run: the torch stays off, ask with torch=on");
+  for (const auto& remark : job.remarks) out += post.comment(remark);
   return out;
 }
 
 std::string modes(const Caption& caption) {
-  return "#<speed_mm_min> = " + fixed(*caption.options.speed, 3) + "\n" + kModes +
-         torch_words(caption.options.dialect).prepare;
+  const auto& post = post_of(caption.options);
+  return post_lines(post.speed, {{"speed_mm_min", fixed(*caption.options.speed, 3)}}) +
+         post_lines(post.modes) + post_lines(post.tool);
 }
 
-/// A move at the surface speed; G93's F is one over its minutes.
-std::string timed(const std::string& words, double length) {
-  return "G1 " + words + " F[#<speed_mm_min> / " + fixed(std::max(length, kSlow), 6) + "]\n";
+/// A move in the time that the torch needs along `length` of the outer wall. `distance`: of all
+/// axes.
+std::string timed(const std::string& words, double length, double distance,
+                  const FormatOptions& o) {
+  const double rate = *o.speed / std::max(length, kSlow);  // 1/min
+  return post_line(post_of(o).cut_move,
+                   {{"axes", words},
+                    {"length_mm", fixed(std::max(length, kSlow), 6)},
+                    {"per_minute", fixed(rate, 6)},
+                    {"units_per_minute", fixed(std::max(distance * rate, kSlow), 3)}});
 }
 
 /// What is said of a cut before its blocks.
-std::string title(const Way& way, const FormatOptions& o) {
+std::string title(const Way& way, const TorchJoints& joints, const FormatOptions& o) {
+  const auto& post = post_of(o);
   std::string out;
-  if (!way.name.empty()) out += gcode_comment("cut: " + way.name);
+  if (!way.name.empty()) out += post.comment("cut: " + way.name);
+  const auto at = [](const PostAxis& axis, double angle) {
+    return axis.letter + fixed(axis.counted(angle * kDegPerRad), 3);
+  };
   if (o.lead > 0.0 || o.start)
-    out += gcode_comment("starts at A" + fixed(way.start.phi * kDegPerRad, 3) + ", z " +
-                         fixed(way.start.z, 3) + " mm, B" + fixed(way.start.b * kDegPerRad, 3));
+    out += post.comment("starts at " + at(joints.turn(), way.start.phi) + ", z " +
+                        fixed(way.start.z, 3) + " mm, " + at(joints.swing(), way.start.b));
   if (way.radius < o.lead)
-    out +=
-        gcode_comment("leads of " + fixed(way.radius, 3) + " mm: the scrap has no room for more");
+    out += post.comment("leads of " + fixed(way.radius, 3) + " mm: the scrap has no room for more");
   return out;
 }
 
+/// Between two cuts; nothing where the control moves the tip.
+std::string retract(const TorchJoints& joints, const Post& post) {
+  return joints.has_pivot() ? post_line(post.rapid, {{"axes", joints.clear_height()}}) : "";
+}
+
 /// From the retract before one cut to the one behind it.
-std::string print_cut(const TorchJob& job, const Way& way, const Joints& joints,
+std::string print_cut(const TorchJob& job, const Way& way, const TorchJoints& joints,
                       const Caption& caption) {
   const auto& o = caption.options;
-  const auto words = torch_words(o.dialect);
+  const auto& post = post_of(o);
   const auto& first = way.places.front();
   const double off = o.cut_height.value_or(0.0), above = o.pierce_height.value_or(off);
-  std::string out = title(way, o) + joints.retract();
-  if (joints.has_pivot())
-    out += "G0 " + joints.level_words(first, above) + "\nG0 " + joints.height(first, above) + "\n";
-  else
-    out += "G0 " + joints.words(first, 0.0) + "\n";
-  if (o.torch) out += words.on;
-  if (o.pierce_delay) out += "G4 P" + fixed(*o.pierce_delay, 3) + "\n";
-  out += "G93\n";
-  if (above != off) out += timed(joints.words(first, off), std::abs(above - off));
+  std::string out = title(way, joints, o) + retract(joints, post);
+  const auto rapid = [&](const std::string& words) {
+    out += post_line(post.rapid, {{"axes", words}});
+  };
+  if (joints.has_pivot()) {
+    rapid(joints.level_words(first, above));
+    rapid(joints.height(first, above));
+  } else {
+    rapid(joints.words(first, 0.0));
+  }
+  if (o.torch) out += post_lines(post.torch_on);
+  if (o.pierce_delay) out += post_line(post.dwell, {{"seconds", fixed(*o.pierce_delay, 3)}});
+  out += post_lines(post.cut_begin);
+  const auto go = [&](const TorchPlace& from, double from_off, const TorchPlace& to,
+                      double length) {
+    out += timed(joints.words(to, off), length, joints.distance(from, from_off, to, off), o);
+  };
+  if (above != off) go(first, above, first, std::abs(above - off));
   for (std::size_t i = 1; i < way.places.size(); ++i) {
     ask(caption.stop);
-    out += timed(joints.words(way.places[i], off), step(job, way.places[i - 1], way.places[i]));
+    go(way.places[i - 1], off, way.places[i], step(job, way.places[i - 1], way.places[i]));
   }
-  return out + "G94\n" + words.off;
+  return out + post_lines(post.cut_end) + post_lines(post.torch_off);
 }
 
 std::string remark(const part::Mark& mark) {
@@ -335,29 +312,22 @@ std::string remark(const part::Mark& mark) {
 
 }  // namespace
 
-std::string gcode_comment(const std::string& text) { return "(" + gcode_text(text) + ")\n"; }
-
 std::string gcode_job(const Caption& caption) {
-  std::string out = gcode_comment("tubecut " + std::string(version())) +
-                    gcode_comment("input sha256 " + caption.input_sha256);
+  const auto& post = post_of(caption.options);
+  std::string out = post.comment("tubecut " + std::string(version())) +
+                    post.comment("input sha256 " + caption.input_sha256);
   for (const auto& [name, text] : caption.reference)
-    out += gcode_comment(std::string(name) + ": " + text);
-  for (const auto& line : verdict_lines(caption.verdict)) out += gcode_comment(line);
+    out += post.comment(std::string(name) + ": " + text);
+  for (const auto& line : verdict_lines(caption.verdict)) out += post.comment(line);
   return out;
 }
 
 const std::vector<std::string_view>& gcode_options() {
   static const std::vector<std::string_view> kOptions{
-      "speed_mm_min",   "dialect",       "torch",        "axial",           "lead_mm",
-      "overcut_mm",     "start_deg",     "pierce_b_deg", "pivot_length_mm", "pierce_height_mm",
-      "pierce_delay_s", "cut_height_mm", "clearance_mm", "acknowledge"};
+      "speed_mm_min",     "post",           "dialect",       "torch",        "axial",
+      "lead_mm",          "overcut_mm",     "start_deg",     "pierce_b_deg", "pivot_length_mm",
+      "pierce_height_mm", "pierce_delay_s", "cut_height_mm", "clearance_mm", "acknowledge"};
   return kOptions;
-}
-
-TorchWords torch_words(Dialect dialect) {
-  if (dialect == Dialect::qtplasmac)
-    return {.prepare = "T0 M6\nG43 H0\nM52 P1\n", .on = "M3 $0 S1\n", .off = "M5 $0\n"};
-  return {.prepare = "", .on = "M3 S1\n", .off = "M5\n"};
 }
 
 TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table) {
@@ -378,12 +348,16 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
 }
 
 std::string print_gcode(const TorchJob& job, const Caption& caption) {
-  const Joints joints(job, caption.options);
+  const auto& post = post_of(caption.options);
+  const bool tilts =
+      std::ranges::any_of(job.cuts, [](const auto& cut) { return !cut.path.a.empty(); });
+  const TorchJoints joints(job.outer_radius, tilts, caption.options);
   Straightness moves;
   const auto ways = ways_of(job, caption, moves);
-  std::string out = "%\n" + header(job, ways, joints, moves, caption) + modes(caption);
+  std::string out =
+      post_lines(post.begin) + header(job, ways, joints, moves, caption) + modes(caption);
   for (const auto& way : ways) out += print_cut(job, way, joints, caption);
-  return out + joints.retract() + "M2\n%\n";
+  return post.numbered(out + retract(joints, post) + post_lines(post.end));
 }
 
 }  // namespace tubecut::api

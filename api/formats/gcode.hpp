@@ -20,23 +20,16 @@ struct TorchJob {
 /// A part in the order of its sequence; marks are remarks.
 [[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part);
 
-/// A comment line of a program.
-[[nodiscard]] std::string gcode_comment(const std::string& text);
 /// The comment lines every program begins with: engine, input hash, reference,
 /// verdict.
 [[nodiscard]] std::string gcode_job(const Caption& caption);
 /// Query parameters a program along torch lines reads.
 [[nodiscard]] const std::vector<std::string_view>& gcode_options();
-/// The lines that light the torch and put it out.
-struct TorchWords {
-  std::string prepare, on, off;
-};
-[[nodiscard]] TorchWords torch_words(Dialect dialect);
-
-/// The cuts as RS-274 for LinuxCNC: A turns the tube by phi, X (or Z) goes along it, B swings the
-/// torch; a G1 to each node and to as many places between as keep tip and both edges within 0.02 mm
-/// of straight lines in (phi, z), in inverse time (G93) so that the torch keeps its speed on the
-/// outer wall through every mix of axes. Speed is one parameter at the top.
+/// The cuts in the words of a post, LinuxCNC's unless another is named (the letters here are its):
+/// A turns the tube by phi, X (or Z) goes along it, B swings the torch; a G1 to each node and to as
+/// many places between as keep tip and both edges within 0.02 mm of straight lines in (phi, z), in
+/// inverse time (G93) so that the torch keeps its speed on the outer wall through every mix of
+/// axes. Speed is one parameter at the top.
 ///
 /// Each cut: retract, turn, approach; pierce height, torch, delay; cutting height; lead-in, cut,
 /// overcut, lead-out; torch out, retract. With a pivot length the linear axes are the pivot's, and
@@ -44,7 +37,8 @@ struct TorchWords {
 /// height. The torch is lit only by the option `torch`. Where a hole's torch tilts across, C is
 /// that tilt and, with a pivot length, Y the pivot's way across.
 ///
-/// Errors    throws UnfitOption: lead_mm, start_deg, where a cut has no room or place for them.
+/// Errors    throws UnfitOption: lead_mm, start_deg, where a cut has no room or place for them; post,
+///           pivot_length_mm, axial, where the post lacks an axis.
 /// Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
 [[nodiscard]] std::string print_gcode(const TorchJob& job, const Caption& caption);
 

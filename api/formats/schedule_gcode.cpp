@@ -1,11 +1,13 @@
 #include "api/formats/schedule_gcode.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "api/formats/gcode.hpp"
 #include "api/formats/text.hpp"
+#include "api/posts.hpp"
 #include "api/stop.hpp"
 
 namespace tubecut::api {
@@ -82,25 +84,38 @@ std::string words(const motion::Machine& machine, const motion::Schedule& s,
   std::string out;
   for (std::size_t a = 0; a < sums.size(); ++a) {
     const double per_unit = machine.axes[a].pulses_per_axis_unit();
-    out += std::string(" ") + letters[a] +
+    out += std::string(out.empty() ? "" : " ") + letters[a] +
            fixed(s.axes[a].start + static_cast<double>(sums[a]) / per_unit, 6);
   }
   return out;
 }
 
+/// How far all axes go, one deg as one mm.
+double distance(const motion::Machine& machine, const std::vector<std::int64_t>& from,
+                const std::vector<std::int64_t>& to) {
+  double sum = 0.0;
+  for (std::size_t a = 0; a < from.size(); ++a) {
+    const double way =
+        static_cast<double>(to[a] - from[a]) / machine.axes[a].pulses_per_axis_unit();
+    sum += way * way;
+  }
+  return std::sqrt(sum);
+}
+
 std::string header(const motion::Machine& machine, const motion::Schedule& s,
                    const std::vector<char>& letters, bool contour, const Caption& caption) {
+  const auto& post = post_of(caption.options);
   std::string out = gcode_job(caption);
-  out += gcode_comment("machine " + (machine.name.empty() ? "of the request" : machine.name));
+  out += post.comment("machine " + (machine.name.empty() ? "of the request" : machine.name));
   for (std::size_t a = 0; a < letters.size(); ++a)
-    out += gcode_comment(std::string(1, letters[a]) + " = axis " + s.axes[a].name + ", " +
-                         std::string(motion::name_of(s.axes[a].unit)));
-  out += gcode_comment("units mm, deg; moves in inverse time, " + fixed(s.report.time, 3) +
-                       " s in all");
-  if (!contour) return out + gcode_comment("the tool is not switched here");
-  return out + gcode_comment(caption.options.torch
-                                 ? "THIS PROGRAM LIGHTS THE TORCH"
-                                 : "dry run: the torch stays off, ask with torch=on");
+    out += post.comment(std::string(1, letters[a]) + " = axis " + s.axes[a].name + ", " +
+                        std::string(motion::name_of(s.axes[a].unit)));
+  out += post.comment("units mm, deg; moves in inverse time, " + fixed(s.report.time, 3) +
+                      " s in all");
+  if (!contour) return out + post.comment("the tool is not switched here");
+  return out + post.comment(caption.options.torch
+                                ? "THIS PROGRAM LIGHTS THE TORCH"
+                                : "dry run: the torch stays off, ask with torch=on");
 }
 
 }  // namespace
@@ -153,26 +168,33 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
   if (!contour && caption.options.torch)
     throw UnfitOption{"torch", "a mill path has no torch; leave it out"};
   const auto letters = axis_letters(s.axes);
-  const auto torch = torch_words(caption.options.dialect);
+  const auto& post = post_of(caption.options);
   Cursor at(s);
-  std::string out = "%\n" + header(machine, s, letters, contour, caption) +
-                    "G21 G40 G49 G90 G94 G17\nG64 P0.01\n" + (contour ? torch.prepare : "") + "G0" +
-                    words(machine, s, letters, at.sums()) + "\nG93\n";
+  std::string out = post_lines(post.begin) + header(machine, s, letters, contour, caption) +
+                    post_lines(post.modes) + (contour ? post_lines(post.tool) : "") +
+                    post_line(post.rapid, {{"axes", words(machine, s, letters, at.sums())}}) +
+                    post_lines(post.cut_begin);
   std::int64_t from = 0;
   for (const auto end : move_ends(s, kTolerance, caption.stop)) {
     ask(caption.stop);
+    const auto before = at.sums();
     at.advance_to(end);
+    const double rate = 60.0 / (s.period * static_cast<double>(end - from));  // 1/min
     if (end > from)
-      out += "G1" + words(machine, s, letters, at.sums()) + " F" +
-             fixed(60.0 / (s.period * static_cast<double>(end - from)), 6) + "\n";
+      out += post_line(post.timed_move,
+                       {{"axes", words(machine, s, letters, at.sums())},
+                        {"per_minute", fixed(rate, 6)},
+                        {"units_per_minute",
+                         fixed(std::max(distance(machine, before, at.sums()) * rate, 1e-3), 3)}});
     from = end;
     for (const auto& event : s.events) {
       if (event.period != end || !contour) continue;
-      if (event.what == motion::EventKind::torch_on && caption.options.torch) out += torch.on;
-      if (event.what == motion::EventKind::torch_off) out += torch.off;
+      if (event.what == motion::EventKind::torch_on && caption.options.torch)
+        out += post_lines(post.torch_on);
+      if (event.what == motion::EventKind::torch_off) out += post_lines(post.torch_off);
     }
   }
-  return out + "G94\nM2\n%\n";
+  return post.numbered(out + post_lines(post.cut_end) + post_lines(post.end));
 }
 
 }  // namespace tubecut::api

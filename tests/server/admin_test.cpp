@@ -80,6 +80,7 @@ TEST(Metrics, CountWhatHappened) {
         "tubecut_build_info{",
         "tubecut_reloads_failed_total{what=\"keys\"} 0\n",
         "tubecut_reloads_failed_total{what=\"machines\"} 1\n",
+        "tubecut_reloads_failed_total{what=\"posts\"} 0\n",
         "tubecut_configuration_info{sha256=\"",
         "process_cpu_seconds_total 0.",
         "process_start_time_seconds 1",

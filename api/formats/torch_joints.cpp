@@ -1,0 +1,99 @@
+#include "api/formats/torch_joints.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "api/posts.hpp"
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kClearance = 50.0;  // mm, of the tip over the tube between two cuts
+
+/// The axis, or any where it is not needed.
+PostAxis needed(const Post& post, PostRole role, bool is, std::string_view option,
+                std::string_view why) {
+  const auto& axis = post.axis(role);
+  if (axis || !is) return axis.value_or(PostAxis{});
+  throw UnfitOption{option, "post " + post.name + " has no axis " +
+                                kPostRoles[static_cast<std::size_t>(role)] + ", " +
+                                std::string(why)};
+}
+
+}  // namespace
+
+TorchJoints::TorchJoints(double outer_radius, bool tilts, const FormatOptions& options)
+    : radius_(outer_radius),
+      pivot_(options.pivot_length),
+      clearance_(options.clearance.value_or(kClearance)),
+      tilts_(tilts),
+      phi_to_plus_(options.axial_z) {
+  const auto& post = post_of(options);
+  const auto get = [&](PostRole role, bool is, std::string_view option, std::string_view why) {
+    return needed(post, role, is, option, why);
+  };
+  along_ = get(PostRole::along, true, "post", "");
+  turn_ = get(PostRole::turn, true, "post", "");
+  swing_ = get(PostRole::swing, true, "post", "");
+  out_ = get(PostRole::out, pivot_ || options.axial_z, pivot_ ? "pivot_length_mm" : "axial",
+             "which lifts the torch");
+  tilt_ = get(PostRole::tilt, tilts, "post", "by which a hole's torch leans across");
+  across_ = get(PostRole::across, tilts && pivot_, "post",
+                "by which the pivot of a torch that leans across goes");
+  if (options.axial_z) std::swap(along_.letter, out_.letter);
+}
+
+std::string TorchJoints::words(const TorchPlace& at, double off) const {
+  auto out = along_.word(along_at(at, off));
+  if (pivot_ && tilts_) out += " " + across_.word(across_at(arm(at, off)));
+  if (pivot_) out += " " + height(at, off);
+  return out + angles(at);
+}
+
+std::string TorchJoints::level_words(const TorchPlace& at, double off) const {
+  auto out = along_.word(along_at(at, off));
+  if (pivot_ && tilts_) out += " " + across_.word(across_at(arm(at, off)));
+  return out + angles(at);
+}
+
+std::string TorchJoints::height(const TorchPlace& at, double off) const {
+  return out_.word(radius_ + arm(at, off).out);
+}
+
+std::string TorchJoints::clear_height() const { return out_.word(radius_ + *pivot_ + clearance_); }
+
+double TorchJoints::along_at(const TorchPlace& at, double off) const {
+  return at.z + arm(at, off).along;
+}
+
+double TorchJoints::distance(const TorchPlace& from, double from_off, const TorchPlace& to,
+                             double to_off) const {
+  const auto a = all(from, from_off), b = all(to, to_off);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (b[i] - a[i]) * (b[i] - a[i]);
+  return std::sqrt(sum);
+}
+
+TorchJoints::Arm TorchJoints::arm(const TorchPlace& at, double off) const {
+  if (!pivot_) return {0.0, 0.0, 0.0};
+  // The torch's line: 1 outwards, tan a round, tan b along.
+  const double round = elementary::tan(at.a), rise = elementary::tan(at.b);
+  const double out = (*pivot_ + off) / std::sqrt(1.0 + round * round + rise * rise);
+  return {out, out * rise, out * round};
+}
+
+std::string TorchJoints::angles(const TorchPlace& at) const {
+  auto out = " " + turn_.word(at.phi * kDegPerRad) + " " + swing_.word(at.b * kDegPerRad);
+  if (tilts_) out += " " + tilt_.word(at.a * kDegPerRad);
+  return out;
+}
+
+std::vector<double> TorchJoints::all(const TorchPlace& at, double off) const {
+  const auto reach = arm(at, off);
+  return {at.z + reach.along,  reach.out,         reach.round,
+          at.phi * kDegPerRad, at.b * kDegPerRad, at.a * kDegPerRad};
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,229 @@
+#include "api/post.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/formats/text.hpp"
+#include "api/limits.hpp"
+#include "api/text_encoding.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr std::size_t kLongestLine = 120;
+constexpr CountRange kSomeLines{.min = 0, .max = 20};
+constexpr std::string_view kLetters = "ABCUVWXYZ";
+
+using Names = std::initializer_list<std::string_view>;
+
+std::string listed(const Names& names) {
+  std::string out;
+  for (const auto name : names) out += (out.empty() ? "" : "|") + std::string(name);
+  return out;
+}
+
+/// From a brace to the next that closes one.
+struct Slot {
+  std::size_t begin, end;  // of the braces
+  std::string_view name;
+};
+std::optional<Slot> next_slot(std::string_view line, std::size_t from) {
+  const auto begin = line.find('{', from), end = line.find('}', begin);
+  if (end == std::string_view::npos) return std::nullopt;
+  return Slot{begin, end, line.substr(begin + 1, end - begin - 1)};
+}
+
+/// What is wrong with a line of a program, said at its pointer.
+void check_line(Reader& in, const std::string& pointer, const std::string& line,
+                const Names& names) {
+  std::size_t braces = 0;
+  for (auto slot = next_slot(line, 0); slot; slot = next_slot(line, slot->end + 1)) {
+    braces += 2;
+    if (std::ranges::find(names, slot->name) == names.end())
+      in.issue({.code = ErrorCode::bad_choice,
+                .pointer = pointer,
+                .got = Json{std::string(slot->name)},
+                .limit = Json{listed(names)},
+                .hint = names.size() == 0 ? "this line has no values"
+                                          : "values of this line: " + listed(names)});
+  }
+  const auto brace = [](char c) { return c == '{' || c == '}'; };
+  const bool open = static_cast<std::size_t>(std::ranges::count_if(line, brace)) != braces;
+  if (open || in_ascii(line) != line)
+    in.issue({.code = ErrorCode::bad_text,
+              .pointer = pointer,
+              .got = Json{line},
+              .hint = open ? "a brace that has no other" : "printable ASCII characters alone"});
+}
+
+Post::Lines read_lines(Reader& in, std::string_view name, const Names& names = {}) {
+  auto out = in.text_column(name, kSomeLines, kLongestLine);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    check_line(in, std::string(name) + "/" + std::to_string(i), out[i], names);
+  return out;
+}
+
+/// One that must have a value out of each of these groups.
+std::string read_line(Reader& in, std::string_view name, const Names& names,
+                      std::initializer_list<Names> needed) {
+  auto out = in.text(name, kLongestLine);
+  if (!in.understood(name)) return out;
+  check_line(in, std::string(name), out, names);
+  for (const auto& group : needed) {
+    const bool has = std::ranges::any_of(group, [&](std::string_view value) {
+      return out.find("{" + std::string(value) + "}") != std::string::npos;
+    });
+    if (!has)
+      in.issue({.code = ErrorCode::bad_text,
+                .pointer = std::string(name),
+                .got = Json{out},
+                .limit = Json{listed(group)},
+                .hint = "the line needs a value between braces: " + listed(group)});
+  }
+  return out;
+}
+
+/// Nothing that gcode_text leaves in a client's text may end a comment.
+std::string read_comment_end(Reader& in) {
+  in.note("comment_end");
+  if (!in.has("comment_end")) return {};
+  auto out = in.ascii_text("comment_end", 4);
+  const auto kept = [](char c) { return gcode_text(std::string(1, c)) == std::string(1, c); };
+  if (!std::ranges::any_of(out, kept)) return out;
+  in.issue({.code = ErrorCode::bad_text,
+            .pointer = "comment_end",
+            .hint = "signs that no text has: none of letters, digits, blanks and +-_.,:=/#"},
+           in.find("comment_end"));
+  return {};
+}
+
+PostAxis decode_axis(Reader& in, bool turns) {
+  PostAxis out;
+  const auto letter = in.ascii_text("letter", 1);
+  if (!letter.empty() && kLetters.find(letter) == std::string_view::npos)
+    in.issue({.code = ErrorCode::bad_choice,
+              .pointer = "letter",
+              .limit = Json{std::string(kLetters)},
+              .hint = "one of " + std::string(kLetters)},
+             in.find("letter"));
+  if (!letter.empty()) out.letter = letter.front();
+  out.reversed = in.flag("reversed", false);
+  out.offset = in.number(turns ? "offset_deg" : "offset_mm", kOffset, 0.0);
+  out.decimals = in.integer("decimals", 2, 9);
+  return out;
+}
+
+void decode_axes(Reader& in, Post& out) {
+  std::string taken;
+  for (std::size_t role = 0; role < kPostRoles.size(); ++role) {
+    const auto as = static_cast<PostRole>(role);
+    const std::string_view name = kPostRoles[role];
+    const bool turns = as >= PostRole::turn;
+    const auto decode = [&](Reader& r) {
+      auto axis = decode_axis(r, turns);
+      if (r.understood("letter") && taken.find(axis.letter) != std::string::npos)
+        r.issue({.code = ErrorCode::duplicate_id,
+                 .pointer = "letter",
+                 .hint = "another axis has this letter"},
+                r.find("letter"));
+      taken += axis.letter;
+      return axis;
+    };
+    const bool needed = as == PostRole::along || as == PostRole::turn || as == PostRole::swing;
+    out.axes[role] =
+        needed ? std::optional(in.object(name, decode)) : in.optional_object(name, decode);
+  }
+}
+
+}  // namespace
+
+std::string PostAxis::word(double value) const {
+  return std::string(1, letter) + fixed(counted(value), decimals);
+}
+
+std::string PostAxis::zero() const {
+  auto out = fixed(offset, decimals);
+  out.erase(out.find_last_not_of('0') + 1);
+  if (out.back() == '.') out.pop_back();
+  return letter + out;
+}
+
+std::string Post::comment(std::string_view text) const {
+  auto out = gcode_text(text);
+  if (comment_upper_case)
+    for (auto& c : out)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return comment_begin + out + comment_end + "\n";
+}
+
+std::string Post::numbered(const std::string& program) const {
+  if (block_numbers == 0) return program;
+  std::string out;
+  std::size_t unnumbered = begin.size();
+  int number = 0;
+  for (std::size_t from = 0; from < program.size();) {
+    const auto next = program.find('\n', from) + 1;
+    const auto line = std::string_view(program).substr(from, next - from);
+    from = next;
+    if (unnumbered > 0)
+      --unnumbered;
+    else if (!line.starts_with(comment_begin) && line != "%\n")
+      out += "N" + std::to_string(number += block_numbers) + " ";
+    out += line;
+  }
+  return out;
+}
+
+std::string post_line(std::string_view line, const PostValues& values) {
+  std::string out;
+  std::size_t from = 0;
+  for (auto slot = next_slot(line, 0); slot; slot = next_slot(line, from)) {
+    out += line.substr(from, slot->begin - from);
+    for (const auto& [name, value] : values)
+      if (name == slot->name) out += value;
+    from = slot->end + 1;
+  }
+  out += line.substr(from);
+  return out + "\n";
+}
+
+std::string post_lines(const Post::Lines& lines, const PostValues& values) {
+  std::string out;
+  for (const auto& line : lines) out += post_line(line, values);
+  return out;
+}
+
+Post decode_post(Reader& in) {
+  Post out;
+  out.name = in.ascii_text("name", 64);
+  in.text("what", kLongestLine);
+  in.text_column("checked_with", kSomeLines, kLongestLine);
+  in.text_column("not_checked", kSomeLines, kLongestLine);
+  if (auto whose = in.optional_text("pierce_by_control", kLongestLine)) out.of_control = *whose;
+  out.comment_begin = in.ascii_text("comment_begin", 4);
+  out.comment_end = read_comment_end(in);
+  out.comment_upper_case = in.flag("comment_upper_case", false);
+  out.block_numbers = in.integer("block_numbers", 0, 1'000, 0);
+  out.begin = read_lines(in, "begin");
+  out.speed = read_lines(in, "speed", {"speed_mm_min"});
+  out.modes = read_lines(in, "modes");
+  out.tool = read_lines(in, "tool");
+  out.torch_on = read_lines(in, "torch_on");
+  out.torch_off = read_lines(in, "torch_off");
+  out.cut_begin = read_lines(in, "cut_begin");
+  out.cut_end = read_lines(in, "cut_end");
+  out.end = read_lines(in, "end");
+  out.rapid = read_line(in, "rapid", {"axes"}, {{"axes"}});
+  out.dwell = read_line(in, "dwell", {"seconds"}, {{"seconds"}});
+  out.cut_move = read_line(in, "cut_move", {"axes", "length_mm", "per_minute", "units_per_minute"},
+                           {{"axes"}, {"length_mm", "per_minute", "units_per_minute"}});
+  out.timed_move = read_line(in, "timed_move", {"axes", "per_minute", "units_per_minute"},
+                             {{"axes"}, {"per_minute", "units_per_minute"}});
+  in.object("axes", [&](Reader& axes) {
+    decode_axes(axes, out);
+    return 0;
+  });
+  return out;
+}
+
+}  // namespace tubecut::api

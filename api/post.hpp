@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/reader.hpp"
+
+namespace tubecut::api {
+
+/// What a control's axis is called and how it counts: what is written is the program's value,
+/// turned round or not, and the offset.
+struct PostAxis {
+  char letter = 'X';
+  bool reversed = false;
+  double offset = 0.0;  // mm or deg
+  int decimals = 0;
+
+  [[nodiscard]] double counted(double value) const { return (reversed ? -value : value) + offset; }
+  /// "X-1.50000"
+  [[nodiscard]] std::string word(double value) const;
+  /// Where the program's zero is: "A0".
+  [[nodiscard]] std::string zero() const;
+};
+
+/// What an axis does. `along` and `out` are the tube's length and the way off it, `across` square
+/// to both; `turn` turns the tube, `swing` leans the torch along it, `tilt` across it.
+enum class PostRole { along, out, across, turn, swing, tilt };
+inline constexpr std::array kPostRoles{"along", "out", "across", "turn", "swing", "tilt"};
+
+/// The words that a control's programs are written in: lines with named values between braces, no
+/// more. docs/formats.md, "Posts".
+struct Post {
+  using Lines = std::vector<std::string>;
+
+  std::string name;
+  std::string comment_begin, comment_end;
+  bool comment_upper_case = false;
+  int block_numbers = 0;                  // from one block to the next; 0: none
+  std::optional<std::string> of_control;  // whose heights and delay of the pierce are; else ours
+  Lines begin, speed, modes, tool, torch_on, torch_off, cut_begin, cut_end, end;
+  std::string rapid, dwell, cut_move, timed_move;
+  std::array<std::optional<PostAxis>, kPostRoles.size()> axes;
+
+  [[nodiscard]] const std::optional<PostAxis>& axis(PostRole role) const {
+    return axes[static_cast<std::size_t>(role)];
+  }
+  /// A comment line; what is a client's passes gcode_text, which leaves nothing that ends one.
+  [[nodiscard]] std::string comment(std::string_view text) const;
+  /// The blocks of a program numbered, where the post has that: all but comments and `begin`.
+  [[nodiscard]] std::string numbered(const std::string& program) const;
+};
+
+/// Values by name, for one line.
+using PostValues = std::initializer_list<std::pair<std::string_view, std::string>>;
+
+/// A line with its values, and its end.
+[[nodiscard]] std::string post_line(std::string_view line, const PostValues& values = {});
+[[nodiscard]] std::string post_lines(const Post::Lines& lines, const PostValues& values = {});
+
+/// `in` stands on an object in the form of GET /v1/posts. Names in braces that a line does not
+/// have, letters twice and values that a line must have are issues at their member.
+[[nodiscard]] Post decode_post(Reader& in);
+
+}  // namespace tubecut::api

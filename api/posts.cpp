@@ -1,0 +1,111 @@
+#include "api/posts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "api/api.hpp"
+#include "api/catalogue.hpp"
+#include "api/sha256.hpp"
+
+namespace tubecut::api {
+namespace {
+
+/// The shipped ones; the first is a program's unless it names another.
+constexpr std::array kShipped{"posts/linuxcnc.json", "posts/qtplasmac.json",
+                              "posts/fanuc_style.json", "posts/siemens_style.json"};
+
+const ShelfPost* find(const PostShelf& all, std::string_view name) {
+  const auto found = std::ranges::find(
+      all, name, [](const ShelfPost& p) -> std::string_view { return p.post.name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string shown(const FieldIssue& issue) {
+  auto out = issue.pointer + ": " + std::string(info(issue.code).meaning);
+  return issue.hint.empty() ? out : out + " (" + issue.hint + ")";
+}
+
+/// Adds the post of a JSON text; returns what is wrong with it, or nothing.
+std::string add_post(std::string_view json, PostShelf& all) {
+  const auto body = parse(json);
+  if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);
+  Reader in(*body);
+  ShelfPost out{.post = decode_post(in), .document = {}, .sha256 = {}};
+  if (const auto issues = in.finish_root(); !issues.empty()) return shown(issues.front());
+  if (find(all, out.post.name) != nullptr) return "/name: there is a post of this name already";
+  out.document = Json{in.take_echo()};
+  Writer text;
+  text.json(out.document);
+  out.sha256 = sha256(text.take());
+  all.push_back(std::move(out));
+  return {};
+}
+
+PostShelf shipped() {
+  PostShelf out;
+  for (const auto* name : kShipped)
+    if (const auto wrong = add_post(embedded(name), out); !wrong.empty())
+      throw std::logic_error(name + (": " + wrong));
+  return out;
+}
+
+std::atomic<std::shared_ptr<const PostShelf>>& shelf() {
+  static std::atomic<std::shared_ptr<const PostShelf>> now(
+      std::make_shared<const PostShelf>(shipped()));
+  return now;
+}
+
+}  // namespace
+
+std::shared_ptr<const PostShelf> posts() { return shelf().load(); }
+
+std::shared_ptr<const Post> find_post(std::string_view name) {
+  const auto all = posts();
+  const auto* found = find(*all, name);
+  return found == nullptr ? nullptr : std::shared_ptr<const Post>(all, &found->post);
+}
+
+const Post& post_of(const FormatOptions& options) {
+  static const Post kFirst = shipped().front().post;
+  return options.post != nullptr ? *options.post : kFirst;
+}
+
+std::string post_names() {
+  std::string out;
+  for (const auto& p : *posts()) out += (out.empty() ? "" : "|") + p.post.name;
+  return out;
+}
+
+void encode_post_hashes(Writer& w) {
+  w.array("posts", *posts(), [](Writer& each, const ShelfPost& p) {
+    each.object([&](Writer& o) {
+      o.field("name", p.post.name);
+      o.field("post_sha256", p.sha256);
+    });
+  });
+}
+
+std::string posts_page() {
+  Writer out;
+  out.object([](Writer& w) {
+    w.array("posts", *posts(), [](Writer& each, const ShelfPost& p) {
+      each.object([&](Writer& o) {
+        o.field("name", p.post.name);
+        o.field("post_sha256", p.sha256);
+        o.field("post", p.document);
+      });
+    });
+  });
+  return out.take();
+}
+
+std::string set_posts(std::span<const FileText> texts) {
+  auto all = shipped();
+  for (const auto& [file, json] : texts)
+    if (const auto wrong = add_post(json, all); !wrong.empty()) return file + ": " + wrong;
+  shelf().store(std::make_shared<const PostShelf>(std::move(all)));
+  return {};
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,270 @@
+"""Posts: one path in the words of every control, read by readers of their own, and what no post may say."""
+
+import json
+import math
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+
+from service import ROOT, FormatTest, Service, examples, main
+
+SPEED = 600.0
+LIT = ("format=gcode&speed_mm_min=600&torch=on&lead_mm=3&pivot_length_mm=150&pierce_height_mm=4&pierce_delay_s=0.4&cut_height_mm=2&acknowledge=" +
+       "free_end")
+DARK = "format=gcode&speed_mm_min=600&lead_mm=3&pivot_length_mm=150&pierce_height_mm=4&cut_height_mm=2"
+SHIPPED = ("linuxcnc", "qtplasmac", "fanuc_style", "siemens_style")
+ADDRESS = re.compile(r"([A-Z])(-?\d+(?:\.\d*)?)")
+HOSTILE = "x)(M3 S1; M30 %\\"
+
+
+class Program:
+    """The moves of a program: [(kind, axes after it, minutes)], and what switches."""
+
+    def __init__(self):
+        self.moves, self.switches, self.dwells, self.at, self.rates = [], [], [], {}, []
+
+    def move(self, rapid, axes, rate):
+        self.at = self.at | axes
+        self.moves.append((rapid, dict(self.at)))
+        self.rates.append(rate)
+
+
+def linuxcnc(text):
+    """Numbers, parameters and one division; by the words that rs274 knows."""
+    out, parameters = Program(), {}
+    for line in text.splitlines():
+        if line == "%" or line.startswith("("):
+            continue
+        given = re.fullmatch(r"#<(\w+)> = ([\d.]+)", line)
+        if given:
+            parameters[given[1]] = float(given[2])
+            continue
+        rate = re.search(r" F\[#<(\w+)> / ([\d.]+)\]$", line)
+        words = ADDRESS.findall(line[:rate.start()] if rate else line)
+        plain = [float(value) for letter, value in words if letter == "F"]
+        read(out, words, parameters[rate[1]] / float(rate[2]) if rate else plain[0] if plain else None)
+    return out
+
+
+def fanuc(text):
+    """%, O and a number, then blocks N..., comments between brackets in capitals alone."""
+    lines = text.splitlines()
+    assert lines[0] == lines[-1] == "%" and re.fullmatch(r"O\d{4}", lines[1]), lines[:2]
+    return blocks(lines[2:-1], lambda line: re.fullmatch(r"\([^()a-z]*\)", line))
+
+
+def siemens(text):
+    """Blocks N..., comments from a semicolon to the end of the line."""
+    return blocks(text.splitlines(), lambda line: line.startswith(";"))
+
+
+def blocks(lines, is_comment):
+    out, last = Program(), 0
+    for line in lines:
+        if is_comment(line):
+            continue
+        block = re.fullmatch(r"N(\d+)((?: [A-Z]-?\d+(?:\.\d*)?)+)", line)
+        assert block and int(block[1]) > last, line
+        last = int(block[1])
+        words = ADDRESS.findall(block[2])
+        rate = [float(value) for letter, value in words if letter == "F"]
+        if ("G", "4") in words or ("G", "04") in words:  # G4 F, G04 X: a time
+            out.dwells.append(float(words[-1][1]))
+            continue
+        read(out, [word for word in words if word[0] != "F"], rate[0] if rate else None)
+    return out
+
+
+def read(out, words, rate):
+    codes = [(letter, float(value)) for letter, value in words]
+    axes = {letter: value for letter, value in codes if letter in "ABCUVWXYZ"}
+    if ("G", 4.0) in codes:
+        out.dwells.append(dict(codes)["P"])
+    elif axes:
+        assert ("G", 0.0) in codes or ("G", 1.0) in codes, words
+        out.move(("G", 0.0) in codes, axes, rate)
+    out.switches += [(value, len(out.moves)) for letter, value in codes if letter == "M" and value in (3.0, 5.0)]
+
+
+READERS = {"linuxcnc": linuxcnc, "qtplasmac": linuxcnc, "fanuc_style": fanuc, "siemens_style": siemens}
+
+
+class Posts(FormatTest):
+    def shelf(self):
+        return {entry["name"]: entry["post"] for entry in json.loads(self.service.get("/v1/posts"))["posts"]}
+
+    def test_what_is_shipped(self):
+        shelf = self.shelf()
+        self.assertEqual(tuple(shelf), SHIPPED)
+        for name, post in shelf.items():
+            self.assertTrue(post["checked_with"] and post["not_checked"], name)
+            document = json.loads((ROOT / "posts" / f"{name}.json").read_text())
+            self.assertEqual({key: post[key] for key in document if key != "axes"}, {key: document[key] for key in document if key != "axes"})
+        version = json.loads(self.service.get("/v1/version"))
+        self.assertEqual([post["name"] for post in version["posts"]], list(SHIPPED))
+
+    def test_a_dialect_is_the_post_of_its_name(self):
+        body = examples("bevel-tables")["mitre"]
+        for name in ("linuxcnc", "qtplasmac"):
+            of = {query: self.service.text("bevel-tables", body, f"format=gcode&speed_mm_min=600&{query}={name}") for query in ("dialect", "post")}
+            self.assertEqual(of["dialect"], of["post"])
+
+    def test_one_path_in_the_words_of_each(self):
+        count = 0
+        for endpoint, name in (("bevel-tables", "mitre"), ("parts", "chord-with-holes"), ("parts", "k-joint-brace")):
+            body = examples(endpoint)[name] | {"reference": {"part": HOSTILE, "order": HOSTILE}}
+            wanted = linuxcnc(self.service.text(endpoint, body, DARK).decode())
+            self.assertGreater(len(wanted.moves), 50)
+            for post in ("fanuc_style", "siemens_style"):
+                with self.subTest(f"{name} {post}"):
+                    near = 0.6 * 10.0 ** -self.shelf()[post]["axes"]["along"]["decimals"]
+                    got = READERS[post](self.service.text(endpoint, body, f"{DARK}&post={post}").decode())
+                    self.assertEqual(len(got.moves), len(wanted.moves))
+                    self.assertEqual(got.switches, wanted.switches)
+                    for (rapid, at), (wanted_rapid, wanted_at), rate, wanted_rate in zip(got.moves, wanted.moves, got.rates, wanted.rates):
+                        self.assertEqual((rapid, sorted(at)), (wanted_rapid, sorted(wanted_at)))
+                        self.assertLessEqual(max(abs(at[letter] - wanted_at[letter]) for letter in at), near)
+                        if not rapid:
+                            self.assertAlmostEqual(rate / wanted_rate, 1.0, delta=1e-5)  # lengths have six decimals
+                    count += 1
+        self.assertEqual(count, 6)
+
+    def test_the_torch_and_its_delay(self):
+        body = examples("bevel-tables")["mitre"]
+        status, _, content = self.service.ask("bevel-tables", body, LIT.replace("&acknowledge=free_end", ""))
+        self.assertEqual(status, 200, content[:300])
+        for name in ("linuxcnc", "fanuc_style", "siemens_style"):
+            got = READERS[name](self.service.text("bevel-tables", body, LIT.replace("&acknowledge=free_end", "") + f"&post={name}").decode())
+            self.assertEqual([value for value, _ in got.switches], [3.0, 5.0], name)
+            self.assertEqual(got.dwells, [0.4], name)
+            lit_from, lit_to = (after for _, after in got.switches)
+            self.assertEqual({rapid for rapid, _ in got.moves[lit_from:lit_to]}, {False})
+            self.assertEqual({rapid for rapid, _ in got.moves[:lit_from] + got.moves[lit_to:]}, {True})
+
+    def test_a_schedule_in_the_words_of_each(self):
+        body = examples("pulse-schedules")["square-cut-from-a-bare-contour"]
+        wanted = None
+        for name in ("linuxcnc", "fanuc_style", "siemens_style"):
+            text = self.service.text("pulse-schedules", body, f"format=gcode&post={name}").decode()
+            got = READERS[name](text)
+            wanted = wanted or got
+            self.assertEqual((got.moves, got.rates), (wanted.moves, wanted.rates), name)
+        self.assertGreater(len(wanted.moves), 10)
+
+
+class Own(FormatTest):
+    """Posts of a folder."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.place = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.place.name)
+        cls.document = json.loads((ROOT / "posts/linuxcnc.json").read_text())
+        cls.turned = cls.document | {"name": "turned", "cut_move": "G1 {axes} F{units_per_minute}", "cut_begin": ["G94"], "axes": cls.document["axes"] | {
+            "along": {"letter": "X", "decimals": 6, "reversed": True, "offset_mm": 1000.5}, "turn": {"letter": "C", "decimals": 8, "offset_deg": 90},
+            "tilt": {"letter": "A", "decimals": 8, "reversed": True}}}
+        cls.plain = cls.document | {"name": "three_axes", "axes": {role: cls.document["axes"][role] for role in ("along", "turn", "swing")}}
+        for post in (cls.turned, cls.plain):
+            (cls.folder / f"{post['name']}.json").write_text(json.dumps(post))
+        cls.service = Service(FormatTest.binary, "--posts", str(cls.folder))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.service.stop()
+        cls.place.cleanup()
+
+    def test_signs_offsets_letters_and_feeds(self):
+        body = examples("parts")["chord-with-holes"]
+        wanted = linuxcnc(self.service.text("parts", body, DARK).decode())
+        text = self.service.text("parts", body, f"{DARK}&post=turned").decode()
+        self.assertIn("X1000.5 is z 0 of the result, C90 its phi 0", text)
+        self.assertIn("C turns the tube: phi in deg", text)
+        self.assertIn("X goes along it: mm, -z of the result", text)
+        got, before = Program(), None
+        for line in text.splitlines():
+            if line[:2] in ("G0", "G1") and ADDRESS.findall(line)[1:]:
+                words = dict(ADDRESS.findall(line))
+                got.move(words["G"] == "0", {letter: float(value) for letter, value in words.items() if letter in "ABCXYZ"}, float(words.get("F", 0)))
+        self.assertEqual(len(got.moves), len(wanted.moves))
+        for (rapid, at), (_, plain), rate, inverse in zip(got.moves, wanted.moves, got.rates, wanted.rates):
+            back = {"X": 1000.5 - at["X"], "A": at["C"] - 90.0, "B": at["B"], "Z": at["Z"]} if "X" in at else {"Z": at["Z"]}
+            for letter, value in back.items():
+                self.assertAlmostEqual(value, plain[letter], delta=2e-5)
+            if "C" in plain:
+                self.assertAlmostEqual(-at["A"], plain["C"], delta=2e-5)
+            if not rapid:
+                way = math.dist([at[letter] for letter in sorted(at)], [before[letter] for letter in sorted(at)])
+                self.assertAlmostEqual(rate, max(way * inverse, 1e-3), delta=2e-3 + 1e-3 * rate)
+            before = at
+
+    def test_what_a_post_lacks_is_refused(self):
+        def refused(body, query):
+            status, _, content = self.service.ask("parts", body, f"format=gcode&speed_mm_min=600&{query}")
+            self.assertIn(status, (400, 422), content[:200])
+            return [(error["pointer"], error["code"]) for error in json.loads(content)["errors"]]
+        brace, chord = examples("parts")["k-joint-brace"], examples("parts")["chord-with-holes"]
+        self.assertEqual(self.service.ask("parts", brace, "format=gcode&speed_mm_min=600&post=three_axes")[0], 200)
+        self.assertEqual(refused(brace, "post=three_axes&pivot_length_mm=150"), [("?pivot_length_mm", "unsupported_combination")])
+        self.assertEqual(refused(brace, "post=three_axes&axial=z"), [("?axial", "unsupported_combination")])
+        leaning = dict(chord, holes=[dict(hole, tilt="free") for hole in chord["holes"]])
+        self.assertEqual(refused(leaning, "post=three_axes"), [("?post", "unsupported_combination")])
+        self.assertEqual(refused(brace, "post=other"), [("?post", "bad_choice")])
+        self.assertEqual(refused(brace, "post=turned&dialect=linuxcnc"), [("?dialect", "unsupported_combination")])
+
+    def test_faults_of_a_post_are_named_at_the_start(self):
+        def without(name):
+            return {key: value for key, value in self.document.items() if key != name}
+        axes = self.document["axes"]
+        cases = (
+            (self.document, "/name: "),
+            (self.document | {"name": "a", "rapids": "G0"}, "/rapids: "),
+            (self.document | {"name": "a", "rapid": "G0 {axis}"}, "/rapid: "),
+            (self.document | {"name": "a", "rapid": "G0"}, "/rapid: "),
+            (self.document | {"name": "a", "dwell": "G4 P{seconds"}, "/dwell: "),
+            (self.document | {"name": "a", "torch_on": ["M3", "S{speed_mm_min}"]}, "/torch_on/1: "),
+            (self.document | {"name": "a", "cut_move": "G1 {axes}"}, "/cut_move: "),
+            (self.document | {"name": "a", "begin": ["%", "Träger"]}, "/begin/1: "),
+            (self.document | {"name": "a", "comment_end": "."}, "/comment_end: "),
+            (self.document | {"name": "a", "block_numbers": -1}, "/block_numbers: "),
+            (self.document | {"name": "a", "axes": axes | {"swing": {"letter": "A", "decimals": 4}}}, "/axes/swing/letter: "),
+            (self.document | {"name": "a", "axes": axes | {"turn": {"letter": "F", "decimals": 4}}}, "/axes/turn/letter: "),
+            (self.document | {"name": "a", "axes": axes | {"turn": {"letter": "A", "decimals": 4, "offset_mm": 1}}}, "/axes/turn/offset_mm: "),
+            (self.document | {"name": "a", "axes": {role: axes[role] for role in axes if role != "turn"}}, "/axes/turn: "),
+            (without("end") | {"name": "a"}, "/end: "))
+        for document, wanted in cases:
+            with tempfile.TemporaryDirectory() as folder, self.subTest(wanted):
+                pathlib.Path(folder, "mine.json").write_text(json.dumps(document))
+                ran = subprocess.run([FormatTest.binary, "run", "--posts", folder, "--endpoint", "bevel-tables", str(ROOT / "examples/bevel-tables/mitre.json")],
+                                     capture_output=True, text=True)
+                self.assertEqual(ran.returncode, 1)
+                self.assertIn(f"mine.json: {wanted}", ran.stderr)
+
+    def test_read_again_all_or_nothing(self):
+        def names():
+            return [post["name"] for post in json.loads(self.service.get("/v1/posts"))["posts"]]
+
+        def within(holds):
+            end = time.monotonic() + 20
+            while not holds() and time.monotonic() < end:
+                time.sleep(0.05)
+            return holds()
+        before, configuration = names(), json.loads(self.service.get("/v1/version"))["configuration_sha256"]
+        file = self.folder / "zz.json"
+        file.write_text(json.dumps(self.document | {"name": "late"}))
+        self.service.child.send_signal(signal.SIGHUP)
+        self.assertTrue(within(lambda: names() == before + ["late"]))
+        self.assertNotEqual(json.loads(self.service.get("/v1/version"))["configuration_sha256"], configuration)
+        file.write_text(json.dumps(self.document | {"name": "broken", "rapid": "G0"}))
+        self.service.child.send_signal(signal.SIGHUP)
+        time.sleep(0.5)
+        self.assertEqual(names(), before + ["late"])
+        file.unlink()
+        self.service.child.send_signal(signal.SIGHUP)
+        self.assertTrue(within(lambda: names() == before))
+
+
+if __name__ == "__main__":
+    main()
