@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+/// For `elementary` and its test only: SLEEF's reproducible functions over arrays, by the number of
+/// doubles that stand side by side. All have the same bits.
+namespace tubecut::elementary {
+
+struct Lanes {
+  int width;
+  void (*sincos)(const double* x, double* sin, double* cos, std::size_t n);
+  void (*tan)(const double* x, double* out, std::size_t n);
+  void (*cos)(const double* x, double* out, std::size_t n);
+  void (*atan2)(const double* y, const double* x, double* out, std::size_t n);
+  void (*quick_atan2)(const double* y, const double* x, double* out, std::size_t n);
+};
+
+/// Of every CPU.
+[[nodiscard]] const Lanes& narrow_lanes();
+#if defined(__x86_64__)
+/// Of one with AVX.
+[[nodiscard]] const Lanes& wide_lanes();
+#endif
+
+}  // namespace tubecut::elementary
