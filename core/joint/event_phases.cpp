@@ -38,7 +38,7 @@ bool same_curve(const std::vector<Sheets>& a, const std::vector<Sheets>& b) {
 
 /// Phases near every solution of mid_i +- sqrt(square_i) = mid_j +- sqrt(square_j). In this form
 /// (of (Q_i + Q_j - D^2)^2 - 4 Q_i Q_j) nearly equal curves lose no digits.
-std::vector<double> crossings(const Sheets& a, const Sheets& b) {
+RootPhases crossings(const Sheets& a, const Sheets& b) {
   const auto apart = a.mid - b.mid;
   if (!a.curved && !b.curved) return root_phases(apart);
   const auto apart2 = apart * apart;
@@ -46,6 +46,36 @@ std::vector<double> crossings(const Sheets& a, const Sheets& b) {
   if (!a.curved) return root_phases(apart2 - b.square);
   const auto unlike = a.square - b.square;
   return root_phases(unlike * unlike - 2.0 * (apart2 * (a.square + b.square)) + apart2 * apart2);
+}
+
+/// The generator turned by no more than kBrackets' last: series that leave 1e-21.
+Generator turned_little(const Generator& line, double by) {
+  const double square = by * by;
+  const double cos = 1.0 - square * (0.5 - square / 24.0);
+  const double sin = by * (1.0 - square * (1.0 / 6.0 - square / 120.0));
+  return {line.radius, line.cos_phi * cos - line.sin_phi * sin,
+          line.sin_phi * cos + line.cos_phi * sin};
+}
+
+/// Secant steps with Illinois weights, a halving every third step: at most 3 * 53 steps.
+template <class G>
+double close_bracket(const G& g, double a, double ga, double b, double gb) {
+  constexpr double kNarrow = 2.3e-16;
+  for (int step = 0; step < 160 && std::abs(b - a) > kNarrow * std::max(1.0, std::abs(b)); ++step) {
+    double phi = step % 3 == 2 ? a + 0.5 * (b - a) : b - gb * ((b - a) / (gb - ga));
+    if (!(phi > std::min(a, b) && phi < std::max(a, b))) phi = a + 0.5 * (b - a);
+    const double at = g(phi);
+    if (at == 0.0) return phi;
+    if ((at < 0.0) != (gb < 0.0)) {
+      a = b;
+      ga = gb;
+    } else {
+      ga *= 0.5;
+    }
+    b = phi;
+    gb = at;
+  }
+  return b;
 }
 
 double phase_of(std::size_t k) { return kTwoPi * static_cast<double>(k) / kScan; }
@@ -62,8 +92,10 @@ EventPhases::EventPhases(std::span<const PreparedCutter> cutters, double rho,
     : cutters_(cutters), rho_(rho), stop_(stop) {
   for (const auto& cutter : cutters)
     sheets_.push_back(stop.stop_requested() ? std::vector<Sheets>{} : sheets(cutter, rho));
-  for (std::size_t i = 0; i < cutters.size() && !stop.stop_requested(); ++i)
-    if (met(cutters[i], rho) != Met::never && !repeats_an_earlier(i)) active_.push_back(i);
+  for (std::size_t i = 0; i < cutters.size() && !stop.stop_requested(); ++i) {
+    met_.push_back(met(cutters[i], rho));
+    if (met_[i] != Met::never && !repeats_an_earlier(i)) active_.push_back(i);
+  }
   sizes_.resize(cutters.size());
   for (const auto i : active_) {
     if (stop.stop_requested()) return;
@@ -91,7 +123,10 @@ void EventPhases::add_own(std::size_t i) {
 }
 
 double EventPhases::apart(std::size_t i, std::size_t j, double phi) const {
-  const auto line = generator_at(rho_, phi);
+  return apart(i, j, generator_at(rho_, phi));
+}
+
+double EventPhases::apart(std::size_t i, std::size_t j, const Generator& line) const {
   return continued_sheet(cutters_[i], line) - continued_sheet(cutters_[j], line);
 }
 
@@ -99,13 +134,31 @@ void EventPhases::add_pair(std::size_t i, std::size_t j) {
   const double size = std::max(size_of(i), size_of(j));
   for (const auto& a : sheets_[i])
     for (const auto& b : sheets_[j])
-      for (const double near : crossings(a, b)) {
-        if (const auto phi = polish(i, j, near)) {
+      for (const auto& near : crossings(a, b)) {
+        const auto line = generator_at(rho_, near.phi);
+        if (near.sharp && passed_over(i, j, line)) continue;
+        if (const auto phi = polish(i, j, near.phi, line)) {
           phases_.push_back(math::whole_turn(*phi));
-        } else if (std::abs(apart(i, j, near)) < kTouching * size) {
-          phases_.push_back(math::whole_turn(near));
+        } else if (std::abs(apart(i, j, line)) < kTouching * size) {
+          phases_.push_back(math::whole_turn(near.phi));
         }
       }
+}
+
+/// Are these two apart here, or below a third, by more than any sheet changes within 1e-6 rad? Of a
+/// sheet mid + sqrt(square) that is the root of what its square changes by.
+bool EventPhases::passed_over(std::size_t i, std::size_t j, const Generator& line) const {
+  constexpr double kFar = 0.01;  // of its size
+  const double z = continued_sheet(cutters_[i], line);
+  const double beside = kFar * std::max(size_of(i), size_of(j));
+  if (std::abs(z - continued_sheet(cutters_[j], line)) > beside) return true;
+  return std::ranges::any_of(active_, [&](std::size_t k) {
+    if (k == i || k == j || scanned(k)) return false;
+    const auto above = upper_sheet(cutters_[k], line);
+    const double margin = kFar * size_of(k);
+    if (!above || !(*above > z + beside + margin)) return false;
+    return met_[k] == Met::always || *above > silhouette_height(cutters_[k], line) + margin;
+  });
 }
 
 /// Height, continued beyond the silhouettes, at a phase of the scan.
@@ -191,7 +244,8 @@ void EventPhases::add_in_cell(std::size_t i, std::size_t j, std::size_t k) {
   if (same(k + 1) && same(k + 2)) return add_border(i, j, phase_of(k + 1), phase_of(k));
   const auto close = [&](double from, double gf, double to, double gt) {
     if ((gf <= 0.0) != (gt <= 0.0))
-      phases_.push_back(math::whole_turn(close_bracket(i, j, from, gf, to, gt)));
+      phases_.push_back(math::whole_turn(
+          close_bracket([&](double phi) { return apart(i, j, phi); }, from, gf, to, gt)));
   };
   close(phase_of(k), g(k), phase_of(k + 1), g(k + 1));
   const double side = g(k + 1) <= 0.0 ? -1.0 : 1.0;
@@ -233,33 +287,14 @@ std::optional<double> EventPhases::hidden_at(std::size_t i) {
 }
 
 /// The narrowest bracket around `near` in which z_i - z_j changes sign, closed.
-std::optional<double> EventPhases::polish(std::size_t i, std::size_t j, double near) const {
+std::optional<double> EventPhases::polish(std::size_t i, std::size_t j, double near,
+                                          const Generator& line) const {
+  const auto g = [&](double off) { return apart(i, j, turned_little(line, off)); };
   for (const double reach : kBrackets) {
-    const double ga = apart(i, j, near - reach);
-    const double gb = apart(i, j, near + reach);
-    if ((ga <= 0.0) != (gb <= 0.0)) return close_bracket(i, j, near - reach, ga, near + reach, gb);
+    const double ga = g(-reach), gb = g(reach);
+    if ((ga <= 0.0) != (gb <= 0.0)) return near + close_bracket(g, -reach, ga, reach, gb);
   }
   return std::nullopt;
-}
-
-/// Secant steps with Illinois weights, a halving every third step: at most 3 * 53 steps.
-double EventPhases::close_bracket(std::size_t i, std::size_t j, double a, double ga, double b,
-                                  double gb) const {
-  for (int step = 0; step < 160 && std::abs(b - a) > 2.3e-16 * std::max(1.0, std::abs(b)); ++step) {
-    double phi = step % 3 == 2 ? a + 0.5 * (b - a) : b - gb * ((b - a) / (gb - ga));
-    if (!(phi > std::min(a, b) && phi < std::max(a, b))) phi = a + 0.5 * (b - a);
-    const double g = apart(i, j, phi);
-    if (g == 0.0) return phi;
-    if ((g < 0.0) != (gb < 0.0)) {
-      a = b;
-      ga = gb;
-    } else {
-      ga *= 0.5;
-    }
-    b = phi;
-    gb = g;
-  }
-  return b;
 }
 
 void EventPhases::merge() {

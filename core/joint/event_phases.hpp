@@ -61,9 +61,10 @@ class EventPhases {
   [[nodiscard]] double apart(std::size_t i, std::size_t j, double phi) const;
   [[nodiscard]] double scanned_height(std::size_t i, std::size_t k);
   [[nodiscard]] bool same_height(std::size_t i, std::size_t j, std::size_t k);
-  [[nodiscard]] std::optional<double> polish(std::size_t i, std::size_t j, double near) const;
-  [[nodiscard]] double close_bracket(std::size_t i, std::size_t j, double a, double ga, double b,
-                                     double gb) const;
+  [[nodiscard]] std::optional<double> polish(std::size_t i, std::size_t j, double near,
+                                             const Generator& line) const;
+  [[nodiscard]] bool passed_over(std::size_t i, std::size_t j, const Generator& line) const;
+  [[nodiscard]] double apart(std::size_t i, std::size_t j, const Generator& line) const;
 
   std::span<const PreparedCutter> cutters_;
   double rho_;
@@ -71,6 +72,7 @@ class EventPhases {
   std::vector<std::vector<Sheets>> sheets_;  // of each cutter, its pieces
   std::vector<std::size_t> active_;
   std::vector<double> sizes_;                         // of the active ones
+  std::vector<Met> met_;                              // of every cutter
   std::map<std::size_t, std::vector<double>> scans_;  // NaN: not looked at yet
   std::vector<double> phases_;
   std::vector<Kink> kinks_;

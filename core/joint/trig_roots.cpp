@@ -5,73 +5,238 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/lanes.hpp"
 
 namespace tubecut::joint {
 namespace {
 
 constexpr int kSweeps = 80;
+constexpr double kSettled = 1e-9;  // of a root's size: its next change is the cube of it
 constexpr double kOnCircle = 3e-3;
+constexpr std::size_t kMost = 8;  // roots, all corrected at once
 
-struct Polynomial {
-  const Complex* c;
-  std::size_t degree;
+/// Complex numbers side by side.
+struct Row {
+  std::array<double, kMost> re{}, im{};
 };
 
-/// p(w)/p'(w). Outside the unit circle through the reversed polynomial, so that no power of w
-/// grows.
-Complex newton_step(const Polynomial& p, Complex w) {
-  const bool inside = modulus(w) <= 1.0;
-  const Complex x = inside ? w : Complex{1.0, 0.0} / w;
-  Complex value{};
-  Complex slope{};
-  for (std::size_t k = 0; k <= p.degree; ++k) {
-    slope = slope * x + value;
-    value = value * x + p.c[inside ? p.degree - k : k];
-  }
-  if (value.re == 0.0 && value.im == 0.0) return {};
-  if (inside) return value / slope;
-  // p(w) = w^n q(1/w), so p'/p = (n - x q'/q) / w
-  const Complex n{static_cast<double>(p.degree), 0.0};
-  return w / (n - x * (slope / value));
-}
-
 /// Unequal angles and sizes, so that no symmetry of the roots stalls the iteration.
-std::vector<Complex> starts(std::size_t degree) {
-  std::vector<Complex> w(degree);
-  for (std::size_t k = 0; k < degree; ++k) {
+Row starts(std::size_t degree) {
+  Row w;
+  for (std::size_t k = 0; k < kMost; ++k) {
     const double turn = (static_cast<double>(k) + 0.1 * static_cast<double>(k % 3)) * kTwoPi;
     const auto at = elementary::sincos(0.4 + turn / static_cast<double>(degree));
     const double size = 1.0 + 0.03 * (static_cast<double>(k % 4) - 1.4);
-    w[k] = {size * at.cos, size * at.sin};
+    w.re[k] = size * at.cos;
+    w.im[k] = size * at.sin;
   }
   return w;
 }
 
-/// One Aberth correction of every root in turn; the largest relative change.
-double sweep(const Polynomial& p, std::vector<Complex>& w) {
-  double largest = 0.0;
-  for (std::size_t k = 0; k < w.size(); ++k) {
-    const Complex step = newton_step(p, w[k]);
-    Complex repulsion{};
-    for (std::size_t j = 0; j < w.size(); ++j) {
-      const Complex apart = w[k] - w[j];
-      if (j != k && (apart.re != 0.0 || apart.im != 0.0))
-        repulsion = repulsion + Complex{1.0, 0.0} / apart;
+/// What pushes each root away from the others: the sum of 1 / (w - other).
+Row repulsion(const Row& w, std::size_t degree) {
+  Row out;
+  for (std::size_t j = 0; j < degree; ++j) {
+    const double re = w.re[j], im = w.im[j];
+    for (std::size_t k = 0; k < kMost; ++k) {
+      const double dr = w.re[k] - re, di = w.im[k] - im;
+      const double square = dr * dr + di * di;
+      const double inverse = square > 0.0 ? 1.0 / square : 0.0;  // itself, and what fell together
+      out.re[k] += dr * inverse;
+      out.im[k] -= di * inverse;
     }
-    const Complex change = step / (Complex{1.0, 0.0} - step * repulsion);
-    const double size = modulus(change);
-    if (!std::isfinite(size)) continue;
-    w[k] = w[k] - change;
-    largest = std::max(largest, size / std::max(modulus(w[k]), 1e-300));
   }
-  return largest;
+  return out;
 }
+
+/// One Aberth correction of all roots of sum c[k] w^k; the largest relative change. Outside the
+/// unit circle through the reversed polynomial, so that no power of w grows: its coefficients are
+/// the conjugates. Newton's step p/p' is top/below there with top = w q, below = n q - x q', x =
+/// 1/w.
+TUBECUT_WIDE double sweep(const Complex* c, std::size_t degree, Row& w) {
+  const Row apart = repulsion(w, degree);
+  Row x, value, slope;
+  std::array<double, kMost> side{}, inside{};
+  for (std::size_t k = 0; k < kMost; ++k) {
+    const double square = w.re[k] * w.re[k] + w.im[k] * w.im[k];
+    inside[k] = square <= 1.0 ? 1.0 : 0.0;
+    side[k] = square <= 1.0 ? 1.0 : -1.0;
+    x.re[k] = square <= 1.0 ? w.re[k] : w.re[k] / square;
+    x.im[k] = square <= 1.0 ? w.im[k] : -w.im[k] / square;
+  }
+  for (std::size_t m = degree + 1; m-- > 0;) {
+    const double re = c[m].re, im = c[m].im;
+    for (std::size_t k = 0; k < kMost; ++k) {
+      const double sr = slope.re[k] * x.re[k] - slope.im[k] * x.im[k] + value.re[k];
+      const double si = slope.re[k] * x.im[k] + slope.im[k] * x.re[k] + value.im[k];
+      const double vr = value.re[k] * x.re[k] - value.im[k] * x.im[k] + re;
+      const double vi = value.re[k] * x.im[k] + value.im[k] * x.re[k] + side[k] * im;
+      slope.re[k] = sr;
+      slope.im[k] = si;
+      value.re[k] = vr;
+      value.im[k] = vi;
+    }
+  }
+  const auto n = static_cast<double>(degree);
+  std::array<double, kMost> change{};
+  for (std::size_t k = 0; k < kMost; ++k) {
+    const bool in = inside[k] > 0.0;
+    const double tr = in ? value.re[k] : w.re[k] * value.re[k] - w.im[k] * value.im[k];
+    const double ti = in ? value.im[k] : w.re[k] * value.im[k] + w.im[k] * value.re[k];
+    const double xr = x.re[k] * slope.re[k] - x.im[k] * slope.im[k];
+    const double xi = x.re[k] * slope.im[k] + x.im[k] * slope.re[k];
+    const double br =
+        (in ? slope.re[k] : n * value.re[k] - xr) - (tr * apart.re[k] - ti * apart.im[k]);
+    const double bi =
+        (in ? slope.im[k] : n * value.im[k] - xi) - (tr * apart.im[k] + ti * apart.re[k]);
+    const double below = br * br + bi * bi;
+    const double inverse = below > 0.0 ? 1.0 / below : 0.0;
+    const double dr = (tr * br + ti * bi) * inverse, di = (ti * br - tr * bi) * inverse;
+    const double size = dr * dr + di * di;
+    const bool finite = size < 1e300;
+    w.re[k] -= finite ? dr : 0.0;
+    w.im[k] -= finite ? di : 0.0;
+    change[k] = finite ? size / (w.re[k] * w.re[k] + w.im[k] * w.im[k] + 1e-300) : 0.0;
+  }
+  return std::sqrt(*std::max_element(change.begin(), change.begin() + static_cast<long>(degree)));
+}
+
+/// All roots, by Aberth: for what is zero to rounding nearly everywhere.
+RootPhases by_all_roots(const Complex* c, std::size_t degree) {
+  Row w = starts(degree);
+  for (int i = 0; i < kSweeps && sweep(c, degree, w) > kSettled; ++i) {
+  }
+  RootPhases phases;
+  for (std::size_t k = 0; k < degree; ++k)
+    if (std::abs(modulus({w.re[k], w.im[k]}) - 1.0) < kOnCircle)
+      phases.add(elementary::atan2(w.im[k], w.re[k]), false);
+  return phases;
+}
+
+/// A phase with its cosine and sine.
+struct Place {
+  double phi, cos, sin;
+
+  /// Turned by no more than the width of a first cell: the series leaves 1e-14.
+  [[nodiscard]] Place turned(double by) const {
+    const double q = by * by;
+    const double c = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0 - q / 40320.0)));
+    const double s = by * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));
+    return {phi + by, cos * c - sin * s, sin * c + cos * s};
+  }
+};
+
+/// The polynomial as a real wave, and the search of its zeros round the circle: a cell in which
+/// its bounds leave none is passed by, one in which it only rises or falls has at most one, by
+/// Newton; the others are halved.
+class Wave {
+ public:
+  Wave(const Complex* c, std::size_t degree) : order_(degree / 2), mean_(c[order_].re) {
+    largest_ = std::abs(mean_);
+    for (std::size_t k = 1; k <= order_; ++k) {
+      cosine_[k] = 2.0 * c[order_ + k].re;
+      sine_[k] = -2.0 * c[order_ + k].im;
+      const double size = elementary::hypot(cosine_[k], sine_[k]);
+      const auto n = static_cast<double>(k);
+      largest_ += size;
+      bend_ += n * n * size;
+    }
+    noise_ = kNoise * largest_;
+  }
+
+  /// False where there are too many cells that may hold one.
+  [[nodiscard]] bool search(RootPhases& found) {
+    static const auto kMiddles = [] {
+      std::array<Place, kCells> all;
+      for (std::size_t k = 0; k < kCells; ++k) {
+        const double phi = (2.0 * static_cast<double>(k) + 1.0) * kHalf - kPi;
+        const auto at = elementary::sincos(phi);
+        all[k] = {phi, at.cos, at.sin};
+      }
+      return all;
+    }();
+    for (const auto& middle : kMiddles)
+      if (!look(middle, kHalf, found)) return false;
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kCells = 32;
+  static constexpr double kHalf = kPi / kCells;
+  static constexpr double kNarrow = 1e-6;  // rad, half a cell: a zero of even order, or all but one
+  static constexpr double kNoise = 1e-10;  // of the largest the wave can be: a zero to rounding
+  static constexpr int kLooks = 1000;
+  static constexpr int kSteps = 60;
+
+  struct At {
+    double value, slope, bend;
+  };
+  [[nodiscard]] At at(const Place& p) const {
+    At out{mean_, 0.0, 0.0};
+    double c = 1.0, s = 0.0;
+    for (std::size_t k = 1; k <= order_; ++k) {
+      const double next = c * p.cos - s * p.sin;
+      s = s * p.cos + c * p.sin;
+      c = next;
+      const auto n = static_cast<double>(k);
+      const double term = cosine_[k] * c + sine_[k] * s;
+      out.value += term;
+      out.slope += n * (sine_[k] * c - cosine_[k] * s);
+      out.bend -= n * n * term;
+    }
+    return out;
+  }
+
+  [[nodiscard]] bool look(const Place& middle, double half, RootPhases& found) {
+    if (++looks_ > kLooks) return false;
+    const At here = at(middle);
+    const double turn = bend_ * half;  // of the slope, at most
+    if (std::abs(here.value) - half * (std::abs(here.slope) + 0.5 * turn) > noise_) return true;
+    if (std::abs(here.slope) > turn) return close(middle, half, here, found);
+    if (half > kNarrow)
+      return look(middle.turned(-0.5 * half), 0.5 * half, found) &&
+             look(middle.turned(0.5 * half), 0.5 * half, found);
+    const double step = -here.slope / here.bend;
+    const double phi = middle.phi + (std::abs(step) <= 2.0 * half ? step : 0.0);
+    if (found.last() && phi - *found.last() < 8.0 * kNarrow) return true;
+    return found.add(phi, false);
+  }
+
+  /// The one zero of a cell in which the wave only rises or falls, if its ends leave one.
+  [[nodiscard]] bool close(const Place& middle, double half, const At& here, RootPhases& found) {
+    const double rise = here.slope > 0.0 ? 1.0 : -1.0;
+    const double low = rise * at(middle.turned(-half)).value;
+    const double high = rise * at(middle.turned(half)).value;
+    if (low > noise_ || high < -noise_) return true;
+    double before = -half, after = half, off = 0.0;
+    At there = here;
+    for (int k = 0; k < kSteps; ++k) {
+      (rise * there.value < 0.0 ? before : after) = off;
+      double next = off - there.value / there.slope;
+      if (!(next >= before && next <= after)) next = before + 0.5 * (after - before);
+      const bool still = std::abs(next - off) <= kStill;
+      off = next;
+      if (still) break;
+      there = at(middle.turned(off));
+    }
+    const bool sharp = noise_ < kSharp * std::abs(there.slope);
+    return found.add(middle.phi + off, sharp);
+  }
+
+  static constexpr double kStill = 1e-14;  // rad
+  static constexpr double kSharp = 1e-6;   // rad: what `noise_` moves the zero by
+
+  std::size_t order_;
+  double mean_, largest_ = 0.0, bend_ = 0.0, noise_ = 0.0;
+  std::array<double, kMost / 2 + 1> cosine_{}, sine_{};
+  int looks_ = 0;
+};
 
 }  // namespace
 
 double modulus(Complex z) { return elementary::hypot(z.re, z.im); }
 
-std::vector<double> root_phases(const Complex* coefficients, std::size_t terms) {
+RootPhases root_phases(const Complex* coefficients, std::size_t terms) {
   double largest = 0.0;
   for (std::size_t k = 0; k < terms; ++k) largest = std::max(largest, modulus(coefficients[k]));
   // c[-k] is the conjugate of c[k]: a vanishing end vanishes on both sides.
@@ -79,16 +244,10 @@ std::vector<double> root_phases(const Complex* coefficients, std::size_t terms) 
     ++coefficients;
     terms -= 2;
   }
-  std::vector<double> phases;
+  RootPhases phases;
   if (terms < 3) return phases;
-  const Polynomial p{coefficients, terms - 1};
-  auto w = starts(p.degree);
-  for (int i = 0; i < kSweeps && sweep(p, w) > 1e-14; ++i) {
-  }
-  for (const auto root : w)
-    if (std::abs(modulus(root) - 1.0) < kOnCircle)
-      phases.push_back(elementary::atan2(root.im, root.re));
-  return phases;
+  if (Wave(coefficients, terms - 1).search(phases)) return phases;
+  return by_all_roots(coefficients, terms - 1);
 }
 
 }  // namespace tubecut::joint

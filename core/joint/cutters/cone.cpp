@@ -122,7 +122,9 @@ std::vector<Sheets> PreparedCone::sheets(double rho) const {
 }
 
 std::vector<double> PreparedCone::silhouettes(double rho) const {
-  return root_phases(sheets(rho).front().square);
+  std::vector<double> out;
+  for (const auto& root : root_phases(sheets(rho).front().square)) out.push_back(root.phi);
+  return out;
 }
 
 // ---- in space

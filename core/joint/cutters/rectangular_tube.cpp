@@ -205,7 +205,7 @@ std::vector<double> PreparedRectangularTube::silhouettes(double rho) const {
           c.across +
       corner;
   for (const double side : {support, -support})
-    for (const double phi : root_phases(c.beside - constant(side))) out.push_back(phi);
+    for (const auto& root : root_phases(c.beside - constant(side))) out.push_back(root.phi);
   return out;
 }
 
