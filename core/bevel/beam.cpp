@@ -372,6 +372,8 @@ BeamFound found_at(const BeamCut& cut, const Surface& surface, Places places,
 }  // namespace
 
 BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& stop) {
+  if (cut.kerf == 0.0 && cut.land.empty() && cut.torch == cut.finished)
+    return {.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
   const Surface surface(cut, stop);
   auto out = found_at(cut, surface, places, stop);
   if (places != Places::rows) no_less_than(found_at(cut, surface, Places::rows, stop), out);

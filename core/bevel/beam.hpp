@@ -11,6 +11,7 @@ namespace tubecut::bevel {
 /// A point on each of the two walls: phases in rad, heights in mm.
 struct AcrossWall {
   double phi_inner, z_inner, phi_outer, z_outer;
+  friend bool operator==(const AcrossWall&, const AcrossWall&) = default;
 };
 
 /// A cut as its rows state it: finished lines across the wall and the torch's axis, all straight
@@ -45,7 +46,8 @@ struct BeamFound {
 };
 
 /// Measured in space, by distances between points and axes. A line counts from outside as far as
-/// the tube's middle: what it does to the wall beyond is not seen.
+/// the tube's middle: what it does to the wall beyond is not seen. A beam of no width along the
+/// finished lines takes and leaves nothing.
 ///
 /// Accuracy  everywhere: gouge 1e-3 mm, left 5e-3 mm or 2 %. Rows: what is there, not all of it.
 /// Cost      about 5 us a row, at least 2 ms; rows alone 2 us a row.
