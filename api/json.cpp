@@ -162,19 +162,25 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
 
 void append_text(std::string& out, std::string_view text) {
   static constexpr char kHex[] = "0123456789abcdef";
-  out += '"';
-  for (const char c : text) {
+  const auto escaped = [](char c) {
     const auto u = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (u < 0x20 || u == 0x7f) {
-      out += "\\u00";
+    return c == '"' || c == '\\' || u < 0x20 || u == 0x7f;
+  };
+  out += '"';
+  for (auto at = text.begin();;) {
+    const auto next = std::find_if(at, text.end(), escaped);
+    out.append(at, next);
+    if (next == text.end()) break;
+    const auto u = static_cast<unsigned char>(*next);
+    out += '\\';
+    if (u < 0x20 || u == 0x7f) {
+      out += "u00";
       out += kHex[u >> 4];
       out += kHex[u & 15];
     } else {
-      out += c;
+      out += *next;
     }
+    at = next + 1;
   }
   out += '"';
 }

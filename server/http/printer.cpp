@@ -77,7 +77,9 @@ Printed print(Response response, std::string_view method, std::chrono::seconds i
 }
 
 std::string print_chunk(std::string_view text) {
-  return fmt::format("{:x}\r\n{}\r\n", text.size(), text);
+  auto out = fmt::format("{:x}\r\n", text.size());
+  out.reserve(out.size() + text.size() + 2);
+  return out.append(text).append("\r\n");
 }
 
 }  // namespace tubecut::server
