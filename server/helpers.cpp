@@ -6,7 +6,7 @@
 
 namespace tubecut::server {
 
-Helpers::Helpers(std::size_t threads, std::function<void()> started) {
+Helpers::Helpers(std::size_t threads, const std::function<void()>& started) {
   try {
     while (threads_.size() < threads)
       threads_.emplace_back([this, started] {

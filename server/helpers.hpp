@@ -23,7 +23,7 @@ class Helpers {
   using Within = std::function<void(const Stint&)>;
 
   /// Fewer where the system gives no more threads; each begins with `started`.
-  Helpers(std::size_t threads, std::function<void()> started);
+  Helpers(std::size_t threads, const std::function<void()>& started);
   ~Helpers() { join(); }
   Helpers(const Helpers&) = delete;
   Helpers& operator=(const Helpers&) = delete;
