@@ -170,7 +170,13 @@ struct PulseSchedules {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &csv},
         {"svg", "image/svg+xml", &svg, {"chart"}},
-        {"gcode", "text/x-gcode", &gcode, {}, {"post", "dialect", "torch", "acknowledge"}, false, true}};
+        {"gcode",
+         "text/x-gcode",
+         &gcode,
+         {},
+         {"post", "dialect", "torch", "acknowledge"},
+         false,
+         true}};
     return kFormats;
   }
 };
