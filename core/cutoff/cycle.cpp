@@ -191,13 +191,14 @@ Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vec
   for (auto* const column :
        {&out.time, &out.stroke, &out.speed, &out.acceleration, &out.feed, &out.feed_speed})
     column->reserve(n);
+  StrokeCursor cursor(work.mechanism());
   std::size_t now = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (i % kStopEvery == 0 && stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     const double time = std::min(static_cast<double>(i) * period, c.end);
     while (now + 1 < motion.size() && motion[now + 1].start <= time) ++now;
     if (motion[now].start >= c.work_start && time >= c.work_start && time <= c.work_end) {
-      push(out, time, work.at(time - c.work_start), work.work().feed);
+      push(out, time, work.at(time - c.work_start, cursor), work.work().feed);
       continue;
     }
     const Phase here = after(motion[now], time - motion[now].start);

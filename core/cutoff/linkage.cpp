@@ -126,8 +126,8 @@ Mechanism::SlotTurn Mechanism::slot_turn(double feed) const {
   const double x0 = geometry_.rod_height;
   const double across = feed / offset_;
   const double along = 1.0 + (x0 / offset_) * ((x0 - feed) / offset_);
-  const double reach = elementary::hypot(across, along);
-  const SinCos whole{across / reach, along / reach};
+  const double per_reach = 1.0 / elementary::hypot(across, along);
+  const SinCos whole{across * per_reach, along * per_reach};
   return {whole, half_of(whole)};
 }
 
@@ -137,17 +137,18 @@ Mechanism::SlotTurn Mechanism::slot_turned(double angle) {
 
 double Mechanism::arm_turn(const SlotTurn& slot) const {
   const double sine = ratio_ * difference(slot_lag_sides_, slot.whole).sin;
-  return arm_turn(slot, std::sqrt(std::max(0.0, (1.0 - sine) * (1.0 + sine))));
+  const SinCos half = half_arm_turn(slot, std::sqrt(std::max(0.0, (1.0 - sine) * (1.0 + sine))));
+  return 2.0 * atan2(half.sin, half.cos);
 }
 
 /// theta - theta0 = (beta - beta0) + asin(rho sin delta) - asin(rho sin delta0); the difference of
 /// the two arcs is 2 atan of (difference of sines)/(sum of cosines), which keeps full relative
 /// accuracy near rest. Half of either term lies within a quarter turn: one arctangent has both.
-double Mechanism::arm_turn(const SlotTurn& slot, double cosine) const {
+SinCos Mechanism::half_arm_turn(const SlotTurn& slot, double cosine) const {
   const SinCos& half = slot.half;
   const double rise = -2.0 * ratio_ * difference(slot_lag_sides_, half).cos * half.sin;
   const double run = cosine + cosine_;
-  return 2.0 * atan2(half.sin * run + half.cos * rise, half.cos * run - half.sin * rise);
+  return {half.sin * run + half.cos * rise, half.cos * run - half.sin * rise};
 }
 
 Mechanism::Limit Mechanism::limit(double pole, double dead, bool upper) const {
@@ -259,23 +260,49 @@ Forward Mechanism::forward(double stroke) const {
 }
 
 Inverse Mechanism::inverse(double feed) const {
+  SinCos half;
+  Inverse out = inverse(feed, half);
+  out.stroke = 2.0 * atan2(half.sin, half.cos) / k_;
+  return out;
+}
+
+Inverse Mechanism::inverse(double feed, SinCos& half) const {
   const double a = offset_;
   const double q = geometry_.rod_height - feed;
   const SlotTurn slot = slot_turn(feed);
   const SinCos delta = difference(slot_lag_sides_, slot.whole);
   const double rho = ratio_;
-  const double u = rho * delta.sin;
-  const double w = std::sqrt((1.0 - u) * (1.0 + u));
+  const double u = rho * delta.sin, along = rho * delta.cos;
+  const double w = std::sqrt((1.0 - u) * (1.0 + u)), per_w = 1.0 / w;
   const double spread = one_minus_ratio_ * (1.0 + rho);  // 1 - rho^2
-  const double b = a / (a * a + q * q);
-  const double t =
-      delta.cos > 0.0 ? spread / (w * (w + rho * delta.cos)) : 1.0 - rho * delta.cos / w;
-  const double w3 = w * w * w;
-  const double e = 2.0 * q * t / a - spread * u / w3;
-  const double e1 = -2.0 * t / a - (2.0 * q * b / a) * spread * u / w3 +
-                    b * spread * rho * delta.cos * (1.0 / w3 + 3.0 * u * u / (w3 * w * w));
-  return {arm_turn(slot, w) / k_, b * t / k_, b * b * e / k_,
-          (4.0 * q * b * b * b * e / a + b * b * e1) / k_};
+  const double b = a / (a * a + q * q), per_k = 1.0 / k_, per_a = 1.0 / a;
+  const double t = along > 0.0 ? spread * per_w / (w + along) : 1.0 - along * per_w;
+  const double bend = spread * per_w * per_w * per_w;
+  const double e = 2.0 * q * t * per_a - bend * u;
+  const double e1 = -2.0 * t * per_a - 2.0 * q * b * per_a * bend * u +
+                    b * bend * along * (1.0 + 3.0 * u * u * per_w * per_w);
+  half = half_arm_turn(slot, w);
+  return {0.0, b * t * per_k, b * b * e * per_k, b * b * (4.0 * q * b * e * per_a + e1) * per_k};
+}
+
+/// atan of a small tangent by its series, cut off below 1e-22 of it.
+Inverse StrokeCursor::at(double feed) {
+  constexpr double kNear = 1e-3;
+  SinCos half;
+  Inverse out = mechanism_->inverse(feed, half);
+  const double cross = half.sin * anchor_.cos - half.cos * anchor_.sin;
+  const double dot = half.cos * anchor_.cos + half.sin * anchor_.sin;
+  double turned = cross / dot;
+  if (dot > 0.0 && std::abs(turned) < kNear) {
+    const double square = turned * turned;
+    turned *= 1.0 - square * (1.0 / 3.0 - square * (1.0 / 5.0));
+  } else {
+    anchor_ = half;
+    angle_ = atan2(half.sin, half.cos);
+    turned = 0.0;
+  }
+  out.stroke = 2.0 * (angle_ + turned) / mechanism_->k_;
+  return out;
 }
 
 /// The highest g' inside the range: a scan over psi brackets every root of g'' that matters,

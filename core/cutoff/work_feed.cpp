@@ -95,11 +95,23 @@ Result<WorkFeed> WorkFeed::make(const Mechanism& mechanism, const Cut& cut) {
   return out;
 }
 
-CylinderState WorkFeed::at(double time) const {
+double WorkFeed::feed_at(double time) const {
+  return time >= work_.duration ? work_.end_feed : work_.start_feed + work_.feed * time;
+}
+
+CylinderState WorkFeed::state(double feed, const Inverse& g) const {
   const double v = work_.feed;
-  const double feed = time >= work_.duration ? work_.end_feed : work_.start_feed + v * time;
-  const Inverse g = mechanism_.inverse(feed);
   return {feed, g.stroke, v * g.first, v * v * g.second, v * v * v * g.third};
+}
+
+CylinderState WorkFeed::at(double time) const {
+  const double feed = feed_at(time);
+  return state(feed, mechanism_.inverse(feed));
+}
+
+CylinderState WorkFeed::at(double time, StrokeCursor& cursor) const {
+  const double feed = feed_at(time);
+  return state(feed, cursor.at(feed));
 }
 
 void WorkFeed::find_extremes() {
@@ -114,8 +126,9 @@ void WorkFeed::find_extremes() {
   const auto& grid = speed_.grid;
   std::vector<double> negated(grid.size()), acceleration(grid.size()), jerk(grid.size());
   speed_.values.resize(grid.size());
+  StrokeCursor cursor(mechanism_);
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const CylinderState here = at(grid[i]);
+    const CylinderState here = at(grid[i], cursor);
     speed_.values[i] = here.speed;
     negated[i] = -here.speed;
     acceleration[i] = std::abs(here.acceleration);

@@ -62,6 +62,8 @@ class WorkFeed {
   [[nodiscard]] static Result<WorkFeed> make(const Mechanism& mechanism, const Cut& cut);
 
   [[nodiscard]] CylinderState at(double time) const;
+  /// The same at times that follow one another.
+  [[nodiscard]] CylinderState at(double time, StrokeCursor& cursor) const;
   [[nodiscard]] double cylinder_speed(double time) const { return at(time).speed; }
   [[nodiscard]] const Work& work() const { return work_; }
   [[nodiscard]] const Mechanism& mechanism() const { return mechanism_; }
@@ -71,6 +73,8 @@ class WorkFeed {
  private:
   explicit WorkFeed(const Mechanism& mechanism) : mechanism_(mechanism) {}
   void find_extremes();
+  [[nodiscard]] double feed_at(double time) const;
+  [[nodiscard]] CylinderState state(double feed, const Inverse& g) const;
 
   Mechanism mechanism_;
   Work work_ = {};

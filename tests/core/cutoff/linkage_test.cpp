@@ -163,6 +163,31 @@ TEST(SeededLinkages, InverseIsTheInverse) {
   std::printf("worst round trip %.3g, short arms %d\n", worst, short_arms);
 }
 
+// A cursor that goes to and fro, in small steps and in leaps, finds the strokes of the inverse.
+TEST(SeededLinkages, CursorFollowsTheInverse) {
+  std::mt19937_64 random(18);
+  std::uniform_real_distribution<double> share(0.02, 0.98), size(-9.0, -0.5);
+  for (int i = 0; i < 200;) {
+    const auto made = Mechanism::make(seeded(random));
+    if (!made) continue;
+    ++i;
+    const auto& g = made->geometry();
+    const double width = g.stroke_high - g.stroke_low;
+    StrokeCursor cursor(*made);
+    double at = 0.5;
+    for (int k = 0; k < 100; ++k) {
+      const double step = std::pow(10.0, size(random)) * (share(random) < 0.5 ? -1.0 : 1.0);
+      at = at + step > 0.02 && at + step < 0.98 ? at + step : share(random);
+      const double feed = made->forward(g.stroke_low + at * width).feed;
+      const Inverse got = cursor.at(feed), want = made->inverse(feed);
+      ASSERT_NEAR(got.stroke, want.stroke, 1e-15 * 4.0 / g.rad_per_mm);
+      ASSERT_EQ(got.first, want.first);
+      ASSERT_EQ(got.second, want.second);
+      ASSERT_EQ(got.third, want.third);
+    }
+  }
+}
+
 // Derivatives against central differences of the stroke itself.
 TEST(SeededLinkages, DerivativesAreSlopes) {
   std::mt19937_64 random(5);
