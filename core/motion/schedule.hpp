@@ -67,8 +67,8 @@ struct Schedule {
 ///           too_many_nodes, cancelled.
 /// Accuracy  counts within half a pulse of the ideal at every period; ideal samples within every
 ///           limit to 1e-8.
-/// Cost      about 10 to 20 sweeps over the knots (one every 0.1 mm), then one pass over the
-///           periods.
+/// Cost      about 40 sweeps over the knots (one every 0.1 mm) and 10 passes over the periods, of
+///           some 20 ns each.
 /// Source    docs/theory/pulse-schedules.md.
 [[nodiscard]] Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop = {});
 
