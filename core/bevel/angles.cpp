@@ -1,6 +1,7 @@
 #include "core/bevel/angles.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "core/base/elementary.hpp"
 
@@ -45,9 +46,9 @@ Rule::Rule(const GrooveRule& rule, Dihedral dihedral) : rule_(rule), dihedral_(d
 // With groove = dihedral / 2: tan tau = (1 + cos dihedral) / sin dihedral.
 Angles Rule::angles(const Eigen::Vector3d& normal) const {
   const auto p = parts(normal, dihedral_);
-  Angles a{.dihedral = elementary::atan2(p.across, -p.radial),
-           .gamma = elementary::atan2(p.tangential, p.axial),
-           .flush = elementary::atan2(-p.radial, p.axial)};
+  Angles a{.dihedral = elementary::quick_atan2(p.across, -p.radial),
+           .gamma = elementary::quick_atan2(p.tangential, p.axial),
+           .flush = elementary::quick_atan2(-p.radial, p.axial)};
   if (std::holds_alternative<SquareCut>(rule_)) {
     a.groove = a.dihedral - 0.5 * kPi;
     return a;
@@ -56,8 +57,8 @@ Angles Rule::angles(const Eigen::Vector3d& normal) const {
     a.groove = 0.5 * a.dihedral;
     a.tau = 0.5 * kPi - a.groove;
     a.b = dihedral_ == Dihedral::as_published
-              ? elementary::atan2((1.0 - p.radial) * p.slant, p.across * p.axial)
-              : elementary::atan2(1.0 - p.radial, p.axial);
+              ? elementary::quick_atan2((1.0 - p.radial) * p.slant, p.across * p.axial)
+              : elementary::quick_atan2(1.0 - p.radial, p.axial);
     return a;
   }
   a.groove = limit_;
@@ -69,12 +70,47 @@ Angles Rule::angles(const Eigen::Vector3d& normal) const {
   a.tau = 0.5 * kPi - a.dihedral + a.groove;
   const double sin_tau = p.across * groove.sin - p.radial * groove.cos;
   const double cos_tau = p.across * groove.cos + p.radial * groove.sin;
-  a.b = elementary::atan2(sin_tau * p.slant, cos_tau * p.axial);
+  a.b = elementary::quick_atan2(sin_tau * p.slant, cos_tau * p.axial);
   return a;
 }
 
+void Rule::angles(const joint::Normals& normals, std::span<Angles> out) const {
+  const auto n = out.size();
+  const bool weld = dihedral_ == Dihedral::weld_side;
+  const bool square = std::holds_alternative<SquareCut>(rule_);
+  const bool half = std::holds_alternative<HalfDihedral>(rule_);
+  std::vector<double> radial(n), slant(n), against(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = normals.tangential[i], a = normals.axial[i];
+    radial[i] = weld ? normals.radial[i] : -normals.radial[i];
+    against[i] = -radial[i];
+    slant[i] = std::sqrt(t * t + a * a);
+  }
+  std::vector<double> dihedral(n), gamma(n), flush(n), b(n, 0.0);
+  elementary::quick_atan2(slant, against, dihedral);
+  elementary::quick_atan2(normals.tangential, normals.axial, gamma);
+  elementary::quick_atan2(against, normals.axial, flush);
+  if (!square) {
+    std::vector<double> rise(n), run(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool sharp = half & (0.5 * dihedral[i] < limit_);
+      const double sin_tau = slant[i] * sin_limit_ - radial[i] * cos_limit_;
+      const double cos_tau = slant[i] * cos_limit_ + radial[i] * sin_limit_;
+      rise[i] = sharp ? 1.0 - radial[i] : sin_tau * slant[i];
+      run[i] = sharp ? normals.axial[i] : cos_tau * normals.axial[i];
+    }
+    elementary::quick_atan2(rise, run, b);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool sharp = half && 0.5 * dihedral[i] < limit_;
+    const double groove = square ? dihedral[i] - 0.5 * kPi : sharp ? 0.5 * dihedral[i] : limit_;
+    const double tau = square ? 0.0 : sharp ? 0.5 * kPi - groove : 0.5 * kPi - dihedral[i] + groove;
+    out[i] = {dihedral[i], groove, tau, gamma[i], flush[i], b[i]};
+  }
+}
+
 double flush_angle(const Eigen::Vector3d& normal) {
-  return elementary::atan2(-normal.x(), normal.z());
+  return elementary::quick_atan2(-normal.x(), normal.z());
 }
 
 }  // namespace tubecut::bevel

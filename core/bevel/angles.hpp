@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <variant>
 
 #include "core/base/angle.hpp"
 #include "core/bevel/zones.hpp"
+#include "core/joint/stations.hpp"
 
 namespace tubecut::bevel {
 
@@ -62,6 +64,10 @@ class Rule {
   /// Cost      four arc tangents.
   /// Source    docs/theory/intersections-and-bevels.md, section 2.
   [[nodiscard]] Angles angles(const Eigen::Vector3d& normal) const;
+
+  /// The same of many points, side by side: the same bits. Not of a table of zones, nor
+  /// `as_published`.
+  void angles(const joint::Normals& normals, std::span<Angles> out) const;
 
  private:
   GrooveRule rule_;

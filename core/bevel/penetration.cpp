@@ -7,11 +7,13 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/joint/solid_arrays.hpp"
 
 namespace tubecut::bevel {
 namespace {
 
 using Eigen::Vector3d;
+using joint::Places;
 using joint::Solid;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -29,32 +31,31 @@ struct Run {
 /// The wall between two neighbouring edges, from one row to the next.
 struct Piece {
   std::array<Run, 2> runs;
+  double steepest = 0.0, most_bent = 0.0;  // of both edges, over the whole way
 
   [[nodiscard]] Vector3d at(double u, double v) const {
     const Vector3d low = runs[0].at(u);
     return low + v * (runs[1].at(u) - low);
   }
   /// Greatest way of a point whose u grows by `width`, and greatest second derivative over it, mm.
-  [[nodiscard]] double way(double width) const {
-    const auto square = [](const Run& r) {
-      return r.radius * r.radius * r.turn * r.turn + r.rise * r.rise;
-    };
-    return width * std::sqrt(std::max(square(runs[0]), square(runs[1])));
-  }
-  [[nodiscard]] double bow(double width) const {
-    const auto of = [](const Run& r) { return r.radius * r.turn * r.turn; };
-    return width * width * std::max(of(runs[0]), of(runs[1]));
-  }
+  [[nodiscard]] double way(double width) const { return width * steepest; }
+  [[nodiscard]] double bow(double width) const { return width * width * most_bent; }
 };
 
 Piece piece_of(const CutWall& wall, std::size_t edge, std::size_t gap) {
   Piece out;
+  double square = 0.0;
   const auto next = (gap + 1) % wall.gaps();
   for (std::size_t k = 0; k < 2; ++k) {
     const auto& e = wall.edges[edge + k];
     out.runs[k] = {e.radius, e.phi[gap], e.z[gap],
                    e.phi[next] - e.phi[gap] + (next == 0 ? wall.turn : 0.0), e.z[next] - e.z[gap]};
+    const auto& r = out.runs[k];
+    const double round = r.radius * r.turn;
+    square = std::max(square, round * round + r.rise * r.rise);
+    out.most_bent = std::max(out.most_bent, std::abs(round * r.turn));
   }
+  out.steepest = std::sqrt(square);
   return out;
 }
 
@@ -75,16 +76,25 @@ struct Part {
 
 /// The wall between two neighbouring edges, all the way round.
 struct Ring {
-  std::vector<Piece> pieces;                  // of each gap
-  std::vector<std::array<Vector3d, 2>> rows;  // both ends of the line across, where each begins
+  std::vector<Piece> pieces;    // of each gap
+  std::array<Places, 2> edges;  // both ends of the line across, where each begins
 };
 
+/// The places of one edge's rows.
+Places rows_of(const WallEdge& edge) {
+  const auto n = edge.phi.size();
+  Places out(n);
+  elementary::sincos(edge.phi, out.y, out.x);
+  for (std::size_t i = 0; i < n; ++i)
+    out.set(i, {edge.radius * out.x[i], edge.radius * out.y[i], edge.z[i]});
+  return out;
+}
+
 Ring ring_of(const CutWall& wall, std::size_t edge) {
-  Ring out;
-  for (std::size_t gap = 0; gap < wall.gaps(); ++gap) {
+  Ring out{{}, {rows_of(wall.edges[edge]), rows_of(wall.edges[edge + 1])}};
+  out.pieces.reserve(wall.gaps());
+  for (std::size_t gap = 0; gap < wall.gaps(); ++gap)
     out.pieces.push_back(piece_of(wall, edge, gap));
-    out.rows.push_back({out.pieces.back().runs[0].at(0.0), out.pieces.back().runs[1].at(0.0)});
-  }
   return out;
 }
 
@@ -135,23 +145,31 @@ class Search {
     return see(gap, a + solid_.nearest_share(a, b) * (b - a));
   }
 
+  /// Those that the lines at their ends do not bound at once.
   std::vector<Part> strips() {
-    std::vector<Part> out(ring_.rows.size());
-    for (std::size_t gap = 0; gap < out.size(); ++gap) {
-      out[gap].gap = gap;
-      out[gap].first = line(gap, ring_.rows[gap][0], ring_.rows[gap][1]);
+    const auto n = ring_.pieces.size();
+    std::vector<double> share(n), distance(n);
+    joint::nearest_on_ways(solid_, ring_.edges[0], ring_.edges[1], share, distance);
+    for (std::size_t gap = 0; gap < n; ++gap) {
+      const Vector3d a = ring_.edges[0].at(gap), b = ring_.edges[1].at(gap);
+      aim_.see(gap, {-distance[gap], a + share[gap] * (b - a), index_});
     }
-    for (std::size_t gap = 0; gap < out.size(); ++gap)
-      out[gap].last = out[(gap + 1) % out.size()].first;
+    std::vector<Part> out;
+    for (std::size_t gap = 0; gap < n; ++gap) {
+      const double next = distance[gap + 1 < n ? gap + 1 : 0];
+      const double nearest = std::min(distance[gap], next) - 0.5 * ring_.pieces[gap].way(1.0);
+      if (!(-nearest > aim_.enough(gap))) continue;
+      out.push_back({.gap = gap, .first = distance[gap], .last = next});
+    }
     return out;
   }
 
   /// Edges first: the deepest place lies on one of them more often than not.
   std::vector<Part> cells() {
-    std::vector<Part> out(ring_.rows.size());
+    std::vector<Part> out(ring_.pieces.size());
     for (std::size_t gap = 0; gap < out.size(); ++gap) {
       out[gap].gap = gap;
-      for (const auto& end : ring_.rows[gap]) see(gap, end);
+      for (const auto& edge : ring_.edges) see(gap, edge.at(gap));
       for (const auto& run : ring_.pieces[gap].runs) see(gap, run.at(0.5));
     }
     return out;

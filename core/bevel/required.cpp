@@ -17,7 +17,15 @@ double required_bevel(std::span<const joint::PreparedCutter> cutters, const Wall
   double slope = -kInfinity;
   for (const auto& cutter : cutters)
     slope = std::max(slope, joint::steepest(cutter, wall, inner_line, z_root));
-  return elementary::atan(slope);
+  return elementary::quick_atan2(slope, 1.0);
+}
+
+std::vector<double> required_bevels(std::span<const joint::PreparedCutter> cutters,
+                                    const Wall& wall, const joint::Stations& inner,
+                                    std::span<const double> z_root) {
+  auto slopes = joint::steepest_at(cutters, wall, inner, z_root);
+  elementary::quick_atan2(slopes, std::vector<double>(slopes.size(), 1.0), slopes);
+  return slopes;
 }
 
 double lift(std::span<const joint::PreparedCutter> cutters, const Wall& wall,

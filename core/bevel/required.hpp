@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/joint/cutters/cutter.hpp"
+#include "core/joint/stations.hpp"
 
 namespace tubecut::bevel {
 
@@ -20,6 +22,11 @@ using joint::Wall;
 [[nodiscard]] double required_bevel(std::span<const joint::PreparedCutter> cutters,
                                     const Wall& wall, const joint::Generator& inner_line,
                                     double z_root);
+
+/// The same of many phases, side by side.
+[[nodiscard]] std::vector<double> required_bevels(std::span<const joint::PreparedCutter> cutters,
+                                                  const Wall& wall, const joint::Stations& inner,
+                                                  std::span<const double> z_root);
 
 /// Support height: the least z on the inner surface from which a straight cut rising by `slope` =
 /// tan B across the wall enters no cutter. -infinity when no cutter is met in the wall.

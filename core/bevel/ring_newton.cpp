@@ -52,9 +52,9 @@ void Squares<Real>::add(Real q, Real of_x, Real of_y) {
     rest += q * of_y * of_y;
     return;
   }
-  const Real off = of_y - of_x * share;
-  rest += q * weight / sum * off * off;
-  share = (weight * share + q * of_x * of_y) / sum;
+  const Real off = of_y - of_x * share, inverse = 1.0 / sum;
+  rest += q * weight * inverse * off * off;
+  share = (weight * share + q * of_x * of_y) * inverse;
   weight = sum;
 }
 

@@ -54,7 +54,7 @@ Table outline(const TableSetup& g, const Rows& rows) {
   Table out;
   out.inward = g.spec.dihedral != Dihedral::weld_side;
   out.inner_events = g.inner_contour().events;
-  out.outer_events = g.inner ? g.root.events : g.other_events;
+  out.outer_events = g.inner ? g.root.events : g.other.events;
   out.length_total = rows.samples.true_length;
   out.developed_total = rows.samples.developed_length;
   out.warnings = joint::partner_warnings(g.root);
@@ -78,7 +78,7 @@ Result<Table> build(const TableSetup& g, const std::vector<double>& also,
   TRY(detail::check_clearance(g, rows, out, stop));
   for (const auto* z : {&out.z_inner, &out.z_outer}) TRY(joint::check_length(g.spec.target, *z));
   detail::note_torch_binds(g, rows, out);
-  detail::note_overhang(g, out, stop);
+  detail::note_overhang(g, out);
   detail::note_root_opens(g.spec, out);
   if (!g.spec.sampling.tolerance) detail::note_events_between(g, out);
   return out;
@@ -111,19 +111,26 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
     const auto more = swing_rows(spec, *out);
     if (more.empty() || !with_rows(more)) break;
   }
+  std::optional<TorchLine> line;  // of the table as it stands
   for (int round = 0; out && round < kTorchRounds; ++round) {
-    const auto more = torch_rows(spec, *out, stop);
-    if (more.empty() || !with_rows(more)) break;
+    line = torch_line(spec, *out, stop);
+    if (line->rows.empty()) break;
+    const auto more = std::move(line->rows);
+    line.reset();
+    if (!with_rows(more)) break;
   }
   if (spec.contact != Contact::none && spec.sampling.tolerance)
     for (int round = 0; out && round < kClearRounds; ++round) {
       const auto more = detail::entering_phases(g, *out, spec.sampling.tolerance->value, stop);
-      if (more.empty() || !with_rows(more)) break;
+      if (more.empty()) break;
+      line.reset();
+      if (!with_rows(more)) break;
     }
   if (!out) return out;
   detail::state_penetration(g, *out, stop);
   if (spec.untilted) TRY(map_gaps(g, *out, stop));
-  detail::lay_torch(spec, *out, stop);
+  if (!line) line = torch_line(spec, *out, stop);
+  detail::lay_torch(spec, line->drops, *out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (auto ok = check_spared(beam_cut(spec, *out), out->torch_line); !ok)
     return tl::unexpected(ok.error());

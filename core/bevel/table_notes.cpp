@@ -12,9 +12,9 @@ constexpr int kAcrossOpen = 16;  // places looked at where nothing is met
 
 }  // namespace
 
-void note_overhang(const TableSetup& g, Table& out, const std::stop_token& stop) {
+void note_overhang(const TableSetup& g, Table& out) {
   if (g.inner) return;  // with the root outside, both walls are met all round
-  for (const auto& [from, to] : joint::divide(g.root.cutters, g.wall.outer, stop).open) {
+  for (const auto& [from, to] : g.other.open) {
     double worst = 0.0;
     for (int k = 0; k <= kAcrossOpen; ++k) {
       const auto line =
@@ -68,7 +68,7 @@ void note_events_between(const TableSetup& g, Table& out) {
                            : joint::continued_hit(g.root.cutters[cutter], line);
       see(event.phi, point(g, event.phi, hit, cutter, before ? event.z_from : event.z_to).input);
     }
-  for (const auto& event : g.other_events) {
+  for (const auto& event : g.other.events) {
     const auto contact = joint::contact_at(g.root, event.phi);
     const auto line = joint::generator_at(g.root.radius, event.phi);
     const auto hit = joint::continued_hit(g.root.cutters[contact.cutter], line);

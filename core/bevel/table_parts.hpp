@@ -21,7 +21,7 @@ struct TableSetup {
   std::vector<joint::Cutter> cutters;
   joint::Contour root;
   std::optional<joint::Contour> inner;  // when the root is on the outer surface
-  std::vector<joint::Event> other_events;
+  joint::Division other;                // of the wall that the root is not on
   std::vector<double> row_phases;    // of events off the root's surface: the other wall, the land
   std::vector<joint::Solid> solids;  // the partners, grown
   Wall wall;
@@ -104,8 +104,9 @@ template <class F>
 
 /// Finished surface, root opening and metal in the beam.
 void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop);
-/// The torch's own line and what it takes and leaves.
-void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop);
+/// The torch's own line, so far below the rows, and what it takes and leaves.
+void lay_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
+               const std::stop_token& stop);
 /// Contact outer: does the cut stay clear of every partner across the wall?
 [[nodiscard]] Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out,
                                            const std::stop_token& stop);
@@ -120,7 +121,7 @@ void state_penetration(const TableSetup& g, Table& out, const std::stop_token& s
 /// Where the groove rule or the root gave way to the torch's range, and by how much.
 void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out);
 /// Where the outer wall reaches beyond all partners' sides while the inner one does not.
-void note_overhang(const TableSetup& g, Table& out, const std::stop_token& stop);
+void note_overhang(const TableSetup& g, Table& out);
 void note_root_opens(const TableSpec& spec, Table& out);
 /// On a bare grid events lie between nodes: by how much the straight line between them falls short.
 void note_events_between(const TableSetup& g, Table& out);

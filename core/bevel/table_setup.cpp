@@ -8,9 +8,11 @@
 namespace tubecut::bevel::detail {
 namespace {
 
-bool set_in(const TableSpec& spec, std::size_t partner) {
-  const auto& stated = stated_joint(spec, partner);
+bool is_set_in(const std::optional<joint::Joint>& stated) {
   return stated && stated->kind == joint::JointKind::set_in;
+}
+bool set_in(const TableSpec& spec, std::size_t partner) {
+  return is_set_in(stated_joint(spec, partner));
 }
 
 /// One gap a joint; and zones name every row's own, which a flush row has not.
@@ -74,7 +76,7 @@ Result<void> check(const TableSpec& spec) {
 /// Events that are no rows of the root's own contour: of the other wall, and of the land's edge.
 std::vector<double> row_phases(const TableSetup& g, const std::stop_token& stop) {
   std::vector<double> out;
-  for (const auto& event : g.other_events) out.push_back(event.phi);
+  for (const auto& event : g.other.events) out.push_back(event.phi);
   if (g.spec.root_face > 0.0)
     for (const auto& event :
          joint::divide(g.root.cutters, g.wall.inner + g.spec.root_face, stop).events)
@@ -101,13 +103,51 @@ void stand_on_face(const TableSetup& g, double phi, double z, Point& out) {
                                 joint::generator_at(edge, phi), z + g.spec.root_face * slope);
 }
 
-/// The side of a node with the larger input: at an event the larger one-sided value counts.
+/// The side of an event with the larger input counts.
 Point larger(const TableSetup& g, const joint::Node& node) {
   const auto sides = joint::hits_at(g.root, node);
-  auto before = point(g, node.phi, sides.before, node.before, node.z);
-  if (node.kind == joint::NodeKind::smooth || node.kind == joint::NodeKind::jump) return before;
-  auto after = point(g, node.phi, sides.after, node.after, node.z);
+  const auto before = point(g, node.phi, sides.before, node.before, node.z);
+  const auto after = point(g, node.phi, sides.after, node.after, node.z);
   return before.input >= after.input ? before : after;
+}
+
+bool one_sided(const joint::Node& node) {
+  return node.kind == joint::NodeKind::smooth || node.kind == joint::NodeKind::jump;
+}
+
+/// Can the points be made side by side? Not where each row has a rule of its own.
+bool alike(const TableSpec& spec) {
+  const bool zoned = std::holds_alternative<ZonedGroove>(spec.groove);
+  const bool flush = !spec.untilted && std::ranges::any_of(spec.stated, is_set_in);
+  return !zoned && !flush && spec.dihedral != Dihedral::as_published && spec.root_face == 0.0;
+}
+
+/// `point` of all nodes at once, each by the cutter before it.
+std::vector<Point> points_alike(const TableSetup& g, const std::vector<joint::Node>& nodes) {
+  const auto n = nodes.size();
+  std::vector<double> phi(n), z(n);
+  std::vector<std::size_t> cutter(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    phi[i] = nodes[i].phi;
+    z[i] = nodes[i].z;
+    cutter[i] = nodes[i].before;
+  }
+  auto stations = joint::stations_at(g.root.radius, phi);
+  std::vector<Angles> angles(n);
+  g.rule.angles(joint::normals_at(g.root.cutters, stations, cutter), angles);
+  stations.radius = g.wall.inner;
+  if (g.inner) z = joint::contacts_at(*g.inner, stations, phi).z;
+  const auto required = required_bevels(g.root.cutters, g.wall, stations, z);
+  const double least = g.spec.torch.min.rad(), most = g.spec.torch.max.rad();
+  std::vector<Point> out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = {.cutter = cutter[i],
+              .angles = angles[i],
+              .raw = std::clamp(angles[i].b, least, most),
+              .required = required[i]};
+    out[i].input = input_of(g.spec, out[i]);
+  }
+  return out;
 }
 
 }  // namespace
@@ -122,13 +162,13 @@ Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop) {
                  .cutters = std::move(cutters),
                  .root = std::move(root),
                  .inner = {},
-                 .other_events = {},
+                 .other = {},
                  .row_phases = {},
                  .solids = {},
                  .wall = wall,
                  .rule = Rule(spec.groove, spec.dihedral),
                  .flush = Rule(NoGroove{}, spec.dihedral)};
-  out.other_events = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer, stop).events;
+  out.other = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer, stop);
   out.row_phases = row_phases(out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   for (const auto& cutter : out.cutters) out.solids.emplace_back(cutter);
@@ -169,10 +209,17 @@ Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
                   const std::stop_token& stop) {
   TRY(auto samples, joint::sample(g.root, g.spec.sampling, also, stop));
   Rows out{.samples = std::move(samples), .points = {}};
-  out.points.reserve(out.samples.nodes.size());
-  for (const auto& node : out.samples.nodes) {
+  const auto& nodes = out.samples.nodes;
+  const bool at_once = alike(g.spec);
+  if (at_once) out.points = points_alike(g, nodes);
+  out.points.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    out.points.push_back(larger(g, node));
+    const auto& node = nodes[i];
+    if (!one_sided(node))
+      out.points[i] = larger(g, node);
+    else if (!at_once)
+      out.points[i] = point(g, node.phi, joint::hits_at(g.root, node).before, node.before, node.z);
   }
   return out;
 }

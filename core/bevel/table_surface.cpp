@@ -3,7 +3,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/table_parts.hpp"
-#include "core/bevel/torch_line.hpp"
+#include "core/joint/stations.hpp"
 
 namespace tubecut::bevel::detail {
 namespace {
@@ -34,10 +34,16 @@ double lift_at(const TableSetup& g, const Rows& rows, std::size_t i, double slop
 void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop) {
   const auto& nodes = rows.samples.nodes;
   const double t = g.spec.target.wall, f = g.spec.root_face;
-  for (std::size_t i = 0; i < out.b.size() && !stop.stop_requested(); ++i) {
-    const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
-    const bool outer = g.inner.has_value();
-    const bool lifted = g.spec.contact == Contact::automatic;
+  const bool outer = g.inner.has_value();
+  const bool lifted = g.spec.contact == Contact::automatic;
+  const auto n = out.b.size();
+  std::vector<double> slopes(n), cosines(n), envelope;
+  elementary::tan(out.b, slopes);
+  elementary::cos(out.b, cosines);
+  if (outer)
+    envelope = joint::contacts_at(*g.inner, joint::stations_at(g.wall.inner, out.phi), out.phi).z;
+  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+    const double slope = (out.inward ? -1.0 : 1.0) * slopes[i];
     double z = nodes[i].z;  // of the root surface
     if (lifted) z = std::max(z, lift_at(g, rows, i, slope));
     double foot = outer ? z - t * slope : z;  // where the bevel's line meets the inner wall
@@ -48,24 +54,24 @@ void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std:
       foot = out.z_face[i] - f * slope;
     }
     out.z_outer.push_back(outer ? z : foot + t * slope);
-    out.gap.push_back(outer    ? out.z_inner[i] - joint::contact_at(*g.inner, out.phi[i]).z
-                      : lifted ? z - nodes[i].z
-                               : 0.0);
-    out.beam.push_back(t / elementary::cos(out.b[i]));
+    out.gap.push_back(outer ? out.z_inner[i] - envelope[i] : lifted ? z - nodes[i].z : 0.0);
+    out.beam.push_back(t / cosines[i]);
   }
 }
 
-void lay_torch(const TableSpec& spec, Table& out, const std::stop_token& stop) {
-  const auto drop = torch_drops(spec, out, stop);
+void lay_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
+               const std::stop_token& stop) {
   const auto n = out.b.size();
   out.torch_inner.resize(n);
   out.torch_outer.resize(n);
+  std::vector<double> slopes(n);
+  elementary::tan(out.b, slopes);
   const auto lowered = [&](const Further& further) {
     for (std::size_t i = 0; i < n; ++i) {
-      const double slope = (out.inward ? -1.0 : 1.0) * elementary::tan(out.b[i]);
+      const double slope = (out.inward ? -1.0 : 1.0) * slopes[i];
       const double foot =
           out.z_face.empty() ? out.z_inner[i] : out.z_face[i] - spec.root_face * slope;
-      const double by = drop[i] + further[i] * elementary::hypot(1.0, slope);
+      const double by = drops[i] + further[i] * elementary::hypot(1.0, slope);
       out.torch_inner[i] = foot - by;
       out.torch_outer[i] = out.z_outer[i] - by;
     }

@@ -8,7 +8,7 @@
 #include "core/bevel/smoothed_area.hpp"
 #include "core/bevel/table.hpp"
 #include "core/bevel/table_parts.hpp"
-#include "core/joint/solid.hpp"
+#include "core/joint/solid_arrays.hpp"
 #include "core/math/search.hpp"
 
 namespace tubecut::bevel {
@@ -136,20 +136,29 @@ void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, con
     out.push_back({"area_excess", area->excess, kAreaExcess, ""});
 }
 
-/// How far the cut of row i stays from the nearest partner, mm; negative: it enters.
-double clearance(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
-                 const Row& r, std::size_t i) {
-  const double inner = spec.target.inner_radius(), outer = spec.target.outer_radius;
-  const Vector3d a = inner * r.radial + t.z_inner[i] * r.axial;
-  const Vector3d b = outer * r.radial + t.z_outer[i] * r.axial;
+/// How far the cut of each row stays from the nearest partner, mm; negative: it enters.
+std::vector<double> clearances(const TableSpec& spec, const Table& t,
+                               const std::vector<joint::Solid>& solids) {
+  const auto n = t.phi.size();
   const bool face = !t.z_face.empty();
-  const Vector3d edge =
-      face ? Vector3d((inner + spec.root_face) * r.radial + t.z_face[i] * r.axial) : a;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& solid : solids) {
-    least = std::min(least, solid.least_distance(edge, b));
-    if (face) least = std::min(least, solid.least_distance(a, edge));
-  }
+  std::vector<double> cosine(n), sine(n), least(n, std::numeric_limits<double>::infinity()), one(n);
+  elementary::sincos(t.phi, sine, cosine);
+  const auto edge = [&](double radius, const std::vector<double>& z) {
+    joint::Places out(n);
+    for (std::size_t i = 0; i < n; ++i) out.set(i, {radius * cosine[i], radius * sine[i], z[i]});
+    return out;
+  };
+  const double inner = spec.target.inner_radius();
+  const auto from = edge(inner, t.z_inner), to = edge(spec.target.outer_radius, t.z_outer);
+  const auto corner = face ? edge(inner + spec.root_face, t.z_face) : from;
+  const auto see = [&](const joint::Places& a, const joint::Places& b) {
+    for (const auto& solid : solids) {
+      joint::least_distances(solid, a, b, one);
+      for (std::size_t i = 0; i < n; ++i) least[i] = std::min(least[i], one[i]);
+    }
+  };
+  see(corner, to);
+  if (face) see(from, corner);
   return least;
 }
 
@@ -179,14 +188,11 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
                      const std::stop_token& stop) {
   constexpr double kGolden = 0.6180339887498949;
   const double inner = spec.target.inner_radius(), wall = spec.target.wall;
-  double deepest = 0.0, seed = 0.0;
+  std::vector<Vector3d> seen;
+  double seed = 0.0;
   const auto next = [&] { return seed = seed + kGolden - std::floor(seed + kGolden); };
   const auto see = [&](std::size_t i, double share, double radius) {
-    const auto p = between_rows(spec, t, i, share, radius);
-    for (const auto& solid : solids) {
-      const double depth = -solid.distance(p);
-      deepest = depth > deepest || depth != depth ? depth : deepest;
-    }
+    seen.push_back(between_rows(spec, t, i, share, radius));
   };
   for (std::size_t i = 0; i < t.phi.size() && !stop.stop_requested(); ++i) {
     for (const double radius : {inner, inner + wall * next(), spec.target.outer_radius})
@@ -194,6 +200,14 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
     if (!t.z_face.empty()) see(i, 0.5, inner + spec.root_face);
     const double share = next();
     see(i, share, inner + wall * next());
+  }
+  joint::Places places(seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) places.set(i, seen[i]);
+  std::vector<double> distance(seen.size());
+  double deepest = 0.0;
+  for (const auto& solid : solids) {
+    joint::distances(solid, places, distance);
+    for (const double d : distance) deepest = -d > deepest || d != d ? -d : deepest;
   }
   return deepest;
 }
@@ -258,6 +272,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   const bool lifted = spec.contact == Contact::automatic;
   const bool published = spec.dihedral == Dihedral::as_published;
   const bool square = std::holds_alternative<SquareCut>(spec.groove);
+  const auto clear_of = clearances(spec, t, solids);
   for (std::size_t i = 0; i < t.b.size() && !stop.stop_requested(); ++i) {
     const auto r = row(spec, t, solids, i);
     const bool steep = std::abs(r.axial_normal) < kSilhouette;
@@ -271,7 +286,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
     below = std::max(below, (smoother_input(spec, t, i) - t.b[i]) * kDegPerRad);
     beyond = std::max({beyond, (t.b[i] - spec.torch.max.rad()) * kDegPerRad,
                        (spec.torch.min.rad() - t.b[i]) * kDegPerRad});
-    const double clear = clearance(spec, t, solids, r, i);
+    const double clear = clear_of[i];
     deep = std::max(deep, -clear);
     off = std::max(off, clear);
   }

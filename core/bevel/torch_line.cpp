@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/bevel/polyline.hpp"
 
 namespace tubecut::bevel {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // No length stands here but as a share of another: tables scale exactly.
 constexpr double kFlat = 5e-4;  // of kerf and a tenth of the wall, normal to the line: straight,
 constexpr double kFlattest = 1.5e-5;  // and of the radius
@@ -20,6 +18,7 @@ constexpr int kNewton = 30;           // at most: halvings, where Newton leaves 
 constexpr double kStill = 1e-6;       // of half the kerf: a step that raises what is needed by less
 constexpr double kLines = 0.25;       // of half a kerf: between finished lines across the wall,
 constexpr double kMostLines = 16.0;   // and no more from row to row
+constexpr std::size_t kNodes = 4;     // looked at singly; more are searched by halves
 constexpr int kDeepest = 12;          // halvings of the stretch between two rows
 
 double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
@@ -29,12 +28,14 @@ double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
 struct Circle {
   double rho;
   double reach;  // rad: how far to the side the beam reaches
+  double ahead;  // of the axis's own distance, there
   std::vector<double> z;
   std::vector<std::vector<double>> least;
 
   Circle(double radius, double half, std::vector<double> heights)
       : rho(radius),
         reach(half < radius ? elementary::asin(half / radius) : 0.5 * kPi),
+        ahead(half < radius ? std::sqrt((radius - half) * (radius + half)) : 0.0),
         z(std::move(heights)) {
     const auto n = z.size();
     least.emplace_back(n);
@@ -103,23 +104,35 @@ class LeastDrop {
     bands_.push_back(band(inner_, edge, t.z_inner, slope));
   }
 
-  /// Of the line the share u of the way from row i to the next.
-  [[nodiscard]] double at(std::size_t i, double u) const {
-    const auto axis = axis_at(i, u);
-    double best = half_ * axis.secant;  // to its own line
-    for (const auto& circle : circles_)
-      for (const double turn : {0.0, -kTwoPi, kTwoPi})
-        best = search(axis, circle, turn, circle.least.size() - 1, 0, best);
-    for (const auto& band : bands_) best = past_lines(axis, band, best);
+  /// What an axis needs, and which stretch of which circle asks for it.
+  struct Need {
+    double drop;
+    std::size_t circle = 0, stretch = 0;
+  };
+  /// Of row i's line; a place that asked most nearby is looked at first.
+  [[nodiscard]] Need at(std::size_t i, const Need& nearby) const {
+    return at(axis_at(i, 0.0), nearby);
+  }
+  [[nodiscard]] Need at(const Axis& axis, const Need& nearby) const {
+    Need best{half_ * axis.secant, nearby.circle, nearby.stretch};  // to its own line
+    search(axis, nearby.circle, 0.0, 0, nearby.stretch, best);
+    for (const double turn : {0.0, -kTwoPi, kTwoPi}) {
+      const auto run = within(axis.phi - turn);
+      for (std::size_t circle = 0; circle < circles_.size(); ++circle)
+        for (auto node = run.first; node < run.end; ++node)
+          search(axis, circle, turn, run.level, node, best);
+    }
+    for (const auto& band : bands_) best.drop = past_lines(axis, band, best.drop);
     return best;
   }
 
   /// Places between row i and the next, ascending, both ends included, between which the least drop
   /// is all but straight.
   struct Place {
-    double u, drop;
+    double u;
+    Need need;
   };
-  [[nodiscard]] std::vector<Place> stretch(std::size_t i, double from, double to) const {
+  [[nodiscard]] std::vector<Place> stretch(std::size_t i, const Need& from, const Need& to) const {
     int least = 0;
     double wide = way(i);
     for (; least < kDeepest && half_ > 0.0 && wide > std::min(half_, widest_); ++least) wide *= 0.5;
@@ -136,8 +149,11 @@ class LeastDrop {
       rise = std::max(rise, std::abs(circle.z[(i + 1) % circle.z.size()] - circle.z[i]));
     return elementary::hypot(inner_ * width(i), rise);
   }
+  [[nodiscard]] double inner() const { return inner_; }
   [[nodiscard]] double width(std::size_t i) const { return phase(i + 1) - phi_[i]; }
-  [[nodiscard]] double foot(std::size_t i, double u) const { return axis_at(i, u).foot; }
+  [[nodiscard]] double foot(std::size_t i, double u) const {
+    return mixed(foot_[i], foot_[(i + 1) % foot_.size()], u);
+  }
 
  private:
   [[nodiscard]] double phase(std::size_t i) const {
@@ -201,6 +217,26 @@ class LeastDrop {
     return best;
   }
 
+  /// Few nodes of the least z, of one level, over all stretches in reach of an axis at this phase.
+  struct Run {
+    std::size_t level, first, end;
+  };
+  [[nodiscard]] Run within(double phi) const {
+    const double reach = circles_.front().reach;  // the innermost circle's
+    const double from = phi - reach, to = phi + reach;
+    if (from > phi_.front() + kTwoPi || to < phi_.front()) return {0, 0, 0};
+    const auto first = std::ranges::lower_bound(phi_, from) - phi_.begin();
+    const auto end = std::ranges::upper_bound(phi_, to) - phi_.begin();
+    auto low = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - 1, 0));
+    auto high = static_cast<std::size_t>(end);  // > 0
+    std::size_t level = 0;
+    for (; high - low > kNodes; ++level) {
+      low /= 2;
+      high = (high + 1) / 2;
+    }
+    return {level, low, high};
+  }
+
   /// Row i seen from the axis: its distance to the side and ahead on the circle.
   struct Side {
     double beside, ahead;
@@ -217,28 +253,30 @@ class LeastDrop {
 
   /// The larger of `best` and what the run of rows `index` of this level asks for; a run whose
   /// lowest point could not ask for more is passed by.
-  [[nodiscard]] double search(const Axis& axis, const Circle& circle, double turn,
-                              std::size_t level, std::size_t index, double best) const {
+  void search(const Axis& axis, std::size_t of, double turn, std::size_t level, std::size_t index,
+              Need& best) const {
+    const auto& circle = circles_[of];
     const auto first_row = index << level;
     const auto end_row = std::min(phi_.size(), (index + 1) << level);
     const double from = phi_[first_row] + turn - axis.phi;
     const double to = phase(end_row) + turn - axis.phi;
-    if (!(from <= circle.reach && to >= -circle.reach)) return best;
-    double beside = 0.0;
-    if (from > 0.0) beside = side(axis, circle.rho, first_row).beside;
-    if (to < 0.0) beside = side(axis, circle.rho, end_row).beside;
-    const double far = axis.slope < 0.0 ? std::min(half_, circle.rho) : 0.0;
-    const double ahead = std::sqrt((circle.rho - far) * (circle.rho + far));
-    const double bound = axis.foot + (ahead - inner_) * axis.slope - circle.least[level][index] +
-                         round(axis, beside);
-    if (!(bound > best)) return best;
-    if (level == 0) return std::max(best, of_stretch(axis, circle, index, from, to));
+    if (!(from <= circle.reach && to >= -circle.reach)) return;
+    double above = half_ * axis.secant;  // of the round of the beam, at most
+    if (from > 0.0) above = round(axis, side(axis, circle.rho, first_row).beside);
+    if (to < 0.0) above = round(axis, side(axis, circle.rho, end_row).beside);
+    const double ahead = axis.slope < 0.0 ? circle.ahead : circle.rho;
+    const double bound =
+        axis.foot + (ahead - inner_) * axis.slope - circle.least[level][index] + above;
+    if (!(bound > best.drop)) return;
+    if (level == 0) {
+      const double asked = of_stretch(axis, circle, index, from, to);
+      if (asked > best.drop) best = {asked, of, index};
+      return;
+    }
     const auto first = 2 * index, second = first + 1;
-    if (second == circle.least[level - 1].size())
-      return search(axis, circle, turn, level - 1, first, best);
     const bool nearer = from + to < 0.0;  // the second
-    best = search(axis, circle, turn, level - 1, nearer ? second : first, best);
-    return search(axis, circle, turn, level - 1, nearer ? first : second, best);
+    for (const auto half : {nearer ? second : first, nearer ? first : second})
+      if (half < circle.least[level - 1].size()) search(axis, of, turn, level - 1, half, best);
   }
 
   /// What the straight stretch after row i asks for; `from` and `to` are its phases from the axis.
@@ -258,36 +296,39 @@ class LeastDrop {
     const bool a_in = from > -circle.reach, b_in = to < circle.reach;
     if (a_in && !(grows(a) > 0.0)) return needed(a, low);
     if (b_in && !(grows(b) < 0.0)) return needed(b, high);
-    const auto angle = [&](double turn) {  // round the beam
-      const double x = circle.rho * elementary::sincos(turn).sin;
-      return elementary::asin(std::clamp(x / half_, -1.0, 1.0));
-    };
-    const double x = highest(axis, circle.rho, rate, angle(std::max(from, -circle.reach)),
-                             angle(std::min(to, circle.reach)));
+    const double x = highest(axis, circle.rho, rate, a_in ? a.beside / half_ : -1.0,
+                             b_in ? b.beside / half_ : 1.0);
     const Side at{x, std::sqrt((circle.rho - x) * (circle.rho + x))};
     return needed(at, low + rate * (elementary::asin(x / circle.rho) - from));
   }
 
-  /// Distance to the side at which most is needed, between two angles round the beam: by Newton
-  /// from the plane's own answer. Over the angle nothing is steep where the beam ends.
+  /// The tangent of half an angle by its sine, within a quarter turn.
+  static double half_tangent(double sine) {
+    const double s = std::clamp(sine, -1.0, 1.0);
+    return s / (1.0 + std::sqrt((1.0 - s) * (1.0 + s)));
+  }
+
+  /// Distance to the side at which most is needed, between two sines of the angle round the beam:
+  /// by Newton from the plane's own answer. Over the angle nothing is steep where the beam ends; it
+  /// goes by the tangent of its half, so that no sine is asked for.
   [[nodiscard]] double highest(const Axis& axis, double rho, double rate, double first,
                                double last) const {
     const double slope = rate / rho;
-    const double plane = -slope / elementary::hypot(axis.secant, slope);
-    double angle = std::clamp(elementary::asin(plane), first, last);
+    double low = half_tangent(first), high = half_tangent(last);
+    double t = std::clamp(half_tangent(-slope / elementary::hypot(axis.secant, slope)), low, high);
     for (int k = 0;; ++k) {
-      const auto [sin, cos] = elementary::sincos(angle);
-      const double x = half_ * sin, root = half_ * cos;
+      const double per_angle = 0.5 * (1.0 + t * t);  // of t
+      const double x = half_ * t / per_angle, root = half_ * (1.0 - per_angle) / per_angle;
       const double ahead = std::sqrt((rho - x) * (rho + x));
       const double pull = (rate + x * axis.slope) / ahead;
       const double grows = -pull * root - axis.secant * x;
       const double bend = pull * x - axis.slope * root * root / ahead - axis.secant * root;
-      (grows > 0.0 ? first : last) = angle;
-      const double newton = angle - grows / bend;
-      const bool inside = bend < 0.0 && newton > first && newton < last;
-      const double next = inside ? newton : 0.5 * (first + last);
-      if (k == kNewton || !(std::abs(grows * (next - angle)) > kStill * half_)) return x;
-      angle = next;
+      (grows > 0.0 ? low : high) = t;
+      const double newton = t - grows / bend * per_angle;
+      const bool inside = bend < 0.0 && newton > low && newton < high;
+      const double next = inside ? newton : 0.5 * (low + high);
+      if (k == kNewton || !(std::abs(grows * (next - t)) > kStill * half_ * per_angle)) return x;
+      t = next;
     }
   }
 
@@ -297,9 +338,10 @@ class LeastDrop {
   void halve(std::size_t i, Place from, Place to, Halvings left, std::vector<Place>& out) const {
     if (stop_.stop_requested()) return;
     const double u = 0.5 * (from.u + to.u);
-    const Place middle{u, at(i, u)};
-    const double bulge = middle.drop - 0.5 * (from.drop + to.drop);
-    const double flat = flat_ * axis_at(i, u).secant;
+    const auto axis = axis_at(i, u);
+    const Place middle{u, at(axis, from.need)};
+    const double bulge = middle.need.drop - 0.5 * (from.need.drop + to.need.drop);
+    const double flat = flat_ * axis.secant;
     const bool on = left.least > 0 || bulge > flat || bulge < -kHollow * flat;
     const Halvings next{left.least - 1, left.most - 1};
     const bool deeper = on && left.most > 0 && width(i) > 0.0;
@@ -317,87 +359,46 @@ class LeastDrop {
   std::vector<Band> bands_;
 };
 
-/// Raises the ends of a straight stretch until it is no lower than `value` at u: the lower end
-/// first.
-void raise(double& a, double& b, double u, double value) {
-  if (!(value > mixed(a, b, u))) return;
-  double& low = a < b ? a : b;
-  const double high = std::max(a, b);
-  const double share = a < b ? u : 1.0 - u;  // of the higher end
-  const double needed = share < 1.0 ? (value - share * high) / (1.0 - share) : kInfinity;
-  if (needed <= high) {
-    low = needed;
-  } else {
-    a = b = std::max(high, value);
-  }
-}
-
-using Points = std::vector<std::pair<double, double>>;
-
-/// Indices at which the line must bend to follow the points within the tolerance.
-void bends(const Points& p, std::size_t from, std::size_t to, double tolerance,
-           std::vector<std::size_t>& out) {
-  const double dx = p[to].first - p[from].first, dy = p[to].second - p[from].second;
-  const double length = elementary::hypot(dx, dy);
-  double worst = tolerance;
-  std::size_t at = from;
-  for (std::size_t k = from + 1; k < to; ++k) {
-    const double x = p[k].first - p[from].first, y = p[k].second - p[from].second;
-    const double off = length > 0.0 ? std::abs(x * dy - y * dx) / length : elementary::hypot(x, y);
-    if (off <= worst) continue;
-    worst = off;
-    at = k;
-  }
-  if (at == from) return;
-  bends(p, from, at, tolerance, out);
-  out.push_back(at);
-  bends(p, at, to, tolerance, out);
-}
-
-std::vector<double> at_rows(const LeastDrop& drop, std::size_t n, const std::stop_token& stop) {
-  std::vector<double> out(n, 0.0);
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) out[i] = drop.at(i, 0.0);
+std::vector<LeastDrop::Need> at_rows(const LeastDrop& drop, std::size_t n,
+                                     const std::stop_token& stop) {
+  std::vector<LeastDrop::Need> out(n, {0.0});
+  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i)
+    out[i] = drop.at(i, out[i > 0 ? i - 1 : 0]);
   return out;
+}
+
+/// Phases between row i and the next at which the line of the least drop bends.
+void append_bends(const LeastDrop& drop, std::size_t i, double phi, double tolerance,
+                  const std::vector<LeastDrop::Place>& places, std::vector<double>& out) {
+  constexpr double kNarrow = 2e-6;  // rad: no finer
+  const double width = drop.width(i);
+  if (width < kNarrow) return;
+  Points line;
+  for (const auto& [u, need] : places)
+    line.emplace_back(drop.inner() * u * width, drop.foot(i, u) - need.drop);
+  std::vector<std::size_t> at;
+  bends(line, 0, line.size() - 1, tolerance, at);
+  for (const auto k : at) {
+    const double row = phi + places[k].u * width;
+    out.push_back(row < kTwoPi ? row : row - kTwoPi);
+  }
 }
 
 }  // namespace
 
-std::vector<double> torch_drops(const TableSpec& spec, const Table& table,
-                                const std::stop_token& stop) {
+TorchLine torch_line(const TableSpec& spec, const Table& table, const std::stop_token& stop) {
   const auto n = table.phi.size();
-  if (spec.kerf == 0.0 && table.z_face.empty()) return std::vector<double>(n, 0.0);
+  TorchLine out{std::vector<double>(n, 0.0), {}};
+  if (spec.kerf == 0.0 && table.z_face.empty()) return out;
   const LeastDrop drop(spec, table, stop);
   const auto least = at_rows(drop, n, stop);
-  auto out = least;
+  for (std::size_t i = 0; i < n; ++i) out.drops[i] = least[i].drop;
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
     const auto j = (i + 1) % n;
-    for (const auto& place : drop.stretch(i, least[i], least[j]))
-      raise(out[i], out[j], place.u, place.drop);
-  }
-  return out;
-}
-
-std::vector<double> torch_rows(const TableSpec& spec, const Table& table,
-                               const std::stop_token& stop) {
-  constexpr double kNarrow = 2e-6;  // rad: no finer
-  if ((spec.kerf == 0.0 && table.z_face.empty()) || !spec.sampling.tolerance) return {};
-  const auto n = table.phi.size();
-  const LeastDrop drop(spec, table, stop);
-  const auto least = at_rows(drop, n, stop);
-  const double radius = spec.target.inner_radius();
-  std::vector<double> out;
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-    const double width = drop.width(i);
-    if (width < kNarrow) continue;
-    const auto places = drop.stretch(i, least[i], least[(i + 1) % n]);
-    Points line;
-    for (const auto& [u, d] : places) line.emplace_back(radius * u * width, drop.foot(i, u) - d);
-    std::vector<std::size_t> at;
-    bends(line, 0, line.size() - 1, spec.sampling.tolerance->value, at);
-    for (const auto k : at) {
-      const double phi = table.phi[i] + places[k].u * width;
-      out.push_back(phi < kTwoPi ? phi : phi - kTwoPi);
-    }
+    const auto places = drop.stretch(i, least[i], least[j]);
+    for (const auto& [u, need] : places) raise(out.drops[i], out.drops[j], u, need.drop);
+    if (spec.sampling.tolerance)
+      append_bends(drop, i, table.phi[i], spec.sampling.tolerance->value, places, out.rows);
   }
   return out;
 }

@@ -23,10 +23,20 @@ inline constexpr double kLeastKerf = kGougeLimit;
                .hint = "no beam is narrower; 0: none is laid off"});
 }
 
-/// How far below the finished cut the torch's axis runs at each row, mm along z: the least with
-/// which a round beam of the kerf's width, on its way straight from row to row, stays out of the
-/// finished part. The axis is parallel to the finished line of its row; with a root face the line
-/// is the bevel's, and the beam stays out of the land too.
+/// The torch's line before its proof.
+struct TorchLine {
+  /// How far below the finished cut its axis runs at each row, mm along z: the least with which a
+  /// round beam of the kerf's width, on its way straight from row to row, stays out of the finished
+  /// part.
+  std::vector<double> drops;
+  /// Phases of rows that it still lacks to follow its least drop within the sampling's tolerance:
+  /// at corners and jumps the drop changes within half a kerf. Empty without a kerf and with
+  /// uniform rows alone.
+  std::vector<double> rows;
+};
+
+/// The axis is parallel to the finished line of its row; with a root face the line is the bevel's,
+/// and the beam stays out of the land too.
 ///
 /// In the half plane of phi0 the beam leaves the point q = (rho, phi0 + D, z_q) untouched if and
 /// only if its drop is at least
@@ -39,15 +49,10 @@ inline constexpr double kLeastKerf = kGougeLimit;
 /// Reads phi, z_inner, z_face and z_outer of the table. Between rows the drop is straight, so rows
 /// are lowered where that would fall short.
 /// Accuracy  gouges below 2e-3 mm between the places looked at across the wall and along it.
-/// Cost      about 1.5 us a row; a row more than a kerf away costs only its share of a bound.
+/// Cost      about 1 us a place, one or two of them a row; a row more than a kerf away costs only
+///           its share of a bound.
 /// Source    docs/theory/intersections-and-bevels.md, section 5.6.
-[[nodiscard]] std::vector<double> torch_drops(const TableSpec& spec, const Table& table,
-                                              const std::stop_token& stop = {});
-
-/// Phases of rows that the torch's line still lacks to follow its least drop within the sampling's
-/// tolerance: at corners and jumps the drop changes within half a kerf. Empty without a kerf and
-/// with uniform rows alone.
-[[nodiscard]] std::vector<double> torch_rows(const TableSpec& spec, const Table& table,
-                                             const std::stop_token& stop = {});
+[[nodiscard]] TorchLine torch_line(const TableSpec& spec, const Table& table,
+                                   const std::stop_token& stop = {});
 
 }  // namespace tubecut::bevel

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/stations.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -47,52 +48,6 @@ double integrate(const F& f, double a, double b, double negligible, int halvings
          integrate(f, mid, b, negligible, halvings - 1);
 }
 
-/// Walks once around from phi = 0, adding arcs, and at jumps the difference in height. It starts in
-/// the last segment, whose phases are then phi + 2 pi.
-class Walk {
- public:
-  explicit Walk(const Contour& contour) : contour_(contour) {
-    if (contour.events.empty()) return;
-    segment_ = contour.segments.size() - 1;
-    turn_ = kTwoPi;
-  }
-
-  /// The length up to phi; asked twice at an event, the second answer is that behind the event.
-  double advance(double phi) {
-    const bool again = asked_ == phi;
-    while (end() < phi || (again && end() == phi)) enter_next();
-    add_arc(phi);
-    asked_ = phi;
-    return total_;
-  }
-
- private:
-  double end() const {
-    return turn_ > 0.0 ? contour_.segments.front().from : contour_.segments[segment_].to;
-  }
-
-  void add_arc(double phi) {
-    if (phi > at_)
-      total_ += arc_length(contour_, contour_.segments[segment_], at_ + turn_, phi + turn_);
-    at_ = std::max(at_, phi);
-  }
-
-  void enter_next() {
-    add_arc(end());
-    segment_ = turn_ > 0.0 ? 0 : segment_ + 1;
-    turn_ = 0.0;
-    const auto& event = contour_.events[segment_];
-    if (event.kind == EventKind::jump) total_ += std::abs(event.z_to - event.z_from);
-  }
-
-  const Contour& contour_;
-  std::size_t segment_ = 0;
-  double turn_ = 0.0;
-  double at_ = 0.0;
-  double total_ = 0.0;
-  std::optional<double> asked_;
-};
-
 /// dz/dphi of the sheet. A tangent tube whose offset is rounding is missed by a hair beside its
 /// corner: there the silhouette's own slope counts, not an infinite one.
 double slope_at(const PreparedCutter& cutter, const Generator& line) {
@@ -120,13 +75,156 @@ double arc_length(const Contour& contour, const Segment& segment, double from, d
   return integrate(stretched, 0.0, 0.5 * kPi, negligible, kHalvings);
 }
 
+namespace {
+
+/// A part of a segment between two phases asked for, or an event.
+struct Piece {
+  std::size_t segment;
+  double from, to;  // rad, as the segment counts them
+  double length = 0.0;
+};
+
+/// One walk round from phi = 0: its pieces, and how many of them lie before each phase. It starts
+/// in the last segment, whose phases are then phi + 2 pi.
+class Walk {
+ public:
+  explicit Walk(const Contour& contour) : contour_(contour) {
+    if (contour.events.empty()) return;
+    segment_ = contour.segments.size() - 1;
+    turn_ = kTwoPi;
+  }
+
+  /// Asked twice at an event, the second answer is that behind the event.
+  void advance(double phi) {
+    const bool again = asked_ == phi;
+    while (end() < phi || (again && end() == phi)) enter_next();
+    add(phi);
+    asked_ = phi;
+    stops.push_back({pieces.size(), leaps_});
+  }
+
+  struct Stop {
+    std::size_t pieces;  // before it
+    double leaps;        // of jumps before it, mm
+  };
+  std::vector<Piece> pieces;
+  std::vector<Stop> stops;
+
+ private:
+  double end() const {
+    return turn_ > 0.0 ? contour_.segments.front().from : contour_.segments[segment_].to;
+  }
+
+  void add(double phi) {
+    if (phi > at_) pieces.push_back({segment_, at_ + turn_, phi + turn_});
+    at_ = std::max(at_, phi);
+  }
+
+  void enter_next() {
+    add(end());
+    segment_ = turn_ > 0.0 ? 0 : segment_ + 1;
+    turn_ = 0.0;
+    const auto& event = contour_.events[segment_];
+    if (event.kind == EventKind::jump) leaps_ += std::abs(event.z_to - event.z_from);
+  }
+
+  const Contour& contour_;
+  std::size_t segment_ = 0;
+  double turn_ = 0.0, at_ = 0.0, leaps_ = 0.0;
+  std::optional<double> asked_;
+};
+
+/// A run of pieces of one segment by the fixed rule: five Gauss points, and three to hold them
+/// against; their places are the middle's turned by few offsets. Where the two do not agree, by a
+/// silhouette, piece by piece.
+class Rule {
+ public:
+  Rule(const Contour& contour, std::span<Piece> pieces)
+      : contour_(contour), pieces_(pieces), half_(pieces.size()) {
+    std::vector<double> middle(pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      middle[i] = 0.5 * (pieces[i].from + pieces[i].to);
+      half_[i] = 0.5 * (pieces[i].to - pieces[i].from);
+    }
+    middle_ = stations_at(contour.radius, middle);
+    low_.assign(pieces.size(), 0.0);
+    high_ = low_;
+  }
+
+  void apply() {
+    add(middle_, kGauss3[0].weight, low_);
+    add(middle_, kGauss5[0].weight, high_);
+    pair(kGauss3[2], low_);
+    pair(kGauss5[2], high_);
+    pair(kGauss5[4], high_);
+    const double negligible = kNegligible * contour_.radius;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      auto& piece = pieces_[i];
+      const double agreed = std::max(kAgreement * high_[i], negligible / half_[i]);
+      const bool good = std::abs(high_[i] - low_[i]) <= agreed;
+      piece.length =
+          good ? half_[i] * high_[i]
+               : arc_length(contour_, contour_.segments[piece.segment], piece.from, piece.to);
+    }
+  }
+
+ private:
+  void pair(const GaussPoint& point, std::vector<double>& sum) {
+    std::vector<double> off(half_.size());
+    for (std::size_t i = 0; i < off.size(); ++i) off[i] = point.at * half_[i];
+    const auto by = stations_at(contour_.radius, off);
+    for (const double side : {1.0, -1.0}) {
+      auto at = middle_;
+      for (std::size_t i = 0; i < off.size(); ++i) {
+        at.cos_phi[i] =
+            middle_.cos_phi[i] * by.cos_phi[i] - middle_.sin_phi[i] * side * by.sin_phi[i];
+        at.sin_phi[i] =
+            middle_.sin_phi[i] * by.cos_phi[i] + middle_.cos_phi[i] * side * by.sin_phi[i];
+      }
+      add(at, point.weight, sum);
+    }
+  }
+
+  void add(const Stations& at, double weight, std::vector<double>& sum) {
+    slope_.resize(at.size());
+    slopes_of(contour_.cutters[contour_.segments[pieces_.front().segment].cutter], at, slope_);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += weight * std::sqrt(contour_.radius * contour_.radius + slope_[i] * slope_[i]);
+  }
+
+  const Contour& contour_;
+  std::span<Piece> pieces_;
+  std::vector<double> half_, low_, high_, slope_;
+  Stations middle_;
+};
+
+void measure(const Contour& contour, std::span<Piece> pieces, const std::stop_token& stop) {
+  while (!pieces.empty() && !stop.stop_requested()) {
+    const auto segment = pieces.front().segment;
+    const auto other =
+        std::ranges::find_if(pieces, [&](const Piece& piece) { return piece.segment != segment; });
+    const auto run = static_cast<std::size_t>(other - pieces.begin());
+    Rule(contour, pieces.first(run)).apply();
+    pieces = pieces.subspan(run);
+  }
+}
+
+}  // namespace
+
 std::vector<double> lengths_along(const Contour& contour, std::span<const double> phases,
                                   const std::stop_token& stop) {
   Walk walk(contour);
+  for (const double phi : phases) walk.advance(phi);
+  walk.advance(kTwoPi);
+  measure(contour, walk.pieces, stop);
   std::vector<double> out;
-  out.reserve(phases.size() + 1);
-  for (const double phi : phases) out.push_back(stop.stop_requested() ? 0.0 : walk.advance(phi));
-  out.push_back(stop.stop_requested() ? 0.0 : walk.advance(kTwoPi));
+  out.reserve(walk.stops.size());
+  double total = 0.0;
+  std::size_t piece = 0;
+  for (const auto& at : walk.stops) {
+    for (; piece < at.pieces; ++piece) total += walk.pieces[piece].length;
+    out.push_back(total + at.leaps);
+  }
   return out;
 }
 

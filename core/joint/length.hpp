@@ -18,7 +18,8 @@ namespace tubecut::joint {
 /// height difference counts after the first of two equal phases. One more entry than phases: the
 /// last is the length of the whole closed curve.
 /// Accuracy  as arc_length; the total does not depend on the phases beyond that.
-/// Cost      8 integrand values per smooth gap. Stopped, the rest are 0.
+/// Cost      seven slopes of a smooth gap, side by side with those of the others. Stopped, the rest
+///           are 0.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
 [[nodiscard]] std::vector<double> lengths_along(const Contour& contour,
                                                 std::span<const double> phases,

@@ -6,6 +6,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/length.hpp"
+#include "core/joint/stations.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -187,11 +188,13 @@ void mark_event(const Contour& contour, Node& node) {
 std::vector<Node> uniform_nodes(const Contour& contour, std::size_t n,
                                 const std::stop_token& stop) {
   std::vector<Node> nodes;
+  if (stop.stop_requested()) return nodes;
+  std::vector<double> phases(n);
+  for (std::size_t i = 0; i < n; ++i) phases[i] = uniform_phase(i, n);
+  const auto contacts = contacts_at(contour, stations_at(contour.radius, phases), phases);
   nodes.reserve(n);
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-    const double phi = uniform_phase(i, n);
-    const auto contact = contact_at(contour, phi);
-    nodes.push_back(smooth_node(phi, contact.z, contact.cutter));
+    nodes.push_back(smooth_node(phases[i], contacts.z[i], contacts.cutter[i]));
     mark_event(contour, nodes.back());
   }
   return nodes;

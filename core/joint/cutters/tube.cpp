@@ -6,6 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/joint/cutters/tube_local.hpp"
 #include "core/joint/sheets.hpp"
 #include "core/math/rotation.hpp"
 
@@ -19,32 +20,10 @@ constexpr double kCorner = 1e-9;     // relative width within which a tangency c
 constexpr double kHair = 1e-9;       // relative; an offset that is rounding
 constexpr double kOnCutter = 1e-14;  // relative, of lengths: the root is on the tube
 
-/// The generator in the cutter's frame: u, v of the spec and the cutter's cross-section (X, S).
-struct Local {
-  double cos_delta, sin_delta, u, v, x;
-  double below, above;  // r - X, r + X
-  double s = 0.0;       // S, half the chord; 0 beyond the silhouette
-};
+using Local = TubeLocal;
 
-// r -+ X, where the target's own side is nearest, by sin^2 instead of 1 - cos: next to a tangency
-// r - rho cos(delta) would keep no digit.
 Local local(const PreparedTube& t, const Generator& g) {
-  Local p{};
-  p.cos_delta = g.cos_phi * t.cos_clocking + g.sin_phi * t.sin_clocking;
-  p.sin_delta = g.sin_phi * t.cos_clocking - g.cos_phi * t.sin_clocking;
-  p.u = g.radius * p.cos_delta;
-  p.v = g.radius * p.sin_delta;
-  p.x = p.u + t.offset;
-  const double sagitta = p.v * p.sin_delta / (1.0 + std::abs(p.cos_delta));
-  const bool front = p.cos_delta >= 0.0;
-  p.below = front ? (t.radius - t.offset - g.radius) + sagitta : t.radius - p.x;
-  p.above = front ? t.radius + p.x : (t.radius + t.offset - g.radius) + sagitta;
-  p.s = std::sqrt(std::max(p.below, 0.0) * std::max(p.above, 0.0));
-  return p;
-}
-
-double sheet(const PreparedTube& t, const Local& p) {
-  return t.height + (p.s - p.v * t.cos_inclination) / t.sin_inclination;
+  return tube_local(t, g.radius, g.cos_phi, g.sin_phi);
 }
 
 /// The normal for the direction (cos theta, sin theta) in the cutter's cross-section.
@@ -68,14 +47,8 @@ struct WallSection {
       : tube(t),
         cos_delta(g.cos_phi * t.cos_clocking + g.sin_phi * t.sin_clocking),
         sin_delta(g.sin_phi * t.cos_clocking - g.cos_phi * t.sin_clocking),
-        from(wall.inner),
-        to(wall.outer) {
-    const double reach = t.radius + kTouch * (t.radius + wall.outer);
-    const double c = std::abs(cos_delta);
-    const double shift = cos_delta < 0.0 ? -t.offset : t.offset;  // |rho cos + s| = |rho c + shift|
-    if (c * wall.inner + shift < -reach) from = (-reach - shift) / c;
-    if (c * wall.outer + shift > reach) to = (reach - shift) / c;
-  }
+        from(tube_section(t, wall, cos_delta).from),
+        to(tube_section(t, wall, cos_delta).to) {}
 };
 
 double sheet_at(const PreparedTube& t, const Generator& g, double rho) {
@@ -135,21 +108,21 @@ std::optional<Bearing> TubeCutter::bearing() const {
 
 std::optional<double> PreparedTube::upper_sheet(const Generator& line) const {
   const auto p = local(*this, line);
-  if (!(std::min(p.below, p.above) >= -kTouch * (radius + line.radius))) return std::nullopt;
-  return sheet(*this, p);
+  if (!tube_met(*this, p, line.radius)) return std::nullopt;
+  return tube_sheet(*this, p);
 }
 
 double PreparedTube::continued_sheet(const Generator& line) const {
-  return sheet(*this, local(*this, line));
+  return tube_sheet(*this, local(*this, line));
 }
 
 Hit PreparedTube::continued_hit(const Generator& line) const {
   const auto p = local(*this, line);
   const double ds = p.x * p.v / p.s;
   const double dds = (p.x * p.u - p.v * p.v - ds * ds) / p.s;
-  return {.z = sheet(*this, p),
+  return {.z = tube_sheet(*this, p),
           .normal = normal_at(*this, p, clamped_cosine(*this, p), p.s / radius),
-          .z_dphi = (ds - p.u * cos_inclination) / sin_inclination,
+          .z_dphi = tube_slope(*this, p),
           .z_dphi2 = (dds + p.v * cos_inclination) / sin_inclination,
           .axial = (p.s * cos_inclination - p.v) / sin_inclination};
 }
@@ -157,7 +130,7 @@ Hit PreparedTube::continued_hit(const Generator& line) const {
 double PreparedTube::silhouette_height(const Generator& line) const {
   auto p = local(*this, line);
   p.s = 0.0;
-  return sheet(*this, p);
+  return tube_sheet(*this, p);
 }
 
 double PreparedTube::silhouette_slope(const Generator& line) const {

@@ -81,7 +81,7 @@ TEST(TorchLine, KeepsHalfAKerfFromAPlane) {
     spec.kerf = 2.0;
     const auto got = table(spec);
     ASSERT_TRUE(got);
-    const auto drops = torch_drops(spec, *got);
+    const auto drops = torch_line(spec, *got).drops;
     for (std::size_t i = 0; i < drops.size(); ++i) EXPECT_NEAR(drops[i], 1.0 / n.cos, 2e-3) << i;
     EXPECT_LE(got->torch_line.gouge, 1e-3);
     EXPECT_LE(got->torch_line.left, 1e-3);

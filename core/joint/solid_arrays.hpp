@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/joint/solid.hpp"
+
+/// What a solid tells of one place or line, of many side by side: the same numbers, of a tube at a
+/// quarter of the price.
+namespace tubecut::joint {
+
+/// Points in space.
+struct Places {
+  std::vector<double> x, y, z;
+
+  explicit Places(std::size_t n = 0) : x(n), y(n), z(n) {}
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] Eigen::Vector3d at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, const Eigen::Vector3d& p) {
+    x[i] = p.x();
+    y[i] = p.y();
+    z[i] = p.z();
+  }
+};
+
+/// As Solid::distance and Solid::least_distance.
+void distances(const Solid& solid, const Places& places, std::span<double> out);
+void least_distances(const Solid& solid, const Places& from, const Places& to,
+                     std::span<double> out);
+
+/// How near each way from `from` to `to` comes to a plain solid, and at which share of it.
+template <PlainSolid Kind>
+void nearest_on_ways(const Kind& solid, const Places& from, const Places& to,
+                     std::span<double> share, std::span<double> distance) {
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const Eigen::Vector3d a = from.at(i), b = to.at(i);
+    share[i] = solid.nearest_share(a, b);
+    distance[i] = solid.distance(a + share[i] * (b - a));
+  }
+}
+void nearest_on_ways(const TubeSolid& solid, const Places& from, const Places& to,
+                     std::span<double> share, std::span<double> distance);
+
+}  // namespace tubecut::joint
