@@ -1,9 +1,7 @@
-// Microseconds of core: Table 1's parts, a feed curve, a groove and its mill path, a pulse
-// schedule.
+// Microseconds of core: a feed curve, a groove and its mill path, a pulse schedule.
 #include <benchmark/benchmark.h>
 
-#include "core/bevel/required.hpp"
-#include "core/bevel/table.hpp"
+#include "bench/table_1.hpp"
 #include "core/cutoff/feed_curve.hpp"
 #include "core/cutoff/verify.hpp"
 #include "core/groove/groove.hpp"
@@ -12,92 +10,6 @@
 
 namespace tubecut {
 namespace {
-
-/// Source 000, Table 1.
-std::vector<joint::Partner> table_1() {
-  const double numbers[][4] = {
-      {55, 85, 0, 0}, {35, 65, 90, 15}, {35, 35, 245, -5}, {35, 55, 320, 0}};
-  std::vector<joint::Partner> out;
-  for (const auto& n : numbers)
-    out.emplace_back(joint::TubeCutter{.radius = n[0],
-                                       .inclination = Angle::deg(n[1]),
-                                       .clocking = Angle::deg(n[2]),
-                                       .offset = n[3]});
-  return out;
-}
-
-bevel::TableSpec spec(bool refine) {
-  const bevel::BevelRateLimits limits{.slope = 5.0 * kRadPerDeg, .curvature = 1.0 * kRadPerDeg};
-  return {.target = {.outer_radius = 35, .wall = 5},
-          .partners = table_1(),
-          .sampling = {.uniform_points = 360},
-          .groove = bevel::HalfDihedral{},
-          .smoothing = bevel::EnvelopeSmoothing{.limits = limits, .refine = refine}};
-}
-
-bevel::AngleProfile profile() {
-  const auto table = bevel::table(spec(false)).value();
-  bevel::AngleProfile out{.s = table.developed, .b = {}, .period = table.developed_total};
-  for (std::size_t i = 0; i < table.b.size(); ++i)
-    out.b.push_back(std::max(table.b_raw[i], table.b_required[i]));
-  return out;
-}
-
-void trace_with_events(benchmark::State& state) {
-  const auto cutters = joint::resolve(table_1()).value();
-  for (auto _ : state) benchmark::DoNotOptimize(joint::trace(cutters, 30.0));
-}
-BENCHMARK(trace_with_events)->Unit(benchmark::kMicrosecond);
-
-void contour_360(benchmark::State& state) {
-  const auto contour = joint::trace(joint::resolve(table_1()).value(), 30.0).value();
-  for (auto _ : state)
-    for (int i = 0; i < 360; ++i)
-      benchmark::DoNotOptimize(joint::contact_at(contour, kTwoPi * i / 360.0));
-}
-BENCHMARK(contour_360)->Unit(benchmark::kMicrosecond);
-
-void angles_360(benchmark::State& state) {
-  const auto contour = joint::trace(joint::resolve(table_1()).value(), 30.0).value();
-  const bevel::Rule rule(bevel::HalfDihedral{}, bevel::Dihedral::weld_side);
-  for (auto _ : state)
-    for (int i = 0; i < 360; ++i) {
-      const double phi = kTwoPi * i / 360.0;
-      const auto cutter = joint::contact_at(contour, phi).cutter;
-      const auto hit =
-          joint::continued_hit(contour.cutters[cutter], joint::generator_at(30.0, phi));
-      benchmark::DoNotOptimize(rule.angles(hit.normal));
-    }
-}
-BENCHMARK(angles_360)->Unit(benchmark::kMicrosecond);
-
-void envelope_360(benchmark::State& state) {
-  const auto input = profile();
-  const bevel::EnvelopeSpec method{.limits = {5.0 * kRadPerDeg, 1.0 * kRadPerDeg},
-                                   .refine = state.range(0) != 0};
-  for (auto _ : state) benchmark::DoNotOptimize(bevel::envelope(input, method));
-}
-BENCHMARK(envelope_360)->ArgName("refine")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
-
-void hermite_360(benchmark::State& state) {
-  const auto input = profile();
-  for (auto _ : state)
-    benchmark::DoNotOptimize(bevel::hermite(input, {.limit = 10.0 * kRadPerDeg, .transition = 15}));
-}
-BENCHMARK(hermite_360)->Unit(benchmark::kMicrosecond);
-
-void whole_table(benchmark::State& state) {
-  const auto request = spec(state.range(0) != 0);
-  for (auto _ : state) benchmark::DoNotOptimize(bevel::table(request));
-}
-BENCHMARK(whole_table)->ArgName("refine")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
-
-void verify_table(benchmark::State& state) {
-  const auto request = spec(true);
-  const auto table = bevel::table(request).value();
-  for (auto _ : state) benchmark::DoNotOptimize(bevel::verify(request, table));
-}
-BENCHMARK(verify_table)->Unit(benchmark::kMicrosecond);
 
 /// Source 004's second machine; limits and handling assumed.
 cutoff::FeedCurveSpec feed_spec(int degree) {
@@ -179,7 +91,7 @@ BENCHMARK(mill_path_whole)->ArgName("positions")->Arg(90)->Arg(360)->Unit(benchm
 
 /// Table 1's smoothed cut on the five-axis cutter at 600 mm/min; the period in us.
 motion::ScheduleSpec schedule_spec(double period_us) {
-  const auto table = bevel::table(spec(true)).value();
+  const auto table = bevel::table(table_1_spec(true)).value();
   motion::ScheduleSpec out;
   motion::CutPath contour;
   contour.phi = table.phi;
