@@ -26,13 +26,13 @@ inline constexpr BundleFile kBundleFiles[] = {
     {"work-order", "svg", ".svg"}, {"nc1", "nc1", ".nc1"}, {"dxf", "dxf", ".dxf"},
     {"step", "step", ".step"},     {"csv", "csv", ".csv"}, {"gcode", "gcode", ".ngc", true}};
 
-/// What a template is tiled on.
-enum class Paper { a4, a3 };
+/// What a template is printed on: one sheet as large as it is, or pages.
+enum class Paper { sheet, a4, a3 };
 
 /// What the query says of a drawing or a machine file. Lengths in mm.
 struct FormatOptions {
-  bool mirror = false;                         // drawn for the print side to lie on the tube
-  std::optional<Paper> paper = {};             // empty: one sheet as large as the template
+  bool mirror = false;  // drawn for the print side to lie on the tube
+  Paper paper = Paper::sheet;
   bool torch = false;                          // the program lights the torch; else it only moves
   std::vector<std::string> acknowledged = {};  // codes of warnings of a `review` that is cut
   std::shared_ptr<const Post> post = {};       // whose words a program is written in

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::array kSwitch{Option<bool>{"on", true}, Option<bool>{"off", false}};
 constexpr std::array kAxial{Option<bool>{"x", false}, Option<bool>{"z", true}};
-constexpr std::array kPaper{Option<Paper>{"a4", Paper::a4}, Option<Paper>{"a3", Paper::a3}};
+constexpr std::array kPaper{Option<Paper>{"sheet", Paper::sheet}, Option<Paper>{"a4", Paper::a4},
+                            Option<Paper>{"a3", Paper::a3}};
 constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};        // mm/min
 constexpr Range kLead{.min = 0.0, .max = 1'000.0};          // mm
 constexpr Range kOvercut{.min = 0.0, .max = 1'000.0};       // mm
@@ -166,8 +167,7 @@ std::shared_ptr<const Post> read_post(Reader& in) {
 FormatOptions read_options(Reader& in) {
   FormatOptions out;
   out.mirror = in.flag("mirror", false);
-  in.note("paper");
-  if (in.has("paper")) out.paper = in.choice("paper", kPaper);
+  out.paper = in.choice("paper", kPaper, Paper::sheet);
   out.torch = in.choice("torch", kSwitch, false);
   out.acknowledged = read_acknowledged(in, out.torch);
   out.post = read_post(in);

@@ -161,18 +161,28 @@ class Stretch {
     canvas_.polyline(curve(RoundEdge(end.table.phi, end.table.z_inner, plan_.opened)), kInner,
                      name + "_inner");
     const auto& t = end.table;
-    const double s = plan_.scale.factor * spec_.target.outer_radius;
-    if (welded)
-      for (std::size_t i = 0; i < t.phi.size(); ++i) {
-        const std::size_t next = i + 1 == t.phi.size() ? 0 : i + 1;
-        const double p = turned_from(plan_.opened, t.phi[i]);
-        double q = turned_from(plan_.opened, t.phi[next]);
-        if (q < p) q += kTwoPi;
-        if (s * (q - p) > 0.5 * s * kTwoPi) continue;
-        canvas_.line(at(p, t.z_outer[i]), at(q, t.z_outer[next]),
-                     {.color = partner_color(first_color + t.cutter[i]), .width = 0.9});
-      }
+    if (welded) colored(t, first_color);
     canvas_.polyline(curve(outer(end)), kCut, name + "_outer");
+  }
+
+  /// Each stretch of the edge in its partner's colour.
+  void colored(const bevel::Table& t, std::size_t first_color) {
+    std::vector<DrawingPoint> run;
+    const auto end_run = [&](std::size_t partner) {
+      if (run.size() > 1)
+        canvas_.polyline(run, {.color = partner_color(first_color + partner), .width = 0.9});
+      run.clear();
+    };
+    double before = plan_.opened;
+    for (std::size_t i = 0; i < t.phi.size(); ++i) {
+      const double phi = turned_from(plan_.opened, t.phi[i]);
+      const bool again = phi < before;
+      if (i > 0 && !again && t.cutter[i] != t.cutter[i - 1]) run.push_back(at(phi, t.z_outer[i]));
+      if (i > 0 && (again || t.cutter[i] != t.cutter[i - 1])) end_run(t.cutter[i - 1]);
+      run.push_back(at(phi, t.z_outer[i]));
+      before = phi;
+    }
+    if (!t.cutter.empty()) end_run(t.cutter.back());
   }
 
   /// Drawn again a turn on where it reaches beyond the lower edge.

@@ -97,14 +97,15 @@ TileWords tile_words(const Development& d, const TemplateField& field, const Cap
 }  // namespace
 
 void refuse_paper(const Caption& caption) {
-  if (caption.options.paper) throw UnfitOption{"paper", "goes with view=template"};
+  if (caption.options.paper != Paper::sheet) throw UnfitOption{"paper", "goes with view=template"};
 }
 
 std::vector<Canvas> wrap_template(const Development& development, const Caption& caption) {
   const auto field = template_field(development);
   const auto drawing = draw_template(development, field, caption);
-  if (!caption.options.paper) return {one_sheet(development, field, drawing, caption)};
-  return tiles(drawing.all, drawing.cuts, *caption.options.paper,
+  if (caption.options.paper == Paper::sheet)
+    return {one_sheet(development, field, drawing, caption)};
+  return tiles(drawing.all, drawing.cuts, caption.options.paper,
                tile_words(development, field, caption));
 }
 

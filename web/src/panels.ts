@@ -429,8 +429,9 @@ export function downloads(endpoint: string, name: string, body: Row, formats: Fo
     const files = options.find(({name: of}) => of === 'files') && given.get('files')?.().split(',');
     for (const option of options) {
       const value = given.get(option.name)?.();
+      const apart = /^(mirror|paper)$/.test(option.name) && view !== 'template'; // drawings of other views refuse it
       // What else a packet reads is its programs'.
-      if (value && (!files || option.name === 'files' || files.includes('gcode'))) query.set(option.name, value);
+      if (value && !apart && (!files || option.name === 'files' || files.includes('gcode'))) query.set(option.name, value);
     }
     bar.hidden = false;
     bar.removeAttribute('value'); // not to be told while it is computed
