@@ -1,7 +1,6 @@
 #include "api/formats/part_development.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "api/formats/labels.hpp"
 #include "api/formats/numbers.hpp"
@@ -14,8 +13,7 @@ namespace {
 constexpr double kMostGirth = 76.0;
 constexpr double kLeft = 13.0, kRight = 32.0;  // beside a strip: phases; lengths and girth
 constexpr double kAbove = 7.0, kBelow = 22.0;
-constexpr double kRoom = 4.0;   // of plain tube beside what is drawn
-constexpr double kBreak = 6.0;  // what a break takes
+constexpr double kRoom = 4.0, kBreak = 6.0;  // of plain tube beside what is drawn; of a break
 
 constexpr Stroke kCut{.color = "#1d242b", .width = 0.35};
 constexpr Stroke kInner{.color = "#566370", .width = 0.2, .dashes = "1.6 1"};
@@ -23,7 +21,6 @@ constexpr Stroke kQuarter{.color = "#7a8794", .width = 0.15, .dashes = "2 1.5"};
 constexpr Stroke kDatum{.color = "#c0392b", .width = 0.35};
 constexpr Stroke kMark{.color = "#2b6ca3", .width = 0.3};
 constexpr Stroke kDimension{.color = "#1d242b", .width = 0.18};
-constexpr Stroke kThin{.color = "#7a8794", .width = 0.15};
 constexpr std::string_view kMetal = "#eef3f8";
 constexpr Lettering kGrey{.height = 2.1, .color = "#566370"};
 
@@ -176,9 +173,9 @@ class Stretch {
     double before = plan_.opened;
     for (std::size_t i = 0; i < t.phi.size(); ++i) {
       const double phi = turned_from(plan_.opened, t.phi[i]);
-      const bool again = phi < before;
-      if (i > 0 && !again && t.cutter[i] != t.cutter[i - 1]) run.push_back(at(phi, t.z_outer[i]));
-      if (i > 0 && (again || t.cutter[i] != t.cutter[i - 1])) end_run(t.cutter[i - 1]);
+      const bool next = i > 0 && t.cutter[i] != t.cutter[i - 1];
+      if (next && phi >= before) run.push_back(at(phi, t.z_outer[i]));
+      if (next || phi < before) end_run(t.cutter[i - 1]);  // phi of the first is not below
       run.push_back(at(phi, t.z_outer[i]));
       before = phi;
     }
@@ -299,7 +296,7 @@ class Beside {
       std::vector<DrawingPoint> line;
       for (int i = 0; i <= 12; ++i)
         line.push_back({side + (i % 2 == 0 ? -0.5 : 0.5), top_.y - high_ * i / 12.0});
-      canvas_.polyline(std::move(line), kThin);
+      canvas_.polyline(std::move(line), kDimension);
     }
   }
 
@@ -338,7 +335,6 @@ class Beside {
 
   /// At the right: the lengths at the quarters, and the girth.
   void lengths() {
-    const RoundEdge start(part_.start.table.phi, part_.start.table.z_outer, 0.0);
     for (int i = 0; i < 4; ++i) {
       const std::string name = "length_at_" + std::to_string(90 * i);
       for (const auto& d : part_.check_dimensions)
