@@ -1,6 +1,5 @@
 """What people read in drawings: words instead of names of the contract, short numbers, and no label on another."""
 
-import json
 import math
 import re
 import xml.etree.ElementTree as ElementTree

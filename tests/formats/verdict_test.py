@@ -160,8 +160,8 @@ class Verdict(FormatTest):
         for media, about in self.contract["paths"][f"/v1/{endpoint}"]["post"]["responses"]["200"]["content"].items():
             if media in ("application/json", "application/cbor"):
                 continue
-            names = {"text/csv": "csv", "image/svg+xml": "svg", "application/pdf": "pdf", "image/vnd.dxf": "dxf", "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step",
-                     "application/x-dstv": "nc1", "text/x-gcode": "gcode", "text/x-iec61131-st": "st"}
+            names = {"text/csv": "csv", "image/svg+xml": "svg", "application/pdf": "pdf", "image/vnd.dxf": "dxf", "model/gltf-binary": "glb", "model/stl": "stl",
+                     "model/step": "step", "application/x-dstv": "nc1", "text/x-gcode": "gcode", "text/x-iec61131-st": "st"}
             speed = SPEED if SPEED.partition("=")[0] in about.get("x-options", []) else ""
             for view in about.get("x-views", [""]):
                 yield media, "&".join(filter(None, [f"format={names[media]}", f"view={view}" if view else "", speed]))

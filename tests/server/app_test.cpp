@@ -296,7 +296,10 @@ TEST(App, TellsWhatWasAskedWhateverBecameOfIt) {
   EXPECT_EQ(asked.size(), 64U);
   EXPECT_EQ(records.back().facts.result_sha256.size(), 64U);
   EXPECT_EQ(records.back().replica, "cut-1");
-  const std::string fine = cut + R"(, "sampling": {"uniform_points": 20000}})";
+  // Seconds of work: every two points within the kerf.
+  auto wide = cut;
+  wide.replace(wide.find("\"kerf_mm\": 0"), 12, "\"kerf_mm\": 20");
+  const std::string fine = wide + R"(, "sampling": {"uniform_points": 20000}})";
   EXPECT_EQ(late(fine), 504);
   EXPECT_EQ(records.back().facts.input_sha256.size(), 64U);
   EXPECT_NE(records.back().facts.input_sha256, asked);
@@ -309,7 +312,7 @@ TEST(App, TellsWhatWasAskedWhateverBecameOfIt) {
   EXPECT_EQ(status(R"({"reference": {"order": "4711"}, "cutters": []})"), 422);
   EXPECT_EQ(records.back().facts.reference.at(0).second, "4711");
   EXPECT_EQ(
-      late(cut + R"(, "reference": {"order": "4711"}, "sampling": {"uniform_points": 20000}})"),
+      late(wide + R"(, "reference": {"order": "4711"}, "sampling": {"uniform_points": 20000}})"),
       504);
   EXPECT_EQ(records.back().facts.reference.at(0).second, "4711");
   for (const auto* body : {"{", "{}"}) {
