@@ -54,7 +54,7 @@ TUBECUT_WIDE void tube_least(const Tube& tube, From a, From b, double* out) {
     const double there =
         t.distance(ax + share * (bx - ax), ay + share * (by - ay), az + share * (bz - az));
     const double least = std::min(std::min(first, half), last);
-    out[i] = (t.radius > 0.0) & (bend > 0.0) ? std::min(least, there) : least;
+    out[i] = ((t.radius > 0.0) & (bend > 0.0)) ? std::min(least, there) : least;
   }
 }
 

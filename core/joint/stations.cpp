@@ -90,7 +90,9 @@ TUBECUT_WIDE void steepen(const PreparedTube& tube, const Wall& wall, Turns on, 
     const double own = leaning(x, std::sqrt(std::max(0.0, (t.radius - x) * (t.radius + x))));
     // Seen from outside: to both ends of what is met, and along the tangents.
     double best = -kInfinity;
-    const auto see = [&](bool seen, double value) { best = seen & (value > best) ? value : best; };
+    const auto see = [&](bool seen, double value) {
+      best = (seen & (value > best)) ? value : best;
+    };
     const auto rise = [&](double rho) {
       return (tube_sheet(t, tube_local(t, rho, c, s)) - z) / (rho - w.inner);
     };
