@@ -16,14 +16,14 @@ namespace tubecut::api {
   X(job, 0.5e-3, "job")                                                                      \
   X(body_byte, 60e-9, "byte of the body")                                                    \
   X(curve_point, 0.8e-6, "point of an intersection, on each wall")                           \
-  X(curve_point_of_cutter, 0.06e-6, "point of an intersection, for each cutter")             \
+  X(curve_point_of_cutter, 0.03e-6, "point of an intersection, for each cutter")             \
   X(curve_cutter, 0.2e-3, "cutter of an intersection")                                       \
   X(table, 5e-3, "bevel table")                                                              \
-  X(square_table, 1e-3, "bevel table of a plane square to its tube")                         \
-  X(square_table_point, 4e-6, "point of a bevel table of a plane square to its tube")        \
+  X(square_table, 0.7e-3, "bevel table of a plane square to its tube")                       \
+  X(square_table_point, 3e-6, "point of a bevel table of a plane square to its tube")        \
   X(table_with_kerf, 10e-3, "bevel table with a kerf")                                       \
   X(table_point, 26e-6, "point of a bevel table")                                            \
-  X(table_point_of_cutter, 0.4e-6, "point of a bevel table, for each cutter")                \
+  X(table_point_of_cutter, 0.3e-6, "point of a bevel table, for each cutter")                \
   X(beam_pair, 0.36e-6, "two points of a table or a hole no further apart than its kerf")    \
   X(rectangular_tube, 1.5e-3, "rectangular tube among the cutters")                          \
   X(elbow, 6e-3, "elbow among the cutters of a table or an intersection")                    \
@@ -31,8 +31,8 @@ namespace tubecut::api {
   X(member, 15e-6, "member of a node")                                                       \
   X(near_pair, 90e-6,                                                                        \
     "pair of members nearer than their radii of which neither cuts the other; not foreseen") \
-  X(path, 5e-3, "pulse schedule")                                                            \
-  X(path_knot, 14e-6, "0.1 mm of a schedule's path that bends or whose bevel changes")       \
+  X(path, 4e-3, "pulse schedule")                                                            \
+  X(path_knot, 13e-6, "0.1 mm of a schedule's path that bends or whose bevel changes")       \
   X(straight_knot, 2.5e-6, "0.1 mm of a schedule's path straight round its tube")            \
   X(contour_point, 100e-6, "point of a contour")                                             \
   X(axis_row, 10e-6, "row of axis columns")                                                  \
