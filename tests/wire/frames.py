@@ -110,6 +110,13 @@ def seams(service):
         connection.close()
 
 
+def idle(service):
+    until = time.monotonic() + 5
+    while service.metric("tubecut_slots_busy ") or service.metric("tubecut_queue_depth "):
+        assert time.monotonic() < until, "slots are not free again"
+        time.sleep(0.01)
+
+
 def hung_up(service):
     """Slots of a frame of 100 trusses whose client leaves after its first part."""
     connection, reply = begin(service, trusses(100))
@@ -117,9 +124,32 @@ def hung_up(service):
     assert len(frame["result"]["cut_list"]) > 1000 and part["status"] == 200
     connection.sock.close()
     reply.close()
+    idle(service)
+
+
+def helped(service):
+    """A whole frame, which free slots help with: its budget ends it, whoever asks beside it has a slot, and it ends when its client hangs up."""
+    body, rest = json.dumps(trusses(60)), service.metric("tubecut_memory_reserved_bytes ")
+    connection = http.client.HTTPConnection("127.0.0.1", service.port, timeout=60)
+    connection.request("POST", "/v1/frames", body, {"Content-Type": "application/json", "Tubecut-Budget-Ms": "400"})
+    late = connection.getresponse()
+    assert late.status == 504 and json.loads(late.read())["code"] == "over_budget", late.status
+    idle(service)
+    connection.request("POST", "/v1/frames", body, {"Content-Type": "application/json"})
+    while not service.metric("tubecut_slots_busy "):
+        time.sleep(0.001)
+    beside = http.client.HTTPConnection("127.0.0.1", service.port, timeout=60)
+    for name in ("bevel-tables/mitre", "parts/k-joint-brace"):
+        beside.request("POST", "/v1/" + name.split("/")[0], (ROOT / f"examples/{name}.json").read_bytes(), {"Content-Type": "application/json"})
+        reply = beside.getresponse()
+        assert reply.status == 200 and reply.read(), name
+    assert service.metric("tubecut_slots_busy "), "the frame was done before"
+    connection.sock.close()
+    beside.close()
+    idle(service)
     until = time.monotonic() + 5
-    while service.metric("tubecut_slots_busy ") or service.metric("tubecut_queue_depth "):
-        assert time.monotonic() < until, "slots are not free again"
+    while service.metric("tubecut_memory_reserved_bytes ") > rest:
+        assert time.monotonic() < until, "what helpers took is not given back"
         time.sleep(0.01)
 
 
@@ -129,6 +159,7 @@ def main():
         refusals(service)
         seams(service)
         hung_up(service)
+        helped(service)
         frame, parts, summary = streamed(service, trusses(20))
         assert summary["answered"] == len(parts) == len(frame["result"]["cut_list"]) > 200, summary
         print(f"{count} frames alike in lines and at once; {len(parts)} different parts in lines")
