@@ -1,6 +1,6 @@
 // Two builds, the same bytes: every example and so many generated requests of every endpoint, each in JSON, and by turns in the
 // other formats it has.
-// usage: same_answers.mjs OLD_BINARY NEW_BINARY [--count 2000] [--seed N] [--contract openapi.yaml]
+// usage: same_answers.mjs OLD_BINARY NEW_BINARY [--count 2000] [--seed N] [--only bevel-tables,parts] [--contract openapi.yaml]
 import {parseArgs} from 'node:util';
 import {Contract} from '../tests/contract/schemas.mjs';
 import {drawn, sound} from '../tests/contract/generate.mjs';
@@ -10,14 +10,16 @@ const SHOWN = 12;
 const NAMED = {'X-Request-Id': '0123456789abcdef0123456789abcdef'};  // a problem says it again
 
 const {values, positionals: [old, now]} = parseArgs({allowPositionals: true, options: {
-  count: {type: 'string', default: '2000'}, seed: {type: 'string', default: '1'}, contract: {type: 'string', default: 'openapi.yaml'}}});
+  count: {type: 'string', default: '2000'}, seed: {type: 'string', default: '1'}, only: {type: 'string'},
+  contract: {type: 'string', default: 'openapi.yaml'}}});
 if (!old || !now) {
-  console.error('usage: same_answers.mjs OLD_BINARY NEW_BINARY [--count N] [--seed N] [--contract FILE]');
+  console.error('usage: same_answers.mjs OLD_BINARY NEW_BINARY [--count N] [--seed N] [--only ENDPOINTS] [--contract FILE]');
   process.exit(2);
 }
 const [before, after] = await Promise.all([Service.start(old), Service.start(now)]);
 const contract = await new Contract(values.contract).learn(before);
-const posts = contract.posts();
+const only = values.only?.split(',').map((name) => `/v1/${name}`);
+const posts = contract.posts().filter(({path}) => !only || only.includes(path));
 const share = Math.ceil(Number(values.count) / posts.length);
 
 // What a log says of the time is no answer; everything else is.
@@ -26,6 +28,7 @@ const {endpoints} = JSON.parse((await before.ask('/v1/version', {method: 'GET'})
 const formats = (path) => endpoints.find((e) => e.path === path).formats.filter((type) => type !== 'application/json');
 
 let differing = 0, asked = 0;
+const formatsThatDiffer = {};
 const statuses = {};
 async function same(path, body, format) {
   const where = `${path} as ${format}`;
@@ -34,6 +37,7 @@ async function same(path, body, format) {
   statuses[a.status] = (statuses[a.status] ?? 0) + 1;
   if (a.status === b.status && a.body.equals(b.body)) return;
   differing += 1;
+  formatsThatDiffer[format] = (formatsThatDiffer[format] ?? 0) + 1;
   if (differing > SHOWN) return;
   const at = [...a.text].findIndex((c, i) => c !== b.text[i]);
   console.log(`DIFFERS ${where}: ${a.status} ${a.text.slice(Math.max(0, at - 60), at + 80)}\n   now ${b.status} ${b.text.slice(Math.max(0, at - 60), at + 80)}`);
@@ -50,6 +54,6 @@ for (const endpoint of posts) {
     if (kinds.length) await same(endpoint.path, silent(body), kinds[k % kinds.length]);
   });
 }
-console.log(`${asked} requests, ${differing} differ; answers ${JSON.stringify(statuses)}`);
+console.log(`${asked} requests, ${differing} differ ${JSON.stringify(formatsThatDiffer)}; answers ${JSON.stringify(statuses)}`);
 await Promise.all([before.stop(), after.stop()]);
 process.exitCode = differing || !asked ? 1 : 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/try.hpp"
-#include "core/bevel/swing_rows.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/bevel/torch_line.hpp"
 
@@ -63,78 +62,113 @@ Table outline(const TableSetup& g, const Rows& rows) {
   return out;
 }
 
-/// The table with rows at the phases `also` besides those of the sampling.
-Result<Table> build(const TableSetup& g, const std::vector<double>& also,
+/// A table on its way.
+struct Draft {
+  std::vector<double> also = {};  // phases of rows besides those of the sampling
+  Rows rows = {};
+  Table table = {};
+};
+
+/// More rows, and B on all of them.
+Result<void> smooth(const TableSetup& g, const std::vector<double>& more, Draft& draft,
                     const std::stop_token& stop) {
-  TRY(const auto sampled, detail::rows(g, also, stop));
-  const auto& rows = sampled;
-  TRY(detail::check_required_in_torch_range(g, rows));
-  auto out = outline(g, rows);
-  fill_angles(g, rows, out);
-  TRY(fill_zones(g.spec, rows, out));
-  TRY(detail::fill_smoothed(g, rows, out, stop));
-  detail::fill_surfaces(g, rows, out, stop);
+  draft.also.insert(draft.also.end(), more.begin(), more.end());
+  TRY(draft.rows, detail::rows(g, draft.also, draft.rows, stop));
+  TRY(detail::check_required_in_torch_range(g, draft.rows));
+  draft.table = outline(g, draft.rows);
+  fill_angles(g, draft.rows, draft.table);
+  TRY(fill_zones(g.spec, draft.rows, draft.table));
+  return detail::fill_smoothed(g, draft.rows, draft.table, stop);
+}
+
+/// The finished surface on the draft's rows.
+Result<void> surface(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
+  detail::fill_surfaces(g, draft.rows, draft.table, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  TRY(detail::check_clearance(g, rows, out, stop));
-  for (const auto* z : {&out.z_inner, &out.z_outer}) TRY(joint::check_length(g.spec.target, *z));
-  detail::note_torch_binds(g, rows, out);
-  detail::note_overhang(g, out);
-  detail::note_root_opens(g.spec, out);
-  if (!g.spec.sampling.tolerance) detail::note_events_between(g, out);
-  return out;
+  TRY(detail::check_clearance(g, draft.rows, draft.table, stop));
+  for (const auto* z : {&draft.table.z_inner, &draft.table.z_outer})
+    TRY(joint::check_length(g.spec.target, *z));
+  return {};
+}
+
+Result<void> add(const TableSetup& g, const std::vector<double>& more, Draft& draft,
+                 const std::stop_token& stop) {
+  TRY(smooth(g, more, draft, stop));
+  return surface(g, draft, stop);
+}
+
+/// Rows where B turns: B alone tells.
+Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
+  constexpr int kRounds = 6;  // of halving
+  for (int round = 0; round < kRounds; ++round) {
+    const auto more = detail::rows_where_b_turns(g.spec, draft.table);
+    if (more.empty()) break;
+    TRY(smooth(g, more, draft, stop));
+  }
+  return {};
+}
+
+/// Rows where the torch's line bends; the line, where it is that of the draft.
+Result<std::optional<TorchLine>> follow_torch(const TableSetup& g, Draft& draft,
+                                              const std::stop_token& stop) {
+  constexpr int kRounds = 3;  // the second sees what the first's own rows changed
+  for (int round = 0; round < kRounds; ++round) {
+    auto line = torch_line(g.spec, draft.table, stop);
+    if (line.rows.empty()) return line;
+    TRY(add(g, line.rows, draft, stop));
+  }
+  return std::nullopt;
+}
+
+/// Rows where the finished wall enters a partner between those there are; whether there were any.
+Result<bool> follow_partners(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
+  if (!promises_no_penetration(g.spec)) return false;
+  constexpr int kRounds = 10;  // each divides a depth by sixteen where the cut is smooth
+  for (int round = 0; round < kRounds; ++round) {
+    const auto more =
+        detail::entering_phases(g, draft.table, g.spec.sampling.tolerance->value, stop);
+    if (more.empty()) return round > 0;
+    TRY(add(g, more, draft, stop));
+  }
+  return true;
+}
+
+void note(const TableSetup& g, Draft& draft) {
+  detail::note_torch_binds(g, draft.rows, draft.table);
+  detail::note_overhang(g, draft.table);
+  detail::note_root_opens(g.spec, draft.table);
+  if (!g.spec.sampling.tolerance) detail::note_events_between(g, draft.table);
 }
 
 /// The gaps of an untilted cut, beside those of a bevelled one that has all its rows.
 Result<void> map_gaps(const TableSetup& g, Table& out, const std::stop_token& stop) {
   const auto bevelled = detail::flush_of(g.spec);
   TRY(const auto other, detail::set_up(bevelled, stop));
-  TRY(const auto flush, build(other, out.phi, stop));
-  out.gaps = detail::gap_map(g, out, flush, stop);
+  Draft flush;
+  TRY(add(other, out.phi, flush, stop));
+  out.gaps = detail::gap_map(g, out, flush.table, stop);
   return {};
 }
 
 }  // namespace
 
 Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
-  constexpr int kSwingRounds = 6;   // of halving
-  constexpr int kTorchRounds = 3;   // the second sees what the first's own rows changed
-  constexpr int kClearRounds = 10;  // each divides a depth by sixteen where the cut is smooth
   TRY(const auto g, detail::set_up(spec, stop));
-  auto also = g.row_phases;
-  auto out = build(g, also, stop);
-  const auto with_rows = [&](const std::vector<double>& more) {
-    also.insert(also.end(), more.begin(), more.end());
-    out = build(g, also, stop);
-    return out && !more.empty();
-  };
-  for (int round = 0; out && round < kSwingRounds; ++round) {
-    const auto more = swing_rows(spec, *out);
-    if (more.empty() || !with_rows(more)) break;
-  }
-  std::optional<TorchLine> line;  // of the table as it stands
-  for (int round = 0; out && round < kTorchRounds; ++round) {
-    line = torch_line(spec, *out, stop);
-    if (line->rows.empty()) break;
-    const auto more = std::move(line->rows);
-    line.reset();
-    if (!with_rows(more)) break;
-  }
-  if (spec.contact != Contact::none && spec.sampling.tolerance)
-    for (int round = 0; out && round < kClearRounds; ++round) {
-      const auto more = detail::entering_phases(g, *out, spec.sampling.tolerance->value, stop);
-      if (more.empty()) break;
-      line.reset();
-      if (!with_rows(more)) break;
-    }
-  if (!out) return out;
-  detail::state_penetration(g, *out, stop);
-  if (spec.untilted) TRY(map_gaps(g, *out, stop));
-  if (!line) line = torch_line(spec, *out, stop);
-  detail::lay_torch(spec, line->drops, *out, stop);
+  Draft draft;
+  TRY(smooth(g, g.row_phases, draft, stop));
+  TRY(follow_swing(g, draft, stop));
+  TRY(surface(g, draft, stop));
+  TRY(auto line, follow_torch(g, draft, stop));
+  TRY(const bool added, follow_partners(g, draft, stop));
+  note(g, draft);
+  auto& out = draft.table;
+  detail::state_penetration(g, out, stop);
+  if (spec.untilted) TRY(map_gaps(g, out, stop));
+  if (!line || added) line = torch_line(spec, out, stop);
+  detail::lay_torch(spec, line->drops, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (auto ok = check_spared(beam_cut(spec, *out), out->torch_line); !ok)
-    return tl::unexpected(ok.error());
-  return out;
+  TRY(check_spared(beam_cut(spec, out), out.torch_line));
+  return std::move(out);
 }
 
 }  // namespace tubecut::bevel

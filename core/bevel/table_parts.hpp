@@ -59,9 +59,11 @@ struct Rows {
   /// Is node i the first of a jump's two?
   [[nodiscard]] bool jump_pair(std::size_t i) const;
 };
+/// Rows at the phases `also` besides those of the sampling; what `known` has of them is taken over.
+///
 /// Errors  too_many_nodes, cancelled.
 [[nodiscard]] Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
-                                const std::stop_token& stop);
+                                const Rows& known, const std::stop_token& stop);
 
 /// Runs of nodes (cyclic) that satisfy `holds`, as phi intervals; one that crosses 0 ends above 2
 /// pi.
@@ -98,9 +100,13 @@ template <class F>
                                          const std::stop_token& stop);
 /// B required beyond the torch: an error, with the root gap that lifting the cut would open.
 [[nodiscard]] Result<void> check_required_in_torch_range(const TableSetup& g, const Rows& rows);
-/// Smoothed B beyond the torch: an error with its phases.
-[[nodiscard]] Result<void> check_smoothed_in_torch_range(const TableSetup& g, const Rows& rows,
-                                                         const std::vector<double>& b);
+/// Phases of rows that a table smoothed by the envelope still lacks: a tolerance spares rows where
+/// the contour is straight, but B may bend there, and a bend of the whole curvature A over a step
+/// h turns the slope by A h at one row, which no axis follows. Empty when no row turns the slope
+/// by more than a quarter of K (steps of K / 4A), and with uniform rows alone.
+///
+/// Source  docs/theory/intersections-and-bevels.md, section 6.2.
+[[nodiscard]] std::vector<double> rows_where_b_turns(const TableSpec& spec, const Table& table);
 
 /// Finished surface, root opening and metal in the beam.
 void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop);

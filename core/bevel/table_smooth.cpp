@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
+#include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/bevel/required.hpp"
 #include "core/bevel/table_parts.hpp"
 
 namespace tubecut::bevel::detail {
@@ -87,6 +90,23 @@ Result<std::vector<double>> smooth(const TableSetup& g, const joint::Samples& sa
   return p.profile.b;
 }
 
+/// Smoothed B beyond the torch: an error with its phases.
+Result<void> check_smoothed_in_torch_range(const TableSetup& g, const Rows& rows,
+                                           const std::vector<double>& b) {
+  const auto& samples = rows.samples;
+  const auto beyond = runs(samples.nodes, [&](std::size_t i) {
+    return b[i] > g.spec.torch.max.rad() + kBelow || b[i] < g.spec.torch.min.rad() - kBelow;
+  });
+  if (!beyond.empty())
+    return fail({.code = ErrorCode::torch_range,
+                 .member = "torch/max",
+                 .got = degrees(beyond),
+                 .limit = g.spec.torch.max.deg(),
+                 .unit = "deg",
+                 .hint = "the smoothed bevel leaves the torch's range"});
+  return {};
+}
+
 /// What the smoothing left below what it was given. Only the published one may.
 Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
   const auto& samples = rows.samples;
@@ -123,7 +143,86 @@ Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
   return {};
 }
 
+constexpr double kTurn = 0.25;     // of K, at one row
+constexpr double kNarrow = 0.125;  // of K/A: no segment shorter than this is halved
+
+struct Segment {
+  double length = 0.0;  // along the smoother's path, mm
+  double slope = 0.0;   // of B, rad/mm
+  double middle = 0.0;  // phase
+  bool divisible = false;
+};
+
+std::vector<Segment> segments(const Table& t, bool along_length) {
+  const auto& s = along_length ? t.length : t.developed;
+  const double period = along_length ? t.length_total : t.developed_total;
+  std::vector<Segment> out(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const auto j = (i + 1) % s.size();
+    const double step = t.phi[j] - t.phi[i] + (j == 0 ? kTwoPi : 0.0);
+    const double middle = t.phi[i] + 0.5 * step;
+    out[i].length = s[j] - s[i] + (j == 0 ? period : 0.0);
+    out[i].slope = out[i].length > 0.0 ? (t.b[j] - t.b[i]) / out[i].length : 0.0;
+    out[i].middle = middle < kTwoPi ? middle : middle - kTwoPi;
+    out[i].divisible = step > 0.0;  // a jump is all at one phase
+  }
+  return out;
+}
+
 }  // namespace
+
+Result<void> check_required_in_torch_range(const TableSetup& g, const Rows& rows) {
+  const auto& samples = rows.samples;
+  const auto& points = rows.points;
+  if (g.spec.contact != Contact::inner) return {};
+  const double max = g.spec.torch.max.rad();
+  const auto beyond = [&](std::size_t i) {
+    return std::max(points[i].required, points[i].face) > max + kBelow;
+  };
+  auto intervals = runs(samples.nodes, beyond);
+  if (intervals.empty()) return {};
+  const double slope = elementary::tan(max);
+  double gap = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (beyond(i))
+      gap = std::max(gap, lift(g.root.cutters, g.wall,
+                               joint::generator_at(g.wall.inner, samples.nodes[i].phi), slope) -
+                              samples.nodes[i].z);
+  return fail({.code = ErrorCode::torch_range,
+               .member = "torch/max",
+               .got = degrees(std::move(intervals)),
+               .limit = g.spec.torch.max.deg(),
+               .unit = "deg",
+               .hint = "contact auto would open the root by up to " + brief(gap) + " mm"});
+}
+
+void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out) {
+  const auto& samples = rows.samples;
+  const auto& points = rows.points;
+  const bool lifted = g.spec.contact == Contact::automatic;
+  const auto lost = [&](std::size_t i) {
+    const double rule = std::abs(points[i].angles.b - points[i].raw);
+    return lifted ? std::max(rule, points[i].required - g.spec.torch.max.rad()) : rule;
+  };
+  for (const auto& [from, to] :
+       runs(samples.nodes, [&](std::size_t i) { return lost(i) > kBelow; })) {
+    Table::Binding binding{.from = from, .to = to, .groove_lost = 0.0, .root_gap = 0.0};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double phi = samples.nodes[i].phi;
+      if (!((phi >= from && phi <= to) || phi + kTwoPi <= to)) continue;
+      binding.groove_lost = std::max(binding.groove_lost, lost(i));
+      binding.root_gap = std::max(binding.root_gap, out.gap[i]);
+    }
+    out.torch_binds.push_back(binding);
+    out.warnings.push_back(
+        {.code = WarningCode::torch_range_binds,
+         .member = "torch",
+         .detail = "phi " + brief(from * kDegPerRad) + " to " + brief(to * kDegPerRad) +
+                   " deg, up to " + brief(binding.groove_lost * kDegPerRad) +
+                   " deg of groove lost" +
+                   (lifted ? ", root open up to " + brief(binding.root_gap) + " mm" : "")});
+  }
+}
 
 EnvelopeSpec envelope_of(const TableSpec& spec, const EnvelopeSmoothing& method) {
   return {.limits = method.limits, .highest = spec.torch.max.rad(), .refine = method.refine};
@@ -135,7 +234,26 @@ Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
   for (const auto& m : mutations(p.profile.b, g.spec.mutation_limit.rad()))
     out.mutations.push_back({.phi = rows.samples.nodes[p.node[m.index]].phi, .step = m.step});
   TRY(auto smoothed, smooth(g, rows.samples, p, out, stop));
-  for (const auto entry : p.entry) out.b.push_back((smoothed)[entry]);
+  for (const auto entry : p.entry) out.b.push_back(smoothed[entry]);
   return check_smoothed(g, rows, out);
 }
+
+std::vector<double> rows_where_b_turns(const TableSpec& spec, const Table& table) {
+  const auto* envelope = std::get_if<EnvelopeSmoothing>(&spec.smoothing);
+  if (envelope == nullptr || !spec.sampling.tolerance) return {};
+  const double slope = envelope->limits.slope;
+  const double narrow = kNarrow * slope / envelope->limits.curvature;
+  const auto all = segments(table, envelope->along == Along::length);
+  std::vector<bool> halve(all.size(), false);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto j = (i + 1) % all.size();
+    if (std::abs(all[j].slope - all[i].slope) <= kTurn * slope) continue;
+    halve[i] = halve[j] = true;
+  }
+  std::vector<double> out;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (halve[i] && all[i].divisible && all[i].length > 2.0 * narrow) out.push_back(all[i].middle);
+  return out;
+}
+
 }  // namespace tubecut::bevel::detail

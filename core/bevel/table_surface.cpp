@@ -1,12 +1,35 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/bevel/penetration.hpp"
 #include "core/bevel/table_parts.hpp"
+#include "core/joint/solid.hpp"
 #include "core/joint/stations.hpp"
 
-namespace tubecut::bevel::detail {
+namespace tubecut::bevel {
+
+CutWall finished_wall(const TableSpec& spec, const Table& t) {
+  CutWall out{.edges = {{spec.target.inner_radius(), t.phi, t.z_inner}}, .turn = kTwoPi};
+  if (!t.z_face.empty())
+    out.edges.push_back({spec.target.inner_radius() + spec.root_face, t.phi, t.z_face});
+  out.edges.push_back({spec.target.outer_radius, t.phi, t.z_outer});
+  return out;
+}
+
+double penetration_limit(const TableSpec& spec) {
+  return spec.sampling.tolerance ? spec.sampling.tolerance->value : joint::Tolerance{}.value;
+}
+
+bool promises_no_penetration(const TableSpec& spec) {
+  return spec.contact != Contact::none && spec.sampling.tolerance.has_value();
+}
+
+namespace detail {
 namespace {
+
+constexpr int kAcrossOpen = 16;  // places looked at where nothing is met
 
 /// Height at which a cut of this slope just touches, at one node. A partner that is lost here at
 /// its silhouette, all across the wall, does not hold the lower of the jump's two nodes.
@@ -100,4 +123,105 @@ Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table&
                        " mm along the axis; contact auto lifts the cut clear"});
 }
 
-}  // namespace tubecut::bevel::detail
+std::vector<double> entering_phases(const TableSetup& g, const Table& t, double tolerance,
+                                    const std::stop_token& stop) {
+  constexpr double kNarrow = 1e-4;  // mm, developed: no finer
+  const auto gaps = entering(finished_wall(g.spec, t), g.solids, tolerance, stop);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const auto j = (i + 1) % gaps.size();
+    const double step = t.phi[j] - t.phi[i] + (j == 0 ? kTwoPi : 0.0);
+    if (!gaps[i] || g.wall.inner * step < kNarrow) continue;
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const double phi = t.phi[i] + share * step;
+      out.push_back(phi < kTwoPi ? phi : phi - kTwoPi);
+    }
+  }
+  return out;
+}
+
+void state_penetration(const TableSetup& g, Table& out, const std::stop_token& stop) {
+  constexpr double kSlack = 3e-4;  // mm
+  out.penetration = deepest(finished_wall(g.spec, out), g.solids, kSlack, stop);
+  out.penetration.depth = std::max(0.0, out.penetration.depth);
+  const auto& p = out.penetration;
+  if (promises_no_penetration(g.spec) || !(p.depth > penetration_limit(g.spec))) return;
+  out.warnings.push_back({.code = WarningCode::enters_partner,
+                          .member = "cutters/" + std::to_string(p.solid),
+                          .detail = "cutter " + std::to_string(p.solid) + " by up to " +
+                                    brief(p.depth) + " mm, at phi " + brief(p.phi * kDegPerRad) +
+                                    " deg, radius " + brief(p.radius) + " mm, z " + brief(p.z) +
+                                    " mm"});
+}
+
+void note_overhang(const TableSetup& g, Table& out) {
+  if (g.inner) return;  // with the root outside, both walls are met all round
+  for (const auto& [from, to] : g.other.open) {
+    double worst = 0.0;
+    for (int k = 0; k <= kAcrossOpen; ++k) {
+      const auto line =
+          joint::generator_at(1.0, (from + (to - from) * k / kAcrossOpen) * kRadPerDeg);
+      double beside = std::numeric_limits<double>::infinity();
+      for (const auto& cutter : g.cutters)
+        beside = std::min(beside, joint::Solid(cutter).clearance(g.wall.outer * line.cos_phi,
+                                                                 g.wall.outer * line.sin_phi));
+      worst = std::max(worst, beside);
+    }
+    out.warnings.push_back({.code = WarningCode::wall_overhangs,
+                            .member = "target",
+                            .detail = "phi " + brief(from) + " to " + brief(to) +
+                                      " deg, its outer surface passes up to " + brief(worst) +
+                                      " mm beside every partner"});
+  }
+}
+
+void note_root_opens(const TableSpec& spec, Table& out) {
+  if (spec.contact != Contact::automatic && spec.contact != Contact::outer) return;
+  constexpr double kOpen = 1e-3;  // mm
+  const auto widest = std::ranges::max_element(out.gap);
+  if (widest == out.gap.end() || *widest <= kOpen) return;
+  const auto at = static_cast<std::size_t>(widest - out.gap.begin());
+  out.warnings.push_back({.code = WarningCode::root_opens,
+                          .member = "contact",
+                          .detail = "by up to " + shown(*widest) + " mm, at phi " +
+                                    shown(out.phi[at] * kDegPerRad) + " deg"});
+}
+
+void note_events_between(const TableSetup& g, Table& out) {
+  const auto n = out.phi.size();
+  const double step = kTwoPi / static_cast<double>(n);
+  double worst = 0.0, at = 0.0;
+  const auto see = [&](double phi, double input) {
+    const auto i = std::min(n - 1, static_cast<std::size_t>(phi / step));
+    const double t = phi / step - static_cast<double>(i);
+    const double line = (1.0 - t) * out.b[i] + t * out.b[(i + 1) % n];
+    if (input - line > worst) {
+      worst = input - line;
+      at = phi;
+    }
+  };
+  for (const auto& event : g.root.events)
+    for (const bool before : {true, false}) {
+      const auto cutter = before ? event.from : event.to;
+      const auto line = joint::generator_at(g.root.radius, event.phi);
+      const auto side = before ? joint::Side::before : joint::Side::after;
+      const auto hit = event.kind == joint::EventKind::kink
+                           ? joint::hit_at_corner(g.root.cutters[cutter], line, side)
+                           : joint::continued_hit(g.root.cutters[cutter], line);
+      see(event.phi, point(g, event.phi, hit, cutter, before ? event.z_from : event.z_to).input);
+    }
+  for (const auto& event : g.other.events) {
+    const auto contact = joint::contact_at(g.root, event.phi);
+    const auto line = joint::generator_at(g.root.radius, event.phi);
+    const auto hit = joint::continued_hit(g.root.cutters[contact.cutter], line);
+    see(event.phi, point(g, event.phi, hit, contact.cutter, contact.z).input);
+  }
+  out.warnings.push_back({.code = WarningCode::events_between_nodes,
+                          .member = "sampling/uniform_points",
+                          .detail = "largest shortfall of B between nodes " +
+                                    brief(worst * kDegPerRad) + " deg at phi " +
+                                    brief(at * kDegPerRad) + " deg"});
+}
+
+}  // namespace detail
+}  // namespace tubecut::bevel

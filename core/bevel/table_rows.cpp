@@ -122,15 +122,16 @@ bool alike(const TableSpec& spec) {
   return !zoned && !flush && spec.dihedral != Dihedral::as_published && spec.root_face == 0.0;
 }
 
-/// `point` of all nodes at once, each by the cutter before it.
-std::vector<Point> points_alike(const TableSetup& g, const std::vector<joint::Node>& nodes) {
-  const auto n = nodes.size();
+/// `point` of these nodes at once, each by the cutter before it.
+void make_alike(const TableSetup& g, const std::vector<std::size_t>& at, Rows& rows) {
+  const auto n = at.size();
   std::vector<double> phi(n), z(n);
   std::vector<std::size_t> cutter(n);
   for (std::size_t i = 0; i < n; ++i) {
-    phi[i] = nodes[i].phi;
-    z[i] = nodes[i].z;
-    cutter[i] = nodes[i].before;
+    const auto& node = rows.samples.nodes[at[i]];
+    phi[i] = node.phi;
+    z[i] = node.z;
+    cutter[i] = node.before;
   }
   auto stations = joint::stations_at(g.root.radius, phi);
   std::vector<Angles> angles(n);
@@ -139,13 +140,35 @@ std::vector<Point> points_alike(const TableSetup& g, const std::vector<joint::No
   if (g.inner) z = joint::contacts_at(*g.inner, stations, phi).z;
   const auto required = required_bevels(g.root.cutters, g.wall, stations, z);
   const double least = g.spec.torch.min.rad(), most = g.spec.torch.max.rad();
-  std::vector<Point> out(n);
   for (std::size_t i = 0; i < n; ++i) {
-    out[i] = {.cutter = cutter[i],
-              .angles = angles[i],
-              .raw = std::clamp(angles[i].b, least, most),
-              .required = required[i]};
-    out[i].input = input_of(g.spec, out[i]);
+    auto& out = rows.points[at[i]];
+    out = {.cutter = cutter[i],
+           .angles = angles[i],
+           .raw = std::clamp(angles[i].b, least, most),
+           .required = required[i]};
+    out.input = input_of(g.spec, out);
+  }
+}
+
+bool same_place(const joint::Node& a, const joint::Node& b) {
+  return a.phi == b.phi && a.z == b.z && a.before == b.before && a.after == b.after &&
+         a.kind == b.kind;
+}
+
+/// The nodes that `known` has no point of; the others' points are taken over.
+std::vector<std::size_t> take_over(const Rows& known, Rows& rows) {
+  const auto& had = known.samples.nodes;
+  const auto& nodes = rows.samples.nodes;
+  std::vector<std::size_t> out;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    while (k < had.size() && had[k].phi < nodes[i].phi) ++k;
+    auto at = k;  // the two nodes of a jump have one phi
+    while (at < had.size() && had[at].phi == nodes[i].phi && !same_place(had[at], nodes[i])) ++at;
+    if (at < had.size() && same_place(had[at], nodes[i]))
+      rows.points[i] = known.points[at];
+    else
+      out.push_back(i);
   }
   return out;
 }
@@ -205,22 +228,25 @@ bool Rows::jump_pair(std::size_t i) const {
          nodes[i + 1].kind == joint::NodeKind::jump && nodes[i].phi == nodes[i + 1].phi;
 }
 
-Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
+Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Rows& known,
                   const std::stop_token& stop) {
   TRY(auto samples, joint::sample(g.root, g.spec.sampling, also, stop));
   Rows out{.samples = std::move(samples), .points = {}};
   const auto& nodes = out.samples.nodes;
-  const bool at_once = alike(g.spec);
-  if (at_once) out.points = points_alike(g, nodes);
   out.points.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  const bool at_once = alike(g.spec);
+  std::vector<std::size_t> together;
+  for (const auto i : take_over(known, out)) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     const auto& node = nodes[i];
     if (!one_sided(node))
       out.points[i] = larger(g, node);
-    else if (!at_once)
+    else if (at_once)
+      together.push_back(i);
+    else
       out.points[i] = point(g, node.phi, joint::hits_at(g.root, node).before, node.before, node.z);
   }
+  if (!together.empty()) make_alike(g, together, out);
   return out;
 }
 
