@@ -16,6 +16,9 @@ constexpr double kChord = 0.01;  // mm, of a chord in space off the wall
 constexpr double kMargin = 20.0;
 constexpr double kCross = 5.0;  // mm, half of a mark's cross
 
+constexpr DxfWriter::Layer kCutOuter{"CUT_OUTER", 5}, kCutInner{"CUT_INNER", 3},
+    kTorch{"TORCH", 30}, kSeam{"SEAM", 1}, kDatum{"DATUM", 8}, kText{"TEXT", 7}, kMark{"MARK", 6};
+
 std::vector<Eigen::Vector2d> flat(const CylinderCurve& c) {
   std::vector<Eigen::Vector2d> out;
   for (std::size_t i = 0; i < c.phi.size(); ++i) out.emplace_back(c.radius * c.phi[i], c.z[i]);
@@ -57,6 +60,8 @@ std::vector<std::string> captions(const Development& d, const std::string& frame
                                "CUT_OUTER on radius " + mm(d.outer_radius) +
                                    ", CUT_INNER on radius " + mm(d.outer_radius - d.wall),
                                frame};
+  if (std::ranges::any_of(d.cuts, [](const auto& cut) { return !cut.torch.empty(); }))
+    out.emplace_back("TORCH: its axis on the outer surface, the kerf applied; no edge of the part");
   for (const auto& [name, text] : caption.reference)
     out.push_back(called(name, Term::field) + ": " + text);
   out.push_back(job_line(
@@ -71,8 +76,8 @@ void seams(DxfWriter& w, const Development& d, const Extent& e, double datum, bo
   if (space) {
     std::vector<Eigen::Vector3d> circle =
         in_space({.radius = d.outer_radius, .phi = {0.0, kTwoPi}, .z = {datum, datum}}, true);
-    w.polyline("DATUM", circle, true);
-    w.polyline("SEAM",
+    w.polyline(kDatum, circle, true);
+    w.polyline(kSeam,
                std::vector<Eigen::Vector3d>{on_wall(d.outer_radius, 0.0, e.z_from),
                                             on_wall(d.outer_radius, 0.0, datum)},
                false);
@@ -81,31 +86,32 @@ void seams(DxfWriter& w, const Development& d, const Extent& e, double datum, bo
   const double from = d.around() ? 0.0 : d.outer_radius * e.phi_from - kMargin;
   const double to =
       d.outer_radius * (d.around() ? kTwoPi : e.phi_to) + (d.around() ? 0.0 : kMargin);
-  w.polyline("DATUM", std::vector<Eigen::Vector2d>{{from, datum}, {to, datum}}, false);
+  w.polyline(kDatum, std::vector<Eigen::Vector2d>{{from, datum}, {to, datum}}, false);
   double foot = e.z_from;
   if (d.around() && !d.cuts.front().outer.empty()) foot = d.cuts.front().outer.z.front();
   for (const double x : {0.0, kTwoPi * d.outer_radius})
     if (x >= from && x <= to)
-      w.polyline("SEAM", std::vector<Eigen::Vector2d>{{x, foot}, {x, datum}}, false);
+      w.polyline(kSeam, std::vector<Eigen::Vector2d>{{x, foot}, {x, datum}}, false);
 }
 
 void draw_cuts(DxfWriter& w, const Development& d, bool space) {
   for (const auto& cut : d.cuts) {
-    const auto draw = [&](std::string_view layer, const CylinderCurve& c) {
+    const auto draw = [&](const DxfWriter::Layer& layer, const CylinderCurve& c) {
       if (c.empty()) return;
       if (space)
         w.polyline(layer, in_space(c, cut.around), true);
       else
         w.polyline(layer, flat(c), !cut.around);
     };
-    draw("CUT_OUTER", cut.outer);
-    draw("CUT_INNER", cut.inner);
+    draw(kCutOuter, cut.outer);
+    draw(kCutInner, cut.inner);
+    draw(kTorch, cut.torch);
   }
 }
 
 /// A line on the outside along the tube; across it, all round.
-void along(DxfWriter& w, std::string_view layer, const Development& d, bool space, double phi,
-           double from, double to) {
+void along(DxfWriter& w, const DxfWriter::Layer& layer, const Development& d, bool space,
+           double phi, double from, double to) {
   if (space)
     w.polyline(layer,
                std::vector{on_wall(d.outer_radius, phi, from), on_wall(d.outer_radius, phi, to)},
@@ -116,7 +122,8 @@ void along(DxfWriter& w, std::string_view layer, const Development& d, bool spac
         std::vector<Eigen::Vector2d>{{d.outer_radius * phi, from}, {d.outer_radius * phi, to}},
         false);
 }
-void across(DxfWriter& w, std::string_view layer, const Development& d, bool space, double z) {
+void across(DxfWriter& w, const DxfWriter::Layer& layer, const Development& d, bool space,
+            double z) {
   const CylinderCurve circle{.radius = d.outer_radius, .phi = {0.0, kTwoPi}, .z = {z, z}};
   if (space)
     w.polyline(layer, in_space(circle, true), true);
@@ -138,17 +145,13 @@ double shown_phi(const Development& d, const part::Mark& mark) {
   return mark.phi;
 }
 
-constexpr DxfWriter::Layer kLayers[] = {
-    {"CUT_OUTER", 5}, {"CUT_INNER", 3}, {"SEAM", 1}, {"DATUM", 8}, {"TEXT", 7}};
-constexpr DxfWriter::Layer kMarkLayer = {"MARK", 6};  // of parts alone
-
 }  // namespace
 
 std::string print_dxf(const Development& d, const Caption& caption) {
   const bool space = caption.view == "tube";
   const auto e = extent(d);
   const double datum = 10.0 * std::ceil((e.z_to + 15.0) / 10.0);
-  DxfWriter w({std::begin(kLayers), std::end(kLayers)}, verdict_lines(caption.verdict),
+  DxfWriter w({kCutOuter, kCutInner, kTorch, kSeam, kDatum, kText}, verdict_lines(caption.verdict),
               caption.stop);
   draw_cuts(w, d, space);
   seams(w, d, e, datum, space);
@@ -156,38 +159,37 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   double y = datum;
   const auto frame = "DATUM z = " + mm(datum) + "; SEAM phi = 0 and 360°; y = z, " +
                      (d.around() ? "kept side up" : "kept outside the contour");
-  for (const auto& line : captions(d, frame, caption)) w.text("TEXT", {left, y += 5.0}, 3.0, line);
+  for (const auto& line : captions(d, frame, caption)) w.text(kText, {left, y += 5.0}, 3.0, line);
   return w.print();
 }
 
 std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks,
                       const Caption& caption) {
   const bool space = caption.view == "tube";
-  std::vector<DxfWriter::Layer> layers{std::begin(kLayers), std::end(kLayers)};
-  layers.push_back(kMarkLayer);
-  DxfWriter w(std::move(layers), verdict_lines(caption.verdict), caption.stop);
+  DxfWriter w({kCutOuter, kCutInner, kTorch, kSeam, kDatum, kText, kMark},
+              verdict_lines(caption.verdict), caption.stop);
   draw_cuts(w, d, space);
   const double from = d.cuts[0].outer.z.front(), to = d.cuts[1].outer.z.front();
-  along(w, "SEAM", d, space, 0.0, from, to);
-  if (!space) along(w, "SEAM", d, space, kTwoPi, from, to);
-  across(w, "DATUM", d, space, 0.0);
+  along(w, kSeam, d, space, 0.0, from, to);
+  if (!space) along(w, kSeam, d, space, kTwoPi, from, to);
+  across(w, kDatum, d, space, 0.0);
   for (const auto& mark : marks) {
     const double phi = shown_phi(d, mark);
     if (mark.z_to > mark.z_from) {
-      along(w, "MARK", d, space, phi, mark.z_from, mark.z_to);
+      along(w, kMark, d, space, phi, mark.z_from, mark.z_to);
     } else {  // a cross on its place
-      along(w, "MARK", d, space, phi, mark.z_from - kCross, mark.z_from + kCross);
+      along(w, kMark, d, space, phi, mark.z_from - kCross, mark.z_from + kCross);
       const double reach = kCross / d.outer_radius;
       const CylinderCurve bar{.radius = d.outer_radius,
                               .phi = {phi - reach, phi, phi + reach},
                               .z = {mark.z_from, mark.z_from, mark.z_from}};
       if (space)
-        w.polyline("MARK", open_in_space(bar), false);
+        w.polyline(kMark, open_in_space(bar), false);
       else
-        w.polyline("MARK", flat(bar), false);
+        w.polyline(kMark, flat(bar), false);
     }
     if (!space && !mark.text.empty())
-      w.text("MARK", {d.outer_radius * phi + 1.0, mark.z_from}, 3.0, mark.text);
+      w.text(kMark, {d.outer_radius * phi + 1.0, mark.z_from}, 3.0, mark.text);
   }
   double y = extent(d).z_to + 10.0;
   const std::string frame =
@@ -197,7 +199,7 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
     if (!mark.text.empty())
       lines.push_back("MARK " + mark.text + ": phi " + degrees(mark.phi) + ", z " +
                       mm(mark.z_from));
-  for (const auto& line : lines) w.text("TEXT", {0.0, y += 5.0}, 3.0, line);
+  for (const auto& line : lines) w.text(kText, {0.0, y += 5.0}, 3.0, line);
   return w.print();
 }
 

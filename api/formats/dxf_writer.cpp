@@ -116,16 +116,16 @@ void DxfWriter::see(const Eigen::Vector3d& p) {
   any_ = true;
 }
 
-void DxfWriter::entity(std::string_view type, std::string_view layer, std::string_view subclass) {
+void DxfWriter::entity(std::string_view type, const Layer& layer, std::string_view subclass) {
   group(0, type);
   group(5, hex(handle_++));
   group(330, kModelSpace);
   group(100, "AcDbEntity");
-  group(8, layer);
+  group(8, layer.name);
   group(100, subclass);
 }
 
-void DxfWriter::polyline(std::string_view layer, const std::vector<Eigen::Vector2d>& points,
+void DxfWriter::polyline(const Layer& layer, const std::vector<Eigen::Vector2d>& points,
                          bool closed) {
   std::vector<Eigen::Vector2d> kept;
   for (const auto& p : points)
@@ -143,7 +143,7 @@ void DxfWriter::polyline(std::string_view layer, const std::vector<Eigen::Vector
   }
 }
 
-void DxfWriter::polyline(std::string_view layer, const std::vector<Eigen::Vector3d>& points,
+void DxfWriter::polyline(const Layer& layer, const std::vector<Eigen::Vector3d>& points,
                          bool closed) {
   entity("POLYLINE", layer, "AcDb3dPolyline");
   const auto owner = hex(handle_ - 1);
@@ -155,7 +155,7 @@ void DxfWriter::polyline(std::string_view layer, const std::vector<Eigen::Vector
     group(5, hex(handle_++));
     group(330, owner);
     group(100, "AcDbEntity");
-    group(8, layer);
+    group(8, layer.name);
   };
   for (const auto& p : points) {
     ask(stop_);
@@ -171,7 +171,7 @@ void DxfWriter::polyline(std::string_view layer, const std::vector<Eigen::Vector
   part("SEQEND");
 }
 
-void DxfWriter::text(std::string_view layer, const Eigen::Vector2d& at, double height,
+void DxfWriter::text(const Layer& layer, const Eigen::Vector2d& at, double height,
                      std::string_view what) {
   entity("TEXT", layer, "AcDbText");
   group(10, at.x());

@@ -20,10 +20,9 @@ class DxfWriter {
       : layers_(std::move(layers)), remarks_(std::move(remarks)), stop_(std::move(stop)) {}
 
   /// Points (x, y); those equal to their predecessor are left out.
-  void polyline(std::string_view layer, const std::vector<Eigen::Vector2d>& points, bool closed);
-  void polyline(std::string_view layer, const std::vector<Eigen::Vector3d>& points, bool closed);
-  void text(std::string_view layer, const Eigen::Vector2d& at, double height,
-            std::string_view what);
+  void polyline(const Layer& layer, const std::vector<Eigen::Vector2d>& points, bool closed);
+  void polyline(const Layer& layer, const std::vector<Eigen::Vector3d>& points, bool closed);
+  void text(const Layer& layer, const Eigen::Vector2d& at, double height, std::string_view what);
 
   [[nodiscard]] std::string print() const;
 
@@ -31,7 +30,7 @@ class DxfWriter {
   void group(int code, std::string_view value);
   void group(int code, double value);
   void group(int code, int value);
-  void entity(std::string_view type, std::string_view layer, std::string_view subclass);
+  void entity(std::string_view type, const Layer& layer, std::string_view subclass);
   void see(const Eigen::Vector3d& p);
 
   std::vector<Layer> layers_;

@@ -10,7 +10,7 @@ from ezdxf.lldxf.encoding import decode_dxf_unicode
 from service import HOSTILE, FormatTest, examples, main, seam_row
 
 CALLED = {"customer_id": "customer"}  # docs/glossary.md
-LAYERS = {"CUT_OUTER", "CUT_INNER", "SEAM", "DATUM", "TEXT"}
+LAYERS = {"CUT_OUTER", "CUT_INNER", "TORCH", "SEAM", "DATUM", "TEXT"}
 
 
 def read(content):
@@ -60,7 +60,8 @@ class Dxf(FormatTest):
                 table, target = self.service.answer("bevel-tables", body)["result"]["points"], body["target"]
                 radius = {"CUT_OUTER": target["outer_diameter_mm"] / 2,
                           "CUT_INNER": target["outer_diameter_mm"] / 2 - target["wall_mm"]}
-                for layer, column in (("CUT_OUTER", "z_outer_mm"), ("CUT_INNER", "z_inner_mm")):
+                radius["TORCH"] = radius["CUT_OUTER"]
+                for layer, column in (("CUT_OUTER", "z_outer_mm"), ("CUT_INNER", "z_inner_mm"), ("TORCH", "torch_outer_mm")):
                     [(points, closed)] = polylines(drawing, layer)
                     self.assertFalse(closed)
                     self.assertAlmostEqual(points[0][0], 0.0, delta=1e-6)
@@ -68,6 +69,21 @@ class Dxf(FormatTest):
                     self.assertAlmostEqual(points[0][1], points[-1][1], delta=1e-6)
                     self.assertAlmostEqual(length(points, False), developed(table["phi_deg"], table[column], radius[layer]),
                                            delta=1e-6 * len(points))
+
+    def test_holes_have_the_torch_where_the_answer_has_it(self):
+        for name, body in examples("holes").items():
+            with self.subTest(name):
+                if "chord" not in body:
+                    continue
+                radius = body["chord"]["outer_diameter_mm"] / 2
+                holes = self.service.answer("holes", body)["result"]["holes"]
+                drawn = polylines(self.drawing("holes", body), "TORCH")
+                self.assertEqual(len(drawn), len(holes))
+                for (points, closed), hole in zip(drawn, holes):
+                    rows = hole["points"]
+                    self.assertTrue(closed)
+                    for phi, z in zip(rows["torch_phi_deg"], rows["torch_z_mm"]):
+                        self.assertLess(min(math.dist((radius * math.radians(phi), z), point) for point in points), 1e-5)
 
     def test_the_outline_closes_with_seam_and_datum(self):
         drawing = self.drawing("bevel-tables", examples("bevel-tables")["source-000-table-1"])
