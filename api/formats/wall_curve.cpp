@@ -24,6 +24,9 @@ constexpr std::size_t kShortestRun = 8;              // of such rows
 constexpr double kSharp = 0.3;   // rad: a bend above it is a corner, however short its sides
 constexpr double kKink = 4.0;    // a turn to those on either side of it
 constexpr double kWidest = 0.5;  // rad, of a span
+// mm, of a cubic in space to that in (phi, z) at one parameter. A reader that finds more between
+// them than the file's uncertainty fits one of its own, which swings at the corners.
+constexpr double kOffFlat = 6e-5;
 constexpr int kSweeps = 27;      // 4^-27 is the last bit
 constexpr double kApart = 3e-4;  // mm along the rows: nearer places are one
 
@@ -73,6 +76,7 @@ Vector2d WallCurve::laid_gap(const Edge& edge, std::size_t row) const {
 
 WallCurve WallCurve::straight(const bevel::CutWall& wall) {
   WallCurve out(wall);
+  out.off_flat_ = kOffFlat;
   out.find_lines();
   out.lay(true);
   return out;

@@ -33,7 +33,8 @@ double handle(double dphi) {
   return 4.0 / 3.0 * elementary::tan(dphi / 4.0) / dphi;
 }
 
-Vector3d value(const std::array<Vector3d, 4>& c, double u) {
+template <typename Point>
+Point value(const std::array<Point, 4>& c, double u) {
   const double v = 1.0 - u;
   return v * v * v * c[0] + 3.0 * u * v * v * c[1] + 3.0 * u * u * v * c[2] + u * u * u * c[3];
 }
@@ -105,9 +106,13 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
     const double dphi = b.at[k].x() - a.at[k].x() + (b.turn - a.turn) * turn_;
     if (std::abs(dphi) > widest(edges_[k].radius)) return false;
     const auto curve = cubic(k, a, b);
+    const auto flat = flat_cubic(k, a, b);
     for (const double u : {0.25, 0.5, 0.75}) {
-      const double off = value(curve, u).head<2>().norm() - edges_[k].radius;
+      const auto p = value(curve, u);
+      const double off = p.head<2>().norm() - edges_[k].radius;
       if (std::abs(off) > off_cylinder_) return false;
+      const auto twin = on_wall(edges_[k].radius, value(flat, u));
+      if (off_flat_ && (p - twin).norm() > *off_flat_) return false;
     }
     for (auto i = from + 1; i < to; ++i) {
       const Vector2d& at = nodes[i].at[k];

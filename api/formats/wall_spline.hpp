@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -114,6 +115,7 @@ class WallCurve {
   std::vector<bool> corner_;
   double turn_ = 0.0, around_ = 0.0;
   double off_cylinder_ = 0.0, off_rows_ = 0.0;  // what a span may leave it by, mm
+  std::optional<double> off_flat_;  // and its twin in (phi, z), where that is printed, mm
 };
 
 }  // namespace tubecut::api
