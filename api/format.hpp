@@ -46,6 +46,7 @@ struct FormatOptions {
   std::optional<double> pierce_height = {}, cut_height = {};  // of the tip off the wall
   std::optional<double> pierce_delay = {};                    // s
   std::optional<double> clearance = {};  // of the tip over the tube between two cuts
+  std::optional<double> omega = {};      // of the section of a groove that is drawn, deg
   std::vector<BundleFile> files = {};    // of each part, in a bundle
 };
 

@@ -20,6 +20,7 @@ constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};        // mm/min
 constexpr Range kLead{.min = 0.0, .max = 1'000.0};          // mm
 constexpr Range kOvercut{.min = 0.0, .max = 1'000.0};       // mm
 constexpr Range kStart{.min = -360.0, .max = 360.0};        // deg
+constexpr Range kOmega{.min = -360.0, .max = 360.0};        // deg
 constexpr Range kPierceBevel{.min = 0.0, .max = 85.0};      // deg
 constexpr Range kPivotLength{.min = 0.0, .max = 10'000.0};  // mm
 constexpr Range kTipHeight{.min = 0.0, .max = 100.0};       // mm
@@ -182,6 +183,7 @@ FormatOptions read_options(Reader& in) {
   out.pierce_delay = in.optional_number("pierce_delay_s", kPierceDelay);
   out.cut_height = in.optional_number("cut_height_mm", kTipHeight);
   out.clearance = in.optional_number("clearance_mm", kClearance);
+  out.omega = in.optional_number("omega_deg", kOmega);
   out.files = read_files(in);
   return out;
 }

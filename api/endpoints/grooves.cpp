@@ -67,7 +67,7 @@ struct Grooves {
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &groove_csv},
-        {"svg", "image/svg+xml", &groove_svg, {"chart", "section"}},
+        {"svg", "image/svg+xml", &groove_svg, {"chart", "section"}, {"omega_deg"}},
         {"glb", "model/gltf-binary", &groove_gltf}};
     return kFormats;
   }

@@ -6,7 +6,8 @@
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/gltf.hpp"
-#include "api/formats/numbers.hpp"
+#include "api/formats/groove_section_sheet.hpp"
+#include "api/formats/svg_sheets.hpp"
 #include "api/stop.hpp"
 #include "api/tables.hpp"
 
@@ -23,28 +24,6 @@ std::vector<double> each(const Items& items, F value) {
 using S = const groove::GrooveSection&;
 using P = const groove::MillPosition&;
 
-/// Straight pieces from P1 and P2 up to P3, and the chord between them, in the section's own plane.
-Chart section_chart(const groove::Groove& g) {
-  const auto& s = g.sections.front();
-  const auto title = "Section at omega " + degrees(s.omega.rad()) + ": filler D " +
-                     measure(s.areas.d, Unit::mm2) + " (A " + number(s.areas.a) + ", B " +
-                     number(s.areas.b) + ", C " + number(s.areas.c) + ", E " + number(s.areas.e) +
-                     ")";
-  return {.title = title,
-          .x_label = "from the branch axis, mm",
-          .y_label = "along it, mm",
-          .series = {
-              {.name = "groove line P1 P3", .x = {s.p1.x(), s.p3.x()}, .y = {s.p1.y(), s.p3.y()}},
-              {.name = "weld face P2 P3",
-               .x = {s.p2.x(), s.p3.x()},
-               .y = {s.p2.y(), s.p3.y()},
-               .color = "#c2571a"},
-              {.name = "chord P1 P2",
-               .x = {s.p1.x(), s.p2.x()},
-               .y = {s.p1.y(), s.p2.y()},
-               .color = "#4a8a57"}}};
-}
-
 }  // namespace
 
 std::string groove_csv(const groove::GrooveSpec&, const groove::Groove& g, const Caption& caption) {
@@ -55,8 +34,12 @@ std::string groove_csv(const groove::GrooveSpec&, const groove::Groove& g, const
   return Csv(caption).table(columns).print();
 }
 
-std::string groove_svg(const groove::GrooveSpec&, const groove::Groove& g, const Caption& caption) {
-  if (caption.view == "section") return print_charts({section_chart(g)}, caption);
+std::string groove_svg(const groove::GrooveSpec& spec, const groove::Groove& g,
+                       const Caption& caption) {
+  if (caption.view == "section")
+    return print_svg({groove_section_sheet(spec, g, caption)}, "Sections of the groove");
+  if (caption.options.omega)
+    throw UnfitOption{"omega_deg", "the section at an angle is drawn by view=section"};
   const auto omega = each(g.sections, [](S s) { return s.omega.deg(); });
   std::vector<Chart> charts{
       {.title = "Groove height for equal filler area",
@@ -77,7 +60,6 @@ std::string groove_svg(const groove::GrooveSpec&, const groove::Groove& g, const
                                   .color = "#c2571a",
                                   .dashed = true}},
                       .y_from_zero = true});
-  charts.push_back(section_chart(g));
   return print_charts(charts, caption);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/groove/survey.hpp"
 
 namespace tubecut::groove {
@@ -11,9 +12,9 @@ namespace {
 
 /// The bevel table's target frame is the branch frame turned half round, its phi counted from x:
 /// phi = omega - 90 deg.
-Angle table_phi(int index, int count) {
-  const double turn = double(index) / count - 0.25;
-  return Angle::rad(kTwoPi * (turn < 0.0 ? turn + 1.0 : turn));
+Angle table_phi(double turn) {
+  const double from_x = turn - 0.25;
+  return Angle::rad(kTwoPi * (from_x < 0.0 ? from_x + 1.0 : from_x));
 }
 
 GrooveSection report(const Joint& joint, const Section& section) {
@@ -58,10 +59,20 @@ Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
     const auto found = section(*joint, Angle::rad(kTwoPi * i / spec.sections));
     if (!found) return fail({.code = found.error(), .member = "branch/wall"});
     out.sections.push_back(report(*joint, *found));
-    out.sections.back().phi = table_phi(i, spec.sections);
+    out.sections.back().phi = table_phi(double(i) / spec.sections);
     if (out.compare)
       out.compare->filler_area.push_back(filler_area(*joint, found->toe, fixed_height));
   }
+  return out;
+}
+
+Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega, const std::stop_token& stop) {
+  TRY(const auto joint, joint_of(spec, stop));
+  const auto found = section(joint, omega);
+  if (!found) return fail({.code = found.error(), .member = "branch/wall"});
+  auto out = report(joint, *found);
+  const double turns = omega.rad() / kTwoPi;
+  out.phi = table_phi(turns - std::floor(turns));
   return out;
 }
 

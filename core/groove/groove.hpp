@@ -58,6 +58,12 @@ struct Groove {
 /// Source    docs/theory/grooves-and-milling.md, sections 1-5.
 [[nodiscard]] Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop = {});
 
+/// One section anywhere round the joint, as `groove` reports them.
+///
+/// Errors  of `joint_of` and `section`.
+[[nodiscard]] Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega,
+                                               const std::stop_token& stop = {});
+
 /// Proves an answer by other formulas than those that made it.
 ///
 /// Cost    about 3 ms.

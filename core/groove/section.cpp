@@ -153,6 +153,13 @@ tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir, std::optiona
   return toe;
 }
 
+std::optional<double> chord_height(const Joint& joint, Direction dir, double x) {
+  const ChordLine chord{joint, dir};
+  const double t = chord.t(x);
+  if (!(std::abs(t) <= joint.chord_radius)) return std::nullopt;
+  return chord.y(x, chord.q(t));
+}
+
 double axial_factor(const Joint& joint, Direction dir) {
   return joint.area_factor ? (*joint.area_factor)(station(*joint.area_factor, dir)) : 1.0;
 }

@@ -70,6 +70,10 @@ struct Section {
 [[nodiscard]] tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
                                                        std::optional<double> near = {});
 
+/// The chord's outer surface in the section in direction `dir`, over x from the branch axis; beyond
+/// its silhouette there is none. mm
+[[nodiscard]] std::optional<double> chord_height(const Joint& joint, Direction dir, double x);
+
 /// Filler area of the axial section that a groove of this height has there.
 [[nodiscard]] double filler_area(const Joint& joint, const Toe& toe, double height);
 
