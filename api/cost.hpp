@@ -29,7 +29,7 @@ namespace tubecut::api {
   X(elbow, 6e-3, "elbow among the cutters of a table or an intersection")                    \
   X(hole_point, 45e-6, "point of a hole")                                                    \
   X(member, 15e-6, "member of a node")                                                       \
-  X(near_pair, 90e-6,                                                                        \
+  X(near_pair, 50e-6,                                                                        \
     "pair of members nearer than their radii of which neither cuts the other; not foreseen") \
   X(path, 4e-3, "pulse schedule")                                                            \
   X(path_knot, 13e-6, "0.1 mm of a schedule's path that bends or whose bevel changes")       \

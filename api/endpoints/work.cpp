@@ -17,6 +17,7 @@ constexpr double kCutLength = 1.3;    // of a cut, in its tube's girths
 constexpr double kSpacing = 0.1;      // mm between the knots of a path
 constexpr double kSquarePair = 0.1;   // of a pair's price: nothing leans beside it
 constexpr double kMotions = 2.5;      // a cycle's whole motion, in times of its work feed
+constexpr double kUntilted = 1.2;     // tables: its own, which nothing smooths, and a flush one's
 
 /// Points of one curve round a tube.
 double points_of(const joint::Sampling& sampling, double radius) {
@@ -130,17 +131,19 @@ bool is_square(const bevel::TableSpec& spec) {
 
 void add_table(const bevel::TableSpec& spec, double radius, double cutters, Work& work) {
   const double points = points_of(spec.sampling, radius);
+  const double tables = spec.untilted ? kUntilted : 1.0;
+  const double pairs = tables * beam_pairs(points, spec.kerf, radius);
   if (is_square(spec)) {
-    work.add(Cost::square_table);
-    work.add(Cost::square_table_point, points);
-    work.add(Cost::beam_pair, kSquarePair * beam_pairs(points, spec.kerf, radius));
+    work.add(Cost::square_table, tables);
+    work.add(Cost::square_table_point, tables * points);
+    work.add(Cost::beam_pair, kSquarePair * pairs);
     return;
   }
-  work.add(Cost::table);
-  work.add(Cost::table_point, points);
-  work.add(Cost::table_point_of_cutter, points * cutters);
-  if (spec.kerf > 0.0) work.add(Cost::table_with_kerf);
-  work.add(Cost::beam_pair, beam_pairs(points, spec.kerf, radius));
+  work.add(Cost::table, tables);
+  work.add(Cost::table_point, tables * points);
+  work.add(Cost::table_point_of_cutter, tables * points * cutters);
+  if (spec.kerf > 0.0) work.add(Cost::table_with_kerf, tables);
+  work.add(Cost::beam_pair, pairs);
 }
 
 /// Sections of the groove, and of the survey round it.
@@ -161,8 +164,7 @@ void add_work(const joint::IntersectionSpec& spec, Work& work) {
 
 void add_work(const bevel::TableSpec& spec, Work& work) {
   const auto cutters = static_cast<double>(spec.partners.size());
-  for (int of = spec.untilted ? 2 : 1; of > 0; --of)  // an untilted cut beside a bevelled one
-    add_table(spec, spec.target.outer_radius, cutters, work);
+  add_table(spec, spec.target.outer_radius, cutters, work);
   add_partners(spec.partners, work);
 }
 
