@@ -32,7 +32,7 @@ def shell(root=ROOT):
 
 def typescript(root=ROOT, folders=("web/src", "clients/typescript", "clients/import", "tests/e2e", "tests/front", "tests/contract")):
     """What the client's own build writes (schema.ts and dist) is none of ours."""
-    return [p for p in _files(root, folders) if p.suffix == ".ts" and p.name != "schema.ts" and "dist" not in p.parts]
+    return [p for p in _files(root, folders) if p.suffix in (".ts", ".tsx") and p.name != "schema.ts" and "dist" not in p.parts]
 
 
 def python(root=ROOT):
@@ -50,7 +50,7 @@ def modules(path, text):
     """Files of ours that a TypeScript module imports by a relative name, types included."""
     for name in re.findall(r"""(?:\bfrom|\bimport)\s*\(?\s*['"](\.[^'"]+)['"]""", text):
         at = (path.parent / name).resolve()
-        yield from [p for p in (at, at.with_name(at.name + ".ts"), at / "index.ts") if p.is_file()][:1]
+        yield from [p for p in (at, at.with_name(at.name + ".ts"), at.with_name(at.name + ".tsx"), at / "index.ts") if p.is_file()][:1]
 
 
 def without_comments(text):

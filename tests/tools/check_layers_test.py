@@ -44,6 +44,9 @@ BAD = {
     "a circle of the console's": (
         {"web/src/a.ts": "import {b} from './pictures/b';\n", "web/src/pictures/b.ts": "import type {A} from '../a';\n"},
         "include each other"),
+    "a circle of its views": (
+        {"web/src/view/a.tsx": "import {B} from './b';\n", "web/src/view/b.tsx": "import type {A} from './a';\n"},
+        "include each other"),
     "no such file": ({"core/x.cpp": '#include "angle.hpp"\n'}, "is no file"),
     "no guard": ({"core/x.hpp": "int x;\n"}, "#pragma once"),
 }
