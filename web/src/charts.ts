@@ -1,6 +1,6 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import {colour, el, partnerColour} from './dom';
+import {colour, partnerColour} from './dom';
 import {listen, point, pointed} from './links';
 import type {Chart} from './picture';
 import {number, ticks, withUnit} from './units';
@@ -10,71 +10,26 @@ const left = 56,
   named = 16, // the x axis' name
   ribbon = 7;
 
-/** A column of charts; one whose kind did not change is given new data instead of being made anew. */
-export class Board {
-  private shown: Plot[] = [];
-
-  constructor(private readonly root: HTMLElement) {
-    new ResizeObserver(() => this.shown.forEach((plot) => plot.measured())).observe(root);
-  }
-
-  show(charts: Chart[]): void {
-    const same = charts.length === this.shown.length && charts.every((chart, i) => this.shown[i]?.takes(chart));
-    if (same) {
-      charts.forEach((chart, i) => this.shown[i]?.update(chart));
-      return;
-    }
-    this.make(charts);
-  }
-
-  recolour(): void {
-    this.make(this.shown.map((plot) => plot.chart));
-  }
-
-  private make(charts: Chart[]): void {
-    this.shown.forEach((plot) => plot.end());
-    this.root.replaceChildren();
-    this.shown = charts.map((chart) => new Plot(this.root, chart));
-    this.shown.forEach((plot) => plot.measured()); // each has made room for the next
-  }
-}
-
-class Plot {
-  private readonly figure: HTMLElement;
-  private readonly frame: HTMLElement;
-  private readonly caption: HTMLElement;
+/** One chart's curves, cursor and axes, in a place of the page. */
+export class Plot {
   private readonly plot: uPlot;
   private readonly forget: () => void;
   private width = 0;
 
   constructor(
-    root: HTMLElement,
-    public chart: Chart,
+    private readonly frame: HTMLElement,
+    private chart: Chart,
   ) {
-    this.frame = el('div', {class: 'plot', tabindex: '0', role: 'img'});
-    this.caption = el('figcaption');
-    this.figure = el('figure', {id: `chart-${chart.id}`, class: 'chart'}, this.caption, this.frame);
-    root.append(this.figure);
-    this.width = this.frame.clientWidth;
-    this.plot = new uPlot(this.options(), this.data(), this.frame);
-    this.describe();
+    this.width = frame.clientWidth;
+    this.plot = new uPlot(this.options(), this.data(), frame);
     this.forget = listen(chart.link, (index) => this.follow(index));
-    this.frame.addEventListener('keydown', (event) => this.walk(event));
-  }
-
-  takes(chart: Chart): boolean {
-    return (
-      chart.id === this.chart.id &&
-      chart.link === this.chart.link &&
-      chart.series.map((s) => s.name + s.tone).join() === this.chart.series.map((s) => s.name + s.tone).join()
-    );
   }
 
   update(chart: Chart): void {
+    if (chart === this.chart) return;
     this.chart = chart;
     this.fit();
     this.plot.setData(this.data());
-    this.describe();
   }
 
   /** The width is read when it changes and not with each answer: reading it lays the whole page out. */
@@ -91,7 +46,6 @@ class Plot {
   end(): void {
     this.forget();
     this.plot.destroy();
-    this.figure.remove();
   }
 
   private data(): uPlot.AlignedData {
@@ -107,31 +61,6 @@ class Plot {
     const [low, high] = extent(this.chart);
     const scale = (width - left - right) / span(this.chart);
     return {width, height: Math.round(Math.min(420, Math.max(90, (high - low) * scale)) + 34 + named)};
-  }
-
-  private describe(): void {
-    const {chart} = this;
-    this.frame.dataset['points'] = String(chart.x.values.length);
-    this.frame.setAttribute(
-      'aria-label',
-      `${chart.title}: ${chart.series.map((s) => `${s.name} ${spread(s.values, chart.unit)}`).join(', ')} over ${chart.x.name}; ${chart.x.values.length} points. Left and right move the cursor.`,
-    );
-    const keys = chart.series.map((s) => {
-      const line = el('i', {class: s.dash ? 'dashed' : ''});
-      line.style.borderColor = colour(s.tone);
-      return el('span', {class: 'key', title: s.about}, line, s.name);
-    });
-    const others = [...new Map([...(chart.bands ?? []), ...(lettered(chart) ? [] : (chart.marks ?? []))].map((b) => [b.text, b.tone])).entries()].map(
-      ([text, tone]) => {
-        const patch = el('i', {class: 'patch'});
-        patch.style.background = colour(tone);
-        return el('span', {class: 'key'}, patch, text);
-      },
-    );
-    this.caption.replaceChildren(
-      el('b', {}, chart.title, el('small', {}, chart.unit ? `, ${chart.unit}` : '')),
-      el('span', {class: 'keys'}, ...keys, ...others),
-    );
   }
 
   private options(): uPlot.Options {
@@ -344,18 +273,23 @@ class Plot {
     const value = index === null ? undefined : index === x.values.length ? period : x.values[index];
     this.plot.setCursor(value === undefined ? {left: -10, top: -10} : {left: this.plot.valToPos(value, 'x'), top: 4});
   }
-
-  private walk(event: KeyboardEvent): void {
-    const count = this.chart.x.values.length;
-    const now = pointed(this.chart.link);
-    const by = event.shiftKey ? 10 : 1;
-    if (event.key === 'ArrowRight') point(this.chart.link, now === null ? 0 : Math.min(count - 1, now + by));
-    else if (event.key === 'ArrowLeft') point(this.chart.link, now === null ? count - 1 : Math.max(0, now - by));
-    else if (event.key === 'Escape') point(this.chart.link, null);
-    else return;
-    event.preventDefault();
-  }
 }
+
+/** The arrow keys move the cursor along a chart. */
+export function walk({link, x}: Chart, event: KeyboardEvent): void {
+  const count = x.values.length;
+  const now = pointed(link);
+  const by = event.shiftKey ? 10 : 1;
+  if (event.key === 'ArrowRight') point(link, now === null ? 0 : Math.min(count - 1, now + by));
+  else if (event.key === 'ArrowLeft') point(link, now === null ? count - 1 : Math.max(0, now - by));
+  else if (event.key === 'Escape') point(link, null);
+  else return;
+  event.preventDefault();
+}
+
+/** What a chart shows, for those who do not see it. */
+export const described = ({title, unit, x, series}: Chart) =>
+  `${title}: ${series.map((s) => `${s.name} ${spread(s.values, unit)}`).join(', ')} over ${x.name}; ${x.values.length} points. Left and right move the cursor.`;
 
 /** "from 18.7 to 72.6°", for those who do not see it. */
 function spread(values: (number | null)[], of: string): string {
@@ -380,7 +314,7 @@ function span(chart: Chart): number {
 }
 
 /** Marks of several kinds are named on their lines, those of one kind in the key. */
-const lettered = ({marks = []}: Chart) => new Set(marks.map((mark) => mark.text)).size > 1 && marks.every((mark) => mark.y === undefined);
+export const lettered = ({marks = []}: Chart) => new Set(marks.map((mark) => mark.text)).size > 1 && marks.every((mark) => mark.y === undefined);
 
 /** Of a whole turn, its quarters are the ticks. */
 function quarters({x, period}: Chart): Pick<uPlot.Axis, 'splits'> {

@@ -1,34 +1,8 @@
-import frame from '../../docs/frame.svg';
-import {el} from './dom';
 import type {Json} from './json';
 import type {Schema} from './schema';
 import type {Issue} from './service';
 import {number, unit} from './units';
 import {about, choice, holder, label, lastKey, plain, sentence} from './words';
-
-// The four drawings of docs/frame.svg: which of them shows what a field means, by its name.
-const drawings: [RegExp, string][] = [
-  [/^(clocking_deg|offset_mm|phi_deg|start_phi_deg|from_phi_deg|to_phi_deg|seam_deg|datum|up)$/, '500,0,500,440'],
-  [/^(inclination_deg|height_mm)$/, '0,440,500,440'],
-  [/^(root_surface|rule|cap_deg|angle_deg|dihedral|contact|root_face_mm|root_gap_mm|kerf_mm|min_deg|max_deg|b_deg|max_b_deg|b_sign)$/, '500,440,500,440'],
-  [/^(outer_diameter_mm|wall_mm|length_mm|size|id)$/, '0,0,500,440'],
-];
-const joints = /^(\/cut)?\/(cutters|target|ends|branch|chord|groove|torch|kerf_mm|root_|contact|dihedral|datum|seam_deg)/; // where the frame is the drawing's
-
-/** What the focused field means, under the form: its hint, and the drawing that shows it. */
-export function hints(form: HTMLElement, place: HTMLElement): void {
-  form.addEventListener('focusin', (event) => {
-    const field = event.target as HTMLElement;
-    const told = field.closest<HTMLElement>('[title]')?.title ?? '';
-    const pointer = field.dataset['pointer'] ?? '';
-    const view = joints.test(pointer) ? drawings.find(([pattern]) => pattern.test(lastKey(pointer)))?.[1] : undefined;
-    place.hidden = told === '';
-    place.replaceChildren(view ? el('img', {src: `${frame}#svgView(viewBox(${view}))`, width: '150', height: '132', alt: ''}) : '', el('p', {}, told));
-  });
-  form.addEventListener('focusout', () => {
-    place.hidden = true;
-  });
-}
 
 export const called = (pointer: string) => label(lastKey(pointer), holder(pointer));
 

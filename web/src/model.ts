@@ -1,23 +1,21 @@
-import {byId, el} from './dom';
-import {clone, type Row} from './json';
 import type {Imported, LengthUnit, Size} from './importer';
 
-type Importer = typeof import('./importer');
+export type Importer = typeof import('./importer');
 /** What a file does not tell, by the name of its control. */
-type Answers = Record<string, string>;
-interface Question {
+export type Answers = Record<string, string>;
+export interface Question {
   key: string;
   text: string;
   choices?: [value: string, name: string][];
   value?: string;
   hint?: string;
 }
-interface Kind {
+export interface Kind {
   questions(importer: Importer, text: string, schedules: string[]): Question[];
   read(importer: Importer, file: Uint8Array, answers: Answers): Imported | Promise<Imported>;
 }
 
-const text = (file: Uint8Array): string => new TextDecoder().decode(file);
+export const text = (file: Uint8Array): string => new TextDecoder().decode(file);
 const named = (list: readonly string[]): [string, string][] => list.map((each) => [each, each]);
 const unitAnswer = (answers: Answers): {unit?: LengthUnit} => (answers['unit'] ? {unit: answers['unit'] as LengthUnit} : {});
 
@@ -43,7 +41,7 @@ function pointOf(said: string): [number, number, number] {
   return [x, y, z];
 }
 
-const kinds: Record<string, Kind> = {
+export const kinds: Record<string, Kind> = {
   ifc: {
     questions: () => [
       {key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'},
@@ -90,135 +88,4 @@ const kinds: Record<string, Kind> = {
     },
   },
 };
-const endings = Object.keys(kinds).map((each) => `.${each}`);
-
-/** The button, the place to drop a file, and what is said of it beside the form. */
-export class Model {
-  private readonly root = byId('imported');
-  private readonly button = byId('model');
-  private given: Row | undefined;
-  private turn = 0; // of a file or an answer; what comes late is dropped
-
-  constructor(
-    private readonly schedules: string[],
-    private readonly taken: (frame: Row) => void,
-  ) {
-    const input = el('input', {type: 'file', id: 'model-file', accept: endings.join(','), hidden: true, 'aria-label': 'A model to open'});
-    this.button.after(input);
-    this.button.addEventListener('click', () => input.click());
-    input.addEventListener('change', () => {
-      const file = input.files?.[0];
-      input.value = ''; // the same file once more is a change too
-      if (file) void this.open(file);
-    });
-    const dropping = (event: DragEvent) => !this.button.hidden && event.dataTransfer?.types.includes('Files');
-    addEventListener('dragover', (event) => {
-      if (!dropping(event)) return;
-      event.preventDefault();
-      document.body.classList.add('dropping');
-    });
-    addEventListener('dragleave', (event) => event.relatedTarget === null && document.body.classList.remove('dropping'));
-    addEventListener('drop', (event) => {
-      if (!dropping(event)) return;
-      event.preventDefault();
-      document.body.classList.remove('dropping');
-      const file = event.dataTransfer?.files[0];
-      if (file) void this.open(file);
-    });
-  }
-
-  /** Another job has begun: what was said of a file is said no more. */
-  began(endpoint: string, body: Row): void {
-    this.button.hidden = endpoint !== 'frames';
-    if (body === this.given) return;
-    this.turn += 1;
-    this.given = undefined;
-    this.root.hidden = true;
-    this.root.replaceChildren();
-  }
-
-  private async open(file: File): Promise<void> {
-    this.turn += 1;
-    const {turn} = this;
-    this.say(el('p', {class: 'soft'}, `Reading ${file.name} …`));
-    try {
-      const kind = kinds[file.name.toLowerCase().replace(/^.*\./, '')];
-      if (!kind) throw new Error(`It is none of ${endings.join(', ')}.`);
-      const [importer, bytes] = await Promise.all([import('./importer'), file.arrayBuffer()]);
-      if (turn !== this.turn) return;
-      const questions = kind.questions(importer, text(new Uint8Array(bytes)), this.schedules);
-      const asked = el('div', {class: 'questions'}, ...questions.map((question) => field(question, () => void read().catch(failed))));
-      const found = el('div', {class: 'found'});
-      const failed = (failure: unknown) => found.replaceChildren(refused(failure));
-      const read = async () => {
-        this.turn += 1;
-        const mine = this.turn;
-        const imported = await kind.read(importer, new Uint8Array(bytes), answersOf(asked));
-        if (mine !== this.turn) return;
-        found.replaceChildren(...told(imported));
-        if (!imported.frame) return;
-        this.given = clone(imported.frame as unknown as Row);
-        this.taken(this.given);
-      };
-      this.say(
-        heading(file.name, () => this.close()),
-        asked,
-        found,
-      );
-      await read();
-    } catch (failure) {
-      const why = failure instanceof Error ? failure.message : String(failure);
-      this.say(
-        heading(file.name, () => this.close()),
-        el('p', {role: 'alert'}, `It cannot be read. ${why}`),
-      );
-    }
-  }
-
-  private say(...nodes: HTMLElement[]): void {
-    this.root.hidden = false;
-    this.root.replaceChildren(...nodes);
-  }
-
-  private close(): void {
-    this.turn += 1;
-    this.root.hidden = true;
-    this.root.replaceChildren();
-    this.button.focus();
-  }
-}
-
-const heading = (name: string, close: () => void): HTMLElement =>
-  el('h3', {}, name, el('button', {type: 'button', class: 'right', 'aria-label': 'Close what is said of the model', onclick: close}, 'Close'));
-
-const refused = (failure: unknown): HTMLElement =>
-  el('p', {role: 'alert'}, `It cannot be read. ${failure instanceof Error ? failure.message : String(failure)}`);
-
-function field({key, text: said, choices, value, hint}: Question, changed: () => void): HTMLElement {
-  const shared = {'data-question': key, onchange: changed};
-  const options = choices?.map(([each, name]) => el('option', {value: each, selected: each === (value ?? '')}, name)) ?? [];
-  const input = choices
-    ? el('select', shared, ...options)
-    : el('input', {...shared, list: hint ? undefined : 'tube-sizes', placeholder: hint ?? '114.3x6.3', value: value ?? ''});
-  return el('label', {}, el('span', {}, said), input);
-}
-
-const answersOf = (asked: HTMLElement): Answers =>
-  Object.fromEntries(
-    [...asked.querySelectorAll<HTMLInputElement | HTMLSelectElement>('[data-question]')].map((each) => [each.dataset['question'] ?? '', each.value]),
-  );
-
-const counted = (n: number, one: string, many: string): string => `${n} ${n === 1 ? one : many}`;
-
-/** How much of the file is in the frame, and every thing that is not. */
-function told({frame, notUnderstood}: Imported): HTMLElement[] {
-  const others = frame?.others?.length ?? 0;
-  const also = others ? ` and ${counted(others, 'other that cuts', 'others that cut')}` : '';
-  const what = frame ? `${counted(frame.members.length, 'member', 'members')}${also}.` : 'No member was found, so the job stays as it was.';
-  const all = notUnderstood.length === 0;
-  const lines = notUnderstood.map(({id, type, reason}) => el('li', {}, el('b', {}, id), ` ${type}: ${reason}`));
-  return [
-    el('p', {id: 'imported-said'}, `${what} ${all ? 'Nothing was left out.' : `${counted(lines.length, 'thing was', 'things were')} not understood:`}`),
-    ...(all ? [] : [el('ul', {id: 'not-understood', tabindex: '0', 'aria-label': 'What was not understood'}, ...lines)]),
-  ];
-}
+export const endings = Object.keys(kinds).map((each) => `.${each}`);

@@ -1,4 +1,3 @@
-import {el} from './dom';
 import {isRow, rowsOf, type Json, type Row} from './json';
 import {column} from './picture';
 import {without, type Context} from './pictures/context';
@@ -74,13 +73,4 @@ function pulsesOf({request, result}: Answer, sizes: Context['sizes']): Lead[] {
       },
     ];
   });
-}
-
-export function show(root: HTMLElement, leads: Lead[], open: (endpoint: string, body: Row) => void, files: () => void): void {
-  root.hidden = false;
-  root.replaceChildren(
-    el('span', {class: 'soft'}, 'Go on to'),
-    ...leads.map(({name, endpoint, body}) => el('button', {type: 'button', 'data-onward': endpoint, onclick: () => open(endpoint, body)}, name)),
-    el('button', {type: 'button', 'data-onward': 'files', onclick: files}, 'Files'),
-  );
 }

@@ -1,54 +1,27 @@
+import type {components} from '../../clients/typescript/src/schema';
 import type {Json, Row} from './json';
 import {headed, KeyNeeded} from './key';
 
-export interface Issue {
-  code: string;
-  pointer: string;
-  got: Json;
-  limit: Json;
-  unit: string;
-  hint: string;
-}
-export interface Problem {
-  code: string;
-  title: string;
-  status: number;
-  detail?: string;
-  action?: string;
-  request_id?: string;
-  errors?: Issue[];
-}
-export interface Check {
-  name: string;
-  value: number;
-  limit: number;
-  unit: string;
-}
-export interface Warning {
-  code: string;
-  severity: 'cut' | 'note';
-  pointer: string;
-  detail: string;
-  action: string;
-}
+type Contract = components['schemas'];
+export type Example = Omit<Contract['Examples']['examples'][number], 'body'> & {body: Row};
+export type Endpoint = Contract['Version']['endpoints'][number];
+export type Machine = {name: string; machine: Row};
+export type Tube = Contract['Tubes']['tubes'][number];
+
+export type Issue = Contract['Problem']['errors'][number];
+/** The service's own, or what is said of it here: that nothing was answered, or nothing that can be read. */
+export type Problem = Partial<Omit<Contract['Problem'], 'code'>> & {code: Contract['Problem']['code'] | 'unreachable' | 'unreadable_answer'; title: string};
+export type Check = Contract['Verification']['checks'][number];
+export type Warning = Contract['Warnings'][number];
+/** Of whichever endpoint: its pictures know what is in the result. */
 export interface Answer {
-  job: Row & {id: string; endpoint: string; engine: string; input_sha256: string; result_sha256: string};
+  job: Contract['Job'];
   request: Row;
   result: Row;
   parts?: Row[]; // of a frame
   verification: {passed: boolean; checks: Check[]};
-  verdict: {status: 'ok' | 'review' | 'reject'; reasons: string[]};
+  verdict: Contract['Verdict'];
   warnings: Warning[];
-}
-export interface Example {
-  endpoint: string;
-  name: string;
-  body: Row;
-}
-export interface Endpoint {
-  id: string;
-  path: string;
-  formats: string[];
 }
 
 /** As the service judges a check: a value under its limit holds, however far under; NaN does not. */

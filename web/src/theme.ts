@@ -1,30 +1,32 @@
-import {byId} from './dom';
+import {computed, effect, signal} from '@preact/signals';
 
-/** Light or dark: what was chosen last, else what the system says. */
-export function themed(recolour: () => void): void {
-  const system = matchMedia('(prefers-color-scheme: dark)');
-  const button = byId('theme');
-  const apply = () => {
-    let chosen: string | null = null;
-    try {
-      chosen = localStorage.getItem('theme');
-    } catch {
-      /* no storage: the system's */
-    }
-    const dark = chosen ? chosen === 'dark' : system.matches;
-    document.documentElement.dataset['theme'] = dark ? 'dark' : 'light';
-    button.textContent = dark ? 'Light' : 'Dark';
-    button.setAttribute('aria-label', dark ? 'Switch to light' : 'Switch to dark');
-    recolour();
-  };
-  button.addEventListener('click', () => {
-    try {
-      localStorage.setItem('theme', document.documentElement.dataset['theme'] === 'dark' ? 'light' : 'dark');
-    } catch {
-      /* not remembered */
-    }
-    apply();
-  });
-  system.addEventListener('change', apply);
-  apply();
+const system = matchMedia('(prefers-color-scheme: dark)');
+const wished = signal(system.matches);
+system.addEventListener('change', () => {
+  wished.value = system.matches;
+});
+
+/** Without a storage nothing is remembered. */
+function stored(): string | null {
+  try {
+    return localStorage.getItem('theme');
+  } catch {
+    return null;
+  }
+}
+const chosen = signal(stored());
+
+/** Dark or light: what was chosen last, else what the system says. */
+export const dark = computed(() => (chosen.value ? chosen.value === 'dark' : wished.value));
+effect(() => {
+  document.documentElement.dataset['theme'] = dark.value ? 'dark' : 'light';
+});
+
+export function turn(): void {
+  chosen.value = dark.value ? 'light' : 'dark';
+  try {
+    localStorage.setItem('theme', chosen.value);
+  } catch {
+    /* not remembered */
+  }
 }

@@ -101,7 +101,7 @@ function partFacts(given: Told, at: number): Facts {
   const made = part?.['answer'] as unknown as Answer | undefined;
   const request = made?.request ?? part?.['request'];
   const warnings = (made?.warnings ?? []).map((each) => ({...each, pointer: ''})); // of the part's request, not of this one
-  const named = new Set(warnings.map(({code}) => code));
+  const named = new Set<string>(warnings.map(({code}) => code));
   const lengths = {...cut, ...(made?.result['lengths'] as Row | undefined)};
   return {
     said: [

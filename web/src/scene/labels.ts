@@ -1,5 +1,4 @@
 import type {Camera, Vector3} from 'three';
-import {el} from '../dom';
 import type {Joint, Members} from './members';
 
 const most = 60; // names at a time; of more, those that are chosen or pointed at
@@ -14,8 +13,8 @@ type Box = [number, number, number, number];
 
 /** Members' names in the picture, none over another: what is chosen first, then from near to far; and a dot where two are joined. */
 export class Labels {
-  private readonly root = el('div', {class: 'labels', 'aria-hidden': 'true'});
-  private readonly places = el('div', {class: 'dots', 'aria-hidden': 'true'});
+  private readonly root = layer('labels');
+  private readonly places = layer('dots');
   private labels: Label[] = [];
   private dots: {node: HTMLElement; joint: Joint}[] = [];
   private taken: Box[] = [];
@@ -26,8 +25,9 @@ export class Labels {
   }
 
   show(names: string[], joints: Joint[]): void {
-    const nodes = names.map((name) => el('span', {}, name));
-    this.dots = joints.map((joint) => ({node: el('i', {'data-item': joint.item}), joint}));
+    const nodes = names.map((name) => Object.assign(document.createElement('span'), {textContent: name}));
+    this.dots = joints.map((joint) => ({node: document.createElement('i'), joint}));
+    for (const {node, joint} of this.dots) node.dataset['item'] = String(joint.item);
     this.root.replaceChildren(...nodes);
     this.places.replaceChildren(...this.dots.map(({node}) => node));
     this.labels = nodes.map((node) => ({node, width: node.offsetWidth, height: node.offsetHeight}));
@@ -96,6 +96,13 @@ export class Labels {
     const near = this.seen.filter((each) => off(each) <= within).sort((a, b) => off(a) - off(b));
     return near[0]?.item ?? null;
   }
+}
+
+/** Names and dots are for the eye: the lists beside the picture tell the same. */
+function layer(name: string): HTMLElement {
+  const node = Object.assign(document.createElement('div'), {className: name});
+  node.setAttribute('aria-hidden', 'true');
+  return node;
 }
 
 const within = (boxes: Box[], x: number, y: number, margin: number) =>

@@ -1,0 +1,44 @@
+import {render} from 'preact';
+import {Console} from './console';
+import {byId} from './dom';
+import {KeyNeeded, tried} from './key';
+import {Contract} from './schema';
+import {fetched, type Endpoint, type Example, type Machine, type Tube} from './service';
+import {Shell} from './view/shell';
+import {Unlock} from './view/unlock';
+import {Silence} from './view/verdict';
+
+const root = byId('page');
+
+async function begin(): Promise<void> {
+  try {
+    const [contract, examples, version, machines, tubes] = await Promise.all([
+      fetched<ConstructorParameters<typeof Contract>[0]>('/openapi.json'),
+      fetched<{examples: Example[]}>('/v1/examples'),
+      fetched<{endpoints: Endpoint[]}>('/v1/version'),
+      fetched<{machines: Machine[]}>('/v1/machines'),
+      fetched<{tubes: Tube[]}>('/v1/tubes'),
+    ]);
+    const page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes.tubes);
+    render(<Shell console={page} />, root);
+    await page.arrive(location.hash);
+  } catch (failure) {
+    const again = () => void begin();
+    const why = failure instanceof Error ? failure.message : String(failure);
+    render(
+      <Shell>
+        {failure instanceof KeyNeeded ? <Unlock key={tried()} go={again} /> : <Silence title="The console could not start." detail={why} again={again} />}
+      </Shell>,
+      root,
+    );
+  }
+}
+
+root.replaceChildren(); // what stood there until this was loaded
+render(
+  <Shell>
+    <p class="waiting">Asking the service …</p>
+  </Shell>,
+  root,
+);
+void begin();

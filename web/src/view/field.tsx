@@ -1,0 +1,159 @@
+import {useComputed} from '@preact/signals';
+import {createContext} from 'preact';
+import {useContext} from 'preact/hooks';
+import {listed, nudge, scrub, typed, type Form} from '../form';
+import {called, hintOf, offered} from '../hint';
+import {at, isRow, type Json} from '../json';
+import type {Schema} from '../schema';
+import {unit} from '../units';
+import {choice, lastKey, sentence} from '../words';
+
+export const Fields = createContext<Form | null>(null);
+export const useForm = () => useContext(Fields) as Form;
+
+/** One value of the request, where it stands. */
+export interface Value {
+  schema: Schema;
+  value: Json | undefined;
+  pointer: string;
+}
+
+const inlineList = 6; // longer lists of numbers get a text area
+const inlineText = 28; // and so do those of more characters, which a phone's line holds
+
+export function simple(form: Form, schema: Schema): boolean {
+  if (schema.oneOf) return form.contract.branches(schema).every((branch) => simple(form, branch));
+  return schema.enum !== undefined || 'const' in schema || ['number', 'integer', 'string', 'boolean', 'null'].includes(schema.type ?? '');
+}
+
+/** Points, directions, pairs: a field like a number is. */
+export function short(form: Form, schema: Schema): boolean {
+  const item = schema.items && form.contract.resolve(schema.items);
+  return schema.type === 'array' && item !== undefined && !item.properties && !item.oneOf && (schema.maxItems ?? 99) <= inlineList;
+}
+
+/** What is said against the value of a pointer. */
+export function Complaints({at: pointer}: {at: string}) {
+  const {complaints} = useForm();
+  const own = useComputed(() => complaints.value.get(pointer)).value;
+  return own ? (
+    <>
+      {own.map(({id, text}) => (
+        <p key={id} class="complaint" id={id}>
+          {text}
+        </p>
+      ))}
+    </>
+  ) : null;
+}
+
+/** Which complaints an element has: told to those who do not see them. Bound to it, so that nothing is drawn anew. */
+export function useTold(pointer: string) {
+  const {complaints} = useForm();
+  const ids = useComputed(() =>
+    complaints.value
+      .get(pointer)
+      ?.map(({id}) => id)
+      .join(' '),
+  );
+  return {'aria-describedby': ids, 'aria-invalid': useComputed(() => (ids.value ? 'true' : undefined))};
+}
+
+/** A field with its name, its unit and what is said against it. */
+export function Field({schema, value, pointer, required = false}: Value & {required?: boolean}) {
+  const form = useForm();
+  const mark = unit(lastKey(pointer));
+  const wide = schema.type === 'array' || !simple(form, schema);
+  return (
+    <label class={`field${wide ? ' wide' : ''}${required ? ' required' : ''}`} title={hintOf(schema, pointer)}>
+      <span class="name">{sentence(called(pointer))}</span>
+      <span class="box">
+        <Input schema={schema} value={value} pointer={pointer} name={called(pointer)} />
+        {mark && (
+          <span class="unit" title="Drag to change" onPointerDown={scrub}>
+            {mark}
+          </span>
+        )}
+      </span>
+      <Complaints at={pointer} />
+    </label>
+  );
+}
+
+/** What a value is entered in, by what it may be. */
+export function Input(given: Value & {name: string}) {
+  const {schema, value, pointer, name} = given;
+  const form = useForm();
+  const shared = {
+    'data-pointer': pointer,
+    'aria-label': [sentence(name), unit(lastKey(pointer))].filter(Boolean).join(', '),
+    ...useTold(pointer),
+  };
+  const key = lastKey(pointer);
+  const {machines} = form.choices;
+  const choices = schema.enum ?? (key === 'machine' && machines.length ? machines : undefined);
+  if (schema.type !== 'array' && choices && !isRow(value)) return <Select {...given} choices={choices} shared={shared} />;
+  if (schema.type === 'boolean') {
+    const checked = (value ?? schema.default) === true;
+    return <input type="checkbox" {...shared} checked={checked} onChange={(event) => form.write(pointer, event.currentTarget.checked)} />;
+  }
+  if (schema.type === 'array' || isRow(value) || Array.isArray(value)) return <List value={value} pointer={pointer} shared={shared} />;
+  return <Text {...given} shared={shared} />;
+}
+
+function Text({schema, value, pointer, shared}: Value & {shared: object}) {
+  const form = useForm();
+  const textual = schema.type === 'string' && !schema.oneOf;
+  const placeholder = useComputed(() => {
+    const echo = at(form.echo.value, pointer);
+    const counts = echo === undefined || isRow(echo) ? schema.default : echo;
+    return counts === undefined ? '' : offered(counts);
+  });
+  return (
+    <input
+      type="text"
+      inputMode={textual ? 'text' : 'decimal'}
+      spellcheck={false}
+      list={lastKey(pointer) === 'size' ? 'tube-sizes' : undefined}
+      placeholder={placeholder}
+      value={String(value ?? '')}
+      {...shared}
+      onInput={(event) => form.write(pointer, typed(event.currentTarget.value, textual))}
+      onKeyDown={textual ? undefined : nudge}
+    />
+  );
+}
+
+function Select({schema, value, pointer, choices, shared}: Value & {choices: Json[]; shared: object}) {
+  const form = useForm();
+  const otherwise = useComputed(() => {
+    const echo = at(form.echo.value, pointer);
+    const taken = at(form.drawn.value.body, pointer) === undefined && echo !== undefined && typeof echo !== 'object' ? echo : schema.default;
+    return taken === undefined ? '' : `${choice(taken)} (default)`;
+  });
+  const change = (text: string) => form.write(pointer, text === '' ? undefined : (JSON.parse(text) as Json));
+  return (
+    <select value={value === undefined ? '' : JSON.stringify(value)} {...shared} onChange={(event) => change(event.currentTarget.value)}>
+      <option value="">{otherwise}</option>
+      {choices.map((each) => (
+        <option key={JSON.stringify(each)} value={JSON.stringify(each)}>
+          {choice(each)}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+/** Lists: a few numbers on a line, many in a box. */
+function List({value, pointer, shared}: {value: Json | undefined; pointer: string; shared: object}) {
+  const form = useForm();
+  const numbers = Array.isArray(value) && value.every((each) => typeof each === 'number');
+  const text = value === undefined ? '' : numbers ? value.join(', ') : JSON.stringify(value);
+  const inline = value === undefined || (numbers && value.length <= inlineList && text.length <= inlineText);
+  const bound = {
+    value: text,
+    ...shared,
+    onInput: (event: Event) => form.write(pointer, listed((event.currentTarget as HTMLInputElement).value)),
+  };
+  return inline ? <input type="text" {...bound} /> : <textarea rows={3} spellcheck={false} {...bound} />;
+}

@@ -1,0 +1,338 @@
+import {Fragment, type ComponentChildren} from 'preact';
+import {useLayoutEffect, useRef} from 'preact/hooks';
+import {roomy, runsOf, type Form} from '../form';
+import {called, hintOf} from '../hint';
+import {isRow, join, type Json, type Row} from '../json';
+import {brief} from '../names';
+import type {Schema} from '../schema';
+import {unit} from '../units';
+import {lastKey, sentence} from '../words';
+import {partnerTone, Swatch} from './controls';
+import {Complaints, Field, Fields, Input, short, simple, useForm, useTold, type Value} from './field';
+import {followFocus} from './hint';
+
+const aside = new Set(['log', 'numerics']); // belong to programs
+const folded = new Set(['sampling', 'reference', 'accept', 'expert', 'check', 'table']); // closed until opened
+
+/** The request as a form, drawn from the contract's schema. */
+export function RequestForm({form}: {form: Form}) {
+  const root = useRef<HTMLFormElement>(null);
+  const {schema, body, job} = form.drawn.value;
+  const measuring = useRef(0);
+  const room = () => roomy(root.current?.querySelectorAll('[data-pointer]') ?? []);
+  /** Once, however many folds open together: measuring lays the page out. */
+  const roomSoon = () => {
+    cancelAnimationFrame(measuring.current);
+    measuring.current = requestAnimationFrame(room);
+  };
+  useLayoutEffect(() => {
+    room();
+    form.stands();
+  }, [form.drawn.value]);
+  useLayoutEffect(() => {
+    let width = 0;
+    root.current?.addEventListener('toggle', roomSoon, true);
+    new ResizeObserver(([entry]) => {
+      if (entry?.contentRect.width === width) return;
+      width = entry?.contentRect.width ?? 0;
+      roomSoon();
+    }).observe(root.current as HTMLFormElement);
+  }, []);
+  return (
+    <form
+      ref={root}
+      id="form"
+      autocomplete="off"
+      noValidate
+      onSubmit={(event) => event.preventDefault()}
+      onInput={(event) => roomy([event.target as HTMLElement])}
+      {...followFocus}
+    >
+      <datalist id="tube-sizes">
+        {form.choices.sizes.map((size) => (
+          <option key={size} value={size} />
+        ))}
+      </datalist>
+      <Fields.Provider value={form}>
+        <Fragment key={job}>
+          <Parts schema={schema} value={body} pointer="" />
+        </Fragment>
+      </Fields.Provider>
+    </form>
+  );
+}
+
+/** The fields of one value of the request, after the choice of the way it is given in. */
+function Parts({schema: given, value, pointer}: Value) {
+  const form = useForm();
+  const {contract} = form;
+  const schema = contract.resolve(given);
+  const branches = contract.branches(schema);
+  if (branches.length < 2 || schema.properties) return <Inner schema={schema} value={value} pointer={pointer} />;
+  const chosen = contract.branchOf(branches, value);
+  const change = (index: number) => {
+    const next = contract.make(branches[index] as Schema, value, lastKey(pointer));
+    const {body} = form.drawn.value;
+    if (pointer) form.put(pointer, next);
+    else {
+      for (const key of Object.keys(body)) delete body[key];
+      Object.assign(body, next);
+      form.redraw();
+    }
+  };
+  const names = branches.map((branch) => sentence(contract.branchName(branches, branch)));
+  return (
+    <>
+      <Way pointer={pointer} title={pointer ? hintOf(schema, pointer) : 'In which way the job is given.'} names={names} chosen={chosen} change={change} />
+      <Inner schema={branches[chosen] as Schema} value={value} pointer={pointer} />
+    </>
+  );
+}
+
+function Way({pointer, title, names, chosen, change}: {pointer: string; title: string; names: string[]; chosen: number; change(index: number): void}) {
+  return (
+    <>
+      <div class="field branch">
+        {pointer === '' && <span class="name">Given by</span>}
+        <select
+          aria-label={pointer ? called(pointer) : 'Given by'}
+          title={title}
+          data-holds={pointer || undefined}
+          value={String(chosen)}
+          {...useTold(pointer)}
+          onChange={(event) => change(event.currentTarget.selectedIndex)}
+        >
+          {names.map((name, i) => (
+            <option key={name} value={String(i)}>
+              {name}
+            </option>
+          ))}
+        </select>
+      </div>
+      <Complaints at={pointer} />
+    </>
+  );
+}
+
+function Inner({schema, value, pointer}: Value) {
+  if ('const' in schema || schema.type === 'null') return null;
+  const open = schema.additionalProperties === true || isRow(schema.additionalProperties);
+  if (schema.properties && !open) return <Members schema={schema} value={isRow(value) ? value : {}} pointer={pointer} />;
+  return <Field schema={schema} value={value} pointer={pointer} />;
+}
+
+function Members({schema, value, pointer}: Value & {value: Row}) {
+  const form = useForm();
+  const small: ComponentChildren[] = [],
+    large: ComponentChildren[] = [],
+    absent: ComponentChildren[] = [];
+  for (const [key, inner] of Object.entries(schema.properties ?? {})) {
+    if (!(key in value) && (aside.has(key) || typeof inner === 'boolean')) continue;
+    const member = {schema: form.contract.resolve(inner), value: value[key], pointer: join(pointer, key)};
+    if ('const' in member.schema) continue;
+    const required = schema.required?.includes(key) ?? false;
+    if (simple(form, member.schema) || short(form, member.schema)) small.push(<Field key={key} {...member} required={required} />);
+    else if (key in value || required) large.push(<Group key={key} {...member} required={required} />);
+    else absent.push(<Offer key={key} schema={member.schema} pointer={member.pointer} />);
+  }
+  const parts = [small.length > 0 && <div class="grid">{small}</div>, large];
+  // Tubes first: they are what people change.
+  if (pointer === '') parts.reverse();
+  return (
+    <>
+      {parts}
+      {absent.length > 0 && <div class="offers">{absent}</div>}
+    </>
+  );
+}
+
+function Offer({schema, pointer}: {schema: Schema; pointer: string}) {
+  const form = useForm();
+  const add = () => {
+    form.folds.set(pointer, true);
+    form.put(pointer, form.contract.make(schema, undefined, lastKey(pointer)));
+  };
+  return (
+    <button type="button" title={hintOf(schema, pointer)} onClick={add}>
+      + {called(pointer)}
+    </button>
+  );
+}
+
+function Remover({name, act}: {name: string; act(): void}) {
+  return (
+    <button type="button" class="remove" aria-label={`Remove ${name}`} title={`Remove ${name}`} onClick={act}>
+      ×
+    </button>
+  );
+}
+
+function Group({schema, value, pointer, required}: Value & {required: boolean}) {
+  const form = useForm();
+  const given = {schema, value, pointer};
+  const told = useTold(pointer);
+  const own = headed(form, schema, value);
+  const open = form.folds.get(pointer) ?? !folded.has(lastKey(pointer));
+  return (
+    <>
+      <div class="group">
+        <details open={open} onToggle={(event) => form.folds.set(pointer, event.currentTarget.open)}>
+          <summary title={hintOf(schema, pointer)} data-holds={pointer} {...(own ? told : {})}>
+            {sentence(called(pointer))}
+          </summary>
+          {value === undefined ? <Offer {...given} /> : schema.type === 'array' ? <List {...given} value={value} /> : <Parts {...given} />}
+        </details>
+        {!required && <Remover name={called(pointer)} act={() => form.put(pointer, undefined)} />}
+      </div>
+      {own && <Complaints at={pointer} />}
+    </>
+  );
+}
+
+/** Whether a value has no field of its own, so that what is said against it stands at its heading. */
+function headed({contract}: Form, schema: Schema, value: Json | undefined): boolean {
+  if (value === undefined || schema.properties) return true;
+  const item = contract.resolve(schema.items ?? {});
+  return schema.type === 'array' ? Boolean(item.properties ?? item.oneOf) : contract.branches(schema).length < 2 && contract.branches(schema).length > 0;
+}
+
+function List({schema, value, pointer}: Value & {value: Json}) {
+  const form = useForm();
+  const {contract} = form;
+  const item = contract.resolve(schema.items ?? {});
+  if (!item.properties && !item.oneOf) return <Field schema={schema} value={value} pointer={pointer} />;
+  const items = Array.isArray(value) ? value : [];
+  const branches = item.oneOf ? contract.branches(item) : [item];
+  const kinds = items.map((each) => branches[contract.branchOf(branches, each)] as Schema);
+  const last = items.length - 1;
+  const add = (branch: Schema) => {
+    const to = join(pointer, items.length);
+    items.push(contract.make(branch, branch === kinds[last] ? items[last] : undefined));
+    if (Array.isArray(value)) form.redraw(to);
+    else form.put(pointer, items);
+  };
+  const flat = (kind: Schema) => Object.values(kind.properties ?? {}).every((each) => simple(form, contract.resolve(each)));
+  return (
+    <>
+      {runsOf(kinds).map(([kind, from, to]) =>
+        flat(kind) ? (
+          <Rows key={from} kind={kind} items={items.slice(from, to)} pointer={pointer} first={from} />
+        ) : (
+          items.slice(from, to).map((each, i) => <Card key={from + i} schema={item} value={each} pointer={join(pointer, from + i)} index={from + i} />)
+        ),
+      )}
+      <div class="offers">
+        {/* Not a list to choose from: by the keyboard its first choice would be made on the way to the others. */}
+        {branches.map((branch) => {
+          const name = branches.length === 1 ? 'add' : contract.branchName(branches, branch);
+          const title = `Add to ${called(pointer)}`;
+          return (
+            <button
+              type="button"
+              key={name}
+              class="adder"
+              aria-label={`${title}: ${name}`}
+              title={title}
+              onClick={() => add(branches.length === 1 ? item : branch)}
+            >
+              + {name}
+            </button>
+          );
+        })}
+      </div>
+    </>
+  );
+}
+
+interface Column {
+  key: string;
+  schema: Schema;
+}
+
+/** Rows from `first` on, of one kind. */
+function Rows({kind, items, pointer, first}: {kind: Schema; items: Json[]; pointer: string; first: number}) {
+  const form = useForm();
+  const columns: Column[] = Object.entries(kind.properties ?? {})
+    .map(([key, inner]) => ({key, schema: form.contract.resolve(inner)}))
+    .filter(({schema}) => !('const' in schema));
+  const head = join(pointer, first);
+  return (
+    <div class="scroll" tabIndex={0} role="group" aria-label={called(pointer)}>
+      <table class="tubes">
+        <thead>
+          <tr>
+            <td />
+            {columns.map(({key, schema}) => (
+              <th key={key} scope="col" title={hintOf(schema, join(head, key))}>
+                {sentence(brief(key, called(join(head, key))))}
+                <small>{unit(key)}</small>
+              </th>
+            ))}
+            <td />
+          </tr>
+        </thead>
+        <tbody>
+          {items.map((item, i) => (
+            <Line key={first + i} item={item} columns={columns} pointer={join(pointer, first + i)} index={first + i} />
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function Line({item, columns, pointer, index}: {item: Json; columns: Column[]; pointer: string; index: number}) {
+  const form = useForm();
+  return (
+    <>
+      <tr>
+        <td class="dot">
+          <Swatch tone={partnerTone(index)} />
+        </td>
+        {columns.map(({key, schema}) => {
+          const to = join(pointer, key);
+          return (
+            <td key={key} class={schema.type === 'string' ? 'text' : ''} title={hintOf(schema, to)}>
+              <Input schema={schema} value={isRow(item) ? item[key] : undefined} pointer={to} name={`${called(to)} ${index + 1}`} />
+            </td>
+          );
+        })}
+        <td>
+          <Remover name={`row ${index + 1}`} act={() => form.removeRow(pointer)} />
+        </td>
+      </tr>
+      <LineComplaints pointer={pointer} />
+    </>
+  );
+}
+
+/** Apart from the fields, which are not drawn anew while something is typed. */
+function LineComplaints({pointer}: {pointer: string}) {
+  const {complaints} = useForm();
+  const own = [...complaints.value.keys()].filter((key) => key.startsWith(`${pointer}/`));
+  return own.length ? (
+    <tr class="complaint">
+      <td colSpan={20}>
+        {own.map((each) => (
+          <Complaints key={each} at={each} />
+        ))}
+      </td>
+    </tr>
+  ) : null;
+}
+
+function Card({schema, value, pointer, index}: Value & {value: Json; index: number}) {
+  const form = useForm();
+  const name = isRow(value) && typeof value['id'] === 'string' ? value['id'] : String(index + 1);
+  return (
+    <div class="card">
+      <div class="card-head" tabIndex={-1} data-holds={pointer}>
+        <Swatch tone={partnerTone(index)} />
+        <b>{name}</b>
+        <Remover name={`row ${index + 1}`} act={() => form.removeRow(pointer)} />
+      </div>
+      {headed(form, form.contract.resolve(schema), value) && <Complaints at={pointer} />}
+      <Parts schema={schema} value={value} pointer={pointer} />
+    </div>
+  );
+}

@@ -1,0 +1,37 @@
+import {signal} from '@preact/signals';
+import frame from '../../../docs/frame.svg';
+import {lastKey} from '../words';
+
+// The four drawings of docs/frame.svg: which of them shows what a field means, by its name.
+const drawings: [RegExp, string][] = [
+  [/^(clocking_deg|offset_mm|phi_deg|start_phi_deg|from_phi_deg|to_phi_deg|seam_deg|datum|up)$/, '500,0,500,440'],
+  [/^(inclination_deg|height_mm)$/, '0,440,500,440'],
+  [/^(root_surface|rule|cap_deg|angle_deg|dihedral|contact|root_face_mm|root_gap_mm|kerf_mm|min_deg|max_deg|b_deg|max_b_deg|b_sign)$/, '500,440,500,440'],
+  [/^(outer_diameter_mm|wall_mm|length_mm|size|id)$/, '0,0,500,440'],
+];
+const joints = /^(\/cut)?\/(cutters|target|ends|branch|chord|groove|torch|kerf_mm|root_|contact|dihedral|datum|seam_deg)/; // where the frame is the drawing's
+
+const focused = signal<HTMLElement | null>(null);
+/** For the form: which of its fields has the focus. */
+export const followFocus = {
+  onFocusIn: ({target}: FocusEvent) => {
+    focused.value = target as HTMLElement;
+  },
+  onFocusOut: () => {
+    focused.value = null;
+  },
+};
+
+/** What the focused field means, under the form: its hint, and the drawing that shows it. */
+export function Hint() {
+  const field = focused.value;
+  const told = field?.closest<HTMLElement>('[title]')?.title ?? '';
+  const pointer = field?.dataset['pointer'] ?? '';
+  const view = joints.test(pointer) ? drawings.find(([pattern]) => pattern.test(lastKey(pointer)))?.[1] : undefined;
+  return (
+    <aside id="hint" hidden={told === ''}>
+      {view && <img src={`${frame}#svgView(viewBox(${view}))`} width={150} height={132} alt="" />}
+      <p>{told}</p>
+    </aside>
+  );
+}

@@ -1,0 +1,206 @@
+import {useLayoutEffect, useRef, useState} from 'preact/hooks';
+import type {Imported} from '../importer';
+import {clone, type Row} from '../json';
+import {endings, kinds, text, type Answers, type Importer, type Question} from '../model';
+
+interface Opened {
+  name: string;
+  /** Until the questions of its kind are known, or why they never are. */
+  questions?: Question[];
+  failure?: unknown;
+  read?(answers: Answers): Promise<Imported>;
+}
+interface Given {
+  schedules: string[];
+  job: number;
+  body: Row;
+  shown: boolean;
+  take(frame: Row): void;
+}
+
+const reason = (failure: unknown) => (failure instanceof Error ? failure.message : String(failure));
+
+async function opened(file: File, schedules: string[]): Promise<Opened> {
+  const {name} = file;
+  try {
+    const kind = kinds[name.toLowerCase().replace(/^.*\./, '')];
+    if (!kind) throw new Error(`It is none of ${endings.join(', ')}.`);
+    const [importer, buffer] = await Promise.all([import('../importer') as Promise<Importer>, file.arrayBuffer()]);
+    const bytes = new Uint8Array(buffer);
+    return {
+      name,
+      questions: kind.questions(importer, text(bytes), schedules),
+      read: async (answers) => kind.read(importer, new Uint8Array(buffer.slice(0)), answers),
+    };
+  } catch (failure) {
+    return {name, failure};
+  }
+}
+
+/** A model that is opened: its button, also a place to drop it, and what is said of it beside the form. */
+export function useModel({schedules, job, body, shown, take}: Given) {
+  const [model, say] = useState<Opened | undefined>();
+  const [found, find] = useState<Imported | {failure: unknown} | undefined>();
+  const [button, input] = [useRef<HTMLButtonElement>(null), useRef<HTMLInputElement>(null)];
+  const answers = useRef<Answers>({});
+  const turn = useRef(0); // of a file or an answer; what comes late is dropped
+  const given = useRef<Row | undefined>(undefined);
+
+  const read = async ({read: of}: Opened) => {
+    turn.current += 1;
+    const mine = turn.current;
+    const result = await of?.(answers.current).catch((failure: unknown) => ({failure}));
+    if (mine !== turn.current || !result) return;
+    find(result);
+    if ('failure' in result || !result.frame) return;
+    given.current = clone(result.frame as unknown as Row);
+    take(given.current);
+  };
+  const open = async (file: File) => {
+    turn.current += 1;
+    const mine = turn.current;
+    say({name: file.name});
+    find(undefined);
+    const each = await opened(file, schedules);
+    if (mine !== turn.current) return;
+    answers.current = Object.fromEntries((each.questions ?? []).map(({key, value = ''}) => [key, value]));
+    say(each);
+    await read(each);
+  };
+  const end = () => {
+    turn.current += 1;
+    given.current = undefined;
+    say(undefined);
+  };
+  const close = () => {
+    end();
+    button.current?.focus();
+  };
+
+  // Another job has begun: what was said of a file is said no more.
+  useLayoutEffect(() => {
+    if (body !== given.current) end();
+  }, [job]);
+  const dropped = useRef(open);
+  dropped.current = open;
+  useLayoutEffect(() => {
+    const wanted = (event: DragEvent) => button.current?.hidden === false && event.dataTransfer?.types.includes('Files');
+    const over = (on: boolean) => document.body.classList.toggle('dropping', on);
+    addEventListener('dragover', (event) => {
+      if (!wanted(event)) return;
+      event.preventDefault();
+      over(true);
+    });
+    addEventListener('dragleave', (event) => event.relatedTarget === null && over(false));
+    addEventListener('drop', (event) => {
+      if (!wanted(event)) return;
+      event.preventDefault();
+      over(false);
+      const file = event.dataTransfer?.files[0];
+      if (file) void dropped.current(file);
+    });
+  }, []);
+  const chose = (event: {currentTarget: HTMLInputElement}) => {
+    const file = event.currentTarget.files?.[0];
+    if (file) void open(file);
+    event.currentTarget.value = ''; // the same file once more is a change too
+  };
+
+  const way = (
+    <>
+      <button
+        ref={button}
+        id="model"
+        type="button"
+        title="A frame out of a model: IFC, PCF, DXF or CSV. It can be dropped here too"
+        hidden={!shown}
+        onClick={() => input.current?.click()}
+      >
+        Open a model
+      </button>
+      <input ref={input} type="file" id="model-file" accept={endings.join(',')} hidden aria-label="A model to open" onChange={chose} />
+    </>
+  );
+  const told = (
+    <section id="imported" aria-label="The model" aria-live="polite" hidden={!model}>
+      {model && <Heading model={model} close={close} />}
+      {model?.questions && (
+        <div class="questions" key={model.name}>
+          {model.questions.map((question) => (
+            <Asked
+              key={question.key}
+              question={question}
+              value={answers.current[question.key] ?? ''}
+              answer={(value) => {
+                answers.current = {...answers.current, [question.key]: value};
+                void read(model);
+              }}
+            />
+          ))}
+        </div>
+      )}
+      {model?.failure !== undefined && <Refused failure={model.failure} />}
+      {model?.questions && <div class="found">{found && ('failure' in found ? <Refused failure={found.failure} /> : <Found {...found} />)}</div>}
+    </section>
+  );
+  return {way, told};
+}
+
+const Heading = ({model, close}: {model: Opened; close(): void}) =>
+  model.questions || model.failure !== undefined ? (
+    <h3>
+      {model.name}
+      <button type="button" class="right" aria-label="Close what is said of the model" onClick={close}>
+        Close
+      </button>
+    </h3>
+  ) : (
+    <p class="soft">Reading {model.name} …</p>
+  );
+
+const Refused = ({failure}: {failure: unknown}) => <p role="alert">It cannot be read. {reason(failure)}</p>;
+
+function Asked({question: {key, text: said, choices, hint}, value, answer}: {question: Question; value: string; answer(value: string): void}) {
+  const shared = {'data-question': key, value, onChange: (event: Event) => answer((event.currentTarget as HTMLInputElement).value)};
+  return (
+    <label>
+      <span>{said}</span>
+      {choices ? (
+        <select {...shared}>
+          {choices.map(([each, name]) => (
+            <option key={each} value={each}>
+              {name}
+            </option>
+          ))}
+        </select>
+      ) : (
+        <input list={hint ? undefined : 'tube-sizes'} placeholder={hint ?? '114.3x6.3'} {...shared} />
+      )}
+    </label>
+  );
+}
+
+const counted = (n: number, one: string, many: string): string => `${n} ${n === 1 ? one : many}`;
+
+/** How much of the file is in the frame, and every thing that is not. */
+function Found({frame, notUnderstood}: Imported) {
+  const others = frame?.others?.length ?? 0;
+  const also = others ? ` and ${counted(others, 'other that cuts', 'others that cut')}` : '';
+  const what = frame ? `${counted(frame.members.length, 'member', 'members')}${also}.` : 'No member was found, so the job stays as it was.';
+  const missed = notUnderstood.length;
+  return (
+    <>
+      <p id="imported-said">{`${what} ${missed ? `${counted(missed, 'thing was', 'things were')} not understood:` : 'Nothing was left out.'}`}</p>
+      {missed > 0 && (
+        <ul id="not-understood" tabIndex={0} aria-label="What was not understood">
+          {notUnderstood.map(({id, type, reason: why}, i) => (
+            <li key={i}>
+              <b>{id}</b>
+              {` ${type}: ${why}`}
+            </li>
+          ))}
+        </ul>
+      )}
+    </>
+  );
+}

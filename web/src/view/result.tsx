@@ -1,0 +1,153 @@
+import type {Console} from '../console';
+import {endpointName} from '../names';
+import {without} from '../pictures/context';
+import {away, path} from '../service';
+import {TabBar} from './controls';
+import {Downloads} from './downloads';
+import {Exchange} from './exchange';
+import {Inspector} from './inspector';
+import {Motion} from './motion';
+import {useConsole} from './page';
+import {Player} from './player';
+import {Charts} from './plots';
+import {Columns, Proof} from './proof';
+import {SectionView} from './section';
+import {Solid} from './solid';
+import {Figures, Table} from './tables';
+import {Silence, Verdict} from './verdict';
+
+/** The answer: its verdict, its pictures, and what is told in full under them. */
+export function Result() {
+  const console = useConsole();
+  const {lost, reply, said, trouble, answer} = console;
+  return (
+    <>
+      <div id="verdict" role="status" aria-live="polite">
+        {lost.value !== null ? (
+          <Silence title="This link is damaged." detail={`${lost.value} Ask for it anew, or choose above what to compute.`} pill="no job" />
+        ) : reply.value ? (
+          <Verdict reply={reply.value} focus={(pointer) => console.seek(pointer)} again={() => console.compute()} facts={said.value} />
+        ) : (
+          <p class="waiting">Asking the service …</p>
+        )}
+      </div>
+      <p id="trouble" role="alert" hidden={!trouble.value}>
+        {trouble.value}
+      </p>
+      <nav id="onward" aria-label="Go on to" hidden={!answer.value}>
+        <Onward />
+      </nav>
+      <Pictures />
+      <div id="details">{reply.value && <Details />}</div>
+    </>
+  );
+}
+
+function Onward() {
+  const console = useConsole();
+  return (
+    <>
+      <span class="soft">Go on to</span>
+      {console.leads.value.map(({name, endpoint, body}) => (
+        <button type="button" key={name} data-onward={endpoint} onClick={() => void console.follow(endpoint, body)}>
+          {name}
+        </button>
+      ))}
+      <button type="button" data-onward="files" onClick={() => console.files()}>
+        Files
+      </button>
+    </>
+  );
+}
+
+function Pictures() {
+  const console = useConsole();
+  const picture = console.picture.value;
+  const {solid, charts = [], figures = [], inspected, played, section} = picture ?? {};
+  const alone = picture && (!solid || !(charts.length || inspected));
+  const ways = {
+    open: (endpoint: string, body: Console['body']) => void console.follow(endpoint, body),
+    focus: (pointer: string) => console.seek(pointer),
+    chose: (item: number | null) => {
+      console.item.value = item;
+      console.remember();
+    },
+  };
+  return (
+    <div id="pictures" class={[alone && 'alone', inspected && 'inspected'].filter(Boolean).join(' ')}>
+      <div id="left">
+        <Solid
+          picture={picture}
+          title={endpointName(console.endpoint.value)}
+          job={console.job.value}
+          view={console.view.value}
+          partners={console.partners.value}
+          change={(to) => console.change(to)}
+          failed={console.failed}
+        />
+        <div id="player" role="group" aria-label="Time" hidden={!played}>
+          {played && <Player given={played} />}
+        </div>
+        <figure id="section" hidden={!section}>
+          {section && <SectionView given={section} />}
+        </figure>
+        <div id="figures">
+          <Figures figures={figures} />
+        </div>
+      </div>
+      <section id="inspector" aria-label="What it is made of" hidden={!inspected}>
+        {inspected && <Inspector given={inspected} item={console.item.value} ways={ways} />}
+      </section>
+      <Charts id="charts" charts={charts} failed={console.failed} />
+    </div>
+  );
+}
+
+/** What is told in full under the pictures. */
+function Details() {
+  const console = useConsole();
+  const offered = console.details;
+  const tab = offered.some(([id]) => id === console.tab.value) ? console.tab.value : 'proof';
+  return (
+    <>
+      <TabBar offered={offered} chosen={tab} choose={(id) => console.choose(id)} />
+      <div role="tabpanel" id="panel" aria-labelledby={`tab-${tab}`}>
+        <Panel tab={tab} />
+      </div>
+    </>
+  );
+}
+
+function Panel({tab}: {tab: string}) {
+  const console = useConsole();
+  const {body, contract, context} = console;
+  const [reply, answer, picture, endpoint] = [console.reply.value, console.answer.value, console.picture.value, console.endpoint.value];
+  if (tab === 'json') return <Exchange endpoint={endpoint} body={body} reply={reply?.answer ?? reply?.problem} />;
+  if (!answer)
+    return <p class="soft">{reply?.problem?.code === away.code ? 'Nothing yet: the service did not answer.' : 'Nothing yet: the request was refused.'}</p>;
+  if (tab === 'table') return <Columns answer={answer} />;
+  if (tab === 'downloads')
+    return <Downloads key={endpoint} endpoint={endpoint} name={console.example.value ?? endpoint} body={body} formats={contract.formats(path(endpoint))} />;
+  if (tab === 'motion')
+    return (
+      <Motion
+        cut={without(body)}
+        context={context}
+        open={(next) => void console.follow('pulse-schedules', next)}
+        focus={(pointer) => console.seek(pointer)}
+        failed={console.failed}
+      />
+    );
+  return (
+    <>
+      {picture?.tables && picture.tables.length > 0 && (
+        <div class="columns">
+          {picture.tables.map((each, i) => (
+            <Table key={i} {...each} />
+          ))}
+        </div>
+      )}
+      <Proof answer={answer} />
+    </>
+  );
+}

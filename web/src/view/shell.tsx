@@ -1,0 +1,170 @@
+import type {ComponentChildren} from 'preact';
+import type {Console} from '../console';
+import {endpointName, exampleName} from '../names';
+import {pressed} from '../preset';
+import {copied} from './controls';
+import {RequestForm} from './form';
+import {Hint} from './hint';
+import {useModel} from './model';
+import {Page, useConsole} from './page';
+import {Result} from './result';
+import {ThemeButton} from './theme';
+
+/** What stands round every page: `console` when the service has told what it computes. */
+export function Shell({console, children}: {console?: Console | undefined; children?: ComponentChildren}) {
+  return (
+    <Page.Provider value={console ?? null}>
+      <a class="skip" href="#views">
+        Skip to the result
+      </a>
+      <header class="top">
+        <a class="brand" href="#/bevel-tables/source-000-table-1">
+          <img src="/mark.svg" width={26} height={26} alt="" /> <span>tubecut</span>
+        </a>
+        <nav id="endpoints" aria-label="What to compute">
+          {console && <Pages />}
+        </nav>
+        <div class="tools">
+          {console && <Links />}
+          <ThemeButton />
+          <a href="/glossary">Words</a>
+          <a href="/docs">API</a>
+        </div>
+      </header>
+      <main>
+        {console && <Ask />}
+        <section id="views" aria-label="Result" tabIndex={-1}>
+          {console ? (
+            <Result />
+          ) : (
+            <div id="verdict" role="status" aria-live="polite">
+              {children}
+            </div>
+          )}
+        </section>
+      </main>
+    </Page.Provider>
+  );
+}
+
+function Pages() {
+  const {pages, contract, endpoint} = useConsole();
+  return (
+    <>
+      {pages.map(({id, path}) => (
+        <a key={id} href={`#/${id}`} data-endpoint={id} title={contract.summary(path)} aria-current={id === endpoint.value ? 'page' : undefined}>
+          {endpointName(id)}
+        </a>
+      ))}
+    </>
+  );
+}
+
+function Links() {
+  const console = useConsole();
+  return (
+    <>
+      <button
+        id="share"
+        type="button"
+        title="Copy a link to exactly this job"
+        disabled={console.lost.value !== null}
+        onClick={() => void console.share(copied)}
+      >
+        {console.linked.value}
+      </button>
+      <button id="forget" type="button" title="Load the page anew, without the key" hidden={!console.keyed.value} onClick={() => void console.forget()}>
+        Forget key
+      </button>
+    </>
+  );
+}
+
+/** The request: an example or a job of one's own, and its form. */
+function Ask() {
+  const console = useConsole();
+  const {form, schedules, body} = console;
+  const shown = console.formShown.value;
+  const model = useModel({
+    schedules,
+    job: console.job.value,
+    body,
+    shown: console.endpoint.value === 'frames',
+    take: (frame) => console.begin('frames', undefined, frame, true),
+  });
+  return (
+    <section id="ask" aria-label="Request" class={shown ? 'open' : ''}>
+      <div class="pick">
+        <label class="offscreen" for="example">
+          Example
+        </label>
+        <Examples />
+      </div>
+      <Choices>{model.way}</Choices>
+      {model.told}
+      <RequestForm form={form} />
+      <Hint />
+    </section>
+  );
+}
+
+function Examples() {
+  const console = useConsole();
+  const [endpoint, example] = [console.endpoint.value, console.example.value];
+  return (
+    <select id="example" title="Jobs to begin with" value={example ?? ''} onChange={(event) => console.open(endpoint, event.currentTarget.value)}>
+      {example === undefined && <option value="">A job of your own</option>}
+      {console.own.map(({name}) => (
+        <option key={name} value={name}>
+          {exampleName(endpoint, name)}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+function Choices({children}: {children: ComponentChildren}) {
+  const console = useConsole();
+  const [endpoint, example] = [console.endpoint.value, console.example.value];
+  const shown = console.formShown.value;
+  console.changes.value; // of the body, which says whether the preset is pressed
+  return (
+    <div class="pick">
+      <button
+        id="blank"
+        type="button"
+        title="A job of your own, from the fewest fields"
+        hidden={endpoint === 'replays' /* of which another page's answer is a part */}
+        onClick={() => console.blank()}
+      >
+        New
+      </button>
+      {children}
+      <button
+        id="preset"
+        type="button"
+        aria-pressed={pressed(console.body)}
+        title="Cut square to the wall, and see the gap that leaves"
+        hidden={!console.presetOffered}
+        onClick={() => console.press()}
+      >
+        Tube laser
+      </button>
+      <button id="reset" type="button" hidden={!console.edited.value || example === undefined} onClick={() => console.open(endpoint, example)}>
+        Reset
+      </button>
+      <button
+        id="edit"
+        type="button"
+        aria-controls="form"
+        aria-expanded={shown}
+        onClick={() => {
+          console.formShown.value = !shown;
+        }}
+      >
+        {/* On a phone the picture comes first, and the form when it is asked for. */}
+        {shown ? 'Back to the picture' : 'Change the job'}
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,129 @@
+import {useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {listen} from '../links';
+import type {Picture} from '../picture';
+import type {Stage} from '../scene/stage';
+import {dark} from '../theme';
+import {hint, sentence, text} from '../words';
+import {Swatch, Toggle} from './controls';
+
+interface Given {
+  picture: Picture | undefined;
+  title: string;
+  job: number;
+  view: 'before' | 'after';
+  partners: boolean;
+  change(to: {view?: 'before' | 'after'; partners?: boolean}): void;
+  failed(failure: unknown): void;
+}
+
+/** The solid, what is switched in it, and what the cursor reads. */
+export function Solid(given: Given) {
+  const {picture, view, partners, change} = given;
+  const solid = picture?.solid;
+  const canvas = useRef<HTMLDivElement>(null);
+  const [stage, none] = useStage(canvas, given);
+  const [low, high] = solid?.scale ?? [];
+  return (
+    <div id="solid" hidden={!solid}>
+      <div ref={canvas} class="canvas">
+        {none && <p class="waiting">No 3D here: {none}</p>}
+      </div>
+      <div class="switches" id="switches">
+        {picture?.beforeAfter && (
+          <span class="pair" role="group" aria-label="Bevel before or after smoothing">
+            <Toggle id="view-before" pressed={view === 'before'} act={() => change({view: 'before'})}>
+              Before
+            </Toggle>
+            <Toggle id="view-after" pressed={view === 'after'} act={() => change({view: 'after'})}>
+              After
+            </Toggle>
+          </span>
+        )}
+        {solid && solid.partners.length > 0 && (
+          <Toggle id="view-partners" pressed={partners} act={() => change({partners: !partners})}>
+            Partners
+          </Toggle>
+        )}
+        <button type="button" title="Back to the first view" onClick={() => stage.current?.then((made) => made?.reset())}>
+          Reset view
+        </button>
+        <button type="button" title="The picture, the curves and the tables on paper" onClick={() => print()}>
+          Print
+        </button>
+      </div>
+      <div class="scale" id="scale" hidden={low === undefined && !solid?.legend}>
+        {solid?.legend ? (
+          solid.legend.map(({tone, text: said}) => (
+            <span class="key" key={tone}>
+              <Swatch tone={tone} /> {said}
+            </span>
+          ))
+        ) : (
+          <>
+            {low}
+            <i />
+            {high}
+          </>
+        )}
+      </div>
+      {solid && picture && <Readout picture={picture} />}
+    </div>
+  );
+}
+
+/** The stage draws what is given; its code is large and comes when it is first needed. Why there is none, where there is none. */
+function useStage(canvas: {current: HTMLElement | null}, {picture, title, job, view, partners, failed}: Given) {
+  const stage = useRef<Promise<Stage | null> | undefined>(undefined);
+  const latest = useRef(picture);
+  const [none, say] = useState('');
+  latest.current = picture;
+  const build = async () => {
+    try {
+      const {Stage: Made} = await import('../scene/stage');
+      return new Made(canvas.current as HTMLElement);
+    } catch (failure) {
+      say(String(failure));
+      return null;
+    }
+  };
+  useLayoutEffect(() => {
+    const solid = picture?.solid;
+    if (!solid) return;
+    stage.current ??= build();
+    stage.current
+      .then((made) => {
+        if (!made || latest.current !== picture) return;
+        made.show(solid, view === 'before' && picture.beforeAfter === true, `${title} in 3D`, job);
+        made.partnersShown(partners);
+      })
+      .catch(failed);
+  }, [picture, view, partners, dark.value]);
+  return [stage, none] as const;
+}
+
+/** The values under the cursor. Its rows stand there before, so that nothing moves. */
+function Readout({picture}: {picture: Picture}) {
+  const links = [...new Set(picture.charts.map((chart) => chart.link))];
+  const first = links[0] ?? '';
+  const [{index, link, of}, move] = useState<{index: number | null; link: string; of?: Picture}>({index: null, link: first});
+  useLayoutEffect(() => {
+    const forget = links.map((each) => listen(each, (at) => move({index: at, link: each, of: picture})));
+    return () => forget.forEach((each) => each());
+  }, [picture]);
+  const idle = index === null || of !== picture;
+  const rows = links.length ? (picture.readout?.(idle ? 0 : index, idle ? first : link) ?? []) : [];
+  return (
+    <dl
+      id="readout"
+      class={idle ? 'idle' : ''}
+      title={idle && rows.length ? 'Point at a chart or at the cut, or use the arrow keys: the cursor moves in every view.' : undefined}
+    >
+      {rows.map(([name, value], i) => (
+        <div key={i} title={hint(name)}>
+          <dt>{sentence(text(name))}</dt>
+          <dd>{idle ? '–' : value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
