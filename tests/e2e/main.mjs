@@ -1,12 +1,12 @@
 // The console and the API reference in a browser, against the running service.
-// usage: main.mjs SUITE --server BINARY --chromium BINARY
+// usage: main.mjs SUITE --server BINARY --chromium BINARY [--seed WORD]
 import {strict as assert} from 'node:assert';
 import {parseArgs} from 'node:util';
 import {Service} from '../contract/service.mjs';
 import {launch} from './browser.mjs';
 
 const {values, positionals: [suite]} = parseArgs({allowPositionals: true, options: {
-  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium'},
+  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium'}, seed: {type: 'string'},
 }});
 const {checks} = await import(`./suites/${suite}.mjs`);
 assert.ok(Object.keys(checks).length > 0, 'an empty suite');

@@ -1,19 +1,8 @@
 import {strict as assert} from 'node:assert';
-import {createRequire} from 'node:module';
 import {answered, formed, open, then} from '../browser.mjs';
+import {barred} from '../seen.mjs';
 
-const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
-
-async function sound(page, where) {
-  // Playwright's own evaluation is not held by the page's Content-Security-Policy.
-  const {readFile} = await import('node:fs/promises');
-  await page.evaluate(await readFile(axe, 'utf8'));
-  const {violations, passes} = await page.evaluate(() => window.axe.run());
-  assert.ok(passes.length > 10, 'axe looked at nothing');
-  const serious = violations.filter(({impact}) => impact === 'serious' || impact === 'critical')
-    .map(({id, nodes}) => `${where} ${id}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(' | ')}`);
-  assert.deepEqual(serious, []);
-}
+const sound = async (page, where) => assert.deepEqual((await barred(page)).map((each) => `${where} ${each}`), []);
 
 const cases = [[1280, 800, 'light'], [1280, 800, 'dark'], [390, 844, 'light'], [390, 844, 'dark']];
 export const checks = Object.fromEntries(cases.map(([width, height, theme]) => [`${width} px, ${theme}`, async ({browser, origin}) => {

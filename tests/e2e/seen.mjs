@@ -1,0 +1,135 @@
+// What people see of an example, held against the rules of how the console writes and draws.
+import {strict as assert} from 'node:assert';
+import {readFile} from 'node:fs/promises';
+import {createRequire} from 'node:module';
+import {answered, faint, formed, open, pixels, then} from './browser.mjs';
+
+const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** Every name of the contract that no text for people would have: those of more words than one. */
+export function wireNames(contract) {
+  const names = new Set();
+  const walk = (value) => {
+    if (typeof value !== 'object' || value === null) return;
+    for (const name of [...Object.keys(value.properties ?? {}), ...(value.enum ?? []), value.const]) {
+      if (typeof name === 'string' && name.includes('_')) names.add(name);
+    }
+    Object.values(value).forEach(walk);
+  };
+  walk(contract);
+  assert.ok(names.size > 300);
+  return names;
+}
+
+/** What is wrong with a text, by the rules of how this page writes: numbers of six digits at most, no rounding's leftovers, no wire names. */
+export function faultsOf(text, names) {
+  const words = (text.match(/\b[a-z0-9]+(?:_[a-z0-9]+)+\b/g) ?? []).filter((word) => names.has(word));
+  const long = (text.match(/(?<![\w.])-?\d+(?:\.\d+)?(?!\d|[\w.]*[a-df-zA-Z_]| …)/g) ?? []).filter((number) => {
+    const digits = number.replace('-', '').replace('.', '').replace(/^0+/, '');
+    return (number.includes('.') ? digits : digits.replace(/0+$/, '')).length > 6;
+  });
+  const odd = text.match(/(?<!\w)\d+(?:\.\d+)?e[-+]?\d+(?!\w)|(?<![\w.–])-0(?![\w.,])|(?<!\w)(?:NaN|undefined|null|Infinity|\[object)/g) ?? [];
+  return [...words, ...long, ...odd];
+}
+
+/** Texts that do not fit where they stand, and fields that say nothing of themselves. */
+export const unseen = (page) => page.evaluate(() => {
+  const shown = (node) => node.checkVisibility() && !node.closest('.canvas, .uplot, .skip');
+  const labels = new Set(document.querySelectorAll('label, legend, th, td, dt, dd, summary, button, figcaption, h3, .name, .unit, .figure, .card-head, [role=option]'));
+  const clipped = [...document.querySelectorAll('body *')].filter((node) => {
+    if (!(node instanceof HTMLElement) || !shown(node) || !/\S/.test(node.textContent) || node.matches('select, option, script')) return false;
+    const hides = /hidden|clip/.test(getComputedStyle(node).overflowX);
+    return (hides || (labels.has(node) && node.clientWidth > 0)) && node.scrollWidth > node.clientWidth + 1;
+  }).map((node) => `clipped: ${node.className || node.tagName} ${node.textContent.slice(0, 60)}`);
+  const pen = document.createElement('canvas').getContext('2d');
+  const cut = [...document.querySelectorAll('select')].filter(shown).filter((node) => {
+    pen.font = getComputedStyle(node).font;
+    return pen.measureText(node.selectedOptions[0]?.text ?? '').width > node.clientWidth - 26;  // its arrow
+  }).map((node) => `clipped choice: ${node.selectedOptions[0].text}`);
+  const silent = [...document.querySelectorAll('#form input, #form select, #form textarea, #form summary, #form button')]
+    .filter((node) => shown(node) && !node.closest('[title]:not([title=""])')).map((node) => `no hint: ${node.dataset.pointer ?? node.outerHTML.slice(0, 80)}`);
+  const wide = document.documentElement.scrollWidth > innerWidth ? [`the page is ${document.documentElement.scrollWidth} px wide`] : [];
+  return [...clipped, ...cut, ...silent, ...wide];
+});
+
+/** Serious faults that axe finds. The rows of a long table are alike, and it takes a second for ten: of each table the first few stay. */
+export async function barred(page) {
+  await page.evaluate(axe);  // Playwright's own evaluation is not held by the page's Content-Security-Policy
+  const {violations, passes} = await page.evaluate(() => window.axe.run({exclude: ['tbody tr:nth-child(n + 6)', '.uplot']}, {resultTypes: ['violations']}));
+  assert.ok(passes.length > 10, 'axe looked at nothing');
+  return violations.filter(({impact}) => impact === 'serious' || impact === 'critical')
+    .map(({id, nodes}) => `${id}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(' | ')}`);
+}
+
+export const unfolded = async (page) => {
+  await formed(page);
+  await page.evaluate(() => document.querySelectorAll('#form details').forEach((fold) => {
+    fold.open = true;
+  }));
+};
+
+export async function drawn(page, ratio) {
+  const points = await page.locator('.chart .plot').evaluateAll((plots) => plots.map((plot) => Number(plot.dataset.points)));
+  const solid = await page.locator('#solid').isVisible();
+  if (await page.locator('#trouble').isVisible()) return [await page.locator('#trouble').innerText()];
+  if (solid) {
+    const {share} = await pixels(page, ratio);
+    if (share < 0.02) return [`${share} of the 3D canvas is covered`];
+  }
+  return solid || (points.length && points.every((count) => count > 1)) ? [] : ['no picture'];
+}
+
+const other = (theme) => (theme === 'light' ? 'dark' : 'light');
+
+/** What is wrong with the words, the room and the colours of what is shown. */
+async function read(page, names) {
+  const text = await page.evaluate(() => document.body.innerText);
+  const hints = await page.locator('[title]').evaluateAll((nodes) => nodes.map((node) => node.title).join('\n'));
+  return [...new Set([...faultsOf(text, names), ...faultsOf(hints, names).map((each) => `${each} in a hint`), ...await unseen(page)])];
+}
+
+/** Visits examples on one page, and says what is wrong with each. `whole`: every tab of each, and axe; else the tabs of the first of each kind, which is
+ *  seen in the other theme too. */
+export async function visited({browser, origin, service}, {width, height, theme, chosen = () => true, whole = false, tell = () => {}}) {
+  const contract = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
+  const names = wireNames(contract);
+  const {examples} = JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text);
+  assert.ok(examples.length > 40);
+  const wrong = [];
+  const kinds = new Set();
+  const page = await open(browser, origin, '', {width, height, theme});
+  await answered(page);
+  let at = 'bevel-tables/source-000-table-1';
+  for (const {endpoint, name} of examples.filter(chosen)) {
+    const example = `${endpoint}/${name}`;
+    const note = (faults, where = '') => wrong.push(...faults.map((fault) => `${example} ${where}: ${fault}`));
+    if (example !== at) {
+      await then(page, () => page.evaluate((to) => {
+        location.hash = to;
+      }, `#/${example}`));
+    }
+    at = example;
+    note(await drawn(page));
+    await unfolded(page);
+    note(await read(page, names), 'proof');
+    note(await faint(page));
+    if (whole) note(await barred(page), 'axe');
+    if (whole || !kinds.has(endpoint)) {
+      for (const tab of ['table', 'downloads', 'proof']) {
+        await page.locator(`#tab-${tab}`).click();
+        if (tab !== 'proof') note(await read(page, names), tab);
+      }
+    }
+    if (!whole && !kinds.has(endpoint)) {
+      await page.emulateMedia({colorScheme: other(theme)});  // what differs by it are colours: one example of each kind
+      await page.locator(`:root[data-theme=${other(theme)}]`).waitFor();
+      note([...await drawn(page, 'coarse'), ...await faint(page)], other(theme));
+      await page.emulateMedia({colorScheme: theme});
+    }
+    kinds.add(endpoint);
+    tell(example);
+  }
+  wrong.push(...page.faults.map((fault) => `in the browser: ${fault}`));
+  await page.context().close();
+  return {wrong, count: kinds.size};
+}
