@@ -3,7 +3,7 @@ import 'uplot/dist/uPlot.min.css';
 import {colour, partnerColour} from './dom';
 import {listen, point, pointed} from './links';
 import type {Chart} from './picture';
-import {number, ticks, withUnit} from './units';
+import {number, ticks, withUnit} from './words';
 
 const left = 56,
   right = 12,

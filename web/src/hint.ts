@@ -1,8 +1,7 @@
 import type {Json} from './json';
 import type {Schema} from './schema';
 import type {Issue} from './service';
-import {number, unit} from './units';
-import {about, choice, holder, label, lastKey, plain, sentence} from './words';
+import {about, choice, holder, label, lastKey, number, plain, sentence, unit} from './words';
 
 export const called = (pointer: string) => label(lastKey(pointer), holder(pointer));
 

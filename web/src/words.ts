@@ -1,7 +1,92 @@
 import words from 'virtual:words';
 import type {Words} from '../glossary/words';
 import {keys} from './json';
-import {number, unit} from './units';
+
+// How values, names and sentences are written for people: numbers with their units, then words.
+
+/** Units by how names on the wire end; the longest first. */
+const units: [string, string][] = [
+  ['_deg_per_mm2', '°/mm²'],
+  ['_deg_per_mm', '°/mm'],
+  ['_rad_per_mm', 'rad/mm'],
+  ['rad_per_mm', 'rad/mm'],
+  ['_deg_mm', '° mm'],
+  ['_kg_m3', 'kg/m³'],
+  ['_per_hour', '1/h'],
+  ['_rev_min', '1/min'],
+  ['_mm_min', 'mm/min'],
+  ['mm_min', 'mm/min'],
+  ['_m_min', 'm/min'],
+  ['_mm_s3', 'mm/s³'],
+  ['_mm_s2', 'mm/s²'],
+  ['_mm_s', 'mm/s'],
+  ['_mm3_s', 'mm³/s'],
+  ['_mm3', 'cm³'],
+  ['_mm2', 'mm²'],
+  ['_mm', 'mm'],
+  ['_deg', '°'],
+  ['_rad', 'rad'],
+  ['_ms', 'ms'],
+  ['_us', 'µs'],
+  ['_um', 'µm'],
+  ['_kg', 'kg'],
+  ['_pulses', 'pulses'],
+  ['relative_error', '%'],
+  ['_ripple', '%'],
+  ['_s', 's'],
+];
+
+export const unit = (name: string): string => units.find(([ending]) => name.endsWith(ending))?.[1] ?? '';
+
+/** The service's own spelling of a unit, as in `verification`. */
+export const spelled = (text: string) => (text === 'mm3' ? 'mm³' : unit(`_${text}`) || (text === 'ratio' ? '' : text));
+
+const places: Record<string, number> = {mm: 2, '°': 1, '%': 1, ms: 1, µs: 0, µm: 2, kg: 2, 'mm/min': 0, 'm/min': 1, 'mm/s': 2, '1/h': 1};
+const most = 6; // significant digits that anybody is shown
+const rounding = 1e-9; // below it a length or an angle is what rounding left of 0
+
+/** The one way that numbers are written for people: 0.01 mm, 0.1°, a time to a digit that means something; without the unit. */
+export function number(value: number, of = ''): string {
+  if (!Number.isFinite(value)) return '–';
+  if (Math.abs(value) < rounding) return '0';
+  const size = Math.abs(value);
+  const digits = of === 's' ? (size >= 100 ? 1 : size >= 10 ? 2 : 3) : places[of];
+  if (digits === undefined && Number.isInteger(value) && size < 10 ** most) return String(value); // a count
+  const rounded = digits === undefined ? Number(value.toPrecision(4)) : Number(value.toFixed(digits));
+  if (digits === undefined ? size < 1e-6 : rounded === 0) return tiny(value);
+  const short = Number(rounded.toPrecision(most));
+  return short >= 1e15 ? short.toExponential() : String(short);
+}
+
+/** What is no 0 and would read as one. */
+const tiny = (value: number) => (Math.abs(value) < 0.001 ? '< 0.001' : String(Number(value.toPrecision(1))));
+
+/** A coefficient, which may be as small as it likes: six digits and a power of ten. */
+export function powers(value: number): string {
+  const [digits, power] = value.toExponential(5).split('e') as [string, string];
+  const plain = Math.abs(Number(power)) < 4;
+  return plain ? String(Number(value.toPrecision(most))) : `${Number(digits)} · 10^${Number(power)}`;
+}
+
+/** A residual or its limit: nothing but 0 reads as 0. */
+export const residual = (value: number, of: string) => (value !== 0 && Math.abs(value) < rounding ? '< 0.001' : number(value, of));
+
+export const withUnit = (value: number, of: string) => beside(number(value, of), of);
+export const beside = (text: string, of: string) => `${text}${!of || of.startsWith('°') ? '' : ' '}${of}`;
+
+/** Parts of a whole are told in per cent, volumes in cm³. */
+const scales: Record<string, number> = {'%': 100, 'cm³': 0.001};
+export const scaled = (name: string, value: number) => value * (scales[unit(name)] ?? 1);
+/** A field's value, and with its unit. */
+export const shown = (name: string, value: number) => number(scaled(name, value), unit(name));
+export const measured = (name: string, value: number) => withUnit(scaled(name, value), unit(name));
+
+/** Ticks of an axis: as many places as tell one from the next. */
+export function ticks(values: number[]): string[] {
+  const step = values.length > 1 ? Math.abs((values[1] as number) - (values[0] as number)) : 1;
+  const digits = Math.min(8, (Number(step.toPrecision(3)).toFixed(8).replace(/0+$/, '').split('.')[1] ?? '').length);
+  return values.map((value) => String(Number(value.toFixed(digits))));
+}
 
 /** What a name on the wire is called, and its sentence: docs/glossary.md. `within` is the name of what holds it. */
 const entry = (key: string, within: string) => words.fields[`${within}.${key}`] ?? words.fields[key];

@@ -1,8 +1,7 @@
 import {isRow, type Json, type Row} from '../json';
 import {column, type Band, type Chart, type CutTube, type Mark, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
-import {number, withUnit} from '../units';
-import {choice, sentence, term, type Term} from '../words';
+import {choice, number, sentence, term, type Term, withUnit} from '../words';
 import type {Context} from './context';
 import {at, figure, plural, readings} from './facts';
 import {gapChart, gapFigures, gapsOf, gapScale} from './gaps';

@@ -1,8 +1,7 @@
 import {isRow, type Json, type Row} from '../json';
 import type {Figure, Picture, Table} from '../picture';
 import {column} from '../picture';
-import {measured, shown, unit} from '../units';
-import {about, choice, label, sentence, type Term} from '../words';
+import {about, choice, label, measured, sentence, shown, type Term, unit} from '../words';
 
 /** A value of an answer as people read it, without its unit. */
 export function text(key: string, value: Json | undefined): string {

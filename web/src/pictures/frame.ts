@@ -1,8 +1,7 @@
 import {rowsOf, type Json, type Row} from '../json';
 import type {Assembly, Frame, HoledTube, Partner, Picture, Solid, Table, Vector} from '../picture';
 import type {Answer} from '../service';
-import {withUnit} from '../units';
-import {choice, term} from '../words';
+import {choice, term, withUnit} from '../words';
 import type {Context} from './context';
 import {figures, plural, text} from './facts';
 import {itemsOf, lightsOf, size, standings, told, toneOf, type Told} from './frame_items';

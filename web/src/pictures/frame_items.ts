@@ -2,8 +2,7 @@ import {said as complaint} from '../hint';
 import {isRow, rowsOf, type Json, type Row} from '../json';
 import type {Facts, Inspected, Item} from '../picture';
 import type {Answer, Issue, Warning} from '../service';
-import {measured} from '../units';
-import {choice, sentence} from '../words';
+import {choice, measured, sentence} from '../words';
 import {figures, plural, text} from './facts';
 
 /** What may be made of a member: its part's verdict, or what the frame says of it where that is worse. From good to bad. */

@@ -1,5 +1,5 @@
 import type {Row} from '../json';
-import {number, withUnit} from '../units';
+import {number, withUnit} from '../words';
 import {column, type Chart, type Gaps, type Picture} from '../picture';
 
 /** Of an end that is cut square: what stays open at its two edges. */

@@ -1,8 +1,7 @@
 import {isRow, type Json, type Row} from '../json';
 import {column, type Chart, type Picture, type Table} from '../picture';
 import type {Answer} from '../service';
-import {unit} from '../units';
-import {about, label, sentence, term} from '../words';
+import {about, label, sentence, term, unit} from '../words';
 import {facts, figure, text} from './facts';
 
 /** Any answer: numbers as figures, lists as tables, columns of one length as charts. */

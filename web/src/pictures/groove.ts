@@ -1,8 +1,7 @@
 import type {Json, Row} from '../json';
 import {column, type Chart, type Picture, type Ribbon, type Solid, type Vector} from '../picture';
 import type {Answer} from '../service';
-import {measured, unit, withUnit} from '../units';
-import {about, label} from '../words';
+import {about, label, measured, unit, withUnit} from '../words';
 import {facts, figure, figures, plural, readings} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';

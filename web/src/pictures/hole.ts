@@ -1,8 +1,7 @@
 import type {Json, Row} from '../json';
 import {column, type Chart, type HoledTube, type Picture} from '../picture';
 import type {Answer} from '../service';
-import {number} from '../units';
-import {choice, sentence} from '../words';
+import {choice, number, sentence} from '../words';
 import type {Context} from './context';
 import {rangeOf, tinted} from './cut';
 import {readings} from './facts';

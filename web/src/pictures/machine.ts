@@ -1,8 +1,7 @@
 import {isRow, type Row} from '../json';
 import {column, type Chart, type Picture} from '../picture';
 import type {Answer} from '../service';
-import {measured, powers, residual, spelled, unit} from '../units';
-import {about, check, label, term} from '../words';
+import {about, check, label, measured, powers, residual, spelled, term, unit} from '../words';
 import {at, facts, figure, figures, text} from './facts';
 
 const most = 3000; // points that a chart is drawn with; a replay may have 400 000 periods

@@ -1,6 +1,6 @@
 import {isRow, type Row} from '../json';
 import {column, type Section, type SectionLine, type Tool, type Vector} from '../picture';
-import {number} from '../units';
+import {number} from '../words';
 import {add, radians} from './geometry';
 
 /** The mill's axes at one place, mm and degrees. */

@@ -1,8 +1,7 @@
 import {isRow, rowsOf, type Row} from '../json';
 import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Tool} from '../picture';
 import type {Answer} from '../service';
-import {measured, number, withUnit} from '../units';
-import {choice, label, term, type Term} from '../words';
+import {choice, label, measured, number, term, type Term, withUnit} from '../words';
 import {bevelTable, farEnd, joint} from './cut';
 import {without, type Context} from './context';
 import {figures, type Told} from './facts';

@@ -5,8 +5,7 @@ import {headed} from '../key';
 import {endpointName} from '../names';
 import type {Format} from '../schema';
 import {away, path, type Problem} from '../service';
-import {unit} from '../units';
-import {choice, label, plain} from '../words';
+import {choice, label, plain, unit} from '../words';
 
 type Option = Format['options'][number];
 type Values = Record<string, string>;

@@ -5,8 +5,7 @@ import {listed, nudge, scrub, typed, type Form} from '../form';
 import {called, hintOf, offered} from '../hint';
 import {at, isRow, type Json} from '../json';
 import type {Schema} from '../schema';
-import {unit} from '../units';
-import {choice, lastKey, sentence} from '../words';
+import {choice, lastKey, sentence, unit} from '../words';
 
 export const Fields = createContext<Form | null>(null);
 export const useForm = () => useContext(Fields) as Form;

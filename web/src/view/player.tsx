@@ -1,7 +1,7 @@
 import {useEffect, useRef, useState} from 'preact/hooks';
 import {point} from '../links';
 import type {Played} from '../picture';
-import {withUnit} from '../units';
+import {withUnit} from '../words';
 import {useCursor} from './controls';
 
 const longest = 20; // s that a whole schedule plays for; a shorter one in its own time

@@ -1,7 +1,6 @@
 import {isRow, type Json, type Row} from '../json';
 import {holds, type Answer, type Check} from '../service';
-import {beside, number, residual, shown, spelled} from '../units';
-import {about, check as checkName, choice, label, sentence, term} from '../words';
+import {about, beside, check as checkName, choice, label, number, residual, sentence, shown, spelled, term} from '../words';
 import {Table} from './tables';
 
 const active = 0.98; // of a limit that may be used up: the answer rests on it

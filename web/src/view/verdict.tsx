@@ -2,8 +2,7 @@ import type {ComponentChildren} from 'preact';
 import {said} from '../hint';
 import {tried} from '../key';
 import {away, holds, type Answer, type Check, type Problem, type Reply, type Warning} from '../service';
-import {beside, residual, spelled} from '../units';
-import {check as checkName, choice, place, plain, sentence} from '../words';
+import {beside, check as checkName, choice, place, plain, residual, sentence, spelled} from '../words';
 import {Unlock} from './unlock';
 
 type Focus = (pointer: string) => void;
