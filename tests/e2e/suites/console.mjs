@@ -36,6 +36,25 @@ export const checks = {
   'Table 1 at 1280 px': (given) => computes(given, 1280, 800),
   'Table 1 at 390 px': (given) => computes(given, 390, 844),
 
+  'it is painted within a second, and is small': async ({browser, origin}) => {
+    const paints = [];
+    for (let i = 0; i < 3; ++i) {
+      const page = await open(browser, origin);
+      await answered(page);
+      await pixels(page);
+      const {paint, came} = await page.evaluate(() => ({
+        paint: performance.getEntriesByName('first-contentful-paint')[0].startTime,
+        came: performance.getEntriesByType('resource').map(({name, encodedBodySize}) => [new URL(name).pathname, encodedBodySize]).filter(([name]) => /^.assets/.test(name)),
+      }));
+      paints.push(paint);
+      assert.ok(came.some(([name]) => /stage-/.test(name)) && !came.some(([name]) => /importer|ifc/.test(name)), `came: ${came}`);
+      const bytes = came.reduce((sum, [, size]) => sum + size, 0);
+      assert.ok(bytes > 100000 && bytes < 300000, `${bytes} bytes of script and style, the 3D with them`);
+      await page.context().close();
+    }
+    assert.ok(Math.min(...paints) < 1000, `first paints after ${paints} ms`);  // the least: others may have the processor
+  },
+
   'before and after': async ({browser, origin}) => {
     const page = await open(browser, origin);
     await answered(page);
