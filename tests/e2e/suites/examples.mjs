@@ -2,7 +2,8 @@
 import {strict as assert} from 'node:assert';
 import {createHash} from 'node:crypto';
 import {readFileSync} from 'node:fs';
-import {faultsOf, visited} from '../seen.mjs';
+import {answered, open} from '../browser.mjs';
+import {barred, faultsOf, unseen, visited} from '../seen.mjs';
 
 /** Names of fields, checks and warnings without a row in the glossary. */
 async function unnamed(service) {
@@ -48,6 +49,19 @@ export const checks = {
     const names = new Set(['wall_mm']);
     assert.deepEqual(faultsOf('wall_mm is 1234.5678 or 7.1e-15 mm, -0 and NaN', names), ['wall_mm', '1234.5678', '7.1e-15', '-0', 'NaN']);
     assert.deepEqual(faultsOf('0.01 mm, 123456, 12000000, a1b2c3d4e5f6, 22:04, −0.5, B from -0.5', names), []);
+  },
+  'and in a page': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    const found = async () => [...await unseen(page), ...await barred(page)];
+    assert.deepEqual(await found(), []);
+    await page.evaluate(() => {
+      document.querySelector('#figures').insertAdjacentHTML('beforeend', '<h3 id="narrow">wide words in a narrow place</h3><button id="mute"></button>');
+      Object.assign(document.querySelector('#narrow').style, {display: 'block', width: '40px', whiteSpace: 'nowrap'});
+      document.querySelector('#form label').removeAttribute('title');
+    });
+    assert.deepEqual((await found()).map((each) => each.split(/: ?/)[0]), ['clipped', 'no hint', 'button-name']);
+    await page.context().close();
   },
   'at 1280 px': (given) => sound(given, {width: 1280, height: 800, theme: 'light'}),
   'at 390 px, dark': (given) => sound(given, {width: 390, height: 844, theme: 'dark'}),
