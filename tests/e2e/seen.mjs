@@ -28,7 +28,7 @@ export function faultsOf(text, names) {
     const digits = number.replace('-', '').replace('.', '').replace(/^0+/, '');
     return (number.includes('.') ? digits : digits.replace(/0+$/, '')).length > 6;
   });
-  const odd = text.match(/(?<!\w)\d+(?:\.\d+)?e[-+]?\d+(?!\w)|(?<![\w.–])-0(?![\w.,])|(?<!\w)(?:NaN|undefined|null|Infinity|\[object)/g) ?? [];
+  const odd = text.match(/(?<!\w)\d+(?:\.\d+)?e[-+]?\d+(?!\w)|(?<![\w.–])-0(?![\w.,])|(?<!\w)(?:NaN|undefined|null|Infinity|Object|\[object)/g) ?? [];
   return [...words, ...long, ...odd];
 }
 

@@ -187,13 +187,19 @@ export class Contract {
     const kind = this.kind(branch);
     const like = branches.filter((other) => other.properties && this.kind(other) === kind);
     const alike = like.length === branches.length;
+    if (like.length === 1 && kind) return kind;
     const own = (branch.required ?? []).filter((key) => !like.every((other) => other.required?.includes(key)));
     const by = own
       .slice(0, 2)
       .map((key) => label(key))
       .join(', ');
-    if (like.length === 1 && kind) return kind;
-    return [alike ? '' : kind, by].filter(Boolean).join(' · ') || 'object';
+    return [alike ? '' : kind, by].filter(Boolean).join(' · ') || `no ${label(this.telling(branches))}`;
+  }
+
+  /** The field that makes some branches what they are. */
+  private telling(branches: Schema[]): string {
+    const told = (branch: Schema) => (branch.required ?? []).find((key) => 'const' in this.resolve(branch.properties?.[key] ?? {}));
+    return branches.map(told).find((key) => key !== undefined) ?? 'kind';
   }
 
   kind(branch: Schema): string {

@@ -160,7 +160,9 @@ export const plain = (said: string) =>
     .replace(/(?:\/[a-z_0-9]+)+\/[a-z_0-9]+/g, (pointer) => place(pointer))
     .replace(/\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+\b/g, (name) => words.fields[name]?.[0] ?? choice(name))
     .replace(/-?\d+\.\d+(?:e[-+]?\d+)?/g, (digits) => (digits.length > 7 ? number(Number(digits)) : digits))
-    .replace(/(\d+\.\d+) (deg|mm)\b(?![/²³])/g, (all, digits, of) => (Number(digits) < 0.01 ? all : `${number(Number(digits), of === 'mm' ? of : '°')} ${of}`))
+    .replace(/(\d+\.\d+) (deg|mm(?:\/min|\/s)?)(?![\w/²³])/g, (all, digits, of) =>
+      Number(digits) < 0.01 ? all : `${number(Number(digits), of === 'deg' ? '°' : of)} ${of}`,
+    )
     .replace(/(\d+\.\d+)(?= to -?[\d.]+ deg\b)/g, (digits) => number(Number(digits), '°'))
     .replace(/(\d) deg\b/g, '$1°')
     .replace(/\bphi\b/g, 'φ')

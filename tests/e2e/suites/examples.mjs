@@ -47,7 +47,7 @@ export const checks = {
   'fields, checks and warnings have a name': async ({service}) => assert.deepEqual(await unnamed(service), []),
   'the rules find what they look for': () => {
     const names = new Set(['wall_mm']);
-    assert.deepEqual(faultsOf('wall_mm is 1234.5678 or 7.1e-15 mm, -0 and NaN', names), ['wall_mm', '1234.5678', '7.1e-15', '-0', 'NaN']);
+    assert.deepEqual(faultsOf('wall_mm is 1234.5678 or 7.1e-15 mm, -0 and NaN, Object', names), ['wall_mm', '1234.5678', '7.1e-15', '-0', 'NaN', 'Object']);
     assert.deepEqual(faultsOf('0.01 mm, 123456, 12000000, a1b2c3d4e5f6, 22:04, −0.5, B from -0.5', names), []);
   },
   'and in a page': async ({browser, origin}) => {
