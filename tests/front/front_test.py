@@ -654,7 +654,8 @@ class Agreement(unittest.TestCase):
         self.assertEqual(held, [p["SPDXID"] for p in inside])
         self.assertLessEqual({"react", "immutable", "dompurify"}, {p["name"] for p in inside})
         for p in d["packages"][5:5 + len(console)]:
-            self.assertEqual(p["externalRefs"][0]["referenceLocator"], f"pkg:npm/{p['name']}@{console[p['name']]}")
+            scoped = p["name"].replace("@", "%40")  # as purl writes a namespace
+            self.assertEqual(p["externalRefs"][0]["referenceLocator"], f"pkg:npm/{scoped}@{console[p['name']]}")
             self.assertEqual(p["versionInfo"], console[p["name"]])
             self.assertIn(p["licenseDeclared"], ("MIT", "Apache-2.0", "MPL-2.0"))
             self.assertIn({"spdxElementId": ids[0], "relationshipType": "CONTAINS", "relatedSpdxElement": p["SPDXID"]}, d["relationships"])
