@@ -111,6 +111,33 @@ export const checks = {
     await page.context().close();
   },
 
+  'what is typed stands as it is typed, refused or not; a unit is dragged': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    for (const pointer of ['/cutters/1/outer_diameter_mm', '/target/wall_mm']) {
+      const input = field(page, pointer);
+      const was = await input.inputValue();
+      await then(page, () => input.fill('0'));
+      assert.equal(await input.getAttribute('aria-invalid'), 'true', pointer);
+      for (const [key, value] of [['.', '0.'], ['0', '0.0'], ['Backspace', '0.'], ['7', '0.7']]) {
+        await then(page, () => input.press(key));
+        assert.equal(await input.inputValue(), value, pointer);
+      }
+      await then(page, () => input.fill(was));
+      assert.equal(await page.locator('[aria-invalid], .complaint').count(), 0, pointer);
+    }
+    const diameter = field(page, '/target/outer_diameter_mm');
+    const {x, y} = await page.locator('.box', {has: diameter}).locator('.unit').boundingBox();
+    await page.mouse.move(x + 4, y + 4);
+    await page.mouse.down();
+    await then(page, () => page.mouse.move(x + 44, y + 4));
+    await page.mouse.up();
+    await page.mouse.move(x + 84, y + 4);
+    assert.equal(await diameter.inputValue(), '80');
+    clean(page);
+    await page.context().close();
+  },
+
   'a node is built by hand': async ({browser, origin}) => {
     const page = await open(browser, origin);
     await answered(page);
