@@ -1,7 +1,7 @@
 import {isRow, type Json, type Row} from '../json';
 import {holds, type Answer, type Check} from '../service';
 import {about, beside, check as checkName, choice, label, number, residual, sentence, shown, spelled, term} from '../words';
-import {Table} from './tables';
+import {Sheet, Table} from './tables';
 
 const active = 0.98; // of a limit that may be used up: the answer rests on it
 const near = 0.5; // of one that may not
@@ -33,33 +33,18 @@ function Measured({check}: {check: Check}) {
   );
 }
 
+const proven = 'Residuals computed from the answer by other formulas than those that made it, and the limits that it keeps.';
+
 /** What was measured against what is allowed, as a share of the limit. */
 export function Proof({answer: {job, verification}}: {answer: Answer}) {
   const hash = (name: 'input_sha256' | 'result_sha256') => [{text: label(name), about: about(name)}, `${job[name].slice(0, 12)} …`];
   return (
     <div class="columns">
-      <section class="block whole">
-        <h3>Proof</h3>
-        <p class="soft">Residuals computed from the answer by other formulas than those that made it, and the limits that it keeps.</p>
-        <div class="scroll" tabIndex={0} role="group" aria-label="Proof">
-          <table>
-            <thead>
-              <tr>
-                {['Check', 'Value', 'Limit', 'Of the limit', ''].map((each) => (
-                  <th key={each} scope="col">
-                    {each}
-                  </th>
-                ))}
-              </tr>
-            </thead>
-            <tbody>
-              {verification.checks.map((check) => (
-                <Measured key={check.name} check={check} />
-              ))}
-            </tbody>
-          </table>
-        </div>
-      </section>
+      <Sheet title="Proof" head={['Check', 'Value', 'Limit', 'Of the limit', '']} note={proven} whole>
+        {verification.checks.map((check) => (
+          <Measured key={check.name} check={check} />
+        ))}
+      </Sheet>
       <Table title="Job" head={['', '']} rows={[[term('engine'), job.engine], ['job', job.id], hash('input_sha256'), hash('result_sha256')]} />
     </div>
   );
