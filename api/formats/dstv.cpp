@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/cut_solid.hpp"
 #include "api/formats/development.hpp"
+#include "api/formats/numbers.hpp"
+#include "api/formats/part_marks.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
 #include "api/verdict.hpp"
+#include "api/words.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -74,18 +76,21 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
           {.reference = {}, .input_sha256 = c.input_sha256, .result_sha256 = {}, .view = {}})) +
       comment("unit mm, deg; x along the tube from the long point of the cut, y round it") +
       comment("RO = round tube, developed as seen from outside: x to the right, y up") +
-      comment("y = outer radius * angle, angle = 360 deg - phi");
+      comment("y = outer radius * angle, angle = 360 deg - phi") +
+      comment("bevel angles: positive where the outer edge lies further towards +x");
   for (const auto& [name, text] : c.reference)
-    out += comment(std::string(name) + ": " + dstv_text(text) + std::string(spelling_note(text)));
-  out += comment(std::string("b_sign: ") + kBSignInPart + ", here x: outer edge towards +x");
-  for (const auto& text : verdict_lines(c.verdict, {.width = 76})) out += comment(dstv_text(text));
-  out += comment("length over the long point " + fixed(l.over_long, 3)) +
-         comment("length over the short point " + fixed(l.over_short, 3)) +
-         comment("length from the work point " + fixed(l.work_point, 3));
-  if (l.assumed) out += comment("the request gives no length_mm: the far end is assumed");
+    out += comment(called(name, Term::field) + ": " + dstv_text(text) +
+                   std::string(spelling_note(text)));
+  for (const auto& text : verdict_lines(c.verdict, {.width = 76, .plain = true}))
+    out += comment(dstv_text(degrees_spelled(text)));
+  out += comment("length over the long point " + mm(l.over_long)) +
+         comment("length over the short point " + mm(l.over_short)) +
+         comment("length from the work point " + mm(l.work_point)) +
+         comment("length to saw, with what the torch line takes " + mm(l.saw));
+  if (l.assumed) out += comment("no length was given: the far end is assumed");
   if (!constant)
     out += comment("the bevel varies; sidecar " + c.input_sha256.substr(0, 16) +
-                   ".csv = the csv format of the same request");
+                   ".csv = the csv format of the same request, angles of the same sign");
   return out;
 }
 
@@ -128,8 +133,11 @@ std::string contour(const CutOutline& cut, const Lengths& l, double bevel_deg,
   return out + point(c.z.front() - l.low, around, 0.0, false);  // closed
 }
 
-constexpr const char* kSidecar = "phi_deg, x_outer_mm, y_outer_mm, x_inner_mm, y_inner_mm, b_deg";
-constexpr const char* kTilted = "; of a hole a_deg too, the tilt across, towards growing phi (-y)";
+constexpr const char* kSidecar =
+    "columns of the B lines: phi deg, outer edge x and y mm, inner edge x and y mm, bevel angle "
+    "deg";
+constexpr const char* kTilted =
+    "columns of the B lines of a hole: also its tilt across deg, positive towards growing phi, -y";
 
 std::string sidecar(double phi, double phi_inner, double x, double x_inner, double b,
                     const joint::Target& target, std::optional<double> a = {}) {
@@ -211,7 +219,7 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
   const auto cuts = developed(spec, part).cuts;
   const auto start = one_bevel(part.start.table.b), finish = one_bevel(part.finish.table.b);
   bool constant = start && finish;
-  std::string openings, tables;
+  std::string openings, tables, marks;
   for (const auto& step : part.sequence) {
     if (step.what == part::Step::What::hole) {
       const auto& hole = part.holes[step.index].hole;
@@ -221,7 +229,9 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       const auto& cut = cuts[2 + step.index];
       openings += opening(cut, bevel.value_or(0.0), caption.stop);
       tables += comment("cut " + cut.name) + sidecar(spec.target, hole, caption.stop);
-    } else if (step.what != part::Step::What::mark) {
+    } else if (step.what == part::Step::What::mark) {
+      marks += comment(dstv_text(mark_by_hand(part.marks[step.index])));
+    } else {
       const bool at_start = step.what == part::Step::What::start;
       tables +=
           comment(at_start ? "cut start" : "cut finish") +
@@ -230,10 +240,10 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
   }
   return "ST\r\n" + comments(lengths, constant, caption) +
          comment("AK: the tube itself, kept within; IK: an opening of it, kept outside") +
-         comment("a hole across phi = 0 is one contour: its y leaves the girth") +
+         comment("a hole across phi = 0 is one contour: its y leaves the girth") + marks +
          header(spec.target, spec.density, lengths, caption, spec.name) +
          outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop) +
-         openings + comment(std::string(kSidecar) + kTilted) + tables + "EN\r\n";
+         openings + comment(kSidecar) + comment(kTilted) + tables + "EN\r\n";
 }
 
 }  // namespace tubecut::api

@@ -14,15 +14,14 @@ struct TorchJob {
   double outer_radius = 0.0;
   double wall = 0.0;
   std::vector<torch::TorchCut> cuts = {};
-  std::vector<std::string> remarks = {};  // comment lines of the header
+  std::vector<std::string> lengths = {}, marks = {};  // lines of the header
+  // What lies at z = 0 and at phi = 0, where z goes, and from where one looks that way.
+  std::string zero = {}, onward = {}, line = {}, seen_from = {};
 };
 [[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table);
-/// A part in the order of its sequence; marks are remarks.
+/// A part in the order of its sequence; marks are lines of the header.
 [[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part);
 
-/// The comment lines every program begins with: engine, input hash, reference,
-/// verdict.
-[[nodiscard]] std::string gcode_job(const Caption& caption);
 /// Query parameters a program along torch lines reads.
 [[nodiscard]] const std::vector<std::string_view>& gcode_options();
 /// The cuts in the words of a post, LinuxCNC's unless another is named (the letters here are its):

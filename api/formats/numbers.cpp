@@ -121,4 +121,11 @@ std::string measure(double value, Unit unit) {
 
 std::string degrees(double radians) { return measure(radians * kDegPerRad, Unit::deg); }
 
+std::string degrees_spelled(std::string text) {
+  const auto sign = sign_of(Unit::deg);
+  for (auto at = text.find(sign); at != std::string::npos; at = text.find(sign))
+    text.replace(at, sign.size(), " deg");
+  return text;
+}
+
 }  // namespace tubecut::api

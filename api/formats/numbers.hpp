@@ -26,4 +26,7 @@ enum class Unit { none, mm, mm2, deg, percent, s, ms, um, kg, mm_min, mm_s };
 /// Of an angle in radians.
 [[nodiscard]] std::string degrees(double radians);
 
+/// "30 deg" for "30°", where a format is ASCII.
+[[nodiscard]] std::string degrees_spelled(std::string text);
+
 }  // namespace tubecut::api

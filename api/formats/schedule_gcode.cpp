@@ -5,7 +5,8 @@
 #include <limits>
 #include <string_view>
 
-#include "api/formats/gcode.hpp"
+#include "api/formats/gcode_header.hpp"
+#include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
 #include "api/posts.hpp"
 #include "api/stop.hpp"
@@ -105,17 +106,16 @@ double distance(const motion::Machine& machine, const std::vector<std::int64_t>&
 std::string header(const motion::Machine& machine, const motion::Schedule& s,
                    const std::vector<char>& letters, bool contour, const Caption& caption) {
   const auto& post = post_of(caption.options);
-  std::string out = gcode_job(caption);
-  out += post.comment("machine " + (machine.name.empty() ? "of the request" : machine.name));
+  auto out = gcode_job(caption);
+  out += contour ? gcode_torch(caption.options) : post.comment("the tool is not switched here");
+  out += post.comment("machine: " + (machine.name.empty() ? "of the request" : machine.name));
   for (std::size_t a = 0; a < letters.size(); ++a)
     out += post.comment(std::string(1, letters[a]) + " = axis " + s.axes[a].name + ", " +
                         std::string(motion::name_of(s.axes[a].unit)));
-  out += post.comment("units mm, deg; moves in inverse time, " + fixed(s.report.time, 3) +
-                      " s in all");
-  if (!contour) return out + post.comment("the tool is not switched here");
-  return out + post.comment(caption.options.torch
-                                ? "THIS PROGRAM LIGHTS THE TORCH"
-                                : "dry run: the torch stays off, ask with torch=on");
+  return out + post.comment("units mm, deg") +
+         post.comment("time " + measure(s.report.time, Unit::s) +
+                      " as planned, each move in its own") +
+         gcode_hashes(caption);
 }
 
 }  // namespace

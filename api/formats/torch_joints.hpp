@@ -33,6 +33,7 @@ class TorchJoints {
                                 double to_off) const;
 
   [[nodiscard]] const PostAxis& along() const { return along_; }
+  [[nodiscard]] const PostAxis& out() const { return out_; }
   [[nodiscard]] const PostAxis& turn() const { return turn_; }
   [[nodiscard]] const PostAxis& swing() const { return swing_; }
   [[nodiscard]] const PostAxis& tilt() const { return tilt_; }

@@ -116,6 +116,24 @@ class Gcode(FormatTest):
         for word in (f"(input sha256 {sha})", "(part: B1)", "(order: 4711)", "(units mm, deg, mm/min)", "(tool: torch, kerf"):
             self.assertIn(word, program)
 
+    def test_the_header_says_what_the_program_does(self):
+        """The way of X, the time and the length against the blocks; the side A turns to against where each row's line must come to lie."""
+        body = examples("bevel-tables")["source-000-table-1"]
+        program = self.program(body, LIT["linuxcnc"].replace("&torch=on", ""))
+        timed = [(float(re.search(r"X(-?[\d.]+)", line)[1]), float(TIMED.match(line)[2])) for line in program.splitlines() if TIMED.match(line)]
+        least, most = map(float, re.search(r"^\(X from (-?[\d.]+) to (-?[\d.]+) mm while cutting\)$", program, re.M).groups())
+        self.assertAlmostEqual(least, min(x for x, _ in timed), delta=0.0051)
+        self.assertAlmostEqual(most, max(x for x, _ in timed), delta=0.0051)
+        length, time = map(float, re.search(r"^\(1 cut, ([\d.]+) mm in ([\d.]+) s ", program, re.M).groups())
+        cut = sum(way for _, way in timed[1:])  # the first goes from pierce to cutting height
+        self.assertAlmostEqual(length, cut, delta=0.01)
+        self.assertAlmostEqual(time, cut / 600 * 60 + 0.5, delta=0.051)
+        # At A = phi the line phi lies under the torch, at +x say: as A grows from 0 the line 1 deg comes there from +y, against x to y.
+        # Seen from the cut into the tube, along +z, x to y is clockwise: so the tube turns counter-clockwise.
+        self.assertIn("growing A turns the tube counter-clockwise, seen from the cut)", program)
+        for word in ("(feed 600 mm/min on the outer wall)", "(tube 70 x 5 mm)", "(X0: the work point, z 0, +X: from the cut into the kept tube)"):
+            self.assertIn(word, program)
+
     def test_a_speed_must_be_named(self):
         status, _, content = self.service.ask("bevel-tables", examples("bevel-tables")["source-000-table-1"], "format=gcode")
         self.assertEqual(status, 400)

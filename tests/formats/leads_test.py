@@ -92,8 +92,13 @@ def inside(point, line):
 
 
 def joins(cut):
-    """The place at which its lead meets a cut: where it says it starts."""
-    return next(i for i, p in enumerate(cut.places) if i > 0 and math.dist((p.phi, p.z, p.b), cut.start) < 2e-3)
+    """The place at which its lead meets a cut: the first of those nearest to where it says it starts, within what is rounded there."""
+    phi, z, b = cut.start
+    far = [max(abs(p.phi - phi) / 6e-4, abs(p.z - z) / (0.006 if abs(z) < 1e4 else 0.06), abs(p.b - b) / 6e-4) for p in cut.places]
+    at = min(range(1, len(far)), key=far.__getitem__)
+    if far[at] > 1.0:
+        raise Fault(f"{cut.name} does not start at {cut.start}")
+    return at
 
 
 def check_cut(cut, line, near=1e-3):
@@ -212,7 +217,7 @@ class Leads(FormatTest):
         body, outer = self.lit()
         result = self.service.answer("parts", body)["result"]
         program = self.program(body)
-        at = [(float(a), float(b)) for a, b in re.findall(r"^\(starts at A(-?[\d.]+), z -?[\d.]+ mm, B(-?[\d.]+)\)$", program, re.M)]
+        at = [(float(a), float(b)) for a, b in re.findall(r"^\(starts at A (-?[\d.]+), B (-?[\d.]+), -?[\d.]+ mm from X0\)$", program, re.M)]
         self.assertEqual(len(at), 2)
         for (phi, b), what in zip(at, ("finish", "start")):
             self.assertGreater(outer * math.radians(abs((phi + 180) % 360 - 180)), 5)

@@ -1,5 +1,6 @@
 """What people read in drawings: words instead of names of the contract, short numbers, and no label on another."""
 
+import json
 import math
 import re
 import xml.etree.ElementTree as ElementTree
@@ -130,6 +131,42 @@ class People(FormatTest):
                 self.assertEqual([(text, *faults(text)) for text in texts if faults(text)], [])
                 count += len(texts)
         self.assertGreater(count, 100)
+
+    def comments(self, endpoint, begins, query):
+        """(title, texts) of the comments of every example that has the format."""
+        for example, body in examples(endpoint).items():
+            body = body | {"reference": {"part": "B1", "customer_id": "4", "revision": "C"}}
+            status, media, content = self.service.ask(endpoint, body, query)
+            if status != 200:  # for comparison only, or no room for the leads
+                self.assertIn(b'"comparison_only"' if b'"comparison_only"' in content else b"lead_mm", content, f"{endpoint} {example} {query}")
+                continue
+            yield f"{endpoint} {example} {query}", [line[len(begins):].rstrip(")") for line in content.decode("ascii").splitlines() if line.startswith(begins)]
+
+    def test_gcode(self):
+        count, posts = 0, {p["name"]: p["post"] for p in json.loads(self.service.get("/v1/posts"))["posts"]}
+        self.assertGreaterEqual(len(posts), 4)
+        for name, post in posts.items():
+            plain, pierced = (f"format=gcode&post={name}&speed_mm_min=600" + more for more in ("", "&lead_mm=1.5&pivot_length_mm=150"))
+            for endpoint, query in (("bevel-tables", plain), ("bevel-tables", pierced), ("parts", plain), ("parts", pierced),
+                                    ("pulse-schedules", f"format=gcode&post={name}")):
+                for title, texts in self.comments(endpoint, post["comment_begin"], query):
+                    with self.subTest(title):
+                        texts = [text for text in texts if not re.match("(?i)machine: ", text)]  # its name
+                        self.assertEqual([(text, *faults(text.lower())) for text in texts if faults(text.lower())], [])
+                        self.assertTrue({"part", "customer", "revision", "verdict"} <= {text.split(":")[0].lower() for text in texts})
+                        self.assertTrue(all("_" not in text for text in texts if not re.match("(?i)tubecut|reasons|warning|.* axis ", text)), texts)
+                        count += len(texts)
+        self.assertGreater(count, 3000)
+
+    def test_dstv(self):
+        count = 0
+        for endpoint in ("bevel-tables", "parts"):
+            for title, texts in self.comments(endpoint, "** ", "format=nc1"):
+                texts = [text for text in texts if not re.match(r"B +-?[\d.]+ ", text)]  # the table itself
+                with self.subTest(title):
+                    self.assertEqual([(text, *faults(text)) for text in texts if faults(text)], [])
+                    count += len(texts)
+        self.assertGreater(count, 250)
 
     def test_no_label_lies_on_another(self):
         for title, content in self.drawings("image/svg+xml", "svg"):

@@ -167,7 +167,9 @@ class Own(FormatTest):
             "along": {"letter": "X", "decimals": 6, "reversed": True, "offset_mm": 1000.5}, "turn": {"letter": "C", "decimals": 8, "offset_deg": 90},
             "tilt": {"letter": "A", "decimals": 8, "reversed": True}}}
         cls.plain = cls.document | {"name": "three_axes", "axes": {role: cls.document["axes"][role] for role in ("along", "turn", "swing")}}
-        for post in (cls.turned, cls.plain):
+        cls.mirrored = cls.document | {"name": "mirrored", "axes": cls.document["axes"] | {
+            role: cls.document["axes"][role] | {"reversed": True} for role in ("turn", "swing", "along")}}
+        for post in (cls.turned, cls.plain, cls.mirrored):
             (cls.folder / f"{post['name']}.json").write_text(json.dumps(post))
         cls.service = Service(FormatTest.binary, "--posts", str(cls.folder))
 
@@ -180,9 +182,8 @@ class Own(FormatTest):
         body = examples("parts")["chord-with-holes"]
         wanted = linuxcnc(self.service.text("parts", body, DARK).decode())
         text = self.service.text("parts", body, f"{DARK}&post=turned").decode()
-        self.assertIn("X1000.5 is z 0 of the result, C90 its phi 0", text)
-        self.assertIn("C turns the tube: phi in deg", text)
-        self.assertIn("X goes along it: mm, -z of the result", text)
+        self.assertIn("(X1000.5: the long point of the start, z 0, -X: from the start to the finish)", text)
+        self.assertIn("(C90: the datum line, phi 0, under the torch, growing C turns the tube counter-clockwise, seen from the start)", text)
         got, before = Program(), None
         for line in text.splitlines():
             if line[:2] in ("G0", "G1") and ADDRESS.findall(line)[1:]:
@@ -199,6 +200,17 @@ class Own(FormatTest):
                 way = math.dist([at[letter] for letter in sorted(at)], [before[letter] for letter in sorted(at)])
                 self.assertAlmostEqual(rate, max(way * inverse, 1e-3), delta=2e-3 + 1e-3 * rate)
             before = at
+
+    def test_the_header_follows_the_signs(self):
+        text = self.service.text("parts", examples("parts")["chord-with-holes"], f"{DARK}&post=mirrored").decode()
+        for line in ("(X0: the long point of the start, z 0, -X: from the start to the finish)",
+                     "(A0: the datum line, phi 0, under the torch, falling A turns the tube counter-clockwise, seen from the start)",
+                     "(B0: the torch square to the tube, falling B leans its upper end towards -X, the outer edge then lies further that way)"):
+            self.assertIn(line, text)
+        x = [float(v) for v in re.findall(r"^G1 X(-?[\d.]+)", text, re.M)]
+        least, most = map(float, re.search(r"\(X from (-?[\d.]+) to (-?[\d.]+) mm while cutting\)", text).groups())
+        self.assertAlmostEqual(least, min(x), delta=0.0051)
+        self.assertAlmostEqual(most, max(x), delta=0.0051)
 
     def test_what_a_post_lacks_is_refused(self):
         def refused(body, query):

@@ -7,7 +7,7 @@ import re
 WORD = re.compile(r"([A-Z])(-?\d+\.\d+)")
 TIMED = re.compile(r"^G1 (.*) F\[#<speed_mm_min> / (\d+\.\d+)\]$")
 ON, OFF = ("M3 S1", "M3 $0 S1"), ("M5", "M5 $0")
-STARTS = re.compile(r"^\(starts at A(-?[\d.]+), z (-?[\d.]+) mm, B(-?[\d.]+)\)$")
+STARTS = re.compile(r"^\(starts at A (-?[\d.]+), B (-?[\d.]+), (-?[\d.]+) mm from X0\)$")
 SHORTEST = 1.0  # mm, radius of a lead
 STEPS = 20  # places looked at along a rapid
 
@@ -63,7 +63,8 @@ def events(program):
         if line.startswith("(cut: "):
             yield "cut", line[len("(cut: "):-1]
         elif starts := STARTS.match(line):
-            yield "start", tuple(map(float, starts.groups()))
+            phi, b, z = map(float, starts.groups())
+            yield "start", (phi, z, b)
         elif line in ON:
             yield "on", None
         elif line in OFF:

@@ -104,7 +104,7 @@ def squeezed(texts):
 
 # The first of a name: fields come before checks.
 GLOSSARY = dict(reversed(re.findall(r"^\| `([^`]+)` \| ([^|]+?) \|", (ROOT / "docs/glossary.md").read_text(), re.M)))
-FOR_PEOPLE = ("image/svg+xml", "application/pdf", "image/vnd.dxf")  # drawings say it in plain words
+FOR_PEOPLE = ("image/svg+xml", "application/pdf", "image/vnd.dxf", "text/x-gcode", "application/x-dstv")  # drawings and machine files say it in plain words
 
 
 def called(pointer):

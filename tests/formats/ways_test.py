@@ -209,11 +209,11 @@ class Ways(FormatTest):
                 for got, b in zip(numbers(columns["b_deg"]), points["b_deg"], strict=True):
                     self.assertAlmostEqual(got, b, delta=1e-9)
                 nc1 = self.service.text("bevel-tables", body, "format=nc1").decode()
-                self.assertIn("** b_sign: outer_edge_to_plus_z", nc1)
+                self.assertIn("** bevel angles: positive where the outer edge lies further towards +x", nc1)
                 for line, b in zip(re.findall(r"^\*\* B (.*)\r$", nc1, re.M), points["b_deg"], strict=True):
                     self.assertAlmostEqual(float(line.split()[5]), b, delta=1e-4)
                 program = self.service.text("bevel-tables", body, "format=gcode&speed_mm_min=600").decode()
-                self.assertIn("b_sign: outer_edge_to_plus_z", program)
+                self.assertIn("growing B leans its upper end towards +X, the outer edge then lies further that way", program)
                 swings = [float(b) for b in re.findall(r"^G[01] .*? B(-?[\d.]+)", program, re.M)]
                 self.assertAlmostEqual(max(swings), max(wanted), delta=1e-4)
                 self.assertAlmostEqual(min(swings), min(wanted), delta=1e-4)

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "core/part/part.hpp"
+
+namespace tubecut::api {
+
+/// A mark that a machine file leaves to a person: what, at which phi, from where to where off the
+/// start's long point.
+[[nodiscard]] std::string mark_by_hand(const part::Mark& mark);
+
+}  // namespace tubecut::api
