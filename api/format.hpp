@@ -12,6 +12,7 @@
 namespace tubecut::api {
 
 struct Json;
+struct MachineProcess;
 struct Post;
 
 /// A file of each part within a bundle, and the part's format that it is in.
@@ -36,9 +37,10 @@ struct FormatOptions {
   bool torch = false;                          // the program lights the torch; else it only moves
   std::vector<std::string> acknowledged = {};  // codes of warnings of a `review` that is cut
   std::shared_ptr<const Post> post = {};       // whose words a program is written in
-  bool axial_z = false;                        // the axis along the tube is Z, not X
-  std::optional<double> speed = {};            // mm/min, of the torch on the outer wall
-  double lead = 0.0;                   // radius of the arcs that run in and out on the scrap side
+  std::shared_ptr<const MachineProcess> process = {};  // what a program says nothing of, takes
+  bool axial_z = false;                                // the axis along the tube is Z, not X
+  std::optional<double> speed = {};                    // mm/min, of the torch on the outer wall
+  std::optional<double> lead = {};     // radius of the arcs that run in and out on the scrap side
   std::optional<double> overcut = {};  // of the cut again, before the run-out
   std::optional<double> start = {};    // phi that each cut begins at, deg
   std::optional<double> pierce_bevel = {};  // largest |B| at the pierce, deg

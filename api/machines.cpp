@@ -128,11 +128,26 @@ struct KinematicFields {
   }
 };
 
+/// Every number of it an assumption.
+void assume_process(ShelfMachine& m) {
+  m.process = assumed_process();
+  m.process_sha256 = process_sha256(*m.process);
+  m.values.push_back({"process/clearance_mm", true, ""});
+  for (std::size_t i = 0; i < m.process->rows.size(); ++i)
+    for (const auto* name : {"metal_max_mm", "kerf_mm", "speed_mm_min", "pierce_height_mm",
+                             "pierce_delay_s", "cut_height_mm", "shortest_lead_mm"})
+      m.values.push_back({"process/rows/" + std::to_string(i) + "/" + name, true, ""});
+}
+
 Shelf built_in() {
   Shelf out;
   for (auto& entry : motion::catalogue()) {
     auto hash = machine_sha256(entry.machine);
-    out.push_back({std::move(entry.machine), std::move(entry.values), std::move(hash)});
+    out.push_back({.machine = std::move(entry.machine),
+                   .values = std::move(entry.values),
+                   .sha256 = std::move(hash)});
+    if (std::holds_alternative<motion::FiveAxisCutter>(out.back().machine.kinematics))
+      assume_process(out.back());
   }
   return out;
 }
@@ -165,29 +180,7 @@ void read_pin(Reader& in, const std::string& sha256) {
              in.find("machine_sha256"));
 }
 
-/// Adds the machine of a JSON text; returns what is wrong with it, or nothing.
-std::string add_machine(std::string_view json, Shelf& all) {
-  const auto body = parse(json);
-  if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);
-  Reader in(*body);
-  auto machine = decode_machine(in);
-  if (const auto issues = in.finish_root(); !issues.empty())
-    return issues.front().pointer + ": " + std::string(info(issues.front().code).meaning);
-  if (machine.name.empty()) return "/name: a machine on the shelf needs a name";
-  if (find(all, machine.name) != nullptr) return "/name: there is a machine of this name already";
-  if (const auto sound = motion::check(machine); !sound)
-    return sound.error().issues.front().member + ": " +
-           std::string(info(sound.error().code()).meaning);
-  auto hash = machine_sha256(machine);
-  all.push_back({std::move(machine), {}, std::move(hash)});
-  return {};
-}
-
-}  // namespace
-
-std::shared_ptr<const Shelf> machines() { return shelf().load(); }
-
-motion::Machine decode_machine(Reader& in) {
+motion::Machine decode_with_process(Reader& in, std::optional<Process>& process) {
   static constexpr std::array kTypes{Option<Type>{"five_axis_cutter", Type::five_axis_cutter},
                                      Option<Type>{"crawler", Type::crawler},
                                      Option<Type>{"cone_mill", Type::cone_mill},
@@ -199,7 +192,41 @@ motion::Machine decode_machine(Reader& in) {
   out.b_positive = in.choice("b_positive", kNames<BPositive>);
   if (type) out.kinematics = decode_kinematics(in, *type);
   out.axes = in.array("axes", {.min = 1, .max = 8}, decode_axis);
+  process = in.optional_object("process", decode_process);
   return out;
+}
+
+/// Adds the machine of a JSON text; returns what is wrong with it, or nothing.
+std::string add_machine(std::string_view json, Shelf& all) {
+  const auto body = parse(json);
+  if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);
+  Reader in(*body);
+  std::optional<Process> process;
+  auto machine = decode_with_process(in, process);
+  if (const auto issues = in.finish_root(); !issues.empty())
+    return issues.front().pointer + ": " + std::string(info(issues.front().code).meaning);
+  if (machine.name.empty()) return "/name: a machine on the shelf needs a name";
+  if (find(all, machine.name) != nullptr) return "/name: there is a machine of this name already";
+  if (const auto sound = motion::check(machine); !sound)
+    return sound.error().issues.front().member + ": " +
+           std::string(info(sound.error().code()).meaning);
+  auto hash = machine_sha256(machine);
+  auto of_process = process ? process_sha256(*process) : "";
+  all.push_back({.machine = std::move(machine),
+                 .values = {},
+                 .sha256 = std::move(hash),
+                 .process = std::move(process),
+                 .process_sha256 = std::move(of_process)});
+  return {};
+}
+
+}  // namespace
+
+std::shared_ptr<const Shelf> machines() { return shelf().load(); }
+
+motion::Machine decode_machine(Reader& in) {
+  std::optional<Process> process;
+  return decode_with_process(in, process);
 }
 
 void encode_machine(const motion::Machine& machine, Writer& w) {
@@ -250,7 +277,11 @@ std::string machines_page() {
       each.object([&](Writer& o) {
         o.field("name", m.machine.name);
         o.field("machine_sha256", m.sha256);
-        o.object("machine", [&](Writer& r) { encode_machine(m.machine, r); });
+        if (m.process) o.field("process_sha256", m.process_sha256);
+        o.object("machine", [&](Writer& r) {
+          encode_machine(m.machine, r);
+          if (m.process) r.object("process", [&](Writer& p) { encode_process(*m.process, p); });
+        });
         o.array("values", m.values, [](Writer& v, const motion::Provenance& value) {
           v.object([&](Writer& x) {
             x.field("member", value.member);
@@ -269,6 +300,7 @@ void encode_machine_hashes(Writer& w) {
     each.object([&](Writer& o) {
       o.field("name", m.machine.name);
       o.field("machine_sha256", m.sha256);
+      if (m.process) o.field("process_sha256", m.process_sha256);
     });
   });
 }

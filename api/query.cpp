@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "api/posts.hpp"
+#include "api/process.hpp"
 #include "api/wire_names.hpp"
 
 namespace tubecut::api {
@@ -16,16 +17,12 @@ constexpr std::array kSwitch{Option<bool>{"on", true}, Option<bool>{"off", false
 constexpr std::array kAxial{Option<bool>{"x", false}, Option<bool>{"z", true}};
 constexpr std::array kPaper{Option<Paper>{"sheet", Paper::sheet}, Option<Paper>{"a4", Paper::a4},
                             Option<Paper>{"a3", Paper::a3}};
-constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};        // mm/min
-constexpr Range kLead{.min = 0.0, .max = 1'000.0};          // mm
-constexpr Range kOvercut{.min = 0.0, .max = 1'000.0};       // mm
-constexpr Range kStart{.min = -360.0, .max = 360.0};        // deg
-constexpr Range kOmega{.min = -360.0, .max = 360.0};        // deg
-constexpr Range kPierceBevel{.min = 0.0, .max = 85.0};      // deg
-constexpr Range kPivotLength{.min = 0.0, .max = 10'000.0};  // mm
-constexpr Range kTipHeight{.min = 0.0, .max = 100.0};       // mm
-constexpr Range kPierceDelay{.min = 0.0, .max = 60.0};      // s
-constexpr Range kClearance{.min = 1.0, .max = 1'000.0};     // mm
+constexpr Range kOvercut{.min = 0.0, .max = 1'000.0};   // mm
+constexpr Range kStart{.min = -360.0, .max = 360.0};    // deg
+constexpr Range kOmega{.min = -360.0, .max = 360.0};    // deg
+constexpr Range kPierceBevel{.min = 0.0, .max = 85.0};  // deg
+
+constexpr std::array<std::string_view, 3> kTexts{"machine", "material", "post"};
 
 std::optional<int> hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -46,8 +43,10 @@ std::string decoded(std::string_view text) {
   return out;
 }
 
-/// A value of the query as the JSON value it would be in a body.
-Json typed(std::string_view text) {
+/// A value of the query as the JSON value it would be in a body; a name may look like a number, as
+/// the steel 1.4301.
+Json typed(std::string_view name, std::string_view text) {
+  if (std::ranges::find(kTexts, name) != kTexts.end()) return Json{std::string(text)};
   if (text == "true" || text == "false") return Json{text == "true"};
   double number = 0.0;
   const auto* end = text.data() + text.size();
@@ -74,7 +73,7 @@ Json::Object members(std::string_view text, std::vector<FieldIssue>& issues) {
       issues.push_back(
           {.code = ErrorCode::repeated_parameter, .pointer = pointer(name), .got = Json{value}});
     else
-      out.emplace_back(std::move(name), typed(value));
+      out.emplace_back(name, typed(name, value));
   }
   return out;
 }
@@ -172,17 +171,18 @@ FormatOptions read_options(Reader& in) {
   out.torch = in.choice("torch", kSwitch, false);
   out.acknowledged = read_acknowledged(in, out.torch);
   out.post = read_post(in);
+  out.process = read_machine_process(in);
   out.axial_z = in.choice("axial", kAxial, false);
-  out.speed = in.optional_number("speed_mm_min", kSpeed);
-  out.lead = in.number("lead_mm", kLead, 0.0);
+  out.speed = in.optional_number("speed_mm_min", kTorchSpeed);
+  out.lead = in.optional_number("lead_mm", kLeadRadius);
   out.overcut = in.optional_number("overcut_mm", kOvercut);
   out.start = in.optional_number("start_deg", kStart);
   out.pierce_bevel = in.optional_number("pierce_b_deg", kPierceBevel);
-  out.pivot_length = in.optional_number("pivot_length_mm", kPivotLength);
+  out.pivot_length = in.optional_number("pivot_length_mm", kTorchPivotLength);
   out.pierce_height = in.optional_number("pierce_height_mm", kTipHeight);
   out.pierce_delay = in.optional_number("pierce_delay_s", kPierceDelay);
   out.cut_height = in.optional_number("cut_height_mm", kTipHeight);
-  out.clearance = in.optional_number("clearance_mm", kClearance);
+  out.clearance = in.optional_number("clearance_mm", kTipClearance);
   out.omega = in.optional_number("omega_deg", kOmega);
   out.files = read_files(in);
   return out;

@@ -10,6 +10,7 @@
 #include "api/formats/text.hpp"
 #include "api/formats/torch_joints.hpp"
 #include "api/formats/torch_moves.hpp"
+#include "api/formats/torch_process.hpp"
 #include "api/posts.hpp"
 #include "api/stop.hpp"
 #include "core/base/elementary.hpp"
@@ -28,8 +29,8 @@ torch::Approach approach(const torch::TorchCut& cut, const FormatOptions& o) {
   const auto deg = [](const std::optional<double>& v) {
     return v ? std::optional(Angle::deg(*v)) : std::nullopt;
   };
-  if (o.lead > 0.0) {
-    out.lead = {.radius = o.lead, .pierce_b = deg(o.pierce_bevel)};
+  if (const double lead = o.lead.value_or(0.0); lead > 0.0) {
+    out.lead = {.radius = lead, .pierce_b = deg(o.pierce_bevel)};
     if (o.overcut) out.lead->overcut = *o.overcut;
     out.start = {.at = motion::Start::At::automatic, .seam = Angle{}};
   }
@@ -79,6 +80,11 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
     const auto way = torch::torch_way(cut, approach(cut, o), caption.stop);
     ask(caption.stop);
     if (!way) refuse(cut, o, way.error());
+    if (way->radius < job.shortest_lead)
+      throw UnfitOption{"lead_mm", (cut.name.empty() ? "the cut" : "cut " + cut.name) +
+                                       ": the scrap has no room for the shortest lead of the "
+                                       "machine's table, " +
+                                       mm(job.shortest_lead)};
     const auto& points = way->points.points;
     out.push_back({.name = cut.name,
                    .places = refined(points, reach, caption.stop, moves),
@@ -150,7 +156,8 @@ const std::vector<std::string_view>& gcode_options() {
   static const std::vector<std::string_view> kOptions{
       "speed_mm_min",     "post",           "dialect",       "torch",        "axial",
       "lead_mm",          "overcut_mm",     "start_deg",     "pierce_b_deg", "pivot_length_mm",
-      "pierce_height_mm", "pierce_delay_s", "cut_height_mm", "clearance_mm", "acknowledge"};
+      "pierce_height_mm", "pierce_delay_s", "cut_height_mm", "clearance_mm", "acknowledge",
+      "machine",          "material"};
   return kOptions;
 }
 
@@ -180,7 +187,8 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
   return out;
 }
 
-std::string print_gcode(const TorchJob& job, const Caption& caption) {
+std::string print_gcode(TorchJob job, Caption caption) {
+  take_process(job, caption.options, caption.stop);
   const auto& post = post_of(caption.options);
   const bool tilts =
       std::ranges::any_of(job.cuts, [](const auto& cut) { return !cut.path.a.empty(); });

@@ -17,6 +17,8 @@ struct TorchJob {
   std::vector<std::string> lengths = {}, marks = {};  // lines of the header
   // What lies at z = 0 and at phi = 0, where z goes, and from where one looks that way.
   std::string zero = {}, onward = {}, line = {}, seen_from = {};
+  std::vector<std::string> process = {};  // lines of the header: what the machine's table says
+  double shortest_lead = 0.0;             // mm, where the lead is the table's
 };
 [[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table);
 /// A part in the order of its sequence; marks are lines of the header.
@@ -37,8 +39,9 @@ struct TorchJob {
 /// that tilt and, with a pivot length, Y the pivot's way across.
 ///
 /// Errors    throws UnfitOption: lead_mm, start_deg, where a cut has no room or place for them; post,
-///           pivot_length_mm, axial, where the post lacks an axis.
+///           pivot_length_mm, axial, where the post lacks an axis; material, where the machine's
+///           table does not reach as thick.
 /// Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
-[[nodiscard]] std::string print_gcode(const TorchJob& job, const Caption& caption);
+[[nodiscard]] std::string print_gcode(TorchJob job, Caption caption);
 
 }  // namespace tubecut::api

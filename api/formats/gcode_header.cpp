@@ -93,15 +93,16 @@ void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOption
 void add_starts(const TorchJoints& joints, const FormatOptions& o, Lines& out) {
   const auto& post = post_of(o);
   const double cut = o.cut_height.value_or(0.0);
-  if (o.pivot_length)
+  if (post.of_control)
+    out.push_back("heights and delay of the pierce: " + *post.of_control);
+  else if (o.pivot_length)
     out.push_back("pierce " + mm(o.pierce_height.value_or(cut)) + " off the wall, delay " +
                   measure(o.pierce_delay.value_or(0.0), Unit::s) + ", cut " + mm(cut) +
                   " off it along the torch");
   else
-    out.push_back(post.of_control ? "heights and delay of the pierce: " + *post.of_control
-                                  : "heights and the lift between cuts are of the control");
-  if (o.lead > 0.0) {
-    out.push_back("leads: arcs of 60 deg on the scrap side, radius " + mm(o.lead) + ", overcut " +
+    out.emplace_back("heights and the lift between cuts are of the control");
+  if (o.lead.value_or(0.0) > 0.0) {
+    out.push_back("leads: arcs of 60 deg on the scrap side, radius " + mm(*o.lead) + ", overcut " +
                   mm(o.overcut.value_or(motion::Lead{}.overcut)) + ", clear of the part");
     if (!o.start)
       out.push_back("each cut starts at its least bevel that is " + mm(motion::kFromJunction) +
@@ -169,6 +170,7 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
                   mm(found.most) + " while cutting");
   lines.push_back("tool: torch, kerf " + kerfs(cuts) + ", applied to the path");
   lines.push_back("feed " + measure(*o.speed, Unit::mm_min) + " on the outer wall");
+  lines.insert(lines.end(), job.process.begin(), job.process.end());
   add_starts(joints, o, lines);
   if (joints.has_pivot())
     lines.push_back("between cuts the torch is lifted " + mm(joints.clearance()) +
@@ -199,11 +201,11 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
   const auto at = [](const PostAxis& axis, double deg) {
     return letter(axis) + " " + fixed(axis.counted(deg), 3);
   };
-  if (o.lead > 0.0 || o.start)
+  if (o.lead.value_or(0.0) > 0.0 || o.start)
     out += post.comment("starts at " + at(joints.turn(), cut.start.phi * kDegPerRad) + ", " +
                         at(joints.swing(), cut.start.b * kDegPerRad) + ", " + mm(cut.start.z) +
                         " from " + joints.along().zero());
-  if (cut.radius < o.lead)
+  if (cut.radius < o.lead.value_or(0.0))
     out += post.comment("leads of " + mm(cut.radius) + ": the scrap has no room for more");
   return out;
 }

@@ -123,6 +123,12 @@ TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace
 
 }  // namespace
 
+double metal_in_beam(const TorchReach& reach, const TorchPlace& at) {
+  const double across = elementary::tan(at.a), along = elementary::tan(at.b);
+  const auto d = depth(reach, across);
+  return d ? d->h * std::sqrt(1.0 + squared(across) + squared(along)) : kInfinity;
+}
+
 double sag(const TorchReach& reach, const TorchPlace& from, const TorchPlace& to) {
   if (from.a == 0.0 && to.a == 0.0) return sag_in_plane(reach, from, to);
   return sag_in_space(reach, from, to);

@@ -17,6 +17,9 @@ struct TorchReach {
   double pivot = 0.0;  // mm; 0: the control moves the tip
 };
 
+/// How much metal the beam goes through there, mm; infinite where it grazes the inner wall.
+[[nodiscard]] double metal_in_beam(const TorchReach& reach, const TorchPlace& at);
+
 /// How far tip and edges may leave the straight lines from one place to the other, in (phi, z) on
 /// each wall, while every axis of the machine goes straight and evenly: mm, along the wall.
 ///
