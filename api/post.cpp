@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kLongestLine = 120;
 constexpr CountRange kSomeLines{.min = 0, .max = 20};
+constexpr double kTurn = 360.0;  // deg
 constexpr std::string_view kLetters = "ABCUVWXYZ";
 
 using Names = std::initializer_list<std::string_view>;
@@ -97,7 +98,8 @@ std::string read_comment_end(Reader& in) {
   return {};
 }
 
-PostAxis decode_axis(Reader& in, bool turns) {
+/// `turns`: by degrees, `rolls`: round and round.
+PostAxis decode_axis(Reader& in, bool turns, bool rolls) {
   PostAxis out;
   const auto letter = in.ascii_text("letter", 1);
   if (!letter.empty() && kLetters.find(letter) == std::string_view::npos)
@@ -110,6 +112,7 @@ PostAxis decode_axis(Reader& in, bool turns) {
   out.reversed = in.flag("reversed", false);
   out.offset = in.number(turns ? "offset_deg" : "offset_mm", kOffset, 0.0);
   out.decimals = in.integer("decimals", 2, 9);
+  if (rolls) out.within_turn = in.flag("within_turn", false);
   return out;
 }
 
@@ -120,7 +123,7 @@ void decode_axes(Reader& in, Post& out) {
     const std::string_view name = kPostRoles[role];
     const bool turns = as >= PostRole::turn;
     const auto decode = [&](Reader& r) {
-      auto axis = decode_axis(r, turns);
+      auto axis = decode_axis(r, turns, as == PostRole::turn);
       if (r.understood("letter") && taken.find(axis.letter) != std::string::npos)
         r.issue({.code = ErrorCode::duplicate_id,
                  .pointer = "letter",
@@ -136,6 +139,13 @@ void decode_axes(Reader& in, Post& out) {
 }
 
 }  // namespace
+
+double PostAxis::counted(double value) const {
+  const double out = (reversed ? -value : value) + offset;
+  if (!within_turn) return out;
+  const double turned = out - kTurn * std::floor(out / kTurn);
+  return fixed(turned, decimals) == fixed(kTurn, decimals) ? 0.0 : turned;
+}
 
 std::string PostAxis::word(double value) const {
   return std::string(1, letter) + fixed(counted(value), decimals);

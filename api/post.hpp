@@ -19,8 +19,9 @@ struct PostAxis {
   bool reversed = false;
   double offset = 0.0;  // mm or deg
   int decimals = 0;
+  bool within_turn = false;  // counts from 0 to below 360 deg
 
-  [[nodiscard]] double counted(double value) const { return (reversed ? -value : value) + offset; }
+  [[nodiscard]] double counted(double value) const;
   /// "X-1.50000"
   [[nodiscard]] std::string word(double value) const;
   /// Where the program's zero is: "A0".

@@ -66,6 +66,25 @@ std::shared_ptr<const Post> find_post(std::string_view name) {
   return found == nullptr ? nullptr : std::shared_ptr<const Post>(all, &found->post);
 }
 
+std::shared_ptr<const Post> inline_post(std::string_view json, const std::string& pointer,
+                                        std::vector<FieldIssue>& issues) {
+  const auto body = parse(json);
+  if (!body) {
+    issues.push_back(
+        {.code = ErrorCode::unreadable_json,
+         .pointer = pointer,
+         .hint = body.error().reason + " at byte " + std::to_string(body.error().offset)});
+    return nullptr;
+  }
+  Reader in(*body);
+  auto out = std::make_shared<const Post>(decode_post(in));
+  for (auto& issue : in.finish_root()) {
+    issue.pointer = pointer + issue.pointer;
+    issues.push_back(std::move(issue));
+  }
+  return out;
+}
+
 const Post& post_of(const FormatOptions& options) {
   static const Post kFirst = shipped().front().post;
   return options.post != nullptr ? *options.post : kFirst;

@@ -26,6 +26,10 @@ using PostShelf = std::vector<ShelfPost>;
 
 /// The one of that name; empty where there is none.
 [[nodiscard]] std::shared_ptr<const Post> find_post(std::string_view name);
+/// A post that stands in a request, as JSON; issues at `pointer` and below.
+[[nodiscard]] std::shared_ptr<const Post> inline_post(std::string_view json,
+                                                      const std::string& pointer,
+                                                      std::vector<FieldIssue>& issues);
 /// Of a program that names one, or the first there is.
 [[nodiscard]] const Post& post_of(const FormatOptions& options);
 /// All names, between bars.

@@ -144,15 +144,21 @@ std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
 constexpr std::array kDialects{Option<std::string_view>{"linuxcnc", "linuxcnc"},
                                Option<std::string_view>{"qtplasmac", "qtplasmac"}};
 
-/// `post` names one of GET /v1/posts; `dialect`, which is older, one of two.
-std::shared_ptr<const Post> read_post(Reader& in) {
-  const auto name = in.optional_text("post");
+constexpr std::size_t kLongestPost = 12'000;  // of a request's head of 16 kB
+
+/// `post` names one of GET /v1/posts, or is one; `dialect`, which is older, names one of two. What
+/// is wrong within a post goes to `within`.
+std::shared_ptr<const Post> read_post(Reader& in, std::vector<FieldIssue>& within) {
+  const auto name = in.optional_text("post", kLongestPost);
   const auto dialect = in.choice("dialect", kDialects, "linuxcnc");
   if (name && in.has("dialect"))
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "dialect",
               .hint = "post names the post already; leave dialect out"},
              in.find("dialect"));
+  if (name && name->starts_with('{'))
+    if (auto own = inline_post(*name, "?post", within)) return own;
+  if (!within.empty()) return find_post(kDialects.front().name);
   auto out = find_post(name ? *name : std::string(dialect));
   if (out == nullptr && in.understood("post"))
     in.issue({.code = ErrorCode::bad_choice,
@@ -164,13 +170,13 @@ std::shared_ptr<const Post> read_post(Reader& in) {
 }
 
 /// The parameters that only drawings and machine files read.
-FormatOptions read_options(Reader& in) {
+FormatOptions read_options(Reader& in, std::vector<FieldIssue>& within) {
   FormatOptions out;
   out.mirror = in.flag("mirror", false);
   out.paper = in.choice("paper", kPaper, Paper::sheet);
   out.torch = in.choice("torch", kSwitch, false);
   out.acknowledged = read_acknowledged(in, out.torch);
-  out.post = read_post(in);
+  out.post = read_post(in, within);
   out.process = read_machine_process(in);
   out.axial_z = in.choice("axial", kAxial, false);
   out.speed = in.optional_number("speed_mm_min", kTorchSpeed);
@@ -208,7 +214,7 @@ ParsedQuery parse_query(std::string_view text) {
   query.format = in.optional_text("format").value_or("");
   query.view = in.optional_text("view").value_or("");
   const auto general = in.echo().size();
-  query.options = read_options(in);
+  query.options = read_options(in, out.issues);
   for (auto i = general; i < in.echo().size(); ++i)
     if (const auto& name = in.echo()[i].first; in.has(name))
       query.given.emplace_back(name, *in.find(name));

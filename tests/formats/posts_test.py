@@ -8,6 +8,7 @@ import signal
 import subprocess
 import tempfile
 import time
+from urllib.parse import quote
 
 from service import ROOT, FormatTest, Service, examples, main
 
@@ -200,6 +201,42 @@ class Own(FormatTest):
                 way = math.dist([at[letter] for letter in sorted(at)], [before[letter] for letter in sorted(at)])
                 self.assertAlmostEqual(rate, max(way * inverse, 1e-3), delta=2e-3 + 1e-3 * rate)
             before = at
+
+    def test_a_post_within_the_request(self):
+        body = examples("parts")["chord-with-holes"]
+        sent = quote(json.dumps(self.turned))
+        self.assertEqual(self.service.text("parts", body, f"{DARK}&post={sent}"), self.service.text("parts", body, f"{DARK}&post=turned"))
+        axes = self.document["axes"]
+        for changes, wanted in (({"rapids": "G0"}, [("?post/rapids", "unknown_field")]), ({"rapid": "G0 {axis}"}, [("?post/rapid", "bad_choice")] * 1),
+                                ({"axes": axes | {"turn": {"letter": "F", "decimals": 4}}}, [("?post/axes/turn/letter", "bad_choice")]),
+                                ({"axes": axes | {"swing": axes["swing"] | {"within_turn": True}}}, [("?post/axes/swing/within_turn", "unknown_field")]),
+                                ({"axes": {role: axes[role] for role in axes if role != "turn"}}, [("?post/axes/turn", "missing_field")])):
+            status, _, content = self.service.ask("parts", body, f"{DARK}&post={quote(json.dumps(self.document | changes))}")
+            got = [(e["pointer"], e["code"]) for e in json.loads(content)["errors"]]
+            self.assertEqual((status, got[:1]), (400, wanted))
+        for text in ("{", '{"name": "a"', "{}", "[1]", "{" * 70):
+            self.assertEqual(self.service.ask("parts", body, f"{DARK}&post={quote(text)}")[0], 400, text)
+        three = {role: axes[role] for role in ("along", "turn", "swing")}
+        status, _, content = self.service.ask("parts", body, f"{DARK}&post={quote(json.dumps(self.document | {'axes': three}))}")
+        self.assertEqual([e["pointer"] for e in json.loads(content)["errors"]], ["?pivot_length_mm"])
+
+    def test_an_axis_that_counts_within_a_turn(self):
+        """0 to below 360 whatever the way round, and by the short way the same path: no move goes as far as half a turn while it cuts."""
+        body = examples("parts")["chord-with-holes"]
+        rolling = self.document | {"name": "rolling", "axes": self.document["axes"] | {"turn": {"letter": "A", "decimals": 4, "within_turn": True, "offset_deg": 350}}}
+        got = linuxcnc(self.service.text("parts", body, f"{DARK}&post={quote(json.dumps(rolling))}").decode())
+        wanted = linuxcnc(self.service.text("parts", body, DARK).decode())
+        near, crossed = 1e-4, 0
+        for (rapid, at), (_, plain), before in zip(got.moves, wanted.moves, [({}, {})] + list(zip(got.moves, wanted.moves))):
+            if "A" not in at:
+                continue
+            self.assertTrue(0 <= at["A"] < 360, at)
+            self.assertAlmostEqual((at["A"] - 350 - plain["A"] + 180) % 360 - 180, 0, delta=near)
+            if not rapid and "A" in before[0][1]:
+                way = (at["A"] - before[0][1]["A"] + 180) % 360 - 180
+                self.assertAlmostEqual(way, plain["A"] - before[1][1]["A"], delta=2 * near)
+                crossed += abs(at["A"] - before[0][1]["A"]) > 180
+        self.assertGreater(crossed, 2)
 
     def test_the_header_follows_the_signs(self):
         text = self.service.text("parts", examples("parts")["chord-with-holes"], f"{DARK}&post=mirrored").decode()
