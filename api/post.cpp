@@ -132,7 +132,7 @@ void decode_axes(Reader& in, Post& out) {
       taken += axis.letter;
       return axis;
     };
-    const bool needed = as == PostRole::along || as == PostRole::turn || as == PostRole::swing;
+    const bool needed = as == PostRole::along || as == PostRole::turn;
     out.axes[role] =
         needed ? std::optional(in.object(name, decode)) : in.optional_object(name, decode);
   }

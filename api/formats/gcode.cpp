@@ -150,6 +150,15 @@ std::string print_cut(const TorchJob& job, const TorchCutPlaces& way, const Torc
   return out + post_lines(post.cut_end) + post_lines(post.torch_off);
 }
 
+TorchJoints::Leaning leaning(const TorchJob& job) {
+  TorchJoints::Leaning out;
+  for (const auto& cut : job.cuts) {
+    out.along = out.along || std::ranges::any_of(cut.path.b, [](double b) { return b != 0.0; });
+    out.across = out.across || !cut.path.a.empty();
+  }
+  return out;
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& gcode_options() {
@@ -190,9 +199,7 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
 std::string print_gcode(TorchJob job, Caption caption) {
   take_process(job, caption.options, caption.stop);
   const auto& post = post_of(caption.options);
-  const bool tilts =
-      std::ranges::any_of(job.cuts, [](const auto& cut) { return !cut.path.a.empty(); });
-  const TorchJoints joints(job.outer_radius, tilts, caption.options);
+  const TorchJoints joints(job.outer_radius, leaning(job), caption.options);
   Straightness moves;
   const auto ways = ways_of(job, caption, moves);
   std::string out =

@@ -70,9 +70,10 @@ void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOption
   // The generator of phi lies under the torch at A = phi, so that the tube turns against phi.
   out.push_back(turn.zero() + ": " + job.line + " under the torch, " + growing(turn) +
                 " turns the tube counter-clockwise, seen from " + job.seen_from);
-  out.push_back(joints.swing().zero() + ": the torch square to the tube, " +
-                growing(joints.swing()) + " leans its upper end towards " +
-                towards(joints.along()) + ", the outer edge then lies further that way");
+  if (joints.has_swing())
+    out.push_back(joints.swing().zero() + ": the torch square to the tube, " +
+                  growing(joints.swing()) + " leans its upper end towards " +
+                  towards(joints.along()) + ", the outer edge then lies further that way");
   if (joints.tilts())
     out.push_back(joints.tilt().zero() + ": not tilted across, " + growing(joints.tilt()) +
                   " leans its upper end across" +
@@ -82,10 +83,14 @@ void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOption
                        : std::string(", towards growing ") + letter(turn)) +
                   ", tangents of " + letter(joints.swing()) + " and " + letter(joints.tilt()) +
                   " are each over the way outwards");
+  const auto carried = x + (joints.tilts() ? ", " + letter(joints.across()) : "") + " and " +
+                       letter(joints.out()) + " carry the ";
   if (o.pivot_length)
-    out.push_back(x + (joints.tilts() ? ", " + letter(joints.across()) : "") + " and " +
-                  letter(joints.out()) + " carry the pivot of the torch, " + mm(*o.pivot_length) +
-                  " from its tip, " + joints.out().zero() + ": the axis of the tube");
+    out.push_back(carried +
+                  (*o.pivot_length > 0.0
+                       ? "pivot of the torch, " + mm(*o.pivot_length) + " from its tip, "
+                       : std::string("tip of the torch, ")) +
+                  joints.out().zero() + ": the axis of the tube");
   else
     out.push_back(x + " carries the tip of the torch on the outer wall: the control must know it");
 }
@@ -202,9 +207,10 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
     return letter(axis) + " " + fixed(axis.counted(deg), 3);
   };
   if (o.lead.value_or(0.0) > 0.0 || o.start)
-    out += post.comment("starts at " + at(joints.turn(), cut.start.phi * kDegPerRad) + ", " +
-                        at(joints.swing(), cut.start.b * kDegPerRad) + ", " + mm(cut.start.z) +
-                        " from " + joints.along().zero());
+    out += post.comment(
+        "starts at " + at(joints.turn(), cut.start.phi * kDegPerRad) + ", " +
+        (joints.has_swing() ? at(joints.swing(), cut.start.b * kDegPerRad) + ", " : "") +
+        mm(cut.start.z) + " from " + joints.along().zero());
   if (cut.radius < o.lead.value_or(0.0))
     out += post.comment("leads of " + mm(cut.radius) + ": the scrap has no room for more");
   return out;

@@ -24,11 +24,12 @@ PostAxis needed(const Post& post, PostRole role, bool is, std::string_view optio
 
 }  // namespace
 
-TorchJoints::TorchJoints(double outer_radius, bool tilts, const FormatOptions& options)
+TorchJoints::TorchJoints(double outer_radius, Leaning leaning, const FormatOptions& options)
     : radius_(outer_radius),
       pivot_(options.pivot_length),
       clearance_(options.clearance.value_or(kClearance)),
-      tilts_(tilts),
+      tilts_(leaning.across),
+      has_swing_(post_of(options).axis(PostRole::swing).has_value()),
       phi_to_plus_(options.axial_z) {
   const auto& post = post_of(options);
   const auto get = [&](PostRole role, bool is, std::string_view option, std::string_view why) {
@@ -36,11 +37,13 @@ TorchJoints::TorchJoints(double outer_radius, bool tilts, const FormatOptions& o
   };
   along_ = get(PostRole::along, true, "post", "");
   turn_ = get(PostRole::turn, true, "post", "");
-  swing_ = get(PostRole::swing, true, "post", "");
+  swing_ = get(PostRole::swing, leaning.along, "post",
+               "by which the torch leans along the tube; a head that never does cuts what has the "
+               "preset tube_laser");
   out_ = get(PostRole::out, pivot_ || options.axial_z, pivot_ ? "pivot_length_mm" : "axial",
              "which lifts the torch");
-  tilt_ = get(PostRole::tilt, tilts, "post", "by which a hole's torch leans across");
-  across_ = get(PostRole::across, tilts && pivot_, "post",
+  tilt_ = get(PostRole::tilt, tilts_, "post", "by which a hole's torch leans across");
+  across_ = get(PostRole::across, tilts_ && pivot_, "post",
                 "by which the pivot of a torch that leans across goes");
   if (options.axial_z) std::swap(along_.letter, out_.letter);
 }
@@ -85,7 +88,8 @@ TorchJoints::Arm TorchJoints::arm(const TorchPlace& at, double off) const {
 }
 
 std::string TorchJoints::angles(const TorchPlace& at) const {
-  auto out = " " + turn_.word(at.phi * kDegPerRad) + " " + swing_.word(at.b * kDegPerRad);
+  auto out = " " + turn_.word(at.phi * kDegPerRad);
+  if (has_swing_) out += " " + swing_.word(at.b * kDegPerRad);
   if (tilts_) out += " " + tilt_.word(at.a * kDegPerRad);
   return out;
 }

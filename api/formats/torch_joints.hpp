@@ -16,8 +16,11 @@ namespace tubecut::api {
 /// Errors  the constructor throws UnfitOption where the post lacks an axis that is needed.
 class TorchJoints {
  public:
-  /// `tilts`: some cut's torch leans across the tube.
-  TorchJoints(double outer_radius, bool tilts, const FormatOptions& options);
+  /// How the torch leans on any of the cuts.
+  struct Leaning {
+    bool along = false, across = false;
+  };
+  TorchJoints(double outer_radius, Leaning leaning, const FormatOptions& options);
 
   /// Of the tip this far off the wall along its own axis.
   [[nodiscard]] std::string words(const TorchPlace& at, double off) const;
@@ -41,6 +44,7 @@ class TorchJoints {
   /// Growing phi runs to plus of the axis across.
   [[nodiscard]] bool phi_to_plus() const { return phi_to_plus_ != across_.reversed; }
   [[nodiscard]] bool tilts() const { return tilts_; }
+  [[nodiscard]] bool has_swing() const { return has_swing_; }
   [[nodiscard]] bool has_pivot() const { return pivot_.has_value(); }
   [[nodiscard]] double clearance() const { return clearance_; }
 
@@ -59,7 +63,7 @@ class TorchJoints {
   double radius_;
   std::optional<double> pivot_;
   double clearance_;
-  bool tilts_, phi_to_plus_;
+  bool tilts_, has_swing_, phi_to_plus_;
   PostAxis along_, out_, across_, turn_, swing_, tilt_;
 };
 

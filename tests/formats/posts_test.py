@@ -258,6 +258,12 @@ class Own(FormatTest):
         self.assertEqual(self.service.ask("parts", brace, "format=gcode&speed_mm_min=600&post=three_axes")[0], 200)
         self.assertEqual(refused(brace, "post=three_axes&pivot_length_mm=150"), [("?pivot_length_mm", "unsupported_combination")])
         self.assertEqual(refused(brace, "post=three_axes&axial=z"), [("?axial", "unsupported_combination")])
+        square = {role: self.document["axes"][role] for role in ("along", "out", "turn")}
+        table = f"post={quote(json.dumps(self.document | {'axes': square}))}&pivot_length_mm=0"
+        self.assertEqual(refused(brace, table), [("?post", "unsupported_combination")])
+        program = self.service.text("parts", examples("parts")["tube-laser-chord"], f"format=gcode&speed_mm_min=600&{table}").decode()
+        words = {letter for line in program.splitlines() if line[:2] in ("G0", "G1") for letter, _ in ADDRESS.findall(line[3:].split(" F")[0])}
+        self.assertEqual(words, {"A", "X", "Z"})
         leaning = dict(chord, holes=[dict(hole, tilt="free") for hole in chord["holes"]])
         self.assertEqual(refused(leaning, "post=three_axes"), [("?post", "unsupported_combination")])
         self.assertEqual(refused(brace, "post=other"), [("?post", "bad_choice")])
