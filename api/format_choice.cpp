@@ -122,6 +122,18 @@ std::vector<FieldIssue> program_issues(const std::string& format, const FormatOp
   return out;
 }
 
+/// A machine and a material name rows of a process table together.
+void expect_pair(const Query& query, std::vector<FieldIssue>& issues) {
+  const auto given = [&](std::string_view name) {
+    return std::ranges::any_of(query.given, [&](const auto& one) { return one.first == name; });
+  };
+  for (const auto& [has, lacks] : {std::pair{"machine", "material"}, {"material", "machine"}})
+    if (given(has) && !given(lacks))
+      issues.push_back({.code = ErrorCode::missing_field,
+                        .pointer = std::string("?") + lacks,
+                        .hint = "machine and material name rows of a process table together"});
+}
+
 /// Why the answer cannot be printed as asked; nothing when it can. JSON and CBOR have no options.
 std::optional<Problem> format_problem(const Query& query, const FormatName* chosen) {
   const auto format = chosen != nullptr ? as_asked(*chosen, query)
@@ -144,7 +156,10 @@ std::optional<Problem> format_problem(const Query& query, const FormatName* chos
                            .limit = Json{listed(format.views)},
                            .hint = "views of " + name + " offered: " + listed(format.views)}},
                          ErrorCode::not_acceptable);
-  if (format.needs_speed) issues = program_issues(name, query.options);
+  if (format.needs_speed) {
+    expect_pair(query, issues);
+    if (issues.empty()) issues = program_issues(name, query.options);
+  }
   if (!issues.empty()) return query_problem(std::move(issues));
   return std::nullopt;
 }

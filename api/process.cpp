@@ -68,7 +68,7 @@ void refuse_choice(Reader& in, ErrorCode code, std::string_view name, const std:
 
 /// What a program takes of this machine in this material; issues where it has nothing of it.
 std::optional<MachineProcess> process_of(Reader& in, const std::string& machine,
-                                         const std::string& material) {
+                                         const std::optional<std::string>& material) {
   const auto all = machines();
   const auto at = std::ranges::find(
       *all, machine, [](const ShelfMachine& m) -> const std::string& { return m.machine.name; });
@@ -87,6 +87,7 @@ std::optional<MachineProcess> process_of(Reader& in, const std::string& machine,
   std::ranges::copy_if(at->process->rows, std::back_inserter(out.rows),
                        [&](const ProcessRow& row) { return row.material == material; });
   if (!out.rows.empty()) return out;
+  if (!material) return std::nullopt;
   refuse_choice(in, ErrorCode::bad_choice, "material", listed(materials(*at->process)),
                 "materials of " + machine + ": ");
   return std::nullopt;
@@ -140,16 +141,8 @@ Process assumed_process() {
 
 std::shared_ptr<const MachineProcess> read_machine_process(Reader& in) {
   const auto machine = in.optional_text("machine"), material = in.optional_text("material");
-  if (!in.has("machine") && !in.has("material")) return nullptr;
-  if (!machine || !material) {
-    const std::string lacks = in.has("machine") ? "material" : "machine";
-    if (!in.has(lacks))
-      in.issue({.code = ErrorCode::missing_field,
-                .pointer = lacks,
-                .hint = "machine and material name a row of a process table together"});
-    return nullptr;
-  }
-  auto found = process_of(in, *machine, *material);
+  if (!machine) return nullptr;
+  auto found = process_of(in, *machine, material);
   return found ? std::make_shared<const MachineProcess>(*std::move(found)) : nullptr;
 }
 

@@ -50,7 +50,7 @@ struct MachineProcess {
   std::vector<ProcessRow> rows = {};  // of one material
 };
 
-/// `machine` and `material` of a query; nothing where neither is there.
+/// `machine` and `material` of a query; nothing unless both are there.
 [[nodiscard]] std::shared_ptr<const MachineProcess> read_machine_process(Reader& in);
 
 }  // namespace tubecut::api
