@@ -11,115 +11,9 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr std::ptrdiff_t kAskEvery = 1024;  // periods
-constexpr double kStrict = 1e-6;            // an integer must stay below its limit, not on it
-constexpr double kTravelSlack = 0.51;       // pulses: half of one, and rounding
-
 constexpr double kLook = 0.5;            // mm the follower looks ahead beyond all allowances
 constexpr std::size_t kLongWindow = 25;  // periods of I15
 constexpr double kLeadStep = 0.05;       // mm of tip path between looks at the lead's clearance
-
-struct AxisCounts {
-  const Axis& axis;
-  std::span<const std::int32_t> counts;
-  double period;
-  const std::stop_token& stop;
-
-  /// Whether to go on with period `k`.
-  [[nodiscard]] bool goes_on(std::ptrdiff_t k) const {
-    return k % kAskEvery != 0 || !stop.stop_requested();
-  }
-  [[nodiscard]] double pulses() const { return axis.pulses_per_axis_unit(); }
-  /// Count of period `k`, at rest before and behind.
-  [[nodiscard]] double at(std::ptrdiff_t k) const {
-    const bool inside = k >= 0 && k < static_cast<std::ptrdiff_t>(counts.size());
-    return inside ? counts[static_cast<std::size_t>(k)] : 0.0;
-  }
-  [[nodiscard]] std::int64_t total() const {
-    std::int64_t sum = 0;
-    for (const std::int32_t n : counts) sum += n;
-    return sum;
-  }
-};
-
-/// I2: the sum against the axis values at both ends of the program.
-void see_sum(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, Worst& worst) {
-  const double start = f.at(coordinates_of(job.program, 0));
-  const double end = f.at(coordinates_of(job.program, job.program.size() - 1));
-  const std::int64_t expected = rounded(ideal_pulses(a.axis, end, start));
-  worst.see(std::abs(static_cast<double>(a.total() - expected)), 0.0);
-}
-
-/// I3: whole turns of a rotary axis, nothing on all others but those that go round with phi
-/// uncounted in turns.
-void see_closure(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, Worst& worst) {
-  const bool goes_round = f.linear[0] != 0.0 && job.program.turns != 0;
-  if (goes_round && a.axis.pulses_per_turn == 0) return;
-  const double way = f.at(coordinates_of(job.program, job.program.size() - 1)) -
-                     f.at(coordinates_of(job.program, 0));
-  const std::int64_t turns = a.axis.pulses_per_turn == 0 ? 0 : rounded(way / 360.0);
-  worst.see(std::abs(static_cast<double>(a.total() - turns * a.axis.pulses_per_turn)), 0.0);
-}
-
-void see_rates(const AxisCounts& a, Worst& overflow, Worst& speed, Worst& acceleration) {
-  const double v = a.axis.v_max * a.period * a.pulses() + 1.0 - kStrict;
-  const double second = a.axis.a_max * a.period * a.period * a.pulses() + 2.0 - kStrict;
-  const auto n = static_cast<std::ptrdiff_t>(a.counts.size());
-  for (std::ptrdiff_t k = 0; k < n && a.goes_on(k); ++k) {
-    const double count = std::abs(a.at(k));
-    if (a.axis.n_max) overflow.see(count, static_cast<double>(*a.axis.n_max));
-    speed.see(count, v);
-  }
-  for (std::ptrdiff_t k = -1; k < n && a.goes_on(k); ++k)
-    acceleration.see(std::abs(a.at(k + 1) - a.at(k)), second);
-}
-
-void see_jerk(const AxisCounts& a, Worst& worst) {
-  if (!a.axis.j_max) return;
-  const double limit = *a.axis.j_max * a.period * a.period * a.period * a.pulses() + 4.0 - kStrict;
-  const auto n = static_cast<std::ptrdiff_t>(a.counts.size());
-  for (std::ptrdiff_t k = -2; k < n && a.goes_on(k); ++k) {
-    worst.see(std::abs(a.at(k + 2) - 2.0 * a.at(k + 1) + a.at(k)), limit);
-  }
-}
-
-/// I8: pulses beyond a soft limit.
-void see_travel(const AxisCounts& a, double start, Worst& worst) {
-  std::int64_t sum = 0;
-  for (std::size_t k = 0; k <= a.counts.size(); ++k) {
-    if (!a.goes_on(static_cast<std::ptrdiff_t>(k))) return;
-    const double q = start + static_cast<double>(sum) / a.pulses();
-    if (a.axis.soft_min) worst.see((*a.axis.soft_min - q) * a.pulses(), kTravelSlack);
-    if (a.axis.soft_max) worst.see((q - *a.axis.soft_max) * a.pulses(), kTravelSlack);
-    if (k < a.counts.size()) sum += a.counts[k];
-  }
-}
-
-/// I9: an axis that turns round is slow on both sides.
-void see_reversals(const AxisCounts& a, Worst& worst) {
-  const double limit = a.axis.a_max * a.period * a.period * a.pulses() + 2.0;
-  std::int32_t before = 0;
-  for (const std::int32_t n : a.counts) {
-    if (n == 0) continue;
-    if ((n > 0 && before < 0) || (n < 0 && before > 0)) {
-      worst.see(std::max(std::abs(n), std::abs(before)), limit);
-    }
-    before = n;
-  }
-}
-
-/// I16: the start against the axis value at the program's first point, in pulses; whole turns of a
-/// rotary axis apart. What stands on the path within its tolerance may still stand beside its
-/// start.
-void see_start(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, double start,
-               Worst& worst) {
-  double off = (start - f.at(coordinates_of(job.program, 0))) * a.pulses();
-  if (a.axis.pulses_per_turn > 0) {
-    const auto turn = static_cast<double>(a.axis.pulses_per_turn);
-    off -= turn * std::floor(off / turn + 0.5);
-  }
-  worst.see(std::abs(off), 0.5);
-}
 
 using Group = Coordinate::Group;
 
@@ -376,36 +270,6 @@ void Worst::see(double value, double limit) {
     limit_ = limit;
   }
   any_ = true;
-}
-
-std::vector<Check> count_invariants(const PreparedCut& job, const Counted& counted, bool jerk,
-                                    const std::stop_token& stop) {
-  Worst sum, closed, overflow, speed, acceleration, third, travel, reversal, begin;
-  for (std::size_t i = 0; i < counted.counts.size() && !stop.stop_requested(); ++i) {
-    const AxisFunction& f = job.course.axes[i];
-    const AxisCounts a{job.course.machine.axes[i], counted.counts[i], counted.period, stop};
-    see_sum(job, a, f, sum);
-    if (job.program.closed) see_closure(job, a, f, closed);
-    see_rates(a, overflow, speed, acceleration);
-    if (jerk) see_jerk(a, third);
-    see_travel(a, counted.start[i], travel);
-    see_reversals(a, reversal);
-    see_start(job, a, f, counted.start[i], begin);
-  }
-  std::vector<Check> out;
-  const auto add = [&out](const Worst& worst, const char* name) {
-    if (worst.any()) out.push_back(worst.check(name, "pulses"));
-  };
-  add(sum, "I2");
-  add(closed, "I3");
-  add(overflow, "I4");
-  add(speed, "I5");
-  add(acceleration, "I6");
-  add(third, "I7");
-  add(travel, "I8");
-  add(reversal, "I9");
-  add(begin, "I16");
-  return out;
 }
 
 Followed path_invariants(const ScheduleSpec& spec, const PreparedCut& job, const Counted& counted,

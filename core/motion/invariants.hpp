@@ -25,12 +25,16 @@ class Worst {
   bool any_ = false;
 };
 
-/// I2 to I9 and I16: sums, closure, limits per period, travel, reversals, the start. `jerk`: the
-/// schedule claims a jerk limit.
+/// I4 to I9, whatever the path: limits per period, travel, reversals. `jerk`: the schedule claims a
+/// jerk limit.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 9.
-[[nodiscard]] std::vector<Check> count_invariants(const PreparedCut& job, const Counted& counted,
-                                                  bool jerk, const std::stop_token& stop);
+[[nodiscard]] std::vector<Check> rate_invariants(const Machine& machine, const Counted& counted,
+                                                 bool jerk, const std::stop_token& stop);
+
+/// I2, I3 and I16: sums, closure, the start.
+[[nodiscard]] std::vector<Check> place_invariants(const PreparedCut& job, const Counted& counted,
+                                                  const std::stop_token& stop);
 
 struct Followed {
   std::vector<Check> checks = {};

@@ -36,10 +36,21 @@ Result<Track> stretch(const Track& whole, const Motion& motion) {
   return directed(whole, motion.direction, motion.start);
 }
 
+/// Points that were laid along a checked path.
+Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
+  Program out = from_points(way.points, whole.radius);
+  out.cut_first = way.cut_first;
+  out.cut_last = way.cut_last;
+  out.closed = !with_lead && whole.closed;
+  out.turns = with_lead ? 0 : whole.turns;
+  return out;
+}
+
 Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
                             const std::stop_token& stop) {
   auto whole = track(cut_path);
   if (!whole) return tl::unexpected<Error>(whole.error());
+  if (spec.way) return of_way(*spec.way, *whole, spec.motion.lead.has_value());
   const auto cut = stretch(*whole, spec.motion);
   if (!cut) return tl::unexpected<Error>(cut.error());
   if (!spec.motion.lead) {

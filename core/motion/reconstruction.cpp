@@ -40,8 +40,13 @@ TipPoint between(const TipPoint& a, const TipPoint& b, double share) {
 }  // namespace
 
 AxisValues::AxisValues(const Counted& counted, const Machine& machine)
-    : counted_(counted), q_(counted.start), sum_(counted.start.size(), 0) {
-  for (const Axis& axis : machine.axes) pulses_.push_back(axis.pulses_per_axis_unit());
+    : counted_(counted), q_(counted.start) {
+  for (const Axis& axis : machine.axes) {
+    const std::size_t a = pulses_.size();
+    pulses_.push_back(axis.pulses_per_axis_unit());
+    sum_.push_back(counted.pulses_before(a));
+    if (sum_[a] != 0) q_[a] += static_cast<double>(sum_[a]) / pulses_[a];
+  }
 }
 
 void AxisValues::step(std::size_t period) {

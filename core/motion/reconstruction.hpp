@@ -19,6 +19,13 @@ struct Counted {
   std::size_t periods = 0;
   std::vector<std::span<const std::int32_t>> counts = {};
   std::vector<double> start = {};
+  /// Of a stretch of a longer schedule: pulses of every axis from `start` to the stretch. Empty:
+  /// none.
+  std::vector<std::int64_t> before = {};
+
+  [[nodiscard]] std::int64_t pulses_before(std::size_t axis) const {
+    return before.empty() ? 0 : before[axis];
+  }
 };
 
 /// The axis values that counts make, period by period.
@@ -32,7 +39,7 @@ class AxisValues {
   const Counted& counted_;
   std::vector<double> q_;
   std::vector<double> pulses_ = {};  // per unit of each axis
-  std::vector<std::int64_t> sum_;
+  std::vector<std::int64_t> sum_ = {};
 };
 
 /// Forward kinematics: the path's coordinates from axis values, by other formulas than those that

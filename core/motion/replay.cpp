@@ -71,8 +71,15 @@ std::vector<Check> examine(const ScheduleSpec& spec, const PreparedCut& job, con
                            double fraction, bool own, double* deviation,
                            const std::stop_token& stop) {
   std::vector<Check> out{{"I1", fraction, 0.0, "pulses"}};
-  const std::vector<Check> counts = count_invariants(job, counted, spec.motion.jerk, stop);
-  out.insert(out.end(), counts.begin(), counts.end());
+  // In the order of their numbers but for the start, which comes after the rates.
+  std::vector<Check> places = place_invariants(job, counted, stop);
+  if (places.empty()) return out;  // cancelled
+  const Check begin = places.back();
+  places.pop_back();
+  const std::vector<Check> rates = rate_invariants(spec.machine, counted, spec.motion.jerk, stop);
+  out.insert(out.end(), places.begin(), places.end());
+  out.insert(out.end(), rates.begin(), rates.end());
+  out.push_back(begin);
   const Followed followed = path_invariants(spec, job, counted, own, stop);
   out.insert(out.end(), followed.checks.begin(), followed.checks.end());
   if (deviation != nullptr) *deviation = followed.deviation;

@@ -78,28 +78,6 @@ std::vector<Event> events(const PreparedCut& job, const Plan& plan) {
 
 std::string mm(double value) { return brief(value) + " mm"; }
 
-std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
-  std::vector<Warning> out;
-  const Motion& motion = spec.motion;
-  const bool coarse =
-      report.sag_tip > 5.0 * motion.eps_tip || report.sag_b > 5.0 * motion.eps_b.rad();
-  if (coarse && motion.expert.sag_warning) {
-    out.push_back({WarningCode::contour_too_coarse, "contour",
-                   "between its points the curve leaves the contour's chords by " +
-                       mm(report.sag_tip) + " and " + brief(report.sag_b * kDegPerRad) + " deg"});
-  }
-  for (const SlowZone& zone : report.slow) {
-    out.push_back({WarningCode::slow_zone, "contour",
-                   "periods " + std::to_string(zone.from) + " to " + std::to_string(zone.to) +
-                       ": down to " + brief(60.0 * zone.least_speed) + " mm/min, axis " +
-                       zone.axis});
-  }
-  if (report.standoff_growth > motion.eps_tip) {
-    out.push_back({WarningCode::standoff, "machine", "grows by " + mm(report.standoff_growth)});
-  }
-  return out;
-}
-
 }  // namespace
 
 double ideal_pulses(const Axis& axis, double q, double start) {
@@ -123,8 +101,36 @@ std::string_view name_of(EventKind kind) {
       return "cut_end";
     case EventKind::torch_off:
       return "torch_off";
+    case EventKind::pierce_end:
+      return "pierce_end";
+    case EventKind::rapid_start:
+      return "rapid_start";
+    case EventKind::rapid_end:
+      return "rapid_end";
   }
   return {};
+}
+
+std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
+  std::vector<Warning> out;
+  const Motion& motion = spec.motion;
+  const bool coarse =
+      report.sag_tip > 5.0 * motion.eps_tip || report.sag_b > 5.0 * motion.eps_b.rad();
+  if (coarse && motion.expert.sag_warning) {
+    out.push_back({WarningCode::contour_too_coarse, "contour",
+                   "between its points the curve leaves the contour's chords by " +
+                       mm(report.sag_tip) + " and " + brief(report.sag_b * kDegPerRad) + " deg"});
+  }
+  for (const SlowZone& zone : report.slow) {
+    out.push_back({WarningCode::slow_zone, "contour",
+                   "periods " + std::to_string(zone.from) + " to " + std::to_string(zone.to) +
+                       ": down to " + brief(60.0 * zone.least_speed) + " mm/min, axis " +
+                       zone.axis});
+  }
+  if (report.standoff_growth > motion.eps_tip) {
+    out.push_back({WarningCode::standoff, "machine", "grows by " + mm(report.standoff_growth)});
+  }
+  return out;
 }
 
 std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
@@ -141,22 +147,32 @@ std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
   return out;
 }
 
-Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
-  const auto job = prepare_cut(spec, stop);
+Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& stop) {
+  auto job = prepare_cut(spec, stop);
   if (!job) return tl::unexpected<Error>(job.error());
   const PlanOptions options{spec.motion.jerk, spec.motion.expert.optimism,
                             spec.motion.expert.filter, spec.max_periods};
-  const auto timed = plan(job->course, options, stop);
+  auto timed = plan(job->course, options, stop);
   if (!timed) return tl::unexpected<Error>(timed.error());
+  PlannedCut out{.job = *std::move(job), .plan = *std::move(timed)};
+  out.events = events(out.job, out.plan);
+  out.report = report(spec, out.job, out.plan, stop);
+  out.report.edges = edge_deviation(spec, out.job.program, out.job.course.path, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  return out;
+}
+
+Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
+  auto cut = plan_cut(spec, stop);
+  if (!cut) return tl::unexpected<Error>(cut.error());
   Schedule out;
   out.period = spec.machine.period;
-  out.periods = static_cast<std::int64_t>(timed->places.size()) - 1;
-  out.axes = pulses(*job, *timed, stop);
-  out.events = events(*job, *timed);
-  out.report = report(spec, *job, *timed, stop);
-  out.report.edges = edge_deviation(spec, job->program, job->course.path, stop);
+  out.periods = static_cast<std::int64_t>(cut->plan.places.size()) - 1;
+  out.axes = pulses(cut->job, cut->plan, stop);
+  out.events = std::move(cut->events);
+  out.report = std::move(cut->report);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (spec.motion.compare) out.comparison = comparison(*job, stop);
+  if (spec.motion.compare) out.comparison = comparison(cut->job, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   out.warnings = warnings(spec, out.report);
   return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <stop_token>
@@ -7,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/motion/course.hpp"
 #include "core/motion/plan.hpp"
 #include "core/motion/report.hpp"
 #include "core/motion/spec.hpp"
@@ -35,12 +37,22 @@ struct AxisPulses {
   [[nodiscard]] bool idle() const { return counts.empty(); }
 };
 
-enum class EventKind : std::uint8_t { pierce, torch_on, cut_start, cut_end, torch_off };
+enum class EventKind : std::uint8_t {
+  pierce,
+  torch_on,
+  pierce_end,  // of a dwell
+  cut_start,
+  cut_end,
+  torch_off,
+  rapid_start,
+  rapid_end
+};
 [[nodiscard]] std::string_view name_of(EventKind kind);
 
 struct Event {
   std::int64_t period = 0;  // periods done when the path has passed the mark
   EventKind what = EventKind::pierce;
+  std::size_t cut = 0;  // of a program's cuts
 };
 
 struct Schedule {
@@ -52,6 +64,20 @@ struct Schedule {
   std::optional<Comparison> comparison = {};
   std::vector<Warning> warnings = {};
 };
+
+/// A cut timed, before its pulses are counted.
+struct PlannedCut {
+  PreparedCut job;
+  Plan plan = {};
+  std::vector<Event> events = {};
+  Report report = {};
+};
+
+/// Errors  as `schedule`.
+[[nodiscard]] Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& stop);
+
+/// What a report has to be looked at for.
+[[nodiscard]] std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report);
 
 /// The pulses of every axis of the machine.
 [[nodiscard]] std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,

@@ -49,6 +49,10 @@ struct ScheduleSpec {
   Cut cut = CutPath{};
   Machine machine = {};
   Motion motion = {};
+  /// Of a cut path: its points from pierce to where the torch is put out, where they are laid
+  /// already. Start and direction are theirs, and so is the lead: `motion` only tells whether there
+  /// is one.
+  std::optional<CutWithLead> way = {};
   std::int64_t max_periods = 4'000'000;
 };
 
