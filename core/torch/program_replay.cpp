@@ -1,0 +1,279 @@
+#include "core/torch/program_replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
+#include "core/base/try.hpp"
+#include "core/motion/invariants.hpp"
+#include "core/motion/reconstruction.hpp"
+
+namespace tubecut::torch {
+namespace {
+
+using Kind = Segment::Kind;
+using motion::EventKind;
+using motion::Worst;
+
+constexpr double kRounding = 1e-9;  // s, mm
+
+/// The worst of checks of one name.
+class WorstOf {
+ public:
+  void see(const Check& check) {
+    for (auto& [name, unit, worst] : all_)
+      if (name == check.name) return worst.see(check.value, check.limit);
+    all_.push_back({check.name, check.unit, {}});
+    all_.back().worst.see(check.value, check.limit);
+  }
+  [[nodiscard]] std::vector<Check> checks() const {
+    std::vector<Check> out;
+    for (const auto& [name, unit, worst] : all_) out.push_back(worst.check(name, unit));
+    return out;
+  }
+
+ private:
+  struct One {
+    std::string name, unit;
+    Worst worst;
+  };
+  std::vector<One> all_ = {};
+};
+
+/// What is looked at: the program as it should be and the counts as they are.
+struct Looked {
+  const ProgramSpec& spec;
+  const std::vector<ProgramCut>& cuts;
+  const std::vector<Segment>& segments;
+  const std::vector<motion::Event>& events;
+  const motion::Counted& counted;
+  std::stop_token stop;
+};
+
+/// Borders at which the list of segments is not that of the program.
+double wrong_borders(const Looked& l) {
+  constexpr Kind kOrder[] = {Kind::rapid, Kind::pierce, Kind::cut};
+  const auto& segments = l.segments;
+  const std::size_t most = 3 * l.cuts.size();
+  if (segments.size() < most || segments.size() > most + 1) return 1.0;
+  double wrong = 0.0;
+  std::int64_t at = 0;
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const auto& s = segments[k];
+    const bool last = k == most;
+    const bool right = s.kind == (last ? Kind::rapid : kOrder[k % 3]) &&
+                       s.cut == (last ? l.cuts.size() - 1 : k / 3);
+    if (!right || s.from != at || s.to < s.from) wrong += 1.0;
+    at = s.to;
+  }
+  return wrong + (at == static_cast<std::int64_t>(l.counted.periods) ? 0.0 : 1.0);
+}
+
+/// Periods of a stretch in which the torch burns, by the events alone.
+std::int64_t lit(const std::vector<motion::Event>& events, std::int64_t from, std::int64_t to) {
+  std::int64_t out = 0, on = -1;
+  for (const auto& event : events) {
+    if (event.what == EventKind::torch_on) on = event.period;
+    if (event.what != EventKind::torch_off || on < 0) continue;
+    out += std::max<std::int64_t>(0, std::min(to, event.period) - std::max(from, on));
+    on = -1;
+  }
+  return on < 0 ? out : out + std::max<std::int64_t>(0, to - std::max(from, on));
+}
+
+double wrongly_lit(const Looked& l) {
+  std::int64_t out = 0;
+  for (const auto& s : l.segments) {
+    const auto burning = lit(l.events, s.from, s.to);
+    if (s.kind == Kind::rapid) out += burning;
+    if (s.kind == Kind::cut) out += s.to - s.from - burning;
+  }
+  return static_cast<double>(out);
+}
+
+/// The stretch of a segment, with all pulses before it.
+motion::Counted stretch(const motion::Counted& whole, const Segment& segment,
+                        std::vector<std::int64_t> before) {
+  const auto from = static_cast<std::size_t>(segment.from);
+  const auto size = static_cast<std::size_t>(segment.to - segment.from);
+  motion::Counted out{whole.period, size, {}, whole.start, std::move(before)};
+  for (const auto& counts : whole.counts)
+    out.counts.push_back(counts.empty() ? counts : counts.subspan(from, size));
+  return out;
+}
+
+void add_up(const motion::Counted& stretch, std::vector<std::int64_t>& sums) {
+  for (std::size_t a = 0; a < sums.size(); ++a)
+    for (const std::int32_t n : stretch.counts[a]) sums[a] += n;
+}
+
+/// Between the cuts: where the pierce stands and for how long, how high the tip travels.
+class Between {
+ public:
+  explicit Between(const Looked& l) : l_(l), machine_(l.spec.machine) {
+    if (auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine_.kinematics)) {
+      pivot_ = cutter->pivot_length;
+      lifts_ = true;
+      cutter->standoff = l.spec.setup.pierce_off();
+    }
+    for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
+      const auto& name = machine_.axes[a].name;
+      high_.push_back(lifts_ && (name == "Z1" || name == "Z2"));
+      if (name == "B") swing_ = a;
+    }
+  }
+
+  void see_pierce(const ProgramCut& cut, double turns, const motion::Counted& counted) {
+    auto job = cut_job(l_.spec, cut, turns);
+    job.machine = machine_;
+    const motion::Reconstruction torch(job);
+    motion::AxisValues values(counted, machine_);
+    const auto x = torch.at(values.now());
+    const auto sign = machine_.b_positive == motion::BPositive::outer_edge_to_waste ? -1.0 : 1.0;
+    const auto quantum = torch.quantum(std::abs(cut.first().b));
+    const double radius = cut.cut.path.outer_radius;
+    see(pierce_, std::abs(x[0] - cut.first().phi - turns) * radius, radius * quantum[0]);
+    see(pierce_, std::abs(x[1] - cut.first().z), quantum[1]);
+    see(pierce_, std::abs(x[2] - sign * cut.first().b) * radius, radius * quantum[2]);
+    if (const auto off = torch.standoff_error(values.now()))
+      see(pierce_, std::abs(*off), torch.standoff_quantum());
+    const double asked = l_.spec.setup.pierce_delay;
+    see(delay_, asked - static_cast<double>(still(counted)) * counted.period, 0.0);
+  }
+
+  /// The tip's height over the tube where more than that changes. Between two places B goes
+  /// straight, so that the tip hangs lower by no more than its bend.
+  void see_rapid(double radius, const motion::Counted& counted) {
+    if (!lifts_) return;
+    motion::AxisValues values(counted, machine_);
+    double before = height(values.now());
+    for (std::size_t k = 0; k < counted.periods && !stops(l_.stop, k); ++k) {
+      const double b = values.now()[swing_];
+      values.step(k);
+      const double now = height(values.now());
+      const double swung = (values.now()[swing_] - b) * kRadPerDeg;
+      const double bend = pivot_ * swung * swung / 8.0;
+      if (level(counted, k))
+        see(clear_, l_.spec.setup.clearance + radius - std::min(before, now) + bend,
+            quantum() + bend);
+      before = now;
+    }
+  }
+
+  void report(WorstOf& out) const {
+    const auto add = [&](const Worst& worst, const char* name, const char* unit) {
+      if (worst.any()) out.see(worst.check(name, unit));
+    };
+    add(pierce_, "pierce_place", "mm");
+    add(delay_, "pierce_delay", "s");
+    add(clear_, "rapid_clearance", "mm");
+  }
+
+ private:
+  static void see(Worst& worst, double value, double limit) {
+    worst.see(std::max(0.0, value), limit + kRounding);
+  }
+
+  /// Of the tip over the tube's axis, with nothing of what made the counts.
+  [[nodiscard]] double height(const std::vector<double>& q) const {
+    double pivot = 0.0;
+    for (std::size_t a = 0; a < q.size(); ++a)
+      if (high_[a]) pivot += q[a];
+    return pivot - pivot_ * elementary::cos(q[swing_] * kRadPerDeg);
+  }
+
+  /// What rounding to pulses moves the tip's height by.
+  [[nodiscard]] double quantum() const {
+    double out = 0.0;
+    for (std::size_t a = 0; a < high_.size(); ++a) {
+      const double half = 0.5 / machine_.axes[a].pulses_per_axis_unit();
+      if (high_[a]) out += half;
+      if (a == swing_) out += pivot_ * half * kRadPerDeg;
+    }
+    return out;
+  }
+
+  [[nodiscard]] bool level(const motion::Counted& counted, std::size_t k) const {
+    for (std::size_t a = 0; a < high_.size(); ++a)
+      if (!high_[a] && !counted.counts[a].empty() && counted.counts[a][k] != 0) return true;
+    return false;
+  }
+
+  /// Periods at the stretch's start without any pulse.
+  static std::size_t still(const motion::Counted& counted) {
+    for (std::size_t k = 0; k < counted.periods; ++k)
+      for (const auto& counts : counted.counts)
+        if (!counts.empty() && counts[k] != 0) return k;
+    return counted.periods;
+  }
+
+  const Looked& l_;
+  motion::Machine machine_;  // its stand-off that of the pierce
+  double pivot_ = 0.0;
+  bool lifts_ = false;
+  std::vector<bool> high_ = {};
+  std::size_t swing_ = 0;
+  Worst pierce_ = {}, delay_ = {}, clear_ = {};
+};
+
+/// All but I1. False where a cut of the job is none.
+bool examine(const Looked& l, bool own, std::vector<Check>& out, double& deviation) {
+  WorstOf all;
+  Between between(l);
+  const auto turns = windings(l.cuts);
+  std::vector<std::int64_t> sums(l.counted.counts.size(), 0);
+  for (const auto& segment : l.segments) {
+    if (l.stop.stop_requested()) return true;
+    const auto part = stretch(l.counted, segment, sums);
+    const auto& cut = l.cuts[segment.cut];
+    if (segment.kind == Kind::rapid) between.see_rapid(cut.cut.path.outer_radius, part);
+    if (segment.kind == Kind::pierce) between.see_pierce(cut, turns[segment.cut], part);
+    if (segment.kind == Kind::cut) {
+      const auto job = cut_job(l.spec, cut, turns[segment.cut]);
+      const auto prepared = motion::prepare_cut(job, l.stop);
+      if (!prepared) return false;
+      for (const auto& check : motion::place_invariants(*prepared, part, l.stop)) all.see(check);
+      const auto followed = motion::path_invariants(job, *prepared, part, own, l.stop);
+      for (const auto& check : followed.checks) all.see(check);
+      deviation = std::max(deviation, followed.deviation);
+    }
+    add_up(part, sums);
+  }
+  const auto& machine = l.spec.machine;
+  for (const auto& check : motion::rate_invariants(machine, l.counted, l.spec.motion.jerk, l.stop))
+    all.see(check);
+  all.see({"torch_lit", wrongly_lit(l), 0.0, "periods"});
+  between.report(all);
+  for (auto& check : all.checks()) out.push_back(std::move(check));
+  return true;
+}
+
+}  // namespace
+
+std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedule,
+                          const std::stop_token& stop) {
+  const auto& whole = schedule.whole;
+  const std::vector<Check> misfit{{"replayable", 1.0, 0.0, ""}};
+  const auto cuts = lay(spec, stop);
+  if (!cuts || whole.axes.size() != spec.machine.axes.size() ||
+      whole.period != spec.machine.period || whole.periods <= 0)
+    return misfit;
+  motion::Counted counted{whole.period, static_cast<std::size_t>(whole.periods), {}, {}, {}};
+  for (const auto& axis : whole.axes) {
+    if (!axis.idle() && axis.counts.size() != counted.periods) return misfit;
+    counted.counts.emplace_back(axis.counts);
+    counted.start.push_back(axis.start);
+  }
+  const Looked looked{spec, *cuts, schedule.segments, whole.events, counted, stop};
+  std::vector<Check> out{{"I1", 0.0, 0.0, "pulses"},
+                         {"segments_join", wrong_borders(looked), 0.0, ""}};
+  double deviation = 0.0;
+  if (!out.back().passed()) return out;
+  return examine(looked, true, out, deviation) ? out : misfit;
+}
+
+}  // namespace tubecut::torch

@@ -1,0 +1,87 @@
+#include "core/torch/torch_stand.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/base/try.hpp"
+
+namespace tubecut::torch {
+namespace {
+
+Result<std::vector<motion::AxisFunction>> functions(motion::Machine machine,
+                                                    const motion::CutPath& tube, double off) {
+  if (auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine.kinematics))
+    cutter->standoff = off;
+  return motion::axis_functions({.cut = tube, .machine = std::move(machine)});
+}
+
+std::vector<double> values(const std::vector<motion::AxisFunction>& axes,
+                           const motion::CutPoint& point) {
+  std::vector<double> out;
+  for (const auto& f : axes) out.push_back(f.at(motion::Coordinates{point.phi, point.z, point.b}));
+  return out;
+}
+
+}  // namespace
+
+Result<TorchStand> TorchStand::of(const motion::Machine& machine, const motion::CutPath& tube,
+                                  const Setup& setup) {
+  TorchStand out;
+  out.machine_ = machine;
+  TRY(out.cutting_, functions(machine, tube, setup.cut_height));
+  TRY(out.piercing_, functions(machine, tube, setup.pierce_off()));
+  out.set_height(tube, setup);
+  return out;
+}
+
+void TorchStand::set_height(const motion::CutPath& tube, const Setup& setup) {
+  const auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine_.kinematics);
+  if (cutter == nullptr) return;
+  const auto find = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::find(machine_.axes, name, &motion::Axis::name) -
+                                    machine_.axes.begin());
+  };
+  Height height{.axis = find("Z1"),
+                .clear = tube.outer_radius + cutter->pivot_length + setup.clearance};
+  if (const auto fine = find("Z2"); fine < machine_.axes.size()) height.fine = fine;
+  height_ = height;
+}
+
+motion::CutPoint TorchStand::counted(motion::CutPoint point, double turns) const {
+  point.phi += turns;
+  if (machine_.b_positive == motion::BPositive::outer_edge_to_waste) point.b = -point.b;
+  return point;
+}
+
+std::vector<double> TorchStand::cutting(const motion::CutPoint& point) const {
+  return values(cutting_, point);
+}
+
+std::vector<double> TorchStand::piercing(const motion::CutPoint& point) const {
+  return values(piercing_, point);
+}
+
+std::vector<double> TorchStand::clear(std::vector<double> axes) const {
+  if (height_) axes[height_->axis] = height_->clear - (height_->fine ? axes[*height_->fine] : 0.0);
+  return axes;
+}
+
+Result<void> TorchStand::check(const std::vector<double>& axes) const {
+  std::vector<Issue> issues;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const auto& axis = machine_.axes[a];
+    const auto see = [&](bool beyond, const char* bound, const std::optional<double>& limit) {
+      if (beyond)
+        issues.push_back({ErrorCode::soft_limit, "machine/axes/" + std::to_string(a) + "/" + bound,
+                          axes[a], *limit, std::string(motion::name_of(axis.unit)),
+                          "axis " + axis.name + " between two cuts"});
+    };
+    see(axis.soft_min && axes[a] < *axis.soft_min, "soft_min", axis.soft_min);
+    see(axis.soft_max && axes[a] > *axis.soft_max, "soft_max", axis.soft_max);
+  }
+  if (issues.empty()) return {};
+  return tl::unexpected<Error>(Error{std::move(issues)});
+}
+
+}  // namespace tubecut::torch
