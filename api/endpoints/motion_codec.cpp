@@ -5,12 +5,14 @@
 #include "api/common_fields.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/groove_codec.hpp"
+#include "api/endpoints/motion_options.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/part/member.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -21,8 +23,6 @@ using motion::Surface;
 constexpr CountRange kPoints{.min = 3, .max = static_cast<std::size_t>(limit::nodes_max)};
 constexpr Range kUnwrappedDeg{.min = -36'000.0, .max = 36'000.0};
 constexpr Range kBevelDeg{.min = -85.0, .max = 85.0};
-constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};  // mm/min
-constexpr Range kBeam{.min = 0.0, .max = 1e5};
 
 /// What of a table's points tells their sign of B.
 struct TorchLines {
@@ -130,83 +130,6 @@ motion::AxisColumns decode_axes(Reader& in, const motion::Machine& machine) {
   return out;
 }
 
-motion::Speed decode_speed(Reader& in) {
-  if (in.exactly_one({"mm_min", "table"}) != 1) return in.number("mm_min", kSpeed) / 60.0;
-  motion::SpeedTable out;
-  out.pairs = in.pairs("table", {.min = 2, .max = 1'000}, kBeam, kSpeed);
-  for (std::size_t i = 0; i < out.pairs.size(); ++i) {
-    out.pairs[i].second /= 60.0;
-    if (i > 0 && !(out.pairs[i].first > out.pairs[i - 1].first))
-      in.issue({.code = ErrorCode::out_of_range,
-                .pointer = "table/" + std::to_string(i) + "/0",
-                .got = Json{out.pairs[i].first},
-                .limit = Json{out.pairs[i - 1].first},
-                .unit = "mm",
-                .hint = "the metal in the beam must ascend"});
-  }
-  return out;
-}
-
-motion::Lead decode_lead(Reader& in) {
-  motion::Lead out;
-  out.radius = in.number("radius_mm", {.min = 0.1, .max = 1'000.0}, 5.0);
-  out.sweep = in.angle("sweep_deg", {.min = 1.0, .max = 180.0}, Angle::deg(60));
-  out.overcut = in.number("overcut_mm", {.min = 0.0, .max = 1'000.0}, 5.0);
-  out.pierce_b = in.optional_angle("pierce_b_deg", {.min = 0.0, .max = 85.0});
-  out.fan = in.number("fan_mm", {.min = 0.1, .max = 1'000.0}, 10.0);
-  return out;
-}
-
-motion::Sector decode_sector(Reader& in) {
-  motion::Sector out;
-  out.from = in.angle("from_phi_deg", kAnyAngleDeg);
-  out.to = in.angle("to_phi_deg", kAnyAngleDeg);
-  out.back_up = in.number("back_up_mm", {.min = 0.0, .max = 1'000.0}, 5.0);
-  return out;
-}
-
-motion::Expert decode_expert(Reader& in) {
-  motion::Expert out;
-  out.optimism = in.number("optimism", {.min = 1.0, .max = 10.0}, 3.0);
-  if (const auto filter =
-          in.nullable_number("filter_ms", {.min = 0.0, .max = 10'000.0, .open_min = true}))
-    out.filter = *filter * 1e-3;
-  out.sag_warning = in.flag("sag_warning", true);
-  return out;
-}
-
-/// What only a contour has: where to start, which way round, leads, a sector.
-void decode_course(Reader& in, bool hole, motion::Motion& out) {
-  if (in.find("start_phi_deg") != nullptr && *in.find("start_phi_deg") == Json{"auto"}) {
-    in.note("start_phi_deg");
-    in.put("start_phi_deg", Json{"auto"});
-    out.start.at = motion::Start::At::automatic;
-  } else if (in.has("start_phi_deg") || !hole) {  // a hole need not have a point at phi 0
-    out.start = {motion::Start::At::phi, in.angle("start_phi_deg", kAnyAngleDeg, Angle{})};
-  }
-  in.note("start_phi_deg");
-  out.direction = in.choice("direction", motion::Direction::ccw);
-  if (!in.is_null("lead")) out.lead = in.optional_object("lead", decode_lead);
-  if (!in.is_null("sector")) out.sector = in.optional_object("sector", decode_sector);
-}
-
-motion::Motion decode_motion(Reader& in, const CutSource& cut) {
-  motion::Motion out;
-  const auto* contour = std::get_if<motion::CutPath>(&cut);
-  const bool has_contour = contour != nullptr || std::holds_alternative<BevelTableRequest>(cut);
-  out.speed = in.object("speed", decode_speed);
-  if (has_contour) out.speed_on = in.choice("speed_on", Surface::outer);
-  out.eps_tip = in.number("eps_tip_mm", {.min = 1e-3, .max = 10.0}, 0.1);
-  out.eps_b = in.angle("eps_b_deg", {.min = 0.01, .max = 10.0}, Angle::deg(0.5));
-  out.jerk = in.flag("jerk", true);
-  out.compare = in.flag("compare", false);
-  const bool closed = contour == nullptr || contour->closed;
-  if (has_contour)
-    decode_course(in, !closed || (contour != nullptr && contour->scrap == Scrap::inside), out);
-  out.expert = in.defaulted_object("expert", decode_expert);
-  return out;
-}
-
 /// The torch line of a table on its root surface, a corner at each event that is a node.
 motion::CutPath contour_of(const bevel::TableSpec& spec, const bevel::Table& table) {
   const bool outer = spec.root_surface == bevel::RootSurface::outer;
@@ -287,6 +210,24 @@ struct CutOf {
   Result<motion::Cut> operator()(const motion::AxisColumns& columns) const {
     return motion::Cut{columns};
   }
+  /// Its cuts, one after the other, are those of `job.program`.
+  Result<motion::Cut> operator()(const PartRequest& spec) const {
+    const auto named = [&](Error error) {
+      return under("part", on_request(spec, std::move(error)));
+    };
+    TRY(const auto part, part::part(spec.part, stop).map_error(named));
+    job.checks = part::verify(spec.part, part, stop);
+    job.warnings = on_request(spec, part.warnings);
+    job.warnings.insert(job.warnings.end(), spec.warnings.begin(), spec.warnings.end());
+    for (auto& warning : job.warnings)
+      warning.member = warning.member.empty() ? "part" : "part/" + warning.member;
+    job.program = {.cuts = torch::torch_cuts(spec.part, part),
+                   .setup = request.setup,
+                   .machine = request.machine,
+                   .motion = request.motion,
+                   .max_periods = request.max_periods};
+    return motion::Cut{};
+  }
 };
 
 }  // namespace
@@ -294,7 +235,7 @@ struct CutOf {
 ScheduleRequest decode_schedule_request(Reader& in) {
   ScheduleRequest out;
   out.machine = decode_machine_choice(in, "machine");
-  switch (in.exactly_one({"cut", "contour", "mill_path", "axes"}).value_or(4)) {
+  switch (in.exactly_one({"cut", "contour", "mill_path", "axes", "part"}).value_or(5)) {
     case 0:
       out.cut = in.object("cut", [](Reader& cut) {
         read_inner_common_fields(cut);
@@ -313,10 +254,22 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     case 3:
       out.cut = in.object("axes", [&](Reader& axes) { return decode_axes(axes, out.machine); });
       break;
+    case 4:
+      out.cut = in.object("part", [](Reader& part) {
+        read_inner_common_fields(part);
+        return decode_part_request(part);
+      });
+      break;
     default:
       break;
   }
-  out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
+  if (std::holds_alternative<PartRequest>(out.cut)) {
+    auto asked = in.object("motion", [&](Reader& m) { return decode_part_motion(m, out.machine); });
+    out.motion = std::move(asked.motion);
+    out.setup = std::move(asked.setup);
+  } else {
+    out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
+  }
   const auto* contour = std::get_if<motion::CutPath>(&out.cut);
   const auto* body = in.find("contour");
   if (contour != nullptr && in.understood("contour") && out.motion.lead &&
@@ -328,6 +281,21 @@ ScheduleRequest decode_schedule_request(Reader& in) {
   out.max_periods =
       static_cast<std::int64_t>(in.binary() ? limit::periods_cbor_max : limit::periods_json_max);
   return out;
+}
+
+Result<ScheduleRequest> resolve(ScheduleRequest request, const std::stop_token& stop) {
+  auto* const part = std::get_if<PartRequest>(&request.cut);
+  if (part == nullptr) return request;
+  TRY(auto resolved, under("part", resolve(std::move(*part), stop)));
+  for (const auto& hole : resolved.part.holes)
+    if (hole.hole.tilt == bevel::Tilt::free)
+      return fail({.code = ErrorCode::unsupported_combination,
+                   .member = "part/holes/" + std::to_string(hole.asked) + "/tilt",
+                   .got = "free",
+                   .limit = "axial|none",
+                   .hint = "the machine's torch swings along the tube only"});
+  request.cut = std::move(resolved);
+  return request;
 }
 
 Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request,

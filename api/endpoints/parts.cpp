@@ -123,10 +123,7 @@ Result<Parts::Spec> Parts::resolve(Spec spec, const std::stop_token& stop) {
   return api::resolve(std::move(spec), stop);
 }
 
-void Parts::count(const Spec& spec, Work& work) {
-  for (const auto* end : {&spec.part.start, &spec.part.finish}) add_work(end->cut, work);
-  for (const auto& one : spec.part.holes) add_work(one.hole, work);
-}
+void Parts::count(const Spec& spec, Work& work) { add_work(spec, work); }
 
 Result<Parts::Out> Parts::compute(const Spec& spec, const std::stop_token& stop) {
   auto part = part::part(spec.part, stop);

@@ -7,8 +7,10 @@
 #include "api/endpoints/work.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
+#include "api/wire_names.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/replay.hpp"
+#include "core/torch/program_replay.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -20,12 +22,38 @@ struct Schedule {
   double period = 0.0;
   std::vector<std::vector<double>> counts;
   std::vector<double> start;
+  std::vector<torch::Segment> segments;  // of a part
+  std::vector<motion::Event> events;
 };
 
-Schedule decode_schedule(Reader& in, const motion::Machine& machine) {
+using Kind = torch::Segment::Kind;
+constexpr std::array kKinds{Option<Kind>{"rapid", Kind::rapid},
+                            Option<Kind>{"pierce", Kind::pierce}, Option<Kind>{"cut", Kind::cut}};
+
+/// Which stretch is what, and when the torch burns: what the counts do not tell.
+void decode_segments(Reader& in, Schedule& out) {
+  constexpr auto kLast = static_cast<int>(kMostPeriods);
+  // Of 64 branches, each through both sides, and two ends.
+  constexpr CountRange kSegments{.min = 1, .max = 400}, kEvents{.min = 1, .max = 1'200};
+  out.segments = in.array("segments", kSegments, [&](Reader& s) {
+    for (const auto* other : {"name", "start", "lead_radius_mm", "way", "report"}) s.note(other);
+    torch::Segment segment{.kind = s.choice("kind", kKinds)};
+    segment.from = s.integer("from", 0, kLast);
+    segment.to = s.integer("to", 0, kLast);
+    return segment;
+  });
+  out.events = in.array("events", kEvents, [&](Reader& e) {
+    e.note("cut");
+    motion::Event event{.period = e.integer("period", 0, kLast)};
+    event.what = e.choice("what", kNames<motion::EventKind>);
+    return event;
+  });
+}
+
+Schedule decode_schedule(Reader& in, const motion::Machine& machine, bool part) {
   if (in.refused()) in.silence();  // its members follow from the machine's axes
-  for (const auto* other :
-       {"machine_sha256", "periods", "axes", "idle", "total", "events", "report", "comparison"})
+  for (const auto* other : {"machine_sha256", "periods", "axes", "idle", "total", "events",
+                            "report", "comparison", "segments", "times"})
     in.note(other);
   Schedule out;
   out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
@@ -42,6 +70,7 @@ Schedule decode_schedule(Reader& in, const motion::Machine& machine) {
       out.start.push_back(s.number(axis.name, {.min = -1e9, .max = 1e9}));
     return 0;
   });
+  if (part) decode_segments(in, out);
   return out;
 }
 
@@ -52,6 +81,19 @@ constexpr std::string_view kBlindSpot =
 /// The limits from which on it is seen after all, by the invariants that have them.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kSeenFrom{
     {{"off_path_mm", "I10"}, {"b_deg", "I12"}}};
+
+Result<motion::Replay> replayed(const Schedule& s, ScheduleJob& job, const std::stop_token& stop) {
+  if (job.program)
+    return torch::replay({.job = *std::move(job.program),
+                          .period = s.period,
+                          .counts = s.counts,
+                          .start = s.start,
+                          .segments = s.segments,
+                          .events = s.events},
+                         stop);
+  return motion::replay(
+      {.job = std::move(job.spec), .period = s.period, .counts = s.counts, .start = s.start}, stop);
+}
 
 struct Replays {
   struct Spec {
@@ -74,11 +116,16 @@ struct Replays {
   static Spec decode(Reader& in) {
     Spec out;
     out.job = decode_schedule_request(in);
-    out.schedule =
-        in.object("schedule", [&](Reader& s) { return decode_schedule(s, out.job.machine); });
+    out.schedule = in.object("schedule", [&](Reader& s) {
+      return decode_schedule(s, out.job.machine, std::holds_alternative<PartRequest>(out.job.cut));
+    });
     return out;
   }
 
+  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
+    TRY(spec.job, api::resolve(std::move(spec.job), stop));
+    return spec;
+  }
   static void count(const Spec& spec, Work& work) {
     add_cut_work(spec.job, work);
     for (const auto& counts : spec.schedule.counts)
@@ -86,11 +133,7 @@ struct Replays {
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     TRY(auto job, compute_schedule_job(spec.job, stop));
-    TRY(auto replay, motion::replay({.job = std::move(job.spec),
-                                     .period = spec.schedule.period,
-                                     .counts = spec.schedule.counts,
-                                     .start = spec.schedule.start},
-                                    stop));
+    TRY(auto replay, replayed(spec.schedule, job, stop));
     Out out{std::move(replay), std::move(job.checks), std::move(job.warnings)};
     for (const auto& invariant : out.replay.invariants)
       if (!invariant.passed())

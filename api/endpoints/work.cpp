@@ -14,6 +14,7 @@ namespace {
 constexpr double kLeastNodes = 36.0;  // of a curve sampled by a tolerance
 constexpr double kNodes = 2.8;        // times sqrt(radius / tolerance), of joints of all kinds
 constexpr double kCutLength = 1.3;    // of a cut, in its tube's girths
+constexpr double kBetweenCuts = 5.0;  // s, from one cut of a part to the next
 constexpr double kSpacing = 0.1;      // mm between the knots of a path
 constexpr double kSquarePair = 0.1;   // of a pair's price: nothing leans beside it
 constexpr double kMotions = 2.5;      // a cycle's whole motion, in times of its work feed
@@ -79,6 +80,17 @@ bevel::TableSpec stated(const BevelTableRequest& cut) {
   return out;
 }
 
+/// Both ends and all holes.
+PathLength length_of(const PartRequest& part) {
+  PathLength out{.bent = 2.0 * kCutLength * kTwoPi * part.part.target.outer_radius};
+  for (const auto& one : part.part.holes) {
+    const double radius = std::visit([](const auto& tube) { return tube.radius; }, one.hole.branch);
+    const double sides = one.hole.kind == bevel::JointKind::through ? 2.0 : 1.0;
+    out.bent += sides * kCutLength * kTwoPi * radius;
+  }
+  return out;
+}
+
 PathLength length_of(const CutSource& cut) {
   return std::visit(
       [](const auto& of) -> PathLength {
@@ -90,8 +102,15 @@ PathLength length_of(const CutSource& cut) {
         if constexpr (std::is_same_v<Of, motion::CutPath>) return length_of(of);
         if constexpr (std::is_same_v<Of, motion::AxisColumns>)
           return {.bent = of.length.empty() ? 0.0 : std::abs(of.length.back() - of.length.front())};
+        if constexpr (std::is_same_v<Of, PartRequest>) return length_of(of);
       },
       cut);
+}
+
+/// How many schedules there are in one.
+double cuts_of(const CutSource& cut) {
+  const auto* const part = std::get_if<PartRequest>(&cut);
+  return part == nullptr ? 1.0 : 2.0 + static_cast<double>(part->part.holes.size());
 }
 
 /// mm/s
@@ -176,6 +195,11 @@ void add_work(const bevel::HoleSpec& spec, Work& work) {
   work.add(Cost::beam_pair, sides * beam_pairs(points, spec.kerf, radius));
 }
 
+void add_work(const PartRequest& spec, Work& work) {
+  for (const auto* end : {&spec.part.start, &spec.part.finish}) add_work(end->cut, work);
+  for (const auto& one : spec.part.holes) add_work(one.hole, work);
+}
+
 void add_work(const joint::NodeSpec& node, const joint::Nodes& solved,
               const joint::Sampling* profiles, const bevel::TableSpec* tables, Work& work) {
   work.add(Cost::member, static_cast<double>(node.members.size()));
@@ -228,16 +252,19 @@ void add_cut_work(const ScheduleRequest& request, Work& work) {
     work.add(Cost::contour_point, static_cast<double>(contour->phi.size()));
   if (const auto* const axes = std::get_if<motion::AxisColumns>(&request.cut))
     work.add(Cost::axis_row, static_cast<double>(axes->length.size()));
+  if (const auto* const part = std::get_if<PartRequest>(&request.cut)) add_work(*part, work);
 }
 
 void add_schedule_work(const ScheduleRequest& request, Work& work) {
   const auto length = length_of(request.cut);
   const double speed = mean_speed(request.motion.speed);
   add_cut_work(request, work);
-  work.add(Cost::path);
+  work.add(Cost::path, cuts_of(request.cut));
   work.add(Cost::path_knot, length.bent / kSpacing);
   work.add(Cost::straight_knot, length.straight / kSpacing);
-  if (speed > 0.0) work.add(Cost::period, length.whole() / speed / request.machine.period);
+  const double between = kBetweenCuts * (cuts_of(request.cut) - 1.0);
+  if (speed > 0.0)
+    work.add(Cost::period, (length.whole() / speed + between) / request.machine.period);
 }
 
 }  // namespace tubecut::api

@@ -2,6 +2,7 @@
 
 #include "api/cost.hpp"
 #include "api/endpoints/motion_codec.hpp"
+#include "api/endpoints/part_request.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 #include "core/cutoff/feed_curve.hpp"
@@ -18,6 +19,7 @@ namespace tubecut::api {
 void add_work(const joint::IntersectionSpec& spec, Work& work);
 void add_work(const bevel::TableSpec& spec, Work& work);
 void add_work(const bevel::HoleSpec& spec, Work& work);
+void add_work(const PartRequest& spec, Work& work);  // resolved
 void add_work(const groove::GrooveSpec& spec, Work& work);
 void add_work(const groove::MillPathSpec& spec, Work& work);
 void add_work(const cutoff::FeedCurveSpec& spec, Work& work);

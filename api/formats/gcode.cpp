@@ -14,6 +14,7 @@
 #include "api/posts.hpp"
 #include "api/stop.hpp"
 #include "core/base/elementary.hpp"
+#include "core/torch/torch_program.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -23,19 +24,19 @@ constexpr double kSag = 0.019;  // mm, of one move; below 0.02 with the rounding
 
 TorchPlace place(const motion::CutPoint& p) { return {p.phi, p.z, p.b, p.a}; }
 
-/// A hole reaches few angles, so that its start is found.
-torch::Approach approach(const torch::TorchCut& cut, const FormatOptions& o) {
-  torch::Approach out;
+torch::Setup setup_of(const FormatOptions& o) {
+  torch::Setup out{.pierce_height = o.pierce_height};
   const auto deg = [](const std::optional<double>& v) {
     return v ? std::optional(Angle::deg(*v)) : std::nullopt;
   };
   if (const double lead = o.lead.value_or(0.0); lead > 0.0) {
     out.lead = {.radius = lead, .pierce_b = deg(o.pierce_bevel)};
     if (o.overcut) out.lead->overcut = *o.overcut;
-    out.start = {.at = motion::Start::At::automatic, .seam = Angle{}};
   }
-  if (o.start && cut.path.scrap != motion::Scrap::inside)
-    out.start = {.at = motion::Start::At::phi, .phi = Angle::deg(*o.start)};
+  out.start = deg(o.start);
+  out.clearance = o.clearance.value_or(out.clearance);
+  out.cut_height = o.cut_height.value_or(0.0);
+  out.pierce_delay = o.pierce_delay.value_or(0.0);
   return out;
 }
 
@@ -77,20 +78,20 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
       .pivot = o.pivot_length ? *o.pivot_length + o.cut_height.value_or(0.0) : 0.0};
   std::vector<TorchCutPlaces> out;
   for (const auto& cut : job.cuts) {
-    const auto way = torch::torch_way(cut, approach(cut, o), caption.stop);
+    const auto laid = torch::program_cut(cut, setup_of(o), caption.stop);
     ask(caption.stop);
-    if (!way) refuse(cut, o, way.error());
-    if (way->radius < job.shortest_lead)
+    if (!laid) refuse(cut, o, laid.error());
+    const auto& way = laid->way;
+    if (way.radius < job.shortest_lead)
       throw UnfitOption{"lead_mm", (cut.name.empty() ? "the cut" : "cut " + cut.name) +
                                        ": the scrap has no room for the shortest lead of the "
                                        "machine's table, " +
                                        mm(job.shortest_lead)};
-    const auto& points = way->points.points;
     out.push_back({.name = cut.name,
-                   .places = refined(points, reach, caption.stop, moves),
+                   .places = refined(way.points.points, reach, caption.stop, moves),
                    .kerf = cut.kerf,
-                   .radius = way->radius,
-                   .start = place(points[way->points.cut_first])});
+                   .radius = way.radius,
+                   .start = place(way.points.points[way.points.cut_first])});
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #include "api/formats/schedule_formats.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -81,6 +82,19 @@ Columns naive_columns(const motion::Naive& naive) {
   return out;
 }
 
+/// Marks of one cut's events; of a program's, which are many, the rapids between the cuts.
+void tell_events(const motion::Schedule& s, Chart& chart) {
+  using enum motion::EventKind;
+  const auto at = [&](const motion::Event& e) { return s.period * static_cast<double>(e.period); };
+  const bool program = std::ranges::count(s.events, rapid_start, &motion::Event::what) > 0;
+  for (const auto& event : s.events) {
+    if (!program)
+      chart.marks.push_back({at(event), called(motion::name_of(event.what), Term::value)});
+    if (event.what == rapid_start) chart.bands.push_back({.from = at(event), .label = "rapid"});
+    if (event.what == rapid_end) chart.bands.back().to = at(event);
+  }
+}
+
 }  // namespace
 
 std::string schedule_csv(const motion::Schedule& schedule, const Caption& caption) {
@@ -110,11 +124,10 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
                              .color = kColors[a % std::size(kColors)],
                              .every = s.period});
   }
-  for (const auto& event : s.events)
-    pulses.marks.push_back({s.period * static_cast<double>(event.period),
-                            called(motion::name_of(event.what), Term::value)});
+  tell_events(s, pulses);
   std::vector<Chart> charts{std::move(pulses)};
-  if (std::holds_alternative<motion::CutPath>(spec.cut)) {
+  const auto* const contour = std::get_if<motion::CutPath>(&spec.cut);
+  if (contour != nullptr && !contour->phi.empty()) {
     Chart speed{.title = std::string("Speed of the cut on the ") +
                          std::string(name_of(spec.motion.speed_on)) +
                          " surface, mean of 25 periods",

@@ -118,6 +118,38 @@ std::string header(const motion::Machine& machine, const motion::Schedule& s,
          gcode_hashes(caption);
 }
 
+/// A program begins clear of the tube: there first, from wherever the torch is.
+std::string lifted(const motion::Machine& machine, const motion::Schedule& s,
+                   const std::vector<char>& letters, const Post& post) {
+  const auto axis = std::ranges::find(machine.axes, "Z1", &motion::Axis::name);
+  if (!std::holds_alternative<motion::FiveAxisCutter>(machine.kinematics) ||
+      axis == machine.axes.end())
+    return {};
+  const auto a = static_cast<std::size_t>(axis - machine.axes.begin());
+  return post_line(post.rapid, {{"axes", letters[a] + fixed(s.axes[a].start, 6)}});
+}
+
+/// Straight to where the words say, evenly in so much time.
+std::string timed(const Post& post, const std::string& axes, double way, double seconds) {
+  const double rate = 60.0 / seconds;  // 1/min
+  return post_line(post.timed_move, {{"axes", axes},
+                                     {"per_minute", fixed(rate, 6)},
+                                     {"units_per_minute", fixed(std::max(way * rate, 1e-3), 3)}});
+}
+
+/// What an event switches or says.
+std::string told(const motion::Event& event, const std::vector<std::string>& names,
+                 const Caption& caption) {
+  using enum motion::EventKind;
+  const auto& post = post_of(caption.options);
+  if (event.what == torch_on && caption.options.torch) return post_lines(post.torch_on);
+  if (event.what == torch_off) return post_lines(post.torch_off);
+  if (event.what == rapid_start && !names.empty())
+    return post.comment("rapid: " + names[event.cut]);
+  if (event.what == cut_start && !names.empty()) return post.comment("cut: " + names[event.cut]);
+  return {};
+}
+
 }  // namespace
 
 std::vector<char> axis_letters(const std::vector<motion::AxisPulses>& axes) {
@@ -163,7 +195,8 @@ std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance,
 }
 
 std::string print_schedule_gcode(const motion::Machine& machine, const motion::ScheduleSpec& spec,
-                                 const motion::Schedule& s, const Caption& caption) {
+                                 const motion::Schedule& s, const std::vector<std::string>& names,
+                                 const Caption& caption) {
   const bool contour = std::holds_alternative<motion::CutPath>(spec.cut);
   if (!contour && caption.options.torch)
     throw UnfitOption{"torch", "a mill path has no torch; leave it out"};
@@ -172,6 +205,7 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
   Cursor at(s);
   std::string out = post_lines(post.begin) + header(machine, s, letters, contour, caption) +
                     post_lines(post.modes) + (contour ? post_lines(post.tool) : "") +
+                    (names.empty() ? "" : lifted(machine, s, letters, post)) +
                     post_line(post.rapid, {{"axes", words(machine, s, letters, at.sums())}}) +
                     post_lines(post.cut_begin);
   std::int64_t from = 0;
@@ -179,20 +213,15 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
     ask(caption.stop);
     const auto before = at.sums();
     at.advance_to(end);
-    const double rate = 60.0 / (s.period * static_cast<double>(end - from));  // 1/min
-    if (end > from)
-      out += post_line(post.timed_move,
-                       {{"axes", words(machine, s, letters, at.sums())},
-                        {"per_minute", fixed(rate, 6)},
-                        {"units_per_minute",
-                         fixed(std::max(distance(machine, before, at.sums()) * rate, 1e-3), 3)}});
+    const double seconds = s.period * static_cast<double>(end - from);
+    if (end > from && before == at.sums())  // a move of no length would take no time
+      out += post_line(post.dwell, {{"seconds", fixed(seconds, 6)}});
+    else if (end > from)
+      out += timed(post, words(machine, s, letters, at.sums()),
+                   distance(machine, before, at.sums()), seconds);
     from = end;
-    for (const auto& event : s.events) {
-      if (event.period != end || !contour) continue;
-      if (event.what == motion::EventKind::torch_on && caption.options.torch)
-        out += post_lines(post.torch_on);
-      if (event.what == motion::EventKind::torch_off) out += post_lines(post.torch_off);
-    }
+    for (const auto& event : s.events)
+      if (event.period == end && contour) out += told(event, names, caption);
   }
   return post.numbered(out + post_lines(post.cut_end) + post_lines(post.end));
 }

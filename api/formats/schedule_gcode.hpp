@@ -22,11 +22,13 @@ namespace tubecut::api {
 
 /// A schedule as RS-274 for LinuxCNC: the axes' own values at such periods, each move in inverse
 /// time, so that the planned motion is kept in time as well. The torch (of a cut along a contour)
-/// is lit only by the option `torch`.
+/// is lit only by the option `torch`. Periods at rest are a dwell. `names`: of a program's cuts,
+/// which comments tell; empty of a single one.
 /// Accuracy  1 pulse at every period, 1e-6 of an axis' unit at the ends of moves.
 [[nodiscard]] std::string print_schedule_gcode(const motion::Machine& machine,
                                                const motion::ScheduleSpec& spec,
                                                const motion::Schedule& schedule,
+                                               const std::vector<std::string>& names,
                                                const Caption& caption);
 
 }  // namespace tubecut::api

@@ -6,11 +6,10 @@
 #include "api/posts.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/torch/torch_program.hpp"
 
 namespace tubecut::api {
 namespace {
-
-constexpr double kClearance = 50.0;  // mm, of the tip over the tube between two cuts
 
 /// The axis, or any where it is not needed.
 PostAxis needed(const Post& post, PostRole role, bool is, std::string_view option,
@@ -27,7 +26,7 @@ PostAxis needed(const Post& post, PostRole role, bool is, std::string_view optio
 TorchJoints::TorchJoints(double outer_radius, Leaning leaning, const FormatOptions& options)
     : radius_(outer_radius),
       pivot_(options.pivot_length),
-      clearance_(options.clearance.value_or(kClearance)),
+      clearance_(options.clearance.value_or(torch::kClearance)),
       tilts_(leaning.across),
       has_swing_(post_of(options).axis(PostRole::swing).has_value()),
       phi_to_plus_(options.axial_z) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/motion/course.hpp"
 #include "core/motion/invariants.hpp"
@@ -12,14 +13,8 @@ namespace {
 constexpr double kMostCount = 2147483647.0;
 constexpr std::size_t kAskEvery = 1024;  // numbers
 
-/// The counts as integers, and how far the worst was from one.
-struct Integers {
-  std::vector<std::vector<std::int32_t>> counts = {};
-  double worst = 0.0;
-};
-
-Integers integers(const std::vector<std::vector<double>>& counts, const std::stop_token& stop) {
-  Integers out;
+Received integers(const std::vector<std::vector<double>>& counts, const std::stop_token& stop) {
+  Received out;
   for (const auto& column : counts) {
     std::vector<std::int32_t> whole;
     whole.reserve(column.size());
@@ -34,8 +29,10 @@ Integers integers(const std::vector<std::vector<double>>& counts, const std::sto
   return out;
 }
 
-Result<std::size_t> periods_of(const ReplaySpec& spec) {
-  const std::size_t axes = spec.job.machine.axes.size();
+Result<std::size_t> periods_of(const Machine& machine, double period,
+                               const std::vector<std::vector<double>>& counts,
+                               const std::vector<double>& start) {
+  const std::size_t axes = machine.axes.size();
   const auto wrong = [](const std::string& member, std::size_t got, std::size_t wanted,
                         const char* of) {
     return fail({.code = ErrorCode::wrong_count,
@@ -48,17 +45,17 @@ Result<std::size_t> periods_of(const ReplaySpec& spec) {
     return fail({.code = ErrorCode::bad_number, .member = member});
   };
   constexpr auto kAxes = "the machine has axes";
-  if (spec.counts.size() != axes) return wrong("schedule/counts", spec.counts.size(), axes, kAxes);
-  if (spec.start.size() != axes) return wrong("schedule/start", spec.start.size(), axes, kAxes);
-  if (!(spec.period > 0.0 && spec.period <= 1.0)) return bad("schedule/period");
+  if (counts.size() != axes) return wrong("schedule/counts", counts.size(), axes, kAxes);
+  if (start.size() != axes) return wrong("schedule/start", start.size(), axes, kAxes);
+  if (!(period > 0.0 && period <= 1.0)) return bad("schedule/period");
   std::size_t periods = 0;
   for (std::size_t a = 0; a < axes; ++a) {
-    const auto& column = spec.counts[a];
-    const std::string at = "schedule/counts/" + spec.job.machine.axes[a].name;
+    const auto& column = counts[a];
+    const std::string at = "schedule/counts/" + machine.axes[a].name;
     if (!column.empty() && periods != 0 && column.size() != periods)
       return wrong(at, column.size(), periods, "the other axes have periods");
     if (!column.empty()) periods = column.size();
-    if (!std::isfinite(spec.start[a])) return bad("schedule/start");
+    if (!std::isfinite(start[a])) return bad("schedule/start");
     for (const double n : column) {
       if (!(std::abs(n) < kMostCount)) return bad(at);
     }
@@ -86,6 +83,8 @@ std::vector<Check> examine(const ScheduleSpec& spec, const PreparedCut& job, con
   return out;
 }
 
+}  // namespace
+
 void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
              const std::stop_token& stop) {
   if (!std::holds_alternative<CutPath>(spec.cut)) return;
@@ -101,20 +100,35 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
   }
 }
 
-}  // namespace
+Counted Received::counted() const {
+  Counted out{period, periods, {}, start, {}};
+  for (const auto& column : counts) out.counts.emplace_back(column);
+  return out;
+}
+
+Result<Received> received(const Machine& machine, double period,
+                          const std::vector<std::vector<double>>& counts, std::vector<double> start,
+                          const std::stop_token& stop) {
+  const auto periods = periods_of(machine, period, counts, start);
+  if (!periods) return tl::unexpected<Error>(periods.error());
+  Received out = integers(counts, stop);
+  out.period = period;
+  out.periods = *periods;
+  out.start = std::move(start);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  return out;
+}
 
 Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop) {
   const auto job = prepare_cut(spec.job, stop);
   if (!job) return tl::unexpected<Error>(job.error());
-  const auto periods = periods_of(spec);
-  if (!periods) return tl::unexpected<Error>(periods.error());
-  const Integers whole = integers(spec.counts, stop);
-  Counted counted{spec.period, *periods, {}, spec.start};
-  for (const auto& column : whole.counts) counted.counts.emplace_back(column);
+  const auto whole = received(spec.job.machine, spec.period, spec.counts, spec.start, stop);
+  if (!whole) return tl::unexpected<Error>(whole.error());
+  const Counted counted = whole->counted();
   Replay out;
   rebuild(spec.job, counted, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  out.invariants = examine(spec.job, *job, counted, whole.worst, false, &out.deviation, stop);
+  out.invariants = examine(spec.job, *job, counted, whole->worst, false, &out.deviation, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
 }

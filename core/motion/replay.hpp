@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <stop_token>
 #include <vector>
 
+#include "core/motion/reconstruction.hpp"
 #include "core/motion/schedule.hpp"
 
 namespace tubecut::motion {
@@ -15,6 +18,22 @@ struct ReplaySpec {
   std::vector<double> start = {};                // per axis, in its unit
 };
 
+/// The counts as integers, and how far the worst was from one.
+struct Received {
+  double period = 0.0;
+  std::size_t periods = 0;
+  std::vector<std::vector<std::int32_t>> counts = {};
+  std::vector<double> start = {};
+  double worst = 0.0;
+
+  [[nodiscard]] Counted counted() const;
+};
+
+/// Errors  wrong_count, bad_number, cancelled.
+[[nodiscard]] Result<Received> received(const Machine& machine, double period,
+                                        const std::vector<std::vector<double>>& counts,
+                                        std::vector<double> start, const std::stop_token& stop);
+
 /// The tool path that counts make, one more point than periods, and every invariant.
 struct Replay {
   std::vector<double> phi = {};  // rad; contour cuts
@@ -23,6 +42,10 @@ struct Replay {
   std::vector<Check> invariants = {};
   double deviation = 0.0;  // largest distance of the tip to the contour, mm
 };
+
+/// The path of a contour's counts; none of axis columns.
+void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
+             const std::stop_token& stop);
 
 /// Rebuilds the torch from integer counts and holds it against the contour: invariants I1 to I16,
 /// each with its worst value, the limit there and the unit. Those that do not apply (no contour, no

@@ -220,24 +220,25 @@ class Between {
   Worst pierce_ = {}, delay_ = {}, clear_ = {};
 };
 
-/// All but I1. False where a cut of the job is none.
-bool examine(const Looked& l, bool own, std::vector<Check>& out, double& deviation) {
+/// All that can be told where the segments are the program's.
+///
+/// Errors  those of motion::prepare_cut.
+Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double& deviation) {
   WorstOf all;
   Between between(l);
   const auto turns = windings(l.cuts);
   std::vector<std::int64_t> sums(l.counted.counts.size(), 0);
   for (const auto& segment : l.segments) {
-    if (l.stop.stop_requested()) return true;
+    if (l.stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     const auto part = stretch(l.counted, segment, sums);
     const auto& cut = l.cuts[segment.cut];
     if (segment.kind == Kind::rapid) between.see_rapid(cut.cut.path.outer_radius, part);
     if (segment.kind == Kind::pierce) between.see_pierce(cut, turns[segment.cut], part);
     if (segment.kind == Kind::cut) {
       const auto job = cut_job(l.spec, cut, turns[segment.cut]);
-      const auto prepared = motion::prepare_cut(job, l.stop);
-      if (!prepared) return false;
-      for (const auto& check : motion::place_invariants(*prepared, part, l.stop)) all.see(check);
-      const auto followed = motion::path_invariants(job, *prepared, part, own, l.stop);
+      TRY(const auto prepared, motion::prepare_cut(job, l.stop));
+      for (const auto& check : motion::place_invariants(prepared, part, l.stop)) all.see(check);
+      const auto followed = motion::path_invariants(job, prepared, part, own, l.stop);
       for (const auto& check : followed.checks) all.see(check);
       deviation = std::max(deviation, followed.deviation);
     }
@@ -249,7 +250,7 @@ bool examine(const Looked& l, bool own, std::vector<Check>& out, double& deviati
   all.see({"torch_lit", wrongly_lit(l), 0.0, "periods"});
   between.report(all);
   for (auto& check : all.checks()) out.push_back(std::move(check));
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -274,6 +275,28 @@ std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedu
   double deviation = 0.0;
   if (!out.back().passed()) return out;
   return examine(looked, true, out, deviation) ? out : misfit;
+}
+
+Result<motion::Replay> replay(const ProgramReplaySpec& spec, const std::stop_token& stop) {
+  TRY(motion::check(spec.job.machine));
+  TRY(const auto cuts, lay(spec.job, stop));
+  TRY(const auto whole,
+      motion::received(spec.job.machine, spec.period, spec.counts, spec.start, stop));
+  const auto counted = whole.counted();
+  auto segments = spec.segments;
+  for (std::size_t k = 0; k < segments.size(); ++k)
+    segments[k].cut = std::min(k / 3, cuts.size() - 1);
+  const Looked looked{spec.job, cuts, segments, spec.events, counted, stop};
+  motion::Replay out;
+  out.invariants = {{"I1", whole.worst, 0.0, "pulses"},
+                    {"segments_join", wrong_borders(looked), 0.0, ""}};
+  motion::rebuild(cut_job(spec.job, cuts.front(), 0.0), counted, out, stop);
+  if (out.invariants.back().passed()) {
+    if (auto ok = examine(looked, false, out.invariants, out.deviation); !ok)
+      return tl::unexpected<Error>(ok.error());
+  }
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  return out;
 }
 
 }  // namespace tubecut::torch

@@ -14,7 +14,7 @@ struct ProgramReplaySpec {
   double period = 0.0;                           // s
   std::vector<std::vector<double>> counts = {};  // per axis of the machine; empty: the axis stands
   std::vector<double> start = {};                // per axis, in its unit
-  std::vector<Segment> segments = {};
+  std::vector<Segment> segments = {};  // kind, from and to: their cuts follow from their order
   std::vector<motion::Event> events = {};
 };
 
