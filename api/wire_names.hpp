@@ -10,7 +10,6 @@
 #include "core/joint/node.hpp"
 #include "core/motion/cut_path.hpp"
 #include "core/motion/machine.hpp"
-#include "core/motion/schedule.hpp"
 #include "core/part/member.hpp"
 
 /// Every enumeration that a request or an answer names.
@@ -66,21 +65,6 @@ template <>
 inline constexpr auto kNames<bevel::Tilt> = std::to_array<Option<bevel::Tilt>>(
     {{"axial", bevel::Tilt::axial}, {"free", bevel::Tilt::free}, {"none", bevel::Tilt::none}});
 
-template <>
-inline constexpr auto kNames<motion::EventKind> =
-    std::to_array<Option<motion::EventKind>>({{"pierce", motion::EventKind::pierce},
-                                              {"torch_on", motion::EventKind::torch_on},
-                                              {"pierce_end", motion::EventKind::pierce_end},
-                                              {"cut_start", motion::EventKind::cut_start},
-                                              {"cut_end", motion::EventKind::cut_end},
-                                              {"torch_off", motion::EventKind::torch_off},
-                                              {"rapid_start", motion::EventKind::rapid_start},
-                                              {"rapid_end", motion::EventKind::rapid_end}});
-template <>
-inline constexpr auto kNames<motion::Start::At> =
-    std::to_array<Option<motion::Start::At>>({{"first_point", motion::Start::At::first_point},
-                                              {"asked", motion::Start::At::phi},
-                                              {"least_bevel", motion::Start::At::automatic}});
 template <>
 inline constexpr auto kNames<groove::AreaIn> = std::to_array<Option<groove::AreaIn>>(
     {{"axial", groove::AreaIn::axial}, {"normal", groove::AreaIn::normal}});

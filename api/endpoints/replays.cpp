@@ -6,8 +6,8 @@
 #include "api/endpoints/motion_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/limits.hpp"
+#include "api/motion_names.hpp"
 #include "api/pipeline.hpp"
-#include "api/wire_names.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/replay.hpp"
 #include "core/torch/program_replay.hpp"
@@ -26,10 +26,6 @@ struct Schedule {
   std::vector<motion::Event> events;
 };
 
-using Kind = torch::Segment::Kind;
-constexpr std::array kKinds{Option<Kind>{"rapid", Kind::rapid},
-                            Option<Kind>{"pierce", Kind::pierce}, Option<Kind>{"cut", Kind::cut}};
-
 /// Which stretch is what, and when the torch burns: what the counts do not tell.
 void decode_segments(Reader& in, Schedule& out) {
   constexpr auto kLast = static_cast<int>(kMostPeriods);
@@ -37,7 +33,7 @@ void decode_segments(Reader& in, Schedule& out) {
   constexpr CountRange kSegments{.min = 1, .max = 400}, kEvents{.min = 1, .max = 1'200};
   out.segments = in.array("segments", kSegments, [&](Reader& s) {
     for (const auto* other : {"name", "start", "lead_radius_mm", "way", "report"}) s.note(other);
-    torch::Segment segment{.kind = s.choice("kind", kKinds)};
+    torch::Segment segment{.kind = s.choice("kind", kNames<torch::Segment::Kind>)};
     segment.from = s.integer("from", 0, kLast);
     segment.to = s.integer("to", 0, kLast);
     return segment;

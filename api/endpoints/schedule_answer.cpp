@@ -1,8 +1,6 @@
 #include "api/endpoints/schedule_answer.hpp"
 
-#include <algorithm>
-#include <cstdlib>
-
+#include "api/motion_names.hpp"
 #include "api/wire_names.hpp"
 
 namespace tubecut::api {
@@ -65,22 +63,14 @@ void encode_report(const motion::Report& r, const std::vector<AxisSums>& sums, W
 
 namespace {
 
-/// Of the periods of a cut alone.
-std::vector<AxisSums> sums_of(const ScheduleJob& job, const torch::ProgramSchedule& s,
-                              const torch::Segment& segment) {
+/// Of a cut alone: with a lead it ends beside its start.
+std::vector<AxisSums> sums_of(const ScheduleJob& job, const torch::Segment& segment) {
   std::vector<AxisSums> out;
-  const auto& axes = job.program->machine.axes;
-  for (std::size_t a = 0; a < axes.size(); ++a) {
-    const auto& counts = s.whole.axes[a].counts;
-    AxisSums sums{.name = axes[a].name};
-    for (auto k = segment.from; k < segment.to && !counts.empty(); ++k) {
-      const std::int64_t n = counts[static_cast<std::size_t>(k)];
-      sums.peak = std::max(sums.peak, std::abs(n));
-      sums.closure += n;
-    }
-    if (job.program->setup.lead) sums.closure = 0;  // ends beside its start
-    if (axes[a].pulses_per_turn > 0) sums.closure %= axes[a].pulses_per_turn;
-    out.push_back(std::move(sums));
+  for (const auto& axis : job.program->machine.axes) {
+    const auto a = out.size();
+    const auto total = job.program->setup.lead ? 0 : segment.sums.total[a];
+    out.push_back({axis.name, segment.sums.peak[a],
+                   axis.pulses_per_turn > 0 ? total % axis.pulses_per_turn : total});
   }
   return out;
 }
@@ -123,12 +113,12 @@ void encode_segments(const ScheduleJob& job, const torch::ProgramSchedule& s, Wr
     each.object([&](Writer& o) {
       const auto& cut = s.cuts[segment.cut];
       o.field("name", cut.cut.name);
-      o.field("kind", torch::name_of(segment.kind));
+      o.field("kind", name_of(segment.kind));
       o.field("from", segment.from);
       o.field("to", segment.to);
       if (!segment.report) return;
       encode_way(cut, o);
-      encode_report(*segment.report, sums_of(job, s, segment), o);
+      encode_report(*segment.report, sums_of(job, segment), o);
     });
   });
   w.object("times", [&](Writer& o) {

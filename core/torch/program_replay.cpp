@@ -106,9 +106,11 @@ motion::Counted stretch(const motion::Counted& whole, const Segment& segment,
   return out;
 }
 
-void add_up(const motion::Counted& stretch, std::vector<std::int64_t>& sums) {
+void add_up(const motion::Counted& stretch, const std::stop_token& stop,
+            std::vector<std::int64_t>& sums) {
   for (std::size_t a = 0; a < sums.size(); ++a)
-    for (const std::int32_t n : stretch.counts[a]) sums[a] += n;
+    for (std::size_t k = 0; k < stretch.counts[a].size() && !stops(stop, k); ++k)
+      sums[a] += stretch.counts[a][k];
 }
 
 /// Between the cuts: where the pierce stands and for how long, how high the tip travels.
@@ -204,8 +206,8 @@ class Between {
   }
 
   /// Periods at the stretch's start without any pulse.
-  static std::size_t still(const motion::Counted& counted) {
-    for (std::size_t k = 0; k < counted.periods; ++k)
+  [[nodiscard]] std::size_t still(const motion::Counted& counted) const {
+    for (std::size_t k = 0; k < counted.periods && !stops(l_.stop, k); ++k)
       for (const auto& counts : counted.counts)
         if (!counts.empty() && counts[k] != 0) return k;
     return counted.periods;
@@ -242,7 +244,7 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
       for (const auto& check : followed.checks) all.see(check);
       deviation = std::max(deviation, followed.deviation);
     }
-    add_up(part, sums);
+    add_up(part, l.stop, sums);
   }
   const auto& machine = l.spec.machine;
   for (const auto& check : motion::rate_invariants(machine, l.counted, l.spec.motion.jerk, l.stop))

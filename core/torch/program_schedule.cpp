@@ -7,7 +7,6 @@
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/places.hpp"
-#include "core/motion/pulse_counter.hpp"
 #include "core/motion/straight_move.hpp"
 #include "core/torch/torch_stand.hpp"
 
@@ -152,6 +151,7 @@ class Scheduling {
     const double periods = motion::periods_of(curve->time(), spec_.machine.period);
     TRY(room_for(periods + static_cast<double>(kRest)));
     const auto n = static_cast<std::size_t>(periods);
+    counter_.expect(static_cast<std::int64_t>(n) + kRest);
     auto q = move.to;
     for (std::size_t k = 1; k < n && !stops(stop_, k); ++k) {
       const double u = curve->at(curve->time() * static_cast<double>(k) / periods);
@@ -215,6 +215,7 @@ class Scheduling {
       out_.whole.warnings.push_back(std::move(warning));
     }
     report_.add(planned.report);
+    out_.segments.back().sums = counter_.sums_from(from, stop_);
     out_.segments.back().report = std::move(planned.report);
     return {};
   }
@@ -265,18 +266,6 @@ class Scheduling {
 };
 
 }  // namespace
-
-std::string_view name_of(Segment::Kind kind) {
-  switch (kind) {
-    case Segment::Kind::rapid:
-      return "rapid";
-    case Segment::Kind::pierce:
-      return "pierce";
-    case Segment::Kind::cut:
-      return "cut";
-  }
-  return {};
-}
 
 double ProgramSchedule::time_of(Segment::Kind kind) const {
   std::int64_t periods = 0;

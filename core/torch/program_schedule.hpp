@@ -4,9 +4,9 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "core/motion/pulse_counter.hpp"
 #include "core/motion/schedule.hpp"
 #include "core/torch/torch_program.hpp"
 
@@ -29,10 +29,10 @@ struct Segment {
   std::size_t cut = 0;    // of the program; of the last rapid the one it leaves
   std::int64_t from = 0;  // periods done before it
   std::int64_t to = 0;    // and behind it
-  std::optional<motion::Report> report =
-      {};  // of a cut; its slow zones count from the whole's start
+  /// Of a cut: its slow zones count from the start of the whole.
+  std::optional<motion::Report> report = {};
+  motion::AxisSums sums = {};
 };
-[[nodiscard]] std::string_view name_of(Segment::Kind kind);
 
 struct ProgramSchedule {
   motion::Schedule whole = {};  // `report`: of all cuts together, its times of all segments

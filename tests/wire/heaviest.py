@@ -195,6 +195,11 @@ def pulse_schedules():
     yield "start-auto", five | {"motion": {"speed": {"mm_min": 300}, "start_phi_deg": "auto", "lead": {}}}
     yield "lead-points", square | {"contour": contour(20000, 300, 5, 40, 3), "motion": {"speed": {"mm_min": 600}, "lead": {}}}
     yield "slow", five | {"motion": {"speed": {"mm_min": 20}}}
+    part = example("pulse-schedules/part-with-two-ends-and-four-holes")
+    holes = chord(64, {"tolerance_mm": 0.1})
+    yield "part-slow", part | {"motion": part["motion"] | {"speed": {"mm_min": 100}}}
+    yield "part-points", part | {"part": part["part"] | {"sampling": POINTS}}
+    yield "part-64-holes", part | {"part": holes | {"holes": [hole | {"tilt": "axial"} for hole in holes["holes"]]}}
     body = example("pulse-schedules/source-001-mill-path")
     yield "mill", body
     yield "3600-positions", body | {"mill_path": body["mill_path"] | {"positions": 3600}}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "api/names.hpp"
+#include "core/motion/cut_path.hpp"
+#include "core/motion/schedule.hpp"
+#include "core/torch/program_schedule.hpp"
+
+namespace tubecut::api {
+
+// What enumerations of schedules are called on the wire; wire_names.hpp has the others'.
+
+template <>
+inline constexpr auto kNames<motion::EventKind> =
+    std::to_array<Option<motion::EventKind>>({{"pierce", motion::EventKind::pierce},
+                                              {"torch_on", motion::EventKind::torch_on},
+                                              {"pierce_end", motion::EventKind::pierce_end},
+                                              {"cut_start", motion::EventKind::cut_start},
+                                              {"cut_end", motion::EventKind::cut_end},
+                                              {"torch_off", motion::EventKind::torch_off},
+                                              {"rapid_start", motion::EventKind::rapid_start},
+                                              {"rapid_end", motion::EventKind::rapid_end}});
+template <>
+inline constexpr auto kNames<torch::Segment::Kind> =
+    std::to_array<Option<torch::Segment::Kind>>({{"rapid", torch::Segment::Kind::rapid},
+                                                 {"pierce", torch::Segment::Kind::pierce},
+                                                 {"cut", torch::Segment::Kind::cut}});
+/// Why a cut begins where it does.
+template <>
+inline constexpr auto kNames<motion::Start::At> =
+    std::to_array<Option<motion::Start::At>>({{"first_point", motion::Start::At::first_point},
+                                              {"asked", motion::Start::At::phi},
+                                              {"least_bevel", motion::Start::At::automatic}});
+
+}  // namespace tubecut::api
