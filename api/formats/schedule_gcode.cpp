@@ -214,7 +214,8 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
     const auto before = at.sums();
     at.advance_to(end);
     const double seconds = s.period * static_cast<double>(end - from);
-    if (end > from && before == at.sums())  // a move of no length would take no time
+    const bool rests = !names.empty() && before == at.sums();
+    if (end > from && rests)  // a move of no length would take no time
       out += post_line(post.dwell, {{"seconds", fixed(seconds, 6)}});
     else if (end > from)
       out += timed(post, words(machine, s, letters, at.sums()),

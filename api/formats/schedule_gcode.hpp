@@ -22,8 +22,8 @@ namespace tubecut::api {
 
 /// A schedule as RS-274 for LinuxCNC: the axes' own values at such periods, each move in inverse
 /// time, so that the planned motion is kept in time as well. The torch (of a cut along a contour)
-/// is lit only by the option `torch`. Periods at rest are a dwell. `names`: of a program's cuts,
-/// which comments tell; empty of a single one.
+/// is lit only by the option `torch`. `names`: of a program's cuts, which
+/// comments tell, and whose periods at rest are dwells; empty of a single cut.
 /// Accuracy  1 pulse at every period, 1e-6 of an axis' unit at the ends of moves.
 [[nodiscard]] std::string print_schedule_gcode(const motion::Machine& machine,
                                                const motion::ScheduleSpec& spec,

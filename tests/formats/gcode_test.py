@@ -230,11 +230,15 @@ class ScheduleGcode(FormatTest):
                 program = self.service.text("pulse-schedules", body, "format=gcode").decode("ascii")
                 letters = {axis: letter for letter, axis, _ in self.LETTER.findall(program)}
                 self.assertEqual(len(set(letters.values())), len(result["start"]))
-                blocks = [line for line in program.splitlines() if line.startswith(("G0 ", "G1 "))]
+                blocks = [line for line in program.splitlines() if line.startswith(("G0 ", "G1 ", "G4 "))]
+                if blocks[1].startswith("G0 "):  # of a part: first off the tube, by the height alone
+                    self.assertRegex(blocks.pop(0), r"^G0 Z-?[\d.]+$")
                 ends, period = [0], result["period_us"] * 1e-6
-                for line in blocks[1:]:
-                    minutes = 1 / float(re.search(r"F([\d.]+)$", line)[1])
-                    took = minutes * 60 / period
+                for i, line in enumerate(blocks[1:], 1):
+                    if line.startswith("G4 "):  # it stays where it is
+                        took, blocks[i] = float(line[4:]) / period, blocks[i - 1]
+                    else:
+                        took = 60 / float(re.search(r"F([\d.]+)$", line)[1]) / period
                     self.assertAlmostEqual(took, round(took), delta=0.02 * max(1, took / 100))
                     ends.append(ends[-1] + round(took))
                 self.assertEqual(ends[-1], result["periods"])
