@@ -91,6 +91,40 @@ class WholeReport {
   bool any_ = false;
 };
 
+/// mm/s, the least and the most that are asked for anywhere.
+struct Speeds {
+  double least = 0.0, most = 0.0;
+};
+Speeds speeds(const motion::Speed& speed) {
+  const auto* const table = std::get_if<motion::SpeedTable>(&speed);
+  if (table == nullptr) return {std::get<double>(speed), std::get<double>(speed)};
+  const auto [least, most] =
+      std::ranges::minmax(table->pairs, {}, [](const auto& pair) { return pair.second; });
+  return {least.second, most.second};
+}
+
+Result<void> too_many(double periods, std::int64_t most) {
+  return fail(
+      {ErrorCode::too_many_periods, "motion", periods, static_cast<double>(most), "periods", {}});
+}
+
+/// Periods of all ways at the fastest speed asked for, before any of them is planned: smoothing
+/// shortens them, but never by half.
+Result<void> check_periods(const ProgramSpec& spec, const std::vector<ProgramCut>& cuts) {
+  double seconds = 0.0;
+  for (const auto& cut : cuts) {
+    const auto& path = cut.cut.path;
+    const bool inner = spec.motion.speed_on == motion::Surface::inner;
+    const motion::Track way{cut.way.points.points, inner ? path.inner_radius() : path.outer_radius};
+    for (std::size_t i = 1; i < way.points.size(); ++i)
+      seconds += way.tip_step(i - 1, i) / speeds(spec.motion.speed).most;
+    seconds += spec.setup.pierce_delay;
+  }
+  const double periods = seconds / spec.machine.period;
+  if (0.5 * periods <= static_cast<double>(spec.max_periods)) return {};
+  return too_many(periods, spec.max_periods);
+}
+
 class Scheduling {
  public:
   Scheduling(const ProgramSpec& spec, std::vector<ProgramCut> cuts, TorchStand stand,
@@ -186,7 +220,7 @@ class Scheduling {
     event(EventKind::pierce_end, i);
     TRY(leg({.to = stand_.cutting(first(out_.cuts, i)),
              .length = std::abs(spec_.setup.pierce_off() - spec_.setup.cut_height),
-             .speed = slowest()}));
+             .speed = speeds(spec_.motion.speed).least}));
     end();
     return {};
   }
@@ -220,20 +254,10 @@ class Scheduling {
     return {};
   }
 
-  /// mm/s, the least that a table has.
-  [[nodiscard]] double slowest() const {
-    const auto* const table = std::get_if<motion::SpeedTable>(&spec_.motion.speed);
-    if (table == nullptr) return std::get<double>(spec_.motion.speed);
-    double least = table->pairs.front().second;
-    for (const auto& pair : table->pairs) least = std::min(least, pair.second);
-    return least;
-  }
-
   Result<void> room_for(double periods) const {
-    const auto most = static_cast<double>(spec_.max_periods);
     const double all = static_cast<double>(counter_.periods()) + periods;
-    if (all <= most) return {};
-    return fail({ErrorCode::too_many_periods, "motion", all, most, "periods", {}});
+    if (all <= static_cast<double>(spec_.max_periods)) return {};
+    return too_many(all, spec_.max_periods);
   }
 
   /// The cut's own bound as that of the whole.
@@ -316,6 +340,7 @@ Result<std::vector<ProgramCut>> lay(const ProgramSpec& spec, const std::stop_tok
 Result<ProgramSchedule> schedule(const ProgramSpec& spec, const std::stop_token& stop) {
   TRY(motion::check(spec.machine));
   TRY(auto cuts, lay(spec, stop));
+  TRY(check_periods(spec, cuts));
   TRY(auto stand, TorchStand::of(spec.machine, cuts.front().cut.path, spec.setup));
   return Scheduling(spec, std::move(cuts), std::move(stand), stop).run();
 }
