@@ -10,7 +10,7 @@ import re
 import torch_program
 from service import FormatTest, examples, main
 
-EXAMPLE = "part-with-two-ends-and-four-holes"
+EXAMPLE = "two-ends-and-four-holes-of-a-part"
 PIVOT, CLEARANCE, PIERCE, DELAY, LEAD, SPEED = 150.0, 30.0, 4.0, 0.4, 4.0, 900.0
 OPTIONS = (f"format=gcode&torch=on&speed_mm_min={SPEED}&lead_mm={LEAD}&pivot_length_mm={PIVOT}&pierce_height_mm={PIERCE}"
            f"&pierce_delay_s={DELAY}&clearance_mm={CLEARANCE}&cut_height_mm=0")

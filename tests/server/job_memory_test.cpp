@@ -158,7 +158,7 @@ std::vector<Costly> costliest() {
                           slow("source-001-mill-path", 30.0),
                           slow("table-1-on-the-five-axis-cutter", 60.0),
                           slow("square-cut-from-a-bare-contour", 20.0),
-                          slow("part-with-two-ends-and-four-holes", 150.0),
+                          slow("two-ends-and-four-holes-of-a-part", 150.0),
                           frame(500, 0),
                           frame(4, 3'000),
                           welded("jacket-node-with-set-in-stubs", 1'000, 7),

@@ -195,7 +195,7 @@ def pulse_schedules():
     yield "start-auto", five | {"motion": {"speed": {"mm_min": 300}, "start_phi_deg": "auto", "lead": {}}}
     yield "lead-points", square | {"contour": contour(20000, 300, 5, 40, 3), "motion": {"speed": {"mm_min": 600}, "lead": {}}}
     yield "slow", five | {"motion": {"speed": {"mm_min": 20}}}
-    part = example("pulse-schedules/part-with-two-ends-and-four-holes")
+    part = example("pulse-schedules/two-ends-and-four-holes-of-a-part")
     holes = chord(64, {"tolerance_mm": 0.1})
     yield "part-slow", part | {"motion": part["motion"] | {"speed": {"mm_min": 100}}}
     yield "part-points", part | {"part": part["part"] | {"sampling": POINTS}}

@@ -46,7 +46,7 @@ const exampleNames: Record<string, string> = {
   'pulse-schedules/source-000-table-1-before-and-after': 'Why a plan: jumps of B at full speed',
   'pulse-schedules/source-001-mill-path': 'A groove on the cone mill',
   'pulse-schedules/source-002-offset-pair-on-the-crawler': 'A branch on the crawler',
-  'pulse-schedules/part-with-two-ends-and-four-holes': 'A part with two ends and four holes',
+  'pulse-schedules/two-ends-and-four-holes-of-a-part': 'A whole part: two ends and four holes',
   'feed-curves/source-004-table-1-as-printed': 'A published feed curve, as printed',
   'feed-curves/source-004-table-1-as-solved': 'A published feed curve, as solved',
   'feed-curves/source-004-table-3-as-printed': 'Published feed curve, three points, as printed',
