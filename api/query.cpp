@@ -144,7 +144,7 @@ std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
 constexpr std::array kDialects{Option<std::string_view>{"linuxcnc", "linuxcnc"},
                                Option<std::string_view>{"qtplasmac", "qtplasmac"}};
 
-constexpr std::size_t kLongestPost = 12'000;  // of a request's head of 16 kB
+constexpr std::size_t kLongestPost = 8'000;  // as long as a target may be
 
 /// `post` names one of GET /v1/posts, or is one; `dialect`, which is older, names one of two. What
 /// is wrong within a post goes to `within`.

@@ -40,7 +40,7 @@ struct JobRecord {
 
 struct AppOptions {
   std::string replica = {};  // value of Tubecut-Replica
-  std::size_t max_target_bytes = 2048;
+  std::size_t max_target_bytes = 8192;
   std::size_t max_body_bytes = 8u << 20;  // lowers the endpoints' own limits, never raises them
   /// What the memory has room for by one job of most endpoints; the transport refuses more.
   std::size_t max_job_body_bytes = std::numeric_limits<std::size_t>::max();

@@ -85,7 +85,7 @@ void add_limits(CLI::App& app, Config& c) {
   option(app, "max-body-bytes", c.max_body_bytes, "largest body; lowers the endpoints' own limits")
       ->check(CLI::Range(std::size_t{1}, std::size_t{8u << 20}));
   option(app, "max-target-bytes", c.max_target_bytes, "longest path with query")
-      ->check(CLI::Range(std::size_t{64}, std::size_t{4096}));
+      ->check(CLI::Range(std::size_t{64}, std::size_t{16384}));
   option(app, "max-head-bytes", c.max_head_bytes, "largest request line with headers")
       ->check(CLI::Range(std::size_t{1024}, std::size_t{65536}));
   option(app, "idle-s", c.idle_s, "an idle connection is closed after")->check(seconds);

@@ -30,7 +30,7 @@ struct Config {
   std::size_t memory_bytes = 0;  // for bodies, jobs and answers; 0: a part of what there is
   double budget_s = 0.0;         // CPU of any job; 0: what its endpoint has by default
   std::size_t max_body_bytes = 8u << 20;
-  std::size_t max_target_bytes = 2048;
+  std::size_t max_target_bytes = 8192;
   std::size_t max_head_bytes = 16384;
   double idle_s = 15.0;
   double head_s = 3.0;

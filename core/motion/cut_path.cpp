@@ -350,6 +350,8 @@ CutPath without_repeats(CutPath c) {
   return c;
 }
 
+constexpr double kNoWay = 1e-6;  // mm: two nodes nearer than that are one
+
 std::vector<CutPoint> first_stretch(const Track& t, double length) {
   std::vector<CutPoint> out{t.points.front()};
   for (std::size_t i = 1; i < t.points.size() && length > 0.0; ++i) {
@@ -383,7 +385,8 @@ Result<Track> sector_of(const Track& whole, const Sector& sector) {
     return fail({ErrorCode::out_of_range, "motion/sector/to", sector.to.deg(), {}, "deg", {}});
   }
   cut.points.resize(*to + 1);
-  std::vector<CutPoint> before = first_stretch(reversed(t), std::max(0.0, sector.back_up));
+  std::vector<CutPoint> before =
+      first_stretch(reversed(t), sector.back_up < kNoWay ? 0.0 : sector.back_up);
   for (auto p = before.begin() + 1; p != before.end(); ++p) {
     p->phi -= kTwoPi * whole.turns;
     cut.points.insert(cut.points.begin(), *p);

@@ -68,5 +68,5 @@ class Page(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Page.binary = sys.argv.pop(1)
+    Page.binary = os.path.abspath(sys.argv.pop(1))
     unittest.main()
