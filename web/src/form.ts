@@ -45,6 +45,7 @@ export class Form {
 
   show(schema: Schema, body: Row, job: number): void {
     this.drawn.value = {schema, body, job};
+    this.echo.value = {}; // of another job
     this.complaints.value = none;
   }
 
