@@ -38,8 +38,16 @@ std::optional<Slot> next_slot(std::string_view line, std::size_t from) {
 void check_line(Reader& in, const std::string& pointer, const std::string& line,
                 const Names& names) {
   std::size_t braces = 0;
+  std::vector<std::string_view> seen;
   for (auto slot = next_slot(line, 0); slot; slot = next_slot(line, slot->end + 1)) {
     braces += 2;
+    // A block as long as its values are, each once: a program's bytes go by its places.
+    if (std::ranges::find(seen, slot->name) != seen.end())
+      in.issue({.code = ErrorCode::duplicate_id,
+                .pointer = pointer,
+                .got = Json{std::string(slot->name)},
+                .hint = "a line has each value once"});
+    seen.push_back(slot->name);
     if (std::ranges::find(names, slot->name) == names.end())
       in.issue({.code = ErrorCode::bad_choice,
                 .pointer = pointer,

@@ -208,6 +208,7 @@ class Own(FormatTest):
         self.assertEqual(self.service.text("parts", body, f"{DARK}&post={sent}"), self.service.text("parts", body, f"{DARK}&post=turned"))
         axes = self.document["axes"]
         for changes, wanted in (({"rapids": "G0"}, [("?post/rapids", "unknown_field")]), ({"rapid": "G0 {axis}"}, [("?post/rapid", "bad_choice")] * 1),
+                                ({"rapid": "G0 {axes} {axes}"}, [("?post/rapid", "duplicate_id")]),
                                 ({"axes": axes | {"turn": {"letter": "F", "decimals": 4}}}, [("?post/axes/turn/letter", "bad_choice")]),
                                 ({"axes": axes | {"swing": axes["swing"] | {"within_turn": True}}}, [("?post/axes/swing/within_turn", "unknown_field")]),
                                 ({"axes": {role: axes[role] for role in axes if role != "turn"}}, [("?post/axes/turn", "missing_field")])):

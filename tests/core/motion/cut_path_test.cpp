@@ -156,6 +156,21 @@ TEST(Sectors, LeftAndRightOfAStopJoinToTheWholeCut) {
   }
 }
 
+TEST(Sectors, ABackUpTooShortForANodeIsNone) {
+  ScheduleSpec spec = table1(20);
+  spec.motion.sector = Sector{Angle::deg(50), Angle::deg(200), 0.0};
+  const auto none = schedule(spec);
+  ASSERT_TRUE(none);
+  for (const double back_up : {1e-290, 1e-12, 1e-7}) {
+    spec.motion.sector->back_up = back_up;
+    const auto out = schedule(spec);
+    ASSERT_TRUE(out) << back_up;
+    EXPECT_EQ(out->periods, none->periods) << back_up;
+    for (const auto& check : verify(spec, *out))
+      EXPECT_TRUE(check.passed()) << check.name << " " << back_up;
+  }
+}
+
 TEST(Starts, AtAnAngle) {
   ScheduleSpec spec = table1(20);
   for (const double phi : {33.0, 33.3, -20.0}) {
