@@ -278,10 +278,8 @@ std::string machines_page() {
         o.field("name", m.machine.name);
         o.field("machine_sha256", m.sha256);
         if (m.process) o.field("process_sha256", m.process_sha256);
-        o.object("machine", [&](Writer& r) {
-          encode_machine(m.machine, r);
-          if (m.process) r.object("process", [&](Writer& p) { encode_process(*m.process, p); });
-        });
+        o.object("machine", [&](Writer& r) { encode_machine(m.machine, r); });
+        if (m.process) o.object("process", [&](Writer& p) { encode_process(*m.process, p); });
         o.array("values", m.values, [](Writer& v, const motion::Provenance& value) {
           v.object([&](Writer& x) {
             x.field("member", value.member);

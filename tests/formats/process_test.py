@@ -31,13 +31,22 @@ def blocks(program):
     return [line for line in program.splitlines() if not line.startswith("(")]
 
 
+def entry_of(service, name):
+    return {m["name"]: m for m in json.loads(service.get("/v1/machines"))["machines"]}[name]
+
+
+def whole(entry):
+    """The machine as its file has it."""
+    return entry["machine"] | {"process": entry["process"]}
+
+
 class FromTheTable(FormatTest):
     def machine(self, name="five_axis_cutter"):
-        return {m["name"]: m for m in json.loads(self.service.get("/v1/machines"))["machines"]}[name]
+        return entry_of(self.service, name)
 
     def test_the_table_and_whose_its_numbers_are(self):
         entry = self.machine()
-        process, values = entry["machine"]["process"], {v["member"]: v for v in entry["values"]}
+        process, values = entry["process"], {v["member"]: v for v in entry["values"]}
         for i, row in enumerate(process["rows"]):
             for member in row.keys() - {"material"}:
                 self.assertTrue(values[f"process/rows/{i}/{member}"]["assumption"])
@@ -45,10 +54,11 @@ class FromTheTable(FormatTest):
         self.assertGreater(len(process["rows"]), 3)
         said = {m["name"]: m for m in json.loads(self.service.get("/v1/version"))["machines"]}
         self.assertEqual(said["five_axis_cutter"]["process_sha256"], entry["process_sha256"])
-        self.assertNotIn("process", self.machine("crawler")["machine"])
+        self.assertNotIn("process", self.machine("crawler"))
+        self.assertNotIn("process", entry["machine"])  # machine_sha256 is over its text
 
     def test_a_program_is_that_of_the_same_values_said(self):
-        machine, count = self.machine()["machine"], 0
+        machine, count = whole(self.machine()), 0
         for name, body in examples("parts").items():
             answer = self.service.answer("parts", body)
             if answer["verdict"] == "reject":
@@ -120,7 +130,7 @@ class Own(FormatTest):
     def setUpClass(cls):
         cls.place = tempfile.TemporaryDirectory()
         five = Service(FormatTest.binary)
-        cls.machine = {m["name"]: m for m in json.loads(five.get("/v1/machines"))["machines"]}["five_axis_cutter"]["machine"]
+        cls.machine = whole(entry_of(five, "five_axis_cutter"))
         five.stop()
         row = cls.machine["process"]["rows"][0] | {"material": "1.4301", "metal_max_mm": 12.0}
         generic = {"type": "generic", "name": "no_pivot", "period_us": 4000, "b_positive": "outer_edge_into_part", "axes": cls.machine["axes"], "process": {"rows": [row]}}
