@@ -117,12 +117,16 @@ export function edits(contract, requestSchema, body) {
     if (typeOf(value) === 'object') walkObject(whole, schema, value, path, pointer);
   };
 
+  // Is the object what it is by this member? Without it, it would be of another branch that needs no more, and all that only this one has would be strange.
+  const makes = (whole, schema, value, name) => (schema.required ?? []).includes(name) && (whole.oneOf ?? []).map((b) => contract.resolve(b))
+    .some((b) => b !== schema && b.properties && !b.properties[name] && alike(b, schema) && (b.required ?? []).every((other) => other in value));
+
   const walkObject = (whole, schema, value, path, pointer) => {
     const either = companions(contract, whole, schema);
     const at = (name) => `${pointer}/${escape(name)}`;
     const group = (name) => (either.includes(name) ? either.filter((n) => n !== name).map(at) : []);
     for (const name of Object.keys(value)) {
-      if (!selects(contract, whole, name)) add('missing', [...path, name], (parent, key) => { delete parent[key]; }, at(name), ...group(name));
+      if (!selects(contract, whole, name) && !makes(whole, schema, value, name)) add('missing', [...path, name], (parent, key) => { delete parent[key]; }, at(name), ...group(name));
     }
     const known = Object.keys(schema.properties ?? {});
     const strange = known.map((name) => `${name.slice(0, -1)}${name.endsWith('x') ? 'y' : 'x'}`);

@@ -24,9 +24,10 @@ function integer({minimum, maximum}) {
 }
 
 const ASCII = '^[ -~]+$';
+const HASH = '^[0-9a-f]{64}$';
 const ascii = fc.integer({min: 32, max: 126}).map((code) => String.fromCharCode(code));
 const letter = fc.oneof({weight: 9, arbitrary: ascii}, {weight: 1, arbitrary: fc.constantFrom(...'äØß÷ſĲж注字𠮷⌀–')});
-const text = (pattern, min, max) => fc.array(pattern === ASCII ? ascii : letter, {minLength: min, maxLength: max}).map((all) => all.join(''));
+const text = (pattern, min, max) => pattern === HASH ? fc.hexaString({minLength: 64, maxLength: 64}) : fc.array(pattern === ASCII ? ascii : letter, {minLength: min, maxLength: max}).map((all) => all.join(''));
 
 // Of each group of which an object has exactly one member, one is kept.
 function object(contract, schema) {
@@ -42,6 +43,11 @@ function object(contract, schema) {
 // An arbitrary of the values a schema of the contract describes; `contract.validator` decides what it cannot say.
 export function fromSchema(contract, given) {
   if (given === true) return fc.constantFrom(null, 1, 'text', [1, 2]);
+  if (given.not) {  // a request within another has not all that it may have by itself
+    const barred = contract.resolve(given.not).required ?? [];
+    const {not: _, ...rest} = given;
+    return fromSchema(contract, rest).map((value) => Object.fromEntries(Object.entries(value).filter(([name]) => !barred.includes(name))));
+  }
   const schema = contract.resolve(given);
   if ('const' in schema) return fc.constant(schema.const);
   if (schema.enum) return fc.constantFrom(...schema.enum);

@@ -6,6 +6,7 @@ import {each} from '../service.mjs';
 
 const ANY = 100;   // bodies from the schema alone, each endpoint
 const MORE = 60000;  // of them looked through, at most, for objects not seen yet
+const NESTED = 400;  // with another endpoint's request within, each way
 const SOUND = 40;  // sound ones
 const AT_ONCE = 24;  // objects of one request: a problem names 32 fields
 const STRANGE = 'Q'.repeat(65);  // too long to be taken for a name misspelt
@@ -72,8 +73,8 @@ class Known {
   beside = new Map();  // names the contract has no place for, by schema
   compared = 0;
 
-  constructor({service, contract, report}, endpoint) {
-    Object.assign(this, {service, contract, report, endpoint});
+  constructor({service, contract, report}, posts, endpoint) {
+    Object.assign(this, {service, contract, report, posts, endpoint});
     this.closed = [...reachable(contract, endpoint.request, '')].filter(({where}) => !REFUSED_WHOLE.includes(where));
   }
 
@@ -81,7 +82,8 @@ class Known {
     return Object.keys(schema.properties).filter((name) => !this.lists.get(schema)?.has(name));
   }
 
-  async learn(body, wanted = () => true) {
+  // What a body pins is judged before it is read.
+  async learn({numerics: _, machine_sha256: __, ...body}, wanted = () => true) {
     const all = [...objects(this.contract, this.endpoint.request, body)].filter(({schema}) => wanted(schema));
     for (let i = 0; i < all.length && i < 4 * AT_ONCE; i += AT_ONCE) {
       for (const [place, list] of await asked(this.service, this.endpoint, body, all.slice(i, i + AT_ONCE))) {
@@ -100,14 +102,33 @@ class Known {
       `the reader knows ${name}, the contract does not, and it is not refused`);
   }
 
+  // Bodies that hold another endpoint's request, as a schedule holds a part: the first of each way that has one, with others of
+  // that endpoint's in its place.
+  *nested(bodies, seed) {
+    const had = new Set();
+    for (const body of bodies) {
+      const {properties = {}} = branchOf(this.contract, this.endpoint.request, body);
+      for (const [name, property] of Object.entries(properties)) {
+        const of = name in body && !had.has(property) && this.posts.find(({request}) => request === this.contract.resolve(property));
+        if (!of) continue;
+        had.add(property);
+        const any = fromSchema(this.contract, of.request).filter((inner) => !('accept' in inner) && of.validRequest(inner));
+        for (const inner of drawn(any, seed, NESTED)) yield {...structuredClone(body), [name]: inner};
+      }
+    }
+  }
+
   async learnAll(seed) {
     const any = fromSchema(this.contract, this.endpoint.request).filter((body) => this.endpoint.validRequest(body));
     const examples = this.endpoint.examples.map(({body}) => structuredClone(body));
-    await each([...examples, ...drawn(sound(this.contract, this.endpoint), seed, SOUND), ...drawn(any, seed, ANY)], (body) => this.learn(body));
+    const bodies = [...examples, ...drawn(any, seed, ANY)];
+    await each([...bodies, ...drawn(sound(this.contract, this.endpoint), seed, SOUND)], (body) => this.learn(body));
     const wanted = (schema) => this.missing(schema).length > 0;
-    for (const body of drawn(any, seed + 1, MORE)) {
-      if (!this.closed.some(({schema}) => wanted(schema))) break;
-      await this.learn(body, wanted);
+    for (const more of [this.nested(bodies, seed + 1), drawn(any, seed + 1, MORE)]) {
+      for (const body of more) {
+        if (!this.closed.some(({schema}) => wanted(schema))) return;
+        await this.learn(body, wanted);
+      }
     }
   }
 }
@@ -116,8 +137,9 @@ export async function fields(context) {
   let compared = 0;
   let both = 0;
   let beside = 0;
-  for (const endpoint of context.contract.posts()) {
-    const known = new Known(context, endpoint);
+  const posts = context.contract.posts();
+  for (const endpoint of posts) {
+    const known = new Known(context, posts, endpoint);
     await known.learnAll(context.seed);
     for (const {schema, where} of known.closed) {
       const missing = known.missing(schema);
