@@ -199,7 +199,7 @@ TEST(TubeLaser, FilesCarryTheGapsAndTheVerdict) {
             std::string::npos);
   const auto thin = with(chord(), "accept/min_web_mm", Json{500.0});
   const auto dry = post(kParts, std::string_view(api::dump(thin)), "format=gcode&speed_mm_min=600");
-  EXPECT_NE(dry.outcome.body.find("min_web_mm: "), std::string::npos);
+  EXPECT_NE(dry.outcome.body.find("web at least: "), std::string::npos);
   EXPECT_EQ(dry.outcome.body.find(" < "), std::string::npos);
   EXPECT_NE(dry.outcome.body.find(" below 500"), std::string::npos);
   const auto lit = post(kParts, std::string_view(api::dump(thin)),

@@ -14,7 +14,8 @@ from mistakes import EXAMPLES, edited, stands  # noqa: E402
 TABLE, SCHEDULE = "bevel-tables/source-000-table-1", "pulse-schedules/square-cut-from-a-bare-contour"
 CYCLE, NODE = "feed-curves/cut-off-194-mm-whole-cycle", "nodes/k-joint-from-centre-lines"
 INCHES = {"outer_diameter_mm": 8.625, "wall_mm": 0.322}  # NPS 8 SCH 40
-POSTS = ["linuxcnc", "qtplasmac", "fanuc_style", "siemens_style"]  # the one parameter that is a name: `post`
+# The parameters that are names, and what a refusal says of them; a material is one of a machine's.
+NAMES = {"post": ["linuxcnc", "qtplasmac", "fanuc_style", "siemens_style"], "machine": ["five_axis_cutter"], "material": ["no option of format json"]}
 
 
 def example(name):
@@ -79,7 +80,7 @@ class Refusals(FormatTest):
                 [error] = said[f"?{name}"]
                 self.assertEqual(error["got"], "never")
                 self.assertNotEqual(error["code"], "unknown_field")
-                kinds = {"boolean": ["true or false"], "number": ["number"], "string": POSTS}
+                kinds = {"boolean": ["true or false"], "number": ["number"], "string": NAMES.get(name)}
                 for word in schema.get("enum") or schema.get("items", {}).get("enum") or kinds[schema["type"]]:
                     self.assertIn(word, error["hint"])
                 count += 1
