@@ -266,7 +266,7 @@ ScheduleRequest decode_schedule_request(Reader& in) {
   if (std::holds_alternative<PartRequest>(out.cut)) {
     auto asked = in.object("motion", [&](Reader& m) { return decode_part_motion(m, out.machine); });
     out.motion = std::move(asked.motion);
-    out.setup = std::move(asked.setup);
+    out.setup = asked.setup;
   } else {
     out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
   }
