@@ -106,13 +106,13 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
     const double dphi = b.at[k].x() - a.at[k].x() + (b.turn - a.turn) * turn_;
     if (std::abs(dphi) > widest(edges_[k].radius)) return false;
     const auto curve = cubic(k, a, b);
-    const auto flat = flat_cubic(k, a, b);
     for (const double u : {0.25, 0.5, 0.75}) {
       const auto p = value(curve, u);
       const double off = p.head<2>().norm() - edges_[k].radius;
       if (std::abs(off) > off_cylinder_) return false;
-      const auto twin = on_wall(edges_[k].radius, value(flat, u));
-      if (off_flat_ && (p - twin).norm() > *off_flat_) return false;
+      if (!off_flat_) continue;
+      const auto twin = on_wall(edges_[k].radius, value(flat_cubic(k, a, b), u));
+      if ((p - twin).norm() > *off_flat_) return false;
     }
     for (auto i = from + 1; i < to; ++i) {
       const Vector2d& at = nodes[i].at[k];
