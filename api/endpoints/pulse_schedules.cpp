@@ -12,6 +12,7 @@
 #include "api/formats/schedule_gcode.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
+#include "api/motion_names.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/replay.hpp"
@@ -125,7 +126,7 @@ struct PulseSchedules {
     w.array("events", s.events, [&](Writer& each, const motion::Event& event) {
       each.object([&](Writer& o) {
         o.field("period", event.period);
-        o.field("what", motion::name_of(event.what));
+        o.field("what", name_of(event.what));
         if (out.program) o.field("cut", out.program->cuts[event.cut].cut.name);
       });
     });

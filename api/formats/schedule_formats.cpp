@@ -8,6 +8,7 @@
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/numbers.hpp"
+#include "api/motion_names.hpp"
 #include "api/wire_names.hpp"
 #include "api/words.hpp"
 #include "core/base/elementary.hpp"
@@ -88,8 +89,7 @@ void tell_events(const motion::Schedule& s, Chart& chart) {
   const auto at = [&](const motion::Event& e) { return s.period * static_cast<double>(e.period); };
   const bool program = std::ranges::count(s.events, rapid_start, &motion::Event::what) > 0;
   for (const auto& event : s.events) {
-    if (!program)
-      chart.marks.push_back({at(event), called(motion::name_of(event.what), Term::value)});
+    if (!program) chart.marks.push_back({at(event), called(name_of(event.what), Term::value)});
     if (event.what == rapid_start) chart.bands.push_back({.from = at(event), .label = "rapid"});
     if (event.what == rapid_end) chart.bands.back().to = at(event);
   }

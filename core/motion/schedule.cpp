@@ -89,28 +89,6 @@ double ideal_pulses(const Axis& axis, double q, double start) {
 
 std::int64_t rounded(double pulses) { return static_cast<std::int64_t>(std::floor(pulses + 0.5)); }
 
-std::string_view name_of(EventKind kind) {
-  switch (kind) {
-    case EventKind::pierce:
-      return "pierce";
-    case EventKind::torch_on:
-      return "torch_on";
-    case EventKind::cut_start:
-      return "cut_start";
-    case EventKind::cut_end:
-      return "cut_end";
-    case EventKind::torch_off:
-      return "torch_off";
-    case EventKind::pierce_end:
-      return "pierce_end";
-    case EventKind::rapid_start:
-      return "rapid_start";
-    case EventKind::rapid_end:
-      return "rapid_end";
-  }
-  return {};
-}
-
 std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
   std::vector<Warning> out;
   const Motion& motion = spec.motion;

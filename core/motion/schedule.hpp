@@ -5,7 +5,6 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/motion/course.hpp"
@@ -47,7 +46,6 @@ enum class EventKind : std::uint8_t {
   rapid_start,
   rapid_end
 };
-[[nodiscard]] std::string_view name_of(EventKind kind);
 
 struct Event {
   std::int64_t period = 0;  // periods done when the path has passed the mark

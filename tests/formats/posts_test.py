@@ -221,6 +221,18 @@ class Own(FormatTest):
         status, _, content = self.service.ask("parts", body, f"{DARK}&post={quote(json.dumps(self.document | {'axes': three}))}")
         self.assertEqual([e["pointer"] for e in json.loads(content)["errors"]], ["?pivot_length_mm"])
 
+    def test_what_a_request_calls_its_post_stays_a_comment(self):
+        """A post's lines are the client's own code; its name is not."""
+        body, plain = examples("parts")["chord-with-holes"], None
+        for name in ("plain", "a) M3 S1 G0 X0 (", "b;M3", "%", "*) EVIL ("):
+            program = self.service.text("parts", body, f"{DARK}&post={quote(json.dumps(self.document | {'name': name}))}").decode("ascii").splitlines()
+            said = [line for line in program if line.startswith("(")]
+            for line in said:
+                self.assertEqual((line.count("("), line.count(")"), line[-1]), (1, 1, ")"))
+            code = [line for line in program if not line.startswith("(")]
+            plain = plain or code
+            self.assertEqual(code, plain, name)
+
     def test_an_axis_that_counts_within_a_turn(self):
         """0 to below 360 whatever the way round, and by the short way the same path: no move goes as far as half a turn while it cuts."""
         body = examples("parts")["chord-with-holes"]
