@@ -1,5 +1,7 @@
 #include "api/formats/step_file.hpp"
 
+#include <array>
+
 #include "api/formats/text.hpp"
 #include "core/base/elementary.hpp"
 
@@ -9,9 +11,23 @@ namespace {
 constexpr int kDirectionDigits = 12;
 constexpr int kAngleDigits = 9;  // rad: 1e-6 mm at a radius of 1 m
 
-std::string triple(const Eigen::Vector3d& v, int digits) {
-  return "(" + step_real(v.x(), digits) + "," + step_real(v.y(), digits) + "," +
-         step_real(v.z(), digits) + ")";
+void append_real(std::string& out, double value, int digits) {
+  out += fixed(value, digits);
+  out.erase(out.find_last_not_of('0') + 1);
+}
+
+/// "CARTESIAN_POINT('',(0.,0.,1.))": the costliest part of a file, so in one buffer.
+template <int N>
+std::string listed(std::string_view entity, const Eigen::Matrix<double, N, 1>& values,
+                   const std::array<int, N>& digits) {
+  std::string out;
+  out.reserve(96);
+  out += entity;
+  for (int i = 0; i < N; ++i) {
+    out += i == 0 ? "('',(" : ",";
+    append_real(out, values[i], digits[static_cast<std::size_t>(i)]);
+  }
+  return out += "))";
 }
 
 }  // namespace
@@ -20,13 +36,16 @@ std::string step_ref(StepEntities::Id id) { return "#" + std::to_string(id); }
 
 std::string step_refs(const std::vector<StepEntities::Id>& ids) {
   std::string out = "(";
-  for (const auto id : ids) out += (out.size() > 1 ? "," : "") + step_ref(id);
-  return out + ")";
+  for (const auto id : ids) {
+    if (out.size() > 1) out += ',';
+    out += step_ref(id);
+  }
+  return out += ')';
 }
 
 std::string step_real(double value, int digits) {
-  auto out = fixed(value, digits);
-  out.erase(out.find_last_not_of('0') + 1);
+  std::string out;
+  append_real(out, value, digits);
   return out;
 }
 
@@ -47,16 +66,15 @@ StepEntities::Id StepEntities::shared(const std::string& entity) {
 }
 
 StepEntities::Id StepEntities::point(const Eigen::Vector3d& p) {
-  return shared("CARTESIAN_POINT(''," + triple(p, digits_) + ")");
+  return shared(listed<3>("CARTESIAN_POINT", p, {digits_, digits_, digits_}));
 }
 
 StepEntities::Id StepEntities::point(const Eigen::Vector2d& p) {
-  return shared("CARTESIAN_POINT('',(" + step_real(p.x(), kAngleDigits) + "," +
-                step_real(p.y(), digits_) + "))");
+  return shared(listed<2>("CARTESIAN_POINT", p, {kAngleDigits, digits_}));
 }
 
 StepEntities::Id StepEntities::direction(const Eigen::Vector3d& d) {
-  return shared("DIRECTION(''," + triple(d, kDirectionDigits) + ")");
+  return shared(listed<3>("DIRECTION", d, {kDirectionDigits, kDirectionDigits, kDirectionDigits}));
 }
 
 StepEntities::Id StepEntities::placement(const Eigen::Vector3d& origin, double phi) {

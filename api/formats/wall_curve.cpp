@@ -9,6 +9,7 @@ namespace tubecut::api {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 // A volume goes by the mean of these two over the wall and over the length.
 constexpr double kOffCylinder = 1e-6;  // of the wall: how far an edge may leave its cylinder
@@ -27,13 +28,13 @@ constexpr double kWidest = 0.5;  // rad, of a span
 // mm, of a cubic in space to that in (phi, z) at one parameter. A reader that finds more between
 // them than the file's uncertainty fits one of its own, which swings at the corners.
 constexpr double kOffFlat = 6e-5;
-constexpr int kSweeps = 27;      // 4^-27 is the last bit
-constexpr double kApart = 3e-4;  // mm along the rows: nearer places are one
+constexpr std::size_t kForgotten = 54;  // 2^-54 is below the last bit
+constexpr double kApart = 3e-4;         // mm along the rows: nearer places are one
 
 }  // namespace
 
 WallCurve::WallCurve(const bevel::CutWall& wall) : turn_(wall.turn) {
-  for (const auto& edge : wall.edges) edges_.push_back({edge.radius, {}, {}, {}, {}});
+  for (const auto& edge : wall.edges) edges_.push_back({edge.radius, 0.0, {}, {}, {}, {}, {}});
   for (std::size_t i = 0; i < wall.gaps(); ++i) {
     double moved = i == 0 ? 1.0 : 0.0;
     for (std::size_t k = 0; k < edges_.size(); ++k) {
@@ -45,10 +46,14 @@ WallCurve::WallCurve(const bevel::CutWall& wall) : turn_(wall.turn) {
       edges_[k].row.emplace_back(wall.edges[k].phi[i], wall.edges[k].z[i]);
   }
   const auto n = edges_.front().row.size();
+  for (auto& edge : edges_) {
+    for (std::size_t i = 1; i < n; ++i) edge.gap.emplace_back(edge.row[i] - edge.row[i - 1]);
+    edge.gap.emplace_back(edge.row.front() - edge.row.back() + Vector2d(turn_, 0.0));
+  }
   for (std::size_t i = 0; i < n; ++i) {
     double longest = 0.0;
     for (const auto& edge : edges_) {
-      const Vector2d d = gap(edge, i);
+      const Vector2d& d = edge.gap[i];
       const double round = std::abs(edge.radius * d.x());
       // Round a tube the parameter is phi: then every edge is at one phi for one parameter.
       longest =
@@ -62,11 +67,9 @@ WallCurve::WallCurve(const bevel::CutWall& wall) : turn_(wall.turn) {
   const double thick = edges_.back().radius - edges_.front().radius;
   off_cylinder_ = kOffCylinder * thick;
   off_rows_ = std::min(kOffRows, kOffRadius * edges_.back().radius);
-}
-
-Vector2d WallCurve::gap(const Edge& edge, std::size_t row) const {
-  const auto next = (row + 1) % edge.row.size();
-  return edge.row[next] - edge.row[row] + Vector2d(next == 0 ? turn_ : 0.0, 0.0);
+  for (auto& edge : edges_)  // an arc's cubic is off by 3.6e-5 r angle^6
+    edge.widest =
+        std::min(kWidest, elementary::pow(off_cylinder_ / (3.7e-5 * edge.radius), 1.0 / 6.0));
 }
 
 Vector2d WallCurve::laid_gap(const Edge& edge, std::size_t row) const {
@@ -101,15 +104,22 @@ struct WallCurve::Bend {
 std::vector<WallCurve::Bend> WallCurve::bends(const Edge& edge) const {
   const auto n = rows();
   std::vector<Bend> out(n);
+  std::vector<double> cross(n), dot(n), length(n), angle(n);
+  const Vector2d scale(edge.radius, 1.0);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vector2d scale(edge.radius, 1.0);
-    const Vector2d a = scale.cwiseProduct(gap(edge, (i + n - 1) % n));
-    const Vector2d b = scale.cwiseProduct(gap(edge, i));
-    const double cross = a.x() * b.y() - a.y() * b.x(), lines = a.norm() + b.norm();
-    out[i].angle = std::abs(elementary::atan2(cross, a.dot(b)));
+    const Vector2d a = scale.cwiseProduct(edge.gap[i == 0 ? n - 1 : i - 1]);
+    const Vector2d b = scale.cwiseProduct(edge.gap[i]);
+    cross[i] = a.x() * b.y() - a.y() * b.x();
+    dot[i] = a.dot(b);
+    length[i] = b.norm();
+  }
+  elementary::atan2(cross, dot, angle);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = length[i == 0 ? n - 1 : i - 1], lines = before + length[i];
+    out[i].angle = std::abs(angle[i]);
     out[i].rate = lines > 0.0 ? out[i].angle / lines : 0.0;
-    out[i].off = out[i].angle * std::max(a.norm(), b.norm()) / 8.0;
-    out[i].still = a.norm() == 0.0 || b.norm() == 0.0;
+    out[i].off = out[i].angle * std::max(before, length[i]) / 8.0;
+    out[i].still = before == 0.0 || length[i] == 0.0;
   }
   return out;
 }
@@ -160,13 +170,13 @@ void WallCurve::lay(bool centred) {
   const auto n = rows();
   for (auto& edge : edges_) {
     edge.knot = edge.row;
-    edge.arriving.resize(n);
-    edge.leaving.resize(n);
+    edge.arriving.assign(n, Vector2d::Zero());
+    edge.leaving.assign(n, Vector2d::Zero());
     for (std::size_t i = 0; i < n; ++i) {
       if (corner_[i]) continue;
       const auto before = (i + n - 1) % n;
       const double h = length_[before], k = length_[i];
-      const Vector2d a = gap(edge, before) / h, b = gap(edge, i) / k;
+      const Vector2d a = edge.gap[before] / h, b = edge.gap[i] / k;
       edge.arriving[i] = edge.leaving[i] = (k * a + h * b) / (h + k);
       if (centred) edge.knot[i] += (b - a) * (h * h * h + k * k * k) / (6.0 * (h + k) * (h + k));
     }
@@ -183,51 +193,76 @@ void WallCurve::lay(bool centred) {
 }
 
 /// Slopes with which the curve has one curvature at each row between two corners, beside a corner
-/// one from there to the next row: by sweeps, each of which leaves a quarter of what is wrong.
+/// one from there to the next row: each is `put` less its shares of those before and behind it. A
+/// slope feels one that is k rows away by less than 2^-k, so a ring is solved as a line that goes
+/// on for kForgotten rows beyond its end.
 void WallCurve::bend_evenly(Edge& edge) const {
   const auto n = rows();
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (std::size_t i = 0; i < n; ++i) {
-      if (corner_[i]) continue;
-      const auto before = (i + n - 1) % n, next = (i + 1) % n;
-      const double h = length_[before], k = length_[i];
-      const Vector2d a = laid_gap(edge, before) / h, b = laid_gap(edge, i) / k;
-      const double own = (corner_[before] ? 1.0 : 2.0) / h + (corner_[next] ? 1.0 : 2.0) / k;
-      const Vector2d from = corner_[before] ? a : Vector2d(3.0 * a - edge.leaving[before]);
-      const Vector2d to = corner_[next] ? b : Vector2d(3.0 * b - edge.arriving[next]);
-      edge.arriving[i] = edge.leaving[i] = (from / h + to / k) / own;
-    }
+  std::vector<Vector2d> put(n, Vector2d::Zero());
+  std::vector<double> behind(n, 0.0);  // the share, once what is before is put in
+  const auto forward = [&](std::size_t i) {
+    const auto before = (i + n - 1) % n, next = (i + 1) % n;
+    const double h = length_[before], k = length_[i];
+    const Vector2d a = laid_gap(edge, before) / h, b = laid_gap(edge, i) / k;
+    const double from = corner_[before] ? 0.0 : 1.0 / h, to = corner_[next] ? 0.0 : 1.0 / k;
+    const double own = from + 1.0 / h + to + 1.0 / k - from * behind[before];
+    put[i] = ((corner_[before] ? 1.0 : 3.0) / h * a + (corner_[next] ? 1.0 : 3.0) / k * b -
+              from * put[before]) /
+             own;
+    behind[i] = to / own;
+  };
+  for (std::size_t i = 0; i < n + kForgotten; ++i)
+    if (!corner_[i % n]) forward(i % n);
+  for (std::size_t i = n + kForgotten; i-- > 0;) {
+    const auto at = i % n;
+    if (!corner_[at])
+      edge.arriving[at] = edge.leaving[at] = put[at] - behind[at] * edge.leaving[(at + 1) % n];
+  }
 }
 
 double WallCurve::along(const Place& place) const {
   return along_[place.row] + place.share * length_[place.row];
 }
 
-WallCurve::Node WallCurve::node(const Place& place) const {
-  Node out{.place = place, .at = {}, .before = {}, .beyond = {}};
+WallCurve::Passing<Vector2d> WallCurve::pass(const Edge& edge, const Place& place) const {
   const auto i = place.row;
-  out.corner = place.share == 0.0 && corner_[i];
-  for (const auto& edge : edges_) {
-    if (place.share == 0.0) {
-      out.at.push_back(edge.knot[i]);
-      out.before.push_back(edge.arriving[i]);
-      out.beyond.push_back(edge.leaving[i]);
-      continue;
-    }
-    const double h = length_[i], u = place.share, v = 1.0 - u;
-    const Vector2d d = laid_gap(edge, i);
-    const Vector2d first = h * edge.leaving[i], last = h * edge.arriving[(i + 1) % rows()];
-    out.at.push_back(edge.knot[i] + u * u * (3.0 - 2.0 * u) * d + u * v * v * first -
-                     u * u * v * last);
-    const Vector2d rate =
-        (6.0 * u * v * d + v * (1.0 - 3.0 * u) * first + u * (3.0 * u - 2.0) * last) / h;
-    out.before.push_back(rate);
-    out.beyond.push_back(rate);
-  }
+  if (place.share == 0.0) return {edge.knot[i], edge.arriving[i], edge.leaving[i]};
+  const double h = length_[i], u = place.share, v = 1.0 - u;
+  const Vector2d d = laid_gap(edge, i);
+  const Vector2d first = h * edge.leaving[i], last = h * edge.arriving[(i + 1) % rows()];
+  const Vector2d rate =
+      (6.0 * u * v * d + v * (1.0 - 3.0 * u) * first + u * (3.0 * u - 2.0) * last) / h;
+  return {edge.knot[i] + u * u * (3.0 - 2.0 * u) * d + u * v * v * first - u * u * v * last, rate,
+          rate};
+}
+
+WallCurve::Node WallCurve::node(const Place& place) const {
+  Node out{.place = place, .corner = place.share == 0.0 && corner_[place.row], .edges = {}};
+  out.edges.reserve(edges_.size());
+  for (const auto& edge : edges_) out.edges.push_back({pass(edge, place), {}});
   return out;
 }
 
-Vector2d WallCurve::at(std::size_t edge, const Place& place) const { return node(place).at[edge]; }
+/// All of them at a time: side by side a sine costs a quarter.
+void WallCurve::lay_in_space(std::vector<Node>& nodes) const {
+  std::vector<double> phi(nodes.size()), sin(nodes.size()), cos(nodes.size());
+  for (std::size_t k = 0; k < edges_.size(); ++k) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) phi[i] = nodes[i].edges[k].flat.at.x();
+    elementary::sincos(phi, sin, cos);
+    const double r = edges_[k].radius;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      auto& [flat, space] = nodes[i].edges[k];
+      const auto along = [&](const Vector2d& rate) {
+        return Vector3d(-r * sin[i] * rate.x(), r * cos[i] * rate.x(), rate.y());
+      };
+      space = {{r * cos[i], r * sin[i], flat.at.y()}, along(flat.before), along(flat.beyond)};
+    }
+  }
+}
+
+Vector2d WallCurve::at(std::size_t edge, const Place& place) const {
+  return pass(edges_[edge], place).at;
+}
 
 std::vector<WallCurve::Place> WallCurve::corners() const {
   std::vector<Place> out;
@@ -248,7 +283,7 @@ std::vector<WallCurve::Place> WallCurve::crossings(std::size_t edge, double phi)
       double low = 0.0, high = 1.0;
       for (int round = 0; round < 60; ++round) {
         const double middle = 0.5 * (low + high);
-        const bool first = (node({i, middle}).at[edge].x() < at) == (from < at);
+        const bool first = (pass(e, {i, middle}).at.x() < at) == (from < at);
         (first ? low : high) = middle;
       }
       const bool at_row = low * length_[i] < kApart, at_next = (1.0 - low) * length_[i] < kApart;
@@ -284,11 +319,10 @@ std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations
                             after->along <= at + kApart;
     return by_station || at > around_ - kApart;
   };
-  const double most = widest(edges_.back().radius);
   for (std::size_t i = 0; i < rows(); ++i) {
     double wide = 0.0;
     for (const auto& edge : edges_) wide = std::max(wide, std::abs(laid_gap(edge, i).x()));
-    const int parts = std::max(1, static_cast<int>(std::ceil(wide / most)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(wide / edges_.back().widest)));
     for (int part = 0; part < parts; ++part) {
       const Place place{i, static_cast<double>(part) / parts};
       double at = along(place) - origin;
@@ -305,16 +339,12 @@ std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations
       ++i;
     }
   }
+  lay_in_space(out);
   auto last = out.front();
   last.along = around_;
   last.turn += 1.0;
   out.push_back(std::move(last));
   return out;
-}
-
-/// The widest span whose cubic stays so near to the cylinder: an arc's is off by 3.6e-5 r angle^6.
-double WallCurve::widest(double radius) const {
-  return std::min(kWidest, elementary::pow(off_cylinder_ / (3.7e-5 * radius), 1.0 / 6.0));
 }
 
 }  // namespace tubecut::api

@@ -21,12 +21,6 @@ Vector3d on_wall(double radius, const Vector2d& p) {
   return {radius * cos, radius * sin, p.y()};
 }
 
-/// A direction (per phi and z) on the wall in space.
-Vector3d along_wall(double radius, double phi, const Vector2d& slope) {
-  const auto [sin, cos] = elementary::sincos(phi);
-  return {-radius * sin * slope.x(), radius * cos * slope.x(), slope.y()};
-}
-
 /// What makes a third of an arc's parameter the handle of the cubic nearest to it.
 double handle(double dphi) {
   if (std::abs(dphi) < 1e-4) return 1.0 / 3.0;
@@ -69,32 +63,30 @@ struct WallCurve::Span {
   bool full = false, station = false;  // at its end
 };
 
-WallCurve::Bezier WallCurve::cubic(std::size_t edge, const Node& from, const Node& to) const {
-  const double radius = edges_[edge].radius, wide = to.along - from.along;
-  const Vector2d a = from.at[edge], b = to.at[edge];
-  const double dphi = b.x() - a.x() + (to.turn - from.turn) * turn_;
-  const double reach = handle(dphi) * wide;
-  const Vector3d first = on_wall(radius, a), last = on_wall(radius, b);
-  return {first, first + reach * along_wall(radius, a.x(), from.beyond[edge]),
-          last - reach * along_wall(radius, b.x(), to.before[edge]), last};
+double WallCurve::turned(std::size_t edge, const Node& from, const Node& to) const {
+  return to.edges[edge].flat.at.x() - from.edges[edge].flat.at.x() + (to.turn - from.turn) * turn_;
 }
 
-/// With the handles of the cubic in space, so that both reach a place at the same parameter.
-WallCurve::Flat WallCurve::flat_cubic(std::size_t edge, const Node& from, const Node& to) const {
-  const Vector2d a = from.at[edge] + Vector2d(from.turn * turn_, 0.0);
-  const Vector2d b = to.at[edge] + Vector2d(to.turn * turn_, 0.0);
-  const double reach = handle(b.x() - a.x()) * (to.along - from.along);
-  return {a, a + reach * from.beyond[edge], b - reach * to.before[edge], b};
+WallCurve::Pair WallCurve::cubics(std::size_t edge, const Node& from, const Node& to) const {
+  const auto &a = from.edges[edge], &b = to.edges[edge];
+  const double reach = handle(turned(edge, from, to)) * (to.along - from.along);
+  const auto cubic = [&](const auto& first, const auto& last) {
+    return Cubic<std::decay_t<decltype(first.at)>>{first.at, first.at + reach * first.beyond,
+                                                   last.at - reach * last.before, last.at};
+  };
+  Pair out{.space = cubic(a.space, b.space), .flat = cubic(a.flat, b.flat)};
+  for (auto i : {0U, 1U}) out.flat[i].x() += from.turn * turn_;
+  for (auto i : {2U, 3U}) out.flat[i].x() += to.turn * turn_;
+  return out;
 }
 
-bool WallCurve::near(const Bezier& curve, std::size_t edge, const Vector2d& point, double u) const {
-  const Vector3d p = on_wall(edges_[edge].radius, point);
-  Vector3d d = value(curve, u) - p;
-  for (int round = 0; round < 3; ++round) {
+bool WallCurve::near(const Bezier& curve, const Vector3d& point, double u) const {
+  Vector3d d = value(curve, u) - point;
+  for (int round = 0; round < 3 && d.squaredNorm() > off_rows_ * off_rows_; ++round) {
     const Vector3d t = slope(curve, u);
     if (!(t.squaredNorm() > 0.0)) break;
     u = std::clamp(u - d.dot(t) / t.squaredNorm(), 0.0, 1.0);
-    d = value(curve, u) - p;
+    d = value(curve, u) - point;
   }
   return d.norm() <= off_rows_;
 }
@@ -103,20 +95,19 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
   const auto &a = nodes[from], &b = nodes[to];
   const double wide = b.along - a.along;
   for (std::size_t k = 0; k < edges_.size(); ++k) {
-    const double dphi = b.at[k].x() - a.at[k].x() + (b.turn - a.turn) * turn_;
-    if (std::abs(dphi) > widest(edges_[k].radius)) return false;
-    const auto curve = cubic(k, a, b);
+    if (std::abs(turned(k, a, b)) > edges_[k].widest) return false;
+    const auto both = cubics(k, a, b);
     for (const double u : {0.25, 0.5, 0.75}) {
-      const auto p = value(curve, u);
+      const auto p = value(both.space, u);
       const double off = p.head<2>().norm() - edges_[k].radius;
       if (std::abs(off) > off_cylinder_) return false;
       if (!off_flat_) continue;
-      const auto twin = on_wall(edges_[k].radius, value(flat_cubic(k, a, b), u));
+      const auto twin = on_wall(edges_[k].radius, value(both.flat, u));
       if ((p - twin).norm() > *off_flat_) return false;
     }
     for (auto i = from + 1; i < to; ++i) {
-      const Vector2d& at = nodes[i].at[k];
-      if (!near(curve, k, at, (nodes[i].along - a.along) / wide)) return false;
+      const auto& at = nodes[i].edges[k].space.at;
+      if (!near(both.space, at, (nodes[i].along - a.along) / wide)) return false;
     }
   }
   return true;
@@ -154,10 +145,10 @@ std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
              .full = b.corner || b.station,
              .station = b.station};
     for (std::size_t k = 0; k < edges_.size(); ++k) {
-      one.curves.push_back(cubic(k, a, b));
-      one.flats.push_back(flat_cubic(k, a, b));
-      const double dphi = b.at[k].x() - a.at[k].x() + (b.turn - a.turn) * turn_;
-      one.wide = std::max(one.wide, 3.0 * handle(dphi) * (b.along - a.along));
+      const auto both = cubics(k, a, b);
+      one.curves.push_back(both.space);
+      one.flats.push_back(both.flat);
+      one.wide = std::max(one.wide, 3.0 * handle(turned(k, a, b)) * (b.along - a.along));
     }
     out.push_back(std::move(one));
     from = to;

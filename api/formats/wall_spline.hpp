@@ -67,17 +67,29 @@ class WallCurve {
  private:
   struct Edge {
     double radius = 0.0;
+    double widest = 0.0;                             // rad, of a span
     std::vector<Eigen::Vector2d> row;                // as given
+    std::vector<Eigen::Vector2d> gap;                // from each to the next
     std::vector<Eigen::Vector2d> knot;               // where the curve passes it
     std::vector<Eigen::Vector2d> arriving, leaving;  // its slopes there, per mm along the rows
+  };
+  /// Where an edge is, in (phi, z) or in space, and its slopes on both sides, per mm along the
+  /// rows.
+  template <typename Point>
+  struct Passing {
+    Point at = Point::Zero(), before = Point::Zero(), beyond = Point::Zero();
+  };
+  struct Passed {
+    Passing<Eigen::Vector2d> flat;
+    Passing<Eigen::Vector3d> space;
   };
   /// A place where a span may begin: a row, a station, or one in a long gap.
   struct Node {
     Place place;
     double along = 0.0;  // from the first station
     bool corner = false, station = false;
-    double turn = 0.0;                                // 1 beyond the last row
-    std::vector<Eigen::Vector2d> at, before, beyond;  // of each edge; slopes on both sides
+    double turn = 0.0;  // 1 beyond the last row
+    std::vector<Passed> edges;
   };
   /// From one knot to the next: a cubic of each edge.
   struct Span;
@@ -85,6 +97,11 @@ class WallCurve {
   using Cubic = std::array<Point, 4>;
   using Bezier = Cubic<Eigen::Vector3d>;
   using Flat = Cubic<Eigen::Vector2d>;
+  /// One span in space and in (phi, z): at every parameter the same place.
+  struct Pair {
+    Bezier space;
+    Flat flat;
+  };
 
   explicit WallCurve(const bevel::CutWall& wall);
   struct Bend;
@@ -93,22 +110,21 @@ class WallCurve {
   void find_kinks();
   void lay(bool centred);
   void bend_evenly(Edge& edge) const;
-  [[nodiscard]] Eigen::Vector2d gap(const Edge& edge, std::size_t row) const;
   [[nodiscard]] Eigen::Vector2d laid_gap(const Edge& edge, std::size_t row) const;
+  [[nodiscard]] Passing<Eigen::Vector2d> pass(const Edge& edge, const Place& place) const;
   [[nodiscard]] Node node(const Place& place) const;
+  void lay_in_space(std::vector<Node>& nodes) const;
   [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations) const;
-  [[nodiscard]] Bezier cubic(std::size_t edge, const Node& from, const Node& to) const;
-  /// The same in (phi, z): at every parameter the same place.
-  [[nodiscard]] Flat flat_cubic(std::size_t edge, const Node& from, const Node& to) const;
+  /// How far round an edge goes from one node to the next, rad.
+  [[nodiscard]] double turned(std::size_t edge, const Node& from, const Node& to) const;
+  [[nodiscard]] Pair cubics(std::size_t edge, const Node& from, const Node& to) const;
   [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from) const;
   [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes,
                                         const std::stop_token& stop) const;
   [[nodiscard]] static std::vector<Span> graded(std::vector<Span> spans,
                                                 const std::stop_token& stop);
-  [[nodiscard]] double widest(double radius) const;
   [[nodiscard]] bool fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to) const;
-  [[nodiscard]] bool near(const Bezier& curve, std::size_t edge, const Eigen::Vector2d& point,
-                          double u) const;
+  [[nodiscard]] bool near(const Bezier& curve, const Eigen::Vector3d& point, double u) const;
 
   std::vector<Edge> edges_;
   std::vector<double> length_, along_;  // of the gap behind each row; up to each row
