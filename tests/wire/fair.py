@@ -13,23 +13,29 @@ from service import BODY, ROOT, Service, connect, exchange, get, head, post
 HOGS = 8
 
 
-def long_job():
-    body = json.loads((ROOT / "examples/pulse-schedules/table-1-on-the-five-axis-cutter.json").read_text())
-    body.setdefault("motion", {})["speed"] = {"mm_min": 20}
-    return "pulse-schedules", body
+def example(name):
+    return json.loads((ROOT / f"examples/pulse-schedules/{name}.json").read_text())
+
+
+def long_jobs():
+    """A slow cut, and a slow part whose many cuts are each a schedule."""
+    cut, part = example("table-1-on-the-five-axis-cutter"), example("two-ends-and-four-holes-of-a-part")
+    yield cut | {"motion": cut.get("motion", {}) | {"speed": {"mm_min": 20}}}
+    yield part | {"motion": part["motion"] | {"speed": {"mm_min": 100}}}
 
 
 def batch_of(count):
-    endpoint, body = long_job()
-    lines = b"".join(json.dumps({"id": f"long {n}", "endpoint": endpoint, "body": body}).encode() + b"\n" for n in range(count))
+    bodies = list(long_jobs())
+    lines = b"".join(json.dumps({"id": f"long {n}", "endpoint": "pulse-schedules", "body": bodies[n % len(bodies)]}).encode() + b"\n"
+                     for n in range(count))
     return head(f"Content-Length: {len(lines)}", target="/v1/batches").replace(b"application/json", b"application/x-ndjson") + lines
 
 
 def hog(port, until):
-    endpoint, body = long_job()
-    request = post(json.dumps(body).encode(), target=f"/v1/{endpoint}")
+    requests = [post(json.dumps(body).encode(), target="/v1/pulse-schedules") for body in long_jobs()]
     while time.monotonic() < until:
-        exchange(port, request, patience=20.0)
+        for request in requests:
+            exchange(port, request, patience=20.0)
 
 
 def keep_reading(sock, until):
