@@ -89,7 +89,9 @@ class Stage {
 /// Largest value at every knot from which the last knot can be reached.
 std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows,
                              const std::stop_token& stop) {
-  for (std::size_t i = most.size() - 1; i-- > 0 && !stops(stop, i);) {
+  const std::size_t n = most.size() - 1;
+  for (std::size_t turn = 0; turn < n && !stops(stop, turn); ++turn) {
+    const std::size_t i = n - 1 - turn;
     most[i] = Stage(rows, i, true).largest_near(most[i], most[i + 1]);
   }
   return most;
@@ -147,7 +149,10 @@ std::vector<double> largest_profile(std::vector<double> x, double d, const Rows&
   };
   for (std::size_t i = 0; i < n && !stops(stop, i); ++i)
     x[i + 1] = std::min(x[i + 1], reach(i, x[i]));
-  for (std::size_t i = n; i-- > 0 && !stops(stop, i);) x[i] = std::min(x[i], reach(i, x[i + 1]));
+  for (std::size_t turn = 0; turn < n && !stops(stop, turn); ++turn) {
+    const std::size_t i = n - 1 - turn;
+    x[i] = std::min(x[i], reach(i, x[i + 1]));
+  }
   return x;
 }
 

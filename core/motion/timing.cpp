@@ -200,7 +200,10 @@ std::vector<double> FilteredProfiles::passed(std::vector<double> x,
                                              const std::stop_token& stop) const {
   const std::size_t n = limits_.intervals();
   for (std::size_t i = 0; i < n && !stops(stop, i); ++i) x[i + 1] = reach(i, x[i], x[i + 1]);
-  for (std::size_t i = n; i-- > 0 && !stops(stop, i);) x[i] = reach(i, x[i + 1], x[i]);
+  for (std::size_t turn = 0; turn < n && !stops(stop, turn); ++turn) {
+    const std::size_t i = n - 1 - turn;
+    x[i] = reach(i, x[i + 1], x[i]);
+  }
   return x;
 }
 
@@ -251,6 +254,7 @@ Timing FilteredProfiles::by_magnitudes(const std::vector<double>& without_jerk, 
     bound_acceleration(filter, true, stop);
     if (!before.empty()) tighten(before, stop);
     bound_edges(filter, stop);
+    if (stop.stop_requested()) return fastest;  // not all rows are there
     return passed(capped(fastest), stop);
   };
   return refined(without_jerk, filter, optimism, rounds, solve, stop);
@@ -263,7 +267,7 @@ Timing FilteredProfiles::by_signs(const SignedRows& rows, double filter, const O
     if (!before.empty()) tighten(before, stop);
     bound_edges(filter, stop);
     const HalfPlanes all = signed_rows(rows, stop);
-    if (stop.stop_requested()) return fastest;
+    if (stop.stop_requested()) return fastest;  // not all rows are there
     return fastest_within(capped(fastest), rows.without_jerk.bound, all, stop);
   };
   return refined(rows.without_jerk.x, filter, optimism, rounds, solve, stop);

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <stop_token>
+#include <thread>
 
 #include "core/motion/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
@@ -126,6 +129,29 @@ TEST(Laws, CancelledIsCancelled) {
   const auto s = schedule(table1(0), source.get_token());
   ASSERT_FALSE(s);
   EXPECT_EQ(s.error().code(), ErrorCode::cancelled);
+}
+
+/// Whatever a stop leaves half made is not read: the standard library's checks are on in this
+/// build.
+TEST(Laws, AStopAtAnyMomentIsCancelled) {
+  using Clock = std::chrono::steady_clock;
+  ScheduleSpec spec = random_job(11);
+  const auto begun = Clock::now();
+  ASSERT_TRUE(schedule(spec));
+  const auto whole = Clock::now() - begun;
+  int cancelled = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::stop_source source;
+    std::jthread stopper([&] {
+      std::this_thread::sleep_for(whole * trial / 200);
+      source.request_stop();
+    });
+    const auto s = schedule(spec, source.get_token());
+    if (s) continue;
+    EXPECT_EQ(s.error().code(), ErrorCode::cancelled);
+    ++cancelled;
+  }
+  EXPECT_GT(cancelled, 100);
 }
 
 TEST(Laws, WithoutJerkTheOptimumIsReached) {

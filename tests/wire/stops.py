@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""Stops at any moment: `stops.py BINARY [STOPS_A_REQUEST [SEED]]`. Every example, and the heaviest requests, with budgets drawn between nothing
+and all that the job takes. Each is answered or over its budget, by the same process; what a stop leaves half made is never read (the tests'
+build has the standard library's checks on)."""
+
+import collections
+import json
+import math
+import random
+import sys
+
+import forms
+import heaviest
+from budget import ask, cpu_ms
+from service import ROOT, Service
+
+LONGEST_MS = 400  # of the heaviest: what comes later is met by others
+
+
+def requests():
+    """Target and body."""
+    for endpoint, ways in forms.targets().items():
+        for file in sorted((ROOT / "examples" / endpoint).glob("*.json")):
+            yield ways, file.read_bytes()
+    for endpoint, _, body in heaviest.requests():
+        yield forms.targets()[endpoint][:1], heaviest.text(body)
+
+
+def main():
+    asked = [int(word) for word in sys.argv[2:]] + [1, 1][len(sys.argv) - 2:]
+    stops, rng = asked[0], random.Random(asked[1])
+    told, wrong = collections.Counter(), []
+    with Service(sys.argv[1], "--slots", "1", "--budget-s", "60") as service:
+        for ways, body in requests():
+            target = rng.choice(ways)
+            whole = ask(service, body, target, LONGEST_MS)
+            longest = cpu_ms(whole) if whole.status in (200, 504) else 1.0
+            for _ in range(stops):
+                budget = max(1, math.floor(rng.uniform(0, longest)))
+                reply = ask(service, body, target, budget)
+                told[reply.status] += 1
+                if reply.status not in (200, 413, 422, 429, 504):
+                    wrong.append(f"{target} budget {budget}: {reply.status} {json.loads(reply.body)}")
+    print("\n".join(wrong))
+    print(f"{sum(told.values())} requests, {dict(told)}")
+    sys.exit(bool(wrong) or told[504] < 50)
+
+
+if __name__ == "__main__":
+    main()
