@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Budgets and hang-ups with the costliest requests found, of every endpoint and in every format: `budget.py BINARY [--times]`. A job
+"""Budgets and hang-ups with the costliest requests found, of every endpoint and in every format and view: `budget.py BINARY [--times]`. A job
 over its budget is 504, and its slot is free again; a client that leaves frees its slot. With --times also: it has used at most 20 ms
 of CPU beyond its budget (a build with sanitizers: as many times more as it is slower), and the sizes in ALLOWED are answered within
 what their endpoints have by default."""
@@ -9,17 +9,15 @@ import sys
 import time
 
 import costly
+import forms
 import heaviest
-from service import Reply, Service, connect, exchange, get, post
+from service import Reply, Service, connect, post
 
 LATE_MS = 20.0
 BUDGETS_MS = (5, 50, 500)
 ALL_MS = 120_000  # the budget of whoever has to end by itself
 ALLOWED = {"mill-paths/90-annealed", "mill-paths/3600", "mill-paths/20000", "pulse-schedules/crawler-table", "pulse-schedules/5-m",
            "pulse-schedules/compare", "pulse-schedules/3600-positions"}
-PROGRAM = "&speed_mm_min=600&lead_mm=1000"  # the longest lead is halved most often
-OPTIONS = {"gcode": PROGRAM, "zip": "&files=work-order,nc1,dxf,step,csv,gcode" + PROGRAM}
-VIEWS = {"step": ("step", "step&view=smooth")}  # that cost other than their format alone
 
 
 def cpu_ms(reply):
@@ -33,21 +31,10 @@ def ask(service, body, target, budget_ms):
         parts = []
         while part := sock.recv(1 << 20):
             parts.append(part)
-    return Reply(*b"".join(parts).split(b"\r\n\r\n", 1))
-
-
-def formats(service):
-    page = json.loads(exchange(service.port, get("/v1/version"))[0].body)
-    names = {"application/json": "json", "application/cbor": "cbor", "text/csv": "csv", "image/svg+xml": "svg", "image/vnd.dxf": "dxf",
-             "model/gltf-binary": "glb", "model/stl": "stl", "model/step": "step", "application/x-dstv": "nc1", "text/x-gcode": "gcode", "application/pdf": "pdf",
-             "text/x-iec61131-st": "st", "application/zip": "zip"}
-    return {e["id"]: [form for media in e["formats"] for form in VIEWS.get(names.get(media, media), (names.get(media, media),))]
-            for e in page["endpoints"]}
-
-
-def target_of(endpoint, form):
-    options = OPTIONS.get(form, "") if endpoint in ("bevel-tables", "parts", "holes", "frames") else ""
-    return f"/v1/{endpoint}?format={form}{options}"
+    reply = b"".join(parts)
+    if b"\r\n\r\n" not in reply:
+        sys.exit(f"{target}: no answer but {reply[:100]!r}; {body[:200]!r}")
+    return Reply(*reply.split(b"\r\n\r\n", 1))
 
 
 def idle_again(service, seconds=5.0):
@@ -59,13 +46,12 @@ def idle_again(service, seconds=5.0):
     return False
 
 
-def jobs(forms, times):
+def jobs(times):
     """Name, target, body, budgets."""
-    budgets = BUDGETS_MS if times else BUDGETS_MS[:2]
+    budgets, ways = BUDGETS_MS if times else BUDGETS_MS[:2], forms.targets()
     for endpoint, name, body in heaviest.requests():
-        text = heaviest.text(body)
-        for form in forms[endpoint] if times else ("json",):
-            yield f"{endpoint}/{name} {form}", target_of(endpoint, form), text, budgets
+        for target in ways[endpoint] if times else ways[endpoint][:1]:
+            yield f"{name} {target}", target, heaviest.text(body), budgets
     for target, body in costly.requests():
         yield target, target, heaviest.text(body), budgets
 
@@ -124,9 +110,9 @@ def main():
         with Service(sys.argv[1], "--slots", "1") as service:
             wrong = list(allowed(service)) if service.slowdown() == 1 else []
     with Service(sys.argv[1], "--slots", "1", "--budget-s", "120") as service:
-        watch, forms = Watch(service), formats(service)
+        watch = Watch(service)
         watch.wrong += wrong
-        for name, target, body, budgets in jobs(forms, times):
+        for name, target, body, budgets in jobs(times):
             for budget in budgets:
                 reply = ask(service, body, target, budget)
                 watch.see(name, reply, budget)
@@ -140,4 +126,5 @@ def main():
     sys.exit(bool(watch.wrong) or watch.over < 50 or (times and watch.worst > watch.late_ms))
 
 
-main()
+if __name__ == "__main__":
+    main()
