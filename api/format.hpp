@@ -70,6 +70,7 @@ struct Caption {
   std::vector<std::pair<std::string, std::string>> reference;
   std::vector<std::string> partners = {};         // what they are called; of a part, the start's
   std::vector<std::string> finish_partners = {};  // of a part
+  std::vector<std::string> members = {};          // of a frame, which this part is
   std::string input_sha256;
   std::string result_sha256;
   std::string view;  // ?view=, empty: the format's default

@@ -1,7 +1,9 @@
 #include "api/endpoints/frame_bundle.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -76,15 +78,32 @@ std::string file_name(std::string_view text, std::string_view sha256) {
   return out + "_" + std::string(sha256.substr(0, 8));
 }
 
-/// The job's reference, its part with the member's id behind it.
-std::vector<std::pair<std::string, std::string>> reference_of(const std::string& id,
-                                                              const Caption& caption) {
+using References = std::vector<std::pair<std::string, std::string>>;
+
+References::iterator entry(References& all, std::string_view name) {
+  return std::ranges::find(all, name, &References::value_type::first);
+}
+
+/// How many of a part are to be made: one a member, of each of the frames that the job asks for.
+std::uint64_t quantity_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
+  auto all = caption.reference;
+  const auto frames = entry(all, "quantity");
+  return frame.parts[i].members.size() * (frames == all.end() ? 1 : std::stoull(frames->second));
+}
+
+/// The job's reference, its part with the member's id behind it, its quantity that of the part.
+References reference_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
   auto out = caption.reference;
-  const auto part = std::ranges::find(out, "part", [](const auto& one) { return one.first; });
-  if (part != out.end())
+  const auto& id = name_of_part(frame, i);
+  if (const auto part = entry(out, "part"); part != out.end())
     part->second += " " + id;
   else
     out.emplace(out.begin(), "part", id);
+  const auto pieces = std::to_string(quantity_of(frame, i, caption));
+  if (const auto quantity = entry(out, "quantity"); quantity != out.end())
+    quantity->second = pieces;
+  else
+    out.emplace_back("quantity", pieces);
   return out;
 }
 
@@ -114,7 +133,8 @@ Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& p
   Folder out;
   auto caption = of_frame;
   caption.options = {};
-  caption.reference = reference_of(name_of_part(frame, i), of_frame);
+  caption.reference = reference_of(frame, i, of_frame);
+  caption.members = members_of_part(frame, i);
   auto program = caption;  // what else the query says is of those alone
   program.options = of_frame.options;
   program.options.acknowledged = acknowledged_of(part.answer, of_frame.options.acknowledged);
@@ -154,8 +174,9 @@ void write_problem(const Problem& why, Writer& o) {
 }
 
 void write_folder_row(const FrameJob& frame, std::size_t i, const MadePart& part,
-                      const Folder& folder, Writer& o) {
+                      const Folder& folder, const Caption& caption, Writer& o) {
   o.field("part", name_of_part(frame, i));
+  o.field("quantity", quantity_of(frame, i, caption));
   o.column("members", members_of_part(frame, i));
   if (part.problem) return o.object("problem", [&](Writer& p) { write_problem(*part.problem, p); });
   const auto& answer = part.made->answer;
@@ -194,7 +215,7 @@ std::string manifest(const FrameJob& frame, const MadeParts& made,
     std::vector<std::size_t> parts(made.size());
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = i;
     w.array("parts", parts, [&](Writer& each, std::size_t i) {
-      each.object([&](Writer& o) { write_folder_row(frame, i, made[i], folders[i], o); });
+      each.object([&](Writer& o) { write_folder_row(frame, i, made[i], folders[i], caption, o); });
     });
     write_not_cut(frame, w);
   });

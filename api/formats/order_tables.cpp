@@ -42,7 +42,52 @@ void draw_head(OrderSheets& sheets, const std::string& title, const std::vector<
   draw_row_line(canvas, top - kTall);
 }
 
+/// Broken at blanks.
+std::vector<std::string> lines_within(std::string_view text, double height, double room) {
+  std::vector<std::string> out(1);
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' ') + 1, text.size());
+    const auto word = end == 0 ? text : text.substr(0, end);
+    if (!out.back().empty() && text_width(out.back() + std::string(word), height) > room)
+      out.emplace_back();
+    out.back() += word;
+    text.remove_prefix(word.size());
+  }
+  return out;
+}
+
+/// How many of the quantity each member is.
+std::string each_of(const Caption& caption) {
+  for (const auto& [name, text] : caption.reference)
+    if (const auto frames = name == "quantity" ? std::stoull(text) / caption.members.size() : 1;
+        frames > 1)
+      return ": one piece each, for each of " + std::to_string(frames) + " frames";
+  return ": one piece each";
+}
+
 }  // namespace
+
+void draw_members(OrderSheets& sheets, const Caption& caption) {
+  constexpr double kRow = 3.3, kMostLines = 3.0;
+  const auto& all = caption.members;
+  if (all.empty()) return;
+  std::string text = all.size() == 1 ? "For member " : "For members ";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto rest = " and " + std::to_string(all.size() - i) + " more, see the cut list";
+    const auto next = (i == 0 ? "" : ", ") + all[i];
+    const double room = (kMostLines - 0.7) * OrderSheets::kWide;  // lines break at blanks
+    if (i > 0 && text_width(text + next + rest, kSmall.height) > room) {
+      text += rest;
+      break;
+    }
+    text += next;
+  }
+  const auto lines = lines_within(text + each_of(caption), kSmall.height, OrderSheets::kWide);
+  double y = sheets.take(kRow * static_cast<double>(lines.size()) + 1.4);
+  for (const auto& line : lines)
+    sheets.canvas().text({OrderSheets::kLeft, y -= kRow}, line,
+                         fitted(line, kSmall, OrderSheets::kWide));
+}
 
 void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part) {
   if (part.holes.empty()) return;
@@ -113,20 +158,6 @@ std::string joined(const std::vector<part::Mistake>& mistakes) {
   std::string out;
   for (const auto one : mistakes) out += (out.empty() ? "" : ", ") + said(one);
   return out.empty() ? "none of them by more than 1 mm" : out;
-}
-
-/// Broken at blanks.
-std::vector<std::string> lines_within(std::string_view text, double height, double room) {
-  std::vector<std::string> out(1);
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' ') + 1, text.size());
-    const auto word = end == 0 ? text : text.substr(0, end);
-    if (!out.back().empty() && text_width(out.back() + std::string(word), height) > room)
-      out.emplace_back();
-    out.back() += word;
-    text.remove_prefix(word.size());
-  }
-  return out;
 }
 
 }  // namespace

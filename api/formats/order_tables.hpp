@@ -7,6 +7,10 @@ namespace tubecut::api {
 
 // The tables of a work order, each with its head, and room for what was measured or done.
 
+/// Which members of a frame the pieces are for, as many as stand on three lines; nothing where
+/// there is no frame.
+void draw_members(OrderSheets& sheets, const Caption& caption);
+
 /// Each hole by its tag: where it is from the start's long point and round from the datum line, how
 /// large, its bevel.
 void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);

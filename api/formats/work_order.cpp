@@ -224,6 +224,7 @@ std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& par
                                const Caption& caption) {
   OrderSheets sheets("Work order", name_of_part(spec, caption), caption);
   draw_facts(sheets, order_facts(caption), 4);
+  draw_members(sheets, caption);
   rule(sheets);
   draw_facts(sheets, part_facts(spec, part), 4);
   rule(sheets);

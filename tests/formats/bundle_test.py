@@ -9,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import tempfile
+import xml.etree.ElementTree as ElementTree
 import zipfile
 
 from service import HOSTILE, FormatTest, examples, main
@@ -31,6 +32,10 @@ def frame(*ids):
 def code_of(content):
     problem = json.loads(content)
     return problem["errors"][0]["pointer"] if problem.get("errors") else problem["code"]
+
+
+def texts(svg):
+    return [e.text or "" for e in ElementTree.fromstring(svg).iter("{http://www.w3.org/2000/svg}text")]
 
 
 class Bundles(FormatTest):
@@ -73,13 +78,52 @@ class Bundles(FormatTest):
                 self.assertEqual(part["left_out"], [])
                 by_format = {file["format"]: file["name"] for file in part["files"]}
                 self.assertEqual(set(by_format), {"request", *ALL})
-                request = json.loads(files[by_format["request"]]) | {"reference": {"part": "F7 " + part["part"], "order": "A-1"}}
+                request = json.loads(files[by_format["request"]]) | {
+                    "reference": {"part": "F7 " + part["part"], "order": "A-1", "quantity": len(part["members"])}}
                 for file, (form, ending) in ALL.items():
                     self.assertEqual(by_format[file], by_format["request"].replace(".request.json", "." + ending))
                     query = f"format={form}" + ("&" + CODE if form == "gcode" else "")
-                    self.assertEqual(files[by_format[file]], self.service.text("parts", request, query), f"{name} {by_format[file]}")
+                    got, wanted = files[by_format[file]], self.service.text("parts", request, query)
+                    if file == "work-order":  # which says besides whose pieces they are
+                        got, wanted = [text for text in texts(got) if not text.startswith("For member")], texts(wanted)
+                    self.assertEqual(got, wanted, f"{name} {by_format[file]}")
                     looked += 1
         self.assertGreaterEqual(looked, 60)
+
+    def test_every_file_says_how_many_and_for_which_members(self):
+        body = examples("frames")["roll-cage-of-12"]
+        rows = {row["part"]: row["members"] for row in self.service.answer("frames", body)["result"]["cut_list"]}
+        self.assertGreater(max(map(len, rows.values())), 1)
+        for frames in (None, 3):
+            files = self.archive(body | ({"reference": {"quantity": frames}} if frames else {}), "&files=work-order,nc1,dxf")
+            for part in self.manifest(files)["parts"]:
+                members = rows[part["part"]]
+                pieces = len(members) * (frames or 1)
+                self.assertEqual((part["members"], part["quantity"]), (members, pieces))
+                content = {file["format"]: files[file["name"]] for file in part["files"]}
+                order = texts(content["work-order"])
+                self.assertEqual(order[order.index("quantity") + 1], str(pieces))
+                whose = "For member" + "s" * (len(members) > 1) + " " + ", ".join(members) + ": one piece each"
+                self.assertIn(whose + (f", for each of {frames} frames" if frames else ""), order)
+                header = [line for line in content["nc1"].decode().splitlines() if not line.startswith("**")]
+                self.assertEqual(header[6].strip(), str(pieces))  # behind ST, order, drawing, phase, piece and grade
+                self.assertIn(f"quantity: {pieces}", content["dxf"].decode())
+
+    def test_members_beyond_three_lines_are_counted(self):
+        ids = [f"brace number {i} of the lower row" for i in range(60)]
+        members = [{"id": one, "start_mm": [300 * i, 0, 0], "end_mm": [300 * i, 0, 500], "outer_diameter_mm": 60.3, "wall_mm": 4}
+                   for i, one in enumerate(ids)]
+        files = self.archive({**frame(), "members": members}, "&files=work-order")
+        [part] = self.manifest(files)["parts"]
+        self.assertEqual(part["quantity"], 60)
+        order = texts(next(content for name, content in files.items() if name.endswith(".svg")))
+        at = next(i for i, text in enumerate(order) if text.startswith("For members"))
+        said = " ".join(text.strip() for text in order[at:at + 3])
+        left = int(re.search(r"and (\d+) more, see the cut list: one piece each$", said)[1])
+        self.assertTrue(0 < left < 60)
+        for one in ids[:60 - left]:
+            self.assertIn(one, said)
+        self.assertNotIn(ids[60 - left] + ",", said)
 
     def test_the_cut_list_is_that_of_the_answer(self):
         body = examples("frames")["roll-cage-of-12"]
