@@ -25,11 +25,6 @@ constexpr Range kGap{.min = 0.0, .max = 50.0};
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 
-TubeSection decode_tube(Reader& in) {
-  in.optional_text("id");
-  return decode_tube_section(in, true);
-}
-
 }  // namespace
 
 HoleBranch decode_hole_branch(Reader& in) {
@@ -112,7 +107,7 @@ void encode_hole(const bevel::HoleSpec& spec, const bevel::Hole& hole, Writer& o
 namespace {
 
 struct Holes {
-  using Spec = bevel::HoleSpec;
+  using Spec = NamedHole;
   using Out = bevel::HoleCut;
   static constexpr std::string_view kId = "holes";
   static constexpr std::string_view kPath = "/v1/holes";
@@ -137,12 +132,16 @@ struct Holes {
 
   static Spec decode(Reader& in) {
     Spec out;
-    const auto chord = in.object("chord", decode_tube);
+    const auto chord = in.object("chord", [&](Reader& c) {
+      out.chord_name = c.optional_text("id").value_or("");
+      return decode_tube_section(c, true);
+    });
     out.chord = {.outer_radius = chord.outer_radius, .wall = chord.wall};
     const double deepest = in.refused() ? kDiameter.max / 2.0 : chord.outer_radius;
     const auto branch = in.object("branch", decode_hole_branch);
     out.branch = branch.placement;
     out.branch_wall = branch.wall;
+    out.branch_name = branch.name;
     decode_hole_cut(in, deepest, nullptr, Preset::none, out);
     out.torch = in.defaulted_object("torch", decode_torch);
     out.kerf = in.number("kerf_mm", {.min = 0.0, .max = 50.0});
@@ -188,13 +187,16 @@ struct Holes {
     o.object("points", [&](Writer& p) { branch_columns(spec, end).write(p); });
   }
 
+  static std::string step(const Spec& spec, const Out& out, const Caption& caption) {
+    return hole_step(spec, out, caption);
+  }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &hole_csv},
         {"svg", "image/svg+xml", &hole_svg, {"chart", "template", "section"}, {"mirror", "paper"}},
         {"pdf", "application/pdf", &hole_pdf, {"template", "section"}, {"mirror", "paper"}},
         {"dxf", "image/vnd.dxf", &hole_dxf, {"template", "tube"}},
-        {"step", "model/step", &hole_step, {"smooth", "straight"}}};
+        {"step", "model/step", &step, {"smooth", "straight"}}};
     return kFormats;
   }
 };

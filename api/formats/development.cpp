@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "api/formats/part_edges.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::api {
@@ -99,13 +100,20 @@ Development developed(const joint::IntersectionSpec& spec, const joint::Intersec
   return out;
 }
 
-Development developed(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
+std::string for_branch(const std::string& hole, const std::string& branch) {
+  return branch.empty() ? hole : hole + " for " + branch;
+}
+
+Development developed(const NamedHole& spec, const bevel::HoleCut& cut) {
   Development out{.outer_radius = spec.chord.outer_radius,
                   .wall = spec.chord.wall,
                   .cuts = {},
-                  .junctions = {}};
-  for (const auto& hole : cut.holes)
-    out.cuts.push_back(outline(spec.chord, hole, hole.far ? "far hole" : "hole"));
+                  .junctions = {},
+                  .name = spec.chord_name};
+  for (const auto& hole : cut.holes) {
+    auto& one = out.cuts.emplace_back(outline(spec.chord, hole, hole.far ? "far hole" : "hole"));
+    one.label = for_branch(one.name, spec.branch_name);
+  }
   return out;
 }
 
@@ -134,11 +142,25 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
     }
     out.cuts.push_back(std::move(one.cuts.front()));
   }
-  for (std::size_t i = 0; i < part.holes.size(); ++i)
-    out.cuts.push_back(outline(spec.target, part.holes[i].hole, "hole " + std::to_string(i)));
+  for (std::size_t i = 0; i < part.holes.size(); ++i) {
+    const auto& [hole, asked] = part.holes[i];
+    auto& one = out.cuts.emplace_back(outline(spec.target, hole, "hole " + std::to_string(i)));
+    one.label = for_branch(hole_tag(i), spec.holes[asked].name);
+  }
   out.marks = part.marks;
   out.whole = true;
   out.name = spec.name;
+  return out;
+}
+
+LabelPlace label_place(const CutOutline& hole) {
+  constexpr double kLeast = 14.0, kBelow = 5.0, kShare = 0.22, kFree = 30.0;  // mm; of its height
+  const auto z = std::ranges::minmax(hole.outer.z), phi = std::ranges::minmax(hole.outer.phi);
+  const double tall = z.max - z.min, wide = hole.outer.radius * (phi.max - phi.min);
+  LabelPlace out{.phi = 0.5 * (phi.min + phi.max), .z = z.max + 1.5, .room = kFree};
+  if (std::min(tall, wide) < kLeast) return out;
+  out.z = z.max - std::max(kBelow, kShare * tall);
+  out.room = 0.7 * wide;
   return out;
 }
 

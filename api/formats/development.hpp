@@ -21,11 +21,17 @@ struct CylinderCurve {
   [[nodiscard]] double developed_length(bool closing) const;
 };
 
+/// A chord and the branch that its hole is for, by their names where they have some.
+struct NamedHole : bevel::HoleSpec {
+  std::string chord_name, branch_name;
+};
+
 /// One cut as drawings show it: finished edges on both walls, the torch's line on the outer one.
 struct CutOutline {
   std::string name;
   CylinderCurve outer, inner, torch;  // any may be empty
   bool around = true;                 // it goes round the tube; else it is a hole
+  std::string label = {};             // of a hole: "H1 for B2"
 };
 
 /// A stretch of an end's outer edge that one partner cuts: where it is, and how far down the waste
@@ -45,7 +51,7 @@ struct Development {
   std::vector<PartnerSpan> spans = {};
   std::vector<part::Mark> marks = {};  // of a part
   bool whole = false;                  // a part, with both its ends
-  std::string name = {};               // of a part
+  std::string name = {};               // of a part, or of a chord that has holes only
 
   /// Whether a cut goes round the tube; else there are holes only.
   [[nodiscard]] bool around() const;
@@ -54,12 +60,21 @@ struct Development {
 [[nodiscard]] Development developed(const bevel::TableSpec& spec, const bevel::Table& table);
 [[nodiscard]] Development developed(const joint::IntersectionSpec& spec,
                                     const joint::Intersection& cut);
-[[nodiscard]] Development developed(const bevel::HoleSpec& spec, const bevel::HoleCut& cut);
+[[nodiscard]] Development developed(const NamedHole& spec, const bevel::HoleCut& cut);
+/// "hole for B2", where the branch has a name.
+[[nodiscard]] std::string for_branch(const std::string& hole, const std::string& branch);
 /// One hole of a chord, by a name.
 [[nodiscard]] CutOutline outline(const joint::Target& chord, const bevel::Hole& hole,
                                  std::string name);
 /// A part as it is cut: start, finish, then the holes in their order, in the part's frame.
 [[nodiscard]] Development developed(const part::PartSpec& spec, const part::Part& part);
+
+/// Where a hole's label stands on the outside, its middle at phi: in the hole, below its upper edge
+/// and off a mark at its middle; over one that is too small. `room`: mm, for its width.
+struct LabelPlace {
+  double phi = 0.0, z = 0.0, room = 0.0;
+};
+[[nodiscard]] LabelPlace label_place(const CutOutline& hole);
 
 /// Bounds of all curves: phi and z.
 struct Extent {

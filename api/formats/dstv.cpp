@@ -228,7 +228,8 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       constant = constant && bevel;
       const auto& cut = cuts[2 + step.index];
       openings += opening(cut, bevel.value_or(0.0), caption.stop);
-      tables += comment("cut " + cut.name) + sidecar(spec.target, hole, caption.stop);
+      tables += comment(cut.name + " is " + dstv_text(cut.label)) + comment("cut " + cut.name) +
+                sidecar(spec.target, hole, caption.stop);
     } else if (step.what == part::Step::What::mark) {
       marks += comment(dstv_text(mark_by_hand(part.marks[step.index])));
     } else {

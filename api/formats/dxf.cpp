@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/formats/canvas.hpp"
 #include "api/formats/dxf_writer.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/verdict.hpp"
@@ -53,15 +54,38 @@ std::vector<Eigen::Vector3d> open_in_space(const CylinderCurve& c) {
   return out;
 }
 
+/// "z 12 to 96 mm, phi 40° to 140°", of the outer edge.
+std::string extent_in_words(const CutOutline& hole) {
+  const auto z = std::ranges::minmax(hole.outer.z), phi = std::ranges::minmax(hole.outer.phi);
+  return "z " + number(z.min, Unit::mm) + " to " + mm(z.max) + ", phi " + degrees(phi.min) +
+         " to " + degrees(phi.max);
+}
+
+/// Each hole's label, small where the hole is.
+void name_holes(DxfWriter& w, const Development& d) {
+  constexpr double kHeight = 3.0, kLeast = 0.8;
+  for (const auto& cut : d.cuts) {
+    if (cut.around) continue;
+    const auto [phi, z, room] = label_place(cut);
+    const double height = std::max(kLeast, fitted(cut.label, {.height = kHeight}, room).height);
+    w.text(kText, {d.outer_radius * phi - 0.5 * text_width(cut.label, height), z}, height,
+           cut.label);
+  }
+}
+
 std::vector<std::string> captions(const Development& d, const std::string& frame,
                                   const Caption& caption) {
-  std::vector<std::string> out{(d.around() ? "tube " : "openings of the chord, tube ") +
-                                   number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall),
-                               "CUT_OUTER on radius " + mm(d.outer_radius) +
-                                   ", CUT_INNER on radius " + mm(d.outer_radius - d.wall),
-                               frame};
+  const auto chord = "openings of the chord" + (d.name.empty() ? "" : " " + d.name) + ", tube ";
+  std::vector<std::string> out{
+      (d.around() ? "tube " : chord) + number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall),
+      "CUT_OUTER on radius " + mm(d.outer_radius) + ", CUT_INNER on radius " +
+          mm(d.outer_radius - d.wall),
+      frame};
   if (std::ranges::any_of(d.cuts, [](const auto& cut) { return !cut.torch.empty(); }))
     out.emplace_back("TORCH: its axis on the outer surface, the kerf applied; no edge of the part");
+  if (d.whole && !d.name.empty()) out.push_back("part " + d.name);
+  for (const auto& cut : d.cuts)
+    if (!cut.around) out.push_back(cut.label + ": " + extent_in_words(cut));
   for (const auto& [name, text] : caption.reference)
     out.push_back(called(name, Term::field) + ": " + text);
   out.push_back(job_line(
@@ -159,6 +183,7 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   double y = datum;
   const auto frame = "DATUM z = " + mm(datum) + "; SEAM phi = 0 and 360°; y = z, " +
                      (d.around() ? "kept side up" : "kept outside the contour");
+  if (!space) name_holes(w, d);
   for (const auto& line : captions(d, frame, caption)) w.text(kText, {left, y += 5.0}, 3.0, line);
   return w.print();
 }
@@ -191,6 +216,7 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
     if (!space && !mark.text.empty())
       w.text(kMark, {d.outer_radius * phi + 1.0, mark.z_from}, 3.0, mark.text);
   }
+  if (!space) name_holes(w, d);
   double y = extent(d).z_to + 10.0;
   const std::string frame =
       "DATUM z = 0, the start's long point; SEAM phi = 0 and 360°; y = z, the finish up";

@@ -6,7 +6,6 @@
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/cut_sheets.hpp"
-#include "api/formats/development.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/tables.hpp"
 
@@ -19,9 +18,11 @@ std::vector<double> closed(std::vector<double> values, double scale = 1.0) {
   return values;
 }
 
-Chart edge_chart(const bevel::HoleSpec& spec, const bevel::Hole& hole) {
+Chart edge_chart(const NamedHole& spec, const bevel::Hole& hole) {
   const double ro = spec.chord.outer_radius;
-  return {.title = hole.far ? "Far hole on the developed chord" : "Hole on the developed chord",
+  return {.title = for_branch(hole.far ? "Far hole" : "Hole", spec.branch_name) +
+                   " on the developed chord" +
+                   (spec.chord_name.empty() ? "" : " " + spec.chord_name),
           .x_label = "around the chord's outer surface, mm",
           .y_label = "z, mm",
           .series = {{.name = "outer edge", .x = closed(hole.developed), .y = closed(hole.z)},
@@ -52,8 +53,7 @@ Chart gap_chart(const bevel::Hole& hole) {
 
 }  // namespace
 
-std::string hole_csv(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                     const Caption& caption) {
+std::string hole_csv(const NamedHole& spec, const bevel::HoleCut& cut, const Caption& caption) {
   std::vector<std::pair<std::string, Columns>> sides;
   for (const auto& hole : cut.holes)
     sides.emplace_back(hole.far ? "far" : "near",
@@ -62,8 +62,7 @@ std::string hole_csv(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
   return Csv(caption).remark(std::string("b_sign: ") + kBSignInPart).stacked("side", sides).print();
 }
 
-std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                     const Caption& caption) {
+std::string hole_svg(const NamedHole& spec, const bevel::HoleCut& cut, const Caption& caption) {
   if (caption.view == "template" || caption.view == "section") return cut_svg(spec, cut, caption);
   refuse_paper(caption);
   std::vector<Chart> charts;
@@ -74,13 +73,11 @@ std::string hole_svg(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
   return print_charts(charts, caption);
 }
 
-std::string hole_pdf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                     const Caption& caption) {
+std::string hole_pdf(const NamedHole& spec, const bevel::HoleCut& cut, const Caption& caption) {
   return cut_pdf(spec, cut, caption);
 }
 
-std::string hole_dxf(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
-                     const Caption& caption) {
+std::string hole_dxf(const NamedHole& spec, const bevel::HoleCut& cut, const Caption& caption) {
   return print_dxf(developed(spec, cut), caption);
 }
 

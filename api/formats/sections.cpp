@@ -107,14 +107,16 @@ SectionSet sections_of(const joint::IntersectionSpec& spec, const joint::Interse
   return out;
 }
 
-SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut) {
+SectionSet sections_of(const NamedHole& spec, const bevel::HoleCut& cut) {
   const double wall = spec.chord.wall, radius = spec.chord.outer_radius;
+  const auto chord = (spec.chord_name.empty() ? "" : spec.chord_name + ", ");
   SectionSet out{.title = "Sections of the hole's edge",
                  .wall = wall,
                  .along = "square to the edge, from the hole into the wall",
                  .angle = "bevel",  // B is in the plane through the chord's axis
-                 .facts = {{"chord", diameter(radius, wall)}},
+                 .facts = {{"chord", chord + diameter(radius, wall)}},
                  .sections = {}};
+  if (!spec.branch_name.empty()) out.facts.emplace_back("hole for", spec.branch_name);
   const auto& hole = cut.holes.front();
   const auto n = hole.phi.size();
   for (const auto i : spread(hole.branch_phi)) {

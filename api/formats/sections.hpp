@@ -28,7 +28,7 @@ struct SectionSet {
 [[nodiscard]] SectionSet sections_of(const bevel::TableSpec& spec, const bevel::Table& table);
 [[nodiscard]] SectionSet sections_of(const joint::IntersectionSpec& spec,
                                      const joint::Intersection& cut);
-[[nodiscard]] SectionSet sections_of(const bevel::HoleSpec& spec, const bevel::HoleCut& cut);
+[[nodiscard]] SectionSet sections_of(const NamedHole& spec, const bevel::HoleCut& cut);
 
 /// Eight sections through the wall on A4, all at one usual scale, with a table of their figures.
 [[nodiscard]] Canvas section_sheet(const SectionSet& set, const Caption& caption);

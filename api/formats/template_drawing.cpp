@@ -47,6 +47,8 @@ class Drawing {
     for (std::size_t i = 0; i < d_.cuts.size(); ++i) outline(d_.cuts[i], i);
     for (const auto& span : d_.spans) partner(span);
     for (const auto& mark : d_.marks) draw(mark);
+    for (const auto& cut : d_.cuts)
+      if (!cut.around) label(cut);
     out_.all.end_group();
     return std::move(out_);
   }
@@ -163,6 +165,18 @@ class Drawing {
         fitted(mark.text,
                {.height = 2.8, .anchor = right ? Anchor::end : Anchor::start, .color = kMark.color},
                0.5 * field_.width()));
+  }
+
+  /// Whole on the sheet, where the hole lies across the seam too.
+  void label(const CutOutline& hole) {
+    const auto [phi, z, room] = label_place(hole);
+    const double here = d_.around() ? phi - kTwoPi * std::floor(phi / kTwoPi) : phi;
+    const auto l =
+        fitted(hole.label,
+               {.height = 2.8, .anchor = Anchor::middle, .bold = true, .color = "#38424d"}, room);
+    const double half = 0.5 * text_width(hole.label, l.height, true) + 1.0;
+    const double x = std::min(std::max(x_of(here), field_.x_from + half), field_.x_to - half);
+    out_.all.text(at(x, z), hole.label, l);
   }
 
   const Development& d_;

@@ -44,6 +44,15 @@ std::string part_of(const Development& d, const Caption& c) {
   return d.name;
 }
 
+/// "N-12: hole for B2": of what the sheet is.
+std::string subject(const Development& d, const Caption& c) {
+  auto out = part_of(d, c);
+  if (!d.around())
+    for (const auto& cut : d.cuts)
+      out += (out.empty() ? "" : &cut == &d.cuts.front() ? ": " : ", ") + cut.label;
+  return out;
+}
+
 void mark_part(Canvas& sheet, const Development& d, const TemplateField& field, const Caption& c,
                DrawingPoint corner) {
   const double room = field.x_to - field.x_from - 6.0;
@@ -63,7 +72,9 @@ Canvas one_sheet(const Development& d, const TemplateField& field, const Templat
   sheet.place(drawing.all, {kMargin, kMargin + kRulerRoom}, {});
   double y = sheet.height() - kMargin;
   const double room = sheet.width() - 2.0 * kMargin;
-  sheet.text({kMargin, y}, "Wrap template", {.height = 4.2, .bold = true});
+  const auto of = d.around() && !d.whole ? std::string{} : subject(d, c);
+  const auto title = of.empty() ? std::string("Wrap template") : "Wrap template, " + of;
+  sheet.text({kMargin, y}, title, fitted(title, {.height = 4.2, .bold = true}, room));
   for (const auto& line : verdict)
     sheet.text({kMargin, y -= kLine}, line, fitted(line, verdict_lettering(c, 2.8), room));
   for (const auto& line : lines)
@@ -77,8 +88,8 @@ Canvas one_sheet(const Development& d, const TemplateField& field, const Templat
 }
 
 TileWords tile_words(const Development& d, const TemplateField& field, const Caption& c) {
-  const auto part = part_of(d, c);
-  TileWords out{.title = part.empty() ? "Wrap template" : part,
+  const auto of = subject(d, c);
+  TileWords out{.title = of.empty() ? "Wrap template" : of,
                 .lines = {verdict_in_short(c.verdict)},
                 .x = c.options.mirror ? field.x_to + field.tab : field.x_from,
                 .z = field.z_from,
