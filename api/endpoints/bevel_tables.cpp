@@ -97,7 +97,7 @@ struct BevelTables {
         {"svg",
          "image/svg+xml",
          &print<bevel_table_svg>,
-         {"chart", "template", "section"},
+         {"chart", "template", "section", "b_curve"},
          {"mirror", "paper"}},
         {"pdf",
          "application/pdf",

@@ -10,6 +10,8 @@
 #include "api/formats/dstv.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/gcode.hpp"
+#include "api/formats/numbers.hpp"
+#include "api/formats/part_edges.hpp"
 #include "api/formats/partner_names.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
@@ -18,7 +20,7 @@
 namespace tubecut::api {
 namespace {
 
-std::vector<double> degrees(std::vector<double> radians) {
+std::vector<double> in_degrees(std::vector<double> radians) {
   for (auto& v : radians) v *= kDegPerRad;
   return radians;
 }
@@ -41,10 +43,10 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table, const
       .series = {
           {.name = "before",
            .x = table.developed,
-           .y = degrees(std::move(before)),
+           .y = in_degrees(std::move(before)),
            .color = "#a2998c",
            .dashed = true},
-          {.name = "after", .x = table.developed, .y = degrees(table.b), .color = "#c2571a"}}};
+          {.name = "after", .x = table.developed, .y = in_degrees(table.b), .color = "#c2571a"}}};
   for (const auto& binding : table.torch_binds)
     out.bands.push_back({rho * binding.from, rho * binding.to, "torch range binds"});
   const auto& events =
@@ -54,19 +56,71 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table, const
   return out;
 }
 
-Chart edge_chart(const bevel::Table& table) {
-  auto phi = degrees(table.phi);
-  auto inner = table.z_inner, outer = table.z_outer;
-  if (!phi.empty()) {  // closes where it began
-    phi.push_back(phi.front() + 360.0);
-    inner.push_back(inner.front());
-    outer.push_back(outer.front());
+/// Of one turn, with the first value again where it closes.
+std::vector<double> closed(std::vector<double> values, double turn = 0.0) {
+  if (!values.empty()) values.push_back(values.front() + turn);
+  return values;
+}
+
+/// Stretches of one partner after another, to the end of the turn.
+std::vector<Band> partner_bands(const bevel::Table& table, const Caption& caption) {
+  std::vector<Band> out;
+  const auto phi = closed(in_degrees(table.phi), 360.0);
+  for (std::size_t i = 0; i < table.cutter.size(); ++i) {
+    const auto partner = table.cutter[i];
+    if (i == 0 || partner != table.cutter[i - 1])
+      out.push_back({.from = phi[i],
+                     .label = partner < caption.partners.size() ? caption.partners[partner]
+                                                                : std::to_string(partner + 1),
+                     .color = std::string(partner_color(partner)),
+                     .ribbon = true});
+    out.back().to = phi[i + 1];
   }
-  return {.title = "Finished edges",
-          .x_label = "phi, °",
-          .y_label = "z, mm",
-          .series = {{.name = "inner edge", .x = phi, .y = std::move(inner), .color = "#6f8598"},
-                     {.name = "outer edge", .x = phi, .y = std::move(outer)}}};
+  return out;
+}
+
+/// What the torch's range leaves of the room beside the curves: the nearer limit, and the other
+/// where they pass zero.
+std::vector<Limit> torch_limits(const bevel::TableSpec& spec, const bevel::Table& table) {
+  const auto [low, high] = std::ranges::minmax(table.b);
+  const double least = spec.torch.min.rad(), most = spec.torch.max.rad();
+  const bool both = low < 0.0 && high > 0.0, upper = most - high <= low - least;
+  std::vector<Limit> out;
+  if (both || !upper) out.push_back({least * kDegPerRad, "torch limit " + degrees(least)});
+  if (both || upper) out.push_back({most * kDegPerRad, "torch limit " + degrees(most)});
+  return out;
+}
+
+/// The source's own picture, over phi: what the groove asks for, what clears the partners, what is
+/// cut; who cuts where, and how much B jumps by where it does.
+Chart b_curve(const bevel::TableSpec& spec, const bevel::Table& table, const Caption& caption) {
+  const auto phi = closed(in_degrees(table.phi), 360.0);
+  const auto curve = [&](const char* name, const std::vector<double>& b, const char* color,
+                         bool dashed = false) {
+    return Series{
+        .name = name, .x = phi, .y = closed(in_degrees(b)), .color = color, .dashed = dashed};
+  };
+  Chart out{.title = "Cutting angle B round the tube",
+            .x_label = "phi, °",
+            .y_label = "B, °, " + called(name_of_b_sign(table), Term::value),
+            .series = {curve("as the groove asks", table.b_raw, "#a2998c", true),
+                       curve("least that clears the partners", table.b_required, "#2c6a9b"),
+                       curve("as the torch follows it", table.b, "#c2571a")},
+            .bands = partner_bands(table, caption),
+            .limits = torch_limits(spec, table)};
+  for (const auto& [at, step] : table.mutations)
+    out.marks.push_back({at * kDegPerRad, "jump of " + degrees(step)});
+  return out;
+}
+
+Chart edge_chart(const bevel::Table& table) {
+  const auto phi = closed(in_degrees(table.phi), 360.0);
+  return {
+      .title = "Finished edges",
+      .x_label = "phi, °",
+      .y_label = "z, mm",
+      .series = {{.name = "inner edge", .x = phi, .y = closed(table.z_inner), .color = "#6f8598"},
+                 {.name = "outer edge", .x = phi, .y = closed(table.z_outer)}}};
 }
 
 /// Stretches of one zone after another, with their names.
@@ -87,10 +141,10 @@ Chart zone_chart(const bevel::ZonedGroove& zoned, const bevel::Table& table) {
   Chart out{.title = "Zones: dihedral and groove angle",
             .x_label = "developed length, mm",
             .y_label = "angle, °",
-            .series = {{.name = "dihedral", .x = table.developed, .y = degrees(table.dihedral)},
+            .series = {{.name = "dihedral", .x = table.developed, .y = in_degrees(table.dihedral)},
                        {.name = "groove",
                         .x = table.developed,
-                        .y = degrees(table.groove),
+                        .y = in_degrees(table.groove),
                         .color = "#c2571a"}}};
   out.bands = zone_bands(zoned, table);
   return out;
@@ -119,6 +173,7 @@ std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& ta
                             const Caption& caption) {
   if (caption.view == "template" || caption.view == "section") return cut_svg(spec, table, caption);
   refuse_paper(caption);
+  if (caption.view == "b_curve") return print_charts({b_curve(spec, table, caption)}, caption);
   std::vector<Chart> charts{bevel_chart(spec, table, caption), edge_chart(table)};
   if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
     charts.push_back(zone_chart(*zoned, table));

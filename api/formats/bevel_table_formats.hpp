@@ -23,7 +23,8 @@ inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
 
 /// B before and after smoothing over the developed length, with the junctions, the mutations and
 /// the stretches where the torch's range binds; below it the finished edges over phi. The views
-/// `template` and `section`: see wrap_template.hpp and sections.hpp.
+/// `template` and `section`: see wrap_template.hpp and sections.hpp; `b_curve`: B over phi with
+/// what the groove asks for, what clears the partners, the torch's limits, and who cuts where.
 [[nodiscard]] std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
                                           const Caption& caption);
 

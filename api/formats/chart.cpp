@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "api/formats/canvas.hpp"
 #include "api/formats/text.hpp"
@@ -83,6 +84,10 @@ Frame frame(const Chart& chart, double top) {
     }
   }
   if (chart.y_from_zero) y0 = std::min(y0, 0.0);
+  for (const auto& limit : chart.limits) {
+    y0 = std::min(y0, limit.y);
+    y1 = std::max(y1, limit.y);
+  }
   auto out = Frame{scale(x0, x1, 12), scale(y0, y1, 6), top};
   out.x.low = x0;  // the data fill the width
   out.x.high = x1 > x0 ? x1 : out.x.high;
@@ -191,18 +196,43 @@ void curve(std::string& out, const Series& s, const Frame& f) {
   out += "\"/>\n";
 }
 
+constexpr double kRibbon = 7.0, kLabelLine = 13.0;  // px
+
+bool has_ribbon(const Chart& chart) { return std::ranges::any_of(chart.bands, &Band::ribbon); }
+
+/// The lowest baseline of labels: over a ribbon, and over a limit that is drawn down there.
+double foot_of_labels(const Chart& chart, const Frame& f, double bottom) {
+  constexpr double kRoom = 4.0 * kLabelLine;
+  double foot = bottom - 5.0 - (has_ribbon(chart) ? kRibbon : 0.0);
+  for (const auto& limit : chart.limits)
+    if (const double y = f.py(limit.y); bottom - y < kRoom)
+      foot = std::min(foot, y - kLabelLine - 4.0);
+  return foot;
+}
+
+/// Named over its line, at the right edge.
+void draw_limits(std::string& out, const Chart& chart, const Frame& f) {
+  for (const auto& limit : chart.limits) {
+    const double y = f.py(limit.y);
+    line(out, kLeft, y, f.px(f.x.high), y,
+         "stroke=\"#b3261e\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"");
+    text(out, f.px(f.x.high) - 3.0, y - 4.0, limit.label,
+         "font-size=\"11\" fill=\"#b3261e\" text-anchor=\"end\"");
+  }
+}
+
 /// Labels that would lie on each other go one above the other; near the right edge they end at
 /// their line.
-void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bottom) {
-  constexpr double kLine = 13.0;          // px
-  double before = 0.0, y = bottom - 5.0;  // where the label before ends
+void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bottom, double foot) {
+  constexpr double kLine = kLabelLine;
+  double before = 0.0, y = foot;  // where the label before ends
   for (const auto& mark : chart.marks) {
     const double x = f.px(mark.x), width = text_width(mark.label, kSmall) + 6.0;
     line(out, x, f.top, x, bottom,
          "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
     const bool last = x + width > kWidth - kRight;
     const double from = last ? x - width : x;
-    y = from < before ? y - kLine : bottom - 5.0;
+    y = from < before ? y - kLine : foot;
     before = std::max(before, from + width);
     text(out, last ? x - 3.0 : x + 3.0, y, mark.label,
          last ? "font-size=\"11\" fill=\"#56626e\" text-anchor=\"end\""
@@ -210,31 +240,46 @@ void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bot
   }
 }
 
-/// Within the axis. Labels that would lie on each other go one below the other; near the right edge
-/// they end at it.
-void draw_bands(std::string& out, const Chart& chart, const Frame& f, double bottom) {
-  constexpr double kLine = 13.0;  // px
-  double before = 0.0, y = f.top + 12.0;
+void draw_band(std::string& out, const Band& band, std::pair<double, double> x,
+               std::pair<double, double> y) {
+  const auto rectangle = [&](double top, const char* look) {
+    out += "<rect x=\"" + fixed(x.first) + "\" y=\"" + fixed(top) + "\" width=\"" +
+           fixed(std::max(1.0, x.second - x.first)) + "\" height=\"" + fixed(y.second - top) +
+           "\" fill=\"" + band.color + "\"" + look + "/>\n";
+  };
+  rectangle(y.first, " fill-opacity=\"0.12\"");
+  if (band.ribbon) rectangle(y.second - kRibbon, "");
+}
+
+/// Within the axis. Labels that would lie on each other go one below the other from the top, over a
+/// ribbon one above the other from `foot`; near the right edge they end at it. Returns the lowest
+/// baseline that is left for others.
+double draw_bands(std::string& out, const Chart& chart, const Frame& f, double bottom,
+                  double foot) {
+  const bool ribbon = has_ribbon(chart);
+  const double first = ribbon ? foot : f.top + 12.0, step = ribbon ? -kLabelLine : kLabelLine;
+  double before = 0.0, y = first, left = foot;
   for (const auto& band : chart.bands) {
     const double from = f.px(std::clamp(band.from, f.x.low, f.x.high));
     const double to = f.px(std::clamp(band.to, f.x.low, f.x.high));
-    out += "<rect x=\"" + fixed(from) + "\" y=\"" + fixed(f.top) + "\" width=\"" +
-           fixed(std::max(1.0, to - from)) + "\" height=\"" + fixed(bottom - f.top) + "\" fill=\"" +
-           band.color + "\" fill-opacity=\"0.12\"/>\n";
+    draw_band(out, band, {from, to}, {f.top, bottom});
     const double width = text_width(band.label, kSmall) + 6.0;
     const double at = std::min(from, kWidth - kRight - width);
-    y = at < before ? y + kLine : f.top + 12.0;
+    y = at < before ? y + step : first;
     before = std::max(before, at + width);
     text(out, at + 3.0, y, band.label, "font-size=\"11\"");
+    if (ribbon) left = std::min(left, y - kLabelLine);
   }
+  return left;
 }
 
 void plot(std::string& out, const Chart& chart, double top) {
   const auto f = frame(chart, top + kTop);
   const double bottom = f.py(f.y.low);
-  draw_bands(out, chart, f, bottom);
+  const double foot = draw_bands(out, chart, f, bottom, foot_of_labels(chart, f, bottom));
   axes(out, chart, f);
-  draw_marks(out, chart, f, bottom);
+  draw_limits(out, chart, f);
+  draw_marks(out, chart, f, bottom, foot);
   for (const auto& s : chart.series) curve(out, s, f);
   legend(out, chart, f);
 }

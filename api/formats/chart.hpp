@@ -21,6 +21,13 @@ struct Band {
   double from = 0.0, to = 0.0;
   std::string label;
   std::string color = "#c0392b";
+  bool ribbon = false;  // with a strip of the full colour on the x axis
+};
+
+/// A horizontal line with a word.
+struct Limit {
+  double y = 0.0;
+  std::string label;
 };
 
 /// A vertical line with a word.
@@ -38,6 +45,7 @@ struct Chart {
   std::vector<Series> series;
   std::vector<Band> bands = {};
   std::vector<Mark> marks = {};
+  std::vector<Limit> limits = {};
   bool y_from_zero = false;
   bool undistorted = false;  // one scale for both axes: a drawing
 };
