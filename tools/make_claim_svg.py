@@ -98,11 +98,12 @@ def thinned(counts, pixels=WIDTH):
     return [(PERIOD * i, max(map(abs, counts[i:i + stride]))) for i in range(0, len(counts), stride)]
 
 
-def main():
+def drawing(server):
+    """The picture's text."""
     panels, peaks = [], []
     for column, points in enumerate((0, 20)):
         phi, z, b = columns(points)
-        answer = planned(sys.argv[1], phi, z, b)
+        answer = planned(server, phi, z, b)
         segments, end = unplanned(answer)
         seconds = answer["report"]["time_s"]
         name = "B raw" if points == 0 else f"B over {points} points"
@@ -117,20 +118,20 @@ def main():
             words = "largest: " + ", ".join(f"{a} {peaks[-1][a][which]}" for a in AXES)
             panel.text(panel.x + 6, panel.y + 16, words, "start")
     width, height = LEFT + 2 * WIDTH + GAP + 20, 70 + 2 * (HEIGHT + 80) - 10
-    print(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif">')
-    print(f'<rect width="{width}" height="{height}" fill="white"/>')
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif">',
+           f'<rect width="{width}" height="{height}" fill="white"/>']
     x = LEFT
-    print(f'<text x="{x}" y="26" font-size="15" fill="{INK}">Pulses per period of 4 ms, Table 1 of source 000:</text>')
+    out.append(f'<text x="{x}" y="26" font-size="15" fill="{INK}">Pulses per period of 4 ms, Table 1 of source 000:</text>')
     for i, (axis, colour) in enumerate(AXES.items()):
         x = LEFT + 380 + 110 * i
-        print(f'<line x1="{x}" y1="21" x2="{x + 30}" y2="21" stroke="{colour}" stroke-width="3"/>'
-              f'<text x="{x + 38}" y="26" font-size="15" fill="{INK}">{axis}</text>')
+        out.append(f'<line x1="{x}" y1="21" x2="{x + 30}" y2="21" stroke="{colour}" stroke-width="3"/>'
+                   f'<text x="{x + 38}" y="26" font-size="15" fill="{INK}">{axis}</text>')
     for panel in panels:
-        print("\n".join(panel.out))
-    print("</svg>")
+        out += panel.out
+    return "\n".join([*out, "</svg>", ""])
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    main()
+    sys.stdout.write(drawing(sys.argv[1]))

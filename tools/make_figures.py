@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes docs/theory/figures.md: what the sources print beside what the service answers, and docs/b-curve-table-1.svg, source 000's Figure 3.
+"""Writes docs/theory/figures.md: what the sources print beside what the service answers; and the pictures in docs/ that the service draws.
 
-`tools/make_figures.py SERVER_BINARY` writes both, `--check` says instead whether they are what it would write. What the sources print stands in
+`tools/make_figures.py SERVER_BINARY` writes them, `--check` says instead whether they are what it would write. What the sources print stands in
 PRINTED; everything else is the service's answer, or the source's own formula where the page says so."""
 
 import difflib
@@ -11,8 +11,11 @@ import pathlib
 import subprocess
 import sys
 
+import make_claim_svg
+import make_part_svg
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGE, PICTURE = ROOT / "docs/theory/figures.md", ROOT / "docs/b-curve-table-1.svg"
+DOCS = ROOT / "docs"
 
 # Source 004, equations (9) and (10): the cylinder's speed a t^2 + b t + c in mm/s, and the ratio k of Tables 1 and 3 in rad/mm.
 PRINTED = {
@@ -260,8 +263,10 @@ Servo limits and handling are not in the source; those of the example are assump
 
 def main(binary, check):
     service = Service(binary)
-    wanted = {PAGE: page(service),
-              PICTURE: service.text("bevel-tables", example("bevel-tables/source-000-table-1"), "--format", "svg", "--option", "view=b_curve")}
+    wanted = {DOCS / "theory/figures.md": page(service),
+              DOCS / "b-curve-table-1.svg": service.text("bevel-tables", example("bevel-tables/source-000-table-1"), "--format", "svg", "--option", "view=b_curve"),
+              DOCS / "overflow-table-1.svg": make_claim_svg.drawing(binary),
+              DOCS / "part-table-1.svg": make_part_svg.first_sheet(make_part_svg.work_order(binary))}
     if not check:
         for file, text in wanted.items():
             file.write_text(text)
