@@ -136,7 +136,7 @@ export function tinted(b: number[]): Pick<Solid, 'scale' | 'tint'> {
   return {tint: span, scale: [`B ${span[0]}°`, `${span[1]}°`]};
 }
 
-export function wrapChart(phi: number[], outer: number[], inner: number[], partners: number[], radius: number, link: string, names: string[]): Chart {
+function wrapChart(phi: number[], outer: number[], inner: number[], partners: number[], radius: number, link: string, names: string[]): Chart {
   const scale = radius * radians;
   return {
     id: 'wrap',
@@ -258,7 +258,7 @@ function tablesOf(result: Row, names: string[]): Picture['tables'] {
   return tables;
 }
 
-export function eventTable(events: Row[], names: string[]) {
+function eventTable(events: Row[], names: string[]) {
   const name = (value: Json | undefined) => names[Number(value)] ?? String(value);
   return {
     title: 'Junctions',

@@ -1,5 +1,5 @@
 import {isRow, type Json, type Row} from '../json';
-import type {CutTube, EndCurve, Frame, Partner, Vector} from '../picture';
+import type {EndCurve, Frame, Partner, Vector} from '../picture';
 
 export const radians = Math.PI / 180;
 export const vector = (value: Json | undefined): Vector => (Array.isArray(value) && value.length === 3 ? value.map(Number) : [0, 0, 1]) as Vector;
@@ -20,7 +20,7 @@ export function tube(given: Json | undefined, sizes: Sizes): {outer: number; wal
 }
 
 /** The axis line of a tube given by angles: docs/theory/intersections-and-bevels.md, section 1. */
-export function axisByAngles(row: Row): {point: Vector; direction: Vector} {
+function axisByAngles(row: Row): {point: Vector; direction: Vector} {
   const a = Number(row['inclination_deg'] ?? 90) * radians,
     b = Number(row['clocking_deg'] ?? 0) * radians;
   const s = Number(row['offset_mm'] ?? 0),
@@ -105,11 +105,4 @@ export function seenFrom(to: Frame | undefined, given: Partner): Partner {
   if (given.kind === 'box') return {...given, point, direction, up: turnedInto(to, given.up)};
   if (given.kind === 'elbow') return {...given, point, direction, inwards: turnedInto(to, given.inwards)};
   return {...given, point, direction};
-}
-
-/** A tube cut square at the origin of its frame. */
-export function plainTube(outer: number, wall: number, far: number, tone: CutTube['tone'], to?: Frame): CutTube {
-  const phi = Array.from({length: 72}, (_, i) => 5 * i);
-  const zero = phi.map(() => 0);
-  return {...(to ? {frame: to} : {}), outer: outer / 2, inner: outer / 2 - wall, phi, zInner: zero, zOuter: zero, far, marks: [], tone};
 }

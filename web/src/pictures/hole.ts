@@ -87,18 +87,15 @@ export function holeCharts(each: Row, i: number, count: number, radius: number):
   const p = ascending(each['points'] as Row, each['points'] as Row);
   const which = count > 1 ? `, ${String(each['branch'] ?? each['side'])}` : '';
   const x = {name: 'branch φ', unit: '°', values: column(p['branch_phi_deg'])};
-  const period = (x.values[0] as number) + 360;
-  const link = `hole-${i}`;
+  const shared = {link: `hole-${i}`, x, period: (x.values[0] as number) + 360};
   const fit = each['fit_up'] && ascending(each['fit_up'] as Row, each['points'] as Row);
   const scale = radius * radians;
   return [
     {
       id: `bevel-${i}`,
       title: `Cutting angle B round the hole${which}`,
-      link,
+      ...shared,
       unit: '°',
-      x,
-      period,
       series: [
         {name: 'B', values: column(p['b_deg']), tone: 'after', width: 2.2},
         {name: 'groove', values: column(p['groove_deg']), tone: 'before', dash: [5, 4]},
@@ -107,10 +104,8 @@ export function holeCharts(each: Row, i: number, count: number, radius: number):
     {
       id: `place-${i}`,
       title: `Where it lies on the chord${which}`,
-      link,
+      ...shared,
       unit: 'mm',
-      x,
-      period,
       series: [
         {name: 'z', values: column(p['z_mm']), tone: 'outer', width: 2},
         {name: 'around', values: column(p['phi_deg']).map((v) => v * scale), tone: 'inner'},
@@ -121,10 +116,8 @@ export function holeCharts(each: Row, i: number, count: number, radius: number):
           {
             id: `fit-${i}`,
             title: `Gap to the branch${which}`,
-            link,
+            ...shared,
             unit: 'mm',
-            x,
-            period,
             zero: true,
             height: 150,
             series: [

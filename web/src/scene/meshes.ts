@@ -46,7 +46,7 @@ function shade(share: number, into: Color): Color {
 }
 
 /** The bevels that all cuts of a picture are tinted by. */
-export type Span = [number, number] | undefined;
+type Span = [number, number] | undefined;
 /** Of each edge's point: by its gap where gaps are shown, else both edges by the bevel. */
 type Tint = (i: number, outer: boolean) => Color;
 function tintOf(b: number[] | undefined, gaps: Gaps | undefined, span: Span): Tint | undefined {
