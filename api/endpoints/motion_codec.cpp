@@ -248,6 +248,12 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     case 2:
       out.cut = in.object("mill_path", [](Reader& path) {
         read_inner_common_fields(path);
+        path.note("probe");
+        if (path.has("probe"))
+          path.issue({.code = ErrorCode::unsupported_combination,
+                      .pointer = "probe",
+                      .hint = "is answered only by /v1/mill-paths; leave it out here"},
+                     path.find("probe"));
         return decode_mill_path_request(path);
       });
       break;

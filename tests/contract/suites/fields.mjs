@@ -16,7 +16,7 @@ const LIST = 'known here: ';
 const OF_VALUES = ['wrong_type', 'not_a_number', 'not_an_integer', 'out_of_range', 'bad_choice', 'bad_text', 'wrong_count', 'missing_field'];
 
 // In the contract as the request by itself; inside of another one the whole member is refused.
-const REFUSED_WHOLE = ['/cut/accept', '/part/accept'];
+const REFUSED_WHOLE = ['/cut/accept', '/part/accept', '/mill_path/probe/*'];
 
 const closed = (schema) => schema.properties && schema.additionalProperties === false;
 

@@ -1,8 +1,8 @@
-import type {Json, Row} from '../json';
-import {column, type Chart, type Picture, type Ribbon, type Solid, type Vector} from '../picture';
+import {isRow, type Json, type Row} from '../json';
+import {column, type Chart, type Picture, type Ribbon, type Solid, type Table, type Vector} from '../picture';
 import type {Answer} from '../service';
-import {about, label, measured, unit, withUnit} from '../words';
-import {facts, figure, figures, plural, readings} from './facts';
+import {about, label, measured, term, unit, withUnit} from '../words';
+import {facts, figure, figures, plural, readings, text} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
 import {axesBefore, axesOf, coneTool, sectionOf, type Curves} from './mill';
@@ -172,8 +172,22 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
       ...figures(result['swept'] as Row, ['flank_min_mm', 'flank_max_mm', 'stock_left_max_mm', 'root_face_min_mm']),
     ],
     said: `${plural(x.values.length, 'position')}; overcut at most ${withUnit(most(p['overcut_mm']), 'mm')}, undercut ${withUnit(most(p['undercut_mm']), 'mm')}.`,
-    tables: [facts('swept', result['swept'] as Row)],
+    tables: [facts('swept', result['swept'] as Row), ...probed(result['probe'])],
     readout: (i) =>
       readings(p, i, ['omega_deg', 'c_deg', 'x_mm', 'z_mm', 'b_deg', 'overcut_before_mm', 'overcut_mm', 'undercut_mm', 'certificate_mm'], 'positions'),
   };
+}
+
+/** The places that were asked for, and the deepest ones. */
+function probed(probe: Json | undefined): Table[] {
+  if (!isRow(probe)) return [];
+  const keys = ['omega_deg', 'ruling_deg', 'v', 'distance_before_mm', 'distance_mm'];
+  const row = (name: string, place: Row) => [name, ...keys.map((key) => text(key, place[key]))];
+  const asked = (probe['points'] as Row[]).map((place, i) => row(`point ${i + 1}`, place));
+  const deepest = ['overcut_before', 'undercut_before'].map((key) => {
+    const {distance_mm: distance, ...place} = probe[key] as Row;
+    return row(label(key), {...place, distance_before_mm: distance as Json});
+  });
+  const after = ['overcut', 'undercut'].map((key) => row(label(key), probe[key] as Row));
+  return [{title: 'Distance from the mill', head: ['', ...keys.map((key) => term(key))], rows: [...asked, ...deepest, ...after]}];
 }
