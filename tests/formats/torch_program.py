@@ -19,6 +19,7 @@ class Fault(Exception):
 class Cut:
     def __init__(self, name):
         self.name, self.places, self.lengths, self.dwell, self.lit, self.start = name, [], [], 0.0, False, None
+        self.dark = 0  # moves with the torch out
 
 
 class Place:
@@ -110,6 +111,7 @@ def follow(what_happens, radius, pivot, clearance=50.0):
             at.update(words)
             cuts[-1].places.append(Place(at, radius, pivot))
             cuts[-1].lengths.append(length)
+            cuts[-1].dark += not burning
     if tip_height(at, pivot) < radius + clearance - 1e-3:
         raise Fault("the torch is left at the tube")
     return cuts
