@@ -8,6 +8,7 @@
 #include "api/endpoint.hpp"
 #include "api/json.hpp"
 #include "api/limits.hpp"
+#include "api/post.hpp"
 #include "api/problem.hpp"
 #include "api/reader.hpp"
 #include "api/text_encoding.hpp"
@@ -172,7 +173,9 @@ std::string format_query(std::string_view format,
 
 std::string print_batch_line(const BatchLine& line, std::size_t number, const BatchAnswer& answer) {
   auto content = answer.content;
-  const bool json = answer.media.find("json") != std::string_view::npos;
+  // A program that is JSON is a document, not an answer.
+  const bool json = answer.media.find("json") != std::string_view::npos &&
+                    !answer.media.starts_with(kPointPairsMedia);
   while (json && content.ends_with('\n')) content.remove_suffix(1);
   Writer out(content.size() + line.id.size() + 64);
   out.object([&](Writer& w) {

@@ -8,6 +8,7 @@
 #include "api/catalogue.hpp"
 #include "api/common_fields.hpp"
 #include "api/endpoint.hpp"
+#include "api/file_name.hpp"
 #include "api/format_choice.hpp"
 #include "api/limits.hpp"
 #include "api/query.hpp"
@@ -196,7 +197,12 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   out_.headers.emplace_back("Tubecut-Input-Sha256", job.input_sha256);
   out_.headers.emplace_back("Tubecut-Result-Sha256", job.result_sha256);
   if (choice.format != nullptr && !query.validate_only) {
-    out_.content_type = choice.format->media;
+    const auto file = program_file(*choice.format, query.options, endpoint.id, common.reference,
+                                   job.input_sha256);
+    out_.content_type = file.media;
+    if (!file.name.empty())
+      out_.headers.emplace_back("Content-Disposition",
+                                "attachment; filename=\"" + file.name + "\"");
     out_.body = std::move(answer.text);
     return std::move(out_);
   }

@@ -83,31 +83,34 @@ std::vector<FieldIssue> program_issues(const std::string& format, const FormatOp
     std::string_view why;
   };
   const auto& of_control = post_of(o).of_control;
-  const bool by_control = of_control.has_value();
+  const bool by_control = of_control.has_value(), pairs = post_of(o).is_point_pairs();
   const bool lit = o.torch, by_us = lit && !by_control;
-  const bool table = o.process != nullptr, pivot_of_table = table && o.process->pivot_length;
+  const bool table = o.process != nullptr,
+             pivot_of_table = table && o.process->pivot_length && !pairs;
   const bool led = o.lead ? *o.lead > 0.0 : table;
   const bool has_pivot = o.pivot_length || pivot_of_table;
   constexpr std::string_view kLit = "a program that lights the torch needs it";
   const std::string control = "the control has it: " + of_control.value_or("");
   constexpr std::string_view kOfLead = "goes with lead_mm", kOfPivot = "goes with pivot_length_mm";
   const std::string_view height = by_control ? std::string_view(control) : kOfPivot;
-  const bool heights = !by_control && (has_pivot || lit);
+  const bool heights = !by_control && (has_pivot || lit || pairs);
+  constexpr std::string_view kOfAxes = "point pairs move no axis";
   const std::array rules{
       Rule{"speed_mm_min", "mm_min", o.speed.has_value(), table, true, true,
            "needs the torch's speed on the outer wall"},
       Rule{"lead_mm", "mm", led, false, lit, true,
            "a pierce on the finished edge scraps it; above 0"},
-      Rule{"pivot_length_mm", "mm", has_pivot, false, by_us, true,
-           "the tip's height is in the program where the torch is lit"},
+      Rule{"pivot_length_mm", "mm", has_pivot, false, by_us && !pairs, !pairs,
+           pairs ? kOfAxes : "the tip's height is in the program where the torch is lit"},
       Rule{"pierce_height_mm", "mm", o.pierce_height.has_value(), table, by_us, heights,
            by_us ? kLit : height},
       Rule{"pierce_delay_s", "s", o.pierce_delay.has_value(), table, by_us, !by_control,
            by_control ? std::string_view(control) : kLit},
       Rule{"cut_height_mm", "mm", o.cut_height.has_value(), table, by_us, heights,
            by_us ? kLit : height},
-      Rule{"clearance_mm", "mm", o.clearance.has_value(), false, false, has_pivot,
-           "goes with pivot_length_mm"},
+      Rule{"clearance_mm", "mm", o.clearance.has_value(), false, false, has_pivot && !pairs,
+           pairs ? kOfAxes : kOfPivot},
+      Rule{"axial", "", o.axial_z, false, false, !pairs, kOfAxes},
       Rule{"overcut_mm", "mm", o.overcut.has_value(), false, false, led, kOfLead},
       Rule{"pierce_b_deg", "deg", o.pierce_bevel.has_value(), false, false, led, kOfLead}};
   std::vector<FieldIssue> out;

@@ -1,8 +1,10 @@
 #include "api/post.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
+#include "api/file_name.hpp"
 #include "api/formats/text.hpp"
 #include "api/limits.hpp"
 #include "api/text_encoding.hpp"
@@ -16,6 +18,14 @@ constexpr double kTurn = 360.0;  // deg
 constexpr std::string_view kLetters = "ABCUVWXYZ";
 
 using Names = std::initializer_list<std::string_view>;
+
+/// Seven digits, three of them behind the point at least; never 0, which controls refuse.
+std::string feed_word(double feed) {
+  constexpr double kLeast = 1e-6;
+  int decimals = 3;
+  for (double v = std::max(feed, kLeast); v < 1e3 && decimals < 9; v *= 10.0) ++decimals;
+  return fixed(std::max(feed, kLeast), decimals);
+}
 
 std::string listed(const Names& names) {
   std::string out;
@@ -106,6 +116,37 @@ std::string read_comment_end(Reader& in) {
   return {};
 }
 
+/// Absent it is not echoed: the document stays as it was sent.
+PostKind read_kind(Reader& in) {
+  static constexpr std::array kKinds{Option<PostKind>{"blocks", PostKind::blocks},
+                                     Option<PostKind>{"point_pairs", PostKind::point_pairs}};
+  in.note("kind");
+  return in.has("kind") ? in.choice("kind", kKinds) : PostKind::blocks;
+}
+
+/// Values and signs that every file system takes in a name.
+std::optional<std::string> read_file_name(Reader& in) {
+  auto out = in.optional_text("file_name", kLongestLine);
+  if (!out || !in.understood("file_name")) return std::nullopt;
+  check_line(in, "file_name", *out,
+             {"part", "revision", "order", "drawing", "reference", "cut", "input"});
+  std::size_t from = 0;
+  const auto sound = [](std::string_view text) { return in_file_name(text) == text; };
+  bool all = !out->starts_with('.') && !out->starts_with('-');
+  for (auto slot = next_slot(*out, 0); slot; slot = next_slot(*out, from)) {
+    all = all && sound(std::string_view(*out).substr(from, slot->begin - from));
+    from = slot->end + 1;
+  }
+  if (!all || !sound(std::string_view(*out).substr(from)))
+    in.issue(
+        {.code = ErrorCode::bad_text,
+         .pointer = "file_name",
+         .hint = "letters, digits, values and the signs . _ -, of which the last and the first "
+                 "begin no name"},
+        in.find("file_name"));
+  return out;
+}
+
 /// `turns`: by degrees, `rolls`: round and round.
 PostAxis decode_axis(Reader& in, bool turns, bool rolls) {
   PostAxis out;
@@ -147,6 +188,13 @@ void decode_axes(Reader& in, Post& out) {
 }
 
 }  // namespace
+
+double PostAxis::written(double value) const {
+  const auto text = fixed((reversed ? -value : value) + offset, decimals);
+  double out = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), out);
+  return out;
+}
 
 double PostAxis::counted(double value) const {
   const double out = (reversed ? -value : value) + offset;
@@ -192,6 +240,26 @@ std::string Post::numbered(const std::string& program) const {
   return out;
 }
 
+bool feeds_by_axes(std::string_view line) {
+  return line.find("{linear_units_per_minute}") != std::string_view::npos ||
+         line.find("{axes_feeds}") != std::string_view::npos;
+}
+
+std::string linear_feed(const std::vector<AxisMove>& axes, double per_minute) {
+  double straight = 0.0, turned = 0.0;
+  for (const auto& axis : axes) (axis.turns ? turned : straight) += axis.way * axis.way;
+  return feed_word(std::sqrt(straight > 0.0 ? straight : turned) * per_minute);
+}
+
+std::string axes_feeds(const std::vector<AxisMove>& axes, double per_minute) {
+  std::string out;
+  for (const auto& axis : axes)
+    if (axis.way != 0.0)
+      out += (out.empty() ? "F" : " F") + std::string(1, axis.letter) +
+             feed_word(std::abs(axis.way) * per_minute);
+  return out;
+}
+
 std::string post_line(std::string_view line, const PostValues& values) {
   std::string out;
   std::size_t from = 0;
@@ -214,9 +282,12 @@ std::string post_lines(const Post::Lines& lines, const PostValues& values) {
 Post decode_post(Reader& in) {
   Post out;
   out.name = in.ascii_text("name", 64);
+  out.kind = read_kind(in);
+  out.file_name = read_file_name(in);
   in.text("what", kLongestLine);
   in.text_column("checked_with", kSomeLines, kLongestLine);
   in.text_column("not_checked", kSomeLines, kLongestLine);
+  if (out.is_point_pairs()) return out;
   if (auto whose = in.optional_text("pierce_by_control", kLongestLine)) out.of_control = *whose;
   out.comment_begin = in.ascii_text("comment_begin", 4);
   out.comment_end = read_comment_end(in);
@@ -233,10 +304,16 @@ Post decode_post(Reader& in) {
   out.end = read_lines(in, "end");
   out.rapid = read_line(in, "rapid", {"axes"}, {{"axes"}});
   out.dwell = read_line(in, "dwell", {"seconds"}, {{"seconds"}});
-  out.cut_move = read_line(in, "cut_move", {"axes", "length_mm", "per_minute", "units_per_minute"},
-                           {{"axes"}, {"length_mm", "per_minute", "units_per_minute"}});
-  out.timed_move = read_line(in, "timed_move", {"axes", "per_minute", "units_per_minute"},
-                             {{"axes"}, {"per_minute", "units_per_minute"}});
+  out.cut_move = read_line(
+      in, "cut_move",
+      {"axes", "length_mm", "per_minute", "units_per_minute", "linear_units_per_minute",
+       "axes_feeds"},
+      {{"axes"},
+       {"length_mm", "per_minute", "units_per_minute", "linear_units_per_minute", "axes_feeds"}});
+  out.timed_move = read_line(
+      in, "timed_move",
+      {"axes", "per_minute", "units_per_minute", "linear_units_per_minute", "axes_feeds"},
+      {{"axes"}, {"per_minute", "units_per_minute", "linear_units_per_minute", "axes_feeds"}});
   in.object("axes", [&](Reader& axes) {
     decode_axes(axes, out);
     return 0;

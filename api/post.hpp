@@ -24,6 +24,8 @@ struct PostAxis {
   [[nodiscard]] double counted(double value) const;
   /// "X-1.50000"
   [[nodiscard]] std::string word(double value) const;
+  /// The same number without what `within_turn` takes off it: what ways are told from.
+  [[nodiscard]] double written(double value) const;
   /// Where the program's zero is: "A0".
   [[nodiscard]] std::string zero() const;
 };
@@ -33,12 +35,18 @@ struct PostAxis {
 enum class PostRole { along, out, across, turn, swing, tilt };
 inline constexpr std::array kPostRoles{"along", "out", "across", "turn", "swing", "tilt"};
 
+/// What a program is: blocks in a control's words, or the places of both edges as JSON.
+enum class PostKind { blocks, point_pairs };
+inline constexpr std::string_view kPointPairsMedia = "application/x-point-pairs+json";
+
 /// The words that a control's programs are written in: lines with named values between braces, no
 /// more. docs/formats.md, "Posts".
 struct Post {
   using Lines = std::vector<std::string>;
 
   std::string name;
+  PostKind kind = PostKind::blocks;
+  std::optional<std::string> file_name;  // a line of file_name.hpp's values
   std::string comment_begin, comment_end;
   bool comment_upper_case = false;
   int block_numbers = 0;                  // from one block to the next; 0: none
@@ -50,11 +58,27 @@ struct Post {
   [[nodiscard]] const std::optional<PostAxis>& axis(PostRole role) const {
     return axes[static_cast<std::size_t>(role)];
   }
+  [[nodiscard]] bool is_point_pairs() const { return kind == PostKind::point_pairs; }
   /// A comment line; what is a client's passes gcode_text, which leaves nothing that ends one.
   [[nodiscard]] std::string comment(std::string_view text) const;
   /// The blocks of a program numbered, where the post has that: all but comments and `begin`.
   [[nodiscard]] std::string numbered(const std::string& program) const;
 };
+
+/// One axis within one move.
+struct AxisMove {
+  char letter = 'X';
+  bool turns = false;
+  double way = 0.0;  // as far as its words tell, mm or deg
+};
+
+/// Whether a line's values need them.
+[[nodiscard]] bool feeds_by_axes(std::string_view line);
+/// Feeds of a move that takes so long, 1/min. Of the axes that go straight together, mm/min along
+/// their path; where none does, of those that turn, deg/min.
+[[nodiscard]] std::string linear_feed(const std::vector<AxisMove>& axes, double per_minute);
+/// Of each axis that moves, behind F and its letter: "FX300.000 FA1200.000".
+[[nodiscard]] std::string axes_feeds(const std::vector<AxisMove>& axes, double per_minute);
 
 /// Values by name, for one line.
 using PostValues = std::initializer_list<std::pair<std::string_view, std::string>>;

@@ -13,7 +13,8 @@ namespace {
 
 /// The shipped ones; the first is a program's unless it names another.
 constexpr std::array kShipped{"posts/linuxcnc.json", "posts/qtplasmac.json",
-                              "posts/fanuc_style.json", "posts/siemens_style.json"};
+                              "posts/fanuc_style.json", "posts/siemens_style.json",
+                              "posts/point_pairs.json"};
 
 const ShelfPost* find(const PostShelf& all, std::string_view name) {
   const auto found = std::ranges::find(

@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::string_view kExposed =
     "X-Request-Id, Job-Id, Idempotency-Key, traceparent, Server-Timing, Retry-After, "
-    "Tubecut-Replica, Tubecut-Input-Sha256, Tubecut-Result-Sha256, Tubecut-Verdict";
+    "Tubecut-Replica, Tubecut-Input-Sha256, Tubecut-Result-Sha256, Tubecut-Verdict, "
+    "Content-Disposition";
 constexpr std::string_view kAllowed =
     "Content-Type, Authorization, X-Api-Key, Job-Id, Idempotency-Key, X-Request-Id, traceparent, "
     "Tubecut-Budget-Ms";

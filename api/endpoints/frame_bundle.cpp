@@ -9,6 +9,7 @@
 
 #include "api/api.hpp"
 #include "api/endpoints/frame_formats.hpp"
+#include "api/file_name.hpp"
 #include "api/format_choice.hpp"
 #include "api/formats/gcode.hpp"
 #include "api/formats/zip_archive.hpp"
@@ -148,10 +149,12 @@ Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& p
     const auto& format = format_of(file);
     auto text = print_document<Parts>(part.spec, part.out, format,
                                       file.needs_speed ? program : caption, part.answer);
-    if (text)
-      out.files.push_back(
-          bundle.add(stem + "/" + stem + std::string(file.ending), file.name, format.media, *text));
-    else
+    if (text) {
+      const auto as = file.needs_speed
+                          ? program_file(format, program.options, Parts::kId, {}, "")
+                          : ProgramFile{std::string(format.media), std::string(file.ending), ""};
+      out.files.push_back(bundle.add(stem + "/" + stem + as.ending, file.name, as.media, *text));
+    } else
       out.left_out.push_back({file.name, std::move(text).error()});
   }
   return out;

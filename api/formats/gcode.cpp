@@ -7,6 +7,7 @@
 #include "api/formats/gcode_header.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/formats/part_marks.hpp"
+#include "api/formats/point_pairs.hpp"
 #include "api/formats/text.hpp"
 #include "api/formats/torch_joints.hpp"
 #include "api/formats/torch_moves.hpp"
@@ -41,10 +42,10 @@ torch::Setup setup_of(const FormatOptions& o) {
 }
 
 /// The same places with more between them where a move of all axes would sag.
-std::vector<TorchPlace> refined(const std::vector<motion::CutPoint>& points,
-                                const TorchReach& reach, const std::stop_token& stop,
-                                Straightness& told) {
-  std::vector<TorchPlace> out{place(points.front())};
+void refine(const motion::CutWithLead& way, const TorchReach& reach, const std::stop_token& stop,
+            Straightness& told, TorchCutPlaces& out) {
+  const auto& points = way.points;
+  out.places = {place(points.front())};
   for (std::size_t i = 1; i < points.size(); ++i) {
     ask(stop);
     auto at = place(points[i - 1]);
@@ -52,10 +53,11 @@ std::vector<TorchPlace> refined(const std::vector<motion::CutPoint>& points,
     told.inserted += moves.size() - 1;
     for (const auto& next : moves) {
       told.sag = std::max(told.sag, sag(reach, at, next));
-      out.push_back(at = next);
+      out.places.push_back(at = next);
     }
+    if (i == way.cut_first) out.cut_first = out.places.size() - 1;
+    if (i == way.cut_last) out.cut_last = out.places.size() - 1;
   }
-  return out;
 }
 
 [[noreturn]] void refuse(const torch::TorchCut& cut, const FormatOptions& options,
@@ -87,11 +89,8 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
                                        ": the scrap has no room for the shortest lead of the "
                                        "machine's table, " +
                                        mm(job.shortest_lead)};
-    out.push_back({.name = cut.name,
-                   .places = refined(way.points.points, reach, caption.stop, moves),
-                   .kerf = cut.kerf,
-                   .radius = way.radius,
-                   .start = place(way.points.points[way.points.cut_first])});
+    out.push_back({.name = cut.name, .places = {}, .kerf = cut.kerf, .radius = way.radius});
+    refine(way.points, reach, caption.stop, moves, out.back());
   }
   return out;
 }
@@ -103,15 +102,17 @@ std::string modes(const Caption& caption) {
 }
 
 /// A move in the time that the torch needs along `length` of the outer wall. `distance`: of all
-/// axes.
+/// axes together.
 std::string timed(const std::string& words, double length, double distance,
-                  const FormatOptions& o) {
+                  const std::vector<AxisMove>& moves, const FormatOptions& o) {
   const double rate = *o.speed / std::max(length, kSlow);  // 1/min
   return post_line(post_of(o).cut_move,
                    {{"axes", words},
                     {"length_mm", fixed(std::max(length, kSlow), 6)},
                     {"per_minute", fixed(rate, 6)},
-                    {"units_per_minute", fixed(std::max(distance * rate, kSlow), 3)}});
+                    {"units_per_minute", fixed(std::max(distance * rate, kSlow), 3)},
+                    {"linear_units_per_minute", linear_feed(moves, rate)},
+                    {"axes_feeds", axes_feeds(moves, rate)}});
 }
 
 /// Between two cuts; nothing where the control moves the tip.
@@ -139,9 +140,11 @@ std::string print_cut(const TorchJob& job, const TorchCutPlaces& way, const Torc
   if (o.torch) out += post_lines(post.torch_on);
   if (o.pierce_delay) out += post_line(post.dwell, {{"seconds", fixed(*o.pierce_delay, 3)}});
   out += post_lines(post.cut_begin);
+  const bool by_axes = feeds_by_axes(post.cut_move);
   const auto go = [&](const TorchPlace& from, double from_off, const TorchPlace& to,
                       double length) {
-    out += timed(joints.words(to, off), length, joints.distance(from, from_off, to, off), o);
+    out += timed(joints.words(to, off), length, joints.distance(from, from_off, to, off),
+                 by_axes ? joints.moves(from, from_off, to, off) : std::vector<AxisMove>{}, o);
   };
   if (above != off) go(first, above, first, std::abs(above - off));
   for (std::size_t i = 1; i < way.places.size(); ++i) {
@@ -200,8 +203,10 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
 std::string print_gcode(TorchJob job, Caption caption) {
   take_process(job, caption.options, caption.stop);
   const auto& post = post_of(caption.options);
-  const TorchJoints joints(job.outer_radius, leaning(job), caption.options);
   Straightness moves;
+  if (post.is_point_pairs())
+    return print_point_pairs(job, ways_of(job, caption, moves), moves, caption);
+  const TorchJoints joints(job.outer_radius, leaning(job), caption.options);
   const auto ways = ways_of(job, caption, moves);
   std::string out =
       post_lines(post.begin) + program_header(job, ways, joints, moves, caption) + modes(caption);

@@ -208,9 +208,9 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
   };
   if (o.lead.value_or(0.0) > 0.0 || o.start)
     out += post.comment(
-        "starts at " + at(joints.turn(), cut.start.phi * kDegPerRad) + ", " +
-        (joints.has_swing() ? at(joints.swing(), cut.start.b * kDegPerRad) + ", " : "") +
-        mm(cut.start.z) + " from " + joints.along().zero());
+        "starts at " + at(joints.turn(), cut.start().phi * kDegPerRad) + ", " +
+        (joints.has_swing() ? at(joints.swing(), cut.start().b * kDegPerRad) + ", " : "") +
+        mm(cut.start().z) + " from " + joints.along().zero());
   if (cut.radius < o.lead.value_or(0.0))
     out += post.comment("leads of " + mm(cut.radius) + ": the scrap has no room for more");
   return out;

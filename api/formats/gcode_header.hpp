@@ -15,8 +15,11 @@ struct TorchCutPlaces {
   std::string name;
   std::vector<TorchPlace> places;  // from the pierce on
   double kerf = 0.0;
-  double radius = 0.0;    // of its leads
-  TorchPlace start = {};  // where the cut begins
+  double radius = 0.0;                      // of its leads
+  std::size_t cut_first = 0, cut_last = 0;  // places between which it is no lead
+
+  /// Where the cut begins.
+  [[nodiscard]] const TorchPlace& start() const { return places[cut_first]; }
 };
 
 /// How moves between the nodes keep to the lines between them.

@@ -129,12 +129,28 @@ std::string lifted(const motion::Machine& machine, const motion::Schedule& s,
   return post_line(post.rapid, {{"axes", letters[a] + fixed(s.axes[a].start, 6)}});
 }
 
+/// Each axis within a move.
+std::vector<AxisMove> axis_moves(const motion::Machine& machine, const std::vector<char>& letters,
+                                 const std::vector<std::int64_t>& from,
+                                 const std::vector<std::int64_t>& to) {
+  std::vector<AxisMove> out;
+  for (std::size_t a = 0; a < from.size(); ++a)
+    out.push_back(
+        {.letter = letters[a],
+         .turns = machine.axes[a].unit == motion::AxisUnit::deg,
+         .way = static_cast<double>(to[a] - from[a]) / machine.axes[a].pulses_per_axis_unit()});
+  return out;
+}
+
 /// Straight to where the words say, evenly in so much time.
-std::string timed(const Post& post, const std::string& axes, double way, double seconds) {
+std::string timed(const Post& post, const std::string& axes, double way, double seconds,
+                  const std::vector<AxisMove>& moves) {
   const double rate = 60.0 / seconds;  // 1/min
   return post_line(post.timed_move, {{"axes", axes},
                                      {"per_minute", fixed(rate, 6)},
-                                     {"units_per_minute", fixed(std::max(way * rate, 1e-3), 3)}});
+                                     {"units_per_minute", fixed(std::max(way * rate, 1e-3), 3)},
+                                     {"linear_units_per_minute", linear_feed(moves, rate)},
+                                     {"axes_feeds", axes_feeds(moves, rate)}});
 }
 
 /// What an event switches or says.
@@ -202,6 +218,12 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
     throw UnfitOption{"torch", "a mill path has no torch; leave it out"};
   const auto letters = axis_letters(s.axes);
   const auto& post = post_of(caption.options);
+  if (post.is_point_pairs())
+    throw UnfitOption{"post", "a schedule moves axes, and post " + post.name +
+                                  " has none: ask for point pairs of the part or the table"};
+  const bool by_axes = feeds_by_axes(post.timed_move);
+  // In inverse time alone a move of no length takes time.
+  const bool dwells = !names.empty() || post.timed_move.find("{per_minute}") == std::string::npos;
   Cursor at(s);
   std::string out = post_lines(post.begin) + header(machine, s, letters, contour, caption) +
                     post_lines(post.modes) + (contour ? post_lines(post.tool) : "") +
@@ -214,12 +236,13 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
     const auto before = at.sums();
     at.advance_to(end);
     const double seconds = s.period * static_cast<double>(end - from);
-    const bool rests = !names.empty() && before == at.sums();
-    if (end > from && rests)  // a move of no length would take no time
+    if (end > from && dwells && before == at.sums())
       out += post_line(post.dwell, {{"seconds", fixed(seconds, 6)}});
     else if (end > from)
-      out += timed(post, words(machine, s, letters, at.sums()),
-                   distance(machine, before, at.sums()), seconds);
+      out += timed(
+          post, words(machine, s, letters, at.sums()), distance(machine, before, at.sums()),
+          seconds,
+          by_axes ? axis_moves(machine, letters, before, at.sums()) : std::vector<AxisMove>{});
     from = end;
     for (const auto& event : s.events)
       if (event.period == end && contour) out += told(event, names, caption);

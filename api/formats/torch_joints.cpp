@@ -78,6 +78,28 @@ double TorchJoints::distance(const TorchPlace& from, double from_off, const Torc
   return std::sqrt(sum);
 }
 
+std::vector<TorchJoints::Shown> TorchJoints::shown(const TorchPlace& at, double off) const {
+  const auto reach = arm(at, off);
+  std::vector<Shown> out{{&along_, false, at.z + reach.along}};
+  if (pivot_ && tilts_) out.push_back({&across_, false, across_at(reach)});
+  if (pivot_) out.push_back({&out_, false, radius_ + reach.out});
+  out.push_back({&turn_, true, at.phi * kDegPerRad});
+  if (has_swing_) out.push_back({&swing_, true, at.b * kDegPerRad});
+  if (tilts_) out.push_back({&tilt_, true, at.a * kDegPerRad});
+  return out;
+}
+
+std::vector<AxisMove> TorchJoints::moves(const TorchPlace& from, double from_off,
+                                         const TorchPlace& to, double to_off) const {
+  const auto a = shown(from, from_off), b = shown(to, to_off);
+  std::vector<AxisMove> out;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    out.push_back({.letter = a[i].axis->letter,
+                   .turns = a[i].turns,
+                   .way = b[i].axis->written(b[i].value) - a[i].axis->written(a[i].value)});
+  return out;
+}
+
 TorchJoints::Arm TorchJoints::arm(const TorchPlace& at, double off) const {
   if (!pivot_) return {0.0, 0.0, 0.0};
   // The torch's line: 1 outwards, tan a round, tan b along.

@@ -35,6 +35,10 @@ class TorchJoints {
   [[nodiscard]] double distance(const TorchPlace& from, double from_off, const TorchPlace& to,
                                 double to_off) const;
 
+  /// What the words of a move tell of each axis, in their order.
+  [[nodiscard]] std::vector<AxisMove> moves(const TorchPlace& from, double from_off,
+                                            const TorchPlace& to, double to_off) const;
+
   [[nodiscard]] const PostAxis& along() const { return along_; }
   [[nodiscard]] const PostAxis& out() const { return out_; }
   [[nodiscard]] const PostAxis& turn() const { return turn_; }
@@ -59,6 +63,13 @@ class TorchJoints {
   }
   [[nodiscard]] std::string angles(const TorchPlace& at) const;
   [[nodiscard]] std::vector<double> all(const TorchPlace& at, double off) const;
+  /// An axis that has a word, and its value.
+  struct Shown {
+    const PostAxis* axis;
+    bool turns;
+    double value;
+  };
+  [[nodiscard]] std::vector<Shown> shown(const TorchPlace& at, double off) const;
 
   double radius_;
   std::optional<double> pivot_;

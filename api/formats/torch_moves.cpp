@@ -88,10 +88,7 @@ double sag_in_space(const TorchReach& r, const TorchPlace& from, const TorchPlac
 }
 
 /// Where the torch meets the inner wall.
-struct Inner {
-  double phi, z;
-};
-Inner inner_edge(const TorchReach& r, const TorchPlace& p, const Depth& d) {
+InnerPlace inner_edge(const TorchReach& r, const TorchPlace& p, const Depth& d) {
   const double rho = elementary::tan(p.a);
   return {.phi = p.phi - elementary::atan2(d.h * rho, r.outer_radius - d.h),
           .z = p.z - d.h * elementary::tan(p.b)};
@@ -122,6 +119,11 @@ TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace
 }
 
 }  // namespace
+
+std::optional<InnerPlace> inner_place(const TorchReach& reach, const TorchPlace& at) {
+  const auto d = depth(reach, elementary::tan(at.a));
+  return d ? std::optional(inner_edge(reach, at, *d)) : std::nullopt;
+}
 
 double metal_in_beam(const TorchReach& reach, const TorchPlace& at) {
   const double across = elementary::tan(at.a), along = elementary::tan(at.b);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace tubecut::api {
@@ -16,6 +17,12 @@ struct TorchReach {
   double inner_radius = 0.0;
   double pivot = 0.0;  // mm; 0: the control moves the tip
 };
+
+/// Where the torch's line comes out of the inner wall; nothing where it grazes it. mm, rad.
+struct InnerPlace {
+  double phi = 0.0, z = 0.0;
+};
+[[nodiscard]] std::optional<InnerPlace> inner_place(const TorchReach& reach, const TorchPlace& at);
 
 /// How much metal the beam goes through there, mm; infinite where it grazes the inner wall.
 [[nodiscard]] double metal_in_beam(const TorchReach& reach, const TorchPlace& at);

@@ -69,10 +69,12 @@ void take_process(TorchJob& job, FormatOptions& o, const std::stop_token& stop) 
   Taker taker;
   taker.take(o.speed, row.speed, "feed");
   taker.take(o.lead, row.lead, "lead");
-  if (process.pivot_length) taker.take(o.pivot_length, *process.pivot_length, "pivot length");
+  const bool pairs = post_of(o).is_point_pairs();  // which have heights, and no axis
+  if (process.pivot_length && !pairs)
+    taker.take(o.pivot_length, *process.pivot_length, "pivot length");
   if (!post_of(o).of_control) {
     taker.take(o.pierce_delay, row.pierce_delay, "pierce delay");
-    if (o.pivot_length) {
+    if (o.pivot_length || pairs) {
       taker.take(o.pierce_height, row.pierce_height, "pierce height");
       taker.take(o.cut_height, row.cut_height, "cutting height");
     }

@@ -143,7 +143,7 @@ class People(FormatTest):
             yield f"{endpoint} {example} {query}", [line[len(begins):].rstrip(")") for line in content.decode("ascii").splitlines() if line.startswith(begins)]
 
     def test_gcode(self):
-        count, posts = 0, {p["name"]: p["post"] for p in json.loads(self.service.get("/v1/posts"))["posts"]}
+        count, posts = 0, {p["name"]: p["post"] for p in json.loads(self.service.get("/v1/posts"))["posts"] if "comment_begin" in p["post"]}
         self.assertGreaterEqual(len(posts), 4)
         for name, post in posts.items():
             plain, pierced = (f"format=gcode&post={name}&speed_mm_min=600" + more for more in ("", "&lead_mm=1.5&pivot_length_mm=150"))
@@ -157,6 +157,16 @@ class People(FormatTest):
                         self.assertTrue(all("_" not in text for text in texts if not re.match("(?i)tubecut|reasons|warning|.* axis ", text)), texts)
                         count += len(texts)
         self.assertGreater(count, 3000)
+
+    def test_notes_of_point_pairs(self):
+        count = 0
+        for body in examples("parts").values():
+            body = body | {"reference": {"part": "B1"}}
+            program = json.loads(self.service.text("parts", body, "format=gcode&post=point_pairs&speed_mm_min=600&machine=five_axis_cutter&material=steel&lead_mm=0"))
+            texts = [*(text for text in program["notes"] if not text.startswith("machine: ")), program["frame"]["zero"], program["frame"]["phi"], program["frame"]["z"]]
+            self.assertEqual([(text, *faults(text)) for text in texts if faults(text)], [])
+            count += len(texts)
+        self.assertGreater(count, 40)
 
     def test_dstv(self):
         count = 0

@@ -16,7 +16,7 @@ SPEED = 600.0
 LIT = ("format=gcode&speed_mm_min=600&torch=on&lead_mm=3&pivot_length_mm=150&pierce_height_mm=4&pierce_delay_s=0.4&cut_height_mm=2&acknowledge=" +
        "free_end")
 DARK = "format=gcode&speed_mm_min=600&lead_mm=3&pivot_length_mm=150&pierce_height_mm=4&cut_height_mm=2"
-SHIPPED = ("linuxcnc", "qtplasmac", "fanuc_style", "siemens_style")
+SHIPPED = ("linuxcnc", "qtplasmac", "fanuc_style", "siemens_style", "point_pairs")
 ADDRESS = re.compile(r"([A-Z])(-?\d+(?:\.\d*)?)")
 HOSTILE = "x)(M3 S1; M30 %\\"
 
@@ -88,6 +88,36 @@ def read(out, words, rate):
         assert ("G", 0.0) in codes or ("G", 1.0) in codes, words
         out.move(("G", 0.0) in codes, axes, rate)
     out.switches += [(value, len(out.moves)) for letter, value in codes if letter == "M" and value in (3.0, 5.0)]
+
+
+def by_the_path(before, at, feed):
+    """RS-274 in G94: mm/min along X, Y, Z, or where none of them moves deg/min of A, B, C. Minutes."""
+    straight, turned = (math.dist([before[w] for w in of if w in at], [at[w] for w in of if w in at]) for of in ("XYZUVW", "ABC"))
+    return (straight or turned) / float(feed[1:])
+
+
+def by_each_axis(before, at, feeds):
+    """Every axis that moves at its own feed, FX and a number; all arrive together. Minutes."""
+    rates = {word[1]: float(word[2:]) for word in feeds.split()}
+    moved = {letter: abs(at[letter] - before[letter]) for letter in at if at[letter] != before[letter]}
+    assert moved.keys() == rates.keys(), (moved, rates)
+    minutes = [moved[letter] / rates[letter] for letter in moved]
+    assert max(minutes) <= min(minutes) * 1.001, (moved, rates)
+    return max(minutes)
+
+
+def timed(program, minutes_of):
+    """[(axes, minutes)] of each G1."""
+    out, at = [], {}
+    for line in program.splitlines():
+        block, _, feed = line.partition(" F")
+        words = {w: float(v) for w, v in ADDRESS.findall(block) if w in "ABCXYZUVW"}
+        if block[:3] not in ("G0 ", "G1 ") or not words:
+            continue
+        before, at = at, at | words
+        if block[1] == "1":
+            out.append((at, minutes_of(before, at, "F" + feed)))
+    return out
 
 
 READERS = {"linuxcnc": linuxcnc, "qtplasmac": linuxcnc, "fanuc_style": fanuc, "siemens_style": siemens}
@@ -202,14 +232,84 @@ class Own(FormatTest):
                 self.assertAlmostEqual(rate, max(way * inverse, 1e-3), delta=2e-3 + 1e-3 * rate)
             before = at
 
+    def test_a_feed_by_the_path_and_by_each_axis(self):
+        """The same path in the same time, every block of it, whatever the control counts a feed by."""
+        turning = 0
+        for endpoint, name, query in (("bevel-tables", "mitre", DARK), ("parts", "chord-with-holes", DARK), ("parts", "tube-laser-chord", DARK),
+                                      ("pulse-schedules", "square-cut-from-a-bare-contour", "format=gcode")):
+            body = examples(endpoint)[name]
+            plain = linuxcnc(self.service.text(endpoint, body, query).decode())
+            wanted = [(at, 1 / rate) for (rapid, at), rate in zip(plain.moves, plain.rates) if not rapid]
+            self.assertGreater(len(wanted), 10)
+            for value, minutes_of in (("F{linear_units_per_minute}", by_the_path), ("{axes_feeds}", by_each_axis)):
+                post = self.document | {"name": "own", "cut_begin": ["G94"], "cut_move": f"G1 {{axes}} {value}", "timed_move": f"G1 {{axes}} {value}"}
+                got = timed(self.service.text(endpoint, body, f"{query}&post={quote(json.dumps(post))}").decode(), minutes_of)
+                with self.subTest(f"{name} {value}"):
+                    self.assertEqual(len(got), len(wanted))
+                    for (at, minutes), (plain_at, plain_minutes) in zip(got, wanted):
+                        self.assertEqual(at, plain_at)
+                        self.assertAlmostEqual(minutes / plain_minutes, 1, delta=1e-3)
+            turning += sum(a["X"] == b["X"] and a["A"] != b["A"] for (a, _), (b, _) in zip(wanted, wanted[1:]) if "X" in a and "A" in a)
+        self.assertGreater(turning, 10)  # blocks that go by deg/min
+
+    def test_feeds_by_axes_of_a_turn_that_starts_again(self):
+        """Over 360 the turn goes the short way, and so its feed."""
+        body = examples("parts")["chord-with-holes"]
+        plain = linuxcnc(self.service.text("parts", body, DARK).decode())
+        wanted = [1 / rate for (rapid, _), rate in zip(plain.moves, plain.rates) if not rapid]
+        rolling = self.document | {"name": "rolling", "cut_move": "G1 {axes} {axes_feeds}", "axes": self.document["axes"] | {
+            "turn": {"letter": "A", "decimals": 7, "within_turn": True, "offset_deg": 350}}}
+
+        def short_way(before, at, feeds):
+            over = (at["A"] - before["A"] + 180) % 360 - 180
+            return by_each_axis(before, at | {"A": round(before["A"] + over, 7) if over else before["A"]}, feeds)
+        got = timed(self.service.text("parts", body, f"{DARK}&post={quote(json.dumps(rolling))}").decode(), short_way)
+        self.assertEqual(len(got), len(wanted))
+        for (_, minutes), plain_minutes in zip(got, wanted):
+            self.assertAlmostEqual(minutes / plain_minutes, 1, delta=1e-3)
+
+    def named(self, template, reference, endpoint="bevel-tables", example="mitre", query=DARK):
+        """The file name that an answer says."""
+        body = examples(endpoint)[example] | ({"reference": reference} if reference else {})
+        post = quote(json.dumps(self.document | {"name": "own", "file_name": template}))
+        status, headers, content = self.service.reply(endpoint, json.dumps(body).encode(), f"{query}&post={post}")
+        self.assertEqual(status, 200, content[:300])
+        found = re.fullmatch(r'attachment; filename="([A-Za-z0-9._-]{1,200})"', headers["Content-Disposition"])
+        self.assertTrue(found, headers["Content-Disposition"])
+        return found[1], headers
+
+    def test_a_file_name(self):
+        said = {"part": "T 1/2", "revision": "B", "order": "4711", "drawing": "Träger"}
+        name, headers = self.named("{order}-{part}.{revision}.{cut}.{input}.ngc", said)
+        self.assertEqual(name, f"4711-T_1_2.B.cut.{headers['Tubecut-Input-Sha256'][:8]}.ngc")
+        self.assertEqual(self.named("{reference}.nc", said)[0], "4711_Traeger_T_1_2_B.nc")
+        self.assertEqual(self.named("{part}-{revision}.nc", None)[0], "none-none.nc")
+        self.assertEqual(self.named("{cut}.nc", None, "parts", "chord-with-holes")[0], "part.nc")
+        self.assertEqual(self.named("{cut}.nc", None, "pulse-schedules", "square-cut-from-a-bare-contour", "format=gcode")[0], "schedule.nc")
+        for part, wanted in (("con", "_con.nc"), ("COM1", "_COM1.nc"), ("..", "_..nc"), ("-rf", "_rf.nc"), ('a";b', "a__b.nc"),
+                             (HOSTILE, "x__M3_S1__M30___.nc"), ("%2e%2e/", "_2e_2e_.nc")):
+            self.assertEqual(self.named("{part}.nc", {"part": part})[0], wanted, part)
+        for i in range(1, 65):
+            name, _ = self.named("{part}{revision}{order}{drawing}{reference}.ngc", dict.fromkeys(said, "x" * i))
+            self.assertTrue(name.endswith(".ngc"))
+        _, headers, _ = self.service.reply("bevel-tables", json.dumps(examples("bevel-tables")["mitre"]).encode(), DARK)
+        self.assertNotIn("Content-Disposition", headers)
+
     def test_a_post_within_the_request(self):
         body = examples("parts")["chord-with-holes"]
         sent = quote(json.dumps(self.turned))
         self.assertEqual(self.service.text("parts", body, f"{DARK}&post={sent}"), self.service.text("parts", body, f"{DARK}&post=turned"))
         axes = self.document["axes"]
+        for name, code in (("{parts}.ngc", "bad_choice"), ("../{part}.ngc", "bad_text"), ("a b", "bad_text"), (".{part}", "bad_text"), ("{part", "bad_text"),
+                           ("{part}{part}", "duplicate_id"), ("{axes}", "bad_choice"), ("é", "bad_text"), ('a"b', "bad_text")):
+            status, _, content = self.service.ask("parts", body, f"{DARK}&post={quote(json.dumps(self.document | {'file_name': name}))}")
+            self.assertEqual((status, *[json.loads(content)["errors"][0][key] for key in ("pointer", "code")]), (400, "?post/file_name", code), name)
         for changes, wanted in (({"rapids": "G0"}, [("?post/rapids", "unknown_field")]), ({"rapid": "G0 {axis}"}, [("?post/rapid", "bad_choice")] * 1),
                                 ({"rapid": "G0 {axes} {axes}"}, [("?post/rapid", "duplicate_id")]),
                                 ({"axes": axes | {"turn": {"letter": "F", "decimals": 4}}}, [("?post/axes/turn/letter", "bad_choice")]),
+                                ({"cut_move": "G1 {axes} F{feed}"}, [("?post/cut_move", "bad_choice")]), ({"cut_move": "G1 {axes_feeds}"}, [("?post/cut_move", "bad_text")]),
+                                ({"rapid": "G0 {axes} {axes_feeds}"}, [("?post/rapid", "bad_choice")]), ({"kind": "blocs"}, [("?post/kind", "bad_choice")]),
+                                ({"timed_move": "G1 {axes} F{linear_feed}"}, [("?post/timed_move", "bad_choice")]),
                                 ({"axes": axes | {"swing": axes["swing"] | {"within_turn": True}}}, [("?post/axes/swing/within_turn", "unknown_field")]),
                                 ({"axes": {role: axes[role] for role in axes if role != "turn"}}, [("?post/axes/turn", "missing_field")])):
             status, _, content = self.service.ask("parts", body, f"{DARK}&post={quote(json.dumps(self.document | changes))}")
@@ -296,6 +396,9 @@ class Own(FormatTest):
             (self.document | {"name": "a", "cut_move": "G1 {axes}"}, "/cut_move: "),
             (self.document | {"name": "a", "begin": ["%", "Träger"]}, "/begin/1: "),
             (self.document | {"name": "a", "comment_end": "."}, "/comment_end: "),
+            (self.document | {"name": "a", "file_name": "{piece}.ngc"}, "/file_name: "),
+            (self.document | {"name": "a", "kind": "point_pairs"}, "/comment_begin: "),
+            (self.document | {"name": "a", "cut_move": "G1 {axes} F{axis_feeds}"}, "/cut_move: "),
             (self.document | {"name": "a", "block_numbers": -1}, "/block_numbers: "),
             (self.document | {"name": "a", "axes": axes | {"swing": {"letter": "A", "decimals": 4}}}, "/axes/swing/letter: "),
             (self.document | {"name": "a", "axes": axes | {"turn": {"letter": "F", "decimals": 4}}}, "/axes/turn/letter: "),
