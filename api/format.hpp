@@ -30,6 +30,9 @@ inline constexpr BundleFile kBundleFiles[] = {
 /// What a template is printed on: one sheet as large as it is, or pages.
 enum class Paper { sheet, a4, a3 };
 
+/// Which passes of an end with a land a program has: nobody says, the bevel's alone, or both.
+enum class Passes { unsaid, bevel, both };
+
 /// What the query says of a drawing or a machine file. Lengths in mm.
 struct FormatOptions {
   bool mirror = false;  // drawn for the print side to lie on the tube
@@ -48,8 +51,9 @@ struct FormatOptions {
   std::optional<double> pierce_height = {}, cut_height = {};  // of the tip off the wall
   std::optional<double> pierce_delay = {};                    // s
   std::optional<double> clearance = {};  // of the tip over the tube between two cuts
-  std::optional<double> omega = {};      // of the section of a groove that is drawn, deg
-  std::vector<BundleFile> files = {};    // of each part, in a bundle
+  Passes passes = Passes::unsaid;
+  std::optional<double> omega = {};    // of the section of a groove that is drawn, deg
+  std::vector<BundleFile> files = {};  // of each part, in a bundle
 };
 
 /// What is to be thought of an answer; verdict.hpp makes it and says it.

@@ -17,6 +17,8 @@ constexpr std::array kSwitch{Option<bool>{"on", true}, Option<bool>{"off", false
 constexpr std::array kAxial{Option<bool>{"x", false}, Option<bool>{"z", true}};
 constexpr std::array kPaper{Option<Paper>{"sheet", Paper::sheet}, Option<Paper>{"a4", Paper::a4},
                             Option<Paper>{"a3", Paper::a3}};
+constexpr std::array kPasses{Option<Passes>{"bevel", Passes::bevel},
+                             Option<Passes>{"both", Passes::both}};
 constexpr Range kOvercut{.min = 0.0, .max = 1'000.0};   // mm
 constexpr Range kStart{.min = -360.0, .max = 360.0};    // deg
 constexpr Range kOmega{.min = -360.0, .max = 360.0};    // deg
@@ -189,6 +191,8 @@ FormatOptions read_options(Reader& in, std::vector<FieldIssue>& within) {
   out.pierce_delay = in.optional_number("pierce_delay_s", kPierceDelay);
   out.cut_height = in.optional_number("cut_height_mm", kTipHeight);
   out.clearance = in.optional_number("clearance_mm", kTipClearance);
+  in.note("passes");
+  if (in.has("passes")) out.passes = in.choice("passes", kPasses);
   out.omega = in.optional_number("omega_deg", kOmega);
   out.files = read_files(in);
   return out;

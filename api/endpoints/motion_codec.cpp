@@ -191,6 +191,7 @@ struct CutOf {
     if (table.inward)
       return fail(
           {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
+    job.land = spec.root_face;
     job.checks = bevel::verify(spec, table, stop);
     job.warnings = on_node(spec.source, table.warnings);
     for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;

@@ -207,7 +207,7 @@ std::string bevel_table_dstv(const bevel::TableSpec& spec, const bevel::Table& t
 
 std::string bevel_table_gcode(const bevel::TableSpec& spec, const bevel::Table& table,
                               const Caption& caption) {
-  return print_gcode(torch_job(spec, table), caption);
+  return print_gcode(torch_job(spec, table, caption), caption);
 }
 
 }  // namespace tubecut::api

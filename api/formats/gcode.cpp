@@ -163,31 +163,71 @@ TorchJoints::Leaning leaning(const TorchJob& job) {
   return out;
 }
 
+/// The cuts with the passes of their lands, or why there are none.
+std::vector<torch::TorchCut> in_passes(Result<std::vector<torch::TorchCut>> cuts,
+                                       const Caption& caption) {
+  ask(caption.stop);
+  if (cuts) return *std::move(cuts);
+  const auto& issue = cuts.error().issues.front();
+  throw UnfitOption{"passes", std::string(info(issue.code).code) + " " + issue.hint};
+}
+
+/// A bevel that stands on a land does not cut it: a program that lights the torch must say that it
+/// is meant so. Its head does.
+void tell_lands(TorchJob& job, const FormatOptions& o) {
+  for (const auto& cut : job.cuts) {
+    if (cut.land == 0.0) continue;
+    const auto of = cut.name.empty() ? std::string("the cut") : "cut " + cut.name;
+    refuse_land(of, cut.land, o);
+    if (o.passes == Passes::bevel)
+      job.process.push_back(of + ": THE BEVEL ALONE, its land of " + mm(cut.land) +
+                            " is left to a pass before it");
+  }
+  if (std::ranges::any_of(job.cuts, &torch::TorchCut::of_land))
+    job.process.emplace_back(
+        "lands: a pass of their own before the bevel, which takes the scrap off: the bevel's "
+        "starts "
+        "beside the metal");
+}
+
 }  // namespace
+
+void refuse_land(const std::string& of, double land, const FormatOptions& o) {
+  if (land > 0.0 && o.torch && o.passes == Passes::unsaid)
+    throw UnfitOption{"passes", of + " has a land of " + mm(land) +
+                                    " at its root, which the bevel's pass does not cut: "
+                                    "passes=both cuts it first, where the part is still held; "
+                                    "passes=bevel if it is cut otherwise"};
+}
 
 const std::vector<std::string_view>& gcode_options() {
   static const std::vector<std::string_view> kOptions{
       "speed_mm_min",     "post",           "dialect",       "torch",        "axial",
       "lead_mm",          "overcut_mm",     "start_deg",     "pierce_b_deg", "pivot_length_mm",
       "pierce_height_mm", "pierce_delay_s", "cut_height_mm", "clearance_mm", "acknowledge",
-      "machine",          "material"};
+      "machine",          "material",       "passes"};
   return kOptions;
 }
 
-TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table) {
+TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
+                   const Caption& caption) {
   return {.outer_radius = spec.target.outer_radius,
           .wall = spec.target.wall,
-          .cuts = {torch::torch_cut(spec, table)},
+          .cuts = caption.options.passes == Passes::both
+                      ? in_passes(torch::torch_passes(spec, table, caption.stop), caption)
+                      : std::vector{torch::torch_cut(spec, table)},
           .zero = "the work point, z 0",
           .onward = "from the cut into the kept tube",
           .line = "the seam, phi 0,",
           .seen_from = "the cut"};
 }
 
-TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
+TorchJob torch_job(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   TorchJob out{.outer_radius = spec.target.outer_radius,
                .wall = spec.target.wall,
-               .cuts = torch::torch_cuts(spec, part),
+               .cuts = caption.options.passes == Passes::both
+                           ? in_passes(torch::torch_passes(spec, part, caption.stop), caption)
+                           : torch::torch_cuts(spec, part),
                .zero = "the long point of the start, z 0",
                .onward = "from the start to the finish",
                .line = "the datum line, phi 0,",
@@ -201,6 +241,7 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part) {
 }
 
 std::string print_gcode(TorchJob job, Caption caption) {
+  tell_lands(job, caption.options);
   take_process(job, caption.options, caption.stop);
   const auto& post = post_of(caption.options);
   Straightness moves;

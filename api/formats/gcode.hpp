@@ -20,9 +20,17 @@ struct TorchJob {
   std::vector<std::string> process = {};  // lines of the header: what the machine's table says
   double shortest_lead = 0.0;             // mm, where the lead is the table's
 };
-[[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table);
+/// Of the caption its option `passes`.
+/// Errors  throws UnfitOption: passes, where a land has no pass of its own.
+[[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
+                                 const Caption& caption);
 /// A part in the order of its sequence; marks are lines of the header.
-[[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part);
+[[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part,
+                                 const Caption& caption);
+
+/// Throws UnfitOption (passes) where a program lights the torch along a bevel whose land of so many
+/// mm it does not cut, and nobody said that it is meant so.
+void refuse_land(const std::string& of, double land, const FormatOptions& options);
 
 /// Query parameters a program along torch lines reads.
 [[nodiscard]] const std::vector<std::string_view>& gcode_options();

@@ -95,7 +95,7 @@ std::string part_dstv(const part::PartSpec& spec, const part::Part& part, const 
 }
 
 std::string part_gcode(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_gcode(torch_job(spec, part), caption);
+  return print_gcode(torch_job(spec, part, caption), caption);
 }
 
 }  // namespace tubecut::api

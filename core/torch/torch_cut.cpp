@@ -6,6 +6,8 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/bevel/land_pass.hpp"
+#include "core/part/place.hpp"
 
 namespace tubecut::torch {
 namespace {
@@ -35,8 +37,10 @@ void begin_at_seam(motion::CutPath& path) {
 }
 
 TorchCut end_cut(const bevel::TableSpec& spec, const bevel::Table& table, motion::Scrap scrap) {
-  TorchCut out{
-      .path = on_tube(spec.target, scrap), .kerf = spec.kerf, .counted_inward = table.inward};
+  TorchCut out{.path = on_tube(spec.target, scrap),
+               .kerf = spec.kerf,
+               .counted_inward = table.inward,
+               .land = table.z_face.empty() ? 0.0 : spec.root_face};
   out.path.phi = table.phi;
   out.path.z = table.torch_outer;
   out.path.b = table.b;
@@ -88,6 +92,35 @@ Result<std::optional<motion::CutWithLead>> lead_and_pierce(const motion::PartBor
   return off < kPierceOff * lead.radius ? Found{} : Found{*std::move(way)};
 }
 
+TorchCut part_end(const part::Part& part, bool finish) {
+  const auto& end = finish ? part.finish : part.start;
+  auto out = end_cut(end.spec, end.table, finish ? motion::Scrap::plus_z : motion::Scrap::minus_z);
+  out.name = finish ? "finish" : "start";
+  return out;
+}
+
+/// The pass of an end's land where the part lies.
+Result<TorchCut> part_land(const part::PartSpec& spec, const part::Part& part, bool finish,
+                           const std::stop_token& stop) {
+  const auto& end = finish ? part.finish : part.start;
+  TRY(auto land, bevel::land_pass(end.spec, end.own, stop));
+  const auto placed =
+      part::shifted(finish ? part::seen_from_start(land, *spec.target.length) : std::move(land),
+                    -part::lowest(part.start.own));
+  return end_cut(end.spec, placed, finish ? motion::Scrap::plus_z : motion::Scrap::minus_z);
+}
+
+/// The land's pass before the cut that is there.
+void put_before_last(TorchCut land, std::vector<TorchCut>& out) {
+  auto& bevel = out.back();
+  const std::string of = bevel.name.empty() ? "" : bevel.name + ", ";
+  land.name = of + "land";
+  land.of_land = true;
+  bevel.name = of + "bevel";
+  bevel.land = 0.0;
+  out.insert(out.end() - 1, std::move(land));
+}
+
 }  // namespace
 
 std::vector<bool> corner_rows(const bevel::Table& table) {
@@ -114,12 +147,36 @@ std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& p
           spec.holes[hole.asked].hole, hole.hole,
           "hole " + std::to_string(step.index) + (branch.empty() ? "" : " for " + branch)));
     } else if (step.what != What::mark) {
-      const bool finish = step.what == What::finish;
-      const auto& end = finish ? part.finish : part.start;
-      out.push_back(
-          end_cut(end.spec, end.table, finish ? motion::Scrap::plus_z : motion::Scrap::minus_z));
-      out.back().name = finish ? "finish" : "start";
+      out.push_back(part_end(part, step.what == What::finish));
     }
+  }
+  return out;
+}
+
+Result<std::vector<TorchCut>> torch_passes(const bevel::TableSpec& spec, const bevel::Table& table,
+                                           const std::stop_token& stop) {
+  std::vector out{torch_cut(spec, table)};
+  if (out.back().land == 0.0) return out;
+  TRY(const auto land, bevel::land_pass(spec, table, stop));
+  put_before_last(end_cut(spec, land, motion::Scrap::minus_z), out);
+  return out;
+}
+
+Result<std::vector<TorchCut>> torch_passes(const part::PartSpec& spec, const part::Part& part,
+                                           const std::stop_token& stop) {
+  auto cuts = torch_cuts(spec, part);
+  if (!cuts.empty() && cuts.back().land > 0.0)
+    return fail({.code = ErrorCode::unsupported_combination,
+                 .member = "root_face",
+                 .hint = "the first pass of cut " + cuts.back().name +
+                         " cuts the part off, and nothing turns it for the second"});
+  std::vector<TorchCut> out;
+  for (auto& cut : cuts) {
+    const bool has_land = cut.land > 0.0, finish = cut.name == "finish";
+    out.push_back(std::move(cut));
+    if (!has_land) continue;
+    TRY(auto land, part_land(spec, part, finish, stop));
+    put_before_last(std::move(land), out);
   }
   return out;
 }

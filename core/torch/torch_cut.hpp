@@ -21,6 +21,8 @@ struct TorchCut {
   motion::CutPath path = {};    // closed, an end from the seam at phi = 0 on; a hole's ends meet
   double kerf = 0.0;            // the path is half of it off the finished edge
   bool counted_inward = false;  // B as published, for comparison: the other way round
+  double land = 0.0;     // mm: its bevel stands on a land of this height, which it does not cut
+  bool of_land = false;  // the pass that does
 };
 
 /// The rows at which a corner of either wall's curve is a node.
@@ -30,6 +32,18 @@ struct TorchCut {
 [[nodiscard]] TorchCut torch_cut(const bevel::TableSpec& spec, const bevel::Table& table);
 /// The cuts of a part in the order of its sequence.
 [[nodiscard]] std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& part);
+
+/// The same with a land's pass before its bevel's. The first pass cuts off what the second has no
+/// hold on: a part is let go by the last cut of its sequence.
+///
+/// Errors  those of bevel::land_pass; unsupported_combination (root_face): the land is the last
+///         cut's of a part.
+[[nodiscard]] Result<std::vector<TorchCut>> torch_passes(const bevel::TableSpec& spec,
+                                                         const bevel::Table& table,
+                                                         const std::stop_token& stop = {});
+[[nodiscard]] Result<std::vector<TorchCut>> torch_passes(const part::PartSpec& spec,
+                                                         const part::Part& part,
+                                                         const std::stop_token& stop = {});
 
 /// Where a cut begins and how the torch comes to it.
 struct Approach {
