@@ -185,16 +185,22 @@ struct CutOf {
   const std::stop_token& stop;
   ScheduleJob& job;
 
+  /// A schedule has one pass of every cut, of an end with a land the bevel's.
+  void warn_of_land(std::string member, const std::string& of, double land) const {
+    if (land > 0.0)
+      job.warnings.push_back({WarningCode::land_left, std::move(member),
+                              of + "the bevel's pass leaves its land of " + brief(land) + " mm"});
+  }
   Result<motion::Cut> operator()(const BevelTableRequest& asked) const {
     TRY(const auto spec, under("cut", resolve(asked, stop)));
     TRY(const auto table, under("cut", on_node(spec.source, bevel::table(spec, stop))));
     if (table.inward)
       return fail(
           {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
-    job.land = spec.root_face;
     job.checks = bevel::verify(spec, table, stop);
     job.warnings = on_node(spec.source, table.warnings);
     for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;
+    warn_of_land("cut/root_face_mm", {}, spec.root_face);
     return (*this)(contour_of(spec, table));
   }
   Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
@@ -227,6 +233,8 @@ struct CutOf {
                    .machine = request.machine,
                    .motion = request.motion,
                    .max_periods = request.max_periods};
+    for (const auto& cut : job.program->cuts)
+      warn_of_land("part", "cut " + cut.name + ": ", cut.land);
     return motion::Cut{};
   }
 };

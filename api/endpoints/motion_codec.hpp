@@ -34,7 +34,6 @@ struct ScheduleJob {
   std::optional<torch::ProgramSpec> program;  // of a part, whose cuts are not in `spec`
   std::vector<Check> checks;
   std::vector<Warning> warnings;
-  double land = 0.0;  // mm, of a nested bevel table, whose schedule is the bevel's pass alone
 };
 
 /// The fields `cut`, `contour`, `mill_path`, `axes` or `part`, `machine` and `motion`. `axes` and a

@@ -8,7 +8,6 @@
 #include "api/endpoints/motion_codec.hpp"
 #include "api/endpoints/schedule_answer.hpp"
 #include "api/endpoints/work.hpp"
-#include "api/formats/gcode.hpp"
 #include "api/formats/schedule_formats.hpp"
 #include "api/formats/schedule_gcode.hpp"
 #include "api/limits.hpp"
@@ -142,17 +141,8 @@ struct PulseSchedules {
   static std::string svg(const Spec&, const Out& out, const Caption& caption) {
     return schedule_svg(out.job.spec, out.all(), caption);
   }
-  /// A schedule has one pass of every cut, of a land's end the bevel's.
-  static void refuse_passes(const ScheduleJob& job, const FormatOptions& options) {
-    if (options.passes == Passes::both)
-      throw UnfitOption{"passes", "a schedule has the bevel's pass alone: ask for passes=bevel"};
-    refuse_land("the cut", job.land, options);
-    if (job.program)
-      for (const auto& cut : job.program->cuts) refuse_land("cut " + cut.name, cut.land, options);
-  }
   static std::string gcode(const Spec& spec, const Out& out, const Caption& caption) {
     std::vector<std::string> names;
-    refuse_passes(out.job, caption.options);
     if (out.program)
       for (const auto& cut : out.program->cuts) names.push_back(cut.cut.name);
     return print_schedule_gcode(spec.machine, out.job.spec, out.all(), names, caption);
@@ -165,7 +155,7 @@ struct PulseSchedules {
          "text/x-gcode",
          &gcode,
          {},
-         {"post", "dialect", "torch", "acknowledge", "passes"},
+         {"post", "dialect", "torch", "acknowledge"},
          false,
          true}};
     return kFormats;

@@ -89,6 +89,8 @@
     "Do not run it; report the request id.")                                                      \
   X(standoff, cut, "The stand-off changes and this machine cannot compensate it.",                \
     "Use a machine with a height axis, or accept the stand-off given.")                           \
+  X(land_left, cut, "A schedule has the bevel's pass alone; the land below it keeps its scrap.",  \
+    "Cut the land before: passes=both of G-code, or another way.")                                \
   X(enters_partner, cut, "The finished cut, straight from row to row, enters a partner here.",    \
     "Use a finer sampling, or grind this place to fit.")
 // clang-format on
