@@ -119,8 +119,8 @@ TEST(TorchLine, ACorruptedRowIsSeen) {
 
 /// Any table of any joint: what a request may ask for.
 TableSpec any_table(std::mt19937_64& random) {
-  const auto any = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
+  const auto any = [&](double low, double high) {  // of bounds in either order
+    return std::uniform_real_distribution(0.0, 1.0)(random) * (high - low) + low;
   };
   const auto one_of = [&](int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); };
   TableSpec spec;
