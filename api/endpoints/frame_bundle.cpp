@@ -12,6 +12,7 @@
 #include "api/file_name.hpp"
 #include "api/format_choice.hpp"
 #include "api/formats/gcode.hpp"
+#include "api/formats/provenance.hpp"
 #include "api/formats/zip_archive.hpp"
 #include "api/pipeline.hpp"
 #include "api/sha256.hpp"
@@ -201,19 +202,7 @@ std::string manifest(const FrameJob& frame, const MadeParts& made,
                      const Caption& caption) {
   Writer out(1 << 12, caption.stop);
   out.object([&](Writer& w) {
-    w.object("engine", [&](Writer& o) {
-      o.field("version", version());
-      o.field("numerics", numerics());
-    });
-    w.field("input_sha256", caption.input_sha256);
-    w.field("result_sha256", caption.result_sha256);
-    w.object("reference", [&](Writer& o) {
-      for (const auto& [name, text] : caption.reference) o.field(name, text);
-    });
-    w.object("verdict", [&](Writer& o) {
-      o.field("status", caption.verdict.status);
-      o.column("reasons", caption.verdict.reasons);
-    });
+    write_provenance(caption, w);
     w.array("files", files, write_file);
     std::vector<std::size_t> parts(made.size());
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = i;

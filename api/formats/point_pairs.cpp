@@ -8,6 +8,7 @@
 
 #include "api/api.hpp"
 #include "api/formats/bevel_table_formats.hpp"
+#include "api/formats/provenance.hpp"
 #include "api/formats/torch_moves.hpp"
 #include "api/posts.hpp"
 #include "api/stop.hpp"
@@ -94,23 +95,6 @@ std::vector<std::string> notes(const TorchJob& job, const Caption& caption) {
   return out;
 }
 
-void write_source(Writer& w, const Caption& caption) {
-  w.field("post", post_of(caption.options).name);
-  w.object("engine", [](Writer& o) {
-    o.field("version", version());
-    o.field("numerics", numerics());
-  });
-  w.field("input_sha256", caption.input_sha256);
-  w.field("result_sha256", caption.result_sha256);
-  w.object("reference", [&](Writer& o) {
-    for (const auto& [name, text] : caption.reference) o.field(name, text);
-  });
-  w.object("verdict", [&](Writer& o) {
-    o.field("status", caption.verdict.status);
-    o.column("reasons", caption.verdict.reasons);
-  });
-}
-
 void write_frame(Writer& w, const TorchJob& job) {
   w.object("tube", [&](Writer& o) {
     o.field("outer_diameter_mm", brief_number(2.0 * job.outer_radius));
@@ -143,7 +127,8 @@ std::string print_point_pairs(const TorchJob& job, const std::vector<TorchCutPla
   const Pairs pairs(job, caption);
   Writer out(1 << 16, caption.stop);
   out.object([&](Writer& w) {
-    write_source(w, caption);
+    w.field("post", post_of(caption.options).name);
+    write_provenance(caption, w);
     w.column("notes", notes(job, caption));
     write_frame(w, job);
     write_process(w, caption.options);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "api/api.hpp"
+#include "api/format.hpp"
+#include "api/writer.hpp"
+
+namespace tubecut::api {
+
+/// Members of a JSON file that is made from an answer: what made it, of what, for which order, and
+/// what was thought of it.
+inline void write_provenance(const Caption& caption, Writer& w) {
+  w.object("engine", [](Writer& o) {
+    o.field("version", version());
+    o.field("numerics", numerics());
+  });
+  w.field("input_sha256", caption.input_sha256);
+  w.field("result_sha256", caption.result_sha256);
+  w.object("reference", [&](Writer& o) {
+    for (const auto& [name, text] : caption.reference) o.field(name, text);
+  });
+  w.object("verdict", [&](Writer& o) {
+    o.field("status", caption.verdict.status);
+    o.column("reasons", caption.verdict.reasons);
+  });
+}
+
+}  // namespace tubecut::api
