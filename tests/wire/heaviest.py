@@ -239,6 +239,7 @@ def mill_paths():
                        ("none", {"positions": 20000, "optimise": {"method": "none"}})):
         yield name, example("mill-paths/case-a-end-up") | more
     yield "c-3600", example("mill-paths/case-c-pivot-far-away") | {"positions": 3600}
+    yield "probed", example("mill-paths/case-c-pivot-far-away") | {"probe": [{"omega_deg": 0.36 * i, "ruling_deg": 0.36 * i, "v": 0.5} for i in range(1000)]}
 
 
 def requests():
