@@ -11,7 +11,7 @@ import time
 import costly
 import forms
 import heaviest
-from service import Reply, Service, connect, post
+from service import Service, connect, post, read_to_the_end
 
 LATE_MS = 20.0
 BUDGETS_MS = (5, 50, 500)
@@ -25,16 +25,10 @@ def cpu_ms(reply):
 
 
 def ask(service, body, target, budget_ms):
-    """The reply; a long answer is read without looking for its end again and again."""
-    with connect(service.port, 120.0) as sock:
-        sock.sendall(post(body, f"Tubecut-Budget-Ms: {budget_ms}", "Connection: close", target=target))
-        parts = []
-        while part := sock.recv(1 << 20):
-            parts.append(part)
-    reply = b"".join(parts)
-    if b"\r\n\r\n" not in reply:
-        sys.exit(f"{target}: no answer but {reply[:100]!r}; {body[:200]!r}")
-    return Reply(*reply.split(b"\r\n\r\n", 1))
+    reply = read_to_the_end(service.port, post(body, f"Tubecut-Budget-Ms: {budget_ms}", "Connection: close", target=target))
+    if reply is None:
+        sys.exit(f"{target}: no answer; {body[:200]!r}")
+    return reply
 
 
 def idle_again(service, seconds=5.0):

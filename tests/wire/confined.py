@@ -103,6 +103,7 @@ def long_answers():
             yield post(edited(name, sampling=points), target=f"/v1/{name.split('/')[0]}?format={form}")
     for form in ("csv", "glb"):
         yield post(edited("grooves/case-a-right-angle", sections=20000), target=f"/v1/grooves?format={form}")
+    yield post(curve(2e-5), target="/v1/feed-curves?format=csv&view=samples")
     slow = example("pulse-schedules/source-001-mill-path")
     slow["motion"]["speed"] = {"mm_min": 2}
     yield post(json.dumps(slow).encode(), target="/v1/pulse-schedules?format=cbor")

@@ -17,7 +17,8 @@ def options(says):
     reads = says.get("x-options", [])
     program = PROGRAM if "speed_mm_min" in reads else ""
     files = FILES if "files" in reads else ""
-    return [files + program, "&paper=a4"] if "paper" in reads else [files + program]
+    lands = [files + program + "&passes=both"] if "passes" in reads else []  # refused of what has no land
+    return [files + program, *lands, *(["&paper=a4"] if "paper" in reads else [])]
 
 
 def forms(content):

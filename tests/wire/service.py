@@ -165,6 +165,18 @@ def receive(sock, quiet=0.4, patience=5.0, enough=None, bodiless=False):
     return replies, rest, ended
 
 
+def read_to_the_end(port, data, patience=120.0):
+    """The reply to a request that asks the server to close behind it, None without one; its body as it came, chunks and all. A long
+    answer is not looked through again and again for its end, as `receive` does."""
+    with connect(port, patience) as sock:
+        sock.sendall(data)
+        parts = []
+        while part := sock.recv(1 << 20):
+            parts.append(part)
+    reply = b"".join(parts)
+    return Reply(*reply.split(b"\r\n\r\n", 1)) if b"\r\n\r\n" in reply else None
+
+
 def exchange(port, data, patience=5.0):
     with connect(port, patience) as sock:
         sock.sendall(data)
