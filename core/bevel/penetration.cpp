@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "core/base/angle.hpp"
@@ -22,10 +23,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Run {
   double radius, phi, z, turn, rise;
 
-  [[nodiscard]] Vector3d at(double u) const {
-    const auto to = elementary::sincos(phi + u * turn);
+  [[nodiscard]] double phi_at(double u) const { return phi + u * turn; }
+  /// The place at u, whose phase has this sine and cosine.
+  [[nodiscard]] Vector3d place(const elementary::SinCos& to, double u) const {
     return {radius * to.cos, radius * to.sin, z + u * rise};
   }
+  [[nodiscard]] Vector3d at(double u) const { return place(elementary::sincos(phi_at(u)), u); }
 };
 
 /// The wall between two neighbouring edges, from one row to the next.
@@ -72,6 +75,8 @@ struct Part {
   double from = 0.0, to = 1.0;     // along
   double low = 0.0, high = 1.0;    // across
   double first = 0.0, last = 0.0;  // least distance of its two end lines, of a plain solid
+
+  [[nodiscard]] double middle() const { return 0.5 * (from + to); }
 };
 
 /// The wall between two neighbouring edges, all the way round.
@@ -107,31 +112,22 @@ class Search {
       : ring_(ring), solid_(solid), index_(index), aim_(aim) {}
 
   void run(const std::stop_token& stop) {
-    std::vector<Part> level = begin();
-    std::vector<Part> next;
-    while (!level.empty()) {
-      next.clear();
-      for (const auto& part : level) {
-        if (stop.stop_requested()) return;
-        split(part, next);
-      }
-      level.swap(next);
-    }
+    if constexpr (joint::PlainSolid<Kind>)
+      by_levels(
+          strips(), [&](const auto& level, auto& next) { halve(level, next, stop); }, stop);
+    else
+      by_levels(
+          cells(), [&](const auto& level, auto& next) { divide(level, next, stop); }, stop);
   }
 
  private:
-  /// A plain solid is searched by strips, each between two lines across the wall; another by cells.
-  std::vector<Part> begin() {
-    if constexpr (joint::PlainSolid<Kind>)
-      return strips();
-    else
-      return cells();
-  }
-  void split(const Part& part, std::vector<Part>& out) {
-    if constexpr (joint::PlainSolid<Kind>)
-      halve(part, out);
-    else
-      divide(part, out);
+  static void by_levels(std::vector<Part> level, auto&& split, const std::stop_token& stop) {
+    std::vector<Part> next;
+    while (!level.empty() && !stop.stop_requested()) {
+      next.clear();
+      split(level, next);
+      level.swap(next);
+    }
   }
 
   double see(std::size_t gap, const Vector3d& p) {
@@ -140,12 +136,8 @@ class Search {
     return distance;
   }
 
-  /// Least distance of a line across the wall.
-  double line(std::size_t gap, const Vector3d& a, const Vector3d& b) {
-    return see(gap, a + solid_.nearest_share(a, b) * (b - a));
-  }
-
-  /// Those that the lines at their ends do not bound at once.
+  /// A plain solid is searched by strips, each between two lines across the wall: those that the
+  /// lines at their ends do not bound at once.
   std::vector<Part> strips() {
     const auto n = ring_.pieces.size();
     std::vector<double> share(n), distance(n);
@@ -164,7 +156,8 @@ class Search {
     return out;
   }
 
-  /// Edges first: the deepest place lies on one of them more often than not.
+  /// Another solid is searched by cells. Edges first: the deepest place lies on one of them more
+  /// often than not.
   std::vector<Part> cells() {
     std::vector<Part> out(ring_.pieces.size());
     for (std::size_t gap = 0; gap < out.size(); ++gap) {
@@ -186,21 +179,59 @@ class Search {
     return -std::max(nearest, low - drop);
   }
 
-  void halve(const Part& s, std::vector<Part>& out) {
-    if (!(bound(s) > aim_.enough(s.gap))) return;
-    Part left = s, right = s;
-    left.to = right.from = 0.5 * (s.from + s.to);
-    const auto& runs = ring_.pieces[s.gap].runs;
-    left.last = right.first = line(s.gap, runs[0].at(left.to), runs[1].at(left.to));
-    out.push_back(left);
-    out.push_back(right);
+  [[nodiscard]] bool holds_more(const Part& s) const { return bound(s) > aim_.enough(s.gap); }
+
+  /// The lines in the middle of those strips of a level that may hold more than was seen before the
+  /// level, side by side; then one strip after the other, since a line that was seen may be enough
+  /// for the strips after it.
+  void halve(const std::vector<Part>& level, std::vector<Part>& out, const std::stop_token& stop) {
+    std::vector<Part> open;
+    std::ranges::copy_if(level, std::back_inserter(open),
+                         [&](const Part& s) { return holds_more(s); });
+    const auto a = middles(open, 0), b = middles(open, 1);
+    std::vector<double> share(open.size()), distance(open.size());
+    joint::nearest_on_ways(solid_, a, b, share, distance);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (i % 1024 == 0 && stop.stop_requested()) return;
+      const auto& s = open[i];
+      if (!holds_more(s)) continue;
+      const Vector3d from = a.at(i);
+      aim_.see(s.gap, {-distance[i], from + share[i] * (b.at(i) - from), index_});
+      Part left = s, right = s;
+      left.to = right.from = s.middle();
+      left.last = right.first = distance[i];
+      out.push_back(left);
+      out.push_back(right);
+    }
+  }
+
+  /// Places of one edge in the middle of each strip.
+  [[nodiscard]] Places middles(const std::vector<Part>& strips, std::size_t edge) const {
+    std::vector<double> phi(strips.size());
+    Places out(strips.size());
+    const auto run_of = [&](const Part& s) -> const Run& { return ring_.pieces[s.gap].runs[edge]; };
+    for (std::size_t i = 0; i < strips.size(); ++i)
+      phi[i] = run_of(strips[i]).phi_at(strips[i].middle());
+    elementary::sincos(phi, out.y, out.x);
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      const auto& r = run_of(strips[i]);
+      out.set(i, r.place({.sin = out.y[i], .cos = out.x[i]}, strips[i].middle()));
+    }
+    return out;
+  }
+
+  void divide(const std::vector<Part>& level, std::vector<Part>& out, const std::stop_token& stop) {
+    for (const auto& part : level) {
+      if (stop.stop_requested()) return;
+      divide(part, out);
+    }
   }
 
   /// Looks at a cell's middle and halves it unless its tangent plane bounds it: along where only
   /// the edges' bow keeps it from that, else the longer way.
   void divide(const Part& c, std::vector<Part>& out) {
     const auto& piece = ring_.pieces[c.gap];
-    const double u = 0.5 * (c.from + c.to), v = 0.5 * (c.low + c.high);
+    const double u = c.middle(), v = 0.5 * (c.low + c.high);
     const Vector3d middle = piece.at(u, v);
     const double distance = see(c.gap, middle);
     const Vector3d normal = solid_.normal(middle);
