@@ -95,6 +95,8 @@ void add_limits(CLI::App& app, Config& c) {
   option(app, "drain-delay-s", c.drain_delay_s, "on SIGTERM: not ready, but still accepting, for")
       ->check(number(0.0, 3600.0));
   option(app, "drain-s", c.drain_s, "on SIGTERM: time for accepted work")->check(seconds);
+  option(app, "log-level", c.log_level, "least level of the jobs' lines on stdout")
+      ->check(CLI::IsMember(std::vector<std::string>{"info", "warning", "error"}));
   option(app, "log-queue", c.log_queue, "log lines kept for a slow reader of stdout")
       ->check(CLI::Range(std::size_t{16}, std::size_t{1u << 20}));
   option(app, "log-directory", c.log_directory, "folder for <day>/<job>.jsonl; empty: none");

@@ -36,8 +36,9 @@ struct Config {
   double head_s = 3.0;
   double body_s = 10.0;
   double write_s = 10.0;
-  double drain_delay_s = 0.0;  // between "not ready" and the end of accepting
-  double drain_s = 8.0;        // for accepted work, after that
+  double drain_delay_s = 0.0;      // between "not ready" and the end of accepting
+  double drain_s = 8.0;            // for accepted work, after that
+  std::string log_level = "info";  // of jobs: the least that is written
   std::size_t log_queue = 4096;
   std::string log_directory;  // one file per job below it; empty: none
   DayBounds log_day = {};     // of each day's folder there

@@ -3,6 +3,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <spdlog/logger.h>
+#include <spdlog/sinks/sink.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -37,102 +39,131 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-std::string_view level_of(int status) {
-  if (status >= 500) return "error";
-  return status >= 400 ? "warning" : "info";
+spdlog::level::level_enum level_of(int status) {
+  if (status >= 500) return spdlog::level::err;
+  return status >= 400 ? spdlog::level::warn : spdlog::level::info;
+}
+
+std::string_view name_of(spdlog::level::level_enum level) {
+  const auto name = spdlog::level::to_string_view(level);
+  return {name.data(), name.size()};
 }
 
 }  // namespace
 
-/// Shared with its thread, which a reader that never reads leaves behind.
-struct JobLog::Impl {
+/// The bounded queue and its thread, as a sink: each message is a line. Shared with the thread,
+/// which a reader that never reads leaves behind.
+class JobLog::Queue final : public spdlog::sinks::sink {
+ public:
+  Queue(std::size_t most, int descriptor) : descriptor_(descriptor), most_(most) {}
+
+  void log(const spdlog::details::log_msg& message) override {
+    {
+      const std::lock_guard lock(mutex_);
+      lines_.emplace_back(message.payload.data(), message.payload.size());
+      bytes_ += lines_.back().size();
+      ++queued_;
+      while (lines_.size() > most_ || (bytes_ > kQueueBytes && lines_.size() > 1)) {
+        bytes_ -= lines_.front().size();
+        lines_.pop_front();
+        ++overrun_;
+      }
+    }
+    some_.notify_one();
+  }
+  void flush() override {}  // the thread writes as soon as it can
+  void set_pattern(const std::string& /*pattern*/) override {}  // a line is JSON as it comes
+  void set_formatter(std::unique_ptr<spdlog::formatter> /*formatter*/) override {}
+
   void run() {
-    std::unique_lock lock(mutex);
+    std::unique_lock lock(mutex_);
     for (;;) {
-      some.wait(lock, [this] { return ending || !queue.empty(); });
-      if (queue.empty()) break;
-      const std::string line = std::move(queue.front());
-      queue.pop_front();
-      bytes -= line.size();
-      const auto drops = overrun - std::exchange(reported, overrun);
+      some_.wait(lock, [this] { return ending_ || !lines_.empty(); });
+      if (lines_.empty()) break;
+      const std::string line = std::move(lines_.front());
+      lines_.pop_front();
+      bytes_ -= line.size();
+      const auto drops = overrun_ - std::exchange(reported_, overrun_);
       lock.unlock();
       if (drops > 0) put(drops_line(drops));
       put(line);
       lock.lock();
-      ++handled;
-      idle.notify_all();
+      ++handled_;
+      idle_.notify_all();
     }
-    ended = true;
-    idle.notify_all();
+    ended_ = true;
+    idle_.notify_all();
+  }
+  void end(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    ending_ = true;
+    some_.notify_all();
+    idle_.wait_for(lock, patience, [this] { return ended_; });
+  }
+  bool wait(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    return idle_.wait_for(lock, patience, [this] { return handled_ + overrun_ >= queued_; });
+  }
+  [[nodiscard]] std::uint64_t dropped() {
+    const std::lock_guard lock(mutex_);
+    return overrun_ + failed_;
   }
 
+ private:
   void put(const std::string& line) {
-    if (!write_all(descriptor, line + '\n')) ++failed;
+    if (!write_all(descriptor_, line + '\n')) ++failed_;
   }
 
   [[nodiscard]] static std::string drops_line(std::uint64_t count) {
     return JsonLine{}
         .text("ts", utc(std::chrono::system_clock::now()))
-        .text("level", "warning")
+        .text("level", name_of(spdlog::level::warn))
         .text("event", "log_dropped")
         .integer("count", static_cast<std::int64_t>(count))
         .done();
   }
 
-  int descriptor = 1;
-  std::size_t most = 0;
-  std::mutex mutex;
-  std::condition_variable some;
-  std::condition_variable idle;
-  std::deque<std::string> queue;
-  std::size_t bytes = 0;
-  std::uint64_t queued = 0;
-  std::uint64_t handled = 0;
-  std::uint64_t overrun = 0;
-  std::uint64_t reported = 0;  // of overrun
-  bool ending = false;
-  bool ended = false;
-  std::atomic<std::uint64_t> failed = 0;
+  const int descriptor_;
+  const std::size_t most_;
+  std::mutex mutex_;
+  std::condition_variable some_;
+  std::condition_variable idle_;
+  std::deque<std::string> lines_;
+  std::size_t bytes_ = 0;
+  std::uint64_t queued_ = 0;
+  std::uint64_t handled_ = 0;
+  std::uint64_t overrun_ = 0;
+  std::uint64_t reported_ = 0;  // of overrun_
+  bool ending_ = false;
+  bool ended_ = false;
+  std::atomic<std::uint64_t> failed_ = 0;
 };
 
-JobLog::JobLog(std::size_t queue, int descriptor) : x_(std::make_shared<Impl>()) {
-  x_->most = queue;
-  x_->descriptor = descriptor;
-  std::thread([x = x_] { x->run(); }).detach();
+struct JobLog::Loggers {
+  spdlog::logger jobs, service;
+};
+
+JobLog::JobLog(std::size_t queue, const std::string& least, int descriptor)
+    : queue_(std::make_shared<Queue>(queue, descriptor)),
+      loggers_(std::make_unique<Loggers>(
+          Loggers{spdlog::logger("jobs", queue_), spdlog::logger("service", queue_)})) {
+  loggers_->jobs.set_level(spdlog::level::from_str(least));
+  std::thread([q = queue_] { q->run(); }).detach();
 }
 
-JobLog::~JobLog() {
-  std::unique_lock lock(x_->mutex);
-  x_->ending = true;
-  x_->some.notify_all();
-  x_->idle.wait_for(lock, kPatience, [this] { return x_->ended; });
+JobLog::~JobLog() { queue_->end(kPatience); }
+
+void JobLog::write_job(int status, std::string_view line) {
+  loggers_->jobs.log(level_of(status), spdlog::string_view_t(line.data(), line.size()));
 }
 
 void JobLog::write(std::string_view line) {
-  {
-    const std::lock_guard lock(x_->mutex);
-    x_->queue.emplace_back(line);
-    x_->bytes += line.size();
-    ++x_->queued;
-    while (x_->queue.size() > x_->most || (x_->bytes > kQueueBytes && x_->queue.size() > 1)) {
-      x_->bytes -= x_->queue.front().size();
-      x_->queue.pop_front();
-      ++x_->overrun;
-    }
-  }
-  x_->some.notify_one();
+  loggers_->service.log(spdlog::level::info, spdlog::string_view_t(line.data(), line.size()));
 }
 
-std::uint64_t JobLog::dropped() const {
-  const std::lock_guard lock(x_->mutex);
-  return x_->overrun + x_->failed;
-}
+std::uint64_t JobLog::dropped() const { return queue_->dropped(); }
 
-bool JobLog::flush(std::chrono::milliseconds patience) {
-  std::unique_lock lock(x_->mutex);
-  return x_->idle.wait_for(lock, patience,
-                           [this] { return x_->handled + x_->overrun >= x_->queued; });
-}
+bool JobLog::flush(std::chrono::milliseconds patience) { return queue_->wait(patience); }
 
 std::string utc(std::chrono::system_clock::time_point time) {
   const auto ms = std::chrono::floor<std::chrono::milliseconds>(time);
@@ -206,7 +237,7 @@ std::string job_events(const JobRecord& job, std::chrono::system_clock::time_poi
 
 std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point now) {
   JsonLine line;
-  line.text("ts", utc(now)).text("level", level_of(job.status)).text("event", "job");
+  line.text("ts", utc(now)).text("level", name_of(level_of(job.status))).text("event", "job");
   line.text("job", job.facts.id).text("request_id", job.request_id);
   line.text("endpoint", job.facts.endpoint).text("method", job.method);
   line.text("engine", fmt::format("tubecut {}", api::version()))

@@ -13,15 +13,19 @@ namespace tubecut::server {
 
 /// Lines on a file descriptor, written by a thread of its own. A reader that stops reading blocks
 /// nobody: the queue is bounded, in lines and in bytes (4 MiB), the oldest lines are dropped,
-/// counted, and reported in a line of their own once writing goes on.
+/// counted, and reported in a line of their own once writing goes on. Two loggers of spdlog stand
+/// before the queue, which is their sink: spdlog's own queue counts messages and not their bytes.
 class JobLog {
  public:
-  explicit JobLog(std::size_t queue, int descriptor = 1);
+  /// `least`: "info", "warning" or "error", the level from which jobs' lines are written.
+  explicit JobLog(std::size_t queue, const std::string& least = "info", int descriptor = 1);
   ~JobLog();
   JobLog(const JobLog&) = delete;
   JobLog& operator=(const JobLog&) = delete;
 
-  /// Queues one line (without its end of line). Never blocks on the descriptor.
+  /// Queue one line (without its end of line), of a job that ended with that status, and of the
+  /// service, whatever the level. Never block on the descriptor.
+  void write_job(int status, std::string_view line);
   void write(std::string_view line);
 
   /// Lines dropped or not writable so far.
@@ -31,8 +35,10 @@ class JobLog {
   bool flush(std::chrono::milliseconds patience);
 
  private:
-  struct Impl;
-  std::shared_ptr<Impl> x_;
+  class Queue;
+  struct Loggers;
+  std::shared_ptr<Queue> queue_;
+  std::unique_ptr<Loggers> loggers_;
 };
 
 /// {"event":"ready",...}: the first line of every run.

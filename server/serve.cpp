@@ -163,7 +163,7 @@ std::optional<std::vector<std::string>> hosts_of(const Config& c) {
 /// What both ports need, for the length of one run.
 struct Run {
   Run(const Config& c, std::size_t memory)
-      : access(std::make_shared<Access>(c.keys)), log(c.log_queue) {
+      : access(std::make_shared<Access>(c.keys)), log(c.log_queue, c.log_level) {
     if (!c.log_directory.empty()) files = std::make_unique<JobFiles>(c.log_directory, c.log_day);
     app = std::make_unique<App>(options(c, memory));
   }
@@ -187,7 +187,7 @@ struct Run {
   void record(const JobRecord& job) {
     if (!logged(job)) return;
     const auto now = std::chrono::system_clock::now();
-    log.write(job_line(job, now));
+    log.write_job(job.status, job_line(job, now));
     if (files && kept(job)) {
       files->write(utc(now).substr(0, 10), job.identity, job.facts.id, job_events(job, now));
     }

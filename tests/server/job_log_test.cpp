@@ -92,7 +92,7 @@ TEST(JobLog, KeepsOrderAndNeverBlocksOnAReaderThatStopped) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   {
-    JobLog log(32, ends[1]);
+    JobLog log(32, "info", ends[1]);
     log.write("first");
     const std::string line(200, 'x');
     while (log.flush(milliseconds(100))) {  // until the pipe is full
@@ -124,7 +124,7 @@ TEST(JobLog, HoldsSoManyBytes) {
   signal(SIGPIPE, SIG_IGN);
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
-  JobLog log(1'000'000, ends[1]);
+  JobLog log(1'000'000, "info", ends[1]);
   const std::string line(kLongestLine, 'x');
   for (int i = 0; i < 1000; ++i) log.write(line);  // 16 MB
   EXPECT_GE(log.dropped(), 1000U - (4u << 20) / kLongestLine - 8);
@@ -137,11 +137,33 @@ TEST(JobLog, EndsThoughNobodyReads) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   {
-    JobLog log(32, ends[1]);
+    JobLog log(32, "info", ends[1]);
     for (int i = 0; i < 1000; ++i) log.write(std::string(200, 'x'));
   }
   SUCCEED();
   close(ends[0]);  // the thread left behind sees a closed pipe now
+}
+
+TEST(JobLog, LeavesOutJobsBelowItsLevelAndNothingElse) {
+  const auto written = [](const std::string& least) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(pipe(ends.data()), 0);
+    JobLog log(32, least, ends[1]);
+    for (const int status : {200, 304, 400, 499, 500, 504}) {
+      log.write_job(status, std::to_string(status));
+    }
+    log.write("stopping");
+    EXPECT_TRUE(log.flush(milliseconds(5000)));
+    EXPECT_EQ(log.dropped(), 0U);
+    std::array<char, 256> some{};
+    const auto n = read(ends[0], some.data(), some.size());
+    close(ends[0]);
+    close(ends[1]);
+    return std::string(some.data(), static_cast<std::size_t>(n));
+  };
+  EXPECT_EQ(written("info"), "200\n304\n400\n499\n500\n504\nstopping\n");
+  EXPECT_EQ(written("warning"), "400\n499\n500\n504\nstopping\n");
+  EXPECT_EQ(written("error"), "500\n504\nstopping\n");
 }
 
 TEST(JobLog, CountsLinesThatNobodyTakes) {
@@ -149,7 +171,7 @@ TEST(JobLog, CountsLinesThatNobodyTakes) {
   ASSERT_EQ(pipe(ends.data()), 0);
   signal(SIGPIPE, SIG_IGN);
   close(ends[0]);
-  JobLog log(32, ends[1]);
+  JobLog log(32, "info", ends[1]);
   log.write("lost");
   EXPECT_TRUE(log.flush(milliseconds(5000)));
   EXPECT_EQ(log.dropped(), 1U);
