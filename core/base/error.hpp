@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -65,6 +66,18 @@ struct Check {
   std::string unit;
   [[nodiscard]] bool passed() const { return value <= limit; }  // false for NaN
 };
+
+/// The worse of what was found so far and one more. What is no number is worst: it stays, and
+/// fails.
+inline void worsen(double& worst, double value) {
+  worst = value > worst || value != value ? value : worst;
+}
+/// The worst of some.
+[[nodiscard]] inline double worst_of(std::initializer_list<double> values) {
+  double worst = *values.begin();
+  for (const double value : values) worsen(worst, value);
+  return worst;
+}
 
 struct ErrorInfo {
   std::string_view code;

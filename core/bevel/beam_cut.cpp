@@ -64,9 +64,9 @@ std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated
   constexpr double kGouge = 1e-3;                // mm: what beam_proof promises
   constexpr double kLeft = 5e-3, kShare = 0.02;  // mm, and of what is left
   const auto seen = beam_proof(cut, Places::rows, stop);
-  return {{"gouge", std::max(seen.gouge, stated.gouge), kGougeLimit, "mm"},
-          {"gouge_stated", std::max(0.0, seen.gouge - stated.gouge), kGouge, "mm"},
-          {"left_stated", std::max(0.0, seen.left - stated.left),
+  return {{"gouge", worst_of({seen.gouge, stated.gouge}), kGougeLimit, "mm"},
+          {"gouge_stated", worst_of({0.0, seen.gouge - stated.gouge}), kGouge, "mm"},
+          {"left_stated", worst_of({0.0, seen.left - stated.left}),
            std::max(kLeft, kShare * stated.left), "mm"}};
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/joint/placement.hpp"
 #include "core/joint/solid.hpp"
 
@@ -139,7 +140,7 @@ double sampled(const CutWall& wall, const joint::TubeCutter& other, const std::s
       const Vector3d low = on(wall.edges[0]), high = on(wall.edges[1]);
       for (const double across : {0.0, next(), 1.0}) {
         const double depth = nearer(other, low + across * (high - low));
-        deepest = depth > deepest || depth != depth ? depth : deepest;
+        worsen(deepest, depth);
       }
     }
   return deepest;
@@ -210,10 +211,10 @@ std::vector<Check> nearest_checks(const HoleSpec& spec, const joint::TubeCutter&
   double off = 0.0, deepest = 0.0;
   for (const auto& hole : cut.holes) {
     const auto& p = hole.fit.nearest;
-    const double there = std::max(0.0, nearer(other, placed(p.radius, p.phi, p.z)));
+    const double there = worst_of({0.0, nearer(other, placed(p.radius, p.phi, p.z))});
     const double found = sampled(facing_wall(spec, branch, cut, hole), other, stop);
-    off = std::max({off, std::abs(there - p.depth), found - p.depth});
-    deepest = std::max({deepest, p.depth, found});
+    off = worst_of({off, std::abs(there - p.depth), found - p.depth});
+    deepest = worst_of({deepest, p.depth, found});
   }
   std::vector<Check> out{{"gap_stated", off, kStated, "mm"}};
   if (spec.sampling.tolerance)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/hole_fit.hpp"
 #include "core/joint/placement.hpp"
@@ -40,11 +41,6 @@ struct Proof {
          end = 0.0;
 };
 
-void see(double& worst, double value) {
-  // A number that is no number must fail.
-  worst = value > worst || value != value ? value : worst;
-}
-
 /// One node of a hole, rebuilt in space. `root`: where the wall meets the branch, which of a wall
 /// square to the chord may be anywhere across it.
 struct Row {
@@ -79,24 +75,25 @@ Row row(const HoleSpec& spec, const Hole& h, const Axis& axis, std::size_t i) {
 
 /// Groove, tilt and kerf of the wall's line.
 void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i, Proof& p) {
-  see(p.dihedral, std::abs(between(r.chord_normal, -r.branch_normal) - h.dihedral[i]) * kDegPerRad);
+  worsen(p.dihedral,
+         std::abs(between(r.chord_normal, -r.branch_normal) - h.dihedral[i]) * kDegPerRad);
   const Vector3d wall = (r.outer - r.inner).normalized();
   const Vector3d along = r.chord_normal.cross(r.branch_normal).normalized();
   Vector3d cut = along.cross(wall).normalized();
   if (cut.dot(r.branch_normal) < 0.0) cut = -cut;
   const double side = wall.dot(r.branch_normal) < 0.0 ? -1.0 : 1.0;
-  see(p.groove, std::abs(side * between(cut, r.branch_normal) - h.groove[i]) * kDegPerRad);
+  worsen(p.groove, std::abs(side * between(cut, r.branch_normal) - h.groove[i]) * kDegPerRad);
   const double off_outer = (r.outer - r.torch_outer).dot(cut);
   const double off_inner = (r.inner - r.torch_inner).dot(cut);
-  see(p.kerf, 0.5 * spec.kerf - std::min(off_outer, off_inner));
+  worsen(p.kerf, 0.5 * spec.kerf - std::min(off_outer, off_inner));
   // A head that does not tilt stands square where it is: not quite parallel to the wall.
-  if (spec.tilt != Tilt::none) see(p.kerf, std::abs(off_outer - off_inner));
+  if (spec.tilt != Tilt::none) worsen(p.kerf, std::abs(off_outer - off_inner));
   const Vector3d torch = r.torch_outer - r.torch_inner;
   const auto at = elementary::sincos(h.torch_phi[i]);
   const double height = torch.x() * at.cos + torch.y() * at.sin;
   const double across = torch.y() * at.cos - torch.x() * at.sin;
-  see(p.tilt, std::abs(elementary::atan2(torch.z(), height) - h.b[i]) * kDegPerRad);
-  see(p.tilt, std::abs(elementary::atan2(across, height) - h.a[i]) * kDegPerRad);
+  worsen(p.tilt, std::abs(elementary::atan2(torch.z(), height) - h.b[i]) * kDegPerRad);
+  worsen(p.tilt, std::abs(elementary::atan2(across, height) - h.a[i]) * kDegPerRad);
 }
 
 /// A set-on hole cut with free tilt is the branch's bore prolonged, wherever the torch leans so
@@ -104,19 +101,19 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
 void prove_bore(const HoleSpec& spec, const Row& r, const Axis& axis, double rho, Proof& p) {
   const double lean = between(r.chord_normal, axis.direction.normalized());
   if (spec.tilt == Tilt::free && lean <= spec.torch.max.rad())
-    see(p.root, std::abs(axis.distance(r.inner) - rho));
+    worsen(p.root, std::abs(axis.distance(r.inner) - rho));
 }
 
 /// The hole's wall against the branch.
 void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Axis& axis,
                      double branch_radius, std::size_t i, Proof& p) {
-  see(p.gap, std::abs(axis.distance(r.root) - branch_radius - spec.gap));
+  worsen(p.gap, std::abs(axis.distance(r.root) - branch_radius - spec.gap));
   for (int k = 0; k < kAcross; ++k) {
     const double t = static_cast<double>(k) / (kAcross - 1);
-    see(p.gap, spec.gap + branch_radius - axis.distance((1.0 - t) * r.inner + t * r.outer));
+    worsen(p.gap, spec.gap + branch_radius - axis.distance((1.0 - t) * r.inner + t * r.outer));
   }
-  see(p.fit, std::abs(axis.distance(r.inner) - branch_radius - h.fit.root[i]));
-  see(p.fit, std::abs(axis.distance(r.outer) - branch_radius - h.fit.face[i]));
+  worsen(p.fit, std::abs(axis.distance(r.inner) - branch_radius - h.fit.root[i]));
+  worsen(p.fit, std::abs(axis.distance(r.outer) - branch_radius - h.fit.face[i]));
 }
 
 /// The branch's end against the chord, in the branch's own frame.
@@ -131,20 +128,20 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
   for (std::size_t i = 0; i < end.phi.size() && !stop.stop_requested(); ++i) {
     const Vector3d root = placed(inner, end.phi[i], end.z_inner[i]);
     const Vector3d face = placed(outer, end.phi[i], end.z_outer[i]);
-    see(p.end, std::abs(axis.distance(root) - seat));
-    see(p.tilt,
-        std::abs(elementary::atan2(end.z_outer[i] - end.z_inner[i], spec.branch_wall) - end.b[i]) *
-            kDegPerRad);
+    worsen(p.end, std::abs(axis.distance(root) - seat));
+    worsen(p.tilt, std::abs(elementary::atan2(end.z_outer[i] - end.z_inner[i], spec.branch_wall) -
+                            end.b[i]) *
+                       kDegPerRad);
     for (int k = 0; k < kAcross; ++k) {
       const double t = static_cast<double>(k) / (kAcross - 1);
-      see(p.gap, seat - axis.distance((1.0 - t) * root + t * face));
+      worsen(p.gap, seat - axis.distance((1.0 - t) * root + t * face));
     }
     // Set in, it lies flush: in the seat's tangent plane at the root.
     if (!on && end.b[i] > spec.torch.min.rad())
-      see(p.end, std::abs((face - root).dot(axis.beside(root).normalized())));
+      worsen(p.end, std::abs((face - root).dot(axis.beside(root).normalized())));
     if (!on) continue;
-    see(p.fit, std::abs(axis.distance(root) - spec.chord.outer_radius - fit.root[i]));
-    see(p.fit, std::abs(axis.distance(face) - spec.chord.outer_radius - fit.face[i]));
+    worsen(p.fit, std::abs(axis.distance(root) - spec.chord.outer_radius - fit.root[i]));
+    worsen(p.fit, std::abs(axis.distance(face) - spec.chord.outer_radius - fit.face[i]));
   }
 }
 
@@ -177,7 +174,7 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::s
   for (const auto& h : cut.holes)
     for (std::size_t i = 0; i < h.phi.size() && !stop.stop_requested(); ++i) {
       const auto r = row(spec, h, axis, i);
-      see(p.root, std::abs(axis.distance(r.root) - rho));
+      worsen(p.root, std::abs(axis.distance(r.root) - rho));
       prove_wall(spec, h, r, i, p);
       if (on)
         prove_bore(spec, r, axis, rho, p);

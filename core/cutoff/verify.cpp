@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/base/angle.hpp"
+#include "core/base/error.hpp"
 #include "core/cutoff/verify_parts.hpp"
 #include "core/math/search.hpp"
 
@@ -25,7 +26,7 @@ void verify_geometry(const FeedCurveSpec& spec, const FeedCurve& curve, const Ar
                         // the arm circle
   for (const double stroke : {g.stroke_low, g.stroke_high}) {
     const TipFeed end = tip.at(stroke);
-    limits = std::max(limits, std::min(end.elevation_cosine, std::abs(end.tangency)));
+    worsen(limits, std::min(end.elevation_cosine, std::abs(end.tangency)));
   }
   checks.push_back({"stroke_limits", limits, limit::kStrokeLimit, ""});
   if (g.feed_at_peak) {
@@ -38,8 +39,8 @@ void verify_geometry(const FeedCurveSpec& spec, const FeedCurve& curve, const Ar
         {"peak_feed", std::abs(here.second) / here.second_terms, limit::kAcceleration, ""});
   }
   const auto& w = curve.work;
-  const double ends = std::max(feed_error(spec.linkage, tip, w.start_stroke, w.start_feed),
-                               feed_error(spec.linkage, tip, w.end_stroke, w.end_feed));
+  const double ends = worst_of({feed_error(spec.linkage, tip, w.start_stroke, w.start_feed),
+                                feed_error(spec.linkage, tip, w.end_stroke, w.end_feed)});
   checks.push_back({"work_ends", ends, limit::kFeed, ""});
   if (const auto& pair = spec.linkage.calibrate)
     checks.push_back(
@@ -59,12 +60,11 @@ void verify_table(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTi
   for (std::size_t i = 0; i < t.time.size() && !stop.stop_requested(); ++i) {
     const TipFeed here = tip.at(t.stroke[i]);
     const double cube = here.first * here.first * here.first;
-    feed = std::max(feed, std::abs(here.feed - t.feed[i]) / feed_scale(spec.linkage, here));
-    speed = std::max(speed, ratio(t.speed[i] * here.first, v));
-    acceleration =
-        std::max(acceleration,
-                 std::abs(t.acceleration[i] * cube / (v * v) + here.second) / here.second_terms);
-    pace = std::max(pace, std::abs(w.start_feed + v * t.time[i] - t.feed[i]) / reach);
+    worsen(feed, std::abs(here.feed - t.feed[i]) / feed_scale(spec.linkage, here));
+    worsen(speed, ratio(t.speed[i] * here.first, v));
+    worsen(acceleration,
+           std::abs(t.acceleration[i] * cube / (v * v) + here.second) / here.second_terms);
+    worsen(pace, std::abs(w.start_feed + v * t.time[i] - t.feed[i]) / reach);
   }
   checks.push_back({"table_feed", feed, limit::kFeed, ""});
   checks.push_back({"table_speed", speed, limit::kSpeed, ""});
@@ -78,24 +78,21 @@ void verify_tool(const FeedCurveSpec& spec, const FeedCurve& curve, std::vector<
   const double v = curve.work.feed;
   const double per_second = tool.disc / 60.0;
   const double ripple = curve.fit.errors.tool_ripple;
-  const auto worst = [](std::initializer_list<double> all) {
-    return *std::max_element(all.begin(), all.end());
-  };
   checks.push_back(
       {"tool_feed",
-       worst({ratio(out.feed_per_revolution * per_second, v),
-              ratio(out.feed_per_blade * per_second * tool.blades, v),
-              ratio(out.feed_per_blade_low + out.feed_per_blade_high, 2.0 * out.feed_per_blade),
-              std::abs((out.feed_per_blade_high - out.feed_per_blade) / out.feed_per_blade -
-                       ripple)}),
+       worst_of({ratio(out.feed_per_revolution * per_second, v),
+                 ratio(out.feed_per_blade * per_second * tool.blades, v),
+                 ratio(out.feed_per_blade_low + out.feed_per_blade_high, 2.0 * out.feed_per_blade),
+                 std::abs((out.feed_per_blade_high - out.feed_per_blade) / out.feed_per_blade -
+                          ripple)}),
        limit::kTool, ""});
   const double fine = out.feed_per_blade / 2.0;  // mm, in the parabola y^2/(2 r) of the corner
   const double coarse = out.feed_per_revolution / 2.0;
-  checks.push_back(
-      {"tool_roughness",
-       worst({ratio(out.roughness / 1000.0 * 2.0 * tool.corner_radius, fine * fine),
-              ratio(out.roughness_one_blade / 1000.0 * 2.0 * tool.corner_radius, coarse * coarse)}),
-       limit::kTool, ""});
+  checks.push_back({"tool_roughness",
+                    worst_of({ratio(out.roughness / 1000.0 * 2.0 * tool.corner_radius, fine * fine),
+                              ratio(out.roughness_one_blade / 1000.0 * 2.0 * tool.corner_radius,
+                                    coarse * coarse)}),
+                    limit::kTool, ""});
   if (!out.wall_cut) return;
   const auto& cut = *out.wall_cut;
   const double outside = 0.5 * spec.tube->outer_diameter;
@@ -103,12 +100,12 @@ void verify_tool(const FeedCurveSpec& spec, const FeedCurve& curve, std::vector<
   const double metres_per_rad = kTwoPi * tool.disc / 1000.0;
   checks.push_back(
       {"tool_wall_cut",
-       worst({ratio(cut.cutting_speed_outside, outside * metres_per_rad),
-              ratio(cut.cutting_speed_bore, bore * metres_per_rad),
-              ratio(cut.duration * v, outside - bore),
-              ratio(cut.revolutions, cut.duration * per_second),
-              ratio(cut.chip_rate, kTwoPi * outside * tool.kerf * v),
-              ratio(cut.chip_volume, kPi * (outside * outside - bore * bore) * tool.kerf)}),
+       worst_of({ratio(cut.cutting_speed_outside, outside * metres_per_rad),
+                 ratio(cut.cutting_speed_bore, bore * metres_per_rad),
+                 ratio(cut.duration * v, outside - bore),
+                 ratio(cut.revolutions, cut.duration * per_second),
+                 ratio(cut.chip_rate, kTwoPi * outside * tool.kerf * v),
+                 ratio(cut.chip_volume, kPi * (outside * outside - bore * bore) * tool.kerf)}),
        limit::kWallCut, ""});
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/error.hpp"
 #include "core/cutoff/verify_parts.hpp"
 #include "core/math/chebyshev.hpp"
 
@@ -43,7 +44,7 @@ double largest_error(const std::vector<Instant>& path, double v,
                      const std::vector<double>& seconds) {
   double worst = 0.0;
   for (const auto& at : path)
-    worst = std::max(worst, std::abs(math::horner(seconds, at.time) * at.tip.first / v - 1.0));
+    worsen(worst, std::abs(math::horner(seconds, at.time) * at.tip.first / v - 1.0));
   return worst;
 }
 
@@ -56,14 +57,14 @@ void push_extremes(const Work& work, const std::vector<Instant>& path, std::vect
     const double speed = v / at.tip.first;
     low = std::min(low, speed);
     high = std::max(high, speed);
-    acceleration = std::max(acceleration, std::abs(speed * speed * speed * at.tip.second / v));
+    worsen(acceleration, std::abs(speed * speed * speed * at.tip.second / v));
   }
   const double most = work.max_cylinder_acceleration;
-  checks.push_back(
-      {"work_speed",
-       std::max(std::abs(low - work.min_cylinder_speed), std::abs(high - work.max_cylinder_speed)) /
-           high,
-       limit::kExtreme, ""});
+  checks.push_back({"work_speed",
+                    worst_of({std::abs(low - work.min_cylinder_speed),
+                              std::abs(high - work.max_cylinder_speed)}) /
+                        high,
+                    limit::kExtreme, ""});
   checks.push_back({"work_acceleration",
                     std::abs(acceleration - most) / (most + kErrorFloor * high), limit::kExtreme,
                     ""});
@@ -75,7 +76,7 @@ double forms_error(const Command& fit, const std::vector<Instant>& path) {
   for (const auto& at : path) {
     const double p = math::horner(fit.seconds, at.time);
     const double scaled = math::horner(fit.scaled, 2.0 * at.time / fit.duration - 1.0);
-    worst = std::max(
+    worst = worst_of(
         {worst, std::abs(scaled / p - 1.0), std::abs(math::value(series, at.time) / p - 1.0)});
   }
   return worst;
@@ -101,9 +102,8 @@ void push_tool_errors(const FeedCurveSpec& spec, const FeedCurve& curve,
     const TipFeed driven = tip.at(curve.work.start_stroke + math::horner(integral, at.time));
     scale = std::max(scale, feed_scale(spec.linkage, driven));
     drift = driven.feed - at.feed;
-    ripple =
-        std::max(ripple, std::abs(math::horner(fit.seconds, at.time) * driven.first / v - 1.0));
-    position = std::max(position, std::abs(drift));
+    worsen(ripple, std::abs(math::horner(fit.seconds, at.time) * driven.first / v - 1.0));
+    worsen(position, std::abs(drift));
   }
   checks.push_back({"fit_tool_ripple", disagreement(ripple, fit.errors.tool_ripple, kErrorFloor),
                     limit::kFitError, ""});
@@ -120,9 +120,8 @@ double excess_of_minimax(const std::vector<Command>& rows) {
     if (lowest.method != FitMethod::minimax) continue;
     for (const auto& other : rows)
       if (other.degree == lowest.degree)
-        worst =
-            std::max(worst, (lowest.errors.max_relative_error - other.errors.max_relative_error) /
-                                (other.errors.max_relative_error + kErrorFloor));
+        worsen(worst, (lowest.errors.max_relative_error - other.errors.max_relative_error) /
+                          (other.errors.max_relative_error + kErrorFloor));
   }
   return worst;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/error.hpp"
 #include "core/cutoff/verify_parts.hpp"
 
 namespace tubecut::cutoff {
@@ -12,7 +13,7 @@ constexpr double kRounding =
 
 double largest(const std::vector<double>& values) {
   double out = 0.0;
-  for (const double value : values) out = std::max(out, std::abs(value));
+  for (const double value : values) worsen(out, std::abs(value));
   return out;
 }
 
@@ -42,12 +43,10 @@ Steps steps_of(const CycleSpec& spec, const Cycle& c, const std::stop_token& sto
     const double change = s.acceleration[i] - s.acceleration[i - 1];
     const double round_acceleration =
         kRounding * spec.max_cylinder_acceleration + kRounding * j * s.time[i];
-    out.stroke = std::max(
-        out.stroke, std::abs(stroke) / (j * h * h * h / 12.0 + jump * h * h / 8.0 + round_stroke));
-    out.speed =
-        std::max(out.speed, std::abs(speed) / (j * h * h / 4.0 + jump * h / 2.0 + round_speed));
-    out.acceleration =
-        std::max(out.acceleration, std::abs(change) / (j * h + jump + round_acceleration));
+    worsen(out.stroke,
+           std::abs(stroke) / (j * h * h * h / 12.0 + jump * h * h / 8.0 + round_stroke));
+    worsen(out.speed, std::abs(speed) / (j * h * h / 4.0 + jump * h / 2.0 + round_speed));
+    worsen(out.acceleration, std::abs(change) / (j * h + jump + round_acceleration));
   }
   return out;
 }
@@ -64,11 +63,10 @@ void push_feeds(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip&
   double fastest = curve.work.feed;  // at least: a coarse period may miss every motion
   for (std::size_t i = 0; i < s.time.size() && !stop.stop_requested(); ++i) {
     const TipFeed here = tip.at(s.stroke[i]);
-    feed = std::max(feed, std::abs(here.feed - s.feed[i]));
+    worsen(feed, std::abs(here.feed - s.feed[i]));
     // Towards the tangent's pole the derivative loses digits as 1/cos psi.
-    speed = std::max(speed,
-                     here.elevation_cosine * std::abs(here.first * s.speed[i] - s.feed_speed[i]));
-    fastest = std::max(fastest, std::abs(here.first * s.speed[i]));
+    worsen(speed, here.elevation_cosine * std::abs(here.first * s.speed[i] - s.feed_speed[i]));
+    worsen(fastest, std::abs(here.first * s.speed[i]));
   }
   checks.push_back(
       {"cycle_feed", feed / (scale + feed_scale(spec.linkage, tip.at(0.0))), limit::kFeed, ""});
@@ -79,12 +77,12 @@ void push_times(const CycleSpec& spec, const FeedCurve& curve, std::vector<Check
   const auto& c = *curve.cycle;
   const auto& s = c.samples;
   const double times =
-      std::max({std::abs(c.work_end - c.work_start - curve.work.duration) / c.cycle,
+      worst_of({std::abs(c.work_end - c.work_start - curve.work.duration) / c.cycle,
                 std::abs(s.time.back() - c.end) / c.cycle,
                 std::abs(c.end + spec.handling - c.cycle) / c.cycle,
                 std::abs(c.pieces_per_hour * c.cycle / 3600.0 - 1.0)});
   checks.push_back({"cycle_times", times, limit::kCycleTime, ""});
-  const double rest = std::max({std::abs(s.stroke.back()), std::abs(s.speed.back()),
+  const double rest = worst_of({std::abs(s.stroke.back()), std::abs(s.speed.back()),
                                 std::abs(s.acceleration.back()), std::abs(s.feed.back()),
                                 std::abs(s.feed_speed.back())});
   checks.push_back({"cycle_ends_at_rest", rest, limit::kRest, ""});
@@ -114,7 +112,7 @@ void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTi
   checks.push_back({"cycle_stroke_steps", steps.stroke, limit::kCycleStep, ""});
   if (limits.max_feed)
     checks.push_back({"cycle_max_feed",
-                      std::max(largest(s.feed), curve.cycle->stop_feed) / *limits.max_feed - 1.0,
+                      worst_of({largest(s.feed), curve.cycle->stop_feed}) / *limits.max_feed - 1.0,
                       limit::kCycleLimit, ""});
   push_feeds(spec, curve, tip, stop, checks);
   push_times(limits, curve, checks);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/frame/frame.hpp"
 
 namespace tubecut::frame {
@@ -20,7 +21,7 @@ struct Most {
   double value = 0.0, limit = kWritten;
   void see(double one, double size) {
     const double most = kWritten * std::max(1.0, size / kFar);
-    if (!(one * limit <= value * most)) {
+    if (!std::isnan(value) && !(one * limit <= value * most)) {
       value = one;
       limit = most;
     }
@@ -63,7 +64,7 @@ double beside(const Line& seen, const Line& line, const Vector3d& at, double rea
   const Vector3d foot = line.point + (at - line.point).dot(line.unit) * line.unit;
   double worst = 0.0;
   for (const double s : {-reach, 0.0, reach})
-    worst = std::max(worst, (foot + s * line.unit - seen.point).cross(seen.unit).norm());
+    worsen(worst, (foot + s * line.unit - seen.point).cross(seen.unit).norm());
   return worst;
 }
 double size_of(const joint::TubeCutter& t) { return std::abs(t.height) + std::abs(t.offset); }
@@ -80,7 +81,7 @@ double apart(const Seen& frame, const joint::PlaneCutter& plane, const Seen& oth
   const Vector3d m = (other_frame.axes * other.normal).normalized();
   const Vector3d p = frame.origin + frame.axes * plane.point;
   const Vector3d q = other_frame.origin + other_frame.axes * other.point;
-  return std::max(std::abs((p - q).dot(n)), reach * (n + m).norm());
+  return worst_of({std::abs((p - q).dot(n)), reach * (n + m).norm()});
 }
 
 const bevel::TableSpec& cut_of(const part::PartSpec& part, End end) {
@@ -152,7 +153,7 @@ class Proof {
     for (const auto& end : mate.of_ends)
       for (const auto& hole : mate.of_holes)
         worst_.sides =
-            std::max({worst_.sides, end.kind == hole.kind ? 0.0 : 1.0, std::abs(end.gap - hole.gap),
+            worst_of({worst_.sides, end.kind == hole.kind ? 0.0 : 1.0, std::abs(end.gap - hole.gap),
                       std::abs(end.depth.value_or(0.0) - hole.depth.value_or(0.0))});
     for (std::size_t k = 1; k < mate.faces.size(); ++k)
       worst_.face.see(apart(mate.faces[0].first, mate.faces[0].second, mate.faces[k].first,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/groove_limits.hpp"
 #include "core/groove/normal_area.hpp"
@@ -19,12 +20,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Running worst value that lets a NaN through, so that a NaN fails its check.
+/// Running worst of deviations to either side.
 class Worst {
  public:
-  void add(double deviation) {
-    if (!std::isnan(value_) && !(std::abs(deviation) <= value_)) value_ = std::abs(deviation);
-  }
+  void add(double deviation) { worsen(value_, std::abs(deviation)); }
   [[nodiscard]] double value() const { return value_; }
 
  private:
@@ -202,7 +201,7 @@ double largest_of_round(const Figure& figure) {
   for (int i = 0; i < kSurveySections; ++i) {
     const double value = figure(Angle::rad(kTwoPi * i / kSurveySections));
     if (std::isnan(value)) return value;
-    out = std::max(out, value);
+    worsen(out, value);
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/groove/machine_space.hpp"
 #include "core/groove/mill_limits.hpp"
 #include "core/groove/mill_path.hpp"
@@ -17,12 +18,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Running worst value that lets a NaN through, so that a NaN fails its check.
+/// Running worst value.
 struct Worst {
   double value = 0.0;
-  void add(double deviation) {
-    if (!std::isnan(value) && !(deviation <= value)) value = deviation;
-  }
+  void add(double deviation) { worsen(value, deviation); }
 };
 
 class Verifier {
@@ -114,9 +113,9 @@ class Verifier {
   void summary(const MillPosition& p) {
     for (const ContactLine* line : {&p.before, &p.after}) {
       const auto [low, high] = std::minmax_element(line->gap.begin(), line->gap.end());
-      figures_.add(std::abs(line->over - std::max(0.0, -*low)));
-      figures_.add(std::abs(line->under - std::max(0.0, *high)));
-      figures_.add(std::abs(line->largest - std::max(-*low, *high)));
+      figures_.add(std::abs(line->over - worst_of({0.0, -*low})));
+      figures_.add(std::abs(line->under - worst_of({0.0, *high})));
+      figures_.add(std::abs(line->largest - worst_of({-*low, *high})));
     }
     const bool qualified =
         p.after.over < spec_.check.qualify && p.after.under < spec_.check.qualify;
@@ -145,10 +144,10 @@ class Verifier {
     const Vector3d lam(cross(slope[1], slope[2]), cross(slope[2], slope[0]),
                        cross(slope[0], slope[1]));
     double worst = 0.0;
-    for (const double g : p.after.gap) worst = std::max(worst, std::abs(g - p.bias));
+    for (const double g : p.after.gap) worsen(worst, std::abs(g - p.bias));
     const double proven = worst - std::abs(lam.dot(gaps)) / lam.lpNorm<1>();
     const double own = kSlopeError * worst;
-    certificate_.add(std::abs(std::max(0.0, proven) - p.certificate) - own);
+    certificate_.add(std::abs(worst_of({0.0, proven}) - p.certificate) - own);
     if (spec_.optimise.method == Method::chebyshev) certificate_.add(proven - own);
   }
 

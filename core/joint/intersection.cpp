@@ -37,7 +37,9 @@ class Worst {
  public:
   Worst(std::string name, std::string unit) : check_{std::move(name), 0.0, 0.0, std::move(unit)} {}
   void see(double value, double limit) {
-    if (check_.limit > 0.0 && !(value / limit > check_.value / check_.limit)) return;
+    const bool known = std::isnan(check_.value) ||  // which nothing is worse than
+                       (check_.limit > 0.0 && value / limit <= check_.value / check_.limit);
+    if (known) return;
     check_.value = value;
     check_.limit = limit;
   }
@@ -82,7 +84,7 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
     });
     if (beside) continue;
     const auto height = solids[k].top(at.x(), at.y());
-    if (height) none_above.see(std::max(0.0, *height - p.z[i]), kAbove * scale);
+    if (height) none_above.see(worst_of({0.0, *height - p.z[i]}), kAbove * scale);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/joint/node.hpp"
 
 namespace tubecut::joint {
@@ -75,15 +76,14 @@ void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Wor
           ? 0.5 * kPi -
                 between(corner_of(own, member.outer_radius, along, other.outer_radius), normal)
           : between(own, normal) + between(along, normal) - kPi;
-  worst.angle = std::max(worst.angle, std::abs(off) * kDegPerRad);
+  worsen(worst.angle, std::abs(off) * kDegPerRad);
   const double scale = (member.start - point).norm() + (other.start - point).norm();
   const auto aside = [&](const Member& m) {
     return from_line(point, {m.start, (m.finish - m.start).normalized()});
   };
-  worst.axis = std::max(worst.axis, std::abs(aside(member) - aside(other)) / scale);
-  worst.eccentricity = std::max(worst.eccentricity,
-                                std::abs(aside(member) + aside(other) - cut.eccentricity) / scale);
-  worst.gap = std::max(worst.gap, std::abs(to_axis(end.frame.origin, other) - cut.gap) / scale);
+  worsen(worst.axis, std::abs(aside(member) - aside(other)) / scale);
+  worsen(worst.eccentricity, std::abs(aside(member) + aside(other) - cut.eccentricity) / scale);
+  worsen(worst.gap, std::abs(to_axis(end.frame.origin, other) - cut.gap) / scale);
 }
 
 void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& worst) {
@@ -100,16 +100,15 @@ void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& wo
                        (other.finish - end.frame.origin).norm() + std::abs(t.height) +
                        std::abs(t.offset);
   const auto line = in_world(end.frame, t);
-  worst.axis = std::max(
+  worst.axis = worst_of(
       {worst.axis, from_line(other.start, line) / scale, from_line(other.finish, line) / scale});
-  worst.angle = std::max(
+  worsen(
       worst.angle,
       std::abs(between(own.normalized(), along.normalized()) - t.inclination.rad()) * kDegPerRad);
   const double apart =
       std::abs((other.start - end.frame.origin).dot(common)) / (own.norm() * along.norm());
-  worst.eccentricity =
-      std::max(worst.eccentricity, std::abs(apart - cut.eccentricity * sine) / scale);
-  worst.gap = std::max(worst.gap, std::abs(to_axis(end.frame.origin, other) - cut.gap) / scale);
+  worsen(worst.eccentricity, std::abs(apart - cut.eccentricity * sine) / scale);
+  worsen(worst.gap, std::abs(to_axis(end.frame.origin, other) - cut.gap) / scale);
 }
 
 double frame_error(const NodeSpec& spec, const MemberEnd& end) {
@@ -119,7 +118,7 @@ double frame_error(const NodeSpec& spec, const MemberEnd& end) {
   const Vector3d seen = end.frame.local(far);
   const double square =
       (end.frame.rows * end.frame.rows.transpose() - Eigen::Matrix3d::Identity()).norm();
-  return std::max({square, std::abs(end.frame.rows.determinant() - 1.0),
+  return worst_of({square, std::abs(end.frame.rows.determinant() - 1.0),
                    (seen - Vector3d(0, 0, length)).norm() / length,
                    (end.frame.origin - m.at(end.end)).norm()});
 }
@@ -151,7 +150,7 @@ std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes, const std::s
   Worst worst;
   for (const auto& end : nodes.ends) {
     if (stop.stop_requested()) return {};
-    worst.frame = std::max(worst.frame, frame_error(spec, end));
+    worsen(worst.frame, frame_error(spec, end));
     for (const auto& cut : end.cut_by) see(spec, end, cut, worst);
   }
   return {{"axis_in_world", worst.axis, kRound, ""},

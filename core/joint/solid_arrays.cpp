@@ -58,6 +58,11 @@ TUBECUT_WIDE void tube_least(const Tube& tube, From a, From b, double* out) {
   }
 }
 
+TUBECUT_WIDE void lower_all(double* least, const double* other, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i)
+    least[i] = ((other[i] < least[i]) | (other[i] != other[i])) ? other[i] : least[i];
+}
+
 TUBECUT_WIDE void tube_nearest(const Tube& tube, From a, From b, double* share, double* distance) {
   const auto t = tube;
   for (std::size_t i = 0; i < a.n; ++i) {
@@ -86,6 +91,10 @@ void least_distances(const Solid& solid, const Places& from, const Places& to,
   if (const auto* tube = std::get_if<TubeSolid>(&solid.kind()))
     return tube_least(Tube(*tube), from_all(from), from_all(to), out.data());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = solid.least_distance(from.at(i), to.at(i));
+}
+
+void lower(std::span<double> least, std::span<const double> other) {
+  lower_all(least.data(), other.data(), least.size());
 }
 
 void nearest_on_ways(const TubeSolid& solid, const Places& from, const Places& to,

@@ -30,6 +30,10 @@ void distances(const Solid& solid, const Places& places, std::span<double> out);
 void least_distances(const Solid& solid, const Places& from, const Places& to,
                      std::span<double> out);
 
+/// Each of `least` becomes the lesser of itself and its neighbour in `other`; what is no number
+/// stays.
+void lower(std::span<double> least, std::span<const double> other);
+
 /// How near each way from `from` to `to` comes to a plain solid, and at which share of it.
 template <PlainSolid Kind>
 void nearest_on_ways(const Kind& solid, const Places& from, const Places& to,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "core/motion/course.hpp"
 #include "core/motion/invariants.hpp"
 
@@ -21,7 +22,7 @@ Received integers(const std::vector<std::vector<double>>& counts, const std::sto
     for (const double n : column) {
       if (whole.size() % kAskEvery == 0 && stop.stop_requested()) return out;
       const double nearest = std::floor(n + 0.5);
-      out.worst = std::max(out.worst, std::abs(n - nearest));
+      worsen(out.worst, std::abs(n - nearest));
       whole.push_back(static_cast<std::int32_t>(nearest));
     }
     out.counts.push_back(std::move(whole));

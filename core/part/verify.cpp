@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
@@ -22,8 +23,6 @@ Vector3d at(double radius, double phi, double z) {
   return {radius * turn.cos, radius * turn.sin, z};
 }
 
-void see(double& worst, double value) { worst = value > worst || value != value ? value : worst; }
-
 /// The worst of each name, by how near it comes to its limit.
 class Worst {
  public:
@@ -33,9 +32,10 @@ class Worst {
       const auto [place, fresh] = places_.emplace(check.name, checks_.size());
       if (fresh)
         checks_.push_back(std::move(check));
-      else if (!(check.value * checks_[place->second].limit <=
-                 checks_[place->second].value * check.limit))
-        checks_[place->second] = std::move(check);
+      else if (auto& worst = checks_[place->second];
+               !std::isnan(worst.value) &&
+               !(check.value * worst.limit <= worst.value * check.limit))
+        worst = std::move(check);
     }
   }
   std::vector<Check> take() { return std::move(checks_); }
@@ -63,7 +63,7 @@ double misplaced(const End& end, bool finish, const Place& place, const std::sto
     const auto& b = end.own;
     double off = 0.0;
     const auto pair = [&](double radius, double z, double own) {
-      see(off, (place(at(radius, a.phi[k], z)) - at(radius, b.phi[i], own)).norm());
+      worsen(off, (place(at(radius, a.phi[k], z)) - at(radius, b.phi[i], own)).norm());
     };
     pair(target.inner_radius(), a.z_inner[k], b.z_inner[i]);
     pair(target.outer_radius, a.z_outer[k], b.z_outer[i]);
@@ -73,15 +73,15 @@ double misplaced(const End& end, bool finish, const Place& place, const std::sto
     const Vector3d radial = at(1.0, a.phi[k], 0.0), own = at(1.0, b.phi[i], 0.0);
     const auto beam = elementary::sincos(a.b[k]);
     const auto beam_own = elementary::sincos(b.b[i]);
-    see(off, (place.turn * (beam.cos * radial + beam.sin * Vector3d::UnitZ()) -
-              (beam_own.cos * own + beam_own.sin * Vector3d::UnitZ()))
-                 .norm());
+    worsen(off, (place.turn * (beam.cos * radial + beam.sin * Vector3d::UnitZ()) -
+                 (beam_own.cos * own + beam_own.sin * Vector3d::UnitZ()))
+                    .norm());
     return off;
   };
   const auto zeros = static_cast<std::size_t>(std::ranges::count(end.own.phi, 0.0));
   for (std::size_t k = 0; k < n && !stop.stop_requested(); ++k) {
     const auto i = !finish ? k : k < zeros ? zeros - 1 - k : n - 1 - (k - zeros);
-    see(worst, row(k, i));
+    worsen(worst, row(k, i));
   }
   return worst;
 }
@@ -89,11 +89,11 @@ double misplaced(const End& end, bool finish, const Place& place, const std::sto
 double misplaced(const bevel::Hole& placed, const bevel::Hole& own, double dz) {
   double worst = 0.0;
   for (std::size_t i = 0; i < own.phi.size(); ++i) {
-    see(worst, std::abs(placed.phi.at(i) - own.phi[i]));
-    see(worst, std::abs(placed.z.at(i) - dz - own.z[i]));
-    see(worst, std::abs(placed.z_inner.at(i) - dz - own.z_inner[i]));
-    see(worst, std::abs(placed.torch_z.at(i) - dz - own.torch_z[i]));
-    see(worst, std::abs(placed.torch_z_inner.at(i) - dz - own.torch_z_inner[i]));
+    worsen(worst, std::abs(placed.phi.at(i) - own.phi[i]));
+    worsen(worst, std::abs(placed.z.at(i) - dz - own.z[i]));
+    worsen(worst, std::abs(placed.z_inner.at(i) - dz - own.z_inner[i]));
+    worsen(worst, std::abs(placed.torch_z.at(i) - dz - own.torch_z[i]));
+    worsen(worst, std::abs(placed.torch_z_inner.at(i) - dz - own.torch_z_inner[i]));
   }
   return worst;
 }
@@ -223,10 +223,10 @@ double quarter_off(const Part& p, const CheckDimension& d, double phi) {
 double dimensions_off(const PartSpec& spec, const Part& p) {
   double worst = 0.0;
   for (const auto& d : p.check_dimensions) {
-    if (d.name == "girth") see(worst, std::abs(d.value - kPi * 2.0 * spec.target.outer_radius));
+    if (d.name == "girth") worsen(worst, std::abs(d.value - kPi * 2.0 * spec.target.outer_radius));
     for (int k = 0; k < 4; ++k)
       if (d.name == "length_at_" + std::to_string(90 * k))
-        see(worst, quarter_off(p, d, 0.5 * kPi * k));
+        worsen(worst, quarter_off(p, d, 0.5 * kPi * k));
   }
   return worst;
 }
@@ -245,13 +245,13 @@ std::vector<Check> verify(const PartSpec& spec, const Part& part, const std::sto
   Eigen::Matrix3d over = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   const double scale = spec.target.outer_radius + length;
   double placed = 0.0;
-  see(placed, misplaced(part.start, false, {Eigen::Matrix3d::Identity(), start}, stop));
-  see(placed, misplaced(part.finish, true, {over, {0.0, 0.0, length - start.z()}}, stop));
+  worsen(placed, misplaced(part.start, false, {Eigen::Matrix3d::Identity(), start}, stop));
+  worsen(placed, misplaced(part.finish, true, {over, {0.0, 0.0, length - start.z()}}, stop));
   for (const auto& hole : part.holes) {
     if (stop.stop_requested()) break;
     const auto& cut = part.hole_cuts[hole.asked];
     const auto& own = cut.holes[hole.hole.far && cut.holes.size() > 1 ? 1 : 0];
-    see(placed, misplaced(hole.hole, own, -start.z()));
+    worsen(placed, misplaced(hole.hole, own, -start.z()));
   }
   out.push_back({"placed", placed, kPlaced * std::max(1.0, 1e-3 * scale), "mm"});
   out.push_back({"volume", volume_off(spec, part, stop), kVolume, ""});

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/invariants.hpp"
@@ -177,7 +178,7 @@ class Between {
 
  private:
   static void see(Worst& worst, double value, double limit) {
-    worst.see(std::max(0.0, value), limit + kRounding);
+    worst.see(worst_of({0.0, value}), limit + kRounding);
   }
 
   /// Of the tip over the tube's axis, with nothing of what made the counts.
@@ -242,7 +243,7 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
       for (const auto& check : motion::place_invariants(prepared, part, l.stop)) all.see(check);
       const auto followed = motion::path_invariants(job, prepared, part, own, l.stop);
       for (const auto& check : followed.checks) all.see(check);
-      deviation = std::max(deviation, followed.deviation);
+      worsen(deviation, followed.deviation);
     }
     add_up(part, l.stop, sums);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "core/bevel/smoothed_area.hpp"
@@ -203,6 +204,16 @@ TEST_P(Intersections, EveryCheckSeesItsCorruption) {
 
 INSTANTIATE_TEST_SUITE_P(Samplings, Intersections, ::testing::Values(0, 1));
 
+TEST(Verification, AHeightThatIsNoNumberIsSeen) {
+  const auto spec = fixed_cut(0);
+  const auto good = *joint::intersect(spec);
+  for (const std::size_t row : {std::size_t{0}, std::size_t{7}, good.profiles[1].z.size() - 1}) {
+    auto bad = good;
+    bad.profiles[1].z[row] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(find(joint::verify(spec, bad), "on_cutter")->passed()) << row;
+  }
+}
+
 TEST(Verification, AWrongLabelIsSeen) {
   const auto spec = fixed_cut(0);
   auto bad = *joint::intersect(spec);
@@ -249,6 +260,27 @@ std::size_t peak(const bevel::Table& t, const std::function<double(std::size_t)>
 }
 
 class Tables : public ::testing::TestWithParam<std::tuple<std::size_t, int>> {};
+
+TEST_P(Tables, ANumberThatIsNoneFails) {
+  const auto& way = kWays[std::get<0>(GetParam())];
+  const auto t = fixed_table(way, std::get<1>(GetParam()));
+  const auto passes = [&](std::vector<double> bevel::Table::*column, std::size_t row) {
+    auto bad = t.good;
+    (bad.*column).at(row) = std::numeric_limits<double>::quiet_NaN();
+    return std::ranges::all_of(bevel::verify(t.spec, bad), &Check::passed);
+  };
+  const auto last = t.good.b.size() - 1;
+  for (const std::size_t row : {std::size_t{0}, std::size_t{5}, last}) {
+    EXPECT_FALSE(passes(&bevel::Table::b, row)) << "b " << row;
+    EXPECT_FALSE(passes(&bevel::Table::dihedral, row)) << "dihedral " << row;
+    EXPECT_FALSE(passes(&bevel::Table::z_inner, row)) << "z_inner " << row;
+    EXPECT_FALSE(passes(&bevel::Table::z_outer, row)) << "z_outer " << row;
+    EXPECT_FALSE(passes(&bevel::Table::phi, row)) << "phi " << row;
+    if (way.dihedral == Dihedral::as_published) continue;  // which has no such plane to be held to
+    EXPECT_FALSE(passes(&bevel::Table::b_raw, row)) << "b_raw " << row;
+    EXPECT_FALSE(passes(&bevel::Table::tau, row)) << "tau " << row;
+  }
+}
 
 TEST_P(Tables, EveryCheckSeesItsCorruption) {
   const auto& way = kWays[std::get<0>(GetParam())];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -298,6 +299,10 @@ TEST(Verify, EveryCheckSeesTenTimesItsLimit) {
                                    [&](const Check& c) { return c.name == check.name; });
     ASSERT_NE(seen, again.end());
     EXPECT_FALSE(seen->passed()) << check.name << " " << seen->value << " <= " << seen->limit;
+    FeedCurve none = good;
+    corruptions.at(check.name)(none, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_FALSE(std::ranges::all_of(verify(spec, none), &Check::passed))
+        << check.name << " of NaN";
   }
 }
 

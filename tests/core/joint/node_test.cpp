@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <random>
 
 #include "core/joint/contour.hpp"
@@ -332,6 +334,17 @@ TEST(Node, EveryCheckSeesACorruptedNumber) {
   corrupt("eccentricity", [&](MemberEnd&, CutBy& by) { by.eccentricity += 9 * length; });
   corrupt("gap", [&](MemberEnd&, CutBy& by) { by.gap += length; });
   corrupt("frame", [&](MemberEnd& end, CutBy&) { end.frame.rows(0, 1) += 1e-11; });
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto fails = [&](auto change) {
+    auto bad = *good;
+    change(bad.ends[6], bad.ends[6].cut_by[0]);
+    return !std::ranges::all_of(verify(spec, bad), &Check::passed);
+  };
+  EXPECT_TRUE(fails([&](MemberEnd&, CutBy& by) { by.placement.tube.offset = none; }));
+  EXPECT_TRUE(fails([&](MemberEnd&, CutBy& by) { by.placement.tube.height = none; }));
+  EXPECT_TRUE(fails([&](MemberEnd&, CutBy& by) { by.eccentricity = none; }));
+  EXPECT_TRUE(fails([&](MemberEnd&, CutBy& by) { by.gap = none; }));
+  EXPECT_TRUE(fails([&](MemberEnd& end, CutBy&) { end.frame.rows(0, 1) = none; }));
   auto mutual = *good;
   mutual.ends[0].cut_by.push_back({.member = 3});
   EXPECT_GT(value(verify(spec, mutual), "one_cuts_the_other"), 1.0);
