@@ -27,7 +27,9 @@ namespace {
 
 const Lanes& lanes() {
 #if defined(__x86_64__)
-  static const Lanes& widest = __builtin_cpu_supports("avx") ? wide_lanes() : narrow_lanes();
+  static const Lanes& widest = __builtin_cpu_supports("avx512f") ? widest_lanes()
+                               : __builtin_cpu_supports("avx")   ? wide_lanes()
+                                                                 : narrow_lanes();
   return widest;
 #else
   return narrow_lanes();

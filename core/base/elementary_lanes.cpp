@@ -4,7 +4,9 @@
 
 // Compiled once for every width. What the linker shares between objects must hold no wide
 // instruction, so nothing but SLEEF and the compiler's own headers stands here.
-#if defined(__AVX__)
+#if defined(__AVX512F__)
+#define TUBECUT_SLEEF(name, accuracy) Sleef_cinz_##name##d8_##accuracy##avx512fnofma
+#elif defined(__AVX__)
 #define TUBECUT_SLEEF(name, accuracy) Sleef_cinz_##name##d4_##accuracy##avx
 #elif defined(__SSE2__)
 #define TUBECUT_SLEEF(name, accuracy) Sleef_cinz_##name##d2_##accuracy##sse2
@@ -15,7 +17,11 @@
 namespace tubecut::elementary {
 namespace {
 
-#if defined(__AVX__)
+#if defined(__AVX512F__)
+using Pack = __m512d;
+Pack load(const double* from) { return _mm512_loadu_pd(from); }
+void store(double* to, Pack pack) { _mm512_storeu_pd(to, pack); }
+#elif defined(__AVX__)
 using Pack = __m256d;
 Pack load(const double* from) { return _mm256_loadu_pd(from); }
 void store(double* to, Pack pack) { _mm256_storeu_pd(to, pack); }
@@ -89,7 +95,9 @@ constexpr Lanes kLanes{
 
 }  // namespace
 
-#if defined(__AVX__)
+#if defined(__AVX512F__)
+const Lanes& widest_lanes() { return kLanes; }
+#elif defined(__AVX__)
 const Lanes& wide_lanes() { return kLanes; }
 #else
 const Lanes& narrow_lanes() { return kLanes; }

@@ -18,8 +18,9 @@ struct Lanes {
 /// Of every CPU.
 [[nodiscard]] const Lanes& narrow_lanes();
 #if defined(__x86_64__)
-/// Of one with AVX.
+/// Of one with AVX, and with AVX-512.
 [[nodiscard]] const Lanes& wide_lanes();
+[[nodiscard]] const Lanes& widest_lanes();
 #endif
 
 }  // namespace tubecut::elementary

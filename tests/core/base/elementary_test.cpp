@@ -74,10 +74,11 @@ TEST(Elementary, ArraysHaveTheBitsOfTheirEntries) {
   std::vector<const Lanes*> all{&narrow_lanes()};
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx")) all.push_back(&wide_lanes());
+  if (__builtin_cpu_supports("avx512f")) all.push_back(&widest_lanes());
 #endif
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(-7, 7);
-  for (const std::size_t n : {0, 1, 2, 3, 4, 5, 7, 8, 1001}) {
+  for (const std::size_t n : {0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 1001}) {
     std::vector<double> x(n), y(n), a(n), b(n);
     for (std::size_t i = 0; i < n; ++i) {
       x[i] = any(random);
