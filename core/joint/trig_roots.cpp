@@ -16,13 +16,15 @@ constexpr double kOnCircle = 3e-3;
 constexpr std::size_t kMost = 8;  // roots, all corrected at once
 
 /// Complex numbers side by side.
+// An aggregate, made by {}: clang 16 leaves out a constructor that functions for several lanes
+// call.
 struct Row {
-  std::array<double, kMost> re{}, im{};
+  std::array<double, kMost> re, im;
 };
 
 /// Unequal angles and sizes, so that no symmetry of the roots stalls the iteration.
 Row starts(std::size_t degree) {
-  Row w;
+  Row w{};
   for (std::size_t k = 0; k < kMost; ++k) {
     const double turn = (static_cast<double>(k) + 0.1 * static_cast<double>(k % 3)) * kTwoPi;
     const auto at = elementary::sincos(0.4 + turn / static_cast<double>(degree));
@@ -35,7 +37,7 @@ Row starts(std::size_t degree) {
 
 /// What pushes each root away from the others: the sum of 1 / (w - other).
 Row repulsion(const Row& w, std::size_t degree) {
-  Row out;
+  Row out{};
   for (std::size_t j = 0; j < degree; ++j) {
     const double re = w.re[j], im = w.im[j];
     for (std::size_t k = 0; k < kMost; ++k) {
@@ -55,7 +57,7 @@ Row repulsion(const Row& w, std::size_t degree) {
 /// 1/w.
 TUBECUT_WIDE double sweep(const Complex* c, std::size_t degree, Row& w) {
   const Row apart = repulsion(w, degree);
-  Row x, value, slope;
+  Row x{}, value{}, slope{};
   std::array<double, kMost> side{}, inside{};
   for (std::size_t k = 0; k < kMost; ++k) {
     const double square = w.re[k] * w.re[k] + w.im[k] * w.im[k];
