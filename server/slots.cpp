@@ -145,6 +145,11 @@ Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
   return out;
 }
 
+bool Slots::waits(const Job& job) const {
+  const std::lock_guard lock(mutex_);
+  return job.began_s == 0.0;
+}
+
 bool Slots::withdraw(const std::shared_ptr<Job>& job) {
   const std::lock_guard lock(mutex_);
   const bool waited = queue_.remove(job);

@@ -52,6 +52,7 @@ struct Job {
   std::optional<Response> begins = {};  // instead: an answer that its lines' answers follow
   bool refused = false;                 // of a batch's line: its answer is a problem
   bool malformed = false;               // of a batch's line: it is no job
+  bool ahead = false;                   // of a batch's line: begun before its time
   bool finished = false;                // known to the port
   std::shared_ptr<Job> next = {};       // handed over to the port after this one
 };
@@ -74,6 +75,9 @@ class Slots {
 
   /// Expected seconds until the job's turn, from what runs and waits now.
   [[nodiscard]] double expected_wait(Job& job) const;
+
+  /// Whether it has not begun yet.
+  [[nodiscard]] bool waits(const Job& job) const;
 
   struct Offer {
     bool taken = false;                   // false: the queue is full

@@ -14,7 +14,10 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Answers held for a client that is slow to take them; no further line begins beyond.
-constexpr std::size_t kHeld = 512u << 10;
+constexpr std::size_t kHeld = 2u << 20;
+/// Lines that end within a turn of the scheduler: the port may come that late to begin the next.
+constexpr double kTurnS = 0.004;
+constexpr std::size_t kAhead = 8;
 constexpr auto kAskAgain = 20ms;  // a full queue, memory in use, or the key's rate
 constexpr auto kLook = 50ms;      // whether the client is still there
 /// Lines that are no jobs, after which no further line is looked at: each costs an answer and a
@@ -159,6 +162,12 @@ Task<void> Batch::answer_lines() {
 }
 
 void Batch::take_finished() {
+  const auto ended = std::ranges::count_if(on_.jobs_, &Job::finished);
+  if (const auto now = Clock::now(); ended > 0) {
+    const double one =
+        (seconds(now) - seconds(std::exchange(ended_, now))) / static_cast<double>(ended);
+    pace_s_ = pace_s_ == 0.0 ? one : 0.8 * pace_s_ + 0.2 * one;
+  }
   std::erase_if(on_.jobs_, [this](const auto& job) {
     if (job->finished && job->answer.bytes.empty()) throw Session::Gone{};
     if (job->finished) answer_line(job->answer.bytes, job->refused);
@@ -167,11 +176,18 @@ void Batch::take_finished() {
   });
 }
 
-/// As many as are worked on at a time: one more than there are slots, so that no slot waits, and
-/// other requests wait for no more than these.
+/// One more than there are slots, so that no slot waits.
+std::size_t Batch::worked_on() const { return static_cast<std::size_t>(port_.slots.count()) + 1; }
+
+/// Lines begun beyond those, where they are so short that slots would wait for the port.
+std::size_t Batch::ahead() const {
+  return pace_s_ > 0.0 ? static_cast<std::size_t>(std::min(1.0 * kAhead, kTurnS / pace_s_)) : 0;
+}
+
+/// As many as are worked on at a time, so that other requests wait for no more than these.
 void Batch::begin_lines() {
   again_ = Clock::time_point::max();
-  const auto most = static_cast<std::size_t>(port_.slots.count()) + 1;
+  const auto most = worked_on() + ahead();
   while (!stopped_ && on_.jobs_.size() < most && on_.out_.size() < kHeld) {
     const auto before = at_;
     const auto line = next_line();
@@ -223,9 +239,7 @@ bool Batch::begin_line(std::string_view line) {
   } else {
     job->memory = MemoryShare(port_.memory, memory);
   }
-  port_.set_budget(*job);
-  if (job->budget.cpu > 0ms)
-    job->due = Clock::now() + job->budget.cpu;  // the batch is answered anyway
+  begin_time(*job, on_.jobs_.size() >= worked_on());
   if (!port_.offer(job)) return false;
   if (!has) ++port_.counters.memory;
   waits_since_.reset();
@@ -258,22 +272,42 @@ void Batch::forget_begun() {
   held_.resize(lines_.size());
 }
 
-/// Lines that have waited too long for a slot are refused, those that run held to their budget.
+/// A line begun ahead waits for those before it, however long they take: its time begins with its
+/// place among those that are worked on.
+void Batch::begin_time(Job& job, bool ahead) {
+  job.ahead = ahead;
+  if (!port_.slots.waits(job)) return port_.hold_to_budget(job);
+  port_.set_budget(job);
+  if (job.budget.cpu > 0ms)
+    job.due = Clock::now() + job.budget.cpu;  // the batch is answered anyway
+}
+
+/// Lines that have waited too long for a slot are refused, those that run held to their budget. One
+/// that lost its place in the queue asks for another until then.
 void Batch::refuse_late() {
-  const auto now = Clock::now();
   const auto running = on_.jobs_;
+  std::size_t place = 0;
   for (const auto& job : running) {
-    if (job->due > now && !job->displaced) continue;
-    if (!job->displaced && !port_.slots.withdraw(job)) {
-      port_.hold_to_budget(*job);
-      continue;
+    const bool ahead = place++ >= worked_on();
+    const bool late = job->due <= Clock::now();
+    if (job->ahead && (late || !ahead)) {
+      begin_time(*job, ahead);
+    } else if (job->displaced && !late) {
+      job->displaced = !port_.offer(job);
+    } else if (late) {
+      refuse(job);
     }
-    ++(job->displaced ? port_.counters.queue : port_.counters.wait);
-    job->memory = {};
-    refuse_line(job->request, {ErrorCode::overloaded, "No slot was free within the job's budget."});
-    std::erase(on_.jobs_, job);
-    answer_line(port_.service.line(job->request).text, true);
   }
+}
+
+/// Unless it runs.
+void Batch::refuse(const std::shared_ptr<Job>& job) {
+  if (!job->displaced && !port_.slots.withdraw(job)) return port_.hold_to_budget(*job);
+  ++(job->displaced ? port_.counters.queue : port_.counters.wait);
+  job->memory = {};
+  refuse_line(job->request, {ErrorCode::overloaded, "No slot was free within the job's budget."});
+  std::erase(on_.jobs_, job);
+  answer_line(port_.service.line(job->request).text, true);
 }
 
 void Batch::answer_line(std::string_view text, bool refused) {

@@ -29,12 +29,16 @@ class Batch {
   Task<void> answer_lines();
   void take_finished();
   void begin_lines();
+  [[nodiscard]] std::size_t worked_on() const;
+  [[nodiscard]] std::size_t ahead() const;
   [[nodiscard]] bool begin_line(std::string_view line);
   [[nodiscard]] std::shared_ptr<Job> job_of(std::string_view line) const;
   [[nodiscard]] bool has_memory_in_time(std::size_t bytes);
   [[nodiscard]] bool over_wait() const;
   void forget_begun();
   void refuse_late();
+  void begin_time(Job& job, bool ahead);
+  void refuse(const std::shared_ptr<Job>& job);
   void answer_line(std::string_view text, bool refused);
   void send();
   [[nodiscard]] Clock::time_point due() const;
@@ -51,6 +55,8 @@ class Batch {
   bool stopped_ = false;       // no further line begins
   bool chunked_ = true;        // the answer; else the connection's end ends it (HTTP/1.0)
   BatchCount count_;
+  double pace_s_ = 0.0;                     // from one line's end to the next's; 0: not known yet
+  Clock::time_point ended_ = Clock::now();  // when a line last did
   bool paid_ = true;      // its key's rate has let the next line in; the first came with the batch
   std::size_t owed_ = 0;  // bytes the client has to take until `stalled_`
   std::optional<Clock::time_point> waits_since_;          // for memory

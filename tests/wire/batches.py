@@ -213,6 +213,33 @@ class Suite:
             self.check(self.given_back(service), "memory set aside is not given back")
             print(f"6 batches in {SMALL >> 20} MiB: {ended}")
 
+    def short_then_long(self):
+        """Lines are begun ahead while they are short. Long ones among them are not refused for having waited for each other, though each
+        takes a quarter of its budget; nor are any of batches that take each other's places in a queue of four."""
+        short = [job(random.Random(n), n) for n in range(60)]
+        body = short[1]["body"] | {"sampling": {"uniform_points": 10000}, "kerf_mm": 3}
+        long = [short[1] | {"id": f"long {n}", "body": body} for n in range(8)]
+        with Service(self.binary, "--slots", "1", "--budget-s", "30") as service:
+            one = exchange(service.port, post(json.dumps(body).encode(), target="/v1/bevel-tables"), 60)[0]
+            self.check(one.status == 200, one.body[:300])
+            needs = float(dict(part.split(";dur=") for part in one.get("Server-Timing").split(", "))["cpu"]) / 1e3
+        lines = b"\n".join(json.dumps(one).encode() for one in short + long)
+        with Service(self.binary, "--slots", "1", "--budget-s", f"{4 * needs:.3f}") as service:
+            replies = list(batch(service.port, lines))
+            self.check(replies[-1]["summary"] == {"items": 68, "answered": 68, "refused": 0, "unanswered": 0},
+                       f"long lines behind short ones: {replies[-1]} {[r for r in replies[:-1] if r['status'] != 200][:1]}")
+        with Service(self.binary, "--slots", "1", "--queue", "4") as service:
+            ended = []
+            lines = b"\n".join(json.dumps(one).encode() for one in short)
+            beside = [threading.Thread(target=lambda: ended.append(list(batch(service.port, lines))[-1]["summary"])) for _ in range(6)]
+            for each in beside:
+                each.start()
+            for each in beside:
+                each.join(60)
+            self.check([s["answered"] for s in ended] == 6 * [60], f"six batches in a queue of four: {ended}")
+        print(f"short lines, then eight of {needs:.2f} s within four times that: {replies[-1]['summary']}; six batches in a queue of four: "
+              f"{sum(s['answered'] for s in ended)} of 360")
+
     def drains(self):
         with Service(self.binary) as service:
             lines = []
@@ -280,7 +307,7 @@ class Suite:
 
     def run(self):
         for part in (self.whole, self.hang_up, lambda: self.takes_little(0), lambda: self.takes_little(10_000), self.is_logged,
-                     self.minds_the_rate, self.shares_memory, self.drains, self.odd_ones, self.bounds):
+                     self.minds_the_rate, self.shares_memory, self.short_then_long, self.drains, self.odd_ones, self.bounds):
             part()
         for fault in self.faults[:20]:
             print(fault)
