@@ -78,7 +78,7 @@ void Slots::join() {
     const std::lock_guard lock(mutex_);
     ending_ = true;
   }
-  some_.notify_all();
+  wake_all();
   for (auto& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
@@ -126,22 +126,18 @@ std::chrono::nanoseconds Slots::cpu(const Job& job) const {
 
 Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
   Offer out{.taken = true};
-  bool free = false;
-  {
-    const std::lock_guard lock(mutex_);
-    estimate(*job);
-    job->claim.since = now_s();
-    free = in_slots_ < count_;
-    const auto most = most_ + (job->claim.quick ? kLane : 0);
-    if (queue_.size() + running_.size() >= most) {
-      out.displaced = queue_.give_way(job->claim);
-      if (!out.displaced) return {};
-    }
-    queue_.push(job);
-    waiting_ = queue_.size();
-    tell_helpers();
+  const std::lock_guard lock(mutex_);
+  estimate(*job);
+  job->claim.since = now_s();
+  const auto most = most_ + (job->claim.quick ? kLane : 0);
+  if (queue_.size() + running_.size() >= most) {
+    out.displaced = queue_.give_way(job->claim);
+    if (!out.displaced) return {};
   }
-  if (free) some_.notify_all();  // else whoever is done next tells
+  queue_.push(job);
+  waiting_ = queue_.size();
+  tell_helpers();
+  if (in_slots_ < count_) wake_one(job->claim.quick);  // else whoever is done next takes it
   return out;
 }
 
@@ -166,7 +162,21 @@ void Slots::look(Job& job) {
     if (!waits && (!outgrown || !has_spare())) return;
     if (outgrown) leave_lane(job);
   }
+  wake_all();
+}
+
+/// A thread for a job that a slot is free for; a quick one's own thread comes before long jobs'. To
+/// wake all for each took more than the job where it is short. Of the mutex.
+void Slots::wake_one(bool quick) {
+  if (quick && std::exchange(quick_waits_, false))
+    quick_.notify_one();
+  else
+    some_.notify_one();
+}
+
+void Slots::wake_all() {
   some_.notify_all();
+  quick_.notify_all();
 }
 
 void Slots::leave_lane(Job& job) {
@@ -238,7 +248,12 @@ void Slots::run(bool quick_only) {
   std::unique_lock lock(mutex_);
   for (;;) {
     std::shared_ptr<Job> job;
-    some_.wait(lock, [&] { return ending_ || (job = next(quick_only)); });
+    while (!ending_ && !(job = next(quick_only))) {
+      if (quick_only && queue_.size() > 0 && in_slots_ < count_) some_.notify_one();  // not for it
+      quick_waits_ = quick_waits_ || quick_only;
+      (quick_only ? quick_ : some_).wait(lock);
+    }
+    if (quick_only) quick_waits_ = false;
     if (!job) return;
     lock.unlock();
     {
@@ -247,9 +262,9 @@ void Slots::run(bool quick_only) {
     }
     lock.lock();
     finish(*job);  // before the answer is out: its client's next request finds the slot free
-    const bool more = queue_.size() > 0;
+    // This thread takes the next; one that takes quick jobs alone may have left a slot to others.
+    if (quick_only && queue_.size() > 0) some_.notify_one();
     lock.unlock();
-    if (more) some_.notify_all();
     done_(std::move(job));
     lock.lock();
   }

@@ -109,6 +109,8 @@ class Slots {
  private:
   void run(bool quick_only);
   [[nodiscard]] std::shared_ptr<Job> next(bool quick_only);
+  void wake_one(bool quick);
+  void wake_all();
   void estimate(Job& job) const;
   void leave_lane(Job& job);
   [[nodiscard]] bool has_spare() const;
@@ -122,7 +124,8 @@ class Slots {
   int count_;
   std::size_t most_;
   mutable std::mutex mutex_;
-  std::condition_variable some_;
+  std::condition_variable some_, quick_;  // for the others, for the thread of quick jobs alone
+  bool quick_waits_ = false;              // that thread, and nobody has woken it
   FairQueue queue_;
   using Means = std::map<std::string_view, double>;  // seconds, by kind
   Means means_;
