@@ -50,6 +50,10 @@ def jobs(times):
         yield target, target, heaviest.text(body), budgets
 
 
+# Heaviest by what they ask of the reader, or refused for what would take too long.
+REFUSED = ("star-500 ", "crossed ", "unknown-fields ", "full ")
+
+
 class Watch:
     def __init__(self, service):
         self.service, self.over, self.worst, self.wrong = service, 0, 0.0, []
@@ -64,6 +68,8 @@ class Watch:
             self.worst = max(self.worst, late)
             if json.loads(reply.body)["code"] != "over_budget":
                 self.wrong.append(f"{name}: {reply.body}")
+        elif reply.status == 422 and "compute;" not in reply.get("Server-Timing") and not name.startswith(REFUSED):
+            self.wrong.append(f"{name}: refused before it took anything: {reply.body[:300]}")
         elif reply.status not in (200, 413, 422, 429):
             self.wrong.append(f"{name}: {reply.status} {reply.body[:200]}")
         if not idle_again(self.service):

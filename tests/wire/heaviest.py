@@ -148,7 +148,8 @@ def parts():
     yield "brace-points", example("parts/k-joint-brace") | {"sampling": POINTS}
     laser = example("parts/tube-laser-chord")
     yield "laser-points", laser | {"sampling": POINTS}
-    yield "laser-64-holes", laser | {k: v for k, v in chord(64, {"tolerance_mm": 0.1}).items() if k in ("members", "connect", "sampling")}
+    square = {k: v for k, v in chord(64, {"tolerance_mm": 0.1}).items() if k not in ("root_surface", "groove", "smoothing")}
+    yield "laser-64-holes", square | {"preset": "tube_laser", "holes": [{"member": hole["member"]} for hole in square["holes"]]}
 
 
 def frames():
