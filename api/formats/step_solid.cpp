@@ -345,9 +345,11 @@ void StepFile::assembly(const Product& product, const std::vector<Placed>& parts
   std::vector<Id> places{e.placement({0, 0, 0})};
   for (const auto& part : parts) {
     pace_.turn();
-    const Eigen::Vector3d x = part.rows.row(0), z = part.rows.row(2);
-    places.push_back(e.add("AXIS2_PLACEMENT_3D(''," + step_ref(e.point(part.origin)) + "," +
-                           step_ref(e.direction(z)) + "," + step_ref(e.direction(x)) + ")"));
+    // One after the other: in one expression each compiler numbers them in an order of its own.
+    const auto x = e.direction(part.rows.row(0)), z = e.direction(part.rows.row(2));
+    const auto at = e.point(Eigen::Vector3d(part.origin));
+    places.push_back(e.add("AXIS2_PLACEMENT_3D(''," + step_ref(at) + "," + step_ref(z) + "," +
+                           step_ref(x) + ")"));
   }
   const auto representation =
       e.add("SHAPE_REPRESENTATION(''," + step_refs(places) + "," + step_ref(context_) + ")");
