@@ -198,11 +198,8 @@ void add_section(const GrooveSpec& spec, const Groove& groove, const Joint& join
 template <class Figure>
 double largest_of_round(const Figure& figure) {
   double out = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kSurveySections; ++i) {
-    const double value = figure(Angle::rad(kTwoPi * i / kSurveySections));
-    if (std::isnan(value)) return value;
-    worsen(out, value);
-  }
+  for (int i = 0; i < kSurveySections; ++i)
+    worsen(out, figure(Angle::rad(kTwoPi * i / kSurveySections)));
   return out;
 }
 
