@@ -213,6 +213,12 @@ class Suite:
             self.check(self.given_back(service), "memory set aside is not given back")
             print(f"6 batches in {SMALL >> 20} MiB: {ended}")
 
+    def idle_after_all(self, service):
+        until = time.monotonic() + 5
+        while time.monotonic() < until and service.metric("tubecut_slots_busy ") + service.metric("tubecut_queue_depth ") > 0:
+            time.sleep(0.01)
+        return service.metric("tubecut_slots_busy ") + service.metric("tubecut_queue_depth ") == 0
+
     def short_then_long(self):
         """Lines are begun ahead while they are short. Long ones among them are not refused for having waited for each other, though each
         takes a quarter of its budget; nor are any of batches that take each other's places in a queue of four."""
@@ -228,6 +234,10 @@ class Suite:
             replies = list(batch(service.port, lines))
             self.check(replies[-1]["summary"] == {"items": 68, "answered": 68, "refused": 0, "unanswered": 0},
                        f"long lines behind short ones: {replies[-1]} {[r for r in replies[:-1] if r['status'] != 200][:1]}")
+        with Service(self.binary, "--slots", "1", "--budget-s", f"{needs / 2:.3f}") as service:
+            over = [r["status"] for r in list(batch(service.port, lines))[60:68]]
+            self.check(set(over) <= {429, 504} and 504 in over, f"long lines over their budget, begun ahead: {over}")
+            self.check(self.idle_after_all(service), "a slot stays busy behind lines over their budget")
         with Service(self.binary, "--slots", "1", "--queue", "4") as service:
             ended = []
             lines = b"\n".join(json.dumps(one).encode() for one in short)
