@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/torch/tabs.hpp"
+
 namespace tubecut::api {
 
 struct Json;
@@ -52,8 +54,11 @@ struct FormatOptions {
   std::optional<double> pierce_delay = {};                    // s
   std::optional<double> clearance = {};  // of the tip over the tube between two cuts
   Passes passes = Passes::unsaid;
-  std::optional<double> omega = {};    // of the section of a groove that is drawn, deg
-  std::vector<BundleFile> files = {};  // of each part, in a bundle
+  std::optional<torch::Tabs> tabs = {};
+  bool marks = false;                     // strokes of a part's marks are in the program
+  std::optional<double> mark_speed = {};  // mm/min
+  std::optional<double> omega = {};       // of the section of a groove that is drawn, deg
+  std::vector<BundleFile> files = {};     // of each part, in a bundle
 };
 
 /// What is to be thought of an answer; verdict.hpp makes it and says it.

@@ -111,6 +111,8 @@ std::vector<FieldIssue> program_issues(const std::string& format, const FormatOp
       Rule{"clearance_mm", "mm", o.clearance.has_value(), false, false, has_pivot && !pairs,
            pairs ? kOfAxes : kOfPivot},
       Rule{"axial", "", o.axial_z, false, false, !pairs, kOfAxes},
+      Rule{"mark_speed_mm_min", "mm_min", o.mark_speed.has_value(), false, false, o.marks,
+           "goes with marks=on"},
       Rule{"overcut_mm", "mm", o.overcut.has_value(), false, false, led, kOfLead},
       Rule{"pierce_b_deg", "deg", o.pierce_bevel.has_value(), false, false, led, kOfLead}};
   std::vector<FieldIssue> out;

@@ -18,12 +18,15 @@ inline constexpr auto kNames<motion::EventKind> =
                                               {"cut_end", motion::EventKind::cut_end},
                                               {"torch_off", motion::EventKind::torch_off},
                                               {"rapid_start", motion::EventKind::rapid_start},
-                                              {"rapid_end", motion::EventKind::rapid_end}});
+                                              {"rapid_end", motion::EventKind::rapid_end},
+                                              {"mark_on", motion::EventKind::mark_on},
+                                              {"mark_off", motion::EventKind::mark_off}});
 template <>
 inline constexpr auto kNames<torch::Segment::Kind> =
     std::to_array<Option<torch::Segment::Kind>>({{"rapid", torch::Segment::Kind::rapid},
                                                  {"pierce", torch::Segment::Kind::pierce},
-                                                 {"cut", torch::Segment::Kind::cut}});
+                                                 {"cut", torch::Segment::Kind::cut},
+                                                 {"mark", torch::Segment::Kind::mark}});
 /// Why a cut begins where it does.
 template <>
 inline constexpr auto kNames<motion::Start::At> =

@@ -82,6 +82,12 @@ Post::Lines read_lines(Reader& in, std::string_view name, const Names& names = {
   return out;
 }
 
+/// Absent they are not echoed: the document stays as it was sent.
+Post::Lines read_optional_lines(Reader& in, std::string_view name) {
+  in.note(name);
+  return in.has(name) ? read_lines(in, name) : Post::Lines{};
+}
+
 /// One that must have a value out of each of these groups.
 std::string read_line(Reader& in, std::string_view name, const Names& names,
                       std::initializer_list<Names> needed) {
@@ -299,6 +305,13 @@ Post decode_post(Reader& in) {
   out.tool = read_lines(in, "tool");
   out.torch_on = read_lines(in, "torch_on");
   out.torch_off = read_lines(in, "torch_off");
+  out.mark_on = read_optional_lines(in, "mark_on");
+  out.mark_off = read_optional_lines(in, "mark_off");
+  if (out.mark_on.empty() != out.mark_off.empty())
+    in.issue({.code = ErrorCode::missing_field,
+              .pointer = out.mark_on.empty() ? "mark_on" : "mark_off",
+              .hint = "mark_on and mark_off go together"},
+             nullptr);
   out.cut_begin = read_lines(in, "cut_begin");
   out.cut_end = read_lines(in, "cut_end");
   out.end = read_lines(in, "end");

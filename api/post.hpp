@@ -52,6 +52,7 @@ struct Post {
   int block_numbers = 0;                  // from one block to the next; 0: none
   std::optional<std::string> of_control;  // whose heights and delay of the pierce are; else ours
   Lines begin, speed, modes, tool, torch_on, torch_off, cut_begin, cut_end, end;
+  Lines mark_on, mark_off;  // none: the control has no tool that marks
   std::string rapid, dwell, cut_move, timed_move;
   std::array<std::optional<PostAxis>, kPostRoles.size()> axes;
 

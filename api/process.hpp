@@ -16,6 +16,7 @@ inline constexpr Range kLeadRadius{.min = 0.0, .max = 1'000.0};         // mm
 inline constexpr Range kTipHeight{.min = 0.0, .max = 100.0};            // mm, off the wall
 inline constexpr Range kPierceDelay{.min = 0.0, .max = 60.0};           // s
 inline constexpr Range kTipClearance{.min = 1.0, .max = 1'000.0};       // mm, over the tube
+inline constexpr Range kTabWidth{.min = 0.5, .max = 20.0};              // mm
 inline constexpr Range kTorchPivotLength{.min = 0.0, .max = 10'000.0};  // mm
 
 /// What a torch needs to cut a material up to a thickness: a row of its cut chart.

@@ -171,6 +171,26 @@ std::shared_ptr<const Post> read_post(Reader& in, std::vector<FieldIssue>& withi
   return out != nullptr ? out : find_post(kDialects.front().name);
 }
 
+/// `tabs` is how many; the others go with it.
+std::optional<torch::Tabs> read_tabs(Reader& in) {
+  for (const auto* const name : {"tabs", "tab_mm", "tabs_of"}) in.note(name);
+  if (in.has("tabs")) {
+    torch::Tabs out;
+    out.count = in.integer("tabs", 1, torch::kMostTabs);
+    if (const auto width = in.optional_number("tab_mm", kTabWidth)) out.width = *width;
+    if (in.has("tabs_of")) out.of = in.choice("tabs_of", kNames<torch::Tabs::Of>);
+    return out;
+  }
+  for (const auto* const name : {"tab_mm", "tabs_of"})
+    if (in.has(name))
+      in.issue({.code = ErrorCode::unsupported_combination,
+                .pointer = name,
+                .limit = Json{"tabs"},
+                .hint = "goes with tabs, how many of them"},
+               in.find(name));
+  return std::nullopt;
+}
+
 /// The parameters that only drawings and machine files read.
 FormatOptions read_options(Reader& in, std::vector<FieldIssue>& within) {
   FormatOptions out;
@@ -193,6 +213,9 @@ FormatOptions read_options(Reader& in, std::vector<FieldIssue>& within) {
   out.clearance = in.optional_number("clearance_mm", kTipClearance);
   in.note("passes");
   if (in.has("passes")) out.passes = in.choice("passes", kPasses);
+  out.tabs = read_tabs(in);
+  out.marks = in.choice("marks", kSwitch, false);
+  out.mark_speed = in.optional_number("mark_speed_mm_min", kTorchSpeed);
   out.omega = in.optional_number("omega_deg", kOmega);
   out.files = read_files(in);
   return out;

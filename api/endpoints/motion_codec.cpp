@@ -13,6 +13,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/part/member.hpp"
+#include "core/torch/marks.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -228,7 +229,12 @@ struct CutOf {
     job.warnings.insert(job.warnings.end(), spec.warnings.begin(), spec.warnings.end());
     for (auto& warning : job.warnings)
       warning.member = warning.member.empty() ? "part" : "part/" + warning.member;
-    job.program = {.cuts = torch::torch_cuts(spec.part, part),
+    auto cuts = torch::torch_cuts(spec.part, part);
+    if (request.marks) {
+      const auto strokes = torch::marks(spec.part, part);
+      cuts.insert(cuts.begin(), strokes.begin(), strokes.end());
+    }
+    job.program = {.cuts = std::move(cuts),
                    .setup = request.setup,
                    .machine = request.machine,
                    .motion = request.motion,
@@ -282,6 +288,7 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     auto asked = in.object("motion", [&](Reader& m) { return decode_part_motion(m, out.machine); });
     out.motion = std::move(asked.motion);
     out.setup = asked.setup;
+    out.marks = asked.marks;
   } else {
     out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
   }

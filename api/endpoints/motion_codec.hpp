@@ -25,6 +25,7 @@ struct ScheduleRequest {
   motion::Machine machine;
   motion::Motion motion;
   torch::Setup setup;  // of a part
+  bool marks = false;  // its strokes before its cuts
   std::int64_t max_periods = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <variant>
 
+#include "api/process.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 
@@ -12,14 +13,10 @@ namespace {
 using motion::Scrap;
 using motion::Surface;
 
-constexpr Range kSpeed{.min = 1.0, .max = 60'000.0};     // mm/min
-constexpr Range kClearance{.min = 1.0, .max = 1'000.0};  // mm
-constexpr Range kPierceDelay{.min = 0.0, .max = 60.0};   // s
-
 motion::Speed decode_speed(Reader& in) {
-  if (in.exactly_one({"mm_min", "table"}) != 1) return in.number("mm_min", kSpeed) / 60.0;
+  if (in.exactly_one({"mm_min", "table"}) != 1) return in.number("mm_min", kTorchSpeed) / 60.0;
   motion::SpeedTable out;
-  out.pairs = in.pairs("table", {.min = 2, .max = 1'000}, kBeam, kSpeed);
+  out.pairs = in.pairs("table", {.min = 2, .max = 1'000}, kBeam, kTorchSpeed);
   for (std::size_t i = 0; i < out.pairs.size(); ++i) {
     out.pairs[i].second /= 60.0;
     if (i > 0 && !(out.pairs[i].first > out.pairs[i - 1].first))
@@ -87,7 +84,7 @@ void decode_heights(Reader& in, const motion::Machine& machine, torch::Setup& ou
   const auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine.kinematics);
   if (cutter != nullptr) {
     out.cut_height = cutter->standoff;
-    out.clearance = in.number("clearance_mm", kClearance, torch::kClearance);
+    out.clearance = in.number("clearance_mm", kTipClearance, torch::kClearance);
     const Range below{.min = 0.0, .max = out.clearance};
     if (in.understood("clearance_mm"))
       out.pierce_height = in.number("pierce_height_mm", below, out.cut_height);
@@ -102,6 +99,20 @@ void decode_heights(Reader& in, const motion::Machine& machine, torch::Setup& ou
                 .hint = "the machine has no axis for the torch's height"},
                in.find(name));
   }
+}
+
+torch::Tabs decode_tabs(Reader& in) {
+  torch::Tabs out;
+  out.count = in.integer("count", 1, torch::kMostTabs);
+  out.width = in.number("width_mm", kTabWidth);
+  out.of = in.choice("of", torch::Tabs::Of::last);
+  return out;
+}
+
+/// The strokes' own speed, mm/s, or none.
+std::optional<double> decode_marks(Reader& in) {
+  const auto speed = in.optional_number("speed_mm_min", kTorchSpeed);
+  return speed ? std::optional(*speed / 60.0) : std::nullopt;
 }
 
 }  // namespace
@@ -130,6 +141,12 @@ PartMotion decode_part_motion(Reader& in, const motion::Machine& machine) {
   setup.start = in.optional_angle("start_phi_deg", kAnyAngleDeg);
   if (!in.is_null("lead")) setup.lead = in.defaulted_object("lead", decode_lead);
   setup.pierce_delay = in.number("pierce_delay_s", kPierceDelay, 0.0);
+  if (!in.is_null("tabs")) setup.tabs = in.optional_object("tabs", decode_tabs);
+  if (!in.is_null("marks"))
+    if (const auto marks = in.optional_object("marks", decode_marks)) {
+      out.marks = true;
+      setup.mark_speed = *marks;
+    }
   decode_heights(in, machine, setup);
   out.motion.expert = in.defaulted_object("expert", decode_expert);
   return out;

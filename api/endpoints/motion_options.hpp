@@ -15,6 +15,7 @@ inline constexpr Range kBeam{.min = 0.0, .max = 1e5};  // mm of metal
 struct PartMotion {
   motion::Motion motion = {};
   torch::Setup setup = {};
+  bool marks = false;
 };
 [[nodiscard]] PartMotion decode_part_motion(Reader& in, const motion::Machine& machine);
 

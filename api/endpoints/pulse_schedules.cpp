@@ -60,13 +60,14 @@ struct PulseSchedules {
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_large_max_bytes);
   static constexpr double kBudgetS = kLongBudgetS;
   static constexpr std::array<std::string_view, 1> kAccepts{"max_slow_s"};
-  static constexpr std::array<CheckLimit, 8> kChecks{{
+  static constexpr std::array<CheckLimit, 9> kChecks{{
       {"I1..I16", "docs/theory/pulse-schedules.md, section 9", ""},
       {"lead_clears_part", "0.02 and the contour's sag", "mm"},
       {"segments_join", "0", ""},
       {"torch_lit", "0", "periods"},
       {"pierce_place", "half a pulse of every axis", "mm"},
       {"pierce_delay", "0", "s"},
+      {"tab_width", "1e-6", "mm"},
       {"rapid_clearance", "half a pulse of height and swing", "mm"},
       {"nested cut", "the checks of its own endpoint", ""},
   }};

@@ -29,8 +29,9 @@ struct Schedule {
 /// Which stretch is what, and when the torch burns: what the counts do not tell.
 void decode_segments(Reader& in, Schedule& out) {
   constexpr auto kLast = static_cast<int>(kMostPeriods);
-  // Of 64 branches, each through both sides, and two ends.
-  constexpr CountRange kSegments{.min = 1, .max = 400}, kEvents{.min = 1, .max = 1'200};
+  // Of 64 branches, each through both sides, and two ends, each in as many stretches as it may have
+  // tabs; and two strokes for each of 64 partners at both ends.
+  constexpr CountRange kSegments{.min = 1, .max = 5'500}, kEvents{.min = 1, .max = 16'500};
   out.segments = in.array("segments", kSegments, [&](Reader& s) {
     for (const auto* other : {"name", "start", "lead_radius_mm", "way", "report"}) s.note(other);
     torch::Segment segment{.kind = s.choice("kind", kNames<torch::Segment::Kind>)};

@@ -63,12 +63,14 @@ void encode_report(const motion::Report& r, const std::vector<AxisSums>& sums, W
 
 namespace {
 
-/// Of a cut alone: with a lead it ends beside its start.
-std::vector<AxisSums> sums_of(const ScheduleJob& job, const torch::Segment& segment) {
+/// Of a cut alone: with a lead, and of a stretch or a mark, it ends elsewhere than it begins.
+std::vector<AxisSums> sums_of(const ScheduleJob& job, const torch::ProgramCut& cut,
+                              const torch::Segment& segment) {
+  const bool closed = !job.program->setup.lead && cut.stretches == 1 && !cut.cut.mark;
   std::vector<AxisSums> out;
   for (const auto& axis : job.program->machine.axes) {
     const auto a = out.size();
-    const auto total = job.program->setup.lead ? 0 : segment.sums.total[a];
+    const auto total = closed ? segment.sums.total[a] : 0;
     out.push_back({axis.name, segment.sums.peak[a],
                    axis.pulses_per_turn > 0 ? total % axis.pulses_per_turn : total});
   }
@@ -118,7 +120,7 @@ void encode_segments(const ScheduleJob& job, const torch::ProgramSchedule& s, Wr
       o.field("to", segment.to);
       if (!segment.report) return;
       encode_way(cut, o);
-      encode_report(*segment.report, sums_of(job, segment), o);
+      encode_report(*segment.report, sums_of(job, cut, segment), o);
     });
   });
   w.object("times", [&](Writer& o) {
@@ -126,6 +128,7 @@ void encode_segments(const ScheduleJob& job, const torch::ProgramSchedule& s, Wr
     o.field("cut_s", s.time_of(Kind::cut));
     o.field("pierce_s", s.time_of(Kind::pierce));
     o.field("rapid_s", s.time_of(Kind::rapid));
+    if (const double marks = s.time_of(Kind::mark); marks > 0.0) o.field("mark_s", marks);
   });
 }
 

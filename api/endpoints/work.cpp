@@ -107,10 +107,30 @@ PathLength length_of(const CutSource& cut) {
       cut);
 }
 
-/// How many schedules there are in one.
-double cuts_of(const CutSource& cut) {
-  const auto* const part = std::get_if<PartRequest>(&cut);
-  return part == nullptr ? 1.0 : 2.0 + static_cast<double>(part->part.holes.size());
+/// How many cuts of a part have tabs.
+double held(const torch::Tabs& tabs, double holes) {
+  switch (tabs.of) {
+    case torch::Tabs::Of::last:
+      return 1.0;
+    case torch::Tabs::Of::ends:
+      return 2.0;
+    case torch::Tabs::Of::holes:
+      return holes;
+    case torch::Tabs::Of::all:
+      return 2.0 + holes;
+  }
+  return 0.0;
+}
+
+/// How many schedules there are in one: of cuts, or stretches of them, and strokes of marks.
+double cuts_of(const ScheduleRequest& request) {
+  const auto* const part = std::get_if<PartRequest>(&request.cut);
+  if (part == nullptr) return 1.0;
+  const auto holes = static_cast<double>(part->part.holes.size());
+  double out = 2.0 + holes;
+  if (const auto& tabs = request.setup.tabs) out += held(*tabs, holes) * (tabs->count - 1.0);
+  if (request.marks) out += 1.0 + 2.0 * static_cast<double>(part->part.partners.size());
+  return out;
 }
 
 /// mm/s
@@ -256,13 +276,15 @@ void add_cut_work(const ScheduleRequest& request, Work& work) {
 }
 
 void add_schedule_work(const ScheduleRequest& request, Work& work) {
-  const auto length = length_of(request.cut);
+  auto length = length_of(request.cut);
+  if (const auto* const part = std::get_if<PartRequest>(&request.cut); part && request.marks)
+    length.straight += part->part.target.length.value_or(0.0);
   const double speed = mean_speed(request.motion.speed);
   add_cut_work(request, work);
-  work.add(Cost::path, cuts_of(request.cut));
+  work.add(Cost::path, cuts_of(request));
   work.add(Cost::path_knot, length.bent / kSpacing);
   work.add(Cost::straight_knot, length.straight / kSpacing);
-  const double between = kBetweenCuts * (cuts_of(request.cut) - 1.0);
+  const double between = kBetweenCuts * (cuts_of(request) - 1.0);
   if (speed > 0.0)
     work.add(Cost::period, (length.whole() / speed + between) / request.machine.period);
 }

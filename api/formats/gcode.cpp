@@ -14,7 +14,10 @@
 #include "api/formats/torch_process.hpp"
 #include "api/posts.hpp"
 #include "api/stop.hpp"
+#include "api/wire_names.hpp"
 #include "core/base/elementary.hpp"
+#include "core/torch/marks.hpp"
+#include "core/torch/stretches.hpp"
 #include "core/torch/torch_program.hpp"
 
 namespace tubecut::api {
@@ -38,6 +41,7 @@ torch::Setup setup_of(const FormatOptions& o) {
   out.clearance = o.clearance.value_or(out.clearance);
   out.cut_height = o.cut_height.value_or(0.0);
   out.pierce_delay = o.pierce_delay.value_or(0.0);
+  out.tabs = o.tabs;
   return out;
 }
 
@@ -60,10 +64,18 @@ void refine(const motion::CutWithLead& way, const TorchReach& reach, const std::
   }
 }
 
+std::string at_most(const Issue& issue) {
+  const auto* const limit = std::get_if<double>(&issue.limit);
+  return limit == nullptr ? "" : ", at most " + fixed(*limit, 0) + " have room";
+}
+
 [[noreturn]] void refuse(const torch::TorchCut& cut, const FormatOptions& options,
                          const Error& error) {
   const auto& issue = error.issues.front();
   const std::string of = cut.name.empty() ? "the cut" : "cut " + cut.name;
+  if (issue.member.starts_with("tabs"))
+    throw UnfitOption{issue.code == ErrorCode::out_of_range ? "tabs" : "tab_mm",
+                      of + ": " + issue.hint + at_most(issue)};
   const bool blocked = issue.code == ErrorCode::lead_blocked;
   const std::string why =
       blocked ? "an arc of " + fixed(torch::kShortestLead, 0) + " mm or more would enter the part"
@@ -80,17 +92,24 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
       .pivot = o.pivot_length ? *o.pivot_length + o.cut_height.value_or(0.0) : 0.0};
   std::vector<TorchCutPlaces> out;
   for (const auto& cut : job.cuts) {
-    const auto laid = torch::program_cut(cut, setup_of(o), caption.stop);
+    const auto laid = torch::program_cut(cut, setup_of(o), &cut == &job.cuts.back(), caption.stop);
     ask(caption.stop);
     if (!laid) refuse(cut, o, laid.error());
-    const auto& way = laid->way;
-    if (way.radius < job.shortest_lead)
-      throw UnfitOption{"lead_mm", (cut.name.empty() ? "the cut" : "cut " + cut.name) +
-                                       ": the scrap has no room for the shortest lead of the "
-                                       "machine's table, " +
-                                       mm(job.shortest_lead)};
-    out.push_back({.name = cut.name, .places = {}, .kerf = cut.kerf, .radius = way.radius});
-    refine(way.points, reach, caption.stop, moves, out.back());
+    for (const auto& each : *laid) {
+      const auto& way = each.way;
+      if (!cut.mark && way.radius < job.shortest_lead)
+        throw UnfitOption{"lead_mm", (cut.name.empty() ? "the cut" : "cut " + cut.name) +
+                                         ": the scrap has no room for the shortest lead of the "
+                                         "machine's table, " +
+                                         mm(job.shortest_lead)};
+      out.push_back({.name = each.cut.name,
+                     .places = {},
+                     .kerf = cut.kerf,
+                     .radius = way.radius,
+                     .stretches = each.stretches,
+                     .mark = cut.mark});
+      refine(way.points, reach, caption.stop, moves, out.back());
+    }
   }
   return out;
 }
@@ -101,12 +120,14 @@ std::string modes(const Caption& caption) {
          post_lines(post.modes) + post_lines(post.tool);
 }
 
-/// A move in the time that the torch needs along `length` of the outer wall. `distance`: of all
-/// axes together.
+/// A move in the time that the tool needs along `length` of the outer wall; a mark's has its own
+/// speed. `distance`: of all axes together.
 std::string timed(const std::string& words, double length, double distance,
-                  const std::vector<AxisMove>& moves, const FormatOptions& o) {
-  const double rate = *o.speed / std::max(length, kSlow);  // 1/min
-  return post_line(post_of(o).cut_move,
+                  const std::vector<AxisMove>& moves, bool mark, const FormatOptions& o) {
+  const double speed = mark ? o.mark_speed.value_or(*o.speed) : *o.speed;
+  const double rate = speed / std::max(length, kSlow);  // 1/min
+  const auto& post = post_of(o);
+  return post_line(mark ? post.timed_move : post.cut_move,
                    {{"axes", words},
                     {"length_mm", fixed(std::max(length, kSlow), 6)},
                     {"per_minute", fixed(rate, 6)},
@@ -126,7 +147,8 @@ std::string print_cut(const TorchJob& job, const TorchCutPlaces& way, const Torc
   const auto& o = caption.options;
   const auto& post = post_of(o);
   const auto& first = way.places.front();
-  const double off = o.cut_height.value_or(0.0), above = o.pierce_height.value_or(off);
+  const double off = o.cut_height.value_or(0.0);
+  const double above = way.mark ? off : o.pierce_height.value_or(off);
   std::string out = cut_title(way, joints, o) + retract(joints, post);
   const auto rapid = [&](const std::string& words) {
     out += post_line(post.rapid, {{"axes", words}});
@@ -137,21 +159,23 @@ std::string print_cut(const TorchJob& job, const TorchCutPlaces& way, const Torc
   } else {
     rapid(joints.words(first, 0.0));
   }
-  if (o.torch) out += post_lines(post.torch_on);
-  if (o.pierce_delay) out += post_line(post.dwell, {{"seconds", fixed(*o.pierce_delay, 3)}});
+  if (o.torch) out += post_lines(way.mark ? post.mark_on : post.torch_on);
+  if (o.pierce_delay && !way.mark)
+    out += post_line(post.dwell, {{"seconds", fixed(*o.pierce_delay, 3)}});
   out += post_lines(post.cut_begin);
-  const bool by_axes = feeds_by_axes(post.cut_move);
+  const bool by_axes = feeds_by_axes(way.mark ? post.timed_move : post.cut_move);
   const auto go = [&](const TorchPlace& from, double from_off, const TorchPlace& to,
                       double length) {
     out += timed(joints.words(to, off), length, joints.distance(from, from_off, to, off),
-                 by_axes ? joints.moves(from, from_off, to, off) : std::vector<AxisMove>{}, o);
+                 by_axes ? joints.moves(from, from_off, to, off) : std::vector<AxisMove>{},
+                 way.mark, o);
   };
   if (above != off) go(first, above, first, std::abs(above - off));
   for (std::size_t i = 1; i < way.places.size(); ++i) {
     ask(caption.stop);
     go(way.places[i - 1], off, way.places[i], way_between(job, way.places[i - 1], way.places[i]));
   }
-  return out + post_lines(post.cut_end) + post_lines(post.torch_off);
+  return out + post_lines(post.cut_end) + post_lines(way.mark ? post.mark_off : post.torch_off);
 }
 
 TorchJoints::Leaning leaning(const TorchJob& job) {
@@ -170,6 +194,50 @@ std::vector<torch::TorchCut> in_passes(Result<std::vector<torch::TorchCut>> cuts
   if (cuts) return *std::move(cuts);
   const auto& issue = cuts.error().issues.front();
   throw UnfitOption{"passes", std::string(info(issue.code).code) + " " + issue.hint};
+}
+
+/// What the head says of tabs, and why a program has none.
+void tell_tabs(TorchJob& job, const FormatOptions& o) {
+  if (!o.tabs) return;
+  std::size_t held = 0;
+  for (const auto& cut : job.cuts) held += torch::holds(*o.tabs, cut, &cut == &job.cuts.back());
+  if (held == 0)
+    throw UnfitOption{"tabs_of",
+                      "no cut of this program is one of its " + std::string(name_of(o.tabs->of))};
+  if (std::ranges::any_of(job.cuts, &torch::TorchCut::of_land))
+    throw UnfitOption{"tabs", "the pass of a land and the bevel's would each leave its own"};
+  job.process.push_back("tabs: " + std::to_string(o.tabs->count) + " of " + mm(o.tabs->width) +
+                        " and more on both walls in each of " + std::to_string(held) +
+                        (held == 1 ? " cut" : " cuts") +
+                        ", each come onto square and without overcut: break them off, then dress "
+                        "the edge");
+}
+
+void tell_marks(TorchJob& job, const FormatOptions& o) {
+  if (!o.marks) return;
+  const auto strokes = std::ranges::count(job.cuts, true, &torch::TorchCut::mark);
+  if (strokes == 0) throw UnfitOption{"marks", "only a part has marks"};
+  job.process.push_back("marks: " + std::to_string(strokes) +
+                        (strokes == 1 ? " stroke" : " strokes") + " at the cutting height, feed " +
+                        measure(o.mark_speed.value_or(*o.speed), Unit::mm_min) +
+                        (o.torch ? "" : ", the tool stays off"));
+}
+
+/// The strokes of a part's marks before its cuts, and what is left to a person.
+void add_marks(const part::PartSpec& spec, const part::Part& part, const FormatOptions& o,
+               TorchJob& job) {
+  for (const auto& step : part.sequence) {
+    if (step.what != part::Step::What::mark) continue;
+    const auto& mark = part.marks[step.index];
+    if (!o.marks || mark.kind == part::Mark::Kind::part_mark)
+      job.by_hand.push_back(mark_by_hand(mark));
+  }
+  if (!o.marks) return;
+  const auto& post = post_of(o);
+  if (post.mark_on.empty())
+    throw UnfitOption{"marks", "post " + post.name + " has no mark_on, by which a tool marks"};
+  const auto strokes = torch::marks(spec, part);
+  job.cuts.insert(job.cuts.begin(), strokes.begin(), strokes.end());
 }
 
 /// A bevel that stands on a land does not cut it: a program that lights the torch must say that it
@@ -202,10 +270,11 @@ void refuse_land(const std::string& of, double land, const FormatOptions& o) {
 
 const std::vector<std::string_view>& gcode_options() {
   static const std::vector<std::string_view> kOptions{
-      "speed_mm_min",     "post",           "dialect",       "torch",        "axial",
-      "lead_mm",          "overcut_mm",     "start_deg",     "pierce_b_deg", "pivot_length_mm",
-      "pierce_height_mm", "pierce_delay_s", "cut_height_mm", "clearance_mm", "acknowledge",
-      "machine",          "material",       "passes"};
+      "speed_mm_min",     "post",           "dialect",          "torch",        "axial",
+      "lead_mm",          "overcut_mm",     "start_deg",        "pierce_b_deg", "pivot_length_mm",
+      "pierce_height_mm", "pierce_delay_s", "cut_height_mm",    "clearance_mm", "acknowledge",
+      "machine",          "material",       "passes",           "tabs",         "tab_mm",
+      "tabs_of",          "marks",          "mark_speed_mm_min"};
   return kOptions;
 }
 
@@ -234,15 +303,15 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part, const Cap
                .seen_from = "the start"};
   out.lengths.push_back("blank " + mm(part.lengths.blank) + ", finished part " +
                         mm(part.lengths.longest) + " from tip to tip");
-  for (const auto& step : part.sequence)
-    if (step.what == part::Step::What::mark)
-      out.marks.push_back(mark_by_hand(part.marks[step.index]));
+  add_marks(spec, part, caption.options, out);
   return out;
 }
 
 std::string print_gcode(TorchJob job, Caption caption) {
   tell_lands(job, caption.options);
+  tell_tabs(job, caption.options);
   take_process(job, caption.options, caption.stop);
+  tell_marks(job, caption.options);
   const auto& post = post_of(caption.options);
   Straightness moves;
   if (post.is_point_pairs())

@@ -14,7 +14,7 @@ struct TorchJob {
   double outer_radius = 0.0;
   double wall = 0.0;
   std::vector<torch::TorchCut> cuts = {};
-  std::vector<std::string> lengths = {}, marks = {};  // lines of the header
+  std::vector<std::string> lengths = {}, by_hand = {};  // lines of the header
   // What lies at z = 0 and at phi = 0, where z goes, and from where one looks that way.
   std::string zero = {}, onward = {}, line = {}, seen_from = {};
   std::vector<std::string> process = {};  // lines of the header: what the machine's table says

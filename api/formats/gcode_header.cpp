@@ -26,13 +26,14 @@ std::string growing(const PostAxis& axis) {
   return (axis.reversed ? "falling " : "growing ") + letter(axis);
 }
 
-/// One for all cuts, or each in their order.
+/// One for all cuts, or each in their order; a mark has none.
 std::string kerfs(const std::vector<TorchCutPlaces>& cuts) {
-  const double first = cuts.front().kerf;
-  auto out = number(first, Unit::mm);
-  if (std::ranges::all_of(cuts, [&](const auto& cut) { return cut.kerf == first; }))
-    return out + " mm";
-  for (std::size_t i = 1; i < cuts.size(); ++i) out += ", " + number(cuts[i].kerf, Unit::mm);
+  std::vector<double> all;
+  for (const auto& cut : cuts)
+    if (!cut.mark) all.push_back(cut.kerf);
+  auto out = number(all.front(), Unit::mm);
+  if (std::ranges::count(all, all.front()) == std::ssize(all)) return out + " mm";
+  for (std::size_t i = 1; i < all.size(); ++i) out += ", " + number(all[i], Unit::mm);
   return out + " mm in the order of the cuts";
 }
 
@@ -40,6 +41,7 @@ std::string kerfs(const std::vector<TorchCutPlaces>& cuts) {
 struct Extent {
   double least = 0.0, most = 0.0;  // of the axis along the tube
   double length = 0.0;             // of all cuts with their leads, mm
+  std::size_t pierces = 0;
 };
 
 Extent extent(const TorchJob& job, const std::vector<TorchCutPlaces>& cuts,
@@ -49,13 +51,15 @@ Extent extent(const TorchJob& job, const std::vector<TorchCutPlaces>& cuts,
   };
   Extent out;
   out.least = out.most = along(cuts.front().places.front());
-  for (const auto& cut : cuts)
+  for (const auto& cut : cuts) {
+    if (!cut.mark) ++out.pierces;
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
       const double at = along(cut.places[i]);
       out.least = std::min(out.least, at);
       out.most = std::max(out.most, at);
-      if (i > 0) out.length += way_between(job, cut.places[i - 1], cut.places[i]);
+      if (i > 0 && !cut.mark) out.length += way_between(job, cut.places[i - 1], cut.places[i]);
     }
+  }
   return out;
 }
 
@@ -166,7 +170,7 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
   const auto& o = caption.options;
   const auto& post = post_of(o);
   const auto found = extent(job, cuts, joints, o.cut_height.value_or(0.0));
-  const double pierces = o.pierce_delay.value_or(0.0) * static_cast<double>(cuts.size());
+  const double pierces = o.pierce_delay.value_or(0.0) * static_cast<double>(found.pierces);
   Lines lines{"tube " + number(2.0 * job.outer_radius, Unit::mm) + " x " + mm(job.wall)};
   lines.insert(lines.end(), job.lengths.begin(), job.lengths.end());
   lines.push_back("units mm, deg, mm/min");
@@ -184,7 +188,7 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
     lines.emplace_back(
         "between cuts the control must lift the torch: after each that ends, before the rapid to "
         "the next");
-  lines.push_back(std::to_string(cuts.size()) + (cuts.size() == 1 ? " cut, " : " cuts, ") +
+  lines.push_back(std::to_string(found.pierces) + (found.pierces == 1 ? " cut, " : " cuts, ") +
                   mm(found.length) + " in " +
                   measure(60.0 * found.length / *o.speed + pierces, Unit::s) +
                   " with the delays of the pierce, without rapids");
@@ -192,7 +196,7 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
   lines.push_back("moves: tip and both edges within " + fixed(std::ceil(moves.sag * 1e3) / 1e3, 3) +
                   " mm of straight lines between the rows, blocks inserted for it: " +
                   std::to_string(moves.inserted));
-  lines.insert(lines.end(), job.marks.begin(), job.marks.end());
+  lines.insert(lines.end(), job.by_hand.begin(), job.by_hand.end());
   auto out = gcode_job(caption) + gcode_torch(o);
   for (const auto& line : lines) out += post.comment(line);
   return out + gcode_hashes(caption);
@@ -202,6 +206,7 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
                       const FormatOptions& o) {
   const auto& post = post_of(o);
   std::string out;
+  if (cut.mark) return post.comment(cut.name);
   if (!cut.name.empty()) out += post.comment("cut: " + cut.name);
   const auto at = [](const PostAxis& axis, double deg) {
     return letter(axis) + " " + fixed(axis.counted(deg), 3);

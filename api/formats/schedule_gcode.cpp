@@ -160,6 +160,10 @@ std::string told(const motion::Event& event, const std::vector<std::string>& nam
   const auto& post = post_of(caption.options);
   if (event.what == torch_on && caption.options.torch) return post_lines(post.torch_on);
   if (event.what == torch_off) return post_lines(post.torch_off);
+  if (event.what == mark_on)
+    return post.comment(names[event.cut]) +
+           (caption.options.torch ? post_lines(post.mark_on) : std::string());
+  if (event.what == mark_off) return post_lines(post.mark_off);
   if (event.what == rapid_start && !names.empty())
     return post.comment("rapid: " + names[event.cut]);
   if (event.what == cut_start && !names.empty()) return post.comment("cut: " + names[event.cut]);
@@ -221,6 +225,9 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
   if (post.is_point_pairs())
     throw UnfitOption{"post", "a schedule moves axes, and post " + post.name +
                                   " has none: ask for point pairs of the part or the table"};
+  if (post.mark_on.empty() &&
+      std::ranges::count(s.events, motion::EventKind::mark_on, &motion::Event::what) > 0)
+    throw UnfitOption{"post", "post " + post.name + " has no mark_on, by which a tool marks"};
   const bool by_axes = feeds_by_axes(post.timed_move);
   // In inverse time alone a move of no length takes time.
   const bool dwells = !names.empty() || post.timed_move.find("{per_minute}") == std::string::npos;

@@ -19,7 +19,7 @@ double thickest(const TorchJob& job, const std::stop_token& stop) {
                          .inner_radius = job.outer_radius - job.wall};
   double out = 0.0;
   for (const auto& cut : job.cuts)
-    for (std::size_t i = 0; i < cut.path.b.size(); ++i) {
+    for (std::size_t i = 0; !cut.mark && i < cut.path.b.size(); ++i) {
       ask(stop);
       out = std::max(out, metal_in_beam(reach, {.b = cut.path.b[i],
                                                 .a = cut.path.a.empty() ? 0.0 : cut.path.a[i]}));
@@ -85,7 +85,8 @@ void take_process(TorchJob& job, FormatOptions& o, const std::stop_token& stop) 
                         ", the beam goes through " + mm(metal) + " at most");
   if (!taker.own().empty())
     job.process.push_back("of the request, not of the table: " + taker.own());
-  if (std::ranges::any_of(job.cuts, [&](const auto& cut) { return cut.kerf != row.kerf; }))
+  if (std::ranges::any_of(job.cuts,
+                          [&](const auto& cut) { return !cut.mark && cut.kerf != row.kerf; }))
     job.process.push_back("kerf of the request, in the table it is " + mm(row.kerf));
 }
 

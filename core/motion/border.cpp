@@ -209,6 +209,10 @@ Result<PartBorder> part_border(const CutPath& cut_path, double sigma) {
                     .from_phi = from};
 }
 
+Flat on_wall(const PartBorder& part, const CutPoint& p, double rho) {
+  return on_surface(part, p, {elementary::tan(p.b), p.a == 0.0 ? 0.0 : elementary::tan(p.a)}, rho);
+}
+
 double intrusion(const PartBorder& part, const CutPoint& point, const std::stop_token& stop) {
   const CutPoint p = wrapped(part, point);
   const Slope tan{elementary::tan(p.b), p.a == 0.0 ? 0.0 : elementary::tan(p.a)};

@@ -37,6 +37,10 @@ struct PartBorder {
 /// Source  docs/theory/pulse-schedules.md, section 2.3.
 [[nodiscard]] Result<PartBorder> part_border(const CutPath& cut_path, double sigma);
 
+/// Where the beam at a point meets the surface of radius `rho`, mm, developed there. One that
+/// grazes past it: its nearest place.
+[[nodiscard]] Flat on_wall(const PartBorder& part, const CutPoint& point, double rho);
+
 /// How far, in mm, the beam at a point reaches into the finished part, over both wall surfaces and
 /// their middle. Negative: how far it stays away. Zero on the cut itself. Half the kerf is in the
 /// torch line already.

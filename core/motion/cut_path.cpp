@@ -221,25 +221,6 @@ bool is_corner(const Track& t, std::size_t i) {
   return ax * bx + az * bz + ab * bb < kCornerCos * lengths;
 }
 
-/// Distance along the track from each point to its nearest corner.
-std::vector<double> from_corner(const Track& t) {
-  const std::size_t n = t.points.size() - 1;
-  std::vector<double> distance(n, 1e300);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (is_corner(t, i)) distance[i] = 0.0;
-  }
-  for (std::size_t twice = 0; twice < 2; ++twice) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t next = (i + 1) % n;
-      distance[next] = std::min(distance[next], distance[i] + t.tip_step(i, i + 1));
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      distance[i] = std::min(distance[i], distance[(i + 1) % n] + t.tip_step(i, i + 1));
-    }
-  }
-  return distance;
-}
-
 /// Between the beam and the wall's normal.
 double tilt(const CutPoint& p) {
   if (p.a == 0.0) return std::abs(p.b);
@@ -348,6 +329,46 @@ CutPath without_repeats(CutPath c) {
     column->resize(rows.size());
   }
   return c;
+}
+
+std::vector<double> lengths_along(const Track& t) {
+  std::vector<double> out(t.points.size(), 0.0);
+  for (std::size_t i = 1; i < out.size(); ++i) out[i] = out[i - 1] + t.tip_step(i - 1, i);
+  return out;
+}
+
+Track stretch_of(const Track& whole, double from, double to) {
+  const auto length = lengths_along(whole);
+  Track out{.radius = whole.radius, .turns = whole.orientation()};
+  for (std::size_t i = 0; i < length.size(); ++i) {
+    const auto inserted = [&](double at) {
+      if (i > 0 && length[i - 1] < at && at < length[i])
+        out.points.push_back(between(whole.points[i - 1], whole.points[i],
+                                     (at - length[i - 1]) / (length[i] - length[i - 1])));
+    };
+    inserted(from);
+    inserted(to);
+    if (from <= length[i] && length[i] <= to) out.points.push_back(whole.points[i]);
+  }
+  return out;
+}
+
+std::vector<double> from_corner(const Track& t) {
+  const std::size_t n = t.points.size() - 1;
+  std::vector<double> distance(n, 1e300);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_corner(t, i)) distance[i] = 0.0;
+  }
+  for (std::size_t twice = 0; twice < 2; ++twice) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t next = (i + 1) % n;
+      distance[next] = std::min(distance[next], distance[i] + t.tip_step(i, i + 1));
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      distance[i] = std::min(distance[i], distance[(i + 1) % n] + t.tip_step(i, i + 1));
+    }
+  }
+  return distance;
 }
 
 constexpr double kNoWay = 1e-6;  // mm: two nodes nearer than that are one

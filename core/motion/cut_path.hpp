@@ -79,7 +79,7 @@ struct Track {
   std::vector<CutPoint> points = {};
   double radius = 0.0;  // of the surface the points lie on
   bool closed = false;
-  int turns = 0;
+  int turns = 0;  // of a stretch: the orientation of what it is of
 
   /// Distance of two points along the developed surface, mm; B plays no part.
   [[nodiscard]] double tip_step(std::size_t from, std::size_t to) const;
@@ -112,5 +112,14 @@ struct Track {
 
 /// The first `length` mm of a track, its start point included.
 [[nodiscard]] std::vector<CutPoint> first_stretch(const Track& track, double length);
+
+/// Tip path up to each point, mm.
+[[nodiscard]] std::vector<double> lengths_along(const Track& track);
+
+/// The open stretch of a closed track between two of its lengths, both ends points of it.
+[[nodiscard]] Track stretch_of(const Track& whole, double from, double to);
+
+/// From each point of a closed track along it to its nearest corner, mm; huge where it has none.
+[[nodiscard]] std::vector<double> from_corner(const Track& track);
 
 }  // namespace tubecut::motion

@@ -86,6 +86,7 @@ struct Away {
 
 Away arc(const Join& j, const Lead& lead, double way) {
   Away out;
+  if (lead.shape == Lead::Shape::square) return out;
   const double sweep = lead.sweep.rad();
   const auto n = std::max(1, static_cast<int>(std::ceil(sweep / kArcStep)));
   for (int i = 1; i <= n; ++i) {
@@ -95,14 +96,16 @@ Away arc(const Join& j, const Lead& lead, double way) {
   return out;
 }
 
-/// Lengthens the way in straight until the fan of B fits before the cut.
+/// Lengthens the way in straight: until the fan of B fits before the cut, and a square one until it
+/// begins as far off as asked.
 void add_run(Away& way_in, const Join& j, const Lead& lead) {
-  const double run = lead.fan - way_in.distance.back();
-  if (!lead.pierce_b || run <= 0.0) return;
+  const bool square = lead.shape == Lead::Shape::square;
+  const double start = square ? 0.0 : way_in.distance.back();
+  const double run = std::max(lead.pierce_b ? lead.fan - start : 0.0, square ? lead.radius : 0.0);
+  if (run <= 0.0) return;
   const auto [sin, cos] = elementary::sincos(lead.sweep.rad());
-  const Flat back = sin * j.normal + -cos * j.tangent;
-  const Flat from = way_in.points.back();
-  const double start = way_in.distance.back();
+  const Flat back = square ? j.normal : sin * j.normal + -cos * j.tangent;
+  const Flat from = square ? j.point : way_in.points.back();
   const auto n = std::max(1, static_cast<int>(std::ceil(run / kRunStep)));
   for (int i = 1; i <= n; ++i) {
     way_in.points.push_back(from + (run * i / n) * back);
@@ -178,6 +181,7 @@ CutWithLead with_lead(const Track& cut, const Lead& lead, Scrap scrap, LeadBevel
   out.points = way_in(cut, join(cut, scrap, 0, true), lead, bevel);
   out.cut_first = out.points.size();
   out.points.insert(out.points.end(), t.points.begin(), t.points.end());
+  if (lead.shape == Lead::Shape::square) out.points[out.cut_first].corner = true;
   out.cut_last = out.points.size() - 1;
   const Join end = join(t, scrap, t.points.size() - 1, false);
   const Away way = arc(end, lead, 1.0);

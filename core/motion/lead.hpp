@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -11,7 +12,11 @@
 namespace tubecut::motion {
 
 struct Lead {
-  double radius = 5.0;
+  /// An arc that runs into the cut, or straight across onto it: beside a tab an arc would reach
+  /// over what holds. Behind a cut that is come onto so there is nothing.
+  enum class Shape : std::uint8_t { arc, square };
+  Shape shape = Shape::arc;
+  double radius = 5.0;  // of the arcs; square: how far off it begins
   Angle sweep = Angle::deg(60);
   double overcut = 5.0;                // mm of the contour cut again; closed contours only
   std::optional<Angle> pierce_b = {};  // largest |B| at the pierce; empty: the cut's own B
@@ -28,6 +33,7 @@ struct CutWithLead {
   std::vector<CutPoint> points = {};
   std::size_t cut_first = 0;
   std::size_t cut_last = 0;
+  bool stretch = false;  // of a closed contour: it ends elsewhere than it begins
 };
 
 /// B on a lead: that of the join, or what the closed cut itself has as far before its start or past
@@ -37,7 +43,7 @@ enum class LeadBevel { held, followed };
 
 /// Lead-in arc (after a straight run where the fan of B needs it), the cut, its overcut, lead-out
 /// arc. The arcs are tangent to the cut and lie on the scrap side of the developed surface; the fan
-/// ends before the cut begins.
+/// ends before the cut begins. Square: straight in from that side, and nothing behind.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 2.6.
 [[nodiscard]] CutWithLead with_lead(const Track& cut, const Lead& lead, Scrap scrap,

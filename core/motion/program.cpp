@@ -41,8 +41,8 @@ Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
   Program out = from_points(way.points, whole.radius);
   out.cut_first = way.cut_first;
   out.cut_last = way.cut_last;
-  out.closed = !with_lead && whole.closed;
-  out.turns = with_lead ? 0 : whole.turns;
+  out.closed = !with_lead && !way.stretch && whole.closed;
+  out.turns = out.closed ? whole.turns : 0;
   return out;
 }
 

@@ -192,6 +192,11 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
                                  const std::stop_token& stop) {
   const Course& course = job.course;
   const double d = course.path.d, end = course.path.length() - kEndMargin;
+  // Where a lead comes onto the cut at a corner, the cut is just starting: there a tab is broken
+  // off.
+  const auto first = job.program.cut_first;
+  const bool turns_in = first > 0 && job.program.corner[first];
+  const double begin = turns_in ? course.path.at_point[first] + kEndMargin : kEndMargin;
   std::vector<SlowZone> out;
   bool inside = false;
   TipCursor tip(course);
@@ -199,8 +204,7 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
   for (std::size_t k = 0; k + 1 < places.size() && !stops(stop, k); ++k) {
     const double from = places[k].u(d), to = places[k + 1].u(d);
     const double speed = tip.step_to(places[k + 1]) / course.machine.period;
-    const bool slow =
-        from >= kEndMargin && to <= end && speed < kSlow * course.speed.least(from, to);
+    const bool slow = from >= begin && to <= end && speed < kSlow * course.speed.least(from, to);
     const auto period = static_cast<std::int64_t>(k);
     if (slow && !inside) {
       out.push_back({period, period, 0.0, 0.0, speed, {}});

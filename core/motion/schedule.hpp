@@ -44,7 +44,9 @@ enum class EventKind : std::uint8_t {
   cut_end,
   torch_off,
   rapid_start,
-  rapid_end
+  rapid_end,
+  mark_on,
+  mark_off
 };
 
 struct Event {

@@ -12,6 +12,7 @@
 #include "core/base/try.hpp"
 #include "core/motion/invariants.hpp"
 #include "core/motion/reconstruction.hpp"
+#include "core/torch/stretches.hpp"
 
 namespace tubecut::torch {
 namespace {
@@ -20,7 +21,8 @@ using Kind = Segment::Kind;
 using motion::EventKind;
 using motion::Worst;
 
-constexpr double kRounding = 1e-9;  // s, mm
+constexpr double kRounding = 1e-9;     // s, mm
+constexpr double kTabRounding = 1e-6;  // mm, what a tab's place is found within
 
 /// The worst of checks of one name.
 class WorstOf {
@@ -57,41 +59,49 @@ struct Looked {
 
 /// Borders at which the list of segments is not that of the program.
 double wrong_borders(const Looked& l) {
-  constexpr Kind kOrder[] = {Kind::rapid, Kind::pierce, Kind::cut};
   const auto& segments = l.segments;
-  const std::size_t most = 3 * l.cuts.size();
-  if (segments.size() < most || segments.size() > most + 1) return 1.0;
+  auto expected = expected_segments(l.cuts);
+  if (segments.size() == expected.size() + 1) expected.push_back({Kind::rapid, l.cuts.size() - 1});
+  if (segments.size() != expected.size()) return 1.0;
   double wrong = 0.0;
   std::int64_t at = 0;
   for (std::size_t k = 0; k < segments.size(); ++k) {
     const auto& s = segments[k];
-    const bool last = k == most;
-    const bool right = s.kind == (last ? Kind::rapid : kOrder[k % 3]) &&
-                       s.cut == (last ? l.cuts.size() - 1 : k / 3);
+    const bool right = s.kind == expected[k].kind && s.cut == expected[k].cut;
     if (!right || s.from != at || s.to < s.from) wrong += 1.0;
     at = s.to;
   }
   return wrong + (at == static_cast<std::int64_t>(l.counted.periods) ? 0.0 : 1.0);
 }
 
-/// Periods of a stretch in which the torch burns, by the events alone.
-std::int64_t lit(const std::vector<motion::Event>& events, std::int64_t from, std::int64_t to) {
+/// What switches a tool on and off.
+struct Switch {
+  EventKind on = EventKind::torch_on, off = EventKind::torch_off;
+};
+constexpr Switch kTorch{}, kMarker{EventKind::mark_on, EventKind::mark_off};
+
+/// Periods of a stretch in which a tool is on, by the events alone.
+std::int64_t lit(const Switch& tool, const std::vector<motion::Event>& events, std::int64_t from,
+                 std::int64_t to) {
   std::int64_t out = 0, on = -1;
   for (const auto& event : events) {
-    if (event.what == EventKind::torch_on) on = event.period;
-    if (event.what != EventKind::torch_off || on < 0) continue;
+    if (event.what == tool.on) on = event.period;
+    if (event.what != tool.off || on < 0) continue;
     out += std::max<std::int64_t>(0, std::min(to, event.period) - std::max(from, on));
     on = -1;
   }
   return on < 0 ? out : out + std::max<std::int64_t>(0, to - std::max(from, on));
 }
 
+/// Periods of cuts and marks in which their tool is off, and of anything else in which one is on.
 double wrongly_lit(const Looked& l) {
   std::int64_t out = 0;
   for (const auto& s : l.segments) {
-    const auto burning = lit(l.events, s.from, s.to);
-    if (s.kind == Kind::rapid) out += burning;
-    if (s.kind == Kind::cut) out += s.to - s.from - burning;
+    const auto burning = lit(kTorch, l.events, s.from, s.to);
+    const auto marking = lit(kMarker, l.events, s.from, s.to);
+    const auto all = s.to - s.from;
+    if (s.kind != Kind::pierce) out += s.kind == Kind::cut ? all - burning : burning;
+    out += s.kind == Kind::mark ? all - marking : marking;
   }
   return static_cast<double>(out);
 }
@@ -223,6 +233,22 @@ class Between {
   Worst pierce_ = {}, delay_ = {}, clear_ = {};
 };
 
+/// The metal of every tab, from the stretch that ends there to the one that goes on, or the first.
+///
+/// Errors  those of metal_between.
+Result<void> see_tabs(const Looked& l, WorstOf& out) {
+  for (std::size_t k = 0; k < l.cuts.size(); ++k) {
+    const auto& cut = l.cuts[k];
+    if (cut.stretches == 1) continue;
+    const bool ends = cut.stretch + 1 == cut.stretches;
+    const auto& next = l.cuts[ends ? k - cut.stretch : k + 1];
+    const auto& tabs = *l.spec.setup.tabs;
+    TRY(const double metal, metal_between(cut.cut, tabs, cut.way, next.way, l.stop));
+    out.see({"tab_width", worst_of({0.0, tabs.width - metal}), kTabRounding, "mm"});
+  }
+  return {};
+}
+
 /// All that can be told where the segments are the program's.
 ///
 /// Errors  those of motion::prepare_cut.
@@ -237,7 +263,7 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
     const auto& cut = l.cuts[segment.cut];
     if (segment.kind == Kind::rapid) between.see_rapid(cut.cut.path.outer_radius, part);
     if (segment.kind == Kind::pierce) between.see_pierce(cut, turns[segment.cut], part);
-    if (segment.kind == Kind::cut) {
+    if (segment.kind == Kind::cut || segment.kind == Kind::mark) {
       const auto job = cut_job(l.spec, cut, turns[segment.cut]);
       TRY(const auto prepared, motion::prepare_cut(job, l.stop));
       for (const auto& check : motion::place_invariants(prepared, part, l.stop)) all.see(check);
@@ -251,6 +277,7 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
   for (const auto& check : motion::rate_invariants(machine, l.counted, l.spec.motion.jerk, l.stop))
     all.see(check);
   all.see({"torch_lit", wrongly_lit(l), 0.0, "periods"});
+  TRY(see_tabs(l, all));
   between.report(all);
   for (auto& check : all.checks()) out.push_back(std::move(check));
   return {};
@@ -287,8 +314,9 @@ Result<motion::Replay> replay(const ProgramReplaySpec& spec, const std::stop_tok
       motion::received(spec.job.machine, spec.period, spec.counts, spec.start, stop));
   const auto counted = whole.counted();
   auto segments = spec.segments;
+  const auto expected = expected_segments(cuts);
   for (std::size_t k = 0; k < segments.size(); ++k)
-    segments[k].cut = std::min(k / 3, cuts.size() - 1);
+    segments[k].cut = k < expected.size() ? expected[k].cut : cuts.size() - 1;
   const Looked looked{spec.job, cuts, segments, spec.events, counted, stop};
   motion::Replay out;
   out.invariants = {{"I1", whole.worst, 0.0, "pulses"},

@@ -22,10 +22,11 @@ struct ProgramReplaySpec {
 /// worst of them all; of all periods, borders of segments with them, those of limits; and of what
 /// is between the cuts
 ///
-///   segments_join     borders at which the list is not rapid, pierce, cut and so on, without gaps
-///   torch_lit         periods lit in a rapid, or dark in a cut
-///   pierce_place      mm from where the pierce of the program is, its height with it
+///   segments_join     borders at which the list is not that of the program, or has gaps
+///   torch_lit         periods lit in a rapid or a mark, or dark in a cut; the marking tool
+///   likewise pierce_place      mm from where the pierce of the program is, its height with it
 ///   pierce_delay      s that a pierce stands still for less than asked
+///   tab_width         mm by which a tab is narrower than asked
 ///   rapid_clearance   mm by which the tip is lower than asked while anything else moves
 ///
 /// Errors  wrong_count, bad_number, and those of the job itself.

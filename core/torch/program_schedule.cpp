@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/base/stop.hpp"
@@ -26,7 +27,8 @@ std::string of_cut(const std::string& name, const std::string& text) {
 Error told_of(const TorchCut& cut, Error error) {
   for (auto& issue : error.issues) {
     issue.hint = of_cut(cut.name, issue.hint);
-    if (issue.member == "lead") issue.member = "motion/lead";
+    if (issue.member.starts_with("lead") || issue.member.starts_with("tabs"))
+      issue.member = "motion/" + issue.member;
     if (!issue.member.starts_with("motion") && !issue.member.starts_with("machine"))
       issue.member = "part";
   }
@@ -46,7 +48,7 @@ void add_uses(const std::vector<motion::Use>& uses, std::vector<motion::Use>& ou
   }
 }
 
-/// The cuts' reports as one: sums of times and lengths, else the worst.
+/// The cuts' reports as one, without marks: sums of times and lengths, else the worst.
 class WholeReport {
  public:
   void add(const motion::Report& r) {
@@ -103,6 +105,11 @@ Speeds speeds(const motion::Speed& speed) {
   return {least.second, most.second};
 }
 
+motion::Speed speed_of(const ProgramSpec& spec, const TorchCut& cut) {
+  if (cut.mark && spec.setup.mark_speed) return *spec.setup.mark_speed;
+  return spec.motion.speed;
+}
+
 Result<void> too_many(double periods, std::int64_t most) {
   return fail(
       {ErrorCode::too_many_periods, "motion", periods, static_cast<double>(most), "periods", {}});
@@ -117,8 +124,8 @@ Result<void> check_periods(const ProgramSpec& spec, const std::vector<ProgramCut
     const bool inner = spec.motion.speed_on == motion::Surface::inner;
     const motion::Track way{cut.way.points.points, inner ? path.inner_radius() : path.outer_radius};
     for (std::size_t i = 1; i < way.points.size(); ++i)
-      seconds += way.tip_step(i - 1, i) / speeds(spec.motion.speed).most;
-    seconds += spec.setup.pierce_delay;
+      seconds += way.tip_step(i - 1, i) / speeds(speed_of(spec, cut.cut)).most;
+    if (!cut.cut.mark) seconds += spec.setup.pierce_delay;
   }
   const double periods = seconds / spec.machine.period;
   if (0.5 * periods <= static_cast<double>(spec.max_periods)) return {};
@@ -132,7 +139,7 @@ class Scheduling {
       : spec_(spec),
         turns_(windings(cuts)),
         stand_(std::move(stand)),
-        counter_(spec.machine, stand_.clear(stand_.piercing(first(cuts, 0)))),
+        counter_(spec.machine, stand_.clear(over(cuts, 0))),
         stop_(stop) {
     out_.cuts = std::move(cuts);
   }
@@ -140,9 +147,10 @@ class Scheduling {
   Result<ProgramSchedule> run() {
     TRY(stand_.check(counter_.at()));
     for (std::size_t i = 0; i < out_.cuts.size(); ++i) {
+      const bool mark = out_.cuts[i].cut.mark;
       TRY(told(i, go_to(i)));
-      TRY(told(i, pierce(i)));
-      TRY(told(i, cut(i)));
+      if (!mark) TRY(told(i, pierce(i)));
+      TRY(told(i, cut(i, mark)));
     }
     const std::size_t last = out_.cuts.size() - 1;
     if (stand_.lifts()) {
@@ -158,6 +166,11 @@ class Scheduling {
  private:
   motion::CutPoint first(const std::vector<ProgramCut>& cuts, std::size_t i) const {
     return stand_.counted(cuts[i].first(), turns_[i]);
+  }
+  /// The axes where a cut's pierce, or a mark's stroke, begins.
+  std::vector<double> over(const std::vector<ProgramCut>& cuts, std::size_t i) const {
+    const auto at = first(cuts, i);
+    return cuts[i].cut.mark ? stand_.cutting(at) : stand_.piercing(at);
   }
   Result<void> told(std::size_t i, Result<void> result) const {
     if (result) return result;
@@ -200,12 +213,12 @@ class Scheduling {
 
   /// Off the tube, turned and along it, and down again.
   Result<void> go_to(std::size_t i) {
-    const auto pierce = stand_.piercing(first(out_.cuts, i));
+    const auto to = over(out_.cuts, i);
     begin(Segment::Kind::rapid, i);
     if (i > 0) counter_.rest(kRest);
     if (stand_.lifts()) TRY(leg({.to = stand_.clear(counter_.at())}));
-    TRY(leg({.to = stand_.clear(pierce)}));
-    if (stand_.lifts()) TRY(leg({.to = pierce}));
+    TRY(leg({.to = stand_.clear(to)}));
+    if (stand_.lifts()) TRY(leg({.to = to}));
     end();
     return {};
   }
@@ -225,19 +238,22 @@ class Scheduling {
     return {};
   }
 
-  Result<void> cut(std::size_t i) {
+  Result<void> cut(std::size_t i, bool mark) {
     auto job = cut_job(spec_, out_.cuts[i], turns_[i]);
     job.max_periods = spec_.max_periods - counter_.periods();
     TRY(auto planned, in_room(motion::plan_cut(job, stop_)));
-    begin(Segment::Kind::cut, i);
+    begin(mark ? Segment::Kind::mark : Segment::Kind::cut, i);
     const auto from = counter_.periods();
+    if (mark) event(EventKind::mark_on, i);
     for (auto event : planned.events) {
+      if (mark) break;
       if (event.what == EventKind::pierce || event.what == EventKind::torch_on) continue;
       event.period += from;
       event.cut = i;
       out_.whole.events.push_back(event);
     }
     counter_.follow(planned, stop_);
+    if (mark) event(EventKind::mark_off, i);
     end();
     for (auto& zone : planned.report.slow) {
       zone.from += from;
@@ -248,7 +264,7 @@ class Scheduling {
       warning.detail = of_cut(out_.cuts[i].cut.name, warning.detail);
       out_.whole.warnings.push_back(std::move(warning));
     }
-    report_.add(planned.report);
+    if (!mark) report_.add(planned.report);
     out_.segments.back().sums = counter_.sums_from(from, stop_);
     out_.segments.back().report = std::move(planned.report);
     return {};
@@ -291,6 +307,17 @@ class Scheduling {
 
 }  // namespace
 
+std::vector<Expected> expected_segments(const std::vector<ProgramCut>& cuts) {
+  using enum Segment::Kind;
+  std::vector<Expected> out;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    out.push_back({rapid, i});
+    if (!cuts[i].cut.mark) out.push_back({pierce, i});
+    out.push_back({cuts[i].cut.mark ? mark : cut, i});
+  }
+  return out;
+}
+
 double ProgramSchedule::time_of(Segment::Kind kind) const {
   std::int64_t periods = 0;
   for (const auto& segment : segments)
@@ -304,12 +331,13 @@ motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut, dou
       motion::as_machine_counts(motion::without_repeats(cut.cut.path), spec.machine.b_positive);
   for (double& phi : path.phi) phi += turns;
   motion::ScheduleSpec out{.machine = spec.machine, .motion = spec.motion};
-  out.motion.lead = spec.setup.lead;
+  if (!cut.cut.mark) out.motion.lead = spec.setup.lead;
+  out.motion.speed = speed_of(spec, cut.cut);
   out.motion.direction = motion::Direction::as_given;
   out.motion.sector = {};
   out.motion.start = {};
   if (out.motion.lead) out.motion.lead->radius = cut.way.radius;
-  if (out.motion.lead || cut.start != motion::Start::At::first_point) {
+  if (out.motion.lead || cut.start != motion::Start::At::first_point || cut.stretches > 1) {
     out.way = cut.way.points;
     for (auto& point : out.way->points) {
       point.phi += turns;
@@ -329,10 +357,10 @@ Result<std::vector<ProgramCut>> lay(const ProgramSpec& spec, const std::stop_tok
           cut,
           Issue{.code = ErrorCode::unsupported_combination,
                 .hint = "its torch leans across the tube, and the machine has no axis for it"}));
-    auto laid = program_cut(cut, spec.setup, stop);
+    auto laid = program_cut(cut, spec.setup, &cut == &spec.cuts.back(), stop);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!laid) return tl::unexpected(told_of(cut, std::move(laid).error()));
-    out.push_back(*std::move(laid));
+    std::ranges::move(*laid, std::back_inserter(out));
   }
   return out;
 }

@@ -22,9 +22,10 @@ struct ProgramSpec {
   std::int64_t max_periods = 4'000'000;
 };
 
-/// A stretch of the schedule: the way to a cut, its pierce, the cut from lead-in to lead-out.
+/// A stretch of the schedule: the way to a cut, its pierce, the cut from lead-in to lead-out; or
+/// the way to a mark's stroke and the stroke.
 struct Segment {
-  enum class Kind : std::uint8_t { rapid, pierce, cut };
+  enum class Kind : std::uint8_t { rapid, pierce, cut, mark };
   Kind kind = Kind::rapid;
   std::size_t cut = 0;    // of the program; of the last rapid the one it leaves
   std::int64_t from = 0;  // periods done before it
@@ -56,6 +57,13 @@ struct ProgramSchedule {
 /// Source    docs/theory/pulse-schedules.md, section 11.
 [[nodiscard]] Result<ProgramSchedule> schedule(const ProgramSpec& spec,
                                                const std::stop_token& stop = {});
+
+/// What the segments of such cuts are, in order: the last rapid, of machines that lift, left out.
+struct Expected {
+  Segment::Kind kind = Segment::Kind::rapid;
+  std::size_t cut = 0;
+};
+[[nodiscard]] std::vector<Expected> expected_segments(const std::vector<ProgramCut>& cuts);
 
 /// One cut of the program as a job of its own, its points laid; `turns`: as `windings`.
 [[nodiscard]] motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut,

@@ -62,7 +62,7 @@ TorchCut hole_cut(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::str
   return out;
 }
 
-/// The points as they stand, from the first to the first again.
+/// The points as they stand; of a closed path from the first to the first again.
 motion::CutWithLead once_round(const motion::CutPath& path) {
   motion::CutWithLead out;
   for (std::size_t i = 0; i < path.phi.size(); ++i)
@@ -71,7 +71,7 @@ motion::CutWithLead once_round(const motion::CutPath& path) {
                           .b = path.b[i],
                           .a = path.a.empty() ? 0.0 : path.a[i]});
   const double turn = path.scrap == motion::Scrap::inside ? 0.0 : kTwoPi;
-  if (path.phi.back() != path.phi.front() + turn) {
+  if (path.closed && path.phi.back() != path.phi.front() + turn) {
     out.points.push_back(out.points.front());
     out.points.back().phi += turn;
   }
@@ -190,12 +190,20 @@ Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
   TRY(const auto from,
       motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
   if (!approach.lead) return TorchWay{{from.points, 0, from.points.size() - 1}, 0.0};
+  TRY(const auto border, torch_border(cut));
+  return way_with_lead(border, from, *approach.lead, stop);
+}
+
+Result<motion::PartBorder> torch_border(const TorchCut& cut) {
   if (cut.counted_inward)
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = "lead",
                  .hint = "B is counted inward, as published, for comparison"});
-  TRY(const auto border, motion::part_border(path, kSigma));
-  auto lead = *approach.lead;
+  return motion::part_border(motion::without_repeats(cut.path), kSigma);
+}
+
+Result<TorchWay> way_with_lead(const motion::PartBorder& border, const motion::Track& from,
+                               motion::Lead lead, const std::stop_token& stop) {
   while (true) {
     TRY(auto way, lead_and_pierce(border, from, lead, stop));
     if (way) return TorchWay{*std::move(way), lead.radius};

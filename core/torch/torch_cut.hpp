@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "core/bevel/table.hpp"
+#include "core/motion/border.hpp"
 #include "core/motion/lead.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::torch {
 
-/// One cut as the torch goes round it: its axis on the outer wall, mm and rad.
+/// One cut as the torch goes round it: its axis on the outer wall, mm and rad. Or a stroke of a
+/// mark: open, and the torch dark.
 ///
 /// Frame   that of the table or part it is of; B > 0: the outer edge lies further towards +z.
 struct TorchCut {
@@ -23,6 +25,7 @@ struct TorchCut {
   bool counted_inward = false;  // B as published, for comparison: the other way round
   double land = 0.0;     // mm: its bevel stands on a land of this height, which it does not cut
   bool of_land = false;  // the pass that does
+  bool mark = false;
 };
 
 /// The rows at which a corner of either wall's curve is a node.
@@ -74,5 +77,17 @@ struct TorchWay {
 /// Source  docs/theory/pulse-schedules.md, section 2.6.
 [[nodiscard]] Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
                                          const std::stop_token& stop = {});
+
+/// The part's border that a cut makes.
+///
+/// Errors  unsupported_combination (B counted inward); those of motion::part_border.
+[[nodiscard]] Result<motion::PartBorder> torch_border(const TorchCut& cut);
+
+/// Such leads on a cut, or a stretch of it, that is directed and begins where it should.
+///
+/// Errors  lead_blocked, cancelled.
+[[nodiscard]] Result<TorchWay> way_with_lead(const motion::PartBorder& border,
+                                             const motion::Track& from, motion::Lead lead,
+                                             const std::stop_token& stop = {});
 
 }  // namespace tubecut::torch

@@ -1,13 +1,16 @@
 #include "core/torch/torch_program.hpp"
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/base/try.hpp"
+#include "core/torch/stretches.hpp"
 
 namespace tubecut::torch {
 
 Approach approach(const TorchCut& cut, const Setup& setup) {
+  if (cut.mark) return {};
   Approach out{.lead = setup.lead};
   if (setup.lead) out.start = {.at = motion::Start::At::automatic, .seam = Angle{}};
   if (setup.start && cut.path.scrap != motion::Scrap::inside)
@@ -15,10 +18,28 @@ Approach approach(const TorchCut& cut, const Setup& setup) {
   return out;
 }
 
-Result<ProgramCut> program_cut(TorchCut cut, const Setup& setup, const std::stop_token& stop) {
+Result<std::vector<ProgramCut>> program_cut(const TorchCut& cut, const Setup& setup, bool last,
+                                            const std::stop_token& stop) {
   const auto from = approach(cut, setup);
-  TRY(auto way, torch_way(cut, from, stop));
-  return ProgramCut{std::move(cut), std::move(way), from.start.at};
+  std::vector<ProgramCut> out;
+  if (!setup.tabs || !holds(*setup.tabs, cut, last)) {
+    TRY(auto way, torch_way(cut, from, stop));
+    out.push_back({.cut = cut, .way = std::move(way), .start = from.start.at});
+    return out;
+  }
+  TRY(auto ways, ways_between_tabs(cut, from, *setup.tabs, stop));
+  for (auto& way : ways) {
+    const auto i = out.size();
+    out.push_back({.cut = cut,
+                   .way = std::move(way),
+                   .stretch = i,
+                   .stretches = ways.size(),
+                   .start = from.start.at});
+    auto& name = out.back().cut.name;
+    name +=
+        (name.empty() ? "" : ", ") + std::to_string(i + 1) + " of " + std::to_string(ways.size());
+  }
+  return out;
 }
 
 std::vector<double> windings(const std::vector<ProgramCut>& cuts) {

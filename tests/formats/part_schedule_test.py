@@ -53,7 +53,7 @@ def timed_program(text):
     at, lit, what, out = {}, False, "", []
     for line in text.splitlines():
         words = {a: float(v) for a, v in re.findall(r"([A-Z])(-?\d+\.\d+)", line)}
-        if line.startswith(("(rapid: ", "(cut: ")):
+        if line.startswith(("(rapid: ", "(cut: ", "(mark of ")):
             what = line[1:-1]
         elif line.startswith("M3"):
             lit = True
@@ -84,6 +84,12 @@ class PartSchedule(FormatTest):
 
     def job(self):
         return {"part": big_part(), **{name: example()[name] for name in ("machine", "motion")}}
+
+    def jobs(self):
+        """(a schedule's request, what the same program is as G-code of the part)"""
+        held = example()
+        held["motion"] |= {"tabs": {"count": 2, "width_mm": 2, "of": "all"}, "marks": {"speed_mm_min": 3000}}
+        return [(example(), OPTIONS), (self.job(), OPTIONS), (held, OPTIONS + "&tabs=2&tab_mm=2&tabs_of=all&marks=on&mark_speed_mm_min=3000")]
 
     def cuts(self, result):
         return [s for s in result["segments"] if s["kind"] == "cut"]
@@ -128,10 +134,18 @@ class PartSchedule(FormatTest):
     def test_gcode_and_pulses_are_two_printings_of_one_program(self):
         """The same cuts in the same order through the same places, within the fifth decimal that G-code prints and by no systematic 1e-6 mm;
         the same time for cut, delay and height, within 0.1 %."""
-        for job in (example(), self.job()):
+        for job, options in self.jobs():
             result = self.schedule(job)["result"]
             radius = job["part"]["target"]["outer_diameter_mm"] / 2
-            program = torch_program.replay(self.service.text("parts", job["part"], OPTIONS).decode(), radius, PIVOT, CLEARANCE)
+            whole = torch_program.replay(self.service.text("parts", job["part"], options).decode(), radius, PIVOT, CLEARANCE)
+            drawn = [(cut.name, [(p.phi, p.z) for p in (cut.places[0], cut.places[-1])]) for cut in whole if cut.mark]
+            laid = [(s["name"], [(s["way"]["phi_deg"][k], s["way"]["z_mm"][k]) for k in (0, -1)]) for s in result["segments"] if s["kind"] == "mark"]
+            self.assertEqual([name for name, _ in drawn], [name for name, _ in laid])
+            self.assertEqual(bool(drawn), "marks" in job["motion"])
+            for (_, one), (_, other) in zip(drawn, laid):
+                for (phi, z), (at, along) in zip(one, other):
+                    self.assertLess(max(abs(phi - at), abs(z - along)), 2e-5)
+            program = [cut for cut in whole if not cut.mark]
             cuts = self.cuts(result)
             self.assertEqual([cut.name for cut in program], [cut["name"] for cut in cuts])
             for printed, cut in zip(program, cuts):
@@ -152,7 +166,7 @@ class PartSchedule(FormatTest):
 
     def test_the_schedules_own_gcode(self):
         """Its time that of the counts, its places theirs; the tip over the clearance while anything but its height moves; lit where it should."""
-        for job in (example(), self.job()):
+        for job, _ in self.jobs():
             result = self.schedule(job)["result"]
             radius = job["part"]["target"]["outer_diameter_mm"] / 2
             moves = timed_program(self.service.text("pulse-schedules", job, "format=gcode&torch=on").decode())

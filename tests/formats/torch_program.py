@@ -6,7 +6,9 @@ import re
 
 WORD = re.compile(r"([A-Z])(-?\d+\.\d+)")
 TIMED = re.compile(r"^G1 (.*) F\[#<speed_mm_min> / (\d+\.\d+)\]$")
+STROKE = re.compile(r"^G1 (.*) F(\d+\.\d+)$")  # of a mark: blocks a minute
 ON, OFF = ("M3 S1", "M3 $0 S1"), ("M5", "M5 $0")
+MARK_ON, MARK_OFF = ("M64 P0", "M3 $1 S1"), ("M65 P0", "M5 $1")
 STARTS = re.compile(r"^\(starts at A (-?[\d.]+), B (-?[\d.]+), (-?[\d.]+) mm from X0\)$")
 SHORTEST = 1.0  # mm, radius of a lead
 STEPS = 20  # places looked at along a rapid
@@ -20,6 +22,7 @@ class Cut:
     def __init__(self, name):
         self.name, self.places, self.lengths, self.dwell, self.lit, self.start = name, [], [], 0.0, False, None
         self.dark = 0  # moves with the torch out
+        self.mark = False  # a stroke, whose lengths are minutes
 
 
 class Place:
@@ -63,6 +66,8 @@ def events(program):
     for line in program.splitlines():
         if line.startswith("(cut: "):
             yield "cut", line[len("(cut: "):-1]
+        elif line.startswith("(mark of "):
+            yield "mark", line[1:-1]
         elif starts := STARTS.match(line):
             phi, b, z = map(float, starts.groups())
             yield "start", (phi, z, b)
@@ -70,23 +75,36 @@ def events(program):
             yield "on", None
         elif line in OFF:
             yield "off", None
+        elif line in MARK_ON:
+            yield "mark_on", None
+        elif line in MARK_OFF:
+            yield "mark_off", None
         elif line.startswith("G4 P"):
             yield "dwell", float(line[4:])
         elif line.startswith("G0 "):
             yield "rapid", words_of(line)
         elif timed := TIMED.match(line):
             yield "move", (words_of(timed[1]), float(timed[2]))
+        elif stroke := STROKE.match(line):
+            yield "move", (words_of(stroke[1]), 1 / float(stroke[2]))
 
 
 def follow(what_happens, radius, pivot, clearance=50.0):
     """The cuts of a program with a pivot; each as Places from its pierce on, the first of them the pierce."""
-    at, cuts, burning, name, start = {}, [], False, "", None
+    at, cuts, burning, marking, name, start, mark = {}, [], False, False, "", None, False
     for kind, value in what_happens:
-        if kind == "cut":
-            name = value
+        if kind in ("cut", "mark"):
+            name, mark = value, kind == "mark"
         elif kind == "start":
             start = value
+        elif kind in ("mark_on", "mark_off"):
+            if mark != cuts[-1].mark or not mark or burning:
+                raise Fault(f"{name} is marked")
+            marking = kind == "mark_on"
+            cuts[-1].lit = cuts[-1].lit or marking
         elif kind == "on":
+            if mark:
+                raise Fault("the torch burns a mark")
             cuts[-1].lit = burning = True
             cuts[-1].places.append(Place(at, radius, pivot))
         elif kind == "off":
@@ -94,13 +112,13 @@ def follow(what_happens, radius, pivot, clearance=50.0):
         elif kind == "dwell":
             cuts[-1].dwell += value
         elif kind == "rapid":
-            if burning:
-                raise Fault("a rapid with the torch lit")
+            if burning or marking:
+                raise Fault("a rapid with the torch lit" if burning else "a rapid while marking")
             to = {**at, **value}
             check_rapid(at, to, radius, pivot, clearance)
             if "Z" in at and to["Z"] < at["Z"]:
                 cuts.append(Cut(name))
-                cuts[-1].start = start
+                cuts[-1].start, cuts[-1].mark = start, mark
             at = to
         elif kind == "move":
             words, length = value
@@ -111,7 +129,7 @@ def follow(what_happens, radius, pivot, clearance=50.0):
             at.update(words)
             cuts[-1].places.append(Place(at, radius, pivot))
             cuts[-1].lengths.append(length)
-            cuts[-1].dark += not burning
+            cuts[-1].dark += not (marking if mark else burning)
     if tip_height(at, pivot) < radius + clearance - 1e-3:
         raise Fault("the torch is left at the tube")
     return cuts

@@ -307,5 +307,109 @@ TEST(ProgramSchedule, RunsOnOtherMachines) {
   }
 }
 
+/// Two strokes, a line along the tube and one round it, before the cuts.
+ProgramSpec marked() {
+  auto out = program();
+  const auto stroke = [](std::string name, double phi, double z, double round, double along) {
+    TorchCut mark{.name = std::move(name), .path = on_tube({}), .mark = true};
+    mark.path.closed = false;
+    for (const double u : {0.0, 0.5, 1.0}) {
+      mark.path.phi.push_back(phi + u * round);
+      mark.path.z.push_back(z + u * along);
+      mark.path.b.push_back(0.0);
+    }
+    return mark;
+  };
+  out.cuts.insert(out.cuts.begin(),
+                  {stroke("mark of the datum line", 0.0, 60.0, 0.0, 300.0),
+                   stroke("mark of partner 7, round", 2.0, 150.0, 10.0 / kRadius, 0.0)});
+  out.setup.mark_speed = 60.0;
+  return out;
+}
+
+// Marks go before the cuts, at cutting height, with the torch dark and at their own speed.
+TEST(ProgramSchedule, MarksBeforeItCuts) {
+  const auto spec = marked();
+  const auto made = schedule(spec);
+  ASSERT_TRUE(made) << made.error().issues.front().hint;
+  EXPECT_TRUE(broken(spec, *made).empty()) << *broken(spec, *made).begin();
+  const auto& w = made->whole;
+  for (std::size_t i : {0u, 1u}) {
+    const auto &rapid = made->segments[2 * i], &mark = made->segments[2 * i + 1];
+    EXPECT_EQ(rapid.kind, Kind::rapid);
+    EXPECT_EQ(mark.kind, Kind::mark);
+    EXPECT_EQ(mark.cut, i);
+    const auto& path = spec.cuts[i].path;
+    const double turned = value(spec, w, 0, mark.to) - value(spec, w, 0, mark.from);
+    EXPECT_NEAR(turned, (path.phi.back() - path.phi.front()) * kDegPerRad, 1.1e-3);
+    EXPECT_NEAR(value(spec, w, 1, mark.from), path.z.front(), 6e-4);
+    EXPECT_NEAR(value(spec, w, 1, mark.to), path.z.back(), 6e-4);
+    for (const auto period : {mark.from, (mark.from + mark.to) / 2, mark.to})
+      EXPECT_NEAR(value(spec, w, 2, period), kRadius + 150.0 + 1.5, 6e-4);
+  }
+  // 300 mm at 60 mm/s, with the way up to it and down again.
+  EXPECT_NEAR(made->time_of(Kind::mark), 300.0 / 60.0 + 10.0 / 60.0, 1.0);
+  std::vector<EventKind> told;
+  for (const auto& event : w.events)
+    if (event.cut == 0) told.push_back(event.what);
+  EXPECT_EQ(told, (std::vector{EventKind::rapid_start, EventKind::rapid_end, EventKind::mark_on,
+                               EventKind::mark_off}));
+  const auto without = schedule(program());
+  ASSERT_TRUE(without);
+  EXPECT_EQ(made->time_of(Kind::cut), without->time_of(Kind::cut));
+  EXPECT_EQ(made->whole.report.length, without->whole.report.length);
+
+  const auto sees = [&](const std::string& name, const ProgramSchedule& s) {
+    EXPECT_TRUE(broken(spec, s).contains(name)) << name;
+  };
+  auto s = *made;
+  std::ranges::find(s.whole.events, EventKind::mark_on, &motion::Event::what)->period += 1;
+  sees("torch_lit", s);
+  s = *made;
+  std::ranges::find(s.whole.events, EventKind::mark_off, &motion::Event::what)->period += 1;
+  sees("torch_lit", s);
+  s = *made;
+  std::ranges::find(s.whole.events, EventKind::mark_on, &motion::Event::what)->what =
+      EventKind::torch_on;
+  sees("torch_lit", s);
+  s = *made;
+  s.segments[1].kind = Kind::cut;
+  sees("segments_join", s);
+  s = *made;
+  s.whole.axes[1].counts[static_cast<std::size_t>(s.segments[1].from + 200)] += 900;
+  sees("I10", s);
+}
+
+// Each stretch between tabs is a cut with its rapid and pierce; the whole holds all its invariants,
+// and a narrower tab is seen.
+TEST(ProgramSchedule, CutsFromTabToTab) {
+  auto spec = program();
+  spec.setup.tabs = Tabs{.count = 3, .width = 2.0, .of = Tabs::Of::all};
+  for (const bool lead : {true, false}) {
+    if (!lead) spec.setup.lead = {};
+    const auto made = schedule(spec);
+    ASSERT_TRUE(made) << made.error().issues.front().hint;
+    std::set<std::string> names;
+    for (const auto& check : verify(spec, *made)) {
+      EXPECT_TRUE(check.passed()) << check.name << " " << check.value << " " << check.limit;
+      names.insert(check.name);
+    }
+    EXPECT_TRUE(names.contains("tab_width"));
+    EXPECT_EQ(made->cuts.size(), 12u);
+    EXPECT_EQ(made->segments.size(), 37u);
+    EXPECT_EQ(made->cuts[10].cut.name, "start, 2 of 3");
+    auto of_last = spec;
+    of_last.setup.tabs->of = Tabs::Of::last;
+    const auto last = schedule(of_last);
+    ASSERT_TRUE(last);
+    EXPECT_EQ(last->cuts.size(), 6u);
+    EXPECT_TRUE(broken(of_last, *last).empty());
+    // Cut by the wider tabs' program the narrower ones are not held to be the asked ones.
+    auto wider = of_last;
+    wider.setup.tabs->width = 3.0;
+    EXPECT_FALSE(broken(wider, *last).empty());
+  }
+}
+
 }  // namespace
 }  // namespace tubecut::torch

@@ -1,0 +1,221 @@
+#include "core/torch/stretches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
+#include "core/base/try.hpp"
+
+namespace tubecut::torch {
+namespace {
+
+constexpr double kStep = 0.05;   // mm, between two gaps that are tried
+constexpr double kExact = 1e-7;  // mm, a gap is as wide as it must be within this
+constexpr double kMove = 1.0;    // mm, between two places that are tried for a tab
+constexpr double kNear =
+    4.0;  // of a tab and its kerf: what lies further along a way is not beside it
+
+using Points = std::vector<motion::CutPoint>;
+
+/// Between two lengths along the whole cut, mm.
+struct Stretch {
+  double from = 0.0, to = 0.0;
+};
+
+double distance(const motion::Flat& p, const std::vector<motion::Flat>& way) {
+  double out = 1e300;
+  for (std::size_t i = 0; i < way.size(); ++i)
+    out = std::min(out, motion::distance(p, way[i == 0 ? 0 : i - 1], way[i]));
+  return out;
+}
+
+/// Of one way's points from the other, on both walls, mm.
+double distance(const motion::PartBorder& border, const Points& from, const Points& to,
+                const std::stop_token& stop) {
+  double out = 1e300;
+  for (const double rho : {border.inner_radius, border.outer_radius}) {
+    std::vector<motion::Flat> way;
+    for (const auto& point : to) way.push_back(motion::on_wall(border, point, rho));
+    for (std::size_t i = 0; i < from.size() && !stops(stop, i); ++i)
+      out = std::min(out, distance(motion::on_wall(border, from[i], rho), way));
+  }
+  return out;
+}
+
+/// Of a way, before its cut begins, mm.
+double way_in(const TorchWay& way, double radius) {
+  const motion::Track track{.points = way.points.points, .radius = radius};
+  return motion::lengths_along(track)[way.points.cut_first];
+}
+
+/// The points of a way within `length` of its end, or of its start.
+Points near_end(const Points& way, double radius, double length, bool end) {
+  Points out;
+  double gone = 0.0;
+  for (std::size_t k = 0; k < way.size() && gone <= length; ++k) {
+    const auto& p = way[end ? way.size() - 1 - k : k];
+    if (!out.empty())
+      gone += elementary::hypot(radius * (p.phi - out.back().phi), p.z - out.back().z);
+    out.push_back(p);
+  }
+  return out;
+}
+
+Points turned(Points points, double by) {
+  for (auto& p : points) p.phi += by;
+  return points;
+}
+
+/// Where tabs end: evenly, moved off corners where there is room; the last before the start.
+std::vector<double> tab_ends(const motion::Track& whole, int count, double gap) {
+  const auto length = motion::lengths_along(whole);
+  const auto corner = motion::from_corner(whole);
+  const double each = length.back() / count;
+  const auto free = [&](double end) {
+    for (std::size_t i = 0; i < corner.size(); ++i)
+      if (corner[i] == 0.0 && length[i] > end - 2.0 * gap && length[i] < end + gap) return false;
+    return true;
+  };
+  std::vector<double> out;
+  for (int k = 1; k < count; ++k) {
+    double end = each * k;
+    for (double off = kMove; !free(end) && off <= each / 4.0; off += kMove)
+      for (const double to : {each * k - off, each * k + off})
+        if (!free(end) && free(to)) end = to;
+    out.push_back(end);
+  }
+  out.push_back(length.back());
+  return out;
+}
+
+class Laying {
+ public:
+  Laying(motion::Track whole, motion::PartBorder border, const TorchCut& cut, const Tabs& tabs,
+         const std::stop_token& stop)
+      : whole_(std::move(whole)),
+        border_(std::move(border)),
+        least_(tabs.width + cut.kerf),
+        stop_(stop) {}
+
+  Result<std::vector<TorchWay>> run(const std::optional<motion::Lead>& lead, int count) {
+    const double all = motion::lengths_along(whole_).back();
+    if (2.0 * count * least_ > all)
+      return fail({ErrorCode::out_of_range, "tabs/count", static_cast<double>(count),
+                   std::floor(all / (2.0 * least_)), "",
+                   "tabs and their kerfs take more than half of the cut"});
+    const auto ends = tab_ends(whole_, count, least_);
+    std::vector<TorchWay> out;
+    double from = 0.0;
+    for (const double end : ends) {
+      TRY(auto way, laid({from, end - least_}, lead));
+      out.push_back(std::move(way));
+      from = end;
+    }
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const double begin = k == 0 ? 0.0 : ends[k - 1];
+      const bool last = k + 1 == out.size();
+      TRY(const auto gap, gap_before(ends[k], ends[k] - begin, out[last ? 0 : k + 1],
+                                     last ? kTwoPi * whole_.turns : 0.0));
+      end_at({begin, ends[k] - gap}, out[k]);
+    }
+    return out;
+  }
+
+ private:
+  /// The stretch with its way in, as far off as the scrap has room for.
+  Result<TorchWay> laid(const Stretch& s, const std::optional<motion::Lead>& asked) {
+    const auto track = motion::stretch_of(whole_, s.from, s.to);
+    if (!asked) return TorchWay{{track.points, 0, track.points.size() - 1, true}, 0.0};
+    auto lead = *asked;
+    lead.shape = motion::Lead::Shape::square;
+    TRY(auto way, way_with_lead(border_, track, lead, stop_));
+    way.points.stretch = true;
+    return way;
+  }
+
+  /// How long before its end the tab begins, mm.
+  Result<double> gap_before(double end, double room, const TorchWay& after, double turn) {
+    const double along = kNear * least_ + way_in(after, whole_.radius);
+    const auto near = turned(near_end(after.points.points, whole_.radius, along, false), turn);
+    const auto enough = [&](double gap) {
+      const auto at = motion::stretch_of(whole_, end - gap, end).points.front();
+      return distance(border_, {at}, near, stop_) >= least_;
+    };
+    double gap = least_;
+    while (!enough(gap)) {
+      if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
+      gap += kStep;
+      if (gap > room / 2.0)
+        return fail({.code = ErrorCode::lead_blocked,
+                     .member = "tabs/width_mm",
+                     .hint = "no way onto the cut leaves a tab of this width"});
+    }
+    double low = std::max(least_, gap - kStep);
+    if (enough(low)) return low;
+    for (double high = gap; high - low > kExact;) {
+      const double middle = 0.5 * (low + high);
+      (enough(middle) ? high : low) = middle;
+      gap = high;
+    }
+    return gap;
+  }
+
+  /// The way in stays, the stretch ends elsewhere.
+  void end_at(const Stretch& s, TorchWay& way) const {
+    auto& points = way.points;
+    const auto track = motion::stretch_of(whole_, s.from, s.to);
+    const bool corner = points.points[points.cut_first].corner;
+    points.points.resize(points.cut_first);
+    points.points.insert(points.points.end(), track.points.begin(), track.points.end());
+    points.points[points.cut_first].corner = corner;
+    points.cut_last = points.points.size() - 1;
+  }
+
+  motion::Track whole_;
+  motion::PartBorder border_;
+  double least_;  // mm, from axis to axis of the torch
+  const std::stop_token& stop_;
+};
+
+}  // namespace
+
+bool holds(const Tabs& tabs, const TorchCut& cut, bool last) {
+  if (cut.mark) return false;
+  const bool hole = cut.path.scrap == motion::Scrap::inside;
+  switch (tabs.of) {
+    case Tabs::Of::last:
+      return last;
+    case Tabs::Of::ends:
+      return !hole;
+    case Tabs::Of::holes:
+      return hole;
+    case Tabs::Of::all:
+      return true;
+  }
+  return false;
+}
+
+Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut, const Approach& approach,
+                                                const Tabs& tabs, const std::stop_token& stop) {
+  const auto path = motion::without_repeats(cut.path);
+  TRY(auto whole, motion::track(path));
+  TRY(auto from, motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
+  TRY(auto border, torch_border(cut));
+  return Laying(std::move(from), std::move(border), cut, tabs, stop).run(approach.lead, tabs.count);
+}
+
+Result<double> metal_between(const TorchCut& cut, const Tabs& tabs, const TorchWay& before,
+                             const TorchWay& after, const std::stop_token& stop) {
+  TRY(const auto border, torch_border(cut));
+  const double radius = cut.path.radius(), near = kNear * (tabs.width + cut.kerf);
+  const auto end = near_end(before.points.points, radius, near, true);
+  const auto ahead = near_end(after.points.points, radius, near + way_in(after, radius), false);
+  const double turn = kTwoPi * std::floor((end.front().phi - ahead.front().phi) / kTwoPi + 0.5);
+  const auto next = turned(ahead, turn);
+  return std::min(distance(border, end, next, stop), distance(border, next, end, stop)) - cut.kerf;
+}
+
+}  // namespace tubecut::torch

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "core/torch/tabs.hpp"
+#include "core/torch/torch_cut.hpp"
+
+namespace tubecut::torch {
+
+/// Whether a cut of a program has tabs; `last`: it is the program's last.
+[[nodiscard]] bool holds(const Tabs& tabs, const TorchCut& cut, bool last);
+
+/// The stretches of a cut between its tabs, from its start on: the last tab lies before the start.
+/// The others lie evenly along the tip's path, moved no more than a quarter of that off corners. A
+/// stretch is come onto square to it, by the lead's radius, and ends where its tab begins: arcs and
+/// an overcut would reach over what holds.
+///
+/// Errors  those of torch_way; out_of_range (tabs/count: they take more than half of the cut),
+///         lead_blocked (tabs/width_mm: no way onto the cut leaves so much).
+/// Source  docs/theory/pulse-schedules.md, section 11.
+[[nodiscard]] Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut,
+                                                              const Approach& approach,
+                                                              const Tabs& tabs,
+                                                              const std::stop_token& stop = {});
+
+/// Metal from where the torch goes out to all that the next stretch cuts, mm, the least of both
+/// walls: of every point of either way to the other. The kerf is off on both sides.
+///
+/// Errors  those of motion::track.
+[[nodiscard]] Result<double> metal_between(const TorchCut& cut, const Tabs& tabs,
+                                           const TorchWay& before, const TorchWay& after,
+                                           const std::stop_token& stop = {});
+
+}  // namespace tubecut::torch

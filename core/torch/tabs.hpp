@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+namespace tubecut::torch {
+
+/// Bridges of metal that a cut leaves, so that what it would let go is held until it is broken off.
+struct Tabs {
+  /// Which cuts have them: the one that lets the part go, both ends, the holes, all of them.
+  enum class Of : std::uint8_t { last, ends, holes, all };
+  int count = 2;       // of each such cut
+  double width = 2.0;  // mm of metal at least, on either wall, from kerf to kerf
+  Of of = Of::last;
+};
+
+inline constexpr int kMostTabs = 12;
+
+}  // namespace tubecut::torch
