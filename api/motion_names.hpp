@@ -7,7 +7,8 @@
 
 namespace tubecut::api {
 
-// What enumerations of schedules are called on the wire; wire_names.hpp has the others'.
+// What enumerations of schedules and programs are called on the wire; wire_names.hpp has the
+// others'.
 
 template <>
 inline constexpr auto kNames<motion::EventKind> =
@@ -33,5 +34,11 @@ inline constexpr auto kNames<motion::Start::At> =
     std::to_array<Option<motion::Start::At>>({{"first_point", motion::Start::At::first_point},
                                               {"asked", motion::Start::At::phi},
                                               {"least_bevel", motion::Start::At::automatic}});
+template <>
+inline constexpr auto kNames<torch::Tabs::Of> =
+    std::to_array<Option<torch::Tabs::Of>>({{"last", torch::Tabs::Of::last},
+                                            {"ends", torch::Tabs::Of::ends},
+                                            {"holes", torch::Tabs::Of::holes},
+                                            {"all", torch::Tabs::Of::all}});
 
 }  // namespace tubecut::api

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "api/motion_names.hpp"
 #include "api/posts.hpp"
 #include "api/process.hpp"
 #include "api/wire_names.hpp"

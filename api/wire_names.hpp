@@ -11,7 +11,6 @@
 #include "core/motion/cut_path.hpp"
 #include "core/motion/machine.hpp"
 #include "core/part/member.hpp"
-#include "core/torch/tabs.hpp"
 
 /// Every enumeration that a request or an answer names.
 namespace tubecut::api {
@@ -153,12 +152,5 @@ inline constexpr auto kNames<cutoff::FitMethod> =
                                               {"three_point", cutoff::FitMethod::three_point},
                                               {"auto", cutoff::FitMethod::automatic},
                                               {"equispaced", cutoff::FitMethod::equispaced}});
-
-template <>
-inline constexpr auto kNames<torch::Tabs::Of> =
-    std::to_array<Option<torch::Tabs::Of>>({{"last", torch::Tabs::Of::last},
-                                            {"ends", torch::Tabs::Of::ends},
-                                            {"holes", torch::Tabs::Of::holes},
-                                            {"all", torch::Tabs::Of::all}});
 
 }  // namespace tubecut::api

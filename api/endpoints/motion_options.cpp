@@ -3,6 +3,7 @@
 #include <string>
 #include <variant>
 
+#include "api/motion_names.hpp"
 #include "api/process.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"

@@ -110,15 +110,6 @@ struct Track {
 /// Errors  unsupported_combination (holes and open tracks), out_of_range.
 [[nodiscard]] Result<Track> sector_of(const Track& whole, const Sector& sector);
 
-/// The first `length` mm of a track, its start point included.
-[[nodiscard]] std::vector<CutPoint> first_stretch(const Track& track, double length);
-
-/// Tip path up to each point, mm.
-[[nodiscard]] std::vector<double> lengths_along(const Track& track);
-
-/// The open stretch of a closed track between two of its lengths, both ends points of it.
-[[nodiscard]] Track stretch_of(const Track& whole, double from, double to);
-
 /// From each point of a closed track along it to its nearest corner, mm; huge where it has none.
 [[nodiscard]] std::vector<double> from_corner(const Track& track);
 

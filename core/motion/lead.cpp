@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/motion/stretch.hpp"
 
 namespace tubecut::motion {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
+#include "core/motion/stretch.hpp"
 
 namespace tubecut::torch {
 namespace {
@@ -15,8 +16,9 @@ namespace {
 constexpr double kStep = 0.05;   // mm, between two gaps that are tried
 constexpr double kExact = 1e-7;  // mm, a gap is as wide as it must be within this
 constexpr double kMove = 1.0;    // mm, between two places that are tried for a tab
-constexpr double kNear =
-    4.0;  // of a tab and its kerf: what lies further along a way is not beside it
+constexpr double kNear = 4.0;    // widths along a way: what lies further is not beside a tab
+
+constexpr double kWidest = 8.0;  // of what is asked: beyond it no bevel, but the way in, is why
 
 using Points = std::vector<motion::CutPoint>;
 
@@ -43,6 +45,12 @@ double distance(const motion::PartBorder& border, const Points& from, const Poin
       out = std::min(out, distance(motion::on_wall(border, from[i], rho), way));
   }
   return out;
+}
+
+/// The same both ways: of places of either to the other.
+double apart(const motion::PartBorder& border, const Points& one, const Points& other,
+             const std::stop_token& stop) {
+  return std::min(distance(border, one, other, stop), distance(border, other, one, stop));
 }
 
 /// Of a way, before its cut begins, mm.
@@ -73,11 +81,13 @@ Points turned(Points points, double by) {
 std::vector<double> tab_ends(const motion::Track& whole, int count, double gap) {
   const auto length = motion::lengths_along(whole);
   const auto corner = motion::from_corner(whole);
+  std::vector<double> corners;
+  for (std::size_t i = 0; i < corner.size(); ++i)
+    if (corner[i] == 0.0) corners.push_back(length[i]);
   const double each = length.back() / count;
   const auto free = [&](double end) {
-    for (std::size_t i = 0; i < corner.size(); ++i)
-      if (corner[i] == 0.0 && length[i] > end - 2.0 * gap && length[i] < end + gap) return false;
-    return true;
+    const auto next = std::ranges::upper_bound(corners, end - 2.0 * gap);
+    return next == corners.end() || *next >= end + gap;
   };
   std::vector<double> out;
   for (int k = 1; k < count; ++k) {
@@ -100,7 +110,19 @@ class Laying {
         least_(tabs.width + cut.kerf),
         stop_(stop) {}
 
-  Result<std::vector<TorchWay>> run(const std::optional<motion::Lead>& lead, int count) {
+  /// With the lead halved, down to kShortestLead, until it leaves the tabs in which scrap holds on:
+  /// in a small hole it reaches far across.
+  Result<std::vector<TorchWay>> run(std::optional<motion::Lead> lead, int count) {
+    while (true) {
+      auto out = laid(lead, count);
+      const bool narrow = !out && out.error().issues.front().member == "tabs/width_mm";
+      if (!narrow || !lead || lead->radius < 2.0 * kShortestLead) return out;
+      lead->radius /= 2.0;
+    }
+  }
+
+ private:
+  Result<std::vector<TorchWay>> laid(const std::optional<motion::Lead>& lead, int count) {
     const double all = motion::lengths_along(whole_).back();
     if (2.0 * count * least_ > all)
       return fail({ErrorCode::out_of_range, "tabs/count", static_cast<double>(count),
@@ -117,14 +139,13 @@ class Laying {
     for (std::size_t k = 0; k < out.size(); ++k) {
       const double begin = k == 0 ? 0.0 : ends[k - 1];
       const bool last = k + 1 == out.size();
-      TRY(const auto gap, gap_before(ends[k], ends[k] - begin, out[last ? 0 : k + 1],
-                                     last ? kTwoPi * whole_.turns : 0.0));
+      TRY(const auto gap,
+          gap_before({begin, ends[k]}, out[last ? 0 : k + 1], last ? kTwoPi * whole_.turns : 0.0));
       end_at({begin, ends[k] - gap}, out[k]);
     }
     return out;
   }
 
- private:
   /// The stretch with its way in, as far off as the scrap has room for.
   Result<TorchWay> laid(const Stretch& s, const std::optional<motion::Lead>& asked) {
     const auto track = motion::stretch_of(whole_, s.from, s.to);
@@ -137,30 +158,42 @@ class Laying {
   }
 
   /// How long before its end the tab begins, mm.
-  Result<double> gap_before(double end, double room, const TorchWay& after, double turn) {
-    const double along = kNear * least_ + way_in(after, whole_.radius);
+  Result<double> gap_before(const Stretch& s, const TorchWay& after, double turn) {
+    const double along = kNear * least_ + way_in(after, whole_.radius), end = s.to;
     const auto near = turned(near_end(after.points.points, whole_.radius, along, false), turn);
-    const auto enough = [&](double gap) {
-      const auto at = motion::stretch_of(whole_, end - gap, end).points.front();
-      return distance(border_, {at}, near, stop_) >= least_;
+    const auto enough = [&](double gap, double before) {
+      const auto points = motion::stretch_of(whole_, s.from, end - gap).points;
+      if (before == 0.0) return distance(border_, {points.back()}, near, stop_) >= least_;
+      const auto beside = near_end(points, whole_.radius, before, true);
+      return apart(border_, beside, near, stop_) >= least_ - kExact;
     };
-    double gap = least_;
-    while (!enough(gap)) {
+    double gap = least_, beside = 0.0;  // first its end alone, which is the nearest mostly
+    while (true) {
       if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
-      gap += kStep;
-      if (gap > room / 2.0)
+      if (gap > std::min(kWidest * least_, 0.5 * (end - s.from)))
         return fail({.code = ErrorCode::lead_blocked,
                      .member = "tabs/width_mm",
                      .hint = "no way onto the cut leaves a tab of this width"});
+      if (!enough(gap, beside)) {
+        gap += kStep;
+      } else if (beside == 0.0) {
+        gap =
+            least_gap(std::max(least_, gap - kStep), gap, [&](double g) { return enough(g, 0.0); });
+        beside = kNear * least_;
+      } else {
+        return gap;
+      }
     }
-    double low = std::max(least_, gap - kStep);
+  }
+
+  template <class Enough>
+  static double least_gap(double low, double high, const Enough& enough) {
     if (enough(low)) return low;
-    for (double high = gap; high - low > kExact;) {
+    while (high - low > kExact) {
       const double middle = 0.5 * (low + high);
       (enough(middle) ? high : low) = middle;
-      gap = high;
     }
-    return gap;
+    return high;
   }
 
   /// The way in stays, the stretch ends elsewhere.
@@ -211,11 +244,13 @@ Result<double> metal_between(const TorchCut& cut, const Tabs& tabs, const TorchW
                              const TorchWay& after, const std::stop_token& stop) {
   TRY(const auto border, torch_border(cut));
   const double radius = cut.path.radius(), near = kNear * (tabs.width + cut.kerf);
-  const auto end = near_end(before.points.points, radius, near, true);
+  const auto& ended = before.points.points;
+  const auto first = static_cast<std::ptrdiff_t>(before.points.cut_first);
+  const auto end = near_end({ended.begin() + first, ended.end()}, radius, near, true);
   const auto ahead = near_end(after.points.points, radius, near + way_in(after, radius), false);
   const double turn = kTwoPi * std::floor((end.front().phi - ahead.front().phi) / kTwoPi + 0.5);
   const auto next = turned(ahead, turn);
-  return std::min(distance(border, end, next, stop), distance(border, next, end, stop)) - cut.kerf;
+  return apart(border, end, next, stop) - cut.kerf;
 }
 
 }  // namespace tubecut::torch

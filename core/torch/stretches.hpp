@@ -24,8 +24,9 @@ namespace tubecut::torch {
                                                               const Tabs& tabs,
                                                               const std::stop_token& stop = {});
 
-/// Metal from where the torch goes out to all that the next stretch cuts, mm, the least of both
-/// walls: of every point of either way to the other. The kerf is off on both sides.
+/// Metal between the cut that ends at a tab and all that the next stretch cuts, its way in with it,
+/// mm, the least of both walls: of every point of either to the other, within four widths of the
+/// tab. The kerf is off on both sides.
 ///
 /// Errors  those of motion::track.
 [[nodiscard]] Result<double> metal_between(const TorchCut& cut, const Tabs& tabs,

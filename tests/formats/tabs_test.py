@@ -51,7 +51,7 @@ def check_stretches(stretches, line, width, kerf, near=2e-4):
             raise torch_program.Fault(f"{cut.name}: its way in is not clear of the part")
         flat = [line.flat(at, False) for at in places[first:]]
         covered += sum(math.dist(a, b) for a, b in zip(flat, flat[1:]))
-        left = min(gap(line, cut.places[-12:], after.places[:leads_test.joins(after) + 12], deep) for deep in (False, True)) - kerf
+        left = min(gap(line, cut.places[first:][-12:], after.places[:leads_test.joins(after) + 12], deep) for deep in (False, True)) - kerf
         if left < width - near:
             raise torch_program.Fault(f"{cut.name}: a tab of {left:.4f} mm")
         least = min(least, left)

@@ -93,8 +93,10 @@ double metal(const std::vector<motion::CutPoint>& one, const std::vector<motion:
 /// Of the last places of one and the first of the next.
 double metal_at(const ProgramCut& before, const ProgramCut& after) {
   const auto &one = before.way.points.points, &other = after.way.points.points;
-  const auto some = [](const auto& way) { return std::min<std::ptrdiff_t>(std::ssize(way), 60); };
-  return metal({one.end() - some(one), one.end()}, {other.begin(), other.begin() + some(other)});
+  const auto first = static_cast<std::ptrdiff_t>(before.way.points.cut_first);
+  const auto last = std::max<std::ptrdiff_t>(first, std::ssize(one) - 60);
+  return metal({one.begin() + last, one.end()},
+               {other.begin(), other.begin() + std::min<std::ptrdiff_t>(std::ssize(other), 60)});
 }
 
 double length(const ProgramCut& cut) {
@@ -132,7 +134,7 @@ TEST(Stretches, NoTabIsNarrowerThanAskedOnEitherWall) {
   int held = 0;
   for (int i = 0; i < 40; ++i) {
     const bool opening = i % 4 == 3;
-    const auto cut = opening ? hole(of(18.0, 35.0), of(0.0, 0.5))
+    const auto cut = opening ? hole(of(8.0, 30.0), of(0.0, 0.5))
                              : ring(of(0.0, 40.0), of(0.0, 0.9), 1 + i % 2, of(0.0, 6.0));
     const double width = of(0.5, 6.0);
     const int count = 1 + i % 4;
@@ -140,7 +142,9 @@ TEST(Stretches, NoTabIsNarrowerThanAskedOnEitherWall) {
     asked.tabs->of = Tabs::Of::all;
     const auto made = program_cut(cut, asked, true);
     if (!made) {
-      EXPECT_EQ(made.error().code(), ErrorCode::lead_blocked) << i;
+      EXPECT_TRUE(made.error().code() == ErrorCode::lead_blocked ||
+                  made.error().issues.front().member == "tabs/count")
+          << i;
       continue;
     }
     const auto& cuts = *made;

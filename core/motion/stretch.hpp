@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "core/motion/cut_path.hpp"
+
+namespace tubecut::motion {
+
+/// The point so far along the chord from one to the other, 0 to 1; no corner.
+[[nodiscard]] CutPoint between(const CutPoint& a, const CutPoint& b, double share);
+
+/// The first `length` mm of a track, its start point included.
+[[nodiscard]] std::vector<CutPoint> first_stretch(const Track& track, double length);
+
+/// Tip path up to each point, mm.
+[[nodiscard]] std::vector<double> lengths_along(const Track& track);
+
+/// The open stretch of a closed track between two of its lengths, both ends points of it.
+[[nodiscard]] Track stretch_of(const Track& whole, double from, double to);
+
+}  // namespace tubecut::motion
