@@ -1,5 +1,6 @@
 // What is shown of an answer is what the service says: its checks, its curves, its parts, the values sent.
 import {strict as assert} from 'node:assert';
+import {readFile} from 'node:fs/promises';
 import {answered, formed, open, pixels, then} from '../browser.mjs';
 
 const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);
@@ -175,6 +176,29 @@ export const checks = {
       if (asked) assert.ok(Math.abs(fastest - asked) < 0.03 * asked, `${example.name}: ${fastest} of ${asked} mm/min`);
     }
     assert.equal(found.length, 2);
+    clean(page);
+    await page.context().close();
+  },
+
+  'a part’s schedule tells each cut with its rapid and pierce, and no event is written on another': async ({browser, origin, service}) => {
+    const hash = 'pulse-schedules/two-ends-and-four-holes-of-a-part';
+    const [endpoint, name] = hash.split('/');
+    const body = await readFile(new URL(`../../../examples/${endpoint}/${name}.json`, import.meta.url), 'utf8');
+    const {result} = JSON.parse((await service.post(`/v1/${endpoint}`, JSON.parse(body))).text);
+    const page = await open(browser, origin, `#/${hash}`);
+    await answered(page);
+    const rows = await page.locator('#panel section', {has: page.locator('h3', {hasText: 'Cuts in their order'})}).locator('tbody tr').allInnerTexts();
+    const cells = rows.map((row) => row.split('\t'));
+    const seconds = ({from, to}) => (to - from) * result.period_us * 1e-6;
+    const of = (kind) => result.segments.filter((s) => s.kind === kind);
+    assert.deepEqual(cells.map(([cut]) => cut.toLowerCase()), of('cut').map((s) => s.name.toLowerCase()));
+    for (const [i, [, , rapid, pierce, cut]] of cells.entries()) {
+      for (const [shown, kind] of [[rapid, 'rapid'], [pierce, 'pierce'], [cut, 'cut']]) assert.ok(Math.abs(Number(shown) - seconds(of(kind)[i])) < 0.006 * seconds(of(kind)[i]), `${kind} ${i}: ${shown}`);
+    }
+    assert.match(await page.locator('#figures').innerText(), /In rapids/i);
+    const keys = await page.locator('#chart-pulses figcaption').innerText();
+    assert.match(keys, /rapid/);
+    assert.doesNotMatch(keys, /torch on|cut start/);
     clean(page);
     await page.context().close();
   },

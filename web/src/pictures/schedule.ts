@@ -1,5 +1,5 @@
 import {isRow, rowsOf, type Row} from '../json';
-import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Tool} from '../picture';
+import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Table, type Tool} from '../picture';
 import type {Answer} from '../service';
 import {choice, label, measured, number, term, type Term, withUnit} from '../words';
 import {bevelTable, farEnd, joint} from './cut';
@@ -117,10 +117,19 @@ export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Wa
   const times = timesOf(result);
   const {period, periods} = times;
   const axes = Object.keys(counts);
-  const marks = rowsOf(result['events']).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: choice(e['what'])}));
+  const segments = rowsOf(result['segments']);
+  // A part's events are too many to be written beside each other: its rapids and strokes are bands.
+  const marks = segments.length ? [] : rowsOf(result['events']).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: choice(e['what'])}));
+  const bands = segments
+    .filter((s) => s['kind'] === 'rapid' || s['kind'] === 'mark')
+    .map((s) => ({
+      from: Number(s['from']) * period,
+      to: Number(s['to']) * period,
+      ...(s['kind'] === 'mark' ? {tone: 'mark', text: 'marking'} : {tone: 'ink-soft', text: 'rapid'}),
+    }));
   const each = (make: (pulses: number[], axis: string) => number[]): Series[] =>
     axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: make(column(counts[axis]), axis)}));
-  const shared = {link, x: {name: 'time', unit: 's', values: periods.map((i) => i * period)}, unit: '', marks, zero: true};
+  const shared = {link, x: {name: 'time', unit: 's', values: periods.map((i) => i * period)}, unit: '', marks, bands, zero: true};
   const charts: Chart[] = [{...shared, id: 'pulses', title: 'Pulses per period', series: each((pulses) => extremes(pulses, times)), height: 210}];
   if (machine) {
     const of = (pulses: number[], axis: string) => extremes(shares(pulses, machine, axis, period), times);
@@ -231,7 +240,7 @@ const playedOf = (result: Row, {every, period, periods}: Times): Played => ({
   seconds: periods.map((i) => i * period),
   events: rowsOf(result['events']).map((e) => ({
     at: Math.min(periods.length - 1, Math.round(Number(e['period']) / Math.max(1, every / 2))),
-    text: choice(e['what']),
+    text: [choice(e['what']), ...(e['cut'] ? [String(e['cut'])] : [])].join(' · '),
   })),
 });
 
@@ -293,7 +302,7 @@ export function motionFacts({result}: Answer, way?: Way): Told {
   const naive = (result['comparison'] as Row | undefined)?.['naive'] as Row | undefined;
   const unplanned = ['peak_pulses', 'periods_over', 'largest_step_pulses', 'step_in_16_bits'];
   return {
-    figures: figures(report, names, 'report'),
+    figures: [...figures(report, names, 'report'), ...figures((result['times'] ?? {}) as Row, ['cut_s', 'pierce_s', 'rapid_s', 'mark_s'], 'times')],
     said: `${measured('time_s', Number(report['time_s']))} for ${measured('length_mm', Number(report['length_mm']))} of cut; ${limiting(use)}.`,
     tables: [
       {
@@ -310,11 +319,7 @@ export function motionFacts({result}: Answer, way?: Way): Told {
             },
           ]
         : []),
-      {
-        title: 'Events',
-        head: [term('period'), 'time s', term('what')],
-        rows: rowsOf(result['events']).map((e) => [String(e['period']), number(Number(e['period']) * period, 's'), choice(e['what'])]),
-      },
+      rowsOf(result['segments']).length ? cutsOf(result, period) : eventsOf(result, period),
     ],
     readout: (i) => {
       const at = periods[i % periods.length] as number;
@@ -324,6 +329,37 @@ export function motionFacts({result}: Answer, way?: Way): Told {
         ...Object.keys(counts).map((axis): [Term, string] => [axis, `${column(counts[axis])[at] ?? 0} pulses`]),
       ];
     },
+  };
+}
+
+const eventsOf = (result: Row, period: number): Table => ({
+  title: 'Events',
+  head: [term('period'), 'time s', term('what')],
+  rows: rowsOf(result['events']).map((e) => [String(e['period']), number(Number(e['period']) * period, 's'), choice(e['what'])]),
+});
+
+/** What a part's program does, one behind the other: each cut or stroke with the rapid and the pierce before it. */
+function cutsOf(result: Row, period: number): Table {
+  const seconds = (segment: Row | undefined) => (segment ? number((Number(segment['to']) - Number(segment['from'])) * period, 's') : '–');
+  const segments = rowsOf(result['segments']);
+  const of = (i: number, kind: string) => [segments[i - 1], segments[i - 2]].find((s) => s?.['kind'] === kind && s['name'] === segments[i]?.['name']);
+  return {
+    title: 'Cuts in their order',
+    head: [term('cut'), 'from s', 'rapid s', 'pierce s', 'cut s', 'length mm'],
+    rows: segments.flatMap((s, i) =>
+      s['kind'] === 'cut' || s['kind'] === 'mark'
+        ? [
+            [
+              String(s['name']),
+              number(Number(s['from']) * period, 's'),
+              seconds(of(i, 'rapid')),
+              seconds(of(i, 'pierce')),
+              seconds(s),
+              number(Number((s['report'] as Row)['length_mm']), 'mm'),
+            ],
+          ]
+        : [],
+    ),
   };
 }
 
