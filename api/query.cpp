@@ -25,6 +25,7 @@ constexpr Range kStart{.min = -360.0, .max = 360.0};    // deg
 constexpr Range kOmega{.min = -360.0, .max = 360.0};    // deg
 constexpr Range kPierceBevel{.min = 0.0, .max = 85.0};  // deg
 
+constexpr std::array<std::string_view, 1> kWhole{"tabs"};
 constexpr std::array<std::string_view, 3> kTexts{"machine", "material", "post"};
 
 std::optional<int> hex_digit(char c) {
@@ -174,22 +175,20 @@ std::shared_ptr<const Post> read_post(Reader& in, std::vector<FieldIssue>& withi
 
 /// `tabs` is how many; the others go with it.
 std::optional<torch::Tabs> read_tabs(Reader& in) {
-  for (const auto* const name : {"tabs", "tab_mm", "tabs_of"}) in.note(name);
-  if (in.has("tabs")) {
-    torch::Tabs out;
-    out.count = in.integer("tabs", 1, torch::kMostTabs);
-    if (const auto width = in.optional_number("tab_mm", kTabWidth)) out.width = *width;
-    if (in.has("tabs_of")) out.of = in.choice("tabs_of", kNames<torch::Tabs::Of>);
-    return out;
-  }
+  torch::Tabs out;
+  for (const auto* const name : {"tabs", "tabs_of"}) in.note(name);
+  const bool any = in.has("tabs");
+  if (any) out.count = in.integer("tabs", 1, torch::kMostTabs);
+  if (const auto width = in.optional_number("tab_mm", kTabWidth)) out.width = *width;
+  if (in.has("tabs_of")) out.of = in.choice("tabs_of", kNames<torch::Tabs::Of>);
   for (const auto* const name : {"tab_mm", "tabs_of"})
-    if (in.has(name))
+    if (!any && in.has(name) && in.understood(name))
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = name,
                 .limit = Json{"tabs"},
                 .hint = "goes with tabs, how many of them"},
                in.find(name));
-  return std::nullopt;
+  return any ? std::optional(out) : std::nullopt;
 }
 
 /// The parameters that only drawings and machine files read.
@@ -225,8 +224,10 @@ FormatOptions read_options(Reader& in, std::vector<FieldIssue>& within) {
 /// What the reader found, said of parameters.
 void finish(Reader& in, std::vector<FieldIssue>& issues) {
   for (auto& issue : in.finish_root()) {
+    const bool whole = std::ranges::find(kWhole, issue.pointer.substr(1)) != kWhole.end();
     issue.pointer = pointer(issue.pointer.substr(1));
-    if (issue.code == ErrorCode::not_a_number) issue.hint = "a number such as 12.5";
+    if (issue.code == ErrorCode::not_a_number)
+      issue.hint = whole ? "a whole number such as 2" : "a number such as 12.5";
     issues.push_back(std::move(issue));
   }
 }

@@ -122,7 +122,17 @@ std::vector<std::string> acknowledged_of(const Answer& answer,
   return out;
 }
 
+/// Tabs of holes are of the parts that have any.
+bool has_tabs(const Worked<Parts>& part, const torch::Tabs& tabs) {
+  return tabs.of != torch::Tabs::Of::holes || !part.out.holes.empty();
+}
+
 void refuse_unmet(const MadeParts& made, const Caption& caption) {
+  if (const auto& tabs = caption.options.tabs;
+      tabs && std::ranges::none_of(made, [&](const MadePart& part) {
+        return part.made && has_tabs(*part.made, *tabs);
+      }))
+    throw UnfitOption{"tabs_of", "no part has a hole"};
   for (const auto& code : caption.options.acknowledged)
     if (std::ranges::none_of(made, [&](const MadePart& part) {
           return part.made && std::ranges::count(part.made->answer.verdict.codes, code) > 0;
@@ -140,6 +150,8 @@ Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& p
   auto program = caption;  // what else the query says is of those alone
   program.options = of_frame.options;
   program.options.acknowledged = acknowledged_of(part.answer, of_frame.options.acknowledged);
+  if (const auto& tabs = of_frame.options.tabs; tabs && !has_tabs(part, *tabs))
+    program.options.tabs.reset();
   const auto stem =
       bundle.own(file_name(caption.reference.front().second, part.answer.result_sha256));
   const auto request = dump(part.answer.request, of_frame.stop);

@@ -174,6 +174,22 @@ class Bundles(FormatTest):
                 self.assertEqual([(out["format"], out["code"]) for out in part["left_out"]], [("gcode", "rejected")])
         self.assertTrue(any(part["left_out"] for part in self.manifest(rejected)["parts"]))
 
+    def test_tabs_of_holes_are_of_the_parts_that_have_any(self):
+        body = examples("frames")["gate-with-rails-through-uprights"]
+        asked = "&files=gcode&" + CODE + "&tabs=2&tab_mm=1"
+        held = [0, 0]
+        for part in self.manifest(files := self.archive(body, asked + "&tabs_of=holes"))["parts"]:
+            self.assertEqual(part["left_out"], [])
+            by_format = {file["format"]: file["name"] for file in part["files"]}
+            program = files[by_format["gcode"]].decode()
+            holes = re.findall(r"^\(cut: hole (.*)\)$", program, re.M)
+            self.assertEqual(holes != [], "(tabs: 2 of 1 mm" in program)
+            self.assertTrue(all(name.endswith((", 1 of 2", ", 2 of 2")) for name in holes), holes)
+            held[holes != []] += 1
+        self.assertTrue(all(held), held)
+        status, _, content = self.service.ask("frames", examples("frames")["roll-cage-of-12"], "format=zip" + asked + "&tabs_of=holes")
+        self.assertEqual((status, code_of(content)), (422, "?tabs_of"))
+
     def test_a_part_that_is_not_there_is_said(self):
         truss = examples("frames")["truss-of-19"]
         body = truss | {"members": [m | ({"outer_diameter_mm": 120} if m["id"] == "P0" else {}) for m in truss["members"]]}

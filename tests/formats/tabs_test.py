@@ -5,6 +5,7 @@ import json
 import math
 import re
 
+import lands_test
 import leads_test
 import torch_program
 from service import FormatTest, examples, main
@@ -180,6 +181,9 @@ class Tabs(FormatTest):
                 ({"marks": "on", "post": "fanuc_style"}, "?marks", "unsupported_combination"), ({"marks": "true"}, "?marks", "wrong_type")):
             with self.subTest(options):
                 self.assertEqual(self.refused("set-in-branch", leads_test.LIT | options), [(pointer, code)])
+        asked = leads_test.query(leads_test.LIT, torch="off", tabs=2, passes="both")
+        status, _, content = self.service.ask("bevel-tables", lands_test.SADDLE, asked)
+        self.assertEqual((status, json.loads(content)["errors"][0]["pointer"]), (422, "?tabs"))
         status, _, content = self.service.ask("bevel-tables", examples("bevel-tables")["source-000-table-1"], leads_test.query(leads_test.LIT, marks="on"))
         self.assertIn((status, json.loads(content)["errors"][0]["pointer"]), [(400, "?marks"), (422, "?marks"), (422, "?acknowledge")])
 

@@ -80,7 +80,7 @@ class Refusals(FormatTest):
                 [error] = said[f"?{name}"]
                 self.assertEqual(error["got"], "never")
                 self.assertNotEqual(error["code"], "unknown_field")
-                kinds = {"boolean": ["true or false"], "number": ["number"], "string": NAMES.get(name)}
+                kinds = {"boolean": ["true or false"], "number": ["number"], "integer": ["whole number"], "string": NAMES.get(name)}
                 for word in schema.get("enum") or schema.get("items", {}).get("enum") or kinds[schema["type"]]:
                     self.assertIn(word, error["hint"])
                 count += 1
