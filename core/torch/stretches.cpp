@@ -41,7 +41,8 @@ double distance(const motion::PartBorder& border, const Points& from, const Poin
   for (const double rho : {border.inner_radius, border.outer_radius}) {
     std::vector<motion::Flat> way;
     for (const auto& point : to) way.push_back(motion::on_wall(border, point, rho));
-    for (std::size_t i = 0; i < from.size() && !stops(stop, i); ++i)
+    // A turn goes along all of the other way: some 20 us.
+    for (std::size_t i = 0; i < from.size() && !stops(stop, 1024 * (i / 64)); ++i)
       out = std::min(out, distance(motion::on_wall(border, from[i], rho), way));
   }
   return out;
