@@ -4,6 +4,7 @@ answer has the marks."""
 import json
 import math
 import re
+import urllib.parse
 
 import lands_test
 import leads_test
@@ -186,6 +187,17 @@ class Tabs(FormatTest):
         self.assertEqual((status, json.loads(content)["errors"][0]["pointer"]), (422, "?tabs"))
         status, _, content = self.service.ask("bevel-tables", examples("bevel-tables")["source-000-table-1"], leads_test.query(leads_test.LIT, marks="on"))
         self.assertIn((status, json.loads(content)["errors"][0]["pointer"]), [(400, "?marks"), (422, "?marks"), (422, "?acknowledge")])
+
+
+class Posts(FormatTest):
+    def test_a_marking_tool_is_switched_on_and_off(self):
+        posts = {p["name"]: p["post"] for p in json.loads(self.service.get("/v1/posts"))["posts"]}
+        for name, other in (("mark_on", "mark_off"), ("mark_off", "mark_on")):
+            half = {key: value for key, value in posts["linuxcnc"].items() if key != other} | {"name": "half"}
+            query = leads_test.query(leads_test.LIT, torch="off") + "&post=" + urllib.parse.quote(json.dumps(half))
+            status, _, content = self.service.ask("parts", examples("parts")["set-in-branch"], query)
+            self.assertEqual(status, 400, content[:300])
+            self.assertEqual([(e["pointer"], e["code"]) for e in json.loads(content)["errors"]], [(f"?post/{other}", "missing_field")], name)
 
 
 if __name__ == "__main__":
