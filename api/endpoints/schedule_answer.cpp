@@ -66,7 +66,7 @@ namespace {
 /// Of a cut alone: with a lead, and of a stretch or a mark, it ends elsewhere than it begins.
 std::vector<AxisSums> sums_of(const ScheduleJob& job, const torch::ProgramCut& cut,
                               const torch::Segment& segment) {
-  const bool closed = !job.program->setup.lead && cut.stretches == 1 && !cut.cut.mark;
+  const bool closed = !job.program->setup.lead && !cut.way.points.stretch && !cut.cut.mark;
   std::vector<AxisSums> out;
   for (const auto& axis : job.program->machine.axes) {
     const auto a = out.size();

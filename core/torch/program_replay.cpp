@@ -239,7 +239,7 @@ class Between {
 Result<void> see_tabs(const Looked& l, WorstOf& out) {
   for (std::size_t k = 0; k < l.cuts.size(); ++k) {
     const auto& cut = l.cuts[k];
-    if (cut.stretches == 1) continue;
+    if (!cut.way.points.stretch) continue;
     const bool ends = cut.stretch + 1 == cut.stretches;
     const auto& next = l.cuts[ends ? k - cut.stretch : k + 1];
     const auto& tabs = *l.spec.setup.tabs;

@@ -337,7 +337,7 @@ motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut, dou
   out.motion.sector = {};
   out.motion.start = {};
   if (out.motion.lead) out.motion.lead->radius = cut.way.radius;
-  if (out.motion.lead || cut.start != motion::Start::At::first_point || cut.stretches > 1) {
+  if (out.motion.lead || cut.start != motion::Start::At::first_point || cut.way.points.stretch) {
     out.way = cut.way.points;
     for (auto& point : out.way->points) {
       point.phi += turns;

@@ -380,6 +380,31 @@ TEST(ProgramSchedule, MarksBeforeItCuts) {
   sees("I10", s);
 }
 
+// One tab leaves one stretch, with a lead and without: it is no closed cut, and its tab is held.
+TEST(ProgramSchedule, KeepsASingleTab) {
+  for (const bool lead : {true, false}) {
+    auto spec = program();
+    if (!lead) spec.setup.lead = {};
+    spec.setup.tabs = Tabs{.count = 1, .width = 2.0};
+    const auto made = schedule(spec);
+    ASSERT_TRUE(made);
+    std::set<std::string> names;
+    for (const auto& check : verify(spec, *made)) {
+      EXPECT_TRUE(check.passed()) << check.name;
+      names.insert(check.name);
+    }
+    EXPECT_TRUE(names.contains("tab_width")) << lead;
+    const auto last = std::ranges::find_if(
+        made->segments, [](const Segment& s) { return s.kind == Kind::cut && s.cut == 3; });
+    const auto& way = made->cuts[3].way.points;
+    const double way_in = way.points[way.cut_first].phi - way.points.front().phi;
+    const double begins = value(spec, made->whole, 0, last->from) * kRadPerDeg + way_in;
+    const double ends = value(spec, made->whole, 0, last->to) * kRadPerDeg;
+    // Less than a turn by the tab and a kerf, 4 mm of the inner wall; its contour leans a little.
+    EXPECT_NEAR(kTwoPi - (ends - begins), 4.0 / (kRadius - kWall), 0.02) << lead;
+  }
+}
+
 // Each stretch between tabs is a cut with its rapid and pierce; the whole holds all its invariants,
 // and a narrower tab is seen.
 TEST(ProgramSchedule, CutsFromTabToTab) {
