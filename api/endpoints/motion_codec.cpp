@@ -230,10 +230,7 @@ struct CutOf {
     for (auto& warning : job.warnings)
       warning.member = warning.member.empty() ? "part" : "part/" + warning.member;
     auto cuts = torch::torch_cuts(spec.part, part);
-    if (request.marks) {
-      const auto strokes = torch::marks(spec.part, part);
-      cuts.insert(cuts.begin(), strokes.begin(), strokes.end());
-    }
+    if (request.marks) cuts = torch::with_marks(spec.part, part, std::move(cuts));
     job.program = {.cuts = std::move(cuts),
                    .setup = request.setup,
                    .machine = request.machine,

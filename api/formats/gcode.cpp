@@ -106,7 +106,6 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
                      .places = {},
                      .kerf = cut.kerf,
                      .radius = way.radius,
-                     .stretches = each.stretches,
                      .mark = cut.mark});
       refine(way.points, reach, caption.stop, moves, out.back());
     }
@@ -236,8 +235,7 @@ void add_marks(const part::PartSpec& spec, const part::Part& part, const FormatO
   const auto& post = post_of(o);
   if (post.mark_on.empty())
     throw UnfitOption{"marks", "post " + post.name + " has no mark_on, by which a tool marks"};
-  const auto strokes = torch::marks(spec, part);
-  job.cuts.insert(job.cuts.begin(), strokes.begin(), strokes.end());
+  job.cuts = torch::with_marks(spec, part, std::move(job.cuts));
 }
 
 /// A bevel that stands on a land does not cut it: a program that lights the torch must say that it

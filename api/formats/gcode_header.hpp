@@ -15,8 +15,7 @@ struct TorchCutPlaces {
   std::string name;
   std::vector<TorchPlace> places;  // from the pierce on
   double kerf = 0.0;
-  double radius = 0.0;        // of its leads
-  std::size_t stretches = 1;  // of its cut, between tabs; this is one of them
+  double radius = 0.0;  // of its leads
   bool mark = false;
   std::size_t cut_first = 0, cut_last = 0;  // places between which it is no lead
 

@@ -1,5 +1,7 @@
 #include "core/torch/marks.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -25,7 +27,8 @@ TorchCut stroke(const joint::Target& tube, std::string name, Place from, Place t
 
 }  // namespace
 
-std::vector<TorchCut> marks(const part::PartSpec& spec, const part::Part& part) {
+std::vector<TorchCut> with_marks(const part::PartSpec& spec, const part::Part& part,
+                                 std::vector<TorchCut> cuts) {
   using Kind = part::Mark::Kind;
   std::vector<TorchCut> out;
   for (const auto& step : part.sequence) {
@@ -44,6 +47,7 @@ std::vector<TorchCut> marks(const part::PartSpec& spec, const part::Part& part) 
     out.push_back(stroke(spec.target, name + ", round", {mark.phi - round, mark.z_from},
                          {mark.phi + round, mark.z_from}));
   }
+  std::ranges::move(cuts, std::back_inserter(out));
   return out;
 }
 
