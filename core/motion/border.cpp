@@ -32,15 +32,16 @@ Flat on_surface(const PartBorder& part, const CutPoint& p, Slope tan, double rho
   return {rho * (p.phi - turned), p.z + part.sigma * h * tan.b};
 }
 
-Slope slope_of(const PartBorder& part, std::size_t i) {
-  return {part.tan_b[i], part.tan_a.empty() ? 0.0 : part.tan_a[i]};
+Slope slope_of(const CutPoint& p) {
+  return {elementary::tan(p.b), p.a == 0.0 ? 0.0 : elementary::tan(p.a)};
 }
 
-/// No more than the distance to the chord from a to b.
-double least_distance(Flat p, Flat a, Flat b) {
-  const auto [low_s, high_s] = std::minmax(a.s, b.s);
-  const auto [low_z, high_z] = std::minmax(a.z, b.z);
-  return std::max({low_s - p.s, p.s - high_s, low_z - p.z, p.z - high_z});
+/// The border where its beams meet the surface of radius `rho`.
+BorderWall wall_of(const PartBorder& part, double rho) {
+  std::vector<Flat> line(part.cut.points.size());
+  std::ranges::transform(part.cut.points, line.begin(),
+                         [&](const CutPoint& p) { return on_wall(part, p, rho); });
+  return {rho, Chords(std::move(line))};
 }
 
 bool crosses_above(Flat p, Flat a, Flat b) {
@@ -48,18 +49,23 @@ bool crosses_above(Flat p, Flat a, Flat b) {
   return a.z + (b.z - a.z) * (p.s - a.s) / (b.s - a.s) > p.z;
 }
 
-/// Signed distance to the border on one surface: positive inside the kept part.
-double depth(const PartBorder& part, const CutPoint& point, Slope tan, double rho,
+/// Signed distance to the border on one surface: positive inside the kept part. Boxes that are too
+/// far off to hold the nearest chord, and lie neither above nor below the point, are not looked
+/// into.
+double depth(const PartBorder& part, const CutPoint& point, Slope tan, const BorderWall& wall,
              const std::stop_token& stop) {
-  const Flat p = on_surface(part, point, tan, rho);
-  double nearest = 1e300;
+  const Flat p = on_surface(part, point, tan, wall.rho);
+  const auto& boxes = wall.line.boxes;
+  double bound = 1e300, nearest = 1e300;
+  for (const auto& box : boxes) bound = std::min(bound, most_distance(p, box));
   bool odd = false;
-  Flat a = on_surface(part, part.cut.points.front(), slope_of(part, 0), rho);
-  for (std::size_t i = 1; i < part.cut.points.size() && !stops(stop, i); ++i) {
-    const Flat b = on_surface(part, part.cut.points[i], slope_of(part, i), rho);
-    if (least_distance(p, a, b) < nearest) nearest = std::min(nearest, distance(p, a, b));
-    odd = odd != crosses_above(p, a, b);
-    a = b;
+  for (std::size_t k = 0; k < boxes.size() && !stop.stop_requested(); ++k) {
+    const bool beside = p.s < boxes[k].low.s || boxes[k].high.s < p.s;
+    if (beside && least_distance(p, boxes[k]) > bound) continue;
+    each_chord(wall.line, k, [&](Flat a, Flat b) {
+      nearest = nearer(nearest, p, a, b);
+      odd = odd != crosses_above(p, a, b);
+    });
   }
   const bool kept = part.scrap == Scrap::plus_z ? odd : !odd;
   return kept ? nearest : -nearest;
@@ -72,15 +78,15 @@ CutPoint wrapped(const PartBorder& part, CutPoint p) {
 }
 
 /// One turn of a ring seen from a point near its seam needs the neighbouring turn for the distance.
-double depth_on_ring(const PartBorder& part, const CutPoint& p, Slope tan, double rho,
+double depth_on_ring(const PartBorder& part, const CutPoint& p, Slope tan, const BorderWall& wall,
                      const std::stop_token& stop) {
-  const double here = depth(part, p, tan, rho, stop);
+  const double here = depth(part, p, tan, wall, stop);
   if (part.cut.turns == 0) return here;
   double nearest = std::abs(here);
   for (const double turn : {-kTwoPi, kTwoPi}) {
     CutPoint moved = p;
     moved.phi += turn;
-    nearest = std::min(nearest, std::abs(depth(part, moved, tan, rho, stop)));
+    nearest = std::min(nearest, std::abs(depth(part, moved, tan, wall, stop)));
   }
   return here < 0.0 ? -nearest : nearest;
 }
@@ -156,14 +162,14 @@ struct SmoothTrack {
   double sag = 0.0;  // mm
 };
 
-SmoothTrack smooth_border(const Track& track) {
+SmoothTrack smooth_border(const Track& track, const std::stop_token& stop) {
   constexpr double kSag = 0.002;  // mm
   constexpr double kMostPieces = 32.0;
   SmoothTrack out{track, 0.0};
   if (!track.closed) return out;
   const BorderCurve curve(track);
   out.track.points.clear();
-  for (std::size_t i = 0; i + 1 < track.points.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < track.points.size() && !stops(stop, i); ++i) {
     const double sag = curve.sag(i);
     out.sag = std::max(out.sag, sag);
     out.track.points.push_back(track.points[i]);
@@ -178,49 +184,38 @@ SmoothTrack smooth_border(const Track& track) {
 
 }  // namespace
 
-double distance(Flat p, Flat a, Flat b) {
-  const double s = b.s - a.s, z = b.z - a.z;
-  const double square = s * s + z * z;
-  const double along = square > 0.0 ? ((p.s - a.s) * s + (p.z - a.z) * z) / square : 0.0;
-  const double k = std::clamp(along, 0.0, 1.0);
-  return elementary::hypot(p.s - a.s - k * s, p.z - a.z - k * z);
-}
-
-Result<PartBorder> part_border(const CutPath& cut_path, double sigma) {
+Result<PartBorder> part_border(const CutPath& cut_path, double sigma, const std::stop_token& stop) {
   auto whole = track(cut_path);
   if (!whole) return tl::unexpected<Error>(whole.error());
-  SmoothTrack border = smooth_border(*whole);
+  SmoothTrack border = smooth_border(*whole, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   const auto& points = border.track.points;
   const auto [low, high] = std::ranges::minmax(points, {}, &CutPoint::phi);
   const double from = border.track.turns == 0 ? 0.5 * (low.phi + high.phi) - kPi : low.phi;
-  std::vector<double> tan_b(points.size());
-  std::ranges::transform(points, tan_b.begin(),
-                         [](const CutPoint& p) { return elementary::tan(p.b); });
-  std::vector<double> tan_a(cut_path.a.empty() ? 0 : points.size());
-  for (std::size_t i = 0; i < tan_a.size(); ++i) tan_a[i] = elementary::tan(points[i].a);
-  return PartBorder{.cut = std::move(border.track),
-                    .scrap = cut_path.scrap,
-                    .outer_radius = cut_path.outer_radius,
-                    .inner_radius = cut_path.inner_radius(),
-                    .sigma = sigma,
-                    .sag = border.sag,
-                    .tan_b = std::move(tan_b),
-                    .tan_a = std::move(tan_a),
-                    .from_phi = from};
+  PartBorder out{.cut = std::move(border.track),
+                 .scrap = cut_path.scrap,
+                 .outer_radius = cut_path.outer_radius,
+                 .inner_radius = cut_path.inner_radius(),
+                 .sigma = sigma,
+                 .sag = border.sag,
+                 .from_phi = from};
+  const double middle = 0.5 * (out.inner_radius + out.outer_radius);
+  for (const double rho : {out.inner_radius, middle, out.outer_radius})
+    if (!stop.stop_requested()) out.walls.push_back(wall_of(out, rho));
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  return out;
 }
 
 Flat on_wall(const PartBorder& part, const CutPoint& p, double rho) {
-  return on_surface(part, p, {elementary::tan(p.b), p.a == 0.0 ? 0.0 : elementary::tan(p.a)}, rho);
+  return on_surface(part, p, slope_of(p), rho);
 }
 
 double intrusion(const PartBorder& part, const CutPoint& point, const std::stop_token& stop) {
   const CutPoint p = wrapped(part, point);
-  const Slope tan{elementary::tan(p.b), p.a == 0.0 ? 0.0 : elementary::tan(p.a)};
-  const double middle = 0.5 * (part.inner_radius + part.outer_radius);
+  const Slope tan = slope_of(p);
   double deepest = -1e300;
-  for (const double rho : {part.inner_radius, middle, part.outer_radius}) {
-    deepest = std::max(deepest, depth_on_ring(part, p, tan, rho, stop));
-  }
+  for (const auto& wall : part.walls)
+    deepest = std::max(deepest, depth_on_ring(part, p, tan, wall, stop));
   return deepest;
 }
 

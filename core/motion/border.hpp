@@ -3,18 +3,16 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/motion/chords.hpp"
 #include "core/motion/cut_path.hpp"
 
 namespace tubecut::motion {
 
-/// A point or direction of a developed surface: s = radius * phi, and z.
-struct Flat {
-  double s = 0.0;
-  double z = 0.0;
+/// A part's border on one surface of its wall.
+struct BorderWall {
+  double rho = 0.0;  // mm
+  Chords line;
 };
-
-/// From p to the straight line between a and b, mm.
-[[nodiscard]] double distance(Flat p, Flat a, Flat b);
 
 /// The finished part's border and the side of it that falls away.
 struct PartBorder {
@@ -22,20 +20,20 @@ struct PartBorder {
   Scrap scrap = Scrap::minus_z;
   double outer_radius = 0.0;
   double inner_radius = 0.0;
-  double sigma = -1.0;             // of the machine that counts the B of `cut`
-  double sag = 0.0;                // mm, largest distance of the contour's chords to `cut`
-  std::vector<double> tan_b = {};  // of each point of `cut`
-  std::vector<double> tan_a = {};  // the same; empty: the beam lies in the axial plane everywhere
-  double from_phi = 0.0;           // a point is seen from the turn that begins here
+  double sigma = -1.0;                 // of the machine that counts the B of `cut`
+  double sag = 0.0;                    // mm, largest distance of the contour's chords to `cut`
+  double from_phi = 0.0;               // a point is seen from the turn that begins here
+  std::vector<BorderWall> walls = {};  // inner, middle, outer
 };
 
 /// The border of the part that `cut_path` cuts out: between its points lie points of the smooth
 /// curve through them, so that chords leave the curve by no more than a few micrometres. Corners
 /// stay: flagged, or turning by more than 20 deg. Its tangents are those of the leads.
 ///
-/// Errors  those of `track`.
+/// Errors  those of `track`; cancelled.
 /// Source  docs/theory/pulse-schedules.md, section 2.3.
-[[nodiscard]] Result<PartBorder> part_border(const CutPath& cut_path, double sigma);
+[[nodiscard]] Result<PartBorder> part_border(const CutPath& cut_path, double sigma,
+                                             const std::stop_token& stop);
 
 /// Where the beam at a point meets the surface of radius `rho`, mm, developed there. One that
 /// grazes past it: its nearest place.

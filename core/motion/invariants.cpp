@@ -53,7 +53,8 @@ class Examination {
     if (with_lead && spec.motion.lead) {
       const auto* const cut_path = std::get_if<CutPath>(&spec.cut);
       if (cut_path != nullptr && cut_path->closed) {
-        if (auto border = part_border(*cut_path, spec.machine.sigma())) border_ = *border;
+        if (auto border = part_border(*cut_path, spec.machine.sigma(), stop))
+          border_ = *std::move(border);
       }
     }
   }

@@ -59,7 +59,7 @@ Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
     out.turns = cut->turns;
     return out;
   }
-  const auto border = part_border(cut_path, spec.machine.sigma());
+  const auto border = part_border(cut_path, spec.machine.sigma(), stop);
   if (!border) return tl::unexpected<Error>(border.error());
   const auto whole_way = clear_lead(*border, *cut, *spec.motion.lead, spec.motion.eps_tip, stop);
   if (!whole_way) return tl::unexpected<Error>(whole_way.error());

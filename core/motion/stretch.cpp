@@ -1,5 +1,8 @@
 #include "core/motion/stretch.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace tubecut::motion {
 
 CutPoint between(const CutPoint& a, const CutPoint& b, double share) {
@@ -25,19 +28,22 @@ std::vector<double> lengths_along(const Track& t) {
   return out;
 }
 
-Track stretch_of(const Track& whole, double from, double to) {
-  const auto length = lengths_along(whole);
+CutPoint at_length(const Track& whole, const std::vector<double>& length, double at) {
+  const auto past = static_cast<std::size_t>(std::ranges::upper_bound(length, at) - length.begin());
+  const std::size_t before = std::max<std::size_t>(past, 1) - 1;
+  if (past == length.size() || length[before] >= at) return whole.points[before];
+  const double share = (at - length[before]) / (length[past] - length[before]);
+  return between(whole.points[before], whole.points[past], share);
+}
+
+Track stretch_of(const Track& whole, const std::vector<double>& length, double from, double to) {
   Track out{.radius = whole.radius, .turns = whole.orientation()};
-  for (std::size_t i = 0; i < length.size(); ++i) {
-    const auto inserted = [&](double at) {
-      if (i > 0 && length[i - 1] < at && at < length[i])
-        out.points.push_back(between(whole.points[i - 1], whole.points[i],
-                                     (at - length[i - 1]) / (length[i] - length[i - 1])));
-    };
-    inserted(from);
-    inserted(to);
-    if (from <= length[i] && length[i] <= to) out.points.push_back(whole.points[i]);
-  }
+  const auto first = std::ranges::lower_bound(length, from) - length.begin();
+  const auto past = std::ranges::upper_bound(length, to) - length.begin();
+  const auto on_point = [&](double at) { return std::ranges::binary_search(length, at); };
+  if (!on_point(from)) out.points.push_back(at_length(whole, length, from));
+  out.points.insert(out.points.end(), whole.points.begin() + first, whole.points.begin() + past);
+  if (!on_point(to)) out.points.push_back(at_length(whole, length, to));
   return out;
 }
 

@@ -15,7 +15,11 @@ namespace tubecut::motion {
 /// Tip path up to each point, mm.
 [[nodiscard]] std::vector<double> lengths_along(const Track& track);
 
+/// The place at a length along a track whose points' lengths are given; of several the last.
+[[nodiscard]] CutPoint at_length(const Track& whole, const std::vector<double>& length, double at);
+
 /// The open stretch of a closed track between two of its lengths, both ends points of it.
-[[nodiscard]] Track stretch_of(const Track& whole, double from, double to);
+[[nodiscard]] Track stretch_of(const Track& whole, const std::vector<double>& length, double from,
+                               double to);
 
 }  // namespace tubecut::motion

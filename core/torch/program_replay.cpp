@@ -235,15 +235,19 @@ class Between {
 
 /// The metal of every tab, from the stretch that ends there to the one that goes on, or the first.
 ///
-/// Errors  those of metal_between.
+/// Errors  those of torch_border.
 Result<void> see_tabs(const Looked& l, WorstOf& out) {
+  motion::PartBorder border;  // of the cut whose stretches these are
   for (std::size_t k = 0; k < l.cuts.size(); ++k) {
     const auto& cut = l.cuts[k];
     if (!cut.way.points.stretch) continue;
     const bool ends = cut.stretch + 1 == cut.stretches;
     const auto& next = l.cuts[ends ? k - cut.stretch : k + 1];
     const auto& tabs = *l.spec.setup.tabs;
-    TRY(const double metal, metal_between(cut.cut, tabs, cut.way, next.way, l.stop));
+    if (cut.stretch == 0) {
+      TRY(border, torch_border(cut.cut, l.stop));
+    }
+    const double metal = metal_between(border, cut.cut, tabs, cut.way, next.way, l.stop);
     out.see({"tab_width", worst_of({0.0, tabs.width - metal}), kTabRounding, "mm"});
   }
   return {};

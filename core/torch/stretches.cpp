@@ -1,13 +1,14 @@
 #include "core/torch/stretches.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "core/base/elementary.hpp"
-#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
+#include "core/motion/chords.hpp"
 #include "core/motion/stretch.hpp"
 
 namespace tubecut::torch {
@@ -27,37 +28,42 @@ struct Stretch {
   double from = 0.0, to = 0.0;
 };
 
-double distance(const motion::Flat& p, const std::vector<motion::Flat>& way) {
-  double out = 1e300;
-  for (std::size_t i = 0; i < way.size(); ++i)
-    out = std::min(out, motion::distance(p, way[i == 0 ? 0 : i - 1], way[i]));
-  return out;
+/// A way on both walls, the inner first.
+using Walls = std::array<motion::Chords, 2>;
+
+Walls on_walls(const motion::PartBorder& border, const Points& way) {
+  const auto on = [&](double rho) {
+    std::vector<motion::Flat> line(way.size());
+    std::ranges::transform(way, line.begin(),
+                           [&](const auto& point) { return motion::on_wall(border, point, rho); });
+    return motion::Chords(std::move(line));
+  };
+  return {on(border.inner_radius), on(border.outer_radius)};
 }
 
-/// Of one way's points from the other, on both walls, mm.
-double distance(const motion::PartBorder& border, const Points& from, const Points& to,
-                const std::stop_token& stop) {
+/// The least of one way's points from the other, on the same wall, mm.
+double distance(const Walls& from, const Walls& to, const std::stop_token& stop) {
   double out = 1e300;
-  for (const double rho : {border.inner_radius, border.outer_radius}) {
-    std::vector<motion::Flat> way;
-    for (const auto& point : to) way.push_back(motion::on_wall(border, point, rho));
-    // A turn goes along all of the other way: some 20 us.
-    for (std::size_t i = 0; i < from.size() && !stops(stop, 1024 * (i / 64)); ++i)
-      out = std::min(out, distance(motion::on_wall(border, from[i], rho), way));
-  }
+  for (std::size_t wall = 0; wall < from.size(); ++wall)
+    for (const auto& point : from[wall].points) {
+      if (stop.stop_requested()) return out;  // a turn goes along all of the other way
+      out = motion::nearer(out, point, to[wall]);
+    }
   return out;
 }
 
 /// The same both ways: of places of either to the other.
-double apart(const motion::PartBorder& border, const Points& one, const Points& other,
-             const std::stop_token& stop) {
-  return std::min(distance(border, one, other, stop), distance(border, other, one, stop));
+double apart(const Walls& one, const Walls& other, const std::stop_token& stop) {
+  return std::min(distance(one, other, stop), distance(other, one, stop));
 }
 
 /// Of a way, before its cut begins, mm.
 double way_in(const TorchWay& way, double radius) {
-  const motion::Track track{.points = way.points.points, .radius = radius};
-  return motion::lengths_along(track)[way.points.cut_first];
+  const auto& points = way.points.points;
+  const auto first = static_cast<std::ptrdiff_t>(way.points.cut_first);
+  const motion::Track track{.points = {points.begin(), points.begin() + first + 1},
+                            .radius = radius};
+  return motion::lengths_along(track).back();
 }
 
 /// The points of a way within `length` of its end, or of its start.
@@ -79,8 +85,8 @@ Points turned(Points points, double by) {
 }
 
 /// Where tabs end: evenly, moved off corners where there is room; the last before the start.
-std::vector<double> tab_ends(const motion::Track& whole, int count, double gap) {
-  const auto length = motion::lengths_along(whole);
+std::vector<double> tab_ends(const motion::Track& whole, const std::vector<double>& length,
+                             int count, double gap) {
   const auto corner = motion::from_corner(whole);
   std::vector<double> corners;
   for (std::size_t i = 0; i < corner.size(); ++i)
@@ -107,6 +113,7 @@ class Laying {
   Laying(motion::Track whole, motion::PartBorder border, const TorchCut& cut, const Tabs& tabs,
          const std::stop_token& stop)
       : whole_(std::move(whole)),
+        length_(motion::lengths_along(whole_)),
         border_(std::move(border)),
         least_(tabs.width + cut.kerf),
         stop_(stop) {}
@@ -124,12 +131,12 @@ class Laying {
 
  private:
   Result<std::vector<TorchWay>> laid(const std::optional<motion::Lead>& lead, int count) {
-    const double all = motion::lengths_along(whole_).back();
+    const double all = length_.back();
     if (2.0 * count * least_ > all)
       return fail({ErrorCode::out_of_range, "tabs/count", static_cast<double>(count),
                    std::floor(all / (2.0 * least_)), "",
                    "tabs and their kerfs take more than half of the cut"});
-    const auto ends = tab_ends(whole_, count, least_);
+    const auto ends = tab_ends(whole_, length_, count, least_);
     std::vector<TorchWay> out;
     double from = 0.0;
     for (const double end : ends) {
@@ -149,7 +156,7 @@ class Laying {
 
   /// The stretch with its way in, as far off as the scrap has room for.
   Result<TorchWay> laid(const Stretch& s, const std::optional<motion::Lead>& asked) {
-    const auto track = motion::stretch_of(whole_, s.from, s.to);
+    const auto track = motion::stretch_of(whole_, length_, s.from, s.to);
     if (!asked) return TorchWay{{track.points, 0, track.points.size() - 1, true}, 0.0};
     auto lead = *asked;
     lead.shape = motion::Lead::Shape::square;
@@ -158,33 +165,32 @@ class Laying {
     return way;
   }
 
-  /// How long before its end the tab begins, mm.
+  /// How long before its end the tab begins, mm: first by the cut's end alone, which is the nearest
+  /// mostly, then by all that lies near it.
   Result<double> gap_before(const Stretch& s, const TorchWay& after, double turn) {
-    const double along = kNear * least_ + way_in(after, whole_.radius), end = s.to;
-    const auto near = turned(near_end(after.points.points, whole_.radius, along, false), turn);
-    const auto enough = [&](double gap, double before) {
-      const auto points = motion::stretch_of(whole_, s.from, end - gap).points;
-      if (before == 0.0) return distance(border_, {points.back()}, near, stop_) >= least_;
-      const auto beside = near_end(points, whole_.radius, before, true);
-      return apart(border_, beside, near, stop_) >= least_ - kExact;
+    const double along = kNear * least_ + way_in(after, whole_.radius);
+    const auto near =
+        on_walls(border_, turned(near_end(after.points.points, whole_.radius, along, false), turn));
+    const auto end_is_off = [&](double gap) {
+      const auto end = on_walls(border_, {motion::at_length(whole_, length_, s.to - gap)});
+      return distance(end, near, stop_) >= least_;
     };
-    double gap = least_, beside = 0.0;  // first its end alone, which is the nearest mostly
-    while (true) {
-      if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
-      if (gap > std::min(kWidest * least_, 0.5 * (end - s.from)))
-        return fail({.code = ErrorCode::lead_blocked,
-                     .member = "tabs/width_mm",
-                     .hint = "no way onto the cut leaves a tab of this width"});
-      if (!enough(gap, beside)) {
-        gap += kStep;
-      } else if (beside == 0.0) {
-        gap =
-            least_gap(std::max(least_, gap - kStep), gap, [&](double g) { return enough(g, 0.0); });
-        beside = kNear * least_;
-      } else {
-        return gap;
-      }
-    }
+    const auto all_is_off = [&](double gap) {
+      const auto points = motion::stretch_of(whole_, length_, s.from, s.to - gap).points;
+      const auto end = near_end(points, whole_.radius, kNear * least_, true);
+      return apart(on_walls(border_, end), near, stop_) >= least_ - kExact;
+    };
+    const double most = std::min(kWidest * least_, 0.5 * (s.to - s.from));
+    double gap = least_;
+    while (gap <= most && !end_is_off(gap)) gap += kStep;
+    if (gap <= most) gap = least_gap(std::max(least_, gap - kStep), gap, end_is_off);
+    while (gap <= most && !stop_.stop_requested() && !all_is_off(gap)) gap += kStep;
+    if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (gap > most)
+      return fail({.code = ErrorCode::lead_blocked,
+                   .member = "tabs/width_mm",
+                   .hint = "no way onto the cut leaves a tab of this width"});
+    return gap;
   }
 
   template <class Enough>
@@ -200,7 +206,7 @@ class Laying {
   /// The way in stays, the stretch ends elsewhere.
   void end_at(const Stretch& s, TorchWay& way) const {
     auto& points = way.points;
-    const auto track = motion::stretch_of(whole_, s.from, s.to);
+    const auto track = motion::stretch_of(whole_, length_, s.from, s.to);
     const bool corner = points.points[points.cut_first].corner;
     points.points.resize(points.cut_first);
     points.points.insert(points.points.end(), track.points.begin(), track.points.end());
@@ -209,6 +215,7 @@ class Laying {
   }
 
   motion::Track whole_;
+  std::vector<double> length_;  // mm along it, of its points
   motion::PartBorder border_;
   double least_;  // mm, from axis to axis of the torch
   const std::stop_token& stop_;
@@ -237,13 +244,12 @@ Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut, const Appro
   const auto path = motion::without_repeats(cut.path);
   TRY(auto whole, motion::track(path));
   TRY(auto from, motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
-  TRY(auto border, torch_border(cut));
+  TRY(auto border, torch_border(cut, stop));
   return Laying(std::move(from), std::move(border), cut, tabs, stop).run(approach.lead, tabs.count);
 }
 
-Result<double> metal_between(const TorchCut& cut, const Tabs& tabs, const TorchWay& before,
-                             const TorchWay& after, const std::stop_token& stop) {
-  TRY(const auto border, torch_border(cut));
+double metal_between(const motion::PartBorder& border, const TorchCut& cut, const Tabs& tabs,
+                     const TorchWay& before, const TorchWay& after, const std::stop_token& stop) {
   const double radius = cut.path.radius(), near = kNear * (tabs.width + cut.kerf);
   const auto& ended = before.points.points;
   const auto first = static_cast<std::ptrdiff_t>(before.points.cut_first);
@@ -251,7 +257,7 @@ Result<double> metal_between(const TorchCut& cut, const Tabs& tabs, const TorchW
   const auto ahead = near_end(after.points.points, radius, near + way_in(after, radius), false);
   const double turn = kTwoPi * std::floor((end.front().phi - ahead.front().phi) / kTwoPi + 0.5);
   const auto next = turned(ahead, turn);
-  return apart(border, end, next, stop) - cut.kerf;
+  return apart(on_walls(border, end), on_walls(border, next), stop) - cut.kerf;
 }
 
 }  // namespace tubecut::torch

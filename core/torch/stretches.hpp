@@ -26,11 +26,9 @@ namespace tubecut::torch {
 
 /// Metal between the cut that ends at a tab and all that the next stretch cuts, its way in with it,
 /// mm, the least of both walls: of every point of either to the other, within four widths of the
-/// tab. The kerf is off on both sides.
-///
-/// Errors  those of motion::track.
-[[nodiscard]] Result<double> metal_between(const TorchCut& cut, const Tabs& tabs,
-                                           const TorchWay& before, const TorchWay& after,
-                                           const std::stop_token& stop = {});
+/// tab. The kerf is off on both sides. `border`: the cut's torch_border.
+[[nodiscard]] double metal_between(const motion::PartBorder& border, const TorchCut& cut,
+                                   const Tabs& tabs, const TorchWay& before, const TorchWay& after,
+                                   const std::stop_token& stop = {});
 
 }  // namespace tubecut::torch

@@ -190,16 +190,16 @@ Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
   TRY(const auto from,
       motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
   if (!approach.lead) return TorchWay{{from.points, 0, from.points.size() - 1}, 0.0};
-  TRY(const auto border, torch_border(cut));
+  TRY(const auto border, torch_border(cut, stop));
   return way_with_lead(border, from, *approach.lead, stop);
 }
 
-Result<motion::PartBorder> torch_border(const TorchCut& cut) {
+Result<motion::PartBorder> torch_border(const TorchCut& cut, const std::stop_token& stop) {
   if (cut.counted_inward)
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = "lead",
                  .hint = "B is counted inward, as published, for comparison"});
-  return motion::part_border(motion::without_repeats(cut.path), kSigma);
+  return motion::part_border(motion::without_repeats(cut.path), kSigma, stop);
 }
 
 Result<TorchWay> way_with_lead(const motion::PartBorder& border, const motion::Track& from,

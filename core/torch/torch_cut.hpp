@@ -81,7 +81,8 @@ struct TorchWay {
 /// The part's border that a cut makes.
 ///
 /// Errors  unsupported_combination (B counted inward); those of motion::part_border.
-[[nodiscard]] Result<motion::PartBorder> torch_border(const TorchCut& cut);
+[[nodiscard]] Result<motion::PartBorder> torch_border(const TorchCut& cut,
+                                                      const std::stop_token& stop = {});
 
 /// Such leads on a cut, or a stretch of it, that is directed and begins where it should.
 ///
