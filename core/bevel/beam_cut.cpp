@@ -18,6 +18,7 @@ BeamCut beam_cut(const TableSpec& spec, const Table& table) {
     out.from = spec.root_face / spec.target.wall;
     out.land = table.z_inner;
   }
+  for (auto* lines : {&out.finished, &out.torch}) lines->reserve(table.phi.size());
   for (std::size_t i = 0; i < table.phi.size(); ++i) {
     const double phi = table.phi[i], high = table.z_outer[i];
     const double foot =
@@ -32,6 +33,7 @@ BeamCut beam_cut(const HoleSpec& spec, const Hole& hole) {
   BeamCut out{
       .inner = spec.chord.inner_radius(), .outer = spec.chord.outer_radius, .kerf = spec.kerf};
   double area = 0.0;  // twice, within the outer edge, in (phi, z)
+  for (auto* lines : {&out.finished, &out.torch}) lines->reserve(hole.phi.size());
   for (std::size_t i = 0; i < hole.phi.size(); ++i) {
     const auto j = (i + 1) % hole.phi.size();
     area += hole.phi[i] * hole.z[j] - hole.phi[j] * hole.z[i];

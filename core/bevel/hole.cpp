@@ -44,6 +44,7 @@ class Refiner {
 
   std::vector<Node> uniform(std::size_t n) const {
     std::vector<Node> out;
+    out.reserve(n);
     for (std::size_t i = 0; i < n && !stop_.stop_requested(); ++i)
       out.push_back(at(kTwoPi * static_cast<double>(i) / static_cast<double>(n)));
     return out;
@@ -203,7 +204,7 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
 Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, const Hole& hole,
                          const std::stop_token& stop) {
   const bool crosses = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double u) {
-    const auto polygon = slice(spec.chord, hole, u);
+    const auto polygon = slice(spec.chord, hole, u, 0.0, stop);
     return math::crossed_area(polygon, stop) > kCrossed * math::area(polygon);
   });
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -257,8 +258,11 @@ void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
 
 Hole tabulate(const HoleSpec& spec, const WallLines& walls, const std::vector<Node>& nodes,
               bool far) {
-  Hole out;
-  out.far = far;
+  Hole out{.far = far};
+  for (auto* column : {&out.branch_phi, &out.phi, &out.z, &out.developed, &out.phi_inner,
+                       &out.z_inner, &out.dihedral, &out.groove, &out.b, &out.a, &out.beam,
+                       &out.torch_phi, &out.torch_z, &out.torch_phi_inner, &out.torch_z_inner})
+    column->reserve(nodes.size());
   for (const auto& [phase, w] : nodes) {
     // The far side's branch frame is mirrored: its phase runs the other way.
     out.branch_phi.push_back(far ? wrapped(kPi - phase) : phase);

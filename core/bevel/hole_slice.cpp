@@ -5,14 +5,17 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 
 namespace tubecut::bevel {
 
-math::Polygon slice(const joint::Target& target, const Hole& hole, double u, double turn) {
+math::Polygon slice(const joint::Target& target, const Hole& hole, double u, double turn,
+                    const std::stop_token& stop) {
   const double inner = target.inner_radius(), outer = target.outer_radius;
   const double rho = inner + u * (outer - inner);
   math::Polygon out;
-  for (std::size_t i = 0; i < hole.phi.size(); ++i) {
+  for (auto* column : {&out.x, &out.y}) column->reserve(hole.phi.size());
+  for (std::size_t i = 0; i < hole.phi.size() && !stops(stop, i); ++i) {
     // Seen along the tube: from (inner, 0) by d, until rho away from the axis.
     const auto swing = elementary::sincos(hole.phi[i] - hole.phi_inner[i]);
     const Eigen::Vector2d d{outer * swing.cos - inner, outer * swing.sin};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/stop.hpp"
 #include "core/bevel/hole_slice.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/quadrature.hpp"
@@ -42,9 +43,10 @@ struct Crowd {
 
 /// The same wherever it shows within one turn.
 void add_turns(const joint::Target& target, const bevel::Hole& hole, double u,
-               std::vector<Polygon>& to) {
+               const std::stop_token& stop, std::vector<Polygon>& to) {
   for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
-    auto polygon = bevel::slice(target, hole, u, turn);
+    auto polygon = bevel::slice(target, hole, u, turn, stop);
+    if (stop.stop_requested()) return;
     const auto [least, most] = std::ranges::minmax(polygon.x);
     if (most > 0.0 && least < kTwoPi) to.push_back(std::move(polygon));
   }
@@ -113,11 +115,13 @@ std::vector<Crowd> crowds(const Part& part, const std::vector<bevel::Hole>& hole
 
 }  // namespace
 
-bevel::Hole closer_rows(const bevel::Hole& hole) {
+bevel::Hole closer_rows(const bevel::Hole& hole, const std::stop_token& stop) {
   bevel::Hole out;
   const auto n = hole.phi.size();
   const int pieces = hole.phi == hole.phi_inner ? 1 : kRowsPerRow;
-  for (std::size_t i = 0; i < n; ++i)
+  for (auto* column : {&out.phi, &out.z, &out.phi_inner, &out.z_inner})
+    column->reserve(n * static_cast<std::size_t>(pieces));
+  for (std::size_t i = 0; i < n && !stops(stop, i); ++i)
     for (int piece = 0; piece < pieces; ++piece) {
       const auto next = (i + 1) % n;
       const double share = static_cast<double>(piece) / pieces;
@@ -164,8 +168,8 @@ bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::
   if (!near(box_of(a), box_of(b))) return false;
   for (const double u : {0.0, 0.5, 1.0}) {
     std::vector<Polygon> one, other;
-    add_turns(target, a, u, one);
-    add_turns(target, b, u, other);
+    add_turns(target, a, u, stop, one);
+    add_turns(target, b, u, stop, other);
     const double own = within_turn(one, stop), sum = own + within_turn(other, stop);
     one.insert(one.end(), other.begin(), other.end());
     if (sum - within_turn(one, stop) > kTouch * own) return true;
@@ -177,16 +181,18 @@ double holes_volume(const joint::Target& target, const Part& part, const std::st
   double sum = 0.0;
   const auto rings = wall_rings(target);
   std::vector<bevel::Hole> holes;
-  for (const auto& placed : part.holes) holes.push_back(closer_rows(placed.hole));
+  for (const auto& placed : part.holes) holes.push_back(closer_rows(placed.hole, stop));
+  if (stop.stop_requested()) return 0.0;
   for (const auto& crowd : crowds(part, holes))
     for (const auto& ring : rings) {
       if (stop.stop_requested()) return 0.0;
       std::vector<Polygon> polygons;
       if (crowd.holes.size() == 1 && !crowd.at_end) {
-        sum += ring.weight * math::area(bevel::slice(target, *crowd.holes.front(), ring.u));
+        sum +=
+            ring.weight * math::area(bevel::slice(target, *crowd.holes.front(), ring.u, 0.0, stop));
         continue;
       }
-      for (const auto* hole : crowd.holes) add_turns(target, *hole, ring.u, polygons);
+      for (const auto* hole : crowd.holes) add_turns(target, *hole, ring.u, stop, polygons);
       sum += ring.weight * (crowd.at_end
                                 ? area_between_cuts(target, part, std::move(polygons), ring, stop)
                                 : within_turn(polygons, stop));

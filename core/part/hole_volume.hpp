@@ -10,8 +10,8 @@ namespace tubecut::part {
 
 /// Both edges of a hole alone, with more rows between its own, straight on the developed surface:
 /// where the torch leans across, the lines of such a row do not pass a radius within the wall
-/// straight between those of its neighbours.
-[[nodiscard]] bevel::Hole closer_rows(const bevel::Hole& hole);
+/// straight between those of its neighbours. Told to stop, it has some of them, or none.
+[[nodiscard]] bevel::Hole closer_rows(const bevel::Hole& hole, const std::stop_token& stop);
 
 /// Whether two holes share a piece of the wall: on the bore, in its middle or outside.
 [[nodiscard]] bool holes_meet(const joint::Target& target, const bevel::Hole& a,

@@ -5,6 +5,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
@@ -122,10 +123,12 @@ double ruled(const bevel::Table& t, const joint::Target& target, double face) {
 
 /// A hole's lines where they pass the radius rho: acos(p / rho) round from their feet, p from the
 /// axis.
-math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double rho) {
+math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double rho,
+                      const std::stop_token& stop) {
   const double inner = target.inner_radius(), outer = target.outer_radius;
   math::Polygon out;
-  for (std::size_t i = 0; i < h.phi.size(); ++i) {
+  for (auto* column : {&out.x, &out.y}) column->reserve(h.phi.size());
+  for (std::size_t i = 0; i < h.phi.size() && !stops(stop, i); ++i) {
     const Vector3d a = at(inner, h.phi_inner[i], 0.0), b = at(outer, h.phi[i], 0.0);
     const double turn = a.cross(b).z(), way = (b - a).norm();
     const double p = std::min(std::abs(turn) / way, inner);
@@ -155,13 +158,13 @@ double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token
   for (const auto* z : {&p.finish.table.z_inner, &p.finish.table.z_outer})
     to = std::min(to, std::ranges::min(*z));
   std::vector<bevel::Hole> holes;
-  for (const auto& placed : p.holes) holes.push_back(closer_rows(placed.hole));
+  for (const auto& placed : p.holes) holes.push_back(closer_rows(placed.hole, stop));
   double sum = 0.0;
   for (const auto& ring : wall_rings(spec.target)) {
     std::vector<math::Polygon> all, crowded;
     for (const auto& hole : holes) {
       if (stop.stop_requested()) return 0.0;
-      all.push_back(passing(hole, spec.target, ring.rho));
+      all.push_back(passing(hole, spec.target, ring.rho, stop));
     }
     for (const auto& polygon : all) {
       if (stop.stop_requested()) return 0.0;
