@@ -15,8 +15,8 @@ namespace {
 constexpr double kBack = 3e-3;     // rad, of a turn by half a round
 constexpr double kClosing = 1e-6;  // mm and rad between the two ends
 constexpr double kMostBevel = 85.0 * kRadPerDeg + 1e-12;
-constexpr double kMostPhi = 3600.0 * kRadPerDeg;
-constexpr double kMostLength = 1e6;  // mm
+constexpr double kMostPhi = 72000.0 * kRadPerDeg;  // a program winds on from cut to cut
+constexpr double kMostLength = 1e6;                // mm
 
 Result<void> check_columns(const CutPath& c) {
   const std::size_t n = c.phi.size();

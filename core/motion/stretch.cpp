@@ -2,8 +2,23 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace tubecut::motion {
+namespace {
+
+/// mm; a place nearer to a point than this is that point. One put beside it would round to the
+/// same, and a path that has a point twice has no direction there.
+constexpr double kSamePlace = 1e-8;
+
+/// The points nearer to a length than kSamePlace are at it: first and one past the last.
+std::pair<std::size_t, std::size_t> points_at(const std::vector<double>& length, double at) {
+  const auto first = std::ranges::lower_bound(length, at - kSamePlace) - length.begin();
+  const auto past = std::ranges::upper_bound(length, at + kSamePlace) - length.begin();
+  return {static_cast<std::size_t>(first), static_cast<std::size_t>(past)};
+}
+
+}  // namespace
 
 CutPoint between(const CutPoint& a, const CutPoint& b, double share) {
   const auto mix = [share](double from, double to) { return from + share * (to - from); };
@@ -13,9 +28,9 @@ CutPoint between(const CutPoint& a, const CutPoint& b, double share) {
 
 std::vector<CutPoint> first_stretch(const Track& t, double length) {
   std::vector<CutPoint> out{t.points.front()};
-  for (std::size_t i = 1; i < t.points.size() && length > 0.0; ++i) {
+  for (std::size_t i = 1; i < t.points.size() && length > kSamePlace; ++i) {
     const double step = t.tip_step(i - 1, i);
-    const bool whole = step <= length;
+    const bool whole = step <= length + kSamePlace;
     out.push_back(whole ? t.points[i] : between(t.points[i - 1], t.points[i], length / step));
     length -= step;
   }
@@ -29,21 +44,20 @@ std::vector<double> lengths_along(const Track& t) {
 }
 
 CutPoint at_length(const Track& whole, const std::vector<double>& length, double at) {
-  const auto past = static_cast<std::size_t>(std::ranges::upper_bound(length, at) - length.begin());
-  const std::size_t before = std::max<std::size_t>(past, 1) - 1;
-  if (past == length.size() || length[before] >= at) return whole.points[before];
-  const double share = (at - length[before]) / (length[past] - length[before]);
-  return between(whole.points[before], whole.points[past], share);
+  const auto [first, past] = points_at(length, at);
+  if (first < past || past == length.size()) return whole.points[past - 1];
+  const double share = (at - length[past - 1]) / (length[past] - length[past - 1]);
+  return between(whole.points[past - 1], whole.points[past], share);
 }
 
 Track stretch_of(const Track& whole, const std::vector<double>& length, double from, double to) {
   Track out{.radius = whole.radius, .turns = whole.orientation()};
-  const auto first = std::ranges::lower_bound(length, from) - length.begin();
-  const auto past = std::ranges::upper_bound(length, to) - length.begin();
-  const auto on_point = [&](double at) { return std::ranges::binary_search(length, at); };
-  if (!on_point(from)) out.points.push_back(at_length(whole, length, from));
-  out.points.insert(out.points.end(), whole.points.begin() + first, whole.points.begin() + past);
-  if (!on_point(to)) out.points.push_back(at_length(whole, length, to));
+  const auto begin = points_at(length, from), end = points_at(length, to);
+  if (begin.first == begin.second) out.points.push_back(at_length(whole, length, from));
+  const auto all = whole.points.begin();
+  out.points.insert(out.points.end(), all + static_cast<std::ptrdiff_t>(begin.first),
+                    all + static_cast<std::ptrdiff_t>(end.second));
+  if (end.first == end.second) out.points.push_back(at_length(whole, length, to));
   return out;
 }
 

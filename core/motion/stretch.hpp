@@ -9,7 +9,8 @@ namespace tubecut::motion {
 /// The point so far along the chord from one to the other, 0 to 1; no corner.
 [[nodiscard]] CutPoint between(const CutPoint& a, const CutPoint& b, double share);
 
-/// The first `length` mm of a track, its start point included.
+/// The first `length` mm of a track, its start point included. Here and below, a place within 1e-8
+/// mm of a point is that point: none stands twice.
 [[nodiscard]] std::vector<CutPoint> first_stretch(const Track& track, double length);
 
 /// Tip path up to each point, mm.

@@ -269,6 +269,50 @@ TEST(Leads, OvercutGoesOn) {
   for (const Check& check : verify(spec, s)) EXPECT_TRUE(check.passed()) << check.name;
 }
 
+/// A window of 12 mm by 12, its points so far apart along the tube, begun in the middle of a side.
+CutPath window(double step) {
+  CutPath out{.outer_radius = 30.15, .wall = 4.0, .scrap = Scrap::inside};
+  const double wide = 12.0 / out.outer_radius;
+  const int n = static_cast<int>(12.0 / step);
+  const auto add = [&](double phi, double z) {
+    out.phi.push_back(phi);
+    out.z.push_back(z);
+    out.b.push_back(0.0);
+  };
+  for (int i = n / 2; i < n; ++i) add(0.0, 100.0 + i * step);
+  for (int i = 0; i < 20; ++i) add(wide * i / 20, 100.0 + n * step);
+  for (int i = 0; i < n; ++i) add(wide, 100.0 + n * step - i * step);
+  for (int i = 0; i < 20; ++i) add(wide - wide * i / 20, 100.0);
+  for (int i = 0; i <= n / 2; ++i) add(0.0, 100.0 + i * step);
+  return out;
+}
+
+// All but for rounding: a point beside the last would be that point again, and the path have no
+// direction there.
+TEST(Leads, OvercutThatEndsAtAPointHasNoneTwice) {
+  for (const double step : {0.1, 0.3, 0.7})
+    for (int k = 1; k <= 12; ++k) {
+      ScheduleSpec spec;
+      spec.machine = source_machine();
+      spec.cut = window(step);
+      spec.motion.speed = kFeed;
+      spec.motion.lead = Lead{.radius = 2.0, .overcut = k * step};
+      const auto p = program(spec);
+      if (!p) {  // round the corner a lead runs into the part
+        EXPECT_EQ(p.error().code(), ErrorCode::lead_blocked);
+        EXPECT_GT(k * step, 3.0);
+        continue;
+      }
+      for (std::size_t i = 1; i < p->size(); ++i)
+        EXPECT_GT(std::hypot(30.15 * (p->x[0][i] - p->x[0][i - 1]), p->x[1][i] - p->x[1][i - 1]),
+                  1e-9)
+            << step << " " << k << " " << i;
+      const auto s = schedule(spec);
+      ASSERT_TRUE(s);
+      for (const auto& check : verify(spec, *s)) EXPECT_TRUE(check.passed()) << check.name;
+    }
+}
+
 TEST(Leads, ThatDoNotFitAreRefused) {
   Solid solid;
   solid.hole = true;

@@ -436,5 +436,39 @@ TEST(ProgramSchedule, CutsFromTabToTab) {
   }
 }
 
+// Tabs that end at points of the cut but for rounding: none stands twice in a stretch.
+TEST(ProgramSchedule, BeginsAndEndsStretchesAtPoints) {
+  for (const int count : {9, 10}) {
+    auto spec = program();
+    spec.cuts.resize(2);
+    spec.setup.tabs = Tabs{.count = count, .width = 0.5, .of = Tabs::Of::all};
+    const auto made = schedule(spec);
+    ASSERT_TRUE(made) << made.error().issues.front().hint;
+    EXPECT_TRUE(broken(spec, *made).empty());
+    for (const auto& cut : made->cuts) {
+      const auto& points = cut.way.points.points;
+      for (std::size_t i = 1; i < points.size(); ++i)
+        EXPECT_GT(std::hypot(kRadius * (points[i].phi - points[i - 1].phi),
+                             points[i].z - points[i - 1].z),
+                  1e-9)
+            << cut.cut.name << " " << i;
+    }
+  }
+}
+
+// Holes in a spiral: the tube turns on by the shorter way to each, eleven times round in all.
+TEST(ProgramSchedule, WindsOnRoundAfterRound) {
+  auto spec = program();
+  spec.cuts.clear();
+  for (int i = 0; i < 26; ++i)
+    spec.cuts.push_back(
+        hole_cut("hole " + std::to_string(i), std::fmod(160.0 * i, 360.0) * kRadPerDeg, 40.0 * i));
+  const auto made = schedule(spec);
+  ASSERT_TRUE(made) << made.error().issues.front().hint;
+  EXPECT_TRUE(broken(spec, *made).empty());
+  const auto& whole = made->whole;
+  EXPECT_NEAR(value(spec, whole, 0, whole.periods) - whole.axes[0].start, 25 * 160.0, 40.0);
+}
+
 }  // namespace
 }  // namespace tubecut::torch
