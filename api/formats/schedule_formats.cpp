@@ -9,6 +9,7 @@
 #include "api/formats/csv.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/motion_names.hpp"
+#include "api/stop.hpp"
 #include "api/wire_names.hpp"
 #include "api/words.hpp"
 #include "core/base/elementary.hpp"
@@ -20,24 +21,28 @@ namespace {
 constexpr const char* kColors[] = {"#2c6a9b", "#c2571a", "#4a8a57",
                                    "#8a5f8f", "#a98545", "#3f8a9a"};
 /// On the surface where the speed is asked for, mm/min.
-std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s) {
-  motion::ReplaySpec again{.job = spec, .period = s.period, .counts = {}, .start = {}};
+std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s,
+                              const std::stop_token& stop) {
+  motion::Counted counted{s.period, static_cast<std::size_t>(s.periods), {}, {}, {}};
   for (const auto& axis : s.axes) {
-    again.counts.emplace_back(axis.counts.begin(), axis.counts.end());
-    again.start.push_back(axis.start);
+    counted.counts.emplace_back(axis.counts);
+    counted.start.push_back(axis.start);
   }
-  const auto path = motion::replay(again);
+  motion::Replay path;
+  motion::rebuild(spec, counted, path, stop);
+  ask(stop);
   std::vector<double> out;
-  if (!path) return out;
   const auto& contour = std::get<motion::CutPath>(spec.cut);
   const bool outer = spec.motion.speed_on == motion::Surface::outer;
   const double radius = outer ? contour.outer_radius : contour.inner_radius();
   const double rise = spec.machine.sigma() * (radius - contour.radius());
-  const auto along = [&](std::size_t i) { return path->z[i] - rise * elementary::tan(path->b[i]); };
+  const auto along = [&](std::size_t i) { return path.z[i] - rise * elementary::tan(path.b[i]); };
   constexpr std::size_t kMean = 25;  // periods, over which the rounding of pulses averages out
-  for (std::size_t i = kMean; i < path->phi.size(); ++i) {
+  Pace pace(stop);
+  for (std::size_t i = kMean; i < path.phi.size(); ++i) {
+    pace.turn();
     const double length =
-        std::hypot(radius * (path->phi[i] - path->phi[i - kMean]), along(i) - along(i - kMean));
+        std::hypot(radius * (path.phi[i] - path.phi[i - kMean]), along(i) - along(i - kMean));
     out.push_back(60.0 * length / (static_cast<double>(kMean) * s.period));
   }
   return out;
@@ -128,13 +133,14 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
   std::vector<Chart> charts{std::move(pulses)};
   const auto* const contour = std::get_if<motion::CutPath>(&spec.cut);
   if (contour != nullptr && !contour->phi.empty()) {
-    Chart speed{.title = std::string("Speed of the cut on the ") +
-                         std::string(name_of(spec.motion.speed_on)) +
-                         " surface, mean of 25 periods",
-                .x_label = "time, s",
-                .y_label = "mm/min",
-                .series = {{.name = "tip", .x = {}, .y = tip_speed(spec, s), .every = s.period}},
-                .y_from_zero = true};
+    Chart speed{
+        .title = std::string("Speed of the cut on the ") +
+                 std::string(name_of(spec.motion.speed_on)) + " surface, mean of 25 periods",
+        .x_label = "time, s",
+        .y_label = "mm/min",
+        .series =
+            {{.name = "tip", .x = {}, .y = tip_speed(spec, s, caption.stop), .every = s.period}},
+        .y_from_zero = true};
     for (const auto& zone : s.report.slow)
       speed.bands.push_back({s.period * static_cast<double>(zone.from),
                              s.period * static_cast<double>(zone.to), "slow"});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/polyline.hpp"
 
 namespace tubecut::bevel {
@@ -87,11 +88,13 @@ class LeastDrop {
     const auto& from = land ? t.z_face : t.z_inner;
     if (land) circles_.emplace_back(inner_, half_, t.z_inner);
     for (const double u : shares(inner_, outer, spec.kerf)) {
+      if (stop.stop_requested()) return;  // and nothing is asked of what there is
       std::vector<double> z(from.size());
       for (std::size_t i = 0; i < z.size(); ++i) z[i] = mixed(from[i], t.z_outer[i], u);
       circles_.emplace_back(mixed(edge, outer, u), half_, std::move(z));
     }
-    for (std::size_t i = 0; i < phi_.size(); ++i) {
+    for (auto* column : {&slope_, &foot_}) column->reserve(phi_.size());
+    for (std::size_t i = 0; i < phi_.size() && !stops(stop, i); ++i) {
       slope_.push_back((t.z_outer[i] - from[i]) / (outer - edge));
       foot_.push_back(from[i] - (edge - inner_) * slope_[i]);
       turns_.push_back(elementary::sincos(phi_[i]));
@@ -173,7 +176,8 @@ class LeastDrop {
                           const std::vector<double>& slope) const {
     Band out{low, high, {}};
     if (half_ == 0.0) return out;
-    for (std::size_t i = 0; i < phi_.size(); ++i) {
+    out.lines.reserve(phi_.size());
+    for (std::size_t i = 0; i < phi_.size() && !stops(stop_, i); ++i) {
       const double parts = std::ceil(high * width(i) / (kLines * half_));
       const int n = static_cast<int>(std::clamp(parts, 1.0, kMostLines));
       for (int k = 0; k < n; ++k)
