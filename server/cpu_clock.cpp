@@ -3,7 +3,8 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 
 #ifndef sigev_notify_thread_id  // glibc of Debian 12 has the field without the name
@@ -11,14 +12,43 @@
 #endif
 
 namespace tubecut::server {
-namespace {
 
 /// Whose time the timer of this thread counts. Read by the signal's handler, in this thread alone.
-thread_local std::atomic<std::stop_source*> limited = nullptr;
+struct LimitedThread {
+  std::atomic<CpuBudget*> budget = nullptr;
 
-/// A stop is a few atomic operations here: no job has callbacks of its stop token.
+  /// A stop is a few atomic operations here: no job has callbacks of its stop token.
+  void look() {
+    if (auto* const mine = budget.load(std::memory_order_relaxed)) mine->look();
+  }
+};
+
+namespace {
+
+/// Left of a budget, less is not shared: each share costs a signal.
+constexpr std::chrono::nanoseconds kLeastShare = std::chrono::microseconds(500);
+
+thread_local LimitedThread limited;
+
 extern "C" void end_job(int) {
-  if (auto* const stop = limited.load(std::memory_order_relaxed)) stop->request_stop();
+  const int before = errno;
+  limited.look();
+  errno = before;
+}
+
+std::chrono::nanoseconds read(clockid_t clock) {
+  timespec time{};
+  if (::clock_gettime(clock, &time) != 0) return {};
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+/// Once, so much later; 0: not at all.
+void set(timer_t timer, std::chrono::nanoseconds after) {
+  const auto whole = std::chrono::duration_cast<std::chrono::seconds>(after);
+  itimerspec at{};
+  at.it_value.tv_sec = whole.count();
+  at.it_value.tv_nsec = (after - whole).count();
+  ::timer_settime(timer, 0, &at, nullptr);
 }
 
 bool handle_signal() {
@@ -45,15 +75,8 @@ class ThreadTimer {
     if (there_) ::timer_delete(timer_);
   }
 
-  /// 0: not at all.
-  void set(std::chrono::nanoseconds after) {
-    if (!there_) return;
-    const auto whole = std::chrono::duration_cast<std::chrono::seconds>(after);
-    itimerspec at{};
-    at.it_value.tv_sec = whole.count();
-    at.it_value.tv_nsec = (after - whole).count();
-    ::timer_settime(timer_, 0, &at, nullptr);
-  }
+  [[nodiscard]] bool there() const { return there_; }
+  [[nodiscard]] timer_t timer() const { return timer_; }
 
  private:
   timer_t timer_{};
@@ -67,14 +90,54 @@ ThreadTimer& thread_timer() {
 
 }  // namespace
 
-CpuLimit::CpuLimit(std::stop_source& stop, std::chrono::nanoseconds most) {
-  limited = &stop;
-  thread_timer().set(most);
+std::chrono::nanoseconds CpuBudget::Part::used() const {
+  return read(clock) - std::chrono::nanoseconds(begin_ns);
+}
+
+void CpuBudget::look() {
+  using std::chrono::nanoseconds;
+  nanoseconds left(most_ns_ - done_ns_);
+  int threads = 0;
+  for (const auto& part : parts_) {
+    if (!part.runs) continue;
+    left -= part.used();
+    ++threads;
+  }
+  if (left <= nanoseconds::zero()) {
+    stop_.request_stop();
+    return;
+  }
+  for (const auto& part : parts_)
+    if (part.runs) set(part.timer, std::max(kLeastShare, left / std::max(1, threads)));
+}
+
+CpuLimit::CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most) : budget_(budget) {
+  const auto& timer = thread_timer();
+  if (most.count() <= 0 || !timer.there()) return;
+  for (auto& part : budget.parts_) {
+    if (part.taken.exchange(true)) continue;
+    part_ = &part;
+    break;
+  }
+  clockid_t clock{};
+  if (part_ == nullptr || ::pthread_getcpuclockid(::pthread_self(), &clock) != 0) return;
+  budget.most_ns_ = most.count();
+  part_->clock = clock;
+  part_->begin_ns = read(clock).count();
+  part_->timer = timer.timer();
+  part_->runs = true;
+  limited.budget = &budget;
+  budget.look();
 }
 
 CpuLimit::~CpuLimit() {
-  thread_timer().set({});
-  limited = nullptr;
+  if (part_ == nullptr) return;
+  if (part_->runs.exchange(false)) {
+    limited.budget = nullptr;
+    set(part_->timer, {});
+    budget_.done_ns_ += part_->used().count();
+  }
+  part_->taken = false;
 }
 
 CpuClock CpuClock::of_this_thread() {
@@ -84,11 +147,7 @@ CpuClock CpuClock::of_this_thread() {
   return out;
 }
 
-std::chrono::nanoseconds CpuClock::read() const {
-  timespec time{};
-  if (!runs_ || ::clock_gettime(clock_, &time) != 0) return begin_;
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
+std::chrono::nanoseconds CpuClock::read() const { return runs_ ? server::read(clock_) : begin_; }
 
 std::chrono::nanoseconds CpuClock::used() const { return runs_ ? read() - begin_ : used_; }
 

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <ctime>
 #include <stop_token>
 
@@ -26,16 +30,50 @@ class CpuClock {
   std::chrono::nanoseconds used_{0};
 };
 
-/// Asks for a stop as soon as this thread has used so much more CPU: the kernel tells the thread
-/// itself, within a tick of its clock. Whoever looks from another thread has to be given a CPU
+/// CPU that the threads of one job may use together. Each that works at it is told by the kernel
+/// itself, within a tick of its clock, when its share of what is left is used: then all clocks are
+/// read, and what is left is shared again. Whoever looks from another thread has to be given a CPU
 /// first, which on a crowded host takes tens of milliseconds. None where the kernel has no timer
 /// left.
+class CpuBudget {
+ public:
+  /// That may work at one job at a time.
+  static constexpr std::size_t kThreads = 16;
+
+  explicit CpuBudget(std::stop_source& stop) : stop_(stop) {}
+
+ private:
+  friend class CpuLimit;
+  friend struct LimitedThread;
+
+  struct Part {
+    std::atomic<bool> taken = false, runs = false;
+    std::atomic<clockid_t> clock{};
+    std::atomic<std::int64_t> begin_ns = 0;
+    std::atomic<timer_t> timer{};
+
+    [[nodiscard]] std::chrono::nanoseconds used() const;
+  };
+  /// Stops the job, or shares what is left. From a signal's handler too.
+  void look();
+
+  std::stop_source& stop_;
+  std::atomic<std::int64_t> most_ns_ = 0;
+  std::atomic<std::int64_t> done_ns_ = 0;  // of those that no longer work at it
+  std::array<Part, kThreads> parts_ = {};
+};
+
+/// This thread works at the job whose budget it is, which is so much in all; 0: it has none.
 class CpuLimit {
  public:
-  CpuLimit(std::stop_source& stop, std::chrono::nanoseconds most);
+  CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most);
   CpuLimit(const CpuLimit&) = delete;
   CpuLimit& operator=(const CpuLimit&) = delete;
   ~CpuLimit();
+
+ private:
+  CpuBudget& budget_;
+  CpuBudget::Part* part_ = nullptr;
 };
 
 }  // namespace tubecut::server

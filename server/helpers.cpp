@@ -35,8 +35,9 @@ void Helpers::allow(int most) {
 
 Helpers::Work* Helpers::some_work() {
   if (helping_ >= most_) return nullptr;
-  const auto with_turns = std::ranges::find_if(
-      works_, [](const Work* work) { return work->next < work->count && !work->failure; });
+  const auto with_turns = std::ranges::find_if(works_, [](const Work* work) {
+    return work->next < work->count && !work->failure && work->helped_by < kMost;
+  });
   return with_turns != works_.end() ? *with_turns : nullptr;
 }
 

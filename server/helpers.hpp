@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/turns.hpp"
+#include "server/cpu_clock.hpp"
 
 namespace tubecut::server {
 
@@ -18,6 +19,9 @@ namespace tubecut::server {
 /// helps then is gone after the turn at hand.
 class Helpers {
  public:
+  /// Of one job at a time.
+  static constexpr std::size_t kMost = CpuBudget::kThreads - 1;
+
   /// What a thread does for one job, in its own surroundings: `within` calls it once.
   using Stint = std::function<void()>;
   using Within = std::function<void(const Stint&)>;

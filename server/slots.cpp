@@ -257,7 +257,7 @@ void Slots::run(bool quick_only) {
     if (!job) return;
     lock.unlock();
     {
-      const CpuLimit limit(job->stop, job->budget.cpu);
+      const CpuLimit limit(job->all_cpu, job->budget.cpu);
       work_(job);
     }
     lock.lock();

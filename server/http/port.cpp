@@ -123,8 +123,7 @@ void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
     ++job.helped_by;
     const auto clock = CpuClock::of_this_thread();
     {
-      const std::chrono::nanoseconds budget = job.budget.cpu;
-      const CpuLimit limit(job.stop, budget > 0ns ? std::max(1ns, budget - slots.cpu(job)) : 0ns);
+      const CpuLimit limit(job.all_cpu, job.budget.cpu);
       const JobMemory own(0, [&](std::size_t bytes) { return grow(job, bytes); });
       stint();
       const auto taken = own.taken();

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
+#include <vector>
 
 namespace tubecut::server {
 namespace {
@@ -21,7 +23,8 @@ TEST(CpuLimit, StopsAThreadByItsOwnTimeWhoeverElseLooks) {
   std::jthread([] {
     for (const auto most : {20ms, 50ms}) {
       std::stop_source stop;
-      const CpuLimit limit(stop, most);
+      CpuBudget budget(stop);
+      const CpuLimit limit(budget, most);
       const auto used = worked(stop.get_token());
       EXPECT_GE(used, most);
       EXPECT_LT(used, 1s);
@@ -31,21 +34,52 @@ TEST(CpuLimit, StopsAThreadByItsOwnTimeWhoeverElseLooks) {
 
 TEST(CpuLimit, DoesNotCountWhatAThreadWaits) {
   std::stop_source stop;
-  const CpuLimit limit(stop, 200ms);
+  CpuBudget budget(stop);
+  const CpuLimit limit(budget, 200ms);
   std::this_thread::sleep_for(300ms);
   EXPECT_FALSE(stop.stop_requested());
 }
 
 TEST(CpuLimit, EndsWithItsJob) {
   std::stop_source first;
-  { const CpuLimit limit(first, 20ms); }
+  CpuBudget of_first(first);
+  { const CpuLimit limit(of_first, 20ms); }
   std::stop_source none;
-  const CpuLimit limit(none, 0ms);  // no budget
+  CpuBudget of_none(none);
+  const CpuLimit limit(of_none, 0ms);  // no budget
   const auto cpu = CpuClock::of_this_thread();
   while (cpu.used() < 60ms) {
   }
   EXPECT_FALSE(first.stop_requested());
   EXPECT_FALSE(none.stop_requested());
+}
+
+// Whenever they begin and end: a thread that joins late, one that has done its part, one that
+// waits.
+TEST(CpuLimit, IsOfAllThreadsOfAJobTogether) {
+  constexpr auto kMost = 200ms;
+  for (const auto late : {0ms, 30ms}) {
+    std::stop_source stop;
+    CpuBudget budget(stop);
+    std::atomic<std::int64_t> used = 0;
+    const auto work = [&](std::chrono::milliseconds waits, std::chrono::nanoseconds part) {
+      std::this_thread::sleep_for(waits);
+      const CpuLimit limit(budget, kMost);
+      const auto cpu = CpuClock::of_this_thread();
+      while (!stop.stop_requested() && cpu.used() < part) {
+      }
+      used += cpu.used().count();
+    };
+    {
+      std::vector<std::jthread> threads;
+      threads.emplace_back(work, 0ms, 5s);
+      threads.emplace_back(work, late, 5s);
+      threads.emplace_back(work, late, 20ms);
+    }
+    EXPECT_TRUE(stop.stop_requested());
+    EXPECT_GE(std::chrono::nanoseconds(used), kMost - 1ms);
+    EXPECT_LT(std::chrono::nanoseconds(used), kMost + 100ms);  // each would have had all of it
+  }
 }
 
 }  // namespace
