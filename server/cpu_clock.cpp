@@ -12,27 +12,17 @@
 #endif
 
 namespace tubecut::server {
-
-/// Whose time the timer of this thread counts. Read by the signal's handler, in this thread alone.
-struct LimitedThread {
-  std::atomic<CpuBudget*> budget = nullptr;
-
-  /// A stop is a few atomic operations here: no job has callbacks of its stop token.
-  void look() {
-    if (auto* const mine = budget.load(std::memory_order_relaxed)) mine->look();
-  }
-};
-
 namespace {
 
 /// Left of a budget, less is not shared: each share costs a signal.
 constexpr std::chrono::nanoseconds kLeastShare = std::chrono::microseconds(500);
 
-thread_local LimitedThread limited;
+/// Whose time the timer of this thread counts. Read by the signal's handler, in this thread alone.
+thread_local std::atomic<CpuBudget*> limited = nullptr;
 
 extern "C" void end_job(int) {
   const int before = errno;
-  limited.look();
+  if (auto* const mine = limited.load(std::memory_order_relaxed)) mine->look();
   errno = before;
 }
 
@@ -126,14 +116,14 @@ CpuLimit::CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most) : budget_(b
   part_->begin_ns = read(clock).count();
   part_->timer = timer.timer();
   part_->runs = true;
-  limited.budget = &budget;
+  limited = &budget;
   budget.look();
 }
 
 CpuLimit::~CpuLimit() {
   if (part_ == nullptr) return;
   if (part_->runs.exchange(false)) {
-    limited.budget = nullptr;
+    limited = nullptr;
     set(part_->timer, {});
     budget_.done_ns_ += part_->used().count();
   }

@@ -42,9 +42,12 @@ class CpuBudget {
 
   explicit CpuBudget(std::stop_source& stop) : stop_(stop) {}
 
+  /// Stops the job, or shares what is left. From a signal's handler too: a stop is a few atomic
+  /// operations here, for no job has callbacks of its stop token.
+  void look();
+
  private:
   friend class CpuLimit;
-  friend struct LimitedThread;
 
   struct Part {
     std::atomic<bool> taken = false, runs = false;
@@ -54,9 +57,6 @@ class CpuBudget {
 
     [[nodiscard]] std::chrono::nanoseconds used() const;
   };
-  /// Stops the job, or shares what is left. From a signal's handler too.
-  void look();
-
   std::stop_source& stop_;
   std::atomic<std::int64_t> most_ns_ = 0;
   std::atomic<std::int64_t> done_ns_ = 0;  // of those that no longer work at it

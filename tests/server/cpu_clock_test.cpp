@@ -82,5 +82,21 @@ TEST(CpuLimit, IsOfAllThreadsOfAJobTogether) {
   }
 }
 
+// Who has left a job works at the next: the shares of those who stay are not its own.
+TEST(CpuLimit, OfAJobThatAThreadHasLeftIsNotTheNextOnes) {
+  std::stop_source first, next;
+  CpuBudget of_first(first), of_next(next);
+  std::jthread stays([&] {
+    const CpuLimit limit(of_first, 60ms);
+    worked(first.get_token());
+  });
+  { const CpuLimit limit(of_first, 60ms); }
+  const CpuLimit limit(of_next, 5s);
+  const auto cpu = CpuClock::of_this_thread();
+  while (!first.stop_requested() || cpu.used() < 60ms) {
+  }
+  EXPECT_FALSE(next.stop_requested());
+}
+
 }  // namespace
 }  // namespace tubecut::server
