@@ -6,6 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/least_area.hpp"
 #include "core/bevel/smoothed_area.hpp"
 #include "core/bevel/table.hpp"
@@ -229,7 +230,7 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
   for (std::size_t k = 0; k < n; ++k) phi[k] = seen[k].phi(t);
   const Turns turn(phi);
   joint::Places places(n);
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < n && !stops(stop, k); ++k) {
     const double radius = seen[k].radius;
     places.set(k, {radius * turn.cosine[k], radius * turn.sine[k], seen[k].z(spec, t)});
   }

@@ -259,10 +259,10 @@ bool seen(const Gauge& g, const Shape& good, const Shape& bad) {
 
 }  // namespace
 
-std::vector<CheckDimension> check_dimensions(const Shape& shape) {
+std::vector<CheckDimension> check_dimensions(const Shape& shape, const std::stop_token& stop) {
   auto all = gauges(shape);
   for (auto& g : all) g.about.value = g.read(shape);
-  for (int m = 0; m < kMistakes; ++m) {
+  for (int m = 0; m < kMistakes && !stop.stop_requested(); ++m) {
     const auto mistake = static_cast<Mistake>(m);
     const auto bad = with(mistake, shape);
     for (auto& g : all)

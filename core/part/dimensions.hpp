@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,9 @@ struct Shape {
 
 /// 8 to 12 numbers that together show each of the mistakes on a part it can be seen on. For each
 /// dimension the mistakes are made one at a time on this very part, and those are named that change
-/// it by more than 1 mm.
+/// it by more than 1 mm. Fewer when it is stopped.
 /// Source  docs/theory/parts.md, section 4.
-[[nodiscard]] std::vector<CheckDimension> check_dimensions(const Shape& shape);
+[[nodiscard]] std::vector<CheckDimension> check_dimensions(const Shape& shape,
+                                                           const std::stop_token& stop = {});
 
 }  // namespace tubecut::part

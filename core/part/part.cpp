@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
@@ -74,13 +75,14 @@ Edge outer_edge(const Table& t) { return {t.phi, t.z_outer}; }
 Edge inner_edge(const Table& t) { return {t.phi, t.z_inner}; }
 
 /// The two cuts of a wall must not meet. Both are straight between their nodes.
-Result<void> check_left(const Part& p, double length) {
+Result<void> check_left(const Part& p, double length, const std::stop_token& stop) {
   double least = std::numeric_limits<double>::infinity();
   for (const bool outer : {false, true}) {
     const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
     const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
     for (const auto* nodes : {&a.phi, &b.phi})
-      for (const double phi : *nodes) least = std::min(least, b.at(phi).low - a.at(phi).high);
+      for (std::size_t i = 0; i < nodes->size() && !stops(stop, i); ++i)
+        least = std::min(least, b.at((*nodes)[i]).low - a.at((*nodes)[i]).high);
   }
   if (least > 0.0) return {};
   return fail({.code = ErrorCode::member_consumed,
@@ -202,14 +204,14 @@ struct Beyond {
   bool finish = true;     // everywhere, at the finish
 };
 
-Beyond beyond(const Part& p, const bevel::Hole& hole) {
+Beyond beyond(const Part& p, const bevel::Hole& hole, const std::stop_token& stop) {
   Beyond out;
   for (const bool outer : {false, true}) {
     const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
     const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
     const auto& phi = outer ? hole.phi : hole.phi_inner;
     const auto& z = outer ? hole.z : hole.z_inner;
-    for (std::size_t i = 0; i < phi.size(); ++i) {
+    for (std::size_t i = 0; i < phi.size() && !stops(stop, i); ++i) {
       const bool below = z[i] <= a.at(phi[i]).high, above = z[i] >= b.at(phi[i]).low;
       out.anywhere = out.anywhere || below || above;
       out.start = out.start && below;
@@ -221,11 +223,13 @@ Beyond beyond(const Part& p, const bevel::Hole& hole) {
 
 /// A hole in the scrap alone is a mistake of the request's; one that reaches into a cut may be
 /// meant, and so may one side of a brace that passes through.
-Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
+Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
+                       const std::stop_token& stop) {
   std::vector<Beyond> at;
   std::set<std::size_t> on_part;
   for (const auto& placed : p.holes) {
-    at.push_back(beyond(p, placed.hole));
+    at.push_back(beyond(p, placed.hole, stop));
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!at.back().start && !at.back().finish) on_part.insert(placed.asked);
   }
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -270,18 +274,23 @@ joint::MemberFrame part_frame(const PartSpec& spec, double dz) {
 }
 
 /// Everything that follows from the two ends and the holes.
-void assemble(const PartSpec& spec, Part& out) {
+void assemble(const PartSpec& spec, Part& out, const std::stop_token& stop) {
   const double length = *spec.target.length;
   const double dz = -lowest(out.start.own);
   out.frame = part_frame(spec, dz);
   out.start.table = shifted(out.start.own, dz);
+  if (stop.stop_requested()) return;
   out.finish.table = shifted(seen_from_start(out.finish.own, length), dz);
+  if (stop.stop_requested()) return;
   out.start.longest = edge_point(out.start.table, false);
   out.start.shortest = edge_point(out.start.table, true);
   out.finish.longest = edge_point(out.finish.table, true);
   out.finish.shortest = edge_point(out.finish.table, false);
   for (std::size_t i = 0; i < out.hole_cuts.size(); ++i)
-    for (const auto& hole : out.hole_cuts[i].holes) out.holes.push_back({shifted(hole, dz), i});
+    for (const auto& hole : out.hole_cuts[i].holes) {
+      if (stop.stop_requested()) return;
+      out.holes.push_back({shifted(hole, dz), i});
+    }
   out.marks = marks(spec, out, dz);
 }
 
@@ -299,14 +308,16 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
     (finish ? out.finish : out.start) = std::move(end);
   }
   TRY(cut_holes(spec, out, stop));
-  assemble(spec, out);
-  TRY(check_left(out, *spec.target.length));
-  TRY(see_holes(spec, out, out.warnings));
+  assemble(spec, out, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  TRY(check_left(out, *spec.target.length, stop));
+  TRY(see_holes(spec, out, out.warnings, stop));
   warn_of_meeting(spec, out, out.warnings, stop);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
   out.lengths = lengths(spec, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  out.check_dimensions = check_dimensions(shape_of(spec, out));
+  out.check_dimensions = check_dimensions(shape_of(spec, out), stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   out.sequence = sequence(out);
   return out;
 }

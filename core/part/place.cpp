@@ -26,6 +26,7 @@ template <class T>
 std::vector<T> picked(const std::vector<T>& column, const std::vector<std::size_t>& order) {
   std::vector<T> out;
   if (column.empty()) return out;
+  out.reserve(order.size());
   for (const auto i : order) out.push_back(column[i]);
   return out;
 }
