@@ -5,6 +5,7 @@
 
 #include "api/formats/letter_widths.hpp"
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -62,8 +63,10 @@ void Canvas::text(DrawingPoint at, std::string_view what, const Lettering& lette
       {.kind = Ink::Kind::text, .points = {at}, .lettering = lettering, .text = std::string(what)});
 }
 
-void Canvas::place(const Canvas& other, DrawingPoint by, std::string_view suffix) {
+void Canvas::place(const Canvas& other, DrawingPoint by, std::string_view suffix,
+                   const std::stop_token& stop) {
   for (auto ink : other.drawn_) {
+    ask(stop);
     const double reach = text_width(ink.text, ink.lettering.height, true) + 1.0;
     DrawingPoint low{width_, height_}, high{0.0, 0.0};
     for (auto& p : ink.points) {

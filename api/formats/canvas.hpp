@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -60,7 +61,8 @@ class Canvas {
                  std::string_view id = {});
   void text(DrawingPoint at, std::string_view what, const Lettering& lettering = {});
   /// Another drawing, moved by `by`, its ids with a suffix; what lies off this sheet is left out.
-  void place(const Canvas& other, DrawingPoint by, std::string_view suffix);
+  void place(const Canvas& other, DrawingPoint by, std::string_view suffix,
+             const std::stop_token& stop);
   /// Everything drawn until `end_group` is cut off at the rectangle, or the polygon.
   void begin_clip(DrawingPoint low, DrawingPoint high);
   void begin_clip(std::vector<DrawingPoint> border);

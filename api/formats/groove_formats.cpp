@@ -37,7 +37,8 @@ std::string groove_csv(const groove::GrooveSpec&, const groove::Groove& g, const
 std::string groove_svg(const groove::GrooveSpec& spec, const groove::Groove& g,
                        const Caption& caption) {
   if (caption.view == "section")
-    return print_svg({groove_section_sheet(spec, g, caption)}, "Sections of the groove");
+    return print_svg({groove_section_sheet(spec, g, caption)}, "Sections of the groove",
+                     caption.stop);
   if (caption.options.omega)
     throw UnfitOption{"omega_deg", "the section at an angle is drawn by view=section"};
   const auto omega = each(g.sections, [](S s) { return s.omega.deg(); });

@@ -79,11 +79,11 @@ std::string part_csv(const part::PartSpec& spec, const part::Part& part, const C
 }
 
 std::string part_svg(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_svg(sheets(spec, part, caption), title(caption));
+  return print_svg(sheets(spec, part, caption), title(caption), caption.stop);
 }
 
 std::string part_pdf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_pdf(sheets(spec, part, caption), title(caption));
+  return print_pdf(sheets(spec, part, caption), title(caption), caption.stop);
 }
 
 std::string part_dxf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {

@@ -6,6 +6,7 @@
 #include "api/api.hpp"
 #include "api/formats/letter_widths.hpp"
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 #include "api/text_encoding.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
@@ -69,10 +70,13 @@ std::string color(std::string_view name) {
 /// What draws one sheet, in mm.
 class Content {
  public:
-  explicit Content(const Canvas& canvas) {
+  Content(const Canvas& canvas, const std::stop_token& stop) {
     const auto scale = fixed(kPoint, 6);
     out = scale + " 0 0 " + scale + " 0 0 cm 1 j\n";
-    for (const auto& ink : canvas.drawn()) draw(ink);
+    for (const auto& ink : canvas.drawn()) {
+      ask(stop);
+      draw(ink);
+    }
   }
   std::string out;
 
@@ -140,28 +144,41 @@ class Content {
 class File {
  public:
   /// Its number.
-  std::size_t add(const std::string& body) {
-    begins_.push_back(out_.size());
-    out_ += std::to_string(begins_.size()) + " 0 obj\n" + body + "\nendobj\n";
-    return begins_.size();
+  std::size_t add(std::string_view body) {
+    begin();
+    out_ += body;
+    return end();
   }
-  std::size_t add_stream(const std::string& content) {
-    return add("<< /Length " + std::to_string(content.size()) + " >>\nstream\n" + content +
-               "endstream");
+  std::size_t add_stream(std::string_view content, const std::stop_token& stop) {
+    begin();
+    out_ += "<< /Length " + std::to_string(content.size()) + " >>\nstream\n";
+    append(out_, content, stop);
+    out_ += "endstream";
+    return end();
   }
-  [[nodiscard]] std::string print(std::size_t root, std::size_t info) const {
-    std::string out =
-        out_ + "xref\n0 " + std::to_string(begins_.size() + 1) + "\n0000000000 65535 f \n";
+  [[nodiscard]] std::string print(std::size_t root, std::size_t info) && {
+    const auto table = out_.size();
+    out_ += "xref\n0 " + std::to_string(begins_.size() + 1) + "\n0000000000 65535 f \n";
     for (const auto at : begins_) {
       const auto digits = std::to_string(at);
-      out += std::string(10 - digits.size(), '0') + digits + " 00000 n \n";
+      out_ += std::string(10 - digits.size(), '0') + digits + " 00000 n \n";
     }
-    return out + "trailer\n<< /Size " + std::to_string(begins_.size() + 1) + " /Root " +
-           std::to_string(root) + " 0 R /Info " + std::to_string(info) + " 0 R >>\nstartxref\n" +
-           std::to_string(out_.size()) + "\n%%EOF\n";
+    out_ += "trailer\n<< /Size " + std::to_string(begins_.size() + 1) + " /Root " +
+            std::to_string(root) + " 0 R /Info " + std::to_string(info) + " 0 R >>\nstartxref\n" +
+            std::to_string(table) + "\n%%EOF\n";
+    return std::move(out_);
   }
 
  private:
+  void begin() {
+    begins_.push_back(out_.size());
+    out_ += std::to_string(begins_.size()) + " 0 obj\n";
+  }
+  std::size_t end() {
+    out_ += "\nendobj\n";
+    return begins_.size();
+  }
+
   std::string out_ = "%PDF-1.4\n%\xe2\xe3\xcf\xd3\n";
   std::vector<std::size_t> begins_;
 };
@@ -173,7 +190,8 @@ std::string font(std::string_view name) {
 
 }  // namespace
 
-std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title) {
+std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title,
+                      const std::stop_token& stop) {
   File file;
   const auto plain = file.add(font("Helvetica")), bold = file.add(font("Helvetica-Bold"));
   const auto info = file.add("<< /Title " + literal(title) + " /Producer " +
@@ -181,7 +199,7 @@ std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title)
   const auto parent = std::to_string(info + 1 + 2 * sheets.size()) + " 0 R";  // the last but one
   std::string kids;
   for (const auto& sheet : sheets) {
-    const auto content = file.add_stream(Content(sheet).out);
+    const auto content = file.add_stream(Content(sheet, stop).out, stop);
     const auto page =
         file.add("<< /Type /Page /Parent " + parent + " /MediaBox [0 0 " +
                  fixed(sheet.width() * kPoint, 3) + " " + fixed(sheet.height() * kPoint, 3) +
@@ -194,7 +212,7 @@ std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title)
   // "None": a viewer's print dialogue keeps the full size.
   const auto root = file.add("<< /Type /Catalog /Pages " + std::to_string(pages) +
                              " 0 R /ViewerPreferences << /PrintScaling /None >> >>");
-  return file.print(root, info);
+  return std::move(file).print(root, info);
 }
 
 }  // namespace tubecut::api

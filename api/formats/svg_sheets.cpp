@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -24,9 +25,13 @@ std::string look(const Stroke& s) {
 
 class Printer {
  public:
+  explicit Printer(const std::stop_token& stop) : stop_(stop) {}
   void sheet(const Canvas& canvas, double top) {
     top_ = top + canvas.height();
-    for (const auto& ink : canvas.drawn()) draw(ink);
+    for (const auto& ink : canvas.drawn()) {
+      ask(stop_);
+      draw(ink);
+    }
   }
   std::string out;
 
@@ -90,19 +95,27 @@ class Printer {
     out += ">" + xml_text(ink.text) + "</text>\n";
   }
 
+  const std::stop_token& stop_;
   double top_ = 0.0;
   int clips_ = 0;
 };
 
 }  // namespace
 
-std::string print_svg(const std::vector<Canvas>& sheets, std::string_view title) {
+std::string print_svg(const std::vector<Canvas>& sheets, std::string_view title,
+                      const std::stop_token& stop) {
   double width = 0.0, height = 0.0;
   for (const auto& sheet : sheets) {
     width = std::max(width, sheet.width());
     height += sheet.height();
   }
-  Printer printer;
+  const auto w = fixed(width, 3), h = fixed(height, 3);
+  Printer printer(stop);
+  printer.out =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h +
+      "mm\" viewBox=\"0 0 " + w + " " + h +
+      "\" font-family=\"Arial, Liberation Sans, Helvetica, DejaVu Sans, sans-serif\">\n<title>" +
+      xml_text(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   double top = 0.0;
   for (std::size_t i = 0; i < sheets.size(); ++i) {
     if (sheets.size() > 1) printer.out += "<g id=\"sheet-" + std::to_string(i + 1) + "\">\n";
@@ -110,12 +123,8 @@ std::string print_svg(const std::vector<Canvas>& sheets, std::string_view title)
     if (sheets.size() > 1) printer.out += "</g>\n";
     top += sheets[i].height();
   }
-  const auto w = fixed(width, 3), h = fixed(height, 3);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h +
-         "mm\" viewBox=\"0 0 " + w + " " + h +
-         "\" font-family=\"Arial, Liberation Sans, Helvetica, DejaVu Sans, sans-serif\">\n<title>" +
-         xml_text(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" +
-         printer.out + "</svg>\n";
+  printer.out += "</svg>\n";
+  return std::move(printer.out);
 }
 
 }  // namespace tubecut::api

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/formats/numbers.hpp"
+#include "api/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -57,8 +58,9 @@ struct Tile {
 
 class Tiles {
  public:
-  Tiles(const Canvas& drawing, const Canvas& cuts, const Grid& grid, const TileWords& words)
-      : drawing_(drawing), grid_(grid), words_(words) {
+  Tiles(const Canvas& drawing, const Canvas& cuts, const Grid& grid, const TileWords& words,
+        const std::stop_token& stop)
+      : drawing_(drawing), grid_(grid), words_(words), stop_(stop) {
     for (int row = 0; row < grid.rows; ++row)
       for (int column = 0; column < grid.columns; ++column)
         if (const auto window = window_of(column, row); holds(cuts, window))
@@ -77,8 +79,9 @@ class Tiles {
     const double top = drawing_.height() - row * (grid_.window_h - kOverlap);
     return {{x, top - grid_.window_h}, {x + grid_.window_w, top}};
   }
-  static bool holds(const Canvas& cuts, const Box& window) {
+  [[nodiscard]] bool holds(const Canvas& cuts, const Box& window) const {
     return std::ranges::any_of(cuts.drawn(), [&](const Ink& ink) {
+      ask(stop_);
       for (std::size_t i = 0; i + 1 < ink.points.size(); ++i)
         if (window.meets(ink.points[i], ink.points[i + 1])) return true;
       return false;
@@ -92,7 +95,7 @@ class Tiles {
     const DrawingPoint high{low.x + grid_.window_w, low.y + grid_.window_h};
     sheet.begin_clip(low, high);
     sheet.place(drawing_, {low.x - tile.window.low.x, low.y - tile.window.low.y},
-                "-" + std::to_string(k + 1));
+                "-" + std::to_string(k + 1), stop_);
     sheet.end_group();
     sheet.rectangle(low, high, {.color = "#b8c0c8", .width = 0.1},
                     "window-" + std::to_string(k + 1));
@@ -182,18 +185,19 @@ class Tiles {
   const Canvas& drawing_;
   const Grid& grid_;
   const TileWords& words_;
+  const std::stop_token& stop_;
   std::vector<Tile> tiles_;
 };
 
 }  // namespace
 
 std::vector<Canvas> tiles(const Canvas& drawing, const Canvas& cuts, Paper paper,
-                          const TileWords& words) {
+                          const TileWords& words, const std::stop_token& stop) {
   const double small = paper == Paper::a4 ? 210.0 : 297.0,
                large = paper == Paper::a4 ? 297.0 : 420.0;
   const auto upright = grid_on(small, large, drawing), across = grid_on(large, small, drawing);
   const bool turned = across.columns * across.rows < upright.columns * upright.rows;
-  return Tiles(drawing, cuts, turned ? across : upright, words).pages();
+  return Tiles(drawing, cuts, turned ? across : upright, words, stop).pages();
 }
 
 }  // namespace tubecut::api

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,6 @@ struct TileWords {
 /// corners, a map of the pages, what the window shows, and a 100 mm ruler each way. Pages that
 /// nothing of `cuts` is on are left out. The window of page k has the id `window-k`.
 [[nodiscard]] std::vector<Canvas> tiles(const Canvas& drawing, const Canvas& cuts, Paper paper,
-                                        const TileWords& words);
+                                        const TileWords& words, const std::stop_token& stop);
 
 }  // namespace tubecut::api

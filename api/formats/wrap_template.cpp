@@ -69,7 +69,7 @@ Canvas one_sheet(const Development& d, const TemplateField& field, const Templat
   Canvas sheet(std::max(kLeastWidth, field.width() + 2.0 * kMargin + kRulerRoom),
                2.0 * kMargin + kRulerRoom + std::max(field.height(), kRuler) + kScaleRoom +
                    kLine * (static_cast<double>(lines.size() + verdict.size()) + 1.0));
-  sheet.place(drawing.all, {kMargin, kMargin + kRulerRoom}, {});
+  sheet.place(drawing.all, {kMargin, kMargin + kRulerRoom}, {}, c.stop);
   double y = sheet.height() - kMargin;
   const double room = sheet.width() - 2.0 * kMargin;
   const auto of = d.around() && !d.whole ? std::string{} : subject(d, c);
@@ -117,7 +117,7 @@ std::vector<Canvas> wrap_template(const Development& development, const Caption&
   if (caption.options.paper == Paper::sheet)
     return {one_sheet(development, field, drawing, caption)};
   return tiles(drawing.all, drawing.cuts, caption.options.paper,
-               tile_words(development, field, caption));
+               tile_words(development, field, caption), caption.stop);
 }
 
 }  // namespace tubecut::api
