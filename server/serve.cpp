@@ -1,7 +1,6 @@
 #include "server/serve.hpp"
 
 #include <fmt/format.h>
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -279,13 +278,6 @@ int refuse_open(std::string_view option, const std::string& host) {
   return kRefusedToStart;
 }
 
-/// Large blocks go back to the system as soon as they are freed, and the end of a thread's heap
-/// when it is worth the call: what was counted as free is free for others.
-void give_memory_back() {
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  mallopt(M_TRIM_THRESHOLD, 4 << 20);
-}
-
 /// What nobody catches ends the process. Where the system had no thread to give, that is no fault
 /// of the program: it is said, and no core is left. An exception on its way (a library ends the
 /// process when it cannot start all of its threads) is of that kind too: no other leaves the start.
@@ -310,7 +302,6 @@ void give_memory_back() {
 // to take down the others in order would wait for ports that are being served.
 int serve(const Config& c) noexcept {
   std::set_terminate(end_uncaught);
-  give_memory_back();
   const Signals signals;
   if (const auto by = reached(c); by && c.keys.empty() && !c.open)
     return refuse_open(by->first, by->second);

@@ -1,7 +1,5 @@
 #include "server/http/port.hpp"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -35,8 +33,6 @@ constexpr std::size_t kKeptFree = 4;
 /// What each thread has for its job, beside what is set aside for the job: the everyday ones need
 /// no more.
 constexpr std::size_t kThreadBytes = 8u << 20;
-/// A job that took more leaves holes, which are given back to the system.
-constexpr std::size_t kLarge = 16u << 20;
 constexpr std::size_t kLeastMemory = 16u << 20;
 
 /// What is left of the bound for bodies and answers once every thread has its part; 0: no bound.
@@ -154,16 +150,13 @@ void Port::work(Job& job) {
   };
   const auto body = std::min(job.request.body.size(), job.memory.bytes());
   const auto given = kThreadBytes + job.memory.bytes() - body;
-  std::size_t peak = 0;
   {
     const JobMemory taken(
         given, [&](std::size_t bytes) { return grow(job, bytes); }, &job.held);
     answer(job);
-    peak = taken.peak();
   }
   job.request.turns = in_order;  // what is left of it is not this job's
   job.request.helped_ns = nullptr;
-  if (peak > kLarge) ::malloc_trim(0);
 }
 
 void Port::answer(Job& job) const {

@@ -292,7 +292,7 @@ TEST(JobMemory, TakesOverWhatAnotherThreadHasMade) {
   EXPECT_GE(live, 1'000'000U);
   made = nullptr;
   EXPECT_LT(live, 10'000U);
-  EXPECT_NO_THROW(made = std::make_unique<char[]>(1'900'000));
+  EXPECT_NO_THROW(made = std::make_unique<char[]>(1'700'000));
   EXPECT_THROW(static_cast<void>(std::make_unique<char[]>(1'000'000)), NoRoom);
 }
 
