@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/formats/numbers.hpp"
+#include "api/stop.hpp"
 #include "core/base/angle.hpp"
 
 namespace tubecut::api {
@@ -119,6 +120,7 @@ class Drawing {
   void curve(const CylinderCurve& c, bool around, const Stroke& stroke, const std::string& id) {
     if (c.empty()) return;
     for (const double turn : {0.0, kTwoPi, -kTwoPi}) {
+      ask(caption_.stop);
       std::vector<DrawingPoint> points;
       bool inside = false;
       for (std::size_t i = 0; i < c.phi.size(); ++i) {
