@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <new>
 #include <thread>
 
 #include "api/endpoint.hpp"
@@ -273,6 +274,31 @@ TEST(JobMemory, TellsOthersWhatItHolds) {
     block = nullptr;
     EXPECT_LT(live, 100'000U);
   }
+}
+
+/// An allocator may bring forms of its own, which nobody would count.
+TEST(JobMemory, CountsEveryFormOfNew) {
+  constexpr std::size_t kBytes = 1'000'000;
+  constexpr auto kUnit = std::align_val_t(64);
+  const std::nothrow_t none;
+  std::atomic<std::size_t> live = 0;
+  const JobMemory memory(
+      kPlenty, [](std::size_t) { return Grant::never; }, &live);
+  const auto seen = [&](void* block, auto release) {
+    EXPECT_TRUE(block != nullptr && live >= kBytes);
+    release(block);
+    EXPECT_LT(live, kBytes / 10);
+  };
+  seen(operator new(kBytes), [](void* b) { operator delete(b); });
+  seen(operator new[](kBytes), [](void* b) { operator delete[](b); });
+  seen(operator new(kBytes, none), [](void* b) { operator delete(b, std::nothrow); });
+  seen(operator new[](kBytes, none), [](void* b) { operator delete[](b, std::nothrow); });
+  seen(operator new(kBytes, kUnit), [](void* b) { operator delete(b, kUnit); });
+  seen(operator new[](kBytes, kUnit), [](void* b) { operator delete[](b, kUnit); });
+  seen(operator new(kBytes, kUnit, none), [](void* b) { operator delete(b, kUnit); });
+  seen(operator new[](kBytes, kUnit, none), [](void* b) { operator delete[](b, kUnit); });
+  seen(operator new(kBytes), [](void* b) { operator delete(b, kBytes); });
+  seen(operator new[](kBytes), [](void* b) { operator delete[](b, kBytes); });
 }
 
 /// Pieces that another thread has made, and that this one frees.
