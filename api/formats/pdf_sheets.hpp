@@ -13,6 +13,6 @@ namespace tubecut::api {
 /// Helvetica and Helvetica-Bold. No date, no compression: the same drawing gives the same bytes.
 /// Throws Unspellable where a text has letters that neither they nor ASCII can spell.
 [[nodiscard]] std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title,
-                                    const std::stop_token& stop = {});
+                                    const std::stop_token& stop);
 
 }  // namespace tubecut::api

@@ -42,6 +42,6 @@ struct Shape {
 /// it by more than 1 mm. Fewer when it is stopped.
 /// Source  docs/theory/parts.md, section 4.
 [[nodiscard]] std::vector<CheckDimension> check_dimensions(const Shape& shape,
-                                                           const std::stop_token& stop = {});
+                                                           const std::stop_token& stop);
 
 }  // namespace tubecut::part

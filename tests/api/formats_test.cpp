@@ -169,11 +169,11 @@ TEST(Formats, LabelsAreSpreadAndKeepTheirOrder) {
 TEST(Formats, APdfSpellsWhatItsFontsHaveNot) {
   api::Canvas sheet(50.0, 20.0);
   sheet.text({1.0, 1.0}, "(30\u00b0) \u0159");
-  const auto pdf = api::print_pdf({sheet}, "a");
+  const auto pdf = api::print_pdf({sheet}, "a", {});
   EXPECT_NE(pdf.find("(\\05030\\260\\051 r)"), std::string::npos);
   api::Canvas other(50.0, 20.0);
   other.text({1.0, 1.0}, "\u7ba1");
-  EXPECT_THROW((void)api::print_pdf({other}, "a"), api::Unspellable);
+  EXPECT_THROW((void)api::print_pdf({other}, "a", {}), api::Unspellable);
 }
 
 /// Between two looks at the budget lies one line of a drawing, not its pages: a template of 20 000
