@@ -1,10 +1,12 @@
 #include "core/bevel/interior_point.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/base/lanes.hpp"
 #include "core/bevel/least_area.hpp"
 #include "core/bevel/ring_newton.hpp"
 
@@ -14,39 +16,46 @@ namespace {
 using Array = Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kMostSteps = 80;     // 36 are the most seen, on 20 000 hostile profiles
-constexpr double kGap = 1e-12;     // of the area, between it and what the multipliers prove
-constexpr double kNear = 1e-5;     // the same, from where on the multipliers may be the best
-constexpr double kSmall = 1e-3;    // an area that counts as one: 1e-3 spacings times the range of B
-constexpr double kStart = 0.1;     // of the range of B: how far above it the search begins
-constexpr double kNarrow = 0.05;   // least room below the limit to begin with
-constexpr double kNoRoom = 1e-12;  // between B and the limit: the height is that of B
-constexpr double kPinned = 1e60;   // weight of such a height
-constexpr double kLong = 1e-3;     // of the mean spacing: long enough to divide by
-constexpr double kKept = 0.99;     // share of the way to the next limit, at least
+constexpr int kMostSteps = 80;    // 36 are the most seen, on 20 000 hostile profiles
+constexpr double kGap = 1e-12;    // of the area, between it and what the multipliers prove
+constexpr double kNear = 1e-5;    // the same, from where on the multipliers may be the best
+constexpr double kSmall = 1e-3;   // an area that counts as one: 1e-3 spacings times the range of B
+constexpr double kStart = 0.1;    // of the range of B: how far above it the search begins
+constexpr double kNarrow = 0.05;  // least room below the limit to begin with
+constexpr double kPinned = 1e60;  // weight of such a height, and of a bend where no node is
+constexpr double kKept = 0.99;    // share of the way to the next limit, at least
+constexpr double kLost = 100.0;   // of that way: as far leads only what arcs made without digits
 
 /// The inequalities, a slack of every node in each group.
-enum Group : Index { above_b, rising, falling, bending_up, bending_down, below_limit, groups };
+enum Group : std::size_t {
+  above_b,
+  rising,
+  falling,
+  bending_up,
+  bending_down,
+  below_limit,
+  groups
+};
 
-std::vector<double> vector_of(const Array& a) { return {a.begin(), a.end()}; }
+/// A slack, its multiplier and the step of both.
+template <class Numbers>
+struct alignas(sizeof(Numbers)) Slack {
+  Numbers s, y, inverse, ratio, ds, dy;  // 1/s, y/s
+};
 
-/// In an order of its own, so that no width of lanes changes a bit.
-double inner(const Array& a, const Array& b) {
-  double part[4] = {};
-  const Index whole = a.size() - a.size() % 4;
-  for (Index j = 0; j < whole; j += 4)
-    for (Index k = 0; k < 4; ++k) part[k] += a[j + k] * b[j + k];
-  for (Index j = whole; j < a.size(); ++j) part[j - whole] += a[j] * b[j];
-  return (part[0] + part[1]) + (part[2] + part[3]);
-}
+/// In each lane a node of its arc. The last arc is filled up with places of no length, at which
+/// nothing bends and no slack is short.
+template <class Numbers>
+struct alignas(sizeof(Numbers)) Place {
+  Numbers w{}, x{}, v{};      // weight in the area, height above B, slope
+  Numbers df{}, dv{}, du{};   // the step: of height, slope and bend
+  Numbers lack{};             // of f <= highest: what the slack is too large by
+  Numbers pinned{}, stiff{};  // least weights of the height and of the bend
+  std::array<Slack<Numbers>, groups> of;
+};
 
-template <class Real>
+template <class Numbers>
 class InteriorPoint {
-  [[nodiscard]] auto of(Array& a, Group g) const { return a.segment(g * p_.size(), p_.size()); }
-  [[nodiscard]] auto of(const Array& a, Group g) const {
-    return a.segment(g * p_.size(), p_.size());
-  }
-
  public:
   /// `limited`: with the groups of f <= highest.
   InteriorPoint(const Programme& p, bool limited);
@@ -59,258 +68,321 @@ class InteriorPoint {
   /// The multipliers that proved most on the way: rounding spoils them where slacks grow small.
   [[nodiscard]] const Multipliers& multipliers() const { return best_; }
 
+  /// Mehrotra: the step to the optimum itself tells how far to aim, and what its product adds. The
+  /// first one touches all memory: where pages are slow to come by, 20 ms for 20 000 nodes, so that
+  /// it is asked within a step too. What a stopped one leaves is not looked at.
+  TUBECUT_INLINE void step(const std::stop_token& stop);
+
  private:
+  static constexpr int kArcs = PackOf<Numbers>::size;
+
   void begin();
   void pin();
-  void factor();
-  void find_step(const Array& shift);
-  void step(const std::stop_token& stop);
+  TUBECUT_INLINE void measured(const Numbers& area, const Numbers& gap, const Numbers& lack);
   void keep_best();
   [[nodiscard]] Array contacts() const;
-  void contacts_of_pinned(Array& out) const;
-  [[nodiscard]] Array slopes() const { return of(y_, rising) - of(y_, falling); }
+
+  TUBECUT_INLINE void factor();
+  TUBECUT_INLINE double aim();
+  TUBECUT_INLINE void aim_at(double product);
+  TUBECUT_INLINE void go(double kept);
+
+  TUBECUT_INLINE static Numbers ratio(const Slack<Numbers>& slack) {
+    return slack.y * slack.inverse;
+  }
+  /// Calls with each slack of a place and its step.
+  template <class Each>
+  TUBECUT_INLINE void each_slack(Place<Numbers>& at, const Numbers& df, const Numbers& dv,
+                                 const Numbers& du, const Each& each) const {
+    each(at.of[above_b], df);
+    each(at.of[rising], Numbers(-dv));
+    each(at.of[falling], dv);
+    each(at.of[bending_up], Numbers(-du));
+    each(at.of[bending_down], du);
+    if (limited_) each(at.of[below_limit], Numbers(-df - at.lack));
+  }
+
+  /// Calls with every node, its place and its lane there.
+  template <class Each>
+  void each_node(const Each& each) const {
+    Index j = 0;
+    for (int k = 0; k < kArcs; ++k)
+      for (std::size_t i = 0; i < places_.size() && j < p_.size(); ++i) each(j++, i, k);
+  }
+  /// What is asked of each place, by nodes.
+  template <class Of>
+  [[nodiscard]] Array by_nodes(const Of& of) const {
+    Array out(p_.size());
+    each_node([&](Index j, std::size_t i, int k) {
+      out[j] = static_cast<double>(lane(of(places_[i]), k));
+    });
+    return out;
+  }
+  [[nodiscard]] Array net(Group up, Group down) const {
+    return by_nodes([&](const auto& at) -> Numbers { return at.of[up].y - at.of[down].y; });
+  }
 
   const Programme& p_;
-  bool limited_;
-  RingNewton<Real> newton_;
-  Array x_, v_;              // heights above B, slopes
-  Array s_, y_;              // slacks and their multipliers
-  Array lack_, pinned_;      // of f <= highest: what the slack is too large by; weight of a height
-  Array inverse_, ratio_;    // 1/s, y/s
-  Array df_, dv_, ds_, dy_;  // the step
-  Array of_f_, of_v_, of_u_, height_, slope_, bend_, shift_;
-  double area_ = 0.0, gap_ = 0.0;
+  bool limited_, pins_ = false;
+  std::size_t groups_ = limited_ ? groups : below_limit;
+  RingNewton<Numbers> newton_;
+  std::vector<Place<Numbers>> places_;
+  double area_ = 0.0, gap_ = 0.0, lack_ = 0.0;
+  double far_ = 0.0, far_dual_ = 0.0;  // of the way to the next limit, how far the step goes
   Multipliers best_;
   double bound_ = -std::numeric_limits<double>::infinity();
 };
 
-template <class Real>
-InteriorPoint<Real>::InteriorPoint(const Programme& p, bool limited)
-    : p_(p), limited_(limited), newton_(p.h) {
-  const Index n = p.size(), all = (limited ? groups : below_limit) * n;
-  for (Array* a : {&v_, &lack_, &pinned_}) a->setZero(n);
-  for (Array* a : {&x_, &df_, &dv_, &of_f_, &of_v_, &of_u_, &height_, &slope_, &bend_})
-    a->resize(n);
-  for (Array* a : {&s_, &y_, &inverse_, &ratio_, &ds_, &dy_, &shift_}) a->resize(all);
+/// Lengths after the nodes, by places; none where no node is.
+template <class Numbers>
+std::vector<Numbers> lengths(const Array& h) {
+  constexpr int kArcs = PackOf<Numbers>::size;
+  std::vector<Numbers> out(static_cast<std::size_t>((h.size() + kArcs - 1) / kArcs));
+  const auto arc = static_cast<Index>(out.size());
+  for (Index j = 0; j < h.size(); ++j)
+    set_lane(out[static_cast<std::size_t>(j % arc)], static_cast<int>(j / arc), h[j]);
+  return out;
+}
+
+template <class Numbers>
+InteriorPoint<Numbers>::InteriorPoint(const Programme& p, bool limited)
+    : p_(p), limited_(limited), newton_(lengths<Numbers>(p.h)), places_(newton_.size()) {
   begin();
 }
 
 /// A constant above B, with multipliers that balance exactly.
-template <class Real>
-void InteriorPoint<Real>::begin() {
-  const double top = p_.b.maxCoeff();
-  x_ = (limited_ ? 0.5 * (top + std::min(p_.highest, top + 1.0)) : top + kStart) - p_.b;
-  of(s_, above_b) = x_;
-  of(s_, rising).setConstant(p_.slope);
-  of(s_, falling).setConstant(p_.slope);
-  of(s_, bending_up) = p_.curvature * p_.w;
-  of(s_, bending_down) = p_.curvature * p_.w;
-  if (limited_) {
-    const Array room = p_.highest - p_.b;
-    of(s_, below_limit) = (room - x_).max(kNarrow);
-    lack_ = x_ + of(s_, below_limit) - room;
+template <class Numbers>
+void InteriorPoint<Numbers>::begin() {
+  constexpr double kWide = 1e60;
+  for (auto& at : places_) {
+    at.stiff += kPinned;
+    for (auto& slack : at.of) slack.s = Numbers{} + kWide;
   }
-  y_ = kStart * inner(p_.w, x_) / static_cast<double>(p_.size()) / s_;
-  of(y_, above_b) = p_.w;
+  const double top = p_.b.maxCoeff();
+  const double level = limited_ ? 0.5 * (top + std::min(p_.highest, top + 1.0)) : top + kStart;
+  const double product = kStart * (p_.w * (level - p_.b)).mean();
+  each_node([&](Index j, std::size_t i, int k) {
+    auto& at = places_[i];
+    const double x = level - p_.b[j], room = p_.highest - p_.b[j];
+    const double curvature = p_.curvature * p_.w[j], below = std::max(room - x, kNarrow);
+    set_lane(at.w, k, p_.w[j]);
+    set_lane(at.x, k, x);
+    set_lane(at.stiff, k, 0.0);
+    if (limited_) set_lane(at.lack, k, x + below - room);
+    const double slacks[groups] = {x, p_.slope, p_.slope, curvature, curvature, below};
+    for (std::size_t g = 0; g < groups; ++g) set_lane(at.of[g].s, k, slacks[g]);
+  });
+  for (auto& at : places_)
+    for (auto& slack : at.of) slack.y = product / slack.s;
+  each_node([&](Index j, std::size_t i, int k) { set_lane(places_[i].of[above_b].y, k, p_.w[j]); });
   if (limited_) pin();
+  Numbers area{}, gap{}, lack{};
+  for (const auto& at : places_) {
+    area += at.w * at.x;
+    for (std::size_t g = 0; g < groups_; ++g) gap += at.of[g].s * at.of[g].y;
+    lack = larger(lack, at.lack);
+  }
+  measured(area, gap, lack);
 }
 
 /// Where B is at the limit the height has no room, so its two slacks leave the programme.
-template <class Real>
-void InteriorPoint<Real>::pin() {
-  of(y_, above_b) += of(y_, below_limit);
-  for (Index j = 0; j < p_.size(); ++j) {
-    if (p_.highest - p_.b[j] > kNoRoom) continue;
-    pinned_[j] = kPinned;
-    x_[j] = lack_[j] = 0.0;
+template <class Numbers>
+void InteriorPoint<Numbers>::pin() {
+  each_node([&](Index j, std::size_t i, int k) {
+    auto& at = places_[i];
+    set_lane(at.of[above_b].y, k, lane(at.of[above_b].y, k) + lane(at.of[below_limit].y, k));
+    if (!p_.no_room(j)) return;
+    pins_ = true;
+    set_lane(at.pinned, k, kPinned);
+    for (Numbers* none : {&at.x, &at.lack}) set_lane(*none, k, 0.0);
     for (const auto group : {above_b, below_limit}) {
-      of(s_, group)[j] = 1.0;
-      of(y_, group)[j] = 1e-300;
+      set_lane(at.of[group].s, k, 1.0);
+      set_lane(at.of[group].y, k, 1e-300);
     }
+  });
+}
+
+template <class Numbers>
+void InteriorPoint<Numbers>::measured(const Numbers& area, const Numbers& gap,
+                                      const Numbers& lack) {
+  area_ = static_cast<double>(sum_of(area));
+  gap_ = static_cast<double>(sum_of(gap));
+  lack_ = static_cast<double>(largest_of(lack));
+}
+
+template <class Numbers>
+void InteriorPoint<Numbers>::factor() {
+  newton_.factor([&](std::size_t j) {
+    auto& at = places_[j];
+    for (std::size_t g = 0; g < groups_; ++g) at.of[g].inverse = 1.0 / at.of[g].s;
+    typename RingNewton<Numbers>::Weights out{
+        ratio(at.of[above_b]), ratio(at.of[rising]) + ratio(at.of[falling]),
+        ratio(at.of[bending_up]) + ratio(at.of[bending_down])};
+    if (limited_) out.height = larger(Numbers(out.height + ratio(at.of[below_limit])), at.pinned);
+    out.bend = larger(out.bend, at.stiff);
+    return out;
+  });
+}
+
+/// The product of slack and multiplier to aim at, from the step to the optimum: the less that step
+/// would leave, the less. Leaves in `dy` what the step adds to the products.
+template <class Numbers>
+double InteriorPoint<Numbers>::aim() {
+  Numbers near{}, near_dual{}, by_slacks{}, by_both{};
+  const auto optimum = [&](std::size_t j) {
+    const auto& at = places_[j];
+    typename RingNewton<Numbers>::Terms out{at.w, Numbers{}, Numbers{}};
+    if (limited_) out.of_f += ratio(at.of[below_limit]) * at.lack;
+    return out;
+  };
+  newton_.solve(optimum,
+                [&](std::size_t j, const Numbers& df, const Numbers& dv, const Numbers& du) {
+                  each_slack(places_[j], df, dv, du, [&](Slack<Numbers>& slack, const Numbers& ds) {
+                    const Numbers share = ds * slack.inverse;
+                    slack.dy = ds * (-slack.y - slack.y * share);
+                    near = larger(near, Numbers(-share));
+                    near_dual = larger(near_dual, share);  // -dy / y = 1 + ds / s
+                    by_slacks += slack.y * ds;
+                    by_both += slack.dy;
+                  });
+                });
+  const double over = static_cast<double>(largest_of(near));
+  const double way = over > 1.0 ? 1.0 / over : 1.0;
+  const double way_dual = 1.0 / (1.0 + static_cast<double>(largest_of(near_dual)));
+  const double moved = static_cast<double>(sum_of(by_slacks));  // and by multipliers -gap - it
+  const double after = gap_ + way * moved - way_dual * (gap_ + moved) +
+                       way * way_dual * static_cast<double>(sum_of(by_both));
+  const double share = std::max(after, 0.0) / gap_;
+  const auto slacks = places_.size() * groups_ * kArcs;
+  return share * share * share * gap_ / static_cast<double>(slacks);
+}
+
+/// Finds the step to where all products are as large, less what `aim` found that steps add.
+template <class Numbers>
+void InteriorPoint<Numbers>::aim_at(double product) {
+  Numbers near{}, near_dual{};
+  const auto terms = [&](std::size_t j) {
+    auto& at = places_[j];
+    for (std::size_t g = 0; g < groups_; ++g)
+      at.of[g].dy = (at.of[g].dy - product) * at.of[g].inverse;
+    typename RingNewton<Numbers>::Terms out{at.w + at.of[above_b].dy,
+                                            at.of[falling].dy - at.of[rising].dy,
+                                            at.of[bending_down].dy - at.of[bending_up].dy};
+    if (limited_) out.of_f += ratio(at.of[below_limit]) * at.lack - at.of[below_limit].dy;
+    return out;
+  };
+  newton_.solve(terms, [&](std::size_t j, const Numbers& df, const Numbers& dv, const Numbers& du) {
+    auto& at = places_[j];
+    at.df = df;
+    at.dv = dv;
+    at.du = du;
+    each_slack(at, df, dv, du, [&](Slack<Numbers>& slack, const Numbers& ds) {
+      const Numbers share = ds * slack.inverse;
+      slack.dy = -slack.y - slack.dy - slack.y * share;
+      near = larger(near, Numbers(-share));
+      near_dual = larger(near_dual, Numbers(-slack.dy / slack.y));
+    });
+  });
+  far_ = static_cast<double>(largest_of(near));
+  far_dual_ = static_cast<double>(largest_of(near_dual));
+}
+
+/// Goes the step, no further than the share `kept` of the way to the next limit.
+template <class Numbers>
+void InteriorPoint<Numbers>::go(double kept) {
+  const double length = far_ > kept ? kept / far_ : 1.0;
+  const double length_dual = far_dual_ > kept ? kept / far_dual_ : 1.0;
+  Numbers area{}, gap{}, lack{};
+  for (auto& at : places_) {
+    at.x += length * at.df;
+    at.v += length * at.dv;
+    area += at.w * at.x;
+    each_slack(at, at.df, at.dv, at.du, [&](Slack<Numbers>& slack, const Numbers& ds) {
+      slack.s += length * ds;
+      slack.y += length_dual * slack.dy;
+      gap += slack.s * slack.y;
+    });
+    at.lack *= 1.0 - length;
+    lack = larger(lack, at.lack);
   }
+  measured(area, gap, lack);
 }
 
-template <class Real>
-void InteriorPoint<Real>::factor() {
-  inverse_ = 1.0 / s_;
-  ratio_ = y_ * inverse_;
-  height_ = of(ratio_, above_b);
-  if (limited_) height_ = (height_ + of(ratio_, below_limit)).max(pinned_);
-  slope_ = of(ratio_, rising) + of(ratio_, falling);
-  bend_ = of(ratio_, bending_up) + of(ratio_, bending_down);
-  newton_.factor(height_, slope_, bend_);
-}
-
-/// The step of heights, slopes and slacks for slacks times multipliers that shift by s * `shift`.
-template <class Real>
-void InteriorPoint<Real>::find_step(const Array& shift) {
-  const Index n = p_.size();
-  of_f_ = p_.w + of(shift, above_b);
-  if (limited_) of_f_ += of(ratio_, below_limit) * lack_ - of(shift, below_limit);
-  of_v_ = of(shift, falling) - of(shift, rising);
-  of_u_ = of(shift, bending_down) - of(shift, bending_up);
-  newton_.solve(of_f_, of_v_, of_u_, df_, dv_);
-  of(ds_, above_b) = df_;
-  of(ds_, rising) = -dv_;
-  of(ds_, falling) = dv_;
-  auto bend = of(ds_, bending_down);
-  bend[0] = dv_[0] - dv_[n - 1];
-  bend.tail(n - 1) = dv_.tail(n - 1) - dv_.head(n - 1);
-  of(ds_, bending_up) = -bend;
-  if (limited_) of(ds_, below_limit) = -df_ - lack_;
-  dy_ = -y_ - shift - ratio_ * ds_;
-}
-
-/// Mehrotra: the step to the optimum itself tells how far to aim, and what its product adds. The
-/// first one touches all memory: where pages are slow to come by, 20 ms for 20 000 nodes, so that
-/// it is asked within a step too. What a stopped one leaves is not looked at.
-template <class Real>
-void InteriorPoint<Real>::step(const std::stop_token& stop) {
+template <class Numbers>
+void InteriorPoint<Numbers>::step(const std::stop_token& stop) {
   factor();
   if (stop.stop_requested()) return;
-  shift_.setZero();
-  find_step(shift_);
+  aim_at(aim());
   if (stop.stop_requested()) return;
-  const double over = -(ds_ * inverse_).minCoeff();
-  const double over_dual = -(dy_ / y_).minCoeff();
-  const double way = over > 1.0 ? 1.0 / over : 1.0;
-  const double way_dual = over_dual > 1.0 ? 1.0 / over_dual : 1.0;
-  const double after = inner(s_ + way * ds_, y_ + way_dual * dy_);
-  const double share = after / gap_;
-  const double aim = share * share * share * gap_ / static_cast<double>(s_.size());
-  shift_ = (ds_ * dy_ - aim) * inverse_;
-  find_step(shift_);
-  const double kept = std::max(kKept, 1.0 - gap_ / area_);
-  const double far = -(ds_ * inverse_).minCoeff(), far_dual = -(dy_ / y_).minCoeff();
-  const double length = far > kept ? kept / far : 1.0;
-  const double length_dual = far_dual > kept ? kept / far_dual : 1.0;
-  x_ += length * df_;
-  v_ += length * dv_;
-  s_ += length * ds_;
-  y_ += length_dual * dy_;
-  lack_ *= 1.0 - length;
+  go(std::max(kKept, 1.0 - gap_ / area_));
 }
 
+TUBECUT_WIDE [[gnu::flatten]] void step(InteriorPoint<Pack>& point, const std::stop_token& stop) {
+  point.step(stop);
+}
 template <class Real>
-bool InteriorPoint<Real>::solve(const std::stop_token& stop) {
+void step(InteriorPoint<Real>& point, const std::stop_token& stop) {
+  point.step(stop);
+}
+
+template <class Numbers>
+bool InteriorPoint<Numbers>::solve(const std::stop_token& stop) {
   for (int i = 0; i < kMostSteps && !stop.stop_requested(); ++i) {
-    area_ = inner(p_.w, x_);
-    gap_ = inner(s_, y_);
     if (!std::isfinite(gap_)) return false;
     if (gap_ <= kNear * (area_ + kSmall)) keep_best();
-    if (gap_ <= kGap * (area_ + kSmall) && lack_.maxCoeff() <= kGap) return true;
-    step(stop);
+    if (gap_ <= kGap * (area_ + kSmall) && lack_ <= kGap) return true;
+    bevel::step(*this, stop);
+    if (kArcs > 1 && std::max(far_, far_dual_) > kLost) return false;
   }
   return false;
 }
 
-/// Between nodes that keep B nothing is borne, so no rounding of theirs may add up: their contacts
-/// are their weights, and each stretch of others balances by itself, by the contacts at its ends.
-void balance_stretches(const Programme& p, Multipliers& m) {
-  const Index n = p.size();
-  const auto kept = [&](Index j) { return p.keeps[static_cast<std::size_t>(j)] != 0; };
-  const auto contact = [&](Index j) -> double& { return m.contact[static_cast<std::size_t>(j)]; };
-  const auto slope = [&](Index j) -> double& { return m.slope[static_cast<std::size_t>(j)]; };
-  for (Index j = 0; j < n; ++j) {
-    if (kept(j)) contact(j) = p.w[j];
-    if (kept(j) && kept(p.next(j))) slope(j) = 0.0;
-  }
-  for (Index before = 0; before < n; ++before) {
-    if (!kept(before) || kept(p.next(before))) continue;
-    double force = 0.0, moment = -slope(before), length = p.h[before];
-    Index j = p.next(before);
-    for (; !kept(j); j = p.next(j)) {
-      force += p.w[j] - contact(j);
-      moment += p.h[j] * force - slope(j);
-      length += p.h[j];
-    }
-    contact(before) += moment / length;
-    contact(j) += force - moment / length;
-  }
-}
-
-template <class Real>
-void InteriorPoint<Real>::keep_best() {
-  Multipliers now{vector_of(contacts()), vector_of(slopes())};
-  balance_stretches(p_, now);
-  now = p_.of_profile(std::move(now));
+template <class Numbers>
+void InteriorPoint<Numbers>::keep_best() {
+  auto now = p_.multipliers(contacts(), net(rising, falling));
   const double bound = least_area(p_.profile, p_.spec, now, area_ * p_.unit * p_.pitch);
   if (!(bound > bound_)) return;
   bound_ = bound;
   best_ = std::move(now);
 }
 
-template <class Real>
-Array InteriorPoint<Real>::heights() const {
+template <class Numbers>
+Array InteriorPoint<Numbers>::heights() const {
   const Index n = p_.size();
   // What rounding leaves open at the end is laid over all steps. In the profile's own unit: each
   // height is rounded once.
   double open = 0.0;
-  for (Index j = 0; j < n; ++j) open += p_.h[j] * v_[j];
+  const Array v = by_nodes([](const auto& at) -> const auto& { return at.v; });
+  for (Index j = 0; j < n; ++j) open += p_.h[j] * v[j];
   const double tilt = open / static_cast<double>(n);
   Array f(n);
-  double height = (x_[0] + p_.b[0]) * p_.unit;
+  double height = (static_cast<double>(lane(places_[0].x, 0)) + p_.b[0]) * p_.unit;
   for (Index j = 0; j < n; ++j) {
     f[j] = height;
-    height += p_.h[j] * (v_[j] - tilt) * p_.unit;
+    height += p_.h[j] * (v[j] - tilt) * p_.unit;
   }
   f += std::max(0.0, (p_.b * p_.unit - f).maxCoeff());
   return f;
 }
 
-template <class Real>
-Array InteriorPoint<Real>::contacts() const {
-  Array out = of(y_, above_b);
-  if (limited_) {
-    out -= of(y_, below_limit);
-    if (pinned_.maxCoeff() > 0.0) contacts_of_pinned(out);
-  }
+template <class Numbers>
+Array InteriorPoint<Numbers>::contacts() const {
+  if (!limited_) return by_nodes([](const auto& at) -> const auto& { return at.of[above_b].y; });
+  Array out = net(above_b, below_limit);
+  if (pins_) p_.set_pinned(out, net(rising, falling), net(bending_up, bending_down));
   return out;
-}
-
-/// What a pinned height bears follows from the forces either side. Over a step too short to divide
-/// by they are known but for a part that both its ends share: the last pinned height of such a
-/// stretch takes what the forces at its long ends leave for it.
-template <class Real>
-void InteriorPoint<Real>::contacts_of_pinned(Array& out) const {
-  const Index n = p_.size();
-  const auto net = [&](Group up, Group down, Index j) { return of(y_, up)[j] - of(y_, down)[j]; };
-  const auto shear = [&](Index j) {
-    return (net(rising, falling, j) + net(bending_up, bending_down, j) -
-            net(bending_up, bending_down, p_.next(j))) /
-           p_.h[j];
-  };
-  Index from = 0;
-  while (p_.h[p_.previous(from)] < kLong) ++from;  // half of the longest two steps is long
-  for (Index seen = 0; seen < n;) {
-    double before = shear(p_.previous(from)), left = before;
-    Index last = -1, j = from;
-    for (;; j = p_.next(j)) {
-      const double after = shear(j);
-      left += p_.w[j];
-      if (pinned_[j] > 0.0) {
-        out[j] = p_.w[j] + before - after;
-        last = j;
-      }
-      left -= out[j];
-      before = after;
-      ++seen;
-      if (p_.h[j] >= kLong) break;
-    }
-    if (last >= 0) out[last] += left - shear(j);
-    from = p_.next(j);
-  }
 }
 
 }  // namespace
 
-template <class Real>
+template <class Numbers>
 std::optional<Least> interior_point(const Programme& programme, bool limited,
                                     const std::stop_token& stop) {
-  InteriorPoint<Real> point(programme, limited);
+  InteriorPoint<Numbers> point(programme, limited);
   if (!point.solve(stop)) return std::nullopt;
   return Least{point.heights(), point.multipliers()};
 }
+template std::optional<Least> interior_point<Pack>(const Programme&, bool, const std::stop_token&);
 template std::optional<Least> interior_point<double>(const Programme&, bool,
                                                      const std::stop_token&);
 template std::optional<Least> interior_point<long double>(const Programme&, bool,

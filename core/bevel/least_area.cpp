@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace tubecut::bevel {
 namespace {
@@ -60,18 +61,25 @@ std::vector<double> bends(const Ring& r, const std::vector<double>& contact,
   return out;
 }
 
-/// Where sum w |x - it| is least.
+/// Where sum w |x - it| is least: half of the weight lies on either side.
 double weighted_median(const std::vector<double>& x, const std::vector<double>& w) {
-  std::vector<std::size_t> order(x.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t j) { return std::pair{x[j], j}; });
-  const double half = 0.5 * sum(w);
-  double so_far = 0.0;
-  for (const auto j : order) {
-    so_far += w[j];
-    if (so_far >= half) return x[j];
+  std::vector<std::pair<double, double>> nodes(x.size());
+  for (std::size_t j = 0; j < x.size(); ++j) nodes[j] = {x[j], w[j]};
+  double below = 0.5 * sum(w);  // weight that is still looked for
+  auto from = nodes.begin(), to = nodes.end();
+  while (to - from > 1) {
+    const auto middle = from + (to - from) / 2;
+    std::ranges::nth_element(from, middle, to);
+    double weight = 0.0;
+    for (auto node = from; node != middle; ++node) weight += node->second;
+    if (weight >= below) {
+      to = middle;
+    } else {
+      below -= weight;
+      from = middle;
+    }
   }
-  return x[order.back()];
+  return from->first;
 }
 
 }  // namespace
@@ -83,10 +91,11 @@ double least_area(const AngleProfile& profile, const EnvelopeSpec& spec,
   const auto of_the_profile = [&](const std::vector<double>& m) {
     return m.size() == n && std::ranges::all_of(m, [](double x) { return std::isfinite(x); });
   };
-  if (!of_the_profile(multipliers.contact) || !of_the_profile(multipliers.slope))
-    return -std::numeric_limits<double>::infinity();
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  if (!of_the_profile(multipliers.contact) || !of_the_profile(multipliers.slope)) return kNothing;
   const auto contact = balanced(multipliers.contact, r.w);
-  auto bend = bends(r, contact, multipliers.slope);
+  const auto bend = bends(r, contact, multipliers.slope);
+  if (!of_the_profile(bend)) return kNothing;
   const double level = weighted_median(bend, r.w);
   const double middle = sum(profile.b) / static_cast<double>(n);
   double bound = 0.0;

@@ -12,7 +12,7 @@ namespace tubecut::bevel {
 /// Multipliers of another number of nodes, or that are no numbers, prove nothing: -infinity.
 /// `area` is that of some profile that does: a height above B is worth no more than it.
 /// Accuracy  1e-13 of the period times the range of B.
-/// Cost      n log n.
+/// Cost      linear.
 /// Source    docs/theory/intersections-and-bevels.md, section 6.3.
 [[nodiscard]] double least_area(const AngleProfile& profile, const EnvelopeSpec& spec,
                                 const Multipliers& multipliers, double area);

@@ -103,7 +103,7 @@ const sampling = fc.oneof(
 const common = joined(
   maybe('reference', fc.record({part: text('', 1, 12), heat: text('', 1, 64)})),
   maybe('log', fc.constant('inline')),
-  maybe('numerics', fc.constant(5)));
+  maybe('numerics', fc.constant(6)));
 
 const limits = fc.oneof(
   fc.record({max_slope_deg_per_mm: between(0.5, 10), max_curvature_deg_per_mm2: between(0.1, 3)}),
