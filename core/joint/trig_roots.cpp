@@ -128,17 +128,69 @@ struct Place {
   }
 };
 
+/// The first cells round the circle: their middles, and there the cosines and sines of every
+/// multiple.
+struct Cells {
+  static constexpr std::size_t kNumber = 32;
+  static constexpr double kHalf = kPi / kNumber;
+  using OfEach = std::array<double, kNumber>;
+
+  std::array<Place, kNumber> middle;
+  std::array<OfEach, kMost / 2 + 1> cos{}, sin{};
+
+  Cells() {
+    for (std::size_t j = 0; j < kNumber; ++j) {
+      const double phi = (2.0 * static_cast<double>(j) + 1.0) * kHalf - kPi;
+      const auto at = elementary::sincos(phi);
+      middle[j] = {phi, at.cos, at.sin};
+      double c = 1.0, s = 0.0;
+      for (std::size_t k = 1; k < cos.size(); ++k) {
+        const double next = c * at.cos - s * at.sin;
+        s = s * at.cos + c * at.sin;
+        c = next;
+        cos[k][j] = c;
+        sin[k][j] = s;
+      }
+    }
+  }
+};
+
+/// mean + sum of cosine[k] cos(k phi) + sine[k] sin(k phi).
+struct Harmonics {
+  std::size_t order;
+  double mean;
+  std::array<double, kMost / 2 + 1> cosine{}, sine{};
+};
+
+/// In each cell, how near to zero the wave may come: less than none where it may cross it.
+TUBECUT_WIDE void nearest_to_zero(const Harmonics& wave, const Cells& cells, double bend,
+                                  Cells::OfEach& out) {
+  Cells::OfEach value, slope{};
+  value.fill(wave.mean);
+  for (std::size_t k = 1; k <= wave.order; ++k) {
+    const auto n = static_cast<double>(k);
+    const double a = wave.cosine[k], b = wave.sine[k];
+    const auto &c = cells.cos[k], &s = cells.sin[k];
+    for (std::size_t j = 0; j < Cells::kNumber; ++j) {
+      value[j] += a * c[j] + b * s[j];
+      slope[j] += n * (b * c[j] - a * s[j]);
+    }
+  }
+  for (std::size_t j = 0; j < Cells::kNumber; ++j)
+    out[j] = std::abs(value[j]) - Cells::kHalf * (std::abs(slope[j]) + 0.5 * (bend * Cells::kHalf));
+}
+
 /// The polynomial as a real wave, and the search of its zeros round the circle: a cell in which
 /// its bounds leave none is passed by, one in which it only rises or falls has at most one, by
 /// Newton; the others are halved.
 class Wave {
  public:
-  Wave(const Complex* c, std::size_t degree) : order_(degree / 2), mean_(c[order_].re) {
-    largest_ = std::abs(mean_);
-    for (std::size_t k = 1; k <= order_; ++k) {
-      cosine_[k] = 2.0 * c[order_ + k].re;
-      sine_[k] = -2.0 * c[order_ + k].im;
-      const double size = elementary::hypot(cosine_[k], sine_[k]);
+  Wave(const Complex* c, std::size_t degree) : is_{degree / 2, c[degree / 2].re} {
+    largest_ = std::abs(is_.mean);
+    for (std::size_t k = 1; k <= is_.order; ++k) {
+      is_.cosine[k] = 2.0 * c[is_.order + k].re;
+      is_.sine[k] = -2.0 * c[is_.order + k].im;
+      const double size = elementary::hypot(is_.cosine[k], is_.sine[k]);
       const auto n = static_cast<double>(k);
       largest_ += size;
       bend_ += n * n * size;
@@ -148,23 +200,15 @@ class Wave {
 
   /// False where there are too many cells that may hold one.
   [[nodiscard]] bool search(RootPhases& found) {
-    static const auto kMiddles = [] {
-      std::array<Place, kCells> all;
-      for (std::size_t k = 0; k < kCells; ++k) {
-        const double phi = (2.0 * static_cast<double>(k) + 1.0) * kHalf - kPi;
-        const auto at = elementary::sincos(phi);
-        all[k] = {phi, at.cos, at.sin};
-      }
-      return all;
-    }();
-    for (const auto& middle : kMiddles)
-      if (!look(middle, kHalf, found)) return false;
+    static const Cells kCells;
+    Cells::OfEach nearest;
+    nearest_to_zero(is_, kCells, bend_, nearest);
+    for (std::size_t j = 0; j < Cells::kNumber; ++j)
+      if (!(nearest[j] > noise_) && !look(kCells.middle[j], Cells::kHalf, found)) return false;
     return true;
   }
 
  private:
-  static constexpr std::size_t kCells = 32;
-  static constexpr double kHalf = kPi / kCells;
   static constexpr double kNarrow = 1e-6;  // rad, half a cell: a zero of even order, or all but one
   static constexpr double kNoise = 1e-10;  // of the largest the wave can be: a zero to rounding
   static constexpr int kLooks = 1000;
@@ -174,16 +218,16 @@ class Wave {
     double value, slope, bend;
   };
   [[nodiscard]] At at(const Place& p) const {
-    At out{mean_, 0.0, 0.0};
+    At out{is_.mean, 0.0, 0.0};
     double c = 1.0, s = 0.0;
-    for (std::size_t k = 1; k <= order_; ++k) {
+    for (std::size_t k = 1; k <= is_.order; ++k) {
       const double next = c * p.cos - s * p.sin;
       s = s * p.cos + c * p.sin;
       c = next;
       const auto n = static_cast<double>(k);
-      const double term = cosine_[k] * c + sine_[k] * s;
+      const double term = is_.cosine[k] * c + is_.sine[k] * s;
       out.value += term;
-      out.slope += n * (sine_[k] * c - cosine_[k] * s);
+      out.slope += n * (is_.sine[k] * c - is_.cosine[k] * s);
       out.bend -= n * n * term;
     }
     return out;
@@ -228,9 +272,8 @@ class Wave {
   static constexpr double kStill = 1e-14;  // rad
   static constexpr double kSharp = 1e-6;   // rad: what `noise_` moves the zero by
 
-  std::size_t order_;
-  double mean_, largest_ = 0.0, bend_ = 0.0, noise_ = 0.0;
-  std::array<double, kMost / 2 + 1> cosine_{}, sine_{};
+  Harmonics is_;
+  double largest_ = 0.0, bend_ = 0.0, noise_ = 0.0;
   int looks_ = 0;
 };
 
