@@ -37,10 +37,11 @@ enum Group : std::size_t {
   groups
 };
 
-/// A slack, its multiplier and the step of both.
+/// A slack s and its multiplier y.
 template <class Numbers>
 struct alignas(sizeof(Numbers)) Slack {
-  Numbers s, y, inverse, ratio, ds, dy;  // 1/s, y/s
+  Numbers s, y, inverse;  // 1/s
+  Numbers dy;             // the step of y; until it is known, what makes it
 };
 
 /// In each lane a node of its arc. The last arc is filled up with places of no length, at which
@@ -118,8 +119,11 @@ class InteriorPoint {
     });
     return out;
   }
+  [[nodiscard]] Array multipliers_of(Group g) const {
+    return by_nodes([&](const auto& at) -> const auto& { return at.of[g].y; });
+  }
   [[nodiscard]] Array net(Group up, Group down) const {
-    return by_nodes([&](const auto& at) -> Numbers { return at.of[up].y - at.of[down].y; });
+    return multipliers_of(up) - multipliers_of(down);
   }
 
   const Programme& p_;
@@ -367,7 +371,7 @@ Array InteriorPoint<Numbers>::heights() const {
 
 template <class Numbers>
 Array InteriorPoint<Numbers>::contacts() const {
-  if (!limited_) return by_nodes([](const auto& at) -> const auto& { return at.of[above_b].y; });
+  if (!limited_) return multipliers_of(above_b);
   Array out = net(above_b, below_limit);
   if (pins_) p_.set_pinned(out, net(rising, falling), net(bending_up, bending_down));
   return out;
