@@ -118,10 +118,16 @@ CpuLimit::CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most) : budget_(b
   part_->runs = true;
   limited = &budget;
   budget.look();
+#ifdef TUBECUT_LOOKS
+  looks::begin();
+#endif
 }
 
 CpuLimit::~CpuLimit() {
   if (part_ == nullptr) return;
+#ifdef TUBECUT_LOOKS
+  looks::end();
+#endif
   if (part_->runs.exchange(false)) {
     limited = nullptr;
     set(part_->timer, {});
