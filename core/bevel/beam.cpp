@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -98,7 +99,6 @@ Cell with_slopes(Cell c, double share) {
 class Largest {
  public:
   explicit Largest(const Figure& figure) : figure_(figure) {}
-
   void see(const Cell& seen) {
     keep(seen);
     // What is known only grows: a cell that is of no use now is of none at the end.
@@ -208,7 +208,7 @@ class Largest {
   }
 
   const Figure& figure_;
-  std::vector<Cell> cells_;
+  std::deque<Cell> cells_;  // a vector of hundred thousands would move in one piece
   Seen best_;
 };
 

@@ -155,7 +155,8 @@ void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, con
 
 /// How far the cut of each row stays from the nearest partner, mm; negative: it enters.
 std::vector<double> clearances(const TableSpec& spec, const Table& t,
-                               const std::vector<joint::Solid>& solids, const Turns& phi) {
+                               const std::vector<joint::Solid>& solids, const Turns& phi,
+                               const std::stop_token& stop) {
   const auto n = t.phi.size();
   const bool face = !t.z_face.empty();
   std::vector<double> least(n, std::numeric_limits<double>::infinity()), one(n);
@@ -170,6 +171,7 @@ std::vector<double> clearances(const TableSpec& spec, const Table& t,
   const auto corner = face ? edge(inner + spec.root_face, t.z_face) : from;
   const auto see = [&](const joint::Places& a, const joint::Places& b) {
     for (const auto& solid : solids) {
+      if (stop.stop_requested()) return;
       joint::least_distances(solid, a, b, one);
       joint::lower(least, one);
     }
@@ -226,8 +228,10 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
                      const std::stop_token& stop) {
   const auto seen = samples(spec, t);
   const auto n = seen.size();
+  if (stop.stop_requested()) return 0.0;
   std::vector<double> phi(n), distance(n);
   for (std::size_t k = 0; k < n; ++k) phi[k] = seen[k].phi(t);
+  if (stop.stop_requested()) return 0.0;
   const Turns turn(phi);
   joint::Places places(n);
   for (std::size_t k = 0; k < n && !stops(stop, k); ++k) {
@@ -343,7 +347,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   const bool published = spec.dihedral == Dihedral::as_published;
   const bool square = std::holds_alternative<SquareCut>(spec.groove);
   const Turns phi(t.phi), tau(t.tau), b_raw(t.b_raw);
-  const auto clear_of = clearances(spec, t, solids, phi);
+  const auto clear_of = clearances(spec, t, solids, phi, stop);
   std::vector<Row> rows;
   rows.reserve(t.b.size());
   for (std::size_t i = 0; i < t.b.size() && !stop.stop_requested(); ++i)

@@ -102,6 +102,7 @@ Error nested(Error error) {
 
 tl::expected<std::vector<MillPosition>, Error> optima_of(const Shop& shop, std::stop_token stop) {
   std::vector<MillPosition> out;
+  out.reserve(std::size_t(shop.spec.positions));  // grown, 20 000 would move in one piece
   for (int i = 0; i < shop.spec.positions; ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     auto found = position(shop, i, std::nullopt, stop);
@@ -118,6 +119,7 @@ tl::expected<std::vector<MillPosition>, Error> emitted(const Shop& shop,
   const auto stations = emitted_stations(shop, increments, stop);
   if (!stations) return tl::unexpected(stations.error());
   std::vector<MillPosition> out;
+  out.reserve(stations->size());
   for (const double station : *stations) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (station == std::floor(station)) {

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/base/sort.hpp"
+#include "core/base/stop.hpp"
+
 namespace tubecut::math {
 namespace {
-
-constexpr std::size_t kPoll = 256;  // strips between two looks at the stop token
 
 /// An edge that is not upright, from left to right.
 struct Side {
@@ -22,18 +23,19 @@ struct Side {
   }
 };
 
-std::vector<Side> sides(std::span<const Polygon> polygons, const Window& window) {
+std::vector<Side> sides(std::span<const Polygon> polygons, const Window& window,
+                        const std::stop_token& stop) {
   std::vector<Side> out;
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     const auto& [x, y] = polygons[p];
-    for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t i = 0; i < x.size() && !stops(stop, i); ++i) {
       const auto j = (i + 1) % x.size();
       const auto [a, b] = x[i] <= x[j] ? std::pair{i, j} : std::pair{j, i};
       if (x[a] < x[b] && x[b] > window.x_from && x[a] < window.x_to)
         out.push_back({x[a], y[a], x[b], y[b], p});
     }
   }
-  std::ranges::sort(out, {}, &Side::x0);
+  sort_unless_stopped(out, stop, &Side::x0);
   return out;
 }
 
@@ -43,8 +45,8 @@ struct Rise {
 };
 
 /// Where sides change places between two x, and where they pass the window's floor and ceiling.
-std::vector<double> stops(const std::vector<Side>& over, double from, double to,
-                          const Window& window) {
+std::vector<double> crossings(const std::vector<Side>& over, double from, double to,
+                              const Window& window) {
   std::vector<Rise> rises;
   rises.reserve(over.size() + 2);
   for (const auto& side : over) rises.push_back({side.at(from), side.at(to)});
@@ -96,26 +98,27 @@ double area(const Polygon& polygon) {
 
 double union_area(std::span<const Polygon> polygons, const Window& window,
                   const std::stop_token& stop) {
-  const auto all = sides(polygons, window);
+  const auto all = sides(polygons, window, stop);
   std::vector<double> corners;
+  corners.reserve(2 * all.size());
   for (const auto& side : all)
     for (const double x : {side.x0, side.x1})
       corners.push_back(std::clamp(x, window.x_from, window.x_to));
-  std::ranges::sort(corners);
+  sort_unless_stopped(corners, stop);
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
 
   double sum = 0.0;
   std::vector<Side> over;
   std::size_t next = 0;
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
-    if (k % kPoll == 0 && stop.stop_requested()) break;
+    if (stop.stop_requested()) break;  // a strip may have hundreds of sides
     const double from = corners[k], to = corners[k + 1];
     std::erase_if(over, [&](const Side& side) { return side.x1 <= from; });
     while (next < all.size() && all[next].x0 <= from) {
       if (all[next].x1 > from) over.push_back(all[next]);
       ++next;
     }
-    const auto strips = stops(over, from, to, window);
+    const auto strips = crossings(over, from, to, window);
     for (std::size_t i = 0; i + 1 < strips.size(); ++i)
       if (strips[i + 1] > strips[i])
         sum +=

@@ -91,6 +91,8 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
   if (!std::holds_alternative<CutPath>(spec.cut)) return;
   const Reconstruction torch(spec);
   AxisValues values(counted, spec.machine);
+  for (auto* column : {&out.phi, &out.z, &out.b})
+    column->reserve(counted.periods + 1);  // grown, a million would move in one piece
   for (std::size_t k = 0; k <= counted.periods; ++k) {
     if (k % kAskEvery == 0 && stop.stop_requested()) return;
     if (k > 0) values.step(k - 1);
