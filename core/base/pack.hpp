@@ -12,22 +12,29 @@ namespace tubecut {
 using Pack [[gnu::vector_size(64)]] = double;
 
 #define TUBECUT_INLINE [[gnu::always_inline]] inline
+/// Before a function that is compiled for several lanes: with all that it calls. clang has no such
+/// clones; there what is always inlined is wide, and lambdas may not be.
+#ifdef __clang__
+#define TUBECUT_WHOLE
+#else
+#define TUBECUT_WHOLE [[gnu::flatten]]
+#endif
 
 /// Of how many of what a pack is; a number by itself is a pack of one.
 template <class Numbers>
 struct PackOf {
   using Real = Numbers;
-  static constexpr int size = 1;
+  static constexpr int kSize = 1;
 };
 template <>
 struct PackOf<Pack> {
   using Real = double;
-  static constexpr int size = 8;
+  static constexpr int kSize = 8;
 };
 
 template <class Numbers>
 TUBECUT_INLINE auto lane(const Numbers& pack, int k) {
-  if constexpr (PackOf<Numbers>::size == 1)
+  if constexpr (PackOf<Numbers>::kSize == 1)
     return pack;
   else
     return pack[k];
@@ -35,7 +42,7 @@ TUBECUT_INLINE auto lane(const Numbers& pack, int k) {
 
 template <class Numbers>
 TUBECUT_INLINE void set_lane(Numbers& pack, int k, typename PackOf<Numbers>::Real value) {
-  if constexpr (PackOf<Numbers>::size == 1)
+  if constexpr (PackOf<Numbers>::kSize == 1)
     pack = value;
   else
     pack[k] = value;
@@ -44,7 +51,7 @@ TUBECUT_INLINE void set_lane(Numbers& pack, int k, typename PackOf<Numbers>::Rea
 /// In each lane what is `by` lanes further on, round the pack.
 template <int by, class Numbers>
 TUBECUT_INLINE Numbers from_lane(const Numbers& a) {
-  if constexpr (PackOf<Numbers>::size == 1)
+  if constexpr (PackOf<Numbers>::kSize == 1)
     return a;
   else
     return __builtin_shufflevector(a, a, by % 8, (by + 1) % 8, (by + 2) % 8, (by + 3) % 8,
@@ -59,7 +66,7 @@ TUBECUT_INLINE Numbers larger(const Numbers& a, const Numbers& b) {
 /// By halves, whatever the lanes of the CPU.
 template <class Numbers>
 TUBECUT_INLINE auto sum_of(const Numbers& a) {
-  if constexpr (PackOf<Numbers>::size == 1)
+  if constexpr (PackOf<Numbers>::kSize == 1)
     return a;
   else
     return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
@@ -68,7 +75,7 @@ TUBECUT_INLINE auto sum_of(const Numbers& a) {
 template <class Numbers>
 TUBECUT_INLINE auto largest_of(const Numbers& a) {
   auto most = lane(a, 0);
-  for (int k = 1; k < PackOf<Numbers>::size; ++k) most = lane(a, k) > most ? lane(a, k) : most;
+  for (int k = 1; k < PackOf<Numbers>::kSize; ++k) most = lane(a, k) > most ? lane(a, k) : most;
   return most;
 }
 

@@ -8,7 +8,7 @@ namespace tubecut::bevel {
 /// added never cancels.
 template <class Numbers>
 struct alignas(sizeof(Numbers)) Squares {
-  Numbers weight{}, share{}, rest{};
+  Numbers weight, share, rest;
 
   /// Adds q/2 (of_x x + of_y y)^2, q >= 0.
   TUBECUT_INLINE void add(const Numbers& q, const Numbers& of_x, const Numbers& of_y) {
@@ -25,16 +25,25 @@ struct alignas(sizeof(Numbers)) Squares {
 /// with which it ends, `end`:
 ///
 ///     1/2 weight (f + lever v + ahead . end)^2 + 1/2 rest (v + back . end)^2 + of_end
-///
-/// An arc without a node: it ends as it begins.
+// As the others, an aggregate made by {}: clang 16 leaves out a constructor that functions for
+// several lanes call.
 template <class Numbers>
 struct alignas(sizeof(Numbers)) ArcCost {
   static constexpr double kPinned = 1e100;  // weight of what cannot differ
 
-  Numbers weight = Numbers{} + kPinned, lever{}, rest = Numbers{} + kPinned;
-  Numbers ahead[2] = {Numbers{} - 1.0, Numbers{}};
-  Numbers back[2] = {Numbers{}, Numbers{} - 1.0};
+  Numbers weight, lever, rest;
+  Numbers ahead[2], back[2];
   Squares<Numbers> of_end;
+
+  /// An arc without a node: it ends as it begins.
+  TUBECUT_INLINE static ArcCost nothing() {
+    ArcCost out{};
+    out.weight += kPinned;
+    out.rest += kPinned;
+    out.ahead[0] -= 1.0;
+    out.back[1] -= 1.0;
+    return out;
+  }
 
   /// 1/2 w v^2 more.
   TUBECUT_INLINE void add_slope(const Numbers& w) {
@@ -65,7 +74,7 @@ struct alignas(sizeof(Numbers)) ArcCost {
 /// The linear terms of an arc's cost.
 template <class Numbers>
 struct alignas(sizeof(Numbers)) ArcPull {
-  Numbers f{}, v{}, end_f{}, end_v{};
+  Numbers f, v, end_f, end_v;
 };
 
 /// Where one arc goes on as another: the state between them is chosen best.
@@ -116,8 +125,8 @@ class ArcJoin {
   /// 1/2 weight (of the state between, at the beginning and at the end)^2.
   enum : int { between_f, between_v, f, v, end_f, end_v };
   struct alignas(sizeof(Numbers)) Row {
-    Numbers weight{};
-    Numbers of[6]{};
+    Numbers weight;
+    Numbers of[6];
   };
 
   /// Turns two rows so that `other` has nothing left of what the pivot has once: the pair is worth
@@ -144,7 +153,7 @@ class ArcJoin {
     rotate<between_v>(v_between_, row);
   }
 
-  Row f_between_, v_between_;
+  Row f_between_{}, v_between_{};
 };
 
 }  // namespace tubecut::bevel

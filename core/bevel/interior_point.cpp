@@ -75,7 +75,7 @@ class InteriorPoint {
   TUBECUT_INLINE void step(const std::stop_token& stop);
 
  private:
-  static constexpr int kArcs = PackOf<Numbers>::size;
+  static constexpr int kArcs = PackOf<Numbers>::kSize;
 
   void begin();
   void pin();
@@ -140,7 +140,7 @@ class InteriorPoint {
 /// Lengths after the nodes, by places; none where no node is.
 template <class Numbers>
 std::vector<Numbers> lengths(const Array& h) {
-  constexpr int kArcs = PackOf<Numbers>::size;
+  constexpr int kArcs = PackOf<Numbers>::kSize;
   std::vector<Numbers> out(static_cast<std::size_t>((h.size() + kArcs - 1) / kArcs));
   const auto arc = static_cast<Index>(out.size());
   for (Index j = 0; j < h.size(); ++j)
@@ -321,7 +321,7 @@ void InteriorPoint<Numbers>::step(const std::stop_token& stop) {
   go(std::max(kKept, 1.0 - gap_ / area_));
 }
 
-TUBECUT_WIDE [[gnu::flatten]] void step(InteriorPoint<Pack>& point, const std::stop_token& stop) {
+TUBECUT_WIDE TUBECUT_WHOLE void step(InteriorPoint<Pack>& point, const std::stop_token& stop) {
   point.step(stop);
 }
 template <class Real>

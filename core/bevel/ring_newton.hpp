@@ -51,7 +51,7 @@ class RingNewton {
     Numbers h;
     Numbers gain, from_f, from_v, from_end_f, from_end_v, kick;  // of the slope after it
   };
-  static constexpr int kLanes = PackOf<Numbers>::size;
+  static constexpr int kLanes = PackOf<Numbers>::kSize;
 
   /// Calls `step` with each join and the number of lanes that it reaches ahead.
   template <int reach = 1, class Step>
@@ -64,13 +64,13 @@ class RingNewton {
 
   std::vector<Node> nodes_;
   ArcJoin<Numbers> joins_[3];
-  Squares<Numbers> ends_;  // of height and slope where each arc begins, the whole ring round
+  Squares<Numbers> ends_{};  // of height and slope where each arc begins, the whole ring round
 };
 
 template <class Numbers>
 template <class WeightsOf>
 void RingNewton<Numbers>::factor(const WeightsOf& weights_of) {
-  ArcCost<Numbers> arc;
+  auto arc = ArcCost<Numbers>::nothing();
   for (auto j = nodes_.size(); j-- > 0;) {
     Node& at = nodes_[j];
     const Weights weights = weights_of(j);
@@ -92,7 +92,7 @@ void RingNewton<Numbers>::factor(const WeightsOf& weights_of) {
     arc.add_height(weights.height);
   }
   each_join([&]<int reach>(ArcJoin<Numbers>& join) {
-    ArcCost<Numbers> next;
+    ArcCost<Numbers> next{};
     next.weight = from_lane<reach>(arc.weight);
     next.lever = from_lane<reach>(arc.lever);
     next.rest = from_lane<reach>(arc.rest);
@@ -112,7 +112,7 @@ void RingNewton<Numbers>::factor(const WeightsOf& weights_of) {
 template <class Numbers>
 template <class TermsOf, class Take>
 void RingNewton<Numbers>::solve(const TermsOf& terms_of, const Take& take) {
-  ArcPull<Numbers> arc;
+  ArcPull<Numbers> arc{};
   for (auto j = nodes_.size(); j-- > 0;) {
     Node& at = nodes_[j];
     const Terms terms = terms_of(j);

@@ -37,10 +37,10 @@ struct Path {
 /// In packs each lane has an arc: n is a multiple of its lanes.
 template <class Numbers>
 Path least(const Quadratic& q) {
-  const auto n = q.h.size(), arc = n / static_cast<std::size_t>(PackOf<Numbers>::size);
+  const auto n = q.h.size(), arc = n / static_cast<std::size_t>(PackOf<Numbers>::kSize);
   const auto at = [&](const std::vector<double>& values, std::size_t j) {
     Numbers out{};
-    for (int k = 0; k < PackOf<Numbers>::size; ++k)
+    for (int k = 0; k < PackOf<Numbers>::kSize; ++k)
       set_lane(out, k, values[static_cast<std::size_t>(k) * arc + j]);
     return out;
   };
@@ -56,7 +56,7 @@ Path least(const Quadratic& q) {
         return typename RingNewton<Numbers>::Terms{at(q.of_f, j), at(q.of_v, j), at(q.of_u, j)};
       },
       [&](std::size_t j, const Numbers& f, const Numbers& v, const Numbers&) {
-        for (int k = 0; k < PackOf<Numbers>::size; ++k) {
+        for (int k = 0; k < PackOf<Numbers>::kSize; ++k) {
           const auto node = static_cast<std::size_t>(k) * arc + j;
           out.f[node] = static_cast<double>(lane(f, k));
           out.v[node] = static_cast<double>(lane(v, k));
