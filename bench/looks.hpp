@@ -50,6 +50,7 @@ inline void end() { look("end", 0); }
 
 }  // namespace tubecut::looks
 
-#define stop_requested() stop_requested() | tubecut::looks::look(__FILE_NAME__, __LINE__)
+#define stop_requested() \
+  stop_requested() | static_cast<int>(tubecut::looks::look(__FILE_NAME__, __LINE__))
 #include "core/base/stop.hpp"  // whose own look is one too
 #define stops(token, turn) (tubecut::looks::called(__FILE_NAME__, __LINE__) || stops(token, turn))
