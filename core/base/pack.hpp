@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 namespace tubecut {
 
 /// Eight numbers side by side, each reckoned by itself: an operation has the same bits in two, four
