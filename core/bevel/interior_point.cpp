@@ -137,20 +137,12 @@ class InteriorPoint {
   double bound_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Lengths after the nodes, by places; none where no node is.
-template <class Numbers>
-std::vector<Numbers> lengths(const Array& h) {
-  constexpr int kArcs = PackOf<Numbers>::kSize;
-  std::vector<Numbers> out(static_cast<std::size_t>((h.size() + kArcs - 1) / kArcs));
-  const auto arc = static_cast<Index>(out.size());
-  for (Index j = 0; j < h.size(); ++j)
-    set_lane(out[static_cast<std::size_t>(j % arc)], static_cast<int>(j / arc), h[j]);
-  return out;
-}
-
 template <class Numbers>
 InteriorPoint<Numbers>::InteriorPoint(const Programme& p, bool limited)
-    : p_(p), limited_(limited), newton_(lengths<Numbers>(p.h)), places_(newton_.size()) {
+    : p_(p),
+      limited_(limited),
+      newton_(static_cast<std::size_t>((p.size() + kArcs - 1) / kArcs)),
+      places_(newton_.size()) {
   begin();
 }
 
@@ -169,6 +161,7 @@ void InteriorPoint<Numbers>::begin() {
     auto& at = places_[i];
     const double x = level - p_.b[j], room = p_.highest - p_.b[j];
     const double curvature = p_.curvature * p_.w[j], below = std::max(room - x, kNarrow);
+    set_lane(newton_.length(i), k, p_.h[j]);
     set_lane(at.w, k, p_.w[j]);
     set_lane(at.x, k, x);
     set_lane(at.stiff, k, 0.0);

@@ -30,10 +30,10 @@ class RingNewton {
     Numbers of_f, of_v, of_u;
   };
 
-  /// h: from each node to the next, >= 0, of as many nodes as an arc has.
-  explicit RingNewton(const std::vector<Numbers>& h) : nodes_(h.size()) {
-    for (std::size_t j = 0; j < h.size(); ++j) nodes_[j].h = h[j];
-  }
+  explicit RingNewton(std::size_t nodes_of_an_arc) : nodes_(nodes_of_an_arc) {}
+
+  /// Lengths from node j of each arc to the next, >= 0; none until they are set.
+  [[nodiscard]] Numbers& length(std::size_t j) { return nodes_[j].h; }
 
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
 

@@ -44,9 +44,8 @@ Path least(const Quadratic& q) {
       set_lane(out, k, values[static_cast<std::size_t>(k) * arc + j]);
     return out;
   };
-  std::vector<Numbers> h;
-  for (std::size_t j = 0; j < arc; ++j) h.push_back(at(q.h, j));
-  RingNewton<Numbers> newton(h);
+  RingNewton<Numbers> newton(arc);
+  for (std::size_t j = 0; j < arc; ++j) newton.length(j) = at(q.h, j);
   newton.factor([&](std::size_t j) {
     return typename RingNewton<Numbers>::Weights{at(q.height, j), at(q.slope, j), at(q.bend, j)};
   });
