@@ -37,8 +37,8 @@ inline bool called(const char* file, int line) {
 
 /// False, always.
 inline bool look(const char* file, int line) {
-  const auto at =
-      std::strcmp(file, "stop.hpp") == 0 ? now(caller.file, caller.line) : now(file, line);
+  const auto at = std::strstr(file, "core/base/stop.hpp") != nullptr ? now(caller.file, caller.line)
+                                                                     : now(file, line);
   if (at.ms - last.ms > kLongMs)
     std::fprintf(stderr, "look %.1f %s:%d %s:%d\n", at.ms - last.ms, last.file, last.line, at.file,
                  at.line);
@@ -51,6 +51,6 @@ inline void end() { look("end", 0); }
 }  // namespace tubecut::looks
 
 #define stop_requested() \
-  stop_requested() | static_cast<int>(tubecut::looks::look(__FILE_NAME__, __LINE__))
+  stop_requested() | static_cast<int>(tubecut::looks::look(__FILE__, __LINE__))
 #include "core/base/stop.hpp"  // whose own look is one too
-#define stops(token, turn) (tubecut::looks::called(__FILE_NAME__, __LINE__) || stops(token, turn))
+#define stops(token, turn) (tubecut::looks::called(__FILE__, __LINE__) || stops(token, turn))

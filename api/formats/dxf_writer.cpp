@@ -105,7 +105,9 @@ std::string objects() {
 }  // namespace
 
 void DxfWriter::group(int code, std::string_view value) {
-  entities_ += std::to_string(code) + "\r\n" + std::string(value) + "\r\n";
+  constexpr std::size_t kPart = 256u << 10;
+  if (entities_.back().size() > kPart) entities_.emplace_back();
+  entities_.back() += std::to_string(code) + "\r\n" + std::string(value) + "\r\n";
 }
 void DxfWriter::group(int code, double value) { group(code, fixed(value, 6)); }
 void DxfWriter::group(int code, int value) { group(code, std::to_string(value)); }
@@ -188,10 +190,9 @@ std::string DxfWriter::print() const {
     return groups("9 " + std::string(name) + "\n10 " + fixed(p.x(), 6) + "\n20 " + fixed(p.y(), 6) +
                   "\n30 " + fixed(p.z(), 6));
   };
-  std::string remarks = groups("999 tubecut drawing in millimetres");
-  for (const auto& line : remarks_) remarks += groups("999 " + dxf_text(line));
-  return remarks +
-         groups(
+  std::string out = groups("999 tubecut drawing in millimetres");
+  for (const auto& line : remarks_) out += groups("999 " + dxf_text(line));
+  out += groups(
              "0 SECTION\n2 HEADER\n"
              "9 $ACADVER\n1 AC1015\n9 $DWGCODEPAGE\n3 ANSI_1252\n9 $INSUNITS\n70 4\n"
              "9 $MEASUREMENT\n70 1\n9 $HANDSEED\n5 " +
@@ -199,8 +200,14 @@ std::string DxfWriter::print() const {
          corner("$EXTMIN", low_) + corner("$EXTMAX", high_) +
          groups("0 ENDSEC\n0 SECTION\n2 CLASSES\n0 ENDSEC") + tables(layers_) +
          groups("0 SECTION\n2 BLOCKS") + block(kModelSpace, "20", "21", "*Model_Space") +
-         block(kPaperSpace, "1C", "1D", "*Paper_Space") +
-         groups("0 ENDSEC\n0 SECTION\n2 ENTITIES") + entities_ + groups("0 ENDSEC") + objects();
+         block(kPaperSpace, "1C", "1D", "*Paper_Space") + groups("0 ENDSEC\n0 SECTION\n2 ENTITIES");
+  const auto end = groups("0 ENDSEC") + objects();
+  std::size_t size = out.size() + end.size();
+  for (const auto& part : entities_) size += part.size();
+  out.reserve(size);
+  for (const auto& part : entities_) append(out, part, stop_);
+  out += end;
+  return out;
 }
 
 }  // namespace tubecut::api

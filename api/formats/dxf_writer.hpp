@@ -36,8 +36,8 @@ class DxfWriter {
   std::vector<Layer> layers_;
   std::vector<std::string> remarks_;
   std::stop_token stop_;
-  std::string entities_;
-  int handle_ = 0x100;  // those below belong to the tables
+  std::vector<std::string> entities_ = {""};  // in parts: grown as one it would be moved as one
+  int handle_ = 0x100;                        // those below belong to the tables
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
   bool any_ = false;
