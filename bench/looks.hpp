@@ -1,56 +1,68 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <stop_token>
 
 /// For builds with TUBECUT_LOOKS alone, which bench/looks asks: a job's thread says on stderr where
-/// it worked for long without a look at its stop token. Stands in the precompiled headers, so that
-/// every look is one that says where it is: `|` makes it also where the other side decides.
+/// it worked for long without a look at its stop token. Stands in the precompiled headers; `|`
+/// makes a look also where the other side decides.
 namespace tubecut::looks {
 
 constexpr double kLongMs = 4.0;  // of CPU
+constexpr std::size_t kCallers = 12;
+
+extern "C" const char __executable_start;  // NOLINT: the linker's
 
 struct Look {
-  double ms = 0.0;  // by the thread's CPU clock
-  const char* file = "";
-  int line = 0;
+  double ms = 0.0;                            // by the thread's CPU clock
+  std::array<std::uintptr_t, kCallers> at{};  // in the program, the innermost first
 };
 inline thread_local Look last;
 
-inline Look now(const char* file, int line) {
+/// By frame pointers, which these builds keep.
+[[gnu::noinline]] inline Look now() {
   timespec t{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return {1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec), file, line};
+  Look out{.ms = 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec)};
+  constexpr std::uintptr_t kWidest = 1u << 20;  // of a frame: beyond it is no frame of ours
+  auto* frame = static_cast<const std::uintptr_t*>(__builtin_frame_address(0));
+  for (auto& at : out.at) {
+    at = frame[1] - reinterpret_cast<std::uintptr_t>(&__executable_start) - 1;  // the call itself
+    const auto next = frame[0], here = reinterpret_cast<std::uintptr_t>(frame);
+    if (next <= here || next - here > kWidest) break;
+    frame = reinterpret_cast<const std::uintptr_t*>(next);
+  }
+  return out;
+}
+
+inline void print(const Look& look) {
+  for (const auto at : look.at)
+    if (at != 0) std::fprintf(stderr, "%zx,", at);
 }
 
 /// The job, or the piece of it that this thread has, begins.
-inline void begin() { last = now("begin", 0); }
-
-/// Who calls `stops`, which looks in its own file.
-inline thread_local Look caller;
-inline bool called(const char* file, int line) {
-  caller = {0.0, file, line};
-  return false;
-}
+inline void begin() { last = now(); }
 
 /// False, always.
-inline bool look(const char* file, int line) {
-  const auto at = std::strstr(file, "core/base/stop.hpp") != nullptr ? now(caller.file, caller.line)
-                                                                     : now(file, line);
-  if (at.ms - last.ms > kLongMs)
-    std::fprintf(stderr, "look %.1f %s:%d %s:%d\n", at.ms - last.ms, last.file, last.line, at.file,
-                 at.line);
-  last = now(at.file, at.line);
+[[gnu::noinline]] inline bool look() {
+  const auto at = now();
+  if (at.ms - last.ms > kLongMs) {
+    std::fprintf(stderr, "look %.1f ", at.ms - last.ms);
+    print(last);
+    std::fputc(' ', stderr);
+    print(at);
+    std::fputc('\n', stderr);
+  }
+  last = now();
   return false;
 }
 
-inline void end() { look("end", 0); }
+inline void end() { look(); }
 
 }  // namespace tubecut::looks
 
-#define stop_requested() \
-  stop_requested() | static_cast<int>(tubecut::looks::look(__FILE__, __LINE__))
-#include "core/base/stop.hpp"  // whose own look is one too
-#define stops(token, turn) (tubecut::looks::called(__FILE__, __LINE__) || stops(token, turn))
+#define stop_requested() stop_requested() | static_cast<int>(tubecut::looks::look())

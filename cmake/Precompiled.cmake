@@ -6,5 +6,6 @@ add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # ccache asks f
 option(TUBECUT_LOOKS "say where jobs work for long without a look at their stop token (bench/looks)" OFF)
 if(TUBECUT_LOOKS)
   add_compile_definitions(TUBECUT_LOOKS)
+  add_compile_options(-fno-omit-frame-pointer -g1)
   list(APPEND PRECOMPILED ${PROJECT_SOURCE_DIR}/bench/looks.hpp)
 endif()
