@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "api/stop.hpp"
-
 namespace tubecut::api {
 namespace {
 
@@ -44,8 +42,7 @@ void put_integer(std::string& out, std::int64_t v) {
 void little_endian(std::string& out, std::span<const std::int32_t> values, std::size_t width,
                    const std::stop_token& stop) {
   Pace pace(stop);
-  const auto from = out.size();
-  out.reserve(from + values.size() * width);
+  make_room(out, values.size() * width, stop);
   for (const auto v : values) {
     pace.turn();
     char bytes[4];
@@ -100,7 +97,7 @@ void CborWriter::number(double v) {
 void CborWriter::text(std::string_view v) {
   begin_item();
   head(out_, Major::text, v.size());
-  out_ += v;
+  append(out_, v, stop_);
 }
 
 void CborWriter::raw(std::string_view item) {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "api/stop.hpp"
+
 namespace tubecut::api {
 
 /// Writes CBOR (RFC 8949, definite lengths, shortest forms) item by item, without a document in
@@ -50,7 +52,9 @@ class CborWriter {
     std::string bytes;
   };
 
+  static constexpr std::size_t kHeadBytes = 9;  // at most, of an item
   void begin_item() {
+    make_room(out_, kHeadBytes, stop_);
     if (!frames_.empty() && !frames_.back().object) ++frames_.back().items;
   }
 

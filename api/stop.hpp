@@ -32,13 +32,26 @@ class Pace {
   std::size_t turns_ = 0;
 };
 
-/// Appends in parts that take far less than a millisecond to copy.
-inline void append(std::string& out, std::string_view bytes, const std::stop_token& stop) {
-  constexpr std::size_t kAtOnce = 256u << 10;
-  out.reserve(out.size() + bytes.size());
-  for (; !bytes.empty(); bytes.remove_prefix(std::min(kAtOnce, bytes.size()))) {
+constexpr std::size_t kBytesAtOnce = 256u << 10;  // far less than a millisecond to copy
+
+/// Room for `more` bytes. A text that has to move for it moves in parts.
+inline void make_room(std::string& out, std::size_t more, const std::stop_token& stop) {
+  if (out.capacity() - out.size() >= more) return;
+  std::string larger;
+  larger.reserve(std::max(out.size() + more, 2 * out.capacity()));
+  for (std::string_view rest = out; !rest.empty();) {
     ask(stop);
-    out += bytes.substr(0, kAtOnce);
+    larger += rest.substr(0, kBytesAtOnce);
+    rest.remove_prefix(std::min(kBytesAtOnce, rest.size()));
+  }
+  out = std::move(larger);
+}
+
+inline void append(std::string& out, std::string_view bytes, const std::stop_token& stop) {
+  make_room(out, bytes.size(), stop);
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(kBytesAtOnce, bytes.size()))) {
+    ask(stop);
+    out += bytes.substr(0, kBytesAtOnce);
   }
 }
 

@@ -192,8 +192,9 @@ void Writer::straight(const Values& values, F print) {
     ask(pace_.stop());
     if (out_.size() >= kHashed && hash_) hash_so_far();
     const std::size_t end = std::min(values.size(), i + kAtOnce);
-    const std::size_t before = out_.size();
-    out_.resize(before + (end - i) * (kNumberBytes + 1));
+    const std::size_t before = out_.size(), most = (end - i) * (kNumberBytes + 1);
+    make_room(out_, most, pace_.stop());
+    out_.resize(before + most);
     char* to = out_.data() + before;
     for (; i < end; ++i) {
       to = print(to, values[i]);

@@ -111,10 +111,12 @@ class Writer {
   void separate() {
     pace_.turn();
     if (out_.size() >= kHashed && hash_) hash_so_far();
+    if (!cbor_) make_room(out_, kItemBytes, pace_.stop());
     if (!fresh_ && !cbor_) out_ += ',';
     fresh_ = false;
   }
   static constexpr std::size_t kHashed = 1u << 16;  // bytes at once
+  static constexpr std::size_t kItemBytes = 128;    // most names and items have less
   void hash_so_far();
   /// Of out_, to be left out.
   struct Cut {

@@ -37,30 +37,33 @@ Lettering fitted(std::string_view text, Lettering l, double room) {
   return l;
 }
 
+void Canvas::add(Ink ink) {
+  ask(stop_);
+  drawn_.push_back(std::move(ink));
+}
+
 void Canvas::line(DrawingPoint a, DrawingPoint b, const Stroke& stroke, std::string_view id) {
-  drawn_.push_back(
-      {.kind = Ink::Kind::line, .points = {a, b}, .stroke = stroke, .id = std::string(id)});
+  add({.kind = Ink::Kind::line, .points = {a, b}, .stroke = stroke, .id = std::string(id)});
 }
 
 void Canvas::polyline(std::vector<DrawingPoint> points, const Stroke& stroke, std::string_view id,
                       bool closed) {
-  drawn_.push_back({.kind = closed ? Ink::Kind::polygon : Ink::Kind::polyline,
-                    .points = std::move(points),
-                    .stroke = stroke,
-                    .id = std::string(id)});
+  add({.kind = closed ? Ink::Kind::polygon : Ink::Kind::polyline,
+       .points = std::move(points),
+       .stroke = stroke,
+       .id = std::string(id)});
 }
 
 void Canvas::rectangle(DrawingPoint low, DrawingPoint high, const Stroke& stroke,
                        std::string_view id) {
-  drawn_.push_back({.kind = Ink::Kind::rectangle,
-                    .points = {low, high},
-                    .stroke = stroke,
-                    .id = std::string(id)});
+  add({.kind = Ink::Kind::rectangle,
+       .points = {low, high},
+       .stroke = stroke,
+       .id = std::string(id)});
 }
 
 void Canvas::text(DrawingPoint at, std::string_view what, const Lettering& lettering) {
-  drawn_.push_back(
-      {.kind = Ink::Kind::text, .points = {at}, .lettering = lettering, .text = std::string(what)});
+  add({.kind = Ink::Kind::text, .points = {at}, .lettering = lettering, .text = std::string(what)});
 }
 
 void Canvas::place(const Canvas& other, DrawingPoint by, std::string_view suffix,
@@ -87,10 +90,10 @@ void Canvas::begin_clip(DrawingPoint low, DrawingPoint high) {
 }
 
 void Canvas::begin_clip(std::vector<DrawingPoint> border) {
-  drawn_.push_back({.kind = Ink::Kind::clip, .points = std::move(border)});
+  add({.kind = Ink::Kind::clip, .points = std::move(border)});
 }
 
-void Canvas::end_group() { drawn_.push_back({.kind = Ink::Kind::end}); }
+void Canvas::end_group() { add({.kind = Ink::Kind::end}); }
 
 void draw_arrows(Canvas& canvas, DrawingPoint from, DrawingPoint to, const Stroke& stroke) {
   draw_arrow(canvas, from, to, stroke);

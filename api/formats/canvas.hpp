@@ -51,8 +51,10 @@ struct Ink {
 /// A drawing in millimetres, 1:1. Printed by svg_sheets.hpp and pdf_sheets.hpp.
 class Canvas {
  public:
-  /// The sheet's size; its origin is the lower left corner.
-  Canvas(double width, double height) : width_(width), height_(height) {}
+  /// The sheet's size; its origin is the lower left corner. Throws Stopped where something is
+  /// drawn.
+  Canvas(double width, double height, std::stop_token stop = {})
+      : width_(width), height_(height), stop_(std::move(stop)) {}
 
   void line(DrawingPoint a, DrawingPoint b, const Stroke& stroke = {}, std::string_view id = {});
   void polyline(std::vector<DrawingPoint> points, const Stroke& stroke = {},
@@ -73,8 +75,11 @@ class Canvas {
   [[nodiscard]] const std::vector<Ink>& drawn() const { return drawn_; }
 
  private:
+  void add(Ink ink);
+
   double width_;
   double height_;
+  std::stop_token stop_;
   std::vector<Ink> drawn_;
 };
 

@@ -9,6 +9,8 @@
 namespace tubecut::api {
 namespace {
 
+constexpr std::size_t kRowBytes = 4096;  // more than a row of numbers has
+
 /// No spreadsheet takes a piece of it for a cell of its own.
 std::string unseparated(std::string text) {
   for (auto& c : text)
@@ -66,9 +68,8 @@ Csv& Csv::stacked(std::string_view label,
 }
 
 std::string Csv::print() const {
-  std::string head;
-  for (const auto& line : head_) head += "# " + unseparated(line) + "\r\n";
   std::string out;
+  for (const auto& line : head_) out += "# " + unseparated(line) + "\r\n";
   std::size_t rows = 0;
   for (const auto& column : columns_) {
     out += (&column == columns_.data() ? "" : ",") + csv_text(column.name);
@@ -79,6 +80,7 @@ std::string Csv::print() const {
   std::vector<std::size_t> at(columns_.size(), 0);  // the piece that a column is in
   for (std::size_t i = 0; i < rows; ++i) {
     ask(stop_);
+    make_room(out, kRowBytes, stop_);
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (k > 0) out += ',';
       const auto& pieces = columns_[k].pieces;
@@ -89,7 +91,7 @@ std::string Csv::print() const {
     }
     out += "\r\n";
   }
-  return head + out;
+  return out;
 }
 
 }  // namespace tubecut::api

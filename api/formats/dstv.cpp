@@ -125,8 +125,7 @@ std::string contour(const CutOutline& cut, const Lengths& l, double bevel_deg,
   const auto& c = cut.outer;
   std::string out = "AK\r\n";
   for (std::size_t i = 0; i < c.phi.size(); ++i) {
-    ask(stop);
-    out += point(c.z[i] - l.low, up(c.radius, c.phi[i]), bevel_deg, i == 0);
+    append(out, point(c.z[i] - l.low, up(c.radius, c.phi[i]), bevel_deg, i == 0), stop);
   }
   const double around = up(c.radius, 0.0), end = l.over_long;
   out += point(end, 0.0, 0.0, false) + point(end, around, 0.0, false);
@@ -151,8 +150,8 @@ std::string sidecar(const joint::Target& target, const bevel::Table& t, double l
                     const std::stop_token& stop) {
   std::string out;
   for (std::size_t i = 0; i < t.phi.size(); ++i) {
-    ask(stop);
-    out += sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low, t.b[i], target);
+    append(out, sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low, t.b[i], target),
+           stop);
   }
   return out;
 }
@@ -161,8 +160,8 @@ std::string sidecar(const joint::Target& target, const bevel::Hole& h,
                     const std::stop_token& stop) {
   std::string out;
   for (std::size_t i = 0; i < h.phi.size(); ++i) {
-    ask(stop);
-    out += sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target, h.a[i]);
+    append(out, sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target, h.a[i]),
+           stop);
   }
   return out;
 }
@@ -181,12 +180,12 @@ std::string outside(const CutOutline& start, const CutOutline& finish, double st
   const auto& s = start.outer;
   const auto& f = finish.outer;
   for (std::size_t i = 0; i < s.phi.size(); ++i) {
-    ask(stop);
-    out += point(s.z[i], up(s.radius, s.phi[i]), i + 1 < s.phi.size() ? start_deg : 0.0, i == 0);
+    append(out,
+           point(s.z[i], up(s.radius, s.phi[i]), i + 1 < s.phi.size() ? start_deg : 0.0, i == 0),
+           stop);
   }
   for (std::size_t i = f.phi.size(); i-- > 0;) {
-    ask(stop);
-    out += point(f.z[i], up(f.radius, f.phi[i]), i > 0 ? finish_deg : 0.0, false);
+    append(out, point(f.z[i], up(f.radius, f.phi[i]), i > 0 ? finish_deg : 0.0, false), stop);
   }
   return out + point(s.z.front(), up(s.radius, 0.0), 0.0, false);  // closed
 }
@@ -195,9 +194,9 @@ std::string opening(const CutOutline& hole, double bevel_deg, const std::stop_to
   const auto& c = hole.outer;
   std::string out = "IK\r\n";
   for (std::size_t i = 0; i <= c.phi.size(); ++i) {
-    ask(stop);
     const auto k = i % c.phi.size();
-    out += point(c.z[k], up(c.radius, c.phi[k]), i < c.phi.size() ? bevel_deg : 0.0, i == 0);
+    append(out, point(c.z[k], up(c.radius, c.phi[k]), i < c.phi.size() ? bevel_deg : 0.0, i == 0),
+           stop);
   }
   return out;
 }
@@ -227,24 +226,28 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       if (one_bevel(hole.a).value_or(1.0) != 0.0) bevel.reset();  // tilted across too
       constant = constant && bevel;
       const auto& cut = cuts[2 + step.index];
-      openings += opening(cut, bevel.value_or(0.0), caption.stop);
-      tables += comment(cut.name + " is " + dstv_text(cut.label)) + comment("cut " + cut.name) +
-                sidecar(spec.target, hole, caption.stop);
+      append(openings, opening(cut, bevel.value_or(0.0), caption.stop), caption.stop);
+      tables += comment(cut.name + " is " + dstv_text(cut.label)) + comment("cut " + cut.name);
+      append(tables, sidecar(spec.target, hole, caption.stop), caption.stop);
     } else if (step.what == part::Step::What::mark) {
       marks += comment(dstv_text(mark_by_hand(part.marks[step.index])));
     } else {
       const bool at_start = step.what == part::Step::What::start;
-      tables +=
-          comment(at_start ? "cut start" : "cut finish") +
-          sidecar(spec.target, at_start ? part.start.table : part.finish.table, 0.0, caption.stop);
+      const auto& table = at_start ? part.start.table : part.finish.table;
+      tables += comment(at_start ? "cut start" : "cut finish");
+      append(tables, sidecar(spec.target, table, 0.0, caption.stop), caption.stop);
     }
   }
-  return "ST\r\n" + comments(lengths, constant, caption) +
-         comment("AK: the tube itself, kept within; IK: an opening of it, kept outside") +
-         comment("a hole across phi = 0 is one contour: its y leaves the girth") + marks +
-         header(spec.target, spec.density, lengths, caption, spec.name) +
-         outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop) +
-         openings + comment(kSidecar) + comment(kTilted) + tables + "EN\r\n";
+  auto out = "ST\r\n" + comments(lengths, constant, caption) +
+             comment("AK: the tube itself, kept within; IK: an opening of it, kept outside") +
+             comment("a hole across phi = 0 is one contour: its y leaves the girth") + marks +
+             header(spec.target, spec.density, lengths, caption, spec.name);
+  append(out, outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop),
+         caption.stop);
+  append(out, openings, caption.stop);
+  out += comment(kSidecar) + comment(kTilted);
+  append(out, tables, caption.stop);
+  return out += "EN\r\n";
 }
 
 }  // namespace tubecut::api

@@ -130,8 +130,10 @@ void DxfWriter::entity(std::string_view type, const Layer& layer, std::string_vi
 void DxfWriter::polyline(const Layer& layer, const std::vector<Eigen::Vector2d>& points,
                          bool closed) {
   std::vector<Eigen::Vector2d> kept;
-  for (const auto& p : points)
+  for (const auto& p : points) {
+    ask(stop_);
     if (kept.empty() || (p - kept.back()).norm() > 1e-6) kept.push_back(p);
+  }
   if (closed && kept.size() > 1 && (kept.front() - kept.back()).norm() <= 1e-6) kept.pop_back();
   if (kept.size() < 2) return;
   entity("LWPOLYLINE", layer, "AcDbPolyline");

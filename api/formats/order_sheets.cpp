@@ -28,7 +28,7 @@ OrderSheets::OrderSheets(std::string title, std::string part, const Caption& cap
 }
 
 void OrderSheets::begin() {
-  auto& canvas = sheets_.emplace_back(kWidth, kHeight);
+  auto& canvas = sheets_.emplace_back(kWidth, kHeight, caption_.stop);
   const double high = kHeight - kBorder, right = kWidth - kBorder;
   canvas.rectangle({kBorder, kBorder}, {right, high}, kFrame);
   canvas.text({kBorder + kPad, high - 5.0}, title_, {.height = 2.8, .color = "#566370"});

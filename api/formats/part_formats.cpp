@@ -10,6 +10,7 @@
 #include "api/formats/svg_sheets.hpp"
 #include "api/formats/work_order.hpp"
 #include "api/formats/wrap_template.hpp"
+#include "api/stop.hpp"
 #include "api/tables.hpp"
 #include "api/wire_names.hpp"
 
@@ -17,12 +18,14 @@ namespace tubecut::api {
 namespace {
 
 /// The points of every cut, in the order of the sequence.
-std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, const part::Part& p) {
+std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, const part::Part& p,
+                                                  const std::stop_token& stop) {
   std::vector<std::pair<std::string, Columns>> out;
   const auto end = [&](const char* name, const part::End& cut) {
     out.emplace_back(name, bevel_columns(cut.spec, cut.table));
   };
   for (const auto& step : p.sequence) {
+    ask(stop);
     if (step.what == part::Step::What::hole) {
       const auto& placed = p.holes[step.index];
       out.emplace_back("hole " + std::to_string(step.index),
@@ -74,7 +77,7 @@ std::string part_csv(const part::PartSpec& spec, const part::Part& part, const C
   if (caption.view == "check_dimensions") return Csv(caption).table(dimensions(part)).print();
   return Csv(caption)
       .remark(std::string("b_sign: ").append(kBSignInPart))
-      .stacked("cut", cuts(spec, part))
+      .stacked("cut", cuts(spec, part, caption.stop))
       .print();
 }
 

@@ -8,6 +8,7 @@
 #include "api/formats/step_solid.hpp"
 #include "api/formats/text.hpp"
 #include "api/formats/tube_solid.hpp"
+#include "api/stop.hpp"
 #include "core/part/edge.hpp"
 #include "core/part/hole_volume.hpp"
 
@@ -25,6 +26,7 @@ WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const 
 TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel::Table& table,
                 const Caption& caption) {
   const auto name = place == TubeCut::Place::start ? "start" : "finish";
+  ask(caption.stop);
   const auto wall = bevel::finished_wall(spec, table);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto& edge : wall.edges) {
@@ -38,6 +40,7 @@ TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel:
 
 TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string name,
                  const Caption& caption) {
+  ask(caption.stop);
   const bevel::CutWall wall{.edges = {{tube.inner_radius(), hole.phi_inner, hole.z_inner},
                                       {tube.outer_radius, hole.phi, hole.z}},
                             .turn = 0.0};

@@ -41,7 +41,7 @@ class Printer {
   [[nodiscard]] std::string place(DrawingPoint p) const { return x(p) + "," + y(p); }
   [[nodiscard]] std::string places(const std::vector<DrawingPoint>& points) const {
     std::string all;
-    for (const auto& p : points) all += place(p) + " ";
+    for (const auto& p : points) append(all, place(p) + " ", stop_);
     return all;
   }
 
@@ -52,8 +52,9 @@ class Printer {
       case Ink::Kind::polyline:
       case Ink::Kind::polygon:
         out += std::string(ink.kind == Ink::Kind::polygon ? "<polygon" : "<polyline") +
-               named(ink.id) + look(ink.stroke) + " stroke-linejoin=\"round\"" +
-               attribute("points", places(ink.points)) + "/>\n";
+               named(ink.id) + look(ink.stroke) + " stroke-linejoin=\"round\"";
+        append(out, attribute("points", places(ink.points)), stop_);
+        out += "/>\n";
         return;
       case Ink::Kind::rectangle:
         return rectangle(ink);

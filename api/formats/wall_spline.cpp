@@ -91,7 +91,8 @@ bool WallCurve::near(const Bezier& curve, const Vector3d& point, double u) const
   return d.norm() <= off_rows_;
 }
 
-bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to) const {
+bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to,
+                     const std::stop_token& stop) const {
   const auto &a = nodes[from], &b = nodes[to];
   const double wide = b.along - a.along;
   for (std::size_t k = 0; k < edges_.size(); ++k) {
@@ -105,7 +106,9 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
       const auto twin = on_wall(edges_[k].radius, value(both.flat, u));
       if ((p - twin).norm() > *off_flat_) return false;
     }
+    Pace pace(stop);
     for (auto i = from + 1; i < to; ++i) {
+      pace.turn();
       const auto& at = nodes[i].edges[k].space.at;
       if (!near(both.space, at, (nodes[i].along - a.along) / wide)) return false;
     }
@@ -114,12 +117,13 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
 }
 
 /// As far as one span can go: to a corner or a station at most.
-std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from) const {
+std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from,
+                                const std::stop_token& stop) const {
   std::size_t most = from + 1;
   while (most + 1 < nodes.size() && !nodes[most].corner && !nodes[most].station) ++most;
   std::size_t good = from + 1, bad = most + 1;
   for (std::size_t reach = 2; from + reach <= most; reach *= 2) {
-    if (!fits(nodes, from, from + reach)) {
+    if (!fits(nodes, from, from + reach, stop)) {
       bad = from + reach;
       break;
     }
@@ -127,7 +131,7 @@ std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from
   }
   while (bad - good > 1) {
     const auto middle = good + (bad - good) / 2;
-    (fits(nodes, from, middle) ? good : bad) = middle;
+    (fits(nodes, from, middle, stop) ? good : bad) = middle;
   }
   return good;
 }
@@ -137,7 +141,7 @@ std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
   std::vector<Span> out;
   for (std::size_t from = 0; from + 1 < nodes.size();) {
     ask(stop);
-    const auto to = farthest(nodes, from);
+    const auto to = farthest(nodes, from, stop);
     const auto &a = nodes[from], &b = nodes[to];
     Span one{.curves = {},
              .flats = {},

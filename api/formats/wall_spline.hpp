@@ -118,12 +118,14 @@ class WallCurve {
   /// How far round an edge goes from one node to the next, rad.
   [[nodiscard]] double turned(std::size_t edge, const Node& from, const Node& to) const;
   [[nodiscard]] Pair cubics(std::size_t edge, const Node& from, const Node& to) const;
-  [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from) const;
+  [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from,
+                                     const std::stop_token& stop) const;
   [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes,
                                         const std::stop_token& stop) const;
   [[nodiscard]] static std::vector<Span> graded(std::vector<Span> spans,
                                                 const std::stop_token& stop);
-  [[nodiscard]] bool fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to) const;
+  [[nodiscard]] bool fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to,
+                          const std::stop_token& stop) const;
   [[nodiscard]] bool near(const Bezier& curve, const Eigen::Vector3d& point, double u) const;
 
   std::vector<Edge> edges_;
