@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/beam_surface.hpp"
+#include "core/bevel/beam_swings.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -20,7 +22,6 @@ using beam::Place;
 using beam::Surface;
 
 constexpr double kPlaces = 2000.0;  // along the cut, beside the rows and their middles
-constexpr double kApart = 0.1;      // rad: leans that are apart
 constexpr double kFine = 0.25;      // of half a kerf: across the wall, where they are
 constexpr double kMostLines = 48;
 constexpr int kFewest = 2, kMost = 8;  // stretches across the wall
@@ -107,7 +108,8 @@ class Largest {
   }
 
   [[nodiscard]] Seen worst(int halvings, const std::stop_token& stop) {
-    for (const Cell* start : best_cells()) climb(*start, stop);
+    for (const Cell* start : best_cells(stop)) climb(*start, stop);
+    if (stop.stop_requested()) return best_;
     std::ranges::make_heap(cells_, {}, &Cell::most);
     while (halvings-- > 0 && !cells_.empty() && !stop.stop_requested()) {
       std::ranges::pop_heap(cells_, {}, &Cell::most);
@@ -148,11 +150,14 @@ class Largest {
   }
 
   /// Few cells that are not neighbours and show nearly as much as any.
-  [[nodiscard]] std::vector<const Cell*> best_cells() const {
+  [[nodiscard]] std::vector<const Cell*> best_cells(const std::stop_token& stop) const {
     constexpr std::size_t kPool = 64, kClimbs = 6;
     std::vector<const Cell*> pool;
-    for (const Cell& cell : cells_)
+    std::size_t seen = 0;
+    for (const Cell& cell : cells_) {
+      if (stops(stop, seen++)) return {};
       if (is_near_best(cell)) pool.push_back(&cell);
+    }
     const auto top = pool.begin() + static_cast<std::ptrdiff_t>(std::min(kPool, pool.size()));
     std::ranges::partial_sort(pool, top, std::ranges::greater{}, &Cell::highest);
     std::vector<const Cell*> out;
@@ -212,54 +217,6 @@ class Largest {
   Seen best_;
 };
 
-/// Rows near which, within half a kerf, these leans are apart.
-void mark_swings(const std::vector<double>& leans, const std::vector<double>& steps, double reach,
-                 std::vector<bool>& near, const std::stop_token& stop) {
-  const auto n = leans.size();
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-    double low = leans[i], high = low, left = reach;  // to look ahead
-    std::size_t k = i;
-    for (; k < i + n && left > 0.0; ++k) {
-      const double there =
-          mixed(leans[k % n], leans[(k + 1) % n], std::min(1.0, left / (steps[k % n] + kTiny)));
-      low = std::min(low, there);
-      high = std::max(high, there);
-      left -= steps[k % n];
-    }
-    if (high - low < kApart) continue;
-    for (std::size_t m = i + n - 1; m < k + n; ++m) near[m % n] = true;
-  }
-}
-
-/// Runs of rows near which, within half a kerf, the torch leans in ways that are apart: there a
-/// place where the beam is in the part can be narrow across the wall. Beams of an end pass one
-/// another by phase, those of a hole any way.
-std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut, const Surface& surface,
-                                                        const std::stop_token& stop) {
-  const auto n = surface.rows();
-  const bool hole = cut.turn == 0.0;
-  const double wall = cut.outer - cut.inner;
-  std::vector<double> along_tube, round_tube, steps;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto &a = cut.torch[i], &b = cut.torch[(i + 1) % n];
-    const double turn = i + 1 == n ? cut.turn : 0.0;
-    along_tube.push_back(elementary::atan2(a.z_outer - a.z_inner, wall));
-    round_tube.push_back(elementary::atan2(cut.outer * (a.phi_outer - a.phi_inner), wall));
-    const double round = cut.inner * (b.phi_inner + turn - a.phi_inner);
-    steps.push_back(hole ? elementary::hypot(round, b.z_inner - a.z_inner) : std::abs(round));
-  }
-  std::vector<bool> near(n, false);
-  mark_swings(along_tube, steps, 0.5 * cut.kerf, near, stop);
-  if (hole) mark_swings(round_tube, steps, 0.5 * cut.kerf, near, stop);
-  std::vector<std::pair<std::size_t, std::size_t>> out;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!near[i]) continue;
-    if (out.empty() || out.back().second != i) out.emplace_back(i, i);
-    out.back().second = i + 1;
-  }
-  return out;
-}
-
 struct Grid {
   double apart;            // mm, along the cut
   int lines;               // stretches across the wall
@@ -280,7 +237,9 @@ void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& st
     here.clear();
     const auto line = surface.across_wall(row, u, grid.land);
     for (int m = 0; m <= grid.lines; ++m)
-      here.push_back(figure.of(surface.seen({row, u, share(m), grid.land}, line)));
+      here.push_back(stop.stop_requested()
+                         ? 0.0  // a place may take long: a wide kerf has many lines near it
+                         : figure.of(surface.seen({row, u, share(m), grid.land}, line)));
   };
   line_up(grid.first, 0.0);
   for (std::size_t i = grid.first; i < grid.end && !stop.stop_requested(); ++i) {
@@ -354,7 +313,7 @@ BeamFound found_at(const BeamCut& cut, const Surface& surface, Places places,
   grid.lines = static_cast<int>(
       std::clamp((cut.outer - cut.inner) / (kFine * half + kTiny), 1.0 * lines(cut), kMostLines));
   if (!rows_only && half > 0.0)
-    for (const auto& [first, end] : swings(cut, surface, stop)) {
+    for (const auto& [first, end] : beam::swings(cut, stop)) {
       grid.first = first;
       grid.end = end;
       see_cells(short_of, grid, stop, see);

@@ -18,13 +18,13 @@ BeamCut beam_cut(const TableSpec& spec, const Table& table) {
     out.from = spec.root_face / spec.target.wall;
     out.land = table.z_inner;
   }
-  for (auto* lines : {&out.finished, &out.torch}) lines->reserve(table.phi.size());
+  for (auto* lines : {&out.finished, &out.torch}) lines->resize(table.phi.size());
   for (std::size_t i = 0; i < table.phi.size(); ++i) {
     const double phi = table.phi[i], high = table.z_outer[i];
     const double foot =
         land ? high - (high - table.z_face[i]) / (1.0 - out.from) : table.z_inner[i];
-    out.finished.push_back({phi, foot, phi, high});
-    out.torch.push_back({phi, table.torch_inner[i], phi, table.torch_outer[i]});
+    out.finished[i] = {phi, foot, phi, high};
+    out.torch[i] = {phi, table.torch_inner[i], phi, table.torch_outer[i]};
   }
   return out;
 }

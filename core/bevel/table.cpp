@@ -13,20 +13,25 @@ using detail::Rows;
 using detail::TableSetup;
 
 void fill_angles(const TableSetup& g, const Rows& rows, Table& out) {
-  for (std::size_t i = 0; i < rows.points.size(); ++i) {
+  const auto n = rows.points.size();
+  for (auto* column : {&out.phi, &out.developed, &out.length, &out.dihedral, &out.groove, &out.tau,
+                       &out.gamma, &out.flush, &out.b_raw, &out.b_required})
+    column->resize(n);
+  out.cutter.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
     const auto& node = rows.samples.nodes[i];
     const auto& [cutter, angles, raw, required, input, face] = rows.points[i];
-    out.phi.push_back(node.phi);
-    out.developed.push_back(g.root.radius * node.phi);
-    out.length.push_back(node.length);
-    out.cutter.push_back(cutter);
-    out.dihedral.push_back(angles.dihedral);
-    out.groove.push_back(angles.groove);
-    out.tau.push_back(angles.tau);
-    out.gamma.push_back(angles.gamma);
-    out.flush.push_back(angles.flush);
-    out.b_raw.push_back(raw);
-    out.b_required.push_back(required);
+    out.phi[i] = node.phi;
+    out.developed[i] = g.root.radius * node.phi;
+    out.length[i] = node.length;
+    out.cutter[i] = cutter;
+    out.dihedral[i] = angles.dihedral;
+    out.groove[i] = angles.groove;
+    out.tau[i] = angles.tau;
+    out.gamma[i] = angles.gamma;
+    out.flush[i] = angles.flush;
+    out.b_raw[i] = raw;
+    out.b_required[i] = required;
   }
 }
 
@@ -77,6 +82,7 @@ Result<void> smooth(const TableSetup& g, const std::vector<double>& more, Draft&
   TRY(detail::check_required_in_torch_range(g, draft.rows));
   draft.table = outline(g, draft.rows);
   fill_angles(g, draft.rows, draft.table);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   TRY(fill_zones(g.spec, draft.rows, draft.table));
   return detail::fill_smoothed(g, draft.rows, draft.table, stop);
 }

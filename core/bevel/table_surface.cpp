@@ -65,6 +65,7 @@ void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std:
   elementary::cos(out.b, cosines);
   if (outer)
     envelope = joint::contacts_at(*g.inner, joint::stations_at(g.wall.inner, out.phi), out.phi).z;
+  for (auto* column : {&out.z_inner, &out.z_outer, &out.gap, &out.beam}) column->reserve(n);
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
     const double slope = (out.inward ? -1.0 : 1.0) * slopes[i];
     double z = nodes[i].z;  // of the root surface

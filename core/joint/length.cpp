@@ -199,11 +199,13 @@ class Rule {
 };
 
 void measure(const Contour& contour, std::span<Piece> pieces, const std::stop_token& stop) {
+  constexpr std::size_t kAtOnce = 1024;  // some 100 us, and in the nearest cache
   while (!pieces.empty() && !stop.stop_requested()) {
     const auto segment = pieces.front().segment;
+    const auto block = pieces.first(std::min(kAtOnce, pieces.size()));
     const auto other =
-        std::ranges::find_if(pieces, [&](const Piece& piece) { return piece.segment != segment; });
-    const auto run = static_cast<std::size_t>(other - pieces.begin());
+        std::ranges::find_if(block, [&](const Piece& piece) { return piece.segment != segment; });
+    const auto run = static_cast<std::size_t>(other - block.begin());
     Rule(contour, pieces.first(run)).apply();
     pieces = pieces.subspan(run);
   }
@@ -214,6 +216,8 @@ void measure(const Contour& contour, std::span<Piece> pieces, const std::stop_to
 std::vector<double> lengths_along(const Contour& contour, std::span<const double> phases,
                                   const std::stop_token& stop) {
   Walk walk(contour);
+  walk.stops.reserve(phases.size() + 1);
+  walk.pieces.reserve(phases.size() + contour.segments.size() + 1);
   for (const double phi : phases) walk.advance(phi);
   walk.advance(kTwoPi);
   measure(contour, walk.pieces, stop);
