@@ -48,7 +48,7 @@ struct Piece {
 Piece piece_of(const CutWall& wall, std::size_t edge, std::size_t gap) {
   Piece out;
   double square = 0.0;
-  const auto next = (gap + 1) % wall.gaps();
+  const auto next = gap + 1 < wall.gaps() ? gap + 1 : 0;
   for (std::size_t k = 0; k < 2; ++k) {
     const auto& e = wall.edges[edge + k];
     out.runs[k] = {e.radius, e.phi[gap], e.z[gap],
@@ -69,12 +69,21 @@ struct Found {
   std::size_t solid = 0;
 };
 
-/// Where the search stands: a part of a gap of one piece, for one solid.
-struct Part {
+/// Where the search of a plain solid stands: a part of a gap, across the whole wall.
+struct Strip {
   std::size_t gap = 0;
   double from = 0.0, to = 1.0;     // along
-  double low = 0.0, high = 1.0;    // across
-  double first = 0.0, last = 0.0;  // least distance of its two end lines, of a plain solid
+  double first = 0.0, last = 0.0;  // least distance of its two end lines
+  double most = 0.0;               // no depth within is greater
+
+  [[nodiscard]] double middle() const { return 0.5 * (from + to); }
+};
+
+/// Where that of another stands: a part of a gap, along and across.
+struct Cell {
+  std::size_t gap = 0;
+  double from = 0.0, to = 1.0;   // along
+  double low = 0.0, high = 1.0;  // across
 
   [[nodiscard]] double middle() const { return 0.5 * (from + to); }
 };
@@ -82,24 +91,41 @@ struct Part {
 /// The wall between two neighbouring edges, all the way round.
 struct Ring {
   std::vector<Piece> pieces;    // of each gap
+  std::vector<double> ways;     // of each piece, whole: apart, since most are asked nothing else
   std::array<Places, 2> edges;  // both ends of the line across, where each begins
+  bool axial = false;           // both edges run through the same phases: an end's do
 };
 
-/// The places of one edge's rows.
-Places rows_of(const WallEdge& edge) {
-  const auto n = edge.phi.size();
-  Places out(n);
-  elementary::sincos(edge.phi, out.y, out.x);
-  for (std::size_t i = 0; i < n; ++i)
-    out.set(i, {edge.radius * out.x[i], edge.radius * out.y[i], edge.z[i]});
+/// The places of both edges' rows.
+std::array<Places, 2> rows_of(const WallEdge& low, const WallEdge& high, bool axial) {
+  const auto n = low.phi.size();
+  std::array<Places, 2> out{Places(n), Places(n)};
+  elementary::sincos(low.phi, out[0].y, out[0].x);
+  if (axial)
+    out[1] = out[0];
+  else
+    elementary::sincos(high.phi, out[1].y, out[1].x);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& edge = k == 0 ? low : high;
+    for (std::size_t i = 0; i < n; ++i) {
+      out[k].x[i] *= edge.radius;
+      out[k].y[i] *= edge.radius;
+    }
+    out[k].z.assign(edge.z.begin(), edge.z.end());
+  }
   return out;
 }
 
 Ring ring_of(const CutWall& wall, std::size_t edge) {
-  Ring out{{}, {rows_of(wall.edges[edge]), rows_of(wall.edges[edge + 1])}};
+  const auto &low = wall.edges[edge], &high = wall.edges[edge + 1];
+  const bool axial = std::ranges::equal(low.phi, high.phi);
+  Ring out{{}, {}, rows_of(low, high, axial), axial};
   out.pieces.reserve(wall.gaps());
-  for (std::size_t gap = 0; gap < wall.gaps(); ++gap)
+  out.ways.reserve(wall.gaps());
+  for (std::size_t gap = 0; gap < wall.gaps(); ++gap) {
     out.pieces.push_back(piece_of(wall, edge, gap));
+    out.ways.push_back(out.pieces.back().way(1.0));
+  }
   return out;
 }
 
@@ -114,13 +140,14 @@ class Search {
   void run(const std::stop_token& stop) {
     if constexpr (joint::PlainSolid<Kind>)
       by_levels(
-          strips(), [&](const auto& level, auto& next) { halve(level, next, stop); }, stop);
+          strips(), [&](auto& level, auto& next) { halve(level, next, stop); }, stop);
     else
       by_levels(
           cells(), [&](const auto& level, auto& next) { divide(level, next, stop); }, stop);
   }
 
  private:
+  template <class Part>
   static void by_levels(std::vector<Part> level, auto&& split, const std::stop_token& stop) {
     std::vector<Part> next;
     while (!level.empty() && !stop.stop_requested()) {
@@ -132,34 +159,38 @@ class Search {
 
   double see(std::size_t gap, const Vector3d& p) {
     const double distance = solid_.distance(p);
-    aim_.see(gap, {-distance, p, index_});
+    aim_.see(gap, -distance, [&] { return Found{-distance, p, index_}; });
     return distance;
+  }
+  /// The nearest place of the line across from `a` to `b`.
+  void see(std::size_t gap, double distance, double share, const Places& a, const Places& b,
+           std::size_t i) {
+    aim_.see(gap, -distance, [&] {
+      return Found{-distance, a.at(i) + share * (b.at(i) - a.at(i)), index_};
+    });
   }
 
   /// A plain solid is searched by strips, each between two lines across the wall: those that the
   /// lines at their ends do not bound at once.
-  std::vector<Part> strips() {
+  std::vector<Strip> strips() {
     const auto n = ring_.pieces.size();
+    const auto& [a, b] = ring_.edges;
     std::vector<double> share(n), distance(n);
-    joint::nearest_on_ways(solid_, ring_.edges[0], ring_.edges[1], share, distance);
-    for (std::size_t gap = 0; gap < n; ++gap) {
-      const Vector3d a = ring_.edges[0].at(gap), b = ring_.edges[1].at(gap);
-      aim_.see(gap, {-distance[gap], a + share[gap] * (b - a), index_});
-    }
-    std::vector<Part> out;
+    joint::nearest_on_ways(solid_, a, b, share, distance);
+    for (std::size_t gap = 0; gap < n; ++gap) see(gap, distance[gap], share[gap], a, b, gap);
+    std::vector<Strip> out;
     for (std::size_t gap = 0; gap < n; ++gap) {
       const double next = distance[gap + 1 < n ? gap + 1 : 0];
-      const double nearest = std::min(distance[gap], next) - 0.5 * ring_.pieces[gap].way(1.0);
-      if (!(-nearest > aim_.enough(gap))) continue;
-      out.push_back({.gap = gap, .first = distance[gap], .last = next});
+      const double nearest = std::min(distance[gap], next) - 0.5 * ring_.ways[gap];
+      if (-nearest > aim_.enough(gap)) keep({gap, 0.0, 1.0, distance[gap], next}, out);
     }
     return out;
   }
 
   /// Another solid is searched by cells. Edges first: the deepest place lies on one of them more
   /// often than not.
-  std::vector<Part> cells() {
-    std::vector<Part> out(ring_.pieces.size());
+  std::vector<Cell> cells() {
+    std::vector<Cell> out(ring_.pieces.size());
     for (std::size_t gap = 0; gap < out.size(); ++gap) {
       out[gap].gap = gap;
       for (const auto& edge : ring_.edges) see(gap, edge.at(gap));
@@ -168,68 +199,67 @@ class Search {
     return out;
   }
 
-  /// Greatest depth within a strip.
-  [[nodiscard]] double bound(const Part& s) const {
-    const auto& piece = ring_.pieces[s.gap];
-    const double low = std::min(s.first, s.last);
-    const double way = piece.way(s.to - s.from);
+  /// A strip that may hold more than is enough, with the greatest depth that it may.
+  void keep(Strip strip, std::vector<Strip>& out) const {
+    const auto& piece = ring_.pieces[strip.gap];
+    const double low = std::min(strip.first, strip.last), width = strip.to - strip.from;
+    const double way = piece.way(width);
     const double nearest = low - 0.5 * way;  // no point is further than that from both end lines
     const double bent = solid_.most_bent(nearest);
-    const double drop = (bent * way * way + piece.bow(s.to - s.from)) / 8.0;
-    return -std::max(nearest, low - drop);
+    const double drop = (bent * way * way + piece.bow(width)) / 8.0;
+    strip.most = -std::max(nearest, low - drop);
+    if (holds_more(strip)) out.push_back(strip);
   }
-
-  [[nodiscard]] bool holds_more(const Part& s) const { return bound(s) > aim_.enough(s.gap); }
+  [[nodiscard]] bool holds_more(const Strip& s) const { return s.most > aim_.enough(s.gap); }
 
   /// The lines in the middle of those strips of a level that may hold more than was seen before the
   /// level, side by side; then one strip after the other, since a line that was seen may be enough
   /// for the strips after it.
-  void halve(const std::vector<Part>& level, std::vector<Part>& out, const std::stop_token& stop) {
-    std::vector<Part> open;
-    std::ranges::copy_if(level, std::back_inserter(open),
-                         [&](const Part& s) { return holds_more(s); });
-    const auto a = middles(open, 0), b = middles(open, 1);
+  void halve(std::vector<Strip>& open, std::vector<Strip>& out, const std::stop_token& stop) {
+    std::erase_if(open, [&](const Strip& s) { return !holds_more(s); });
+    const auto [a, b] = middles(open);
     std::vector<double> share(open.size()), distance(open.size());
     joint::nearest_on_ways(solid_, a, b, share, distance);
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (i % 1024 == 0 && stop.stop_requested()) return;
       const auto& s = open[i];
       if (!holds_more(s)) continue;
-      const Vector3d from = a.at(i);
-      aim_.see(s.gap, {-distance[i], from + share[i] * (b.at(i) - from), index_});
-      Part left = s, right = s;
-      left.to = right.from = s.middle();
-      left.last = right.first = distance[i];
-      out.push_back(left);
-      out.push_back(right);
+      see(s.gap, distance[i], share[i], a, b, i);
+      keep({s.gap, s.from, s.middle(), s.first, distance[i]}, out);
+      keep({s.gap, s.middle(), s.to, distance[i], s.last}, out);
     }
   }
 
-  /// Places of one edge in the middle of each strip.
-  [[nodiscard]] Places middles(const std::vector<Part>& strips, std::size_t edge) const {
-    std::vector<double> phi(strips.size());
-    Places out(strips.size());
-    const auto run_of = [&](const Part& s) -> const Run& { return ring_.pieces[s.gap].runs[edge]; };
-    for (std::size_t i = 0; i < strips.size(); ++i)
-      phi[i] = run_of(strips[i]).phi_at(strips[i].middle());
-    elementary::sincos(phi, out.y, out.x);
-    for (std::size_t i = 0; i < strips.size(); ++i) {
-      const auto& r = run_of(strips[i]);
-      out.set(i, r.place({.sin = out.y[i], .cos = out.x[i]}, strips[i].middle()));
+  /// Both ends of the line across in the middle of each strip.
+  [[nodiscard]] std::array<Places, 2> middles(const std::vector<Strip>& strips) const {
+    const auto n = strips.size();
+    std::vector<double> phi(n);
+    std::array<Places, 2> out{Places(n), Places(n)};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto run_of = [&](const Strip& s) -> const Run& { return ring_.pieces[s.gap].runs[k]; };
+      if (k == 0 || !ring_.axial) {
+        for (std::size_t i = 0; i < n; ++i) phi[i] = run_of(strips[i]).phi_at(strips[i].middle());
+        elementary::sincos(phi, out[k].y, out[k].x);
+        if (ring_.axial) out[1] = out[0];
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto& r = run_of(strips[i]);
+        out[k].set(i, r.place({.sin = out[k].y[i], .cos = out[k].x[i]}, strips[i].middle()));
+      }
     }
     return out;
   }
 
-  void divide(const std::vector<Part>& level, std::vector<Part>& out, const std::stop_token& stop) {
-    for (const auto& part : level) {
+  void divide(const std::vector<Cell>& level, std::vector<Cell>& out, const std::stop_token& stop) {
+    for (const auto& cell : level) {
       if (stop.stop_requested()) return;
-      divide(part, out);
+      divide(cell, out);
     }
   }
 
   /// Looks at a cell's middle and halves it unless its tangent plane bounds it: along where only
   /// the edges' bow keeps it from that, else the longer way.
-  void divide(const Part& c, std::vector<Part>& out) {
+  void divide(const Cell& c, std::vector<Cell>& out) {
     const auto& piece = ring_.pieces[c.gap];
     const double u = c.middle(), v = 0.5 * (c.low + c.high);
     const Vector3d middle = piece.at(u, v);
@@ -253,7 +283,7 @@ class Search {
     const double plane = 0.5 * hollow * reach * reach - fall;
     const double enough = aim_.enough(c.gap);
     if (!(std::min(reach, plane + bow) - distance > enough)) return;
-    Part left = c, right = c;
+    Cell left = c, right = c;
     const double across = (piece.at(u, c.high) - piece.at(u, c.low)).norm();
     if (plane - distance <= enough || piece.way(c.to - c.from) > across)
       left.to = right.from = u;
@@ -272,7 +302,7 @@ class Search {
 template <class Aim>
 void search(const CutWall& wall, std::span<const Solid> solids, Aim& aim,
             const std::stop_token& stop) {
-  for (std::size_t edge = 0; edge + 1 < wall.edges.size(); ++edge) {
+  for (std::size_t edge = 0; edge + 1 < wall.edges.size() && !stop.stop_requested(); ++edge) {
     const auto ring = ring_of(wall, edge);
     for (std::size_t solid = 0; solid < solids.size() && !stop.stop_requested(); ++solid)
       joint::by_kind(solids[solid].kind(),
@@ -285,8 +315,8 @@ struct Deepest {
   Found best;
 
   // A number that is no number stays, and fails whatever is proved with it.
-  void see(std::size_t /*gap*/, const Found& found) {
-    if (found.depth > best.depth || found.depth != found.depth) best = found;
+  void see(std::size_t /*gap*/, double depth, const auto& found) {
+    if (depth > best.depth || depth != depth) best = found();
   }
   [[nodiscard]] double enough(std::size_t /*gap*/) const {
     return std::max(best.depth, 0.0) + slack;
@@ -298,8 +328,8 @@ struct Entering {
   double limit;
   std::vector<bool> gaps;
 
-  void see(std::size_t gap, const Found& found) {
-    if (found.depth > kShare * limit) gaps[gap] = true;
+  void see(std::size_t gap, double depth, const auto& /*found*/) {
+    if (depth > kShare * limit) gaps[gap] = true;
   }
   [[nodiscard]] double enough(std::size_t gap) const { return gaps[gap] ? kInfinity : limit; }
 };
