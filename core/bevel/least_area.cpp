@@ -113,12 +113,15 @@ Multipliers no_multipliers(const AngleProfile& profile) {
   return {.contact = ring(profile).w, .slope = std::vector<double>(profile.s.size())};
 }
 
+double area_excess(const AngleProfile& profile, double least, double area) {
+  constexpr double kNothing = 1e-6;  // rad
+  const double share = (area - least) / std::max(area, kNothing * profile.period);
+  return share < 0.0 ? 0.0 : share;  // NaN stays
+}
+
 double area_excess(const AngleProfile& profile, const EnvelopeSpec& spec,
                    const Multipliers& multipliers, double area) {
-  constexpr double kNothing = 1e-6;  // rad
-  const double over = area - least_area(profile, spec, multipliers, area);
-  const double share = over / std::max(area, kNothing * profile.period);
-  return share < 0.0 ? 0.0 : share;  // NaN stays
+  return area_excess(profile, least_area(profile, spec, multipliers, area), area);
 }
 
 }  // namespace tubecut::bevel

@@ -22,6 +22,7 @@ namespace tubecut::bevel {
 
 /// By what share `area` exceeds the least: of it, or of a millionth of a radian all round where it
 /// is smaller than that.
+[[nodiscard]] double area_excess(const AngleProfile& profile, double least, double area);
 [[nodiscard]] double area_excess(const AngleProfile& profile, const EnvelopeSpec& spec,
                                  const Multipliers& multipliers, double area);
 

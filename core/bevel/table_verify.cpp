@@ -10,6 +10,7 @@
 #include "core/bevel/least_area.hpp"
 #include "core/bevel/smoothed_area.hpp"
 #include "core/bevel/table.hpp"
+#include "core/bevel/table_arrays.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/joint/solid_arrays.hpp"
 #include "core/math/search.hpp"
@@ -26,85 +27,23 @@ constexpr double kAreaExcess = 1e-6;   // of the least area
 constexpr double kStated = 1e-3;       // mm
 constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
 
-/// Sines and cosines of many angles, side by side.
-struct Turns {
-  std::vector<double> sine, cosine;
-
-  explicit Turns(std::span<const double> angles) : sine(angles.size()), cosine(angles.size()) {
-    elementary::sincos(angles, sine, cosine);
+/// What the smoother was given at each row: at a jump the larger of the two.
+std::vector<double> smoother_input(const TableSpec& spec, const Table& t) {
+  const auto n = t.phi.size();
+  const bool lifted = spec.contact == Contact::automatic;
+  const bool square = std::holds_alternative<SquareCut>(spec.groove);
+  const bool floored = spec.contact == Contact::inner || (lifted && !square);
+  const double most = lifted ? spec.torch.max.rad() : std::numeric_limits<double>::infinity();
+  std::vector<double> own(n);
+  for (std::size_t i = 0; i < n; ++i)
+    own[i] = std::min(floored ? std::max(t.b_raw[i], t.b_required[i]) : t.b_raw[i], most);
+  auto out = own;
+  for (std::size_t i = 1; i < n; ++i) {
+    if (t.phi[i - 1] != t.phi[i]) continue;
+    out[i] = std::max(out[i], own[i - 1]);
+    out[i - 1] = std::max(out[i - 1], own[i]);
   }
-  [[nodiscard]] elementary::SinCos at(std::size_t i) const {
-    return {.sin = sine[i], .cos = cosine[i]};
-  }
-};
-
-/// One row seen in 3D, from the table's own z and the partner as a solid.
-struct Row {
-  Vector3d radial, axial{0.0, 0.0, 1.0};
-  Vector3d normal;      // of the partner at the root point, outwards
-  double axial_normal;  // its z part
-  double noise;         // of the normal, from the rounding of z
-};
-
-Row row(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
-        const elementary::SinCos& turn, std::size_t i) {
-  const bool outer = spec.root_surface == RootSurface::outer;
-  const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
-  Row out;
-  out.radial = {turn.cos, turn.sin, 0.0};
-  const double z = outer ? t.z_outer[i] : t.z_inner[i] - t.gap[i];
-  out.normal = solids.at(t.cutter[i]).normal(rho * out.radial + z * out.axial);
-  out.axial_normal = out.normal.z();
-  out.noise = 16.0 * std::numeric_limits<double>::epsilon() * (rho + std::abs(z)) / rho;
   return out;
-}
-
-/// Angles between the tube's and the partner's surface at each row by half tangents: full accuracy
-/// near 0 and 180 degrees.
-std::vector<double> dihedrals(const TableSpec& spec, const std::vector<Row>& rows) {
-  const double side = spec.dihedral == Dihedral::weld_side ? -1.0 : 1.0;
-  std::vector<double> apart(rows.size()), along(rows.size()), out(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vector3d normal = side * rows[i].normal;
-    apart[i] = (rows[i].radial - normal).norm();
-    along[i] = (rows[i].radial + normal).norm();
-  }
-  elementary::atan2(apart, along, out);
-  for (double& angle : out) angle *= 2.0;
-  return out;
-}
-
-/// Sine of the angle by which the torch line of b_raw leaves the plane of tangent and bevel line,
-/// beyond rounding: where both surfaces have one tangent plane the curve's tangent loses its
-/// digits.
-double plane_error(const TableSpec& spec, const Row& r, const elementary::SinCos& tau,
-                   const elementary::SinCos& b) {
-  const Vector3d along = r.radial.cross(r.normal);
-  const Vector3d tangent = along.normalized();
-  Vector3d across = tangent.cross(r.radial);  // in the target's tangent plane, across the curve
-  if (across.z() < 0.0) across = -across;
-  const bool inward = spec.dihedral != Dihedral::weld_side;
-  const Vector3d out = inward ? Vector3d(-r.radial) : r.radial;
-  const Vector3d bevel = tau.cos * out + tau.sin * across;
-  const Vector3d torch = b.cos * out + b.sin * r.axial;
-  return worst_of(
-      {0.0, std::abs(torch.dot(tangent.cross(bevel).normalized())) - r.noise / along.norm()});
-}
-
-/// What the smoother was given at row i: at a jump the larger of the two.
-double smoother_input(const TableSpec& spec, const Table& t, std::size_t i) {
-  const auto of = [&](std::size_t k) {
-    double least = t.b_raw[k];
-    const bool square = std::holds_alternative<SquareCut>(spec.groove);
-    const bool lifted = spec.contact == Contact::automatic;
-    if (spec.contact == Contact::inner || (lifted && !square))
-      least = std::max(least, t.b_required[k]);
-    return lifted ? std::min(least, spec.torch.max.rad()) : least;
-  };
-  double input = of(i);
-  if (i > 0 && t.phi[i - 1] == t.phi[i]) input = std::max(input, of(i - 1));
-  if (i + 1 < t.phi.size() && t.phi[i + 1] == t.phi[i]) input = std::max(input, of(i + 1));
-  return input;
 }
 
 /// The path that was smoothed, nodes of one jump as one: what went in, and b.
@@ -112,45 +51,58 @@ struct Path {
   AngleProfile input, smoothed;
 };
 
-Path path(const TableSpec& spec, const Table& t, bool along_length) {
+Path path(const Table& t, const std::vector<double>& input, Along along) {
   Path out;
-  const auto& s = along_length ? t.length : t.developed;
+  const bool by_length = along == Along::length;
+  const auto& s = by_length ? t.length : t.developed;
+  for (auto* column : {&out.input.s, &out.input.b, &out.smoothed.b}) column->reserve(s.size());
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (i > 0 && s[i] == s[i - 1]) continue;
     out.input.s.push_back(s[i]);
-    out.input.b.push_back(smoother_input(spec, t, i));
+    out.input.b.push_back(input[i]);
     out.smoothed.b.push_back(t.b[i]);
   }
-  out.input.period = along_length ? t.length_total : t.developed_total;
+  out.input.period = by_length ? t.length_total : t.developed_total;
   out.smoothed.s = out.input.s;
   out.smoothed.period = out.input.period;
   return out;
 }
 
+SmoothedArea area_of(const TableSpec& spec, const EnvelopeSmoothing& method, const Path& p,
+                     const Multipliers& multipliers) {
+  const double area = area_above(p.input, p.smoothed.b);
+  const double least = least_area(p.input, detail::envelope_of(spec, method), multipliers, area);
+  return {area, least, area_excess(p.input, least, area)};
+}
+
 /// Slopes and second differences of b along the path, and by how much its area exceeds the least.
 void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, const Table& t,
-                     std::vector<Check>& out) {
-  const auto p = path(spec, t, method.along == Along::length).smoothed;
+                     const std::vector<double>& input, std::vector<Check>& out) {
+  const auto both = path(t, input, method.along);
+  const auto& p = both.smoothed;
   const auto n = p.s.size();
-  double slope = 0.0, second = 0.0;
+  double slope = 0.0, second = 0.0, left = 0.0;
   const auto rise = [&](std::size_t i, double& h) {
-    const auto j = (i + 1) % n;
+    const auto j = i + 1 < n ? i + 1 : 0;
     h = p.s[j] - p.s[i] + (j == 0 ? p.period : 0.0);
     return (p.b[j] - p.b[i]) / h;
   };
+  double before = rise(n - 1, left);
   for (std::size_t i = 0; i < n; ++i) {
-    double left = 0.0, right = 0.0;
-    const double a = rise((i + n - 1) % n, left);
-    const double b = rise(i, right);
-    worsen(slope, std::abs(b));
-    worsen(second, std::abs(b - a) / ((left + right) / 2.0));
+    double right = 0.0;
+    const double after = rise(i, right);
+    worsen(slope, std::abs(after));
+    worsen(second, std::abs(after - before) / ((left + right) / 2.0));
+    before = after;
+    left = right;
   }
   const auto most = allowed_steepness(p, method.limits);
   out.push_back({"slope", slope * kDegPerRad, most.slope * kDegPerRad, "deg_per_mm"});
   out.push_back(
       {"second_difference", second * kDegPerRad, most.second * kDegPerRad, "deg_per_mm2"});
-  if (const auto area = smoothed_area(spec, t))
-    out.push_back({"area_excess", area->excess, kAreaExcess, ""});
+  if (method.refine)
+    out.push_back(
+        {"area_excess", area_of(spec, method, both, t.multipliers).excess, kAreaExcess, ""});
 }
 
 /// How far the cut of each row stays from the nearest partner, mm; negative: it enters.
@@ -181,69 +133,52 @@ std::vector<double> clearances(const TableSpec& spec, const Table& t,
   return least;
 }
 
-/// A place of the finished surface: between row i and the next, at a radius.
-struct Between {
-  std::size_t row, next;
-  double share, radius;
-
-  [[nodiscard]] double mixed(const std::vector<double>& v, double turn = 0.0) const {
-    return (1.0 - share) * v[row] + share * (v[next] + turn);
-  }
-  [[nodiscard]] double phi(const Table& t) const { return mixed(t.phi, next == 0 ? kTwoPi : 0.0); }
-  [[nodiscard]] double z(const TableSpec& spec, const Table& t) const {
-    double low = spec.target.inner_radius(), z_low = mixed(t.z_inner);
-    double high = spec.target.outer_radius, z_high = mixed(t.z_outer);
-    if (!t.z_face.empty()) {
-      const double edge = spec.target.inner_radius() + spec.root_face, z_edge = mixed(t.z_face);
-      (radius < edge ? high : low) = edge;
-      (radius < edge ? z_high : z_low) = z_edge;
-    }
-    return z_low + (radius - low) / (high - low) * (z_high - z_low);
-  }
-};
-
-/// Between each row and the next: half way, at every edge and once between them, and one place more
-/// anywhere in the gap, by the golden ratio.
-std::vector<Between> samples(const TableSpec& spec, const Table& t) {
+/// Shares that lie everywhere, by the golden ratio.
+std::vector<double> golden_shares(std::size_t n) {
   constexpr double kGolden = 0.6180339887498949;
-  const double inner = spec.target.inner_radius(), wall = spec.target.wall;
-  const bool face = !t.z_face.empty();
-  std::vector<Between> out;
-  out.reserve((face ? 5 : 4) * t.phi.size());
+  std::vector<double> out(n);
   double seed = 0.0;
-  const auto next = [&] { return seed = seed + kGolden - std::floor(seed + kGolden); };
-  for (std::size_t i = 0; i < t.phi.size(); ++i) {
-    const auto after = i + 1 < t.phi.size() ? i + 1 : 0;
-    for (const double radius : {inner, inner + wall * next(), spec.target.outer_radius})
-      out.push_back({i, after, 0.5, radius});
-    if (face) out.push_back({i, after, 0.5, inner + spec.root_face});
-    const double share = next();
-    out.push_back({i, after, share, inner + wall * next()});
+  for (double& share : out) {
+    seed += kGolden;
+    if (seed >= 1.0) seed -= 1.0;
+    share = seed;
   }
   return out;
 }
 
-/// The deepest of the samples.
+/// The deepest of these places between each row and the next: half way at every edge and once
+/// between them, and one anywhere in the gap.
 double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
                      const std::stop_token& stop) {
-  const auto seen = samples(spec, t);
-  const auto n = seen.size();
+  const auto n = t.phi.size();
+  const BetweenRows surface(spec, t);
+  std::vector<double> least(n, std::numeric_limits<double>::infinity()), distance(n), at(n);
+  const auto see = [&](std::span<const double> share, const Turns& phi,
+                       std::span<const double> radius) {
+    if (stop.stop_requested()) return;
+    const auto places = surface.places(share, phi, radius);
+    for (const auto& solid : solids) {
+      if (stop.stop_requested()) return;
+      joint::distances(solid, places, distance);
+      joint::lower(least, distance);
+    }
+  };
+  const double inner = spec.target.inner_radius(), wall = spec.target.wall;
+  const auto golden = golden_shares(3 * n);
   if (stop.stop_requested()) return 0.0;
-  std::vector<double> phi(n), distance(n);
-  for (std::size_t k = 0; k < n; ++k) phi[k] = seen[k].phi(t);
-  if (stop.stop_requested()) return 0.0;
-  const Turns turn(phi);
-  joint::Places places(n);
-  for (std::size_t k = 0; k < n && !stops(stop, k); ++k) {
-    const double radius = seen[k].radius;
-    places.set(k, {radius * turn.cosine[k], radius * turn.sine[k], seen[k].z(spec, t)});
+  const std::vector<double> half(n, 0.5);
+  const Turns middle(surface.phases(half));
+  see(half, middle, std::vector<double>(n, inner));
+  if (!t.z_face.empty()) see(half, middle, std::vector<double>(n, inner + spec.root_face));
+  see(half, middle, std::vector<double>(n, spec.target.outer_radius));
+  for (std::size_t i = 0; i < n; ++i) at[i] = inner + wall * golden[3 * i];
+  see(half, middle, at);
+  std::vector<double> share(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    share[i] = golden[3 * i + 1];
+    at[i] = inner + wall * golden[3 * i + 2];
   }
-  std::vector<double> least(n, std::numeric_limits<double>::infinity());
-  for (const auto& solid : solids) {
-    if (stop.stop_requested()) break;
-    joint::distances(solid, places, distance);
-    joint::lower(least, distance);
-  }
+  see(share, Turns(surface.phases(share)), at);
   double lowest = 0.0;
   bool numbers = true;
   for (const double d : least) {
@@ -319,8 +254,7 @@ std::size_t not_numbers(const Table& t) {
                              &t.torch_outer,
                              &t.gaps.square.inner,
                              &t.gaps.square.outer})
-    out += static_cast<std::size_t>(
-        std::ranges::count_if(*column, [](double v) { return !std::isfinite(v); }));
+    out += not_finite(*column);
   return out;
 }
 
@@ -329,11 +263,7 @@ std::size_t not_numbers(const Table& t) {
 std::optional<SmoothedArea> smoothed_area(const TableSpec& spec, const Table& t) {
   const auto* method = std::get_if<EnvelopeSmoothing>(&spec.smoothing);
   if (method == nullptr || !method->refine) return std::nullopt;
-  const auto p = path(spec, t, method->along == Along::length);
-  const auto limits = detail::envelope_of(spec, *method);
-  const double area = area_above(p.input, p.smoothed.b);
-  return SmoothedArea{area, least_area(p.input, limits, t.multipliers, area),
-                      area_excess(p.input, limits, t.multipliers, area)};
+  return area_of(spec, *method, path(t, smoother_input(spec, t), method->along), t.multipliers);
 }
 
 std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop_token& stop) {
@@ -346,26 +276,25 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   const bool lifted = spec.contact == Contact::automatic;
   const bool published = spec.dihedral == Dihedral::as_published;
   const bool square = std::holds_alternative<SquareCut>(spec.groove);
-  const Turns phi(t.phi), tau(t.tau), b_raw(t.b_raw);
+  const double low = spec.torch.min.rad(), high = spec.torch.max.rad();
+  const Turns phi(t.phi);
   const auto clear_of = clearances(spec, t, solids, phi, stop);
-  std::vector<Row> rows;
-  rows.reserve(t.b.size());
-  for (std::size_t i = 0; i < t.b.size() && !stop.stop_requested(); ++i)
-    rows.push_back(row(spec, t, solids, phi.at(i), i));
-  const auto angle = dihedrals(spec, rows);
-  for (std::size_t i = 0; i < rows.size() && !stop.stop_requested(); ++i) {
-    const auto& r = rows[i];
-    const bool steep = std::abs(r.axial_normal) < kSilhouette;
+  if (stop.stop_requested()) return {};
+  const auto rows = row_normals(spec, t, solids, phi);
+  const auto angle = dihedrals(rows, spec.dihedral);
+  if (stop.stop_requested()) return {};
+  const auto planes = plane_errors(rows, spec.dihedral, Turns(t.tau), Turns(t.b_raw));
+  const auto input = smoother_input(spec, t);
+  for (std::size_t i = 0; i < t.b.size() && !stops(stop, i); ++i) {
+    const bool steep = std::abs(rows.partner.z[i]) < kSilhouette;
     // Near a silhouette, at the limit of the torch, and with the paper's own gamma there is no such
     // plane.
-    const double cut_back =
-        std::min(t.b_raw[i] - spec.torch.min.rad(), spec.torch.max.rad() - t.b_raw[i]);
-    if (!steep) worsen(dihedral, (std::abs(angle[i] - t.dihedral[i]) - r.noise) * kDegPerRad);
-    if (!steep && !published && !square && cut_back > 1e-9)
-      worsen(plane, plane_error(spec, r, tau.at(i), b_raw.at(i)));
-    worsen(below, (smoother_input(spec, t, i) - t.b[i]) * kDegPerRad);
-    worsen(beyond, (t.b[i] - spec.torch.max.rad()) * kDegPerRad);
-    worsen(beyond, (spec.torch.min.rad() - t.b[i]) * kDegPerRad);
+    const double cut_back = std::min(t.b_raw[i] - low, high - t.b_raw[i]);
+    if (!steep) worsen(dihedral, (std::abs(angle[i] - t.dihedral[i]) - rows.noise[i]) * kDegPerRad);
+    if (!steep && !published && !square && cut_back > 1e-9) worsen(plane, planes[i]);
+    worsen(below, (input[i] - t.b[i]) * kDegPerRad);
+    worsen(beyond, (t.b[i] - high) * kDegPerRad);
+    worsen(beyond, (low - t.b[i]) * kDegPerRad);
     worsen(deep, -clear_of[i]);
     worsen(off, clear_of[i]);
   }
@@ -375,7 +304,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   const auto* envelope = std::get_if<EnvelopeSmoothing>(&spec.smoothing);
   if (envelope != nullptr) {
     out.push_back({"above_required", below, kAngle, "deg"});
-    envelope_checks(spec, *envelope, t, out);
+    envelope_checks(spec, *envelope, t, input, out);
   }
   out.push_back({"torch_range", beyond, kAngle, "deg"});
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});

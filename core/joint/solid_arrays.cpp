@@ -34,6 +34,24 @@ struct From {
 };
 From from_all(const Places& p) { return {p.x.data(), p.y.data(), p.z.data(), p.size()}; }
 
+struct To {
+  double *x, *y, *z;
+};
+
+TUBECUT_WIDE void tube_normals(const Tube& tube, From at, To out) {
+  const auto t = tube;
+  for (std::size_t i = 0; i < at.n; ++i) {
+    const double ax = at.x[i] - t.px, ay = at.y[i] - t.py, az = at.z[i] - t.pz;
+    const double along = ax * t.dx + ay * t.dy + az * t.dz;
+    const double nx = ax - along * t.dx, ny = ay - along * t.dy, nz = az - along * t.dz;
+    const double length = std::sqrt(nx * nx + ny * ny + nz * nz);
+    const double unit = length > 0.0 ? length : 1.0;
+    out.x[i] = nx / unit;
+    out.y[i] = ny / unit;
+    out.z[i] = nz / unit;
+  }
+}
+
 TUBECUT_WIDE void tube_distances(const Tube& tube, From at, double* out) {
   const auto t = tube;
   for (std::size_t i = 0; i < at.n; ++i) out[i] = t.distance(at.x[i], at.y[i], at.z[i]);
@@ -91,6 +109,16 @@ void least_distances(const Solid& solid, const Places& from, const Places& to,
   if (const auto* tube = std::get_if<TubeSolid>(&solid.kind()))
     return tube_least(Tube(*tube), from_all(from), from_all(to), out.data());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = solid.least_distance(from.at(i), to.at(i));
+}
+
+void normals(const Solid& solid, const Places& places, std::size_t from, std::size_t to,
+             Places& out) {
+  if (const auto* tube = std::get_if<TubeSolid>(&solid.kind()))
+    return tube_normals(
+        Tube(*tube),
+        {places.x.data() + from, places.y.data() + from, places.z.data() + from, to - from},
+        {out.x.data() + from, out.y.data() + from, out.z.data() + from});
+  for (std::size_t i = from; i < to; ++i) out.set(i, solid.normal(places.at(i)));
 }
 
 void lower(std::span<double> least, std::span<const double> other) {

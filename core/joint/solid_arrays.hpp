@@ -30,6 +30,10 @@ void distances(const Solid& solid, const Places& places, std::span<double> out);
 void least_distances(const Solid& solid, const Places& from, const Places& to,
                      std::span<double> out);
 
+/// As Solid::normal, of the places from `from` to before `to`, to where they stand in `out`.
+void normals(const Solid& solid, const Places& places, std::size_t from, std::size_t to,
+             Places& out);
+
 /// Each of `least` becomes the lesser of itself and its neighbour in `other`; what is no number
 /// stays.
 void lower(std::span<double> least, std::span<const double> other);
