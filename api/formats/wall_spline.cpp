@@ -193,7 +193,7 @@ std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans,
 
 WallSpline WallCurve::spline(const std::vector<Place>& stations,
                              const std::stop_token& stop) const {
-  const auto all = graded(spans(nodes(stations), stop), stop);
+  const auto all = graded(spans(nodes(stations, stop), stop), stop);
   WallSpline out{.joints = {{}}, .points = {}, .flat = {}, .stations = {0}};
   for (const auto& first : all.front().curves) out.points.push_back({first[0]});
   for (const auto& first : all.front().flats) out.flat.push_back({first[0]});

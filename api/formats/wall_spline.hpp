@@ -114,7 +114,8 @@ class WallCurve {
   [[nodiscard]] Passing<Eigen::Vector2d> pass(const Edge& edge, const Place& place) const;
   [[nodiscard]] Node node(const Place& place) const;
   void lay_in_space(std::vector<Node>& nodes) const;
-  [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations) const;
+  [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations,
+                                        const std::stop_token& stop) const;
   /// How far round an edge goes from one node to the next, rad.
   [[nodiscard]] double turned(std::size_t edge, const Node& from, const Node& to) const;
   [[nodiscard]] Pair cubics(std::size_t edge, const Node& from, const Node& to) const;
