@@ -47,6 +47,15 @@ def become(replica, engine, proxy):
     restarts.until(lambda: proxy.up(replica.name), 20, f"{replica.name} seen ready by the proxy")
 
 
+class Ports(unittest.TestCase):
+    def test_a_replica_that_begins_again_finds_its_port_free(self):
+        """No client was given it meanwhile."""
+        lowest = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
+        ports = restarts.free_ports(50)
+        self.assertEqual(len(set(ports)), 50)
+        self.assertLess(max(ports), lowest)
+
+
 class Numerics(unittest.TestCase):
     JOB = example("intersections", "two-tubes-by-axis")
 
