@@ -47,6 +47,7 @@ inline void make_room(std::string& out, std::size_t more, const std::stop_token&
   out = std::move(larger);
 }
 
+/// Appends in parts, whatever there is to append.
 inline void append(std::string& out, std::string_view bytes, const std::stop_token& stop) {
   make_room(out, bytes.size(), stop);
   for (; !bytes.empty(); bytes.remove_prefix(std::min(kBytesAtOnce, bytes.size()))) {

@@ -93,18 +93,26 @@ struct Ring {
   std::vector<Piece> pieces;    // of each gap
   std::vector<double> ways;     // of each piece, whole: apart, since most are asked nothing else
   std::array<Places, 2> edges;  // both ends of the line across, where each begins
-  bool axial = false;           // both edges run through the same phases: an end's do
+  bool axial = false;           // both edges run through the same phases
 };
+
+/// Places with the cosines and sines of both edges' phases for x and y. An end's are the same for
+/// both: `axial`.
+std::array<Places, 2> turned(std::span<const double> low, std::span<const double> high,
+                             bool axial) {
+  std::array<Places, 2> out{Places(low.size()), Places(low.size())};
+  elementary::sincos(low, out[0].y, out[0].x);
+  if (axial)
+    out[1] = out[0];
+  else
+    elementary::sincos(high, out[1].y, out[1].x);
+  return out;
+}
 
 /// The places of both edges' rows.
 std::array<Places, 2> rows_of(const WallEdge& low, const WallEdge& high, bool axial) {
   const auto n = low.phi.size();
-  std::array<Places, 2> out{Places(n), Places(n)};
-  elementary::sincos(low.phi, out[0].y, out[0].x);
-  if (axial)
-    out[1] = out[0];
-  else
-    elementary::sincos(high.phi, out[1].y, out[1].x);
+  auto out = turned(low.phi, high.phi, axial);
   for (std::size_t k = 0; k < 2; ++k) {
     const auto& edge = k == 0 ? low : high;
     for (std::size_t i = 0; i < n; ++i) {
@@ -233,20 +241,18 @@ class Search {
   /// Both ends of the line across in the middle of each strip.
   [[nodiscard]] std::array<Places, 2> middles(const std::vector<Strip>& strips) const {
     const auto n = strips.size();
-    std::vector<double> phi(n);
-    std::array<Places, 2> out{Places(n), Places(n)};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto run_of = [&](const Strip& s) -> const Run& { return ring_.pieces[s.gap].runs[k]; };
-      if (k == 0 || !ring_.axial) {
-        for (std::size_t i = 0; i < n; ++i) phi[i] = run_of(strips[i]).phi_at(strips[i].middle());
-        elementary::sincos(phi, out[k].y, out[k].x);
-        if (ring_.axial) out[1] = out[0];
-      }
+    const auto run_of = [&](std::size_t i, std::size_t k) -> const Run& {
+      return ring_.pieces[strips[i].gap].runs[k];
+    };
+    std::array<std::vector<double>, 2> phi{std::vector<double>(n), std::vector<double>(n)};
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t i = 0; i < n; ++i) phi[k][i] = run_of(i, k).phi_at(strips[i].middle());
+    auto out = turned(phi[0], phi[1], ring_.axial);
+    for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < n; ++i) {
-        const auto& r = run_of(strips[i]);
-        out[k].set(i, r.place({.sin = out[k].y[i], .cos = out[k].x[i]}, strips[i].middle()));
+        const elementary::SinCos turn{.sin = out[k].y[i], .cos = out[k].x[i]};
+        out[k].set(i, run_of(i, k).place(turn, strips[i].middle()));
       }
-    }
     return out;
   }
 
