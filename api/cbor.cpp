@@ -107,6 +107,7 @@ void CborWriter::raw(std::string_view item) {
 
 void CborWriter::key(std::string_view name) {
   ++frames_.back().items;
+  make_room(out_, kHeadBytes + name.size(), stop_);
   head(out_, Major::text, name.size());
   out_ += name;
   key_ = name;
