@@ -42,8 +42,10 @@ void print_cell(const Column::Values& values, std::size_t i, std::string& out) {
 }  // namespace
 
 Csv& Csv::table(const Columns& columns) {
-  for (const auto& [name, values, seen] : columns.all())
+  for (const auto& [name, values, seen] : columns.all()) {
+    ask(stop_);
     if (seen) columns_.push_back({name, {{0, values}}});
+  }
   return *this;
 }
 
@@ -56,6 +58,7 @@ Csv& Csv::stacked(std::string_view label,
     const auto rows = rows_of(table);
     labels.pieces.push_back({from, std::vector<std::string>(rows, name)});
     for (const auto& column : table.all()) {
+      ask(stop_);
       auto stack = std::ranges::find(stacks, column.name, &Stack::name);
       if (stack == stacks.end()) stack = stacks.insert(stacks.end(), Stack{column.name, {}});
       stack->pieces.push_back({from, column.values});

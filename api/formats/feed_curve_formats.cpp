@@ -6,6 +6,7 @@
 #include "api/formats/csv.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
+#include "api/stop.hpp"
 #include "api/tables.hpp"
 
 namespace tubecut::api {
@@ -40,15 +41,18 @@ std::string feed_curve_csv(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve
                            const Caption& caption) {
   if (caption.view == "samples" && curve.cycle) {
     const auto& s = curve.cycle->samples;
-    return Csv(caption)
-        .table(Columns()
-                   .column("t_s", s.time)
-                   .column("stroke_mm", s.stroke)
-                   .column("cylinder_speed_mm_s", s.speed)
-                   .column("cylinder_acceleration_mm_s2", s.acceleration)
-                   .column("feed_mm", s.feed)
-                   .column("feed_speed_mm_s", s.feed_speed))
-        .print();
+    Columns columns;
+    const auto add = [&](std::string_view name, const std::vector<double>& values) {
+      ask(caption.stop);  // a million numbers are copied
+      columns.column(name, values);
+    };
+    add("t_s", s.time);
+    add("stroke_mm", s.stroke);
+    add("cylinder_speed_mm_s", s.speed);
+    add("cylinder_acceleration_mm_s2", s.acceleration);
+    add("feed_mm", s.feed);
+    add("feed_speed_mm_s", s.feed_speed);
+    return Csv(caption).table(columns).print();
   }
   std::vector<double> command;
   for (const double t : curve.table.time) command.push_back(value(curve.fit.seconds_rounded, t));
