@@ -142,9 +142,7 @@ InteriorPoint<Numbers>::InteriorPoint(const Programme& p, bool limited)
     : p_(p),
       limited_(limited),
       newton_(static_cast<std::size_t>((p.size() + kArcs - 1) / kArcs)),
-      places_(newton_.size()) {
-  begin();
-}
+      places_(newton_.size()) {}
 
 /// A constant above B, with multipliers that balance exactly.
 template <class Numbers>
@@ -324,6 +322,8 @@ void step(InteriorPoint<Real>& point, const std::stop_token& stop) {
 
 template <class Numbers>
 bool InteriorPoint<Numbers>::solve(const std::stop_token& stop) {
+  if (stop.stop_requested()) return false;
+  begin();
   for (int i = 0; i < kMostSteps && !stop.stop_requested(); ++i) {
     if (!std::isfinite(gap_)) return false;
     if (gap_ <= kNear * (area_ + kSmall)) keep_best();

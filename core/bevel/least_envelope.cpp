@@ -62,7 +62,9 @@ std::optional<Envelope> solved(const AngleProfile& profile, const EnvelopeSpec& 
 std::optional<Envelope> least_envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
                                        const std::stop_token& stop) {
   if (keeps_limits(profile, spec.limits)) return Envelope{profile.b, no_multipliers(profile)};
+  if (stop.stop_requested()) return std::nullopt;
   const Programme p(profile, spec);
+  if (stop.stop_requested()) return std::nullopt;
   std::optional<Envelope> found;
   for (const auto solve : {solved<Pack>, solved<double>, solved<long double>}) {
     found = solve(profile, spec, p, stop);
