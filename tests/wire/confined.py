@@ -171,15 +171,21 @@ def run(command, mib, options, folder=None, heavy=False):
             parts.append(f"{name} {told}, peak {service.memory():.0f} MiB")
             if {"none", "broken", 500} & set(told if isinstance(told, dict) else ()):
                 wrong.append(f"{mib} MiB: {name}: {told}")
+            return told
+
+        def answered(told, least, what):
+            if told.get(200, 0) < least:
+                wrong.append(f"{mib} MiB: of {what} fewer than {least} are answered: {told}")
 
         largest = largest_replay(service)
-        part(f"replays of {largest} bytes", together(service, [post(replay_of(largest), target="/v1/replays")] * 2))
-        if not parts[-1].count("200"):
-            wrong.append(f"{mib} MiB: no replay of the size it takes was answered")
-        part("drawings", together(service, [post(curve(1e-5), target="/v1/feed-curves?format=svg")] * AT_ONCE))
-        everything = list(long_answers())
+        answered(part(f"replays of {largest} bytes", together(service, [post(replay_of(largest), target="/v1/replays")] * 2)), 1, "replays of the size it takes")
+        for step, fits in ((5e-5, 0), (1e-5, 512)):
+            told = part(f"drawings of {10 / step:.0f} samples", together(service, [post(curve(step), target="/v1/feed-curves?format=svg")] * AT_ONCE))
+            answered(told, int(mib >= fits), "drawings")
+        everything, told = list(long_answers()), collections.Counter()
         for at in range(0, len(everything), AT_ONCE):
-            part("long answers", together(service, everything[at:at + AT_ONCE]))
+            told += collections.Counter(part("long answers", together(service, everything[at:at + AT_ONCE])))
+        answered(told, len(everything) * (3 if mib >= 512 else 2) // 4, "long answers")
         if heavy:
             everything, told = list(heaviest_requests()), collections.Counter()
             for at in range(0, len(everything), AT_ONCE):
