@@ -7,14 +7,23 @@ import tempfile
 import unittest
 
 TOOL = pathlib.Path(__file__).resolve().parents[2] / "tools/check_hardened"
-# A buffer that is guarded and a copy whose room is known: without them there is nothing to guard or to fortify.
-SOURCE = '#include <stdio.h>\n#include <string.h>\nint main(int n, char** a) { char b[64]; strcpy(b, a[n - 1]); return puts(b) == 0; }\n'
+# Buffers that are guarded, one of several pages, and copies whose room is known: without them there is nothing to guard or to fortify.
+SOURCE = """#include <stdio.h>
+#include <string.h>
+int main(int n, char** a) {
+  char b[64], pages[1 << 16];
+  strcpy(b, a[n - 1]);
+  strcpy(pages, a[0]);
+  return puts(b) == puts(pages);
+}
+"""
 SHIPPED = {
     "position-independent (PIE)": ["-fPIE", "-pie"],
     "relocations read-only (RELRO)": ["-Wl,-z,relro"],
     "all of them, before it starts (BIND_NOW)": ["-Wl,-z,now"],
     "a stack that is no code": ["-Wl,-z,noexecstack"],
     "stack protector": ["-fstack-protector-strong"],
+    "stack clash protection": ["-fstack-clash-protection"],
     "fortified calls": ["-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=2"],
 }
 LEFT_OUT = {
@@ -23,6 +32,7 @@ LEFT_OUT = {
     "all of them, before it starts (BIND_NOW)": ["-Wl,-z,lazy"],
     "a stack that is no code": ["-Wl,-z,execstack"],
     "stack protector": ["-fno-stack-protector"],
+    "stack clash protection": ["-fno-stack-clash-protection"],
     "fortified calls": ["-U_FORTIFY_SOURCE"],
 }
 
