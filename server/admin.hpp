@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "server/hosts.hpp"
 #include "server/http.hpp"
 
 namespace tubecut::server {
@@ -11,6 +12,7 @@ namespace tubecut::server {
 struct AdminSources {
   std::function<bool()> ready;
   std::function<std::string()> metrics;
+  Hosts hosts = {};
 };
 
 /// GET /livez: the process answers. GET /readyz: it takes work (503 while starting and stopping).

@@ -39,7 +39,10 @@ class Connections final : public httplib::TaskQueue {
 };
 
 void answer(const httplib::Request& in, httplib::Response& out, const AdminSources& sources) {
-  Response response = admin({.method = in.method, .target = in.target}, sources);
+  Response response = admin({.method = in.method,
+                             .target = in.target,
+                             .headers = {{"Host", in.get_header_value("Host")}}},
+                            sources);
   out.status = response.status;
   for (const auto& [name, value] : response.headers) out.set_header(name, value);
   out.set_content(response.body, response.content_type);

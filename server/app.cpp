@@ -86,19 +86,6 @@ std::optional<std::chrono::milliseconds> asked_budget(const Headers& headers) {
   return sound ? std::optional(std::chrono::milliseconds(ms)) : std::nullopt;
 }
 
-/// Host without its port, and an address without its brackets.
-std::string_view name_of(std::string_view host) {
-  if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
-  return host.substr(0, host.find(':'));
-}
-
-bool called_by(std::string_view host, const std::vector<std::string>& names) {
-  const auto name = name_of(host);
-  return name.empty() || equal_ignoring_case(name, "localhost") || is_loopback(name) ||
-         std::ranges::any_of(names,
-                             [&](const auto& one) { return equal_ignoring_case(name, one); });
-}
-
 bool asks_preflight(const Request& request) {
   return request.method == "OPTIONS" && !header(request.headers, "Origin").empty() &&
          !header(request.headers, "Access-Control-Request-Method").empty();
@@ -138,7 +125,7 @@ std::optional<Refusal> App::screen(const Request& head) const {
   if (!std::ranges::all_of(head.target, visible)) {
     return Refusal{ErrorCode::bad_request, "The target holds a byte that is not visible ASCII."};
   }
-  if (x_.hosts && !called_by(header(head.headers, "Host"), *x_.hosts)) {
+  if (!called_by(header(head.headers, "Host"), x_.hosts)) {
     return Refusal{ErrorCode::bad_request, "Host names another service; --hosts adds names."};
   }
   const auto encoding = header(head.headers, "Content-Encoding");

@@ -11,6 +11,7 @@
 
 #include "api/api.hpp"
 #include "server/access.hpp"
+#include "server/hosts.hpp"
 #include "server/http.hpp"
 #include "server/identity.hpp"
 
@@ -52,7 +53,7 @@ struct AppOptions {
   std::vector<std::string> trusted_proxies = {};  // whose X-Forwarded-For is believed
   /// Names by which Host may call the service besides those of this machine alone; none: any may.
   /// A page whose name is rebound to this machine's address would else speak to it from a browser.
-  std::optional<std::vector<std::string>> hosts = {};
+  Hosts hosts = {};
   std::shared_ptr<Access> access = {};  // empty: no keys
   std::function<api::Outcome(const api::Call&, const api::Context&)> dispatch = api::dispatch;
   std::function<void()> started = [] {};

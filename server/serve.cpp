@@ -148,15 +148,20 @@ void stop_work(Transport& work, const std::future<bool>& served, std::stop_sourc
   if (!finished(served, 1s)) std::_Exit(fail("a job did not stop within its time"));
 }
 
-/// Only a service that asks no key and is reached from this machine alone has something to fear
-/// from a page under a foreign name; others check where they are told names.
-std::optional<std::vector<std::string>> hosts_of(const Config& c) {
+/// The names of `address`, to listen on. Only a port that asks no key and is reached from this
+/// machine alone has something to fear from a page under a foreign name.
+Hosts hosts_of(const Config& c, const std::string& address, bool guarded) {
   const bool any = std::ranges::find(c.hosts, "*") != c.hosts.end();
-  const bool guarded = c.keys.empty() && !c.open && is_loopback(c.host);
-  if (any || (c.hosts.empty() && !guarded)) return std::nullopt;
+  if (any || !guarded) return std::nullopt;
   auto out = c.hosts;
-  out.push_back(c.host);
+  out.push_back(address);
   return out;
+}
+
+/// The service's port checks names also where it is told some.
+Hosts service_hosts(const Config& c) {
+  const bool guarded = c.keys.empty() && !c.open && is_loopback(c.host);
+  return hosts_of(c, c.host, guarded || !c.hosts.empty());
 }
 
 /// What both ports need, for the length of one run.
@@ -177,7 +182,7 @@ struct Run {
             .budget = ms(c.budget_s),
             .cors_origins = c.cors_origins,
             .trusted_proxies = c.trusted_proxies,
-            .hosts = hosts_of(c),
+            .hosts = service_hosts(c),
             .access = access,
             .started = [this] { metrics.started(); },
             .finished = [this](const JobRecord& job) { metrics.finished(job); },
@@ -196,8 +201,10 @@ struct Run {
     const bool worked_on = job.status == 200 || job.status == 422 || job.status >= 500;
     return worked_on && !job.facts.id.empty() && (!access->asks() || !job.identity.empty());
   }
-  AdminSources admin_sources() {
-    return {.ready = [this] { return ready.load(); }, .metrics = [this] { return metrics.text(); }};
+  AdminSources admin_sources(const Config& c) {
+    return {.ready = [this] { return ready.load(); },
+            .metrics = [this] { return metrics.text(); },
+            .hosts = hosts_of(c, c.admin_host, is_loopback(c.admin_host))};
   }
   MetricSources metric_sources() {
     return {.log_drops = [this] { return log.dropped(); },
@@ -312,7 +319,7 @@ int serve(const Config& c) noexcept {
   if (const auto wrong = run.access->load(); !wrong.empty()) return fail(wrong, kRefusedToStart);
   auto work = Transport::open(port, service_of(*run.app));
   if (!work) return fail(work.error());
-  auto probes = AdminPort::open(c.admin_host, c.admin_port, run.admin_sources());
+  auto probes = AdminPort::open(c.admin_host, c.admin_port, run.admin_sources(c));
   if (!probes) return fail(probes.error());
   run.work = &*work;
 

@@ -33,6 +33,20 @@ TEST(Admin, RefusesTheRestAsProblems) {
   EXPECT_EQ(response.content_type, "application/problem+json");
 }
 
+TEST(Admin, AnswersOnlyToItsNamesWhereToldThem) {
+  const auto status = [](const char* host, const Hosts& hosts) {
+    return admin({.method = "GET", .target = "/metrics", .headers = {{"Host", host}}},
+                 {.ready = [] { return true; },
+                  .metrics = [] { return std::string("m 1\n"); },
+                  .hosts = hosts})
+        .status;
+  };
+  EXPECT_EQ(status("localhost:9090", Hosts{{"cell-3.plant.example"}}), 200);
+  EXPECT_EQ(status("", Hosts{{"cell-3.plant.example"}}), 200);
+  EXPECT_EQ(status("evil.example", Hosts{{"cell-3.plant.example"}}), 400);
+  EXPECT_EQ(status("evil.example", std::nullopt), 200);
+}
+
 TEST(Metrics, CountWhatHappened) {
   std::uint64_t drops = 0;
   Metrics metrics({.log_drops = [&] { return drops; },
