@@ -99,7 +99,8 @@ void add_limits(CLI::App& app, Config& c) {
       ->check(CLI::IsMember(std::vector<std::string>{"info", "warning", "error"}));
   option(app, "log-queue", c.log_queue, "log lines kept for a slow reader of stdout")
       ->check(CLI::Range(std::size_t{16}, std::size_t{1u << 20}));
-  option(app, "log-directory", c.log_directory, "folder for <day>/<job>.jsonl; empty: none");
+  option(app, "log-directory", c.log_directory,
+         "folder for <day>/<identity>~<job>.jsonl, with --keys; empty: none");
   option(app, "log-day-files", c.log_day.files, "files a day's folder may hold")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}));
   option(app, "log-day-bytes", c.log_day.bytes, "bytes a day's folder may hold")

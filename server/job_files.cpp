@@ -80,12 +80,12 @@ constexpr auto kPatience = std::chrono::seconds(1);
 }  // namespace
 
 std::string file_name_of(std::string_view identity, std::string_view job) {
-  if (!identity.empty()) return std::string(identity) + "~" + file_name_of({}, job);
-  if (safe(job)) return std::string(job);
+  std::string out = std::string(identity) + "~";
+  if (safe(job)) return out.append(job);
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
   const std::vector<unsigned char> bytes(job.begin(), job.end());
   SHA256(bytes.data(), bytes.size(), digest.data());
-  std::string out = "id-";
+  out += "id-";
   for (std::size_t i = 0; i < digest.size() / 2; ++i) {
     fmt::format_to(std::back_inserter(out), "{:02x}", digest[i]);
   }
@@ -95,6 +95,9 @@ std::string file_name_of(std::string_view identity, std::string_view job) {
 struct JobFiles::Impl {
   struct Entry {
     std::string day, name, lines;
+    [[nodiscard]] std::size_t bytes() const {
+      return sizeof(Entry) + day.size() + name.size() + lines.size();
+    }
   };
 
   void run() {
@@ -104,6 +107,7 @@ struct JobFiles::Impl {
       if (queue.empty()) break;
       const Entry entry = std::move(queue.front());
       queue.pop_front();
+      held -= entry.bytes();
       lock.unlock();
       if (!day || last != entry.day) day.emplace(folder, last = entry.day);
       if (!day->append(entry.name, entry.lines, bounds)) ++dropped;
@@ -117,7 +121,8 @@ struct JobFiles::Impl {
   DayBounds bounds;
   std::string last;        // day
   std::optional<Day> day;  // its folder; the thread's alone
-  std::size_t most = 0;
+  std::size_t most = 0;    // bytes of the queue
+  std::size_t held = 0;    // of them
   std::mutex mutex;
   std::condition_variable some;
   std::condition_variable done;
@@ -127,11 +132,11 @@ struct JobFiles::Impl {
   std::atomic<std::uint64_t> dropped = 0;
 };
 
-JobFiles::JobFiles(std::string folder, DayBounds bounds, std::size_t queue)
+JobFiles::JobFiles(std::string folder, DayBounds bounds, std::size_t queue_bytes)
     : x_(std::make_shared<Impl>()) {
   x_->folder = std::move(folder);
   x_->bounds = bounds;
-  x_->most = queue;
+  x_->most = queue_bytes;
   std::thread([x = x_] { x->run(); }).detach();
 }
 
@@ -144,13 +149,15 @@ JobFiles::~JobFiles() {
 
 void JobFiles::write(std::string_view day, std::string_view identity, std::string_view job,
                      std::string lines) {
+  Impl::Entry entry{std::string(day), file_name_of(identity, job), std::move(lines)};
   {
     const std::lock_guard lock(x_->mutex);
-    if (x_->queue.size() >= x_->most) {
+    if (entry.bytes() > x_->most - x_->held) {
       ++x_->dropped;
       return;
     }
-    x_->queue.push_back({std::string(day), file_name_of(identity, job), std::move(lines)});
+    x_->held += entry.bytes();
+    x_->queue.push_back(std::move(entry));
   }
   x_->some.notify_one();
 }

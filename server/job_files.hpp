@@ -14,18 +14,18 @@ struct DayBounds {
   std::size_t bytes = std::size_t{1} << 30;
 };
 
-/// One file per job, `<folder>/<day>/[<identity>~]<job>.jsonl`, written by a thread of its own: a
-/// slow disk blocks no job. Queue and folders are bounded; what does not fit is dropped and
-/// counted.
+/// One file per job, `<folder>/<day>/<identity>~<job>.jsonl`, written by a thread of its own: a
+/// slow disk blocks no job. Queue and folders are bounded by bytes; what does not fit is dropped
+/// and counted.
 class JobFiles {
  public:
-  explicit JobFiles(std::string folder, DayBounds bounds = {}, std::size_t queue = 1024);
+  explicit JobFiles(std::string folder, DayBounds bounds = {},
+                    std::size_t queue_bytes = std::size_t{4} << 20);
   ~JobFiles();  // writes what is queued, for a second at most
   JobFiles(const JobFiles&) = delete;
   JobFiles& operator=(const JobFiles&) = delete;
 
-  /// Appends lines to the file of that job of `identity`, a key's (empty: no keys are asked for),
-  /// on that day ("2024-03-01").
+  /// Appends lines to the file of that job of `identity`, a key's, on that day ("2024-03-01").
   void write(std::string_view day, std::string_view identity, std::string_view job,
              std::string lines);
 
@@ -37,9 +37,9 @@ class JobFiles {
   std::shared_ptr<Impl> x_;  // the thread's too: it may hang in a write
 };
 
-/// The name of a job's file without its ending: the id where it is safe as a file's name, else
-/// "id-" and the first half of its SHA-256 in hex; behind the identity of its key and a '~', which
-/// neither can hold, so that no id names another key's file.
+/// The name of a job's file without its ending: the identity of its key, a '~', which neither can
+/// hold, so that no id names another key's file, and the id where it is safe as a file's name, else
+/// "id-" and the first half of its SHA-256 in hex.
 [[nodiscard]] std::string file_name_of(std::string_view identity, std::string_view job);
 
 }  // namespace tubecut::server

@@ -196,10 +196,11 @@ struct Run {
       files->write(utc(now).substr(0, 10), job.identity, job.facts.id, job_events(job, now));
     }
   }
-  /// A job that was worked on for whom it may: refused strangers leave nothing on the disk.
-  [[nodiscard]] bool kept(const JobRecord& job) const {
-    const bool worked_on = job.status == 200 || job.status == 422 || job.status >= 500;
-    return worked_on && !job.facts.id.empty() && (!access->asks() || !job.identity.empty());
+  /// A key's job that was accepted, so understood, whatever came of it then; a batch that was
+  /// answered; what failed. What is refused before leaves nothing on the disk.
+  [[nodiscard]] static bool kept(const JobRecord& job) {
+    const bool accepted = !job.facts.input_sha256.empty() || job.status == 200 || job.status >= 500;
+    return accepted && !job.facts.id.empty() && !job.identity.empty();
   }
   AdminSources admin_sources(const Config& c) {
     return {.ready = [this] { return ready.load(); },
@@ -261,7 +262,7 @@ std::optional<std::pair<std::string_view, std::string>> reached(const Config& c)
 std::string folder_fault(const Config& c) {
   const auto& folder = c.log_directory;
   if (folder.empty()) return {};
-  if (c.keys.empty() && !is_loopback(c.host))
+  if (c.keys.empty())
     return "--log-directory goes with --keys: whoever reaches the port would fill it";
   std::error_code unknown;
   if (!std::filesystem::is_directory(folder, unknown))

@@ -93,6 +93,29 @@ TEST(Access, GivesEachIdentityItsOwnRate) {
   EXPECT_EQ(refusal->retry_after_s, 1);
 }
 
+/// Those who take turns: owners of keys, whatever address they ask from; without keys, addresses,
+/// also those that a trusted proxy names.
+TEST(Access, NamesWhoTakesTurns) {
+  const auto mes = make_key("mes");
+  const auto cell = make_key("cell");
+  AppOptions options;
+  options.trusted_proxies = {"10.0.0.1"};
+  const auto client = [&options](const std::string& key, const std::string& peer) {
+    Request asked{.method = "GET", .target = "/v1/tubes", .peer = peer};
+    asked.headers = {{"X-Api-Key", key}, {"X-Forwarded-For", "192.168.7.7"}};
+    return App(options).client(asked);
+  };
+  EXPECT_EQ(client(mes.key, "192.168.1.1"), client(cell.key, "192.168.1.1"));
+  EXPECT_NE(client(mes.key, "192.168.1.1"), client(mes.key, "192.168.1.2"));
+  EXPECT_NE(client(mes.key, "10.0.0.1"), client(mes.key, "10.0.0.2"));
+  EXPECT_EQ(client(mes.key, "10.0.0.1"), client(mes.key, "192.168.7.7"));
+  options.access = std::make_shared<Access>(
+      file_with("tubecut_clients_keys", mes.line + "\n" + cell.line + "\n"));
+  ASSERT_EQ(options.access->load(), "");
+  EXPECT_NE(client(mes.key, "192.168.1.1"), client(cell.key, "192.168.1.1"));
+  EXPECT_EQ(client(mes.key, "192.168.1.1"), client(mes.key, "192.168.1.2"));
+}
+
 TEST(Access, IsAskedBeforeTheJobAndNamedInItsRecord) {
   const auto key = make_key("mes");
   auto access = std::make_shared<Access>(file_with("tubecut_app_keys", key.line + "\n"));
@@ -218,39 +241,39 @@ TEST(Capacity, ReadsBothVersionsOfControlGroups) {
 }
 
 TEST(JobFiles, KeepOneFilePerJobInsideTheirFolder) {
-  EXPECT_EQ(file_name_of("", "order-17_a.b"), "order-17_a.b");
+  EXPECT_EQ(file_name_of("mes", "order-17_a.b"), "mes~order-17_a.b");
   for (const auto* id : {"../../etc/passwd", ".hidden", "a/b", "a b", "", "\xc3\xa4"}) {
-    const auto name = file_name_of("", id);
-    EXPECT_EQ(name.substr(0, 3), "id-") << id;
-    EXPECT_EQ(name.size(), 35U) << id;
+    const auto name = file_name_of("mes", id);
+    EXPECT_EQ(name.substr(0, 7), "mes~id-") << id;
+    EXPECT_EQ(name.size(), 39U) << id;
     EXPECT_EQ(name.find('/'), std::string::npos);
   }
-  EXPECT_NE(file_name_of("", "a b"), file_name_of("", "a/b"));
+  EXPECT_NE(file_name_of("mes", "a b"), file_name_of("mes", "a/b"));
   const auto folder = ::testing::TempDir() + "tubecut_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
   {
     JobFiles files(folder);
-    files.write("2024-03-01", "", "order-17", "one\n");
-    files.write("2024-03-01", "", "order-17", "two\n");
-    files.write("2024-03-01", "", "../evil", "three\n");
+    files.write("2024-03-01", "mes", "order-17", "one\n");
+    files.write("2024-03-01", "mes", "order-17", "two\n");
+    files.write("2024-03-01", "mes", "../evil", "three\n");
   }
-  std::ifstream in(folder + "/2024-03-01/order-17.jsonl");
+  std::ifstream in(folder + "/2024-03-01/mes~order-17.jsonl");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(text, "one\ntwo\n");
   EXPECT_FALSE(std::ifstream(folder + "/evil.jsonl"));
-  ASSERT_EQ(::mkfifo((folder + "/2024-03-01/stuck.jsonl").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder + "/2024-03-01/mes~stuck.jsonl").c_str(), 0600), 0);
   {
     JobFiles files(folder);
-    files.write("2024-03-01", "", "stuck", "never read\n");
-    files.write("2024-03-01", "", "order-18", "after it\n");
-    for (int i = 0; i < 5000 && !std::ifstream(folder + "/2024-03-01/order-18.jsonl"); ++i) {
+    files.write("2024-03-01", "mes", "stuck", "never read\n");
+    files.write("2024-03-01", "mes", "order-18", "after it\n");
+    for (int i = 0; i < 5000 && !std::ifstream(folder + "/2024-03-01/mes~order-18.jsonl"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(files.dropped(), 1U);
   }
-  EXPECT_TRUE(std::ifstream(folder + "/2024-03-01/order-18.jsonl"));
+  EXPECT_TRUE(std::ifstream(folder + "/2024-03-01/mes~order-18.jsonl"));
   JobFiles lost("/nowhere/at/all");
-  lost.write("2024-03-01", "", "x", "y\n");
+  lost.write("2024-03-01", "mes", "x", "y\n");
   for (int i = 0; i < 5000 && lost.dropped() == 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -268,8 +291,20 @@ std::vector<std::string> files_in(const std::string& folder) {
 TEST(JobFiles, KeepKeysApart) {
   const std::vector<std::string> ids = {"b~job", "job", "a~b", "../a~job", "~job"};
   std::set<std::string> names;
-  for (const auto* identity : {"", "a", "b", "a.b"})
+  for (const auto* identity : {"mes", "a", "b", "a.b"})
     for (const auto& id : ids) EXPECT_TRUE(names.insert(file_name_of(identity, id)).second) << id;
+}
+
+TEST(JobFiles, QueueSoManyBytes) {
+  const auto folder = ::testing::TempDir() + "tubecut_queued_jobs";
+  ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
+  {
+    JobFiles files(folder, {}, 1u << 20);
+    files.write("2024-03-01", "mes", "too-large", std::string(1u << 20, '.'));
+    files.write("2024-03-01", "mes", "fits", std::string(1u << 19, '.'));
+    EXPECT_EQ(files.dropped(), 1U);
+  }
+  EXPECT_EQ(files_in(folder + "/2024-03-01"), std::vector<std::string>{"mes~fits.jsonl"});
 }
 
 TEST(JobFiles, HoldTheBoundsOfADay) {
@@ -278,14 +313,14 @@ TEST(JobFiles, HoldTheBoundsOfADay) {
   for (int turn = 0; turn < 2; ++turn) {  // a new process counts what is there
     JobFiles files(folder, {.files = 3, .bytes = 100});
     for (int i = 0; i < 20; ++i)
-      files.write("2024-03-01", "", "job-" + std::to_string(i), "0123456789");
-    for (int i = 0; i < 20; ++i) files.write("2024-03-02", "", "one", "0123456789");
+      files.write("2024-03-01", "mes", "job-" + std::to_string(i), "0123456789");
+    for (int i = 0; i < 20; ++i) files.write("2024-03-02", "mes", "one", "0123456789");
     for (int i = 0; i < 5000 && files.dropped() < (turn == 0 ? 27U : 37U); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(files.dropped(), turn == 0 ? 27U : 37U);
   }
   EXPECT_EQ(files_in(folder + "/2024-03-01").size(), 3U);
-  EXPECT_EQ(std::filesystem::file_size(folder + "/2024-03-02/one.jsonl"), 100U);
+  EXPECT_EQ(std::filesystem::file_size(folder + "/2024-03-02/mes~one.jsonl"), 100U);
 }
 
 }  // namespace

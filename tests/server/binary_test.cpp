@@ -13,6 +13,7 @@
 
 #include "api/json.hpp"
 #include "tests/server/client.hpp"
+#include "tests/support/golden.hpp"
 
 namespace tubecut::test {
 namespace {
@@ -66,6 +67,27 @@ TEST(Binary, SaysFirstWhereItListens) {
   EXPECT_NE(ask(service.admin_port, get("/metrics")).body.find("tubecut_ready 1\n"),
             std::string::npos);
   EXPECT_EQ(ask(service.port, get("/livez")).status, 404);
+}
+
+/// A page under a foreign name reaches neither port of a service that asks no key.
+TEST(Binary, AnswersOnItsOwnMachineToNoForeignName) {
+  const auto as = [](std::string request, const std::string& host) {
+    const std::string own = "Host: localhost";
+    const auto at = request.find(own);
+    EXPECT_NE(at, std::string::npos);
+    return request.replace(at, own.size(), "Host: " + host);
+  };
+  const Service service;
+  await_ready(service);
+  for (const auto& [host, status] :
+       {std::pair("127.0.0.1:8080", 200), std::pair("evil.example", 400)}) {
+    EXPECT_EQ(ask(service.port, as(get("/v1/version"), host)).status, status) << host;
+    EXPECT_EQ(ask(service.admin_port, as(get("/metrics"), host)).status, status) << host;
+  }
+  const Service named({"--hosts", "cell-3.plant.example"});
+  await_ready(named);
+  EXPECT_EQ(ask(named.port, as(get("/v1/version"), "cell-3.plant.example")).status, 200);
+  EXPECT_EQ(ask(named.admin_port, as(get("/metrics"), "cell-3.plant.example")).status, 200);
 }
 
 TEST(Binary, LogsEachJobUnderItsId) {
@@ -287,16 +309,18 @@ TEST(Binary, IsNotOpenByAccident) {
   EXPECT_EQ(folder.exit_code(), 78);
 }
 
+/// A key, and its line of a file of keys.
+std::pair<std::string, std::string> new_key(const char* name) {
+  Program program({TUBECUT_BINARY, "new-key", name});
+  static_cast<void>(program.line());
+  const auto key = program.line();
+  static_cast<void>(program.line());
+  return std::pair(key, program.line());
+}
+
 TEST(Binary, AsksForKeysAndReadsThemAgain) {
-  const auto made = [](const char* name) {
-    Program program({TUBECUT_BINARY, "new-key", name});
-    static_cast<void>(program.line());
-    const auto key = program.line();
-    static_cast<void>(program.line());
-    return std::pair(key, program.line());
-  };
-  const auto first = made("mes");
-  const auto second = made("cell");
+  const auto first = new_key("mes");
+  const auto second = new_key("cell");
   const std::string file = ::testing::TempDir() + "tubecut_binary_keys";
   std::ofstream(file) << first.second << "\n";
   Service service({"--keys", file});
@@ -321,27 +345,48 @@ TEST(Binary, AsksForKeysAndReadsThemAgain) {
   EXPECT_EQ(status(second.first), 200);
 }
 
-TEST(Binary, KeepsAFilePerJob) {
+/// Of a key's jobs those that are accepted: neither what is refused nor what no key sent.
+TEST(Binary, KeepsAFilePerAcceptedJobOfAKey) {
   const std::string folder = ::testing::TempDir() + "tubecut_binary_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
-  Service service({"--log-directory", folder});
+  EXPECT_EQ(Program({TUBECUT_BINARY, "--port", "0", "--admin-port", "0", "--log-directory", folder})
+                .exit_code(),
+            78);
+  const auto key = new_key("mes");
+  const std::string keys = ::testing::TempDir() + "tubecut_binary_jobs_keys";
+  std::ofstream(keys) << key.second << "\n";
+  Service service({"--log-directory", folder, "--keys", keys});
   await_ready(service);
   const std::string trace = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01";
-  EXPECT_EQ(ask(service.port,
-                post("/v1/feed-curves", "{}", "Job-Id: order-17\r\ntraceparent: " + trace + "\r\n"))
-                .status,
-            422);
+  const auto status = [&](const std::string& id, const std::string& body, const std::string& more) {
+    return ask(service.port, post("/v1/feed-curves", body,
+                                  "Job-Id: " + id + "\r\ntraceparent: " + trace + "\r\n" + more))
+        .status;
+  };
+  const std::string body = tubecut::testing::read_project_file(
+      "examples/feed-curves/calibrated-from-one-measurement.json");
+  const std::string with_key = "X-Api-Key: " + key.first + "\r\n";
+  EXPECT_EQ(status("order-17", body, with_key), 200);
+  EXPECT_EQ(status("refused", "{}", with_key), 422);
+  EXPECT_EQ(status("unread", "{not json", with_key), 400);
+  EXPECT_EQ(status("order-17", body, ""), 401);
   service.program.signal(SIGTERM);
   EXPECT_EQ(service.program.exit_code(), 0);
   std::string text;
+  int files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.path().filename() != "order-17.jsonl") continue;
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    EXPECT_EQ(entry.path().filename(), "mes~order-17.jsonl");
     std::ifstream in(entry.path());
     text.assign(std::istreambuf_iterator<char>(in), {});
   }
+  EXPECT_EQ(files, 1);
   for (const auto* event : {"received", "read", "started", "decoded", "sent", "job"}) {
-    EXPECT_NE(text.find("\"event\":\"" + std::string(event) + "\""), std::string::npos)
-        << event << text;
+    const auto named = "\"event\":\"" + std::string(event) + "\"";
+    const auto first = text.find(named);
+    EXPECT_NE(first, std::string::npos) << event << text;
+    EXPECT_EQ(text.find(named, first + 1), std::string::npos) << "a stranger's too: " << text;
   }
   EXPECT_NE(text.find(trace), std::string::npos);
   EXPECT_EQ(text.find("arm_mm"), std::string::npos);
