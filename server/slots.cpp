@@ -29,7 +29,8 @@ constexpr double kHeld = 0.4;
 constexpr int kLane = 1;
 /// Jobs beyond the slots that may have outgrown the lane at a time.
 constexpr int kSpare = 1;
-/// Until the first of a kind is done. What brings no body is believed to be quick until then.
+/// Until the first of a kind is done. One that may take more than so much CPU is not tried.
+constexpr std::chrono::seconds kTried{5};
 constexpr double kUnknown = 0.005;
 /// Weight of the last job in its kind's mean. What takes long is believed sooner: the lane is not
 /// for a kind of which some are long.
@@ -100,9 +101,11 @@ void Slots::estimate(Job& job) const {
   const double* const mean = mean_of(job);
   const bool known = mean != nullptr;
   job.claim.expected_s = known ? *mean : kUnknown;
-  job.claim.trial = mean == &kUnknown;
+  const bool bodiless = job.request.body.empty();
+  const bool short_budget = job.budget.cpu > kTried.zero() && job.budget.cpu <= kTried;
+  job.claim.trial = mean == &kUnknown || (!known && !bodiless);
   job.claim.quick = job.request.line == 0 && job.claim.expected_s <= kQuick &&
-                    job.request.body.size() <= (known ? kQuickBytes : 0);
+                    job.request.body.size() <= kQuickBytes && (known || bodiless || short_budget);
 }
 
 double Slots::expected_wait(Job& job) const {

@@ -17,9 +17,9 @@ struct Claim {
   const void* flow = nullptr;  // of the client's: the connection it came by
   double expected_s = 0.0;     // in a slot
   bool quick = false;          // may take the lane that long jobs cannot fill
-  bool trial = false;          // but it is not known to be: its client's first of a kind
-  std::size_t order = 0;       // in which it came; the queue's
-  double since = 0.0;          // when it began to wait, in seconds
+  bool trial = false;     // but it is not known to be: its client's first of a kind, or anyone's
+  std::size_t order = 0;  // in which it came; the queue's
+  double since = 0.0;     // when it began to wait, in seconds
 };
 
 /// Jobs that wait for a slot. Clients take turns by the time their jobs have had, and so do the

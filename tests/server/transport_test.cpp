@@ -334,7 +334,8 @@ void compute_for(std::chrono::milliseconds time) {
 }
 
 std::string_view kind_of(const Request& request) {
-  return request.target.starts_with("/long") ? "long" : "short";
+  if (request.target.starts_with("/long")) return "long";
+  return request.target.starts_with("/short") ? "short" : "catalogue";
 }
 
 Service service_of(std::function<Response(const Request&)> handle) {
@@ -348,6 +349,7 @@ Service service_of(std::function<Response(const Request&)> handle) {
 /// Lets a job of some length teach what its kind takes.
 void teach(const Port& port) { EXPECT_EQ(one(port, get("/longish")).substr(0, 3), "GET"); }
 
+/// Catalogues, and small jobs of a kind of which none is done yet.
 TEST(Transport, AnswersQuickJobsWhileLongOnesHoldEverySlot) {
   std::atomic<bool> learnt = false;
   std::promise<void> go;
@@ -373,7 +375,10 @@ TEST(Transport, AnswersQuickJobsWhileLongOnesHoldEverySlot) {
   }
   std::this_thread::sleep_for(100ms);
   int answered = 0;
-  for (int i = 0; i < 50; ++i) answered += one(port, get("/short")) == "GET /short " ? 1 : 0;
+  for (int i = 0; i < 25; ++i) {
+    answered += one(port, post("/short", "1")) == "POST /short 1" ? 1 : 0;
+    answered += one(port, get("/catalogue")) == "GET /catalogue " ? 1 : 0;
+  }
   go.set_value();
   EXPECT_EQ(answered, 50);
   EXPECT_EQ(hogs.front()->receive().status, 200);
@@ -416,20 +421,19 @@ TEST(Transport, AnswersAClientsQuickJobsWhileAnothersOfTheKindAreLong) {
   EXPECT_EQ(hogs.front()->receive().status, 200);
 }
 
-/// What was long once says nothing of a service that has nothing to do.
+/// What was long once says nothing of a service that has nothing to do. A job that would have to
+/// wait for a quarter of its budget is refused, and the long ones took three.
 TEST(Transport, RefusesNobodyOnAnIdleServiceForWhatWasLongBefore) {
+  auto service = service_of([](const Request& request) {
+    if (request.target.starts_with("/long")) compute_for(300ms);
+    return echo(request);
+  });
+  service.budget = [](const Request&) { return Budget{.cpu = 400ms}; };
   TransportOptions options;
-  const Port port(service_of([](const Request& request) {
-                    if (request.target.starts_with("/long")) std::this_thread::sleep_for(150ms);
-                    return echo(request);
-                  }),
-                  options);
+  const Port port(std::move(service), options);
   for (int i = 0; i < 6; ++i) teach(port);
-  Client client(port.number());
-  for (int i = 0; i < 20; ++i) {
-    client.send(get("/short"));
-    ASSERT_EQ(client.receive().body, "GET /short ") << i;
-  }
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(one(port, get("/short")), "GET /short ") << i;
+  teach(port);
 }
 
 Response until_stopped(const Request& request, bool busy, std::chrono::milliseconds at_most) {
@@ -486,6 +490,32 @@ TEST(Transport, LeavesRoomBesideAnAddressThatHasItsShare) {
   for (int i = 0; i < 6; ++i) EXPECT_TRUE(many[static_cast<std::size_t>(i)]->at_end()) << i;
   many.back()->send(get("/good"));
   EXPECT_EQ(many.back()->receive().body, "GET /good ");
+}
+
+/// Behind a proxy all come from one address: a key has its share of the connections all the same.
+TEST(Transport, LeavesRoomBesideAKeyThatHasItsShare) {
+  auto service = service_of(echo);
+  service.client = [](const Request& request) {
+    return std::string(header(request.headers, "Who"));
+  };
+  service.is_shared = [](const std::string&) { return true; };
+  TransportOptions options;
+  options.connections = 32;
+  options.per_client = 4;
+  const Port port(std::move(service), options);
+  std::vector<std::unique_ptr<Client>> many;
+  const auto ask = [&](const char* who) {
+    many.push_back(std::make_unique<Client>(port.number()));
+    many.back()->send(get("/good", std::string("Who: ") + who + "\r\n"));
+    return many.back()->receive().body;
+  };
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(ask("mes"), "GET /good ") << i;
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(ask("mes"), "Too many connections of this client are open.") << i;
+  EXPECT_EQ(ask("cell"), "GET /good ");
+  many.erase(many.begin());  // one of the four leaves
+  std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(ask("mes"), "GET /good ");
 }
 
 TEST(Transport, TakesAPortOnce) {
