@@ -9,8 +9,7 @@ namespace tubecut::api {
 /// What makes jobs long: the CPU that one of them takes, and what it is counted by. One table:
 /// `GET /v1/limits` shows it, `validate_only` and `over_budget` reckon by it. Measured by
 /// `bench/estimates`, on one core of the machine in docs/promises.md. What grows worse than the
-/// request does (pairs, triples, "for each") has a bound of its own in limits.hpp, but for the
-/// pairs of points within a kerf, which the budget bounds.
+/// request does (pairs, triples, "for each") has a bound of its own in limits.hpp.
 /// X(name, seconds, per)
 #define TUBECUT_COSTS(X)                                                                     \
   X(job, 380e-6, "job")                                                                      \

@@ -26,6 +26,7 @@ namespace tubecut::api {
   X(body_max_bytes, 1'048'576)       \
   X(body_large_max_bytes, 8'388'608) \
   X(nesting_max, 32)                 \
+  X(kerf_pairs_max, 5e6)             \
   X(near_pairs_max, 1'000'000)       \
   X(overlaps_max, 5'000)             \
   X(mill_samples_max, 4e7)           \

@@ -14,10 +14,13 @@
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
+#include "core/bevel/beam.hpp"
 #include "core/bevel/table.hpp"
 
 namespace tubecut::api {
 namespace {
+
+static_assert(limit::kerf_pairs_max == bevel::kMostKerfPairs);
 
 struct BevelTables {
   using Spec = BevelTableRequest;

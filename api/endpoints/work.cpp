@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/base/angle.hpp"
+#include "core/bevel/beam.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -156,11 +157,6 @@ void add_curves(double points, double cutters, Work& work) {
   work.add(Cost::curve_cutter, cutters);
 }
 
-/// Pairs of a closed cut's points, round a tube of this radius, within a kerf of each other.
-double beam_pairs(double points, double kerf, double radius) {
-  return points * points * std::min(1.0, kerf / (kTwoPi * radius));
-}
-
 /// Its bevel is 0 all round and nothing is to be smoothed.
 bool is_square(const bevel::TableSpec& spec) {
   if (spec.partners.size() != 1) return false;
@@ -171,7 +167,7 @@ bool is_square(const bevel::TableSpec& spec) {
 void add_table(const bevel::TableSpec& spec, double radius, double cutters, Work& work) {
   const double points = points_of(spec.sampling, radius);
   const double tables = spec.untilted ? kUntilted : 1.0;
-  const double pairs = tables * beam_pairs(points, spec.kerf, radius);
+  const double pairs = tables * bevel::kerf_pairs(points, spec.kerf, radius);
   if (is_square(spec)) {
     work.add(Cost::square_table, tables);
     work.add(Cost::square_table_point, tables * points);
@@ -212,7 +208,7 @@ void add_work(const bevel::HoleSpec& spec, Work& work) {
   const double points = points_of(spec.sampling, spec.chord.outer_radius);
   const double radius = std::visit([](const auto& tube) { return tube.radius; }, spec.branch);
   work.add(Cost::hole_point, sides * points);
-  work.add(Cost::beam_pair, sides * beam_pairs(points, spec.kerf, radius));
+  work.add(Cost::beam_pair, sides * bevel::kerf_pairs(points, spec.kerf, radius));
 }
 
 void add_work(const PartRequest& spec, Work& work) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/bevel/beam.hpp"
 #include "core/bevel/hole.hpp"
@@ -6,6 +8,22 @@
 #include "core/math/rotation.hpp"
 
 namespace tubecut::bevel {
+namespace {
+
+/// Of all pairs of rows those within a kerf of each other.
+double share_within(double kerf, double radius) { return std::min(1.0, kerf / (kTwoPi * radius)); }
+
+}  // namespace
+
+double kerf_pairs(double rows, double kerf, double radius) {
+  return rows * rows * share_within(kerf, radius);
+}
+
+std::size_t most_rows(double kerf, double radius) {
+  constexpr double kAny = 1e15;
+  const double most = std::sqrt(kMostKerfPairs / share_within(kerf, radius));
+  return most < kAny ? static_cast<std::size_t>(most) : std::numeric_limits<std::size_t>::max();
+}
 
 BeamCut beam_cut(const TableSpec& spec, const Table& table) {
   BeamCut out{.inner = spec.target.inner_radius(),

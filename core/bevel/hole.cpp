@@ -8,6 +8,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/bevel/beam.hpp"
 #include "core/bevel/hole_end.hpp"
 #include "core/bevel/hole_fit.hpp"
 #include "core/bevel/hole_slice.hpp"
@@ -344,11 +345,7 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   const double rho = on ? branch.radius - spec.branch_wall : branch.radius + spec.gap;
   TRY(check_kerf(spec.kerf));
   if (!(0.5 * spec.kerf < rho))
-    return fail({.code = ErrorCode::out_of_range,
-                 .member = "kerf",
-                 .got = spec.kerf,
-                 .limit = 2.0 * rho,
-                 .unit = "mm"});
+    return fail({ErrorCode::out_of_range, "kerf", spec.kerf, 2.0 * rho, "mm", {}});
   TRY(const auto root,
       joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho));
   const WallLines walls(spec, branch, rho, root.cutters.front());
@@ -376,10 +373,12 @@ Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch) {
   return under("branch", std::get<joint::AxisTube>(branch).tube());
 }
 
-Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop) {
-  if (spec.kind == JointKind::mitre)
+Result<HoleCut> hole(const HoleSpec& asked, const std::stop_token& stop) {
+  if (asked.kind == JointKind::mitre)
     return fail({.code = ErrorCode::unsupported_combination, .member = "joint/kind"});
-  TRY(const auto branch, branch_tube(spec.branch));
+  TRY(const auto branch, branch_tube(asked.branch));
+  HoleSpec spec = asked;
+  spec.sampling.max_nodes = std::min(spec.sampling.max_nodes, most_rows(spec.kerf, branch.radius));
   HoleCut out;
   TRY(auto near, one_hole(spec, branch, false, out.warnings, stop));
   out.holes.push_back(std::move(near));

@@ -3,6 +3,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/bevel/beam.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/bevel/torch_line.hpp"
 
@@ -231,7 +232,10 @@ bool Rows::jump_pair(std::size_t i) const {
 
 Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Rows& known,
                   const std::stop_token& stop) {
-  TRY(auto samples, joint::sample(g.root, g.spec.sampling, also, stop));
+  auto sampling = g.spec.sampling;
+  sampling.max_nodes =
+      std::min(sampling.max_nodes, most_rows(g.spec.kerf, g.spec.target.outer_radius));
+  TRY(auto samples, joint::sample(g.root, sampling, also, stop));
   Rows out{.samples = std::move(samples), .points = {}};
   const auto& nodes = out.samples.nodes;
   out.points.resize(nodes.size());

@@ -173,8 +173,8 @@ TEST(Estimate, IsReckonedByTheCostsThatLimitsShow) {
                                   {});
   const auto limits = *api::parse(page.body);
   EXPECT_EQ(at(limits, "costs").as<Json::Array>()->size(), api::kCosts.size());
-  for (const auto* name : {"near_pairs_max", "overlaps_max", "mill_samples_max", "mill_triples_max",
-                           "mill_annealed_samples_max"})
+  for (const auto* name : {"kerf_pairs_max", "near_pairs_max", "overlaps_max", "mill_samples_max",
+                           "mill_triples_max", "mill_annealed_samples_max"})
     EXPECT_GT(number(limits, std::string("limits/") + name), 0.0) << name;
 }
 

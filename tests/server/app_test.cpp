@@ -298,7 +298,7 @@ TEST(App, TellsWhatWasAskedWhateverBecameOfIt) {
   EXPECT_EQ(records.back().replica, "cut-1");
   // Seconds of work: every two points within the kerf.
   auto wide = cut;
-  wide.replace(wide.find("\"kerf_mm\": 0"), 12, "\"kerf_mm\": 20");
+  wide.replace(wide.find("\"kerf_mm\": 0"), 12, "\"kerf_mm\": 2.5");
   const std::string fine = wide + R"(, "sampling": {"uniform_points": 20000}})";
   EXPECT_EQ(late(fine), 504);
   EXPECT_EQ(records.back().facts.input_sha256.size(), 64U);

@@ -35,17 +35,18 @@ TABLE = {"root_surface": "inner", "groove": {"rule": "half_dihedral"}, "kerf_mm"
          "smoothing": {"method": "envelope", "limits": {"max_slope_deg_per_mm": 5, "max_curvature_deg_per_mm2": 1}}}
 FINE = {"tolerance_mm": 0.0001}
 POINTS = {"uniform_points": 20000}
+KERF_POINTS = {"uniform_points": 7900}  # of a kerf as wide as a twelfth of the girth, nearly kerf_pairs_max of them
 
 
 def bevel_tables():
     wide = {"outer_diameter_mm": 200, "wall_mm": 20}
-    yield "kerf-of-50-mm", TABLE | {"target": wide, "cutters": many_tubes(1), "sampling": POINTS, "kerf_mm": 50}
+    yield "kerf-of-50-mm", TABLE | {"target": wide, "cutters": many_tubes(1), "sampling": KERF_POINTS, "kerf_mm": 50}
     yield "64-elbows", bent(TUBE, 64) | {"sampling": {"uniform_points": 8}}
     yield "6-elbows", bent(TUBE, 6)
     yield "fine", example("bevel-tables/table-1-torch-45-deg") | {"sampling": FINE}
     yield "points", example("bevel-tables/table-1-torch-45-deg") | {"sampling": POINTS}
     yield "square-kerf", {"target": {"outer_diameter_mm": 219.1, "wall_mm": 10}, "cutters": [{"kind": "plane", "point_mm": [0, 0, 50], "normal": [0, 0, 1]}],
-                          "root_surface": "inner", "groove": {"rule": "none"}, "kerf_mm": 50, "smoothing": {"method": "none"}, "sampling": POINTS}
+                          "root_surface": "inner", "groove": {"rule": "none"}, "kerf_mm": 50, "smoothing": {"method": "none"}, "sampling": KERF_POINTS}
     body = example("bevel-tables/table-1-five-axis-at-600-mm-min")
     yield "machine-points", body | {"sampling": POINTS}
     tubes = TABLE | {"target": {"outer_diameter_mm": 114.3, "wall_mm": 6.3}, "cutters": many_tubes(64)}

@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 
+#include "core/bevel/beam.hpp"
 #include "tests/support/line_distance.hpp"
 
 namespace tubecut::bevel {
@@ -479,6 +480,20 @@ TEST(Hole, NoEdgeCrossesItself) {
   std::cout << answered << " answered, " << refused << " cross themselves\n";
   EXPECT_GT(answered, 100);
   EXPECT_GT(refused, 10);
+}
+
+/// With a kerf pairs of nodes within it are looked at, so there may be fewer nodes.
+TEST(Hole, HasFewerNodesWhereTheKerfIsWide) {
+  auto s = plain(JointKind::set_in);
+  s.sampling = {.uniform_points = 20'000, .tolerance = {}, .max_nodes = 20'000};
+  const double girth = kTwoPi * std::get<joint::TubeCutter>(s.branch).radius;
+  s.kerf = girth / 10.0;
+  const auto cut = hole(s);
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().code(), ErrorCode::too_many_nodes);
+  EXPECT_EQ(cut.error().issues.front().member, "sampling");
+  EXPECT_EQ(std::get<double>(cut.error().issues.front().limit),
+            std::floor(std::sqrt(10.0 * kMostKerfPairs)));
 }
 
 TEST(Hole, TooFineASamplingIsRefusedAndACancelledCallToo) {

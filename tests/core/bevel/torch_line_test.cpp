@@ -53,6 +53,22 @@ void expect_clear(const Seen& s, const std::string& what) {
   EXPECT_LE(s.left_off, 1.0) << what;
 }
 
+/// Pairs of rows within a kerf are looked at, so there may be fewer rows with one.
+TEST(TorchLine, HasFewerRowsWhereTheKerfIsWide) {
+  auto spec = pair(88.9, 5.0, 114.3, 60.0);
+  spec.kerf = 40.0;
+  const auto most = most_rows(spec.kerf, spec.target.outer_radius);
+  EXPECT_LE(kerf_pairs(static_cast<double>(most), spec.kerf, spec.target.outer_radius),
+            kMostKerfPairs);
+  EXPECT_GT(kerf_pairs(static_cast<double>(most + 1), spec.kerf, spec.target.outer_radius),
+            kMostKerfPairs);
+  spec.sampling = {.uniform_points = most + 1, .tolerance = {}, .max_nodes = 100'000};
+  const auto cut = table(spec);
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().code(), ErrorCode::too_many_nodes);
+  EXPECT_EQ(std::get<double>(cut.error().issues.front().limit), static_cast<double>(most));
+}
+
 TEST(TorchLine, StaysOutOfTheThreeJointsItGouged) {
   auto lifted = pair(114.3, 8, 219.1, 30);
   lifted.contact = Contact::automatic;
