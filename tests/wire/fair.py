@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""One client's long jobs beside everybody else's: `fair.py BINARY SECONDS`. A batch of long lines, then eight connections of
-long jobs, all from this address; meanwhile catalogues and small jobs are asked for over connections of their own. None of those is
-refused. When the long ones are over, the service is idle and refuses nothing."""
+"""One client's long jobs beside everybody else's: `fair.py BINARY SECONDS`. Two of some seconds on a service that has answered nothing yet,
+then a batch of long lines, then eight connections of long jobs, all from this address; meanwhile catalogues and small jobs are asked for
+over connections of their own. None of those is refused. When the long ones are over, the service is idle and refuses nothing."""
 
 import json
 import sys
 import threading
 import time
 
+import heaviest
 from service import BODY, ROOT, Service, connect, exchange, get, head, post
 
 HOGS = 8
@@ -73,6 +74,15 @@ def main():
             if set(statuses) != {200}:
                 wrong.append(f"{what}: {name}: {statuses}")
 
+    first = post(heaviest.text(next(body for endpoint, name, body in heaviest.requests() if f"{endpoint}/{name}" == "mill-paths/20000")),
+                 target="/v1/mill-paths")
+    with Service(binary, "--slots", "1") as service, connect(service.port, 60.0) as sock, connect(service.port, 60.0) as other:
+        for one in (sock, other):
+            one.sendall(first)
+        time.sleep(0.3)
+        judge("beside the first jobs", victims(service.port, time.monotonic() + min(seconds, 3.0), kinds))
+        if service.metric("tubecut_slots_busy ") < 1:
+            wrong.append("the first job was over meanwhile")
     with Service(binary, "--slots", "1") as service:
         for _ in range(20):  # what a small job takes
             exchange(service.port, post(BODY))
