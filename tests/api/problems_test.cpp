@@ -182,6 +182,19 @@ TEST(Problems, TooManyNodes) {
   EXPECT_EQ(answer.error().issues.front().limit, Shown{50.0});
 }
 
+/// A wide kerf allows fewer points; who asks for as many as the refusal names is answered.
+TEST(Problems, TooManyNodesForTheKerfNamesHowMany) {
+  const auto points = [](double count) {
+    return with(with(table_1(), "kerf_mm", 20.0), "sampling", object({{"uniform_points", count}}));
+  };
+  const auto refused = post(kBevel, points(20'000.0));
+  expect_problem(refused, {"too_many_nodes", "/sampling"});
+  const auto most = number(refused.body, "errors/0/limit");
+  EXPECT_LT(most, 20'000.0);
+  EXPECT_FALSE(post(kBevel, points(most)).outcome.error);
+  expect_problem(post(kBevel, points(most + 1.0)), {"too_many_nodes", "/sampling"});
+}
+
 // ---- smoothing as published
 
 TEST(Problems, PublishedSmoothing) {
