@@ -28,7 +28,7 @@ Response refuse(ErrorCode code, std::string_view detail) {
 Response admin(const Request& request, const AdminSources& sources) {
   if (request.refusal) return refuse(request.refusal->code, request.refusal->detail);
   if (!called_by(header(request.headers, "Host"), sources.hosts))
-    return refuse(ErrorCode::bad_request, "Host names another service; --hosts adds names.");
+    return refuse(ErrorCode::bad_request, kForeignHost);
   const auto path = path_of(request.target);
   const bool known = path == "/livez" || path == "/readyz" || path == "/metrics";
   if (!known)

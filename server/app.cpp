@@ -126,7 +126,7 @@ std::optional<Refusal> App::screen(const Request& head) const {
     return Refusal{ErrorCode::bad_request, "The target holds a byte that is not visible ASCII."};
   }
   if (!called_by(header(head.headers, "Host"), x_.hosts)) {
-    return Refusal{ErrorCode::bad_request, "Host names another service; --hosts adds names."};
+    return Refusal{ErrorCode::bad_request, std::string(kForeignHost)};
   }
   const auto encoding = header(head.headers, "Content-Encoding");
   if (!encoding.empty() && !equal_ignoring_case(encoding, "identity")) {
