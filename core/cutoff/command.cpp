@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "core/base/try.hpp"
 #include "core/cutoff/fits.hpp"
 
 namespace tubecut::cutoff {
@@ -78,7 +79,7 @@ Result<CommandErrors> assess(const WorkFeed& work, const ChebyshevSeries& series
   const std::size_t n = grid.size();
   std::vector<double> stroke(n), speed(n), ripple(n), place(n);
   for (std::size_t i = 0; i < n; ++i) stroke[i] = drive.stroke(grid[i]);
-  if (auto ok = check_range(work, drive, stroke); !ok) return tl::unexpected(ok.error());
+  TRY(check_range(work, drive, stroke));
   for (std::size_t i = 0; i < n; ++i) {
     const Forward tool = drive.tool(stroke[i]);
     speed[i] = drive.speed_error(grid[i], exact[i]);
@@ -172,23 +173,22 @@ Command describe(const WorkFeed& work, FitMethod method, const ChebyshevSeries& 
 
 Result<Command> automatic(const WorkFeed& work, const FitSpec& spec, std::stop_token stop) {
   for (int degree = 1; degree <= kHighestDegree; ++degree) {
-    const auto series = shifted_fit(work, spec, FitMethod::minimax, degree, stop);
-    if (!series) return tl::unexpected(series.error());
-    const auto errors = assess(work, *series);
+    TRY(const auto series, shifted_fit(work, spec, FitMethod::minimax, degree, stop));
+    const auto errors = assess(work, series);
     if (errors && errors->max_relative_error <= spec.tolerance)
-      return describe(work, FitMethod::minimax, *series, *errors);
+      return describe(work, FitMethod::minimax, series, *errors);
   }
   return fail(
       {.code = ErrorCode::tolerance_not_met, .member = "fit/tolerance", .got = spec.tolerance});
 }
 
-std::optional<Error> check(const FitSpec& spec) {
+Result<void> check(const FitSpec& spec) {
   const auto wrong = [](ErrorCode code, const char* member, double got, Shown limit) {
-    return Error{{.code = code, .member = member, .got = got, .limit = std::move(limit)}};
+    return fail({.code = code, .member = member, .got = got, .limit = std::move(limit)});
   };
   const double degree = spec.degree;
   if (spec.method == FitMethod::equispaced)
-    return Error{{.code = ErrorCode::bad_choice, .member = "fit/method"}};
+    return fail({.code = ErrorCode::bad_choice, .member = "fit/method"});
   if (spec.method == FitMethod::automatic &&
       !(spec.tolerance > 0.0 && std::isfinite(spec.tolerance)))
     return wrong(ErrorCode::out_of_range, "fit/tolerance", spec.tolerance, "> 0");
@@ -197,20 +197,18 @@ std::optional<Error> check(const FitSpec& spec) {
   if (spec.method == FitMethod::three_point && spec.degree != 2)
     return wrong(ErrorCode::unsupported_combination, "fit/degree", degree, 2.0);
   if (spec.method != FitMethod::three_point && spec.nodes)
-    return Error{{.code = ErrorCode::unsupported_combination, .member = "fit/nodes"}};
-  return std::nullopt;
+    return fail({.code = ErrorCode::unsupported_combination, .member = "fit/nodes"});
+  return {};
 }
 
 }  // namespace
 
 Result<Command> command(const WorkFeed& work, const FitSpec& spec, std::stop_token stop) {
-  if (auto wrong = check(spec)) return tl::unexpected(*wrong);
+  TRY(check(spec));
   if (spec.method == FitMethod::automatic) return automatic(work, spec, stop);
-  const auto series = shifted_fit(work, spec, spec.method, spec.degree, stop);
-  if (!series) return tl::unexpected(series.error());
-  const auto errors = assess(work, *series);
-  if (!errors) return tl::unexpected(errors.error());
-  return describe(work, spec.method, *series, *errors);
+  TRY(const auto series, shifted_fit(work, spec, spec.method, spec.degree, stop));
+  TRY(const auto errors, assess(work, series));
+  return describe(work, spec.method, series, errors);
 }
 
 Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec,
@@ -227,10 +225,9 @@ Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSp
     for (const FitMethod method : kMethods) {
       if (method == FitMethod::three_point && degree != 2) continue;
       if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-      const auto series = fit(work, method, degree, std::nullopt, stop);
-      if (!series) return tl::unexpected(series.error());
-      if (const auto errors = assess(work, *series))
-        rows.push_back(describe(work, method, *series, *errors));
+      TRY(const auto series, fit(work, method, degree, std::nullopt, stop));
+      if (const auto errors = assess(work, series))
+        rows.push_back(describe(work, method, series, *errors));
     }
   return rows;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/try.hpp"
 #include "core/cutoff/preconditions.hpp"
 #include "core/math/search.hpp"
 
@@ -17,7 +18,7 @@ CylinderLimits limits_of(const CycleSpec& spec) {
   return {spec.max_cylinder_speed, spec.max_cylinder_acceleration, spec.max_cylinder_jerk};
 }
 
-std::optional<Error> check(const CycleSpec& spec) {
+Result<void> check(const CycleSpec& spec) {
   Preconditions on("cycle/");
   on.positive("period", spec.period, "s");
   on.positive("max_cylinder_speed", spec.max_cylinder_speed, "mm_s");
@@ -27,7 +28,7 @@ std::optional<Error> check(const CycleSpec& spec) {
   on.not_negative("dwell", spec.dwell, "s");
   on.not_negative("handling", spec.handling, "s");
   if (spec.target) on.positive("target", *spec.target, "per_hour");
-  return on.error();
+  return on.met();
 }
 
 /// One work window at any tool feed: speeds, accelerations and jerks scale with v, v^2, v^3.
@@ -212,33 +213,30 @@ Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vec
 }  // namespace
 
 Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec, std::stop_token stop) {
-  if (auto wrong = check(spec)) return tl::unexpected(*wrong);
+  TRY(check(spec));
   const Window window = window_of(work);
   const double v = work.work().feed;
-  const auto planned = plan(window, v, spec);
-  if (!planned) return tl::unexpected(planned.error());
+  TRY(const auto planned, plan(window, v, spec));
   Cycle out;
-  out.work_start = planned->approach.duration;
-  out.work_end = out.work_start + planned->work_duration;
-  out.stop = out.work_end + planned->stop.duration;
-  out.end = out.stop + spec.dwell + planned->back.duration;
+  out.work_start = planned.approach.duration;
+  out.work_end = out.work_start + planned.work_duration;
+  out.stop = out.work_end + planned.stop.duration;
+  out.end = out.stop + spec.dwell + planned.back.duration;
   out.cycle = out.end + spec.handling;
   out.pieces_per_hour = kSecondsPerHour / out.cycle;
-  out.stop_feed = planned->stop_feed;
-  out.stop_stroke = planned->stop_stroke;
-  out.overshoot = planned->stop_feed - work.work().end_feed;
+  out.stop_feed = planned.stop_feed;
+  out.stop_stroke = planned.stop_stroke;
+  out.overshoot = planned.stop_feed - work.work().end_feed;
   out.speed_in = v * window.start.first;
   out.speed_out = v * window.end.first;
   out.acceleration_step_in = std::abs(v * v * window.start.second);
   out.acceleration_step_out = std::abs(v * v * window.end.second);
-  out.approach_peak = planned->approach.peak;
-  out.return_peak = planned->back.peak;
+  out.approach_peak = planned.approach.peak;
+  out.return_peak = planned.back.peak;
   if (spec.target) out.target = target_of(window, spec, out, v);
   const auto motion =
-      phases_of(*planned, out, work.work().start_stroke, work.work().end_stroke, spec);
-  auto samples = sample(work, out, motion, spec.period, stop);
-  if (!samples) return tl::unexpected(samples.error());
-  out.samples = *std::move(samples);
+      phases_of(planned, out, work.work().start_stroke, work.work().end_stroke, spec);
+  TRY(out.samples, sample(work, out, motion, spec.period, stop));
   return out;
 }
 

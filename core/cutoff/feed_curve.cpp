@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/base/try.hpp"
 #include "core/cutoff/preconditions.hpp"
 
 namespace tubecut::cutoff {
@@ -33,7 +34,7 @@ Result<Table> tabulate(const WorkFeed& work, const TablePoints& spec) {
 Result<Table> tabulate(const WorkFeed& work, const TableStep& spec) {
   Preconditions on("table/");
   on.positive("step", spec.step, "mm");
-  if (auto wrong = on.error()) return tl::unexpected(*wrong);
+  TRY(on.met());
   const auto& w = work.work();
   const double range = w.end_feed - w.start_feed;
   const double steps =
@@ -92,39 +93,25 @@ Warning missed(const Cycle& cycle, double target) {
 }  // namespace
 
 Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop) {
-  const auto mechanism = Mechanism::make(spec.linkage);
-  if (!mechanism) return tl::unexpected(mechanism.error());
-  if (spec.tube)
-    if (auto wrong = check_tube(*spec.tube)) return tl::unexpected(*wrong);
-  const auto work = WorkFeed::make(*mechanism, spec.cut);
-  if (!work) return tl::unexpected(work.error());
-  auto table = std::visit([&](const auto& by) { return tabulate(*work, by); }, spec.table);
-  if (!table) return tl::unexpected(table.error());
-  auto fit = command(*work, spec.fit, stop);
-  if (!fit) return tl::unexpected(fit.error());
-
-  FeedCurve out{.geometry = mechanism->geometry(), .work = work->work()};
-  out.table = *std::move(table);
-  out.fit = *std::move(fit);
+  TRY(const auto mechanism, Mechanism::make(spec.linkage));
+  if (spec.tube) TRY(check_tube(*spec.tube));
+  TRY(const auto work, WorkFeed::make(mechanism, spec.cut));
+  FeedCurve out{.geometry = mechanism.geometry(), .work = work.work()};
+  TRY(out.table, std::visit([&](const auto& by) { return tabulate(work, by); }, spec.table));
+  TRY(out.fit, command(work, spec.fit, stop));
   out.warnings = warnings_of(spec, out.work);
   if (spec.comparison) {
-    auto rows = comparison(*work, *spec.comparison, stop);
-    if (!rows) return tl::unexpected(rows.error());
-    out.comparison = *std::move(rows);
+    TRY(out.comparison, comparison(work, *spec.comparison, stop));
   }
   if (spec.cycle) {
-    auto planned = cycle(*work, *spec.cycle, stop);
-    if (!planned) return tl::unexpected(planned.error());
-    out.cycle = *std::move(planned);
+    TRY(out.cycle, cycle(work, *spec.cycle, stop));
     if (out.cycle->target && !out.cycle->target->met)
       out.warnings.push_back(missed(*out.cycle, *spec.cycle->target));
   }
   if (spec.tool) {
-    auto figures = tool_outputs(*spec.tool, spec.tube, out.work.feed, out.fit.errors.tool_ripple);
-    if (!figures) return tl::unexpected(figures.error());
-    out.tool = *figures;
+    TRY(out.tool, tool_outputs(*spec.tool, spec.tube, out.work.feed, out.fit.errors.tool_ripple));
   }
-  if (auto ok = check_one_wall(spec); !ok) return tl::unexpected(ok.error());
+  TRY(check_one_wall(spec));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/base/try.hpp"
 #include "core/math/quadrature.hpp"
 
 namespace tubecut::cutoff {
@@ -61,9 +62,8 @@ math::ChebyshevSeries least_squares(const WorkFeed& work, int degree) {
 }
 
 Result<math::ChebyshevSeries> minimax(const WorkFeed& work, int degree, std::stop_token stop) {
-  auto found = math::relative_minimax(work.speed(), degree, stop);
-  if (!found) return tl::unexpected(found.error());
-  return std::move(found->series);
+  TRY(auto found, math::relative_minimax(work.speed(), degree, stop));
+  return std::move(found.series);
 }
 
 }  // namespace tubecut::cutoff

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/cutoff/preconditions.hpp"
 #include "core/math/search.hpp"
 
@@ -46,7 +47,7 @@ SinCos half_of(const SinCos& whole) {
 constexpr double kLeastPair = 1e-3;                  // mm; a shorter feed calibrates nothing
 constexpr double kLeastRate = 1e-9, kMostRate = 10;  // rad/mm
 
-std::optional<Error> check(const Linkage& l) {
+Result<void> check(const Linkage& l) {
   Preconditions on("linkage/");
   on.positive("arm", l.arm, "mm");
   on.positive("pivot_distance", l.pivot_distance, "mm");
@@ -61,13 +62,13 @@ std::optional<Error> check(const Linkage& l) {
     on.require(std::abs(feed) >= kLeastPair, "calibrate/feed", feed, "at least 0.001 from 0", "mm");
     on.require(feed * stroke > 0.0, "calibrate/stroke", stroke, "not 0, of the feed's sign", "mm");
   }
-  return on.error();
+  return on.met();
 }
 
 }  // namespace
 
 Result<Mechanism> Mechanism::make(const Linkage& l) {
-  if (auto wrong = check(l)) return tl::unexpected(*wrong);
+  TRY(check(l));
   if (l.calibrate && l.rad_per_mm != 0.0)
     return fail({.code = ErrorCode::exclusive_fields, .member = "linkage/calibrate"});
   if (l.pivot_distance < l.pivot_offset)
@@ -77,17 +78,17 @@ Result<Mechanism> Mechanism::make(const Linkage& l) {
                  .limit = l.pivot_offset,
                  .unit = "mm"});
   Mechanism m;
-  if (auto wrong = m.set_rest(l)) return tl::unexpected(*wrong);
+  TRY(m.set_rest(l));
   m.set_limits();
-  if (auto wrong = m.set_rate(l)) return tl::unexpected(*wrong);
+  TRY(m.set_rate(l));
   m.geometry_.feed_at_peak = m.find_peak();
   return m;
 }
 
 /// The position at rest, from the triangle O1 O2 P in units of the arm.
-std::optional<Error> Mechanism::set_rest(const Linkage& l) {
+Result<void> Mechanism::set_rest(const Linkage& l) {
   const auto wrong = [](ErrorCode code, const char* member, Angle got) {
-    return Error{{.code = code, .member = member, .got = got.deg(), .unit = "deg"}};
+    return fail({.code = code, .member = member, .got = got.deg(), .unit = "deg"});
   };
   offset_ = l.pivot_offset;
   ratio_ = l.pivot_distance / l.arm;
@@ -112,7 +113,7 @@ std::optional<Error> Mechanism::set_rest(const Linkage& l) {
   psi_ = sincos(psi);
   geometry_.slot_elevation = Angle::rad(psi);
   geometry_.rod_height = l.pivot_offset * elementary::tan(psi);
-  return std::nullopt;
+  return {};
 }
 
 /// 1 - rho cos e by half of e, without cancellation near a dead point.
@@ -177,29 +178,29 @@ void Mechanism::set_limits() {
   geometry_.feed_high = high_.feed;
 }
 
-std::optional<Error> Mechanism::set_rate(const Linkage& l) {
+Result<void> Mechanism::set_rate(const Linkage& l) {
   k_ = l.rad_per_mm;
   if (l.calibrate) {
     const auto [feed, stroke] = *l.calibrate;
     k_ = 1.0;
     if (!reaches(feed))
-      return Error{{.code = ErrorCode::unreachable_x,
-                    .member = "linkage/calibrate/feed",
-                    .got = feed,
-                    .unit = "mm"}};
+      return fail({.code = ErrorCode::unreachable_x,
+                   .member = "linkage/calibrate/feed",
+                   .got = feed,
+                   .unit = "mm"});
     k_ = arm_turn(slot_turn(feed)) / stroke;
     if (!(k_ >= kLeastRate && k_ <= kMostRate))
-      return Error{{.code = ErrorCode::out_of_range,
-                    .member = "linkage/calibrate",
-                    .got = k_,
-                    .limit = Intervals{{kLeastRate, kMostRate}},
-                    .unit = "rad_per_mm",
-                    .hint = "the arm's turn per stroke that this pair gives"}};
+      return fail({.code = ErrorCode::out_of_range,
+                   .member = "linkage/calibrate",
+                   .got = k_,
+                   .limit = Intervals{{kLeastRate, kMostRate}},
+                   .unit = "rad_per_mm",
+                   .hint = "the arm's turn per stroke that this pair gives"});
   }
   geometry_.rad_per_mm = k_;
   geometry_.stroke_low = low_.turn / k_;
   geometry_.stroke_high = high_.turn / k_;
-  return std::nullopt;
+  return {};
 }
 
 bool Mechanism::reaches(double feed) const {

@@ -109,8 +109,8 @@ class Mechanism {
   [[nodiscard]] Limit limit(double slot_turn_at_pole, double slot_turn_at_dead_point,
                             bool upper) const;
   [[nodiscard]] std::optional<double> find_peak() const;
-  [[nodiscard]] std::optional<Error> set_rest(const Linkage& linkage);
-  [[nodiscard]] std::optional<Error> set_rate(const Linkage& linkage);
+  [[nodiscard]] Result<void> set_rest(const Linkage& linkage);
+  [[nodiscard]] Result<void> set_rate(const Linkage& linkage);
   void set_limits();
 
   double offset_ = 0.0;  // A

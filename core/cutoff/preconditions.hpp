@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,8 +32,9 @@ class Preconditions {
     issue.unit = unit;
     issues_.push_back(std::move(issue));
   }
-  [[nodiscard]] std::optional<Error> error() const {
-    return issues_.empty() ? std::nullopt : std::optional<Error>(Error{issues_});
+  [[nodiscard]] Result<void> met() const {
+    if (issues_.empty()) return {};
+    return tl::unexpected(Error{issues_});
   }
 
  private:

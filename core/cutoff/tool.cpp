@@ -1,6 +1,7 @@
 #include "core/cutoff/tool.hpp"
 
 #include "core/base/angle.hpp"
+#include "core/base/try.hpp"
 #include "core/cutoff/preconditions.hpp"
 
 namespace tubecut::cutoff {
@@ -10,13 +11,13 @@ constexpr double kSecondsPerMinute = 60.0;
 constexpr double kMmPerM = 1000.0;
 constexpr double kUmPerMm = 1000.0;
 
-std::optional<Error> check_tool(const ToolSpec& tool) {
+Result<void> check_tool(const ToolSpec& tool) {
   Preconditions on("tool/");
   on.positive("disc", tool.disc, "rev_min");
   on.require(tool.blades >= 1, "blades", tool.blades, ">= 1", "");
   on.positive("corner_radius", tool.corner_radius, "mm");
   on.positive("kerf", tool.kerf, "mm");
-  return on.error();
+  return on.met();
 }
 
 /// Height of the ridge that a corner of `radius` leaves between two passes `feed` apart, um.
@@ -38,17 +39,17 @@ WallCut wall_cut(const ToolSpec& tool, const TubeSpec& tube, double feed) {
 
 }  // namespace
 
-std::optional<Error> check_tube(const TubeSpec& tube) {
+Result<void> check_tube(const TubeSpec& tube) {
   Preconditions on("tube/");
   on.positive("outer_diameter", tube.outer_diameter, "mm");
   on.positive("wall", tube.wall, "mm");
-  if (auto wrong = on.error()) return wrong;
-  if (tube.wall < 0.5 * tube.outer_diameter) return std::nullopt;
-  return Error{{.code = ErrorCode::wall_too_thick,
-                .member = "tube/wall",
-                .got = tube.wall,
-                .limit = 0.5 * tube.outer_diameter,
-                .unit = "mm"}};
+  TRY(on.met());
+  if (tube.wall < 0.5 * tube.outer_diameter) return {};
+  return fail({.code = ErrorCode::wall_too_thick,
+               .member = "tube/wall",
+               .got = tube.wall,
+               .limit = 0.5 * tube.outer_diameter,
+               .unit = "mm"});
 }
 
 std::optional<TubeRange> published_range(const Linkage& linkage) {
@@ -78,7 +79,7 @@ std::vector<Warning> tube_warnings(const Linkage& linkage, const TubeSpec& tube)
 
 Result<ToolOutputs> tool_outputs(const ToolSpec& tool, const std::optional<TubeSpec>& tube,
                                  double feed, double ripple) {
-  if (auto wrong = check_tool(tool)) return tl::unexpected(*wrong);
+  TRY(check_tool(tool));
   ToolOutputs out;
   out.feed_per_revolution = kSecondsPerMinute * feed / tool.disc;
   out.feed_per_blade = out.feed_per_revolution / tool.blades;
@@ -87,7 +88,7 @@ Result<ToolOutputs> tool_outputs(const ToolSpec& tool, const std::optional<TubeS
   out.roughness = ideal_roughness(out.feed_per_blade, tool.corner_radius);
   out.roughness_one_blade = ideal_roughness(out.feed_per_revolution, tool.corner_radius);
   if (!tube) return out;
-  if (auto wrong = check_tube(*tube)) return tl::unexpected(*wrong);
+  TRY(check_tube(*tube));
   out.wall_cut = wall_cut(tool, *tube, feed);
   return out;
 }

@@ -61,7 +61,7 @@ struct ToolOutputs {
                                                double ripple);
 
 /// Errors    out_of_range, not_finite, wall_too_thick.
-[[nodiscard]] std::optional<Error> check_tube(const TubeSpec& tube);
+[[nodiscard]] Result<void> check_tube(const TubeSpec& tube);
 
 /// The tubes taken by the machine with this linkage, where a source tells: that of Tables 2 and 3
 /// of source 004, diameters 89..195 mm and walls 6..25 mm. Of that of its Table 1 none are told.

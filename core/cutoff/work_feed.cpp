@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/try.hpp"
 #include "core/cutoff/preconditions.hpp"
 
 namespace tubecut::cutoff {
@@ -15,28 +16,28 @@ constexpr double kShortest = 1e-3;  // mm of work feed
 // the linkage, where a grid no longer tells the extremes; machines stay below 3.
 constexpr double kMostUneven = 100.0;
 
-std::optional<Error> check(const FeedWindow& window) {
+Result<void> check(const FeedWindow& window) {
   Preconditions on("cut/");
   on.require(true, "start_feed", window.start_feed, {}, "mm");
   on.require(window.end_feed - window.start_feed >= kShortest, "end_feed", window.end_feed,
              "at least 0.001 above start_feed_mm", "mm");
-  return on.error();
+  return on.met();
 }
 
-std::optional<Error> check(const CutDistances& d) {
+Result<void> check(const CutDistances& d) {
   Preconditions on("cut/");
   on.not_negative("clearance", d.clearance, "mm");
   on.not_negative("slowdown", d.slowdown, "mm");
   on.positive("wall", d.wall, "mm");
   on.not_negative("overcut", d.overcut, "mm");
-  if (auto wrong = on.error()) return wrong;
+  TRY(on.met());
   if (d.slowdown > d.clearance)
-    return Error{{.code = ErrorCode::s2_gt_s1,
-                  .member = "cut/slowdown",
-                  .got = d.slowdown,
-                  .limit = d.clearance,
-                  .unit = "mm"}};
-  return std::nullopt;
+    return fail({.code = ErrorCode::s2_gt_s1,
+                 .member = "cut/slowdown",
+                 .got = d.slowdown,
+                 .limit = d.clearance,
+                 .unit = "mm"});
+  return {};
 }
 
 FeedWindow window_of(const Cut& cut) {
@@ -55,11 +56,10 @@ double largest_magnitude(const F& f, const std::vector<double>& grid,
 }  // namespace
 
 Result<WorkFeed> WorkFeed::make(const Mechanism& mechanism, const Cut& cut) {
-  if (auto wrong = std::visit([](const auto& range) { return check(range); }, cut.range))
-    return tl::unexpected(*wrong);
+  TRY(std::visit([](const auto& range) { return check(range); }, cut.range));
   Preconditions on("cut/");
   on.positive("feed", cut.feed, "mm_s");
-  if (auto wrong = on.error()) return tl::unexpected(*wrong);
+  TRY(on.met());
   const FeedWindow window = window_of(cut);
   const bool by_ends = std::holds_alternative<FeedWindow>(cut.range);
   const auto& geometry = mechanism.geometry();
