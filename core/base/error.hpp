@@ -51,6 +51,12 @@ using Result = tl::expected<T, Error>;
   return tl::unexpected<Error>(Error{std::move(issue)});
 }
 
+/// Errors  all `issues`, if there are any.
+[[nodiscard]] inline Result<void> no_issues(std::vector<Issue> issues) {
+  if (issues.empty()) return {};
+  return tl::unexpected<Error>(Error{std::move(issues)});
+}
+
 /// Something the caller should know about an answer that stands. `member` as in `Issue`.
 struct Warning {
   WarningCode code = WarningCode::cutter_missed;

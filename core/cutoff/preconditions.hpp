@@ -32,10 +32,7 @@ class Preconditions {
     issue.unit = unit;
     issues_.push_back(std::move(issue));
   }
-  [[nodiscard]] Result<void> met() const {
-    if (issues_.empty()) return {};
-    return tl::unexpected(Error{issues_});
-  }
+  [[nodiscard]] Result<void> met() const { return no_issues(issues_); }
 
  private:
   std::string prefix_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/groove/normal_area.hpp"
 #include "core/groove/section.hpp"
 
@@ -164,10 +165,8 @@ Result<double> area_of_height(const Joint& joint, const FillerHeight& reference)
 std::string degrees_text(Angle angle) { return brief(angle.deg()) + " deg"; }
 
 Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop) {
-  if (auto issues = field_issues(spec); !issues.empty())
-    return tl::unexpected(Error{std::move(issues)});
-  if (auto issues = shape_issues(spec); !issues.empty())
-    return tl::unexpected(Error{std::move(issues)});
+  TRY(no_issues(field_issues(spec)));
+  TRY(no_issues(shape_issues(spec)));
   Joint out = dimensions(spec);
   std::optional<KeptArea> kept;
   if (const auto* given = std::get_if<FillerArea>(&spec.filler)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -164,13 +165,11 @@ ToolPose tool_pose(const AxisPosition& axes, const Setup& setup) {
   return {Eigen::Vector2d(axes.x, sg * (axes.z - setup.z_zero)) - setup.pivot_length * axis, axis};
 }
 
-std::optional<Error> tool_fault(const Joint& joint, const Survey& survey, const Mill& mill,
-                                const Setup& setup) {
-  if (auto issues = number_issues(mill, setup); !issues.empty()) return Error{std::move(issues)};
-  if (auto issues = shape_issues(mill, setup); !issues.empty()) return Error{std::move(issues)};
-  if (auto issues = fit_issues(joint, survey, mill, setup); !issues.empty())
-    return Error{std::move(issues)};
-  return std::nullopt;
+Result<void> check_tool(const Joint& joint, const Survey& survey, const Mill& mill,
+                        const Setup& setup) {
+  TRY(no_issues(number_issues(mill, setup)));
+  TRY(no_issues(shape_issues(mill, setup)));
+  return no_issues(fit_issues(joint, survey, mill, setup));
 }
 
 }  // namespace tubecut::groove

@@ -134,7 +134,7 @@ struct Cone {
 ///
 /// Errors  not_finite, out_of_range, tool, setup, tool_short, root_collision; `member` from
 ///         "mill/..." and "setup/...".
-[[nodiscard]] std::optional<Error> tool_fault(const Joint& joint, const Survey& survey,
-                                              const Mill& mill, const Setup& setup);
+[[nodiscard]] Result<void> check_tool(const Joint& joint, const Survey& survey, const Mill& mill,
+                                      const Setup& setup);
 
 }  // namespace tubecut::groove

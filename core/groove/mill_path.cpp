@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/try.hpp"
 #include "core/groove/mill_position.hpp"
 #include "core/groove/survey.hpp"
 
@@ -160,12 +161,10 @@ int most_positions(const GapCheck& check, Method method) {
 Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
   const auto joint = joint_of(spec.groove, stop);
   if (!joint) return tl::unexpected(nested(joint.error()));
-  if (auto issues = check_issues(spec); !issues.empty())
-    return tl::unexpected(Error{std::move(issues)});
+  TRY(no_issues(check_issues(spec)));
   auto whole = survey(*joint, 0.0, stop);
   if (!whole) return tl::unexpected(nested(whole.error()));
-  if (auto fault = tool_fault(*joint, *whole, spec.mill, spec.setup))
-    return tl::unexpected(std::move(*fault));
+  TRY(check_tool(*joint, *whole, spec.mill, spec.setup));
   const Shop shop{spec, *joint, Cone{spec.mill}};
   auto optima = optima_of(shop, stop);
   if (!optima) return tl::unexpected(optima.error());

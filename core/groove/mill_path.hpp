@@ -82,7 +82,7 @@ struct GapWork {
 
 /// The cone mill's path round the groove on a C, X, Z, B machine.
 ///
-/// Errors    of `groove` (member "groove/..."), of `tool_fault`; sampling, setup, out_of_range,
+/// Errors    of `groove` (member "groove/..."), of `check_tool`; sampling, setup, out_of_range,
 ///           window, contact, z_ineffective, travel, too_many_nodes (more positions for the sag
 ///           than `most_emitted`), not_converged, cancelled.
 /// Accuracy  increments 1e-9 mm and deg; certificate 1e-9 mm; swept figures as `swept`.

@@ -25,7 +25,7 @@ Result<std::vector<PreparedCutter>> prepare_all(std::span<const Cutter> cutters,
       issues.insert(issues.end(), one.error().issues.begin(), one.error().issues.end());
     }
   }
-  if (!issues.empty()) return tl::unexpected<Error>(Error{std::move(issues)});
+  TRY(no_issues(std::move(issues)));
   return out;
 }
 

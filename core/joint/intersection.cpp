@@ -123,7 +123,7 @@ Result<std::vector<Cutter>> resolve(std::span<const Partner> partners) {
       }
     });
   }
-  if (!issues.empty()) return tl::unexpected(Error(std::move(issues)));
+  TRY(no_issues(std::move(issues)));
   return out;
 }
 

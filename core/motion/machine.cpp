@@ -45,10 +45,7 @@ class Findings {
     if (value < least) add(ErrorCode::out_of_range, member, value, least);
     if (value > most) add(ErrorCode::out_of_range, member, value, most);
   }
-  [[nodiscard]] Result<void> result() {
-    if (issues_.empty()) return {};
-    return tl::unexpected<Error>(Error{std::move(issues_)});
-  }
+  [[nodiscard]] Result<void> result() { return no_issues(std::move(issues_)); }
 
  private:
   std::vector<Issue> issues_;

@@ -42,8 +42,7 @@ Result<void> check_soft_limits(const Path& path, const std::vector<AxisFunction>
       if (worst > 0.0) issues.push_back(soft_limit(axis, a, upper, value, at, has_phi));
     }
   }
-  if (issues.empty()) return {};
-  return tl::unexpected<Error>(Error{std::move(issues)});
+  return no_issues(std::move(issues));
 }
 
 }  // namespace tubecut::motion

@@ -80,8 +80,7 @@ Result<void> TorchStand::check(const std::vector<double>& axes) const {
     see(axis.soft_min && axes[a] < *axis.soft_min, "soft_min", axis.soft_min);
     see(axis.soft_max && axes[a] > *axis.soft_max, "soft_max", axis.soft_max);
   }
-  if (issues.empty()) return {};
-  return tl::unexpected<Error>(Error{std::move(issues)});
+  return no_issues(std::move(issues));
 }
 
 }  // namespace tubecut::torch

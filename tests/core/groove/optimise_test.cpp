@@ -47,7 +47,7 @@ class Benches {
     out->setup.mount = joints_.uniform(0, 1) < 0.5 ? Mount::end_up : Mount::end_down;
     out->setup.pivot_length = joints_.uniform(0.0, 200.0);
     out->hold = joints_.uniform(0, 1) < 0.5 ? Hold::tip : Hold::pivot;
-    if (tool_fault(out->joint, *whole, mill, out->setup)) return nullptr;
+    if (!check_tool(out->joint, *whole, mill, out->setup)) return nullptr;
     out->cone = Cone{mill};
     const Angle omega = Angle::rad(joints_.uniform(0.0, kTwoPi));
     out->near = *neighbourhood(out->joint, omega, GapCheck{});
