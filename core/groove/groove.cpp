@@ -39,29 +39,27 @@ GrooveSection report(const Joint& joint, const Section& section) {
 }  // namespace
 
 Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
-  const auto joint = joint_of(spec, stop);
-  if (!joint) return tl::unexpected(joint.error());
+  TRY(const auto joint, joint_of(spec, stop));
   const double fixed_height =
-      spec.compare ? joint->groove_width * elementary::tan(spec.compare->bevel.rad()) : 0.0;
-  auto whole = survey(*joint, fixed_height, stop);
-  if (!whole) return tl::unexpected(whole.error());
+      spec.compare ? joint.groove_width * elementary::tan(spec.compare->bevel.rad()) : 0.0;
+  TRY(auto whole, survey(joint, fixed_height, stop));
   Groove out;
-  out.area = joint->area;
-  out.least_area = whole->least_area;
-  out.height_min = whole->height_min;
-  out.height_max = whole->height_max;
-  out.filler_volume = whole->filler_volume;
-  out.weld_length = whole->weld_length;
-  out.warnings = std::move(whole->warnings);
-  if (spec.compare) out.compare = Comparison{fixed_height, {}, whole->fixed_volume};
+  out.area = joint.area;
+  out.least_area = whole.least_area;
+  out.height_min = whole.height_min;
+  out.height_max = whole.height_max;
+  out.filler_volume = whole.filler_volume;
+  out.weld_length = whole.weld_length;
+  out.warnings = std::move(whole.warnings);
+  if (spec.compare) out.compare = Comparison{fixed_height, {}, whole.fixed_volume};
   for (int i = 0; i < spec.sections; ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    const auto found = section(*joint, Angle::rad(kTwoPi * i / spec.sections));
+    const auto found = section(joint, Angle::rad(kTwoPi * i / spec.sections));
     if (!found) return fail({.code = found.error(), .member = "branch/wall"});
-    out.sections.push_back(report(*joint, *found));
+    out.sections.push_back(report(joint, *found));
     out.sections.back().phi = table_phi(double(i) / spec.sections);
     if (out.compare)
-      out.compare->filler_area.push_back(filler_area(*joint, found->toe, fixed_height));
+      out.compare->filler_area.push_back(filler_area(joint, found->toe, fixed_height));
   }
   return out;
 }

@@ -173,12 +173,11 @@ Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop) {
     out.area = given->area;
   } else {
     kept = {std::get<FillerHeight>(spec.filler).at};
-    const auto area = area_of_height(out, std::get<FillerHeight>(spec.filler));
-    if (!area) return tl::unexpected(area.error());
-    out.area = kept->axial = *area;
+    TRY(kept->axial, area_of_height(out, std::get<FillerHeight>(spec.filler)));
+    out.area = kept->axial;
   }
   if (spec.area_in == AreaIn::axial) return out;
-  if (auto ok = equal_normal_areas(out, kept, stop); !ok) return tl::unexpected(ok.error());
+  TRY(equal_normal_areas(out, kept, stop));
   return out;
 }
 

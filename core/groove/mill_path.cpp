@@ -95,13 +95,7 @@ std::vector<Warning> path_warnings(const MillPathSpec& spec, const MillPath& pat
   return out;
 }
 
-/// Errors of the nested groove under its own member.
-Error nested(Error error) {
-  for (Issue& issue : error.issues) issue.member.insert(0, "groove/");
-  return error;
-}
-
-tl::expected<std::vector<MillPosition>, Error> optima_of(const Shop& shop, std::stop_token stop) {
+Result<std::vector<MillPosition>> optima_of(const Shop& shop, std::stop_token stop) {
   std::vector<MillPosition> out;
   out.reserve(std::size_t(shop.spec.positions));  // grown, 20 000 would move in one piece
   for (int i = 0; i < shop.spec.positions; ++i) {
@@ -113,15 +107,13 @@ tl::expected<std::vector<MillPosition>, Error> optima_of(const Shop& shop, std::
   return out;
 }
 
-tl::expected<std::vector<MillPosition>, Error> emitted(const Shop& shop,
-                                                       std::vector<MillPosition> optima,
-                                                       std::stop_token stop) {
+Result<std::vector<MillPosition>> emitted(const Shop& shop, std::vector<MillPosition> optima,
+                                          std::stop_token stop) {
   const Increments increments{optima, shop.spec.optimise.method};
-  const auto stations = emitted_stations(shop, increments, stop);
-  if (!stations) return tl::unexpected(stations.error());
+  TRY(const auto stations, emitted_stations(shop, increments, stop));
   std::vector<MillPosition> out;
-  out.reserve(stations->size());
-  for (const double station : *stations) {
+  out.reserve(stations.size());
+  for (const double station : stations) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (station == std::floor(station)) {
       out.push_back(optima[std::size_t(station)]);
@@ -159,19 +151,14 @@ int most_positions(const GapCheck& check, Method method) {
 }
 
 Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
-  const auto joint = joint_of(spec.groove, stop);
-  if (!joint) return tl::unexpected(nested(joint.error()));
+  TRY(const auto joint, under("groove", joint_of(spec.groove, stop)));
   TRY(no_issues(check_issues(spec)));
-  auto whole = survey(*joint, 0.0, stop);
-  if (!whole) return tl::unexpected(nested(whole.error()));
-  TRY(check_tool(*joint, *whole, spec.mill, spec.setup));
-  const Shop shop{spec, *joint, Cone{spec.mill}};
-  auto optima = optima_of(shop, stop);
-  if (!optima) return tl::unexpected(optima.error());
-  auto positions = emitted(shop, std::move(*optima), stop);
-  if (!positions) return tl::unexpected(positions.error());
+  TRY(auto whole, under("groove", survey(joint, 0.0, stop)));
+  TRY(check_tool(joint, whole, spec.mill, spec.setup));
+  const Shop shop{spec, joint, Cone{spec.mill}};
+  TRY(auto optima, optima_of(shop, stop));
   MillPath out;
-  out.positions = std::move(*positions);
+  TRY(out.positions, emitted(shop, std::move(optima), stop));
   for (const MillPosition& p : out.positions)
     if (auto issue = travel_issue(spec.setup.travel, p)) return fail(std::move(*issue));
   const SweptPoints points{.per_ruling = spec.check.points};
@@ -184,7 +171,7 @@ Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
   out.qualified = out.swept.root_face_min.value >= kRootFaceReject &&
                   std::all_of(out.positions.begin(), out.positions.end(),
                               [](const MillPosition& p) { return p.qualified; });
-  out.warnings = std::move(whole->warnings);
+  out.warnings = std::move(whole.warnings);
   for (Warning& warning : out.warnings) warning.member.insert(0, "groove/");
   for (Warning& warning : path_warnings(spec, out)) out.warnings.push_back(std::move(warning));
   return out;

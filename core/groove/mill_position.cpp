@@ -4,6 +4,8 @@
 #include <random>
 #include <utility>
 
+#include "core/base/try.hpp"
+
 namespace tubecut::groove {
 namespace {
 
@@ -72,37 +74,33 @@ tl::expected<MillPosition, ErrorCode> position(const Shop& shop, double station,
                                                std::stop_token stop) {
   const MillPathSpec& spec = shop.spec;
   const Angle omega = Angle::rad(shop.omega(station));
-  const auto near = neighbourhood(shop.joint, omega, spec.check, stop);
-  const auto here = section(shop.joint, omega);
-  if (!near || !here) return tl::unexpected(here ? near.error() : here.error());
-  const Task task{*near, shop.cone, spec.setup,
-                  initial_pose(shop.joint, *here, spec.mill, spec.setup), spec.optimise.hold};
-  auto initial = gap(*near, shop.cone, task.start);
-  if (!initial) return tl::unexpected(initial.error());
+  TRY(const auto here, section(shop.joint, omega));
+  TRY(const auto near, neighbourhood(shop.joint, omega, spec.check, stop));
+  const Task task{near, shop.cone, spec.setup,
+                  initial_pose(shop.joint, here, spec.mill, spec.setup), spec.optimise.hold};
+  TRY(auto initial, gap(near, shop.cone, task.start));
   MillPosition out;
   out.omega = omega;
-  out.before = line_of(*initial);
-  out.grid_before = grid_figures(*near, shop.cone, task.start);
+  out.before = line_of(initial);
+  out.grid_before = grid_figures(near, shop.cone, task.start);
   out.optimised = !given;
-  tl::expected<Optimum, ErrorCode> best = Optimum{};
+  Optimum best;
   if (given) {
-    auto seen = gap(*near, shop.cone, moved(task.start, spec.setup, task.hold, *given));
-    if (!seen) return tl::unexpected(seen.error());
-    best = certified(task, *given, 0.0, 0, std::move(*seen));
+    TRY(auto seen, gap(near, shop.cone, moved(task.start, spec.setup, task.hold, *given)));
+    best = certified(task, *given, 0.0, 0, std::move(seen));
   } else {
-    best = improve(shop, task, std::move(*initial), int(station), stop);
+    TRY(best, improve(shop, task, std::move(initial), int(station), stop));
   }
-  if (!best) return tl::unexpected(best.error());
-  const ToolPose pose = moved(task.start, spec.setup, task.hold, best->by);
+  const ToolPose pose = moved(task.start, spec.setup, task.hold, best.by);
   out.at = axis_position(pose, spec.setup, omega);
-  out.by = best->by;
-  out.after = line_of(best->gap);
-  out.grid = grid_figures(*near, shop.cone, pose);
-  out.certificate = best->certificate;
-  out.bias = best->bias;
-  out.reference = best->reference;
-  out.evaluations = best->evaluations;
-  out.qualified = best->gap.qualified(spec.check.qualify);
+  out.by = best.by;
+  out.after = line_of(best.gap);
+  out.grid = grid_figures(near, shop.cone, pose);
+  out.certificate = best.certificate;
+  out.bias = best.bias;
+  out.reference = best.reference;
+  out.evaluations = best.evaluations;
+  out.qualified = best.gap.qualified(spec.check.qualify);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/try.hpp"
 #include "core/groove/mill_position.hpp"
 
 namespace tubecut::groove {
@@ -42,9 +43,8 @@ class Route {
   [[nodiscard]] tl::expected<Exact, ErrorCode> exact(double station) const {
     const MillPathSpec& spec = shop_.spec;
     const Angle omega = Angle::rad(shop_.omega(station));
-    const auto here = section(shop_.joint, omega);
-    if (!here) return tl::unexpected(here.error());
-    const ToolPose pose = moved(initial_pose(shop_.joint, *here, spec.mill, spec.setup), spec.setup,
+    TRY(const auto here, section(shop_.joint, omega));
+    const ToolPose pose = moved(initial_pose(shop_.joint, here, spec.mill, spec.setup), spec.setup,
                                 spec.optimise.hold, increments_.at(station));
     const AxisPosition at = axis_position(pose, spec.setup, omega);
     return Exact{pose, {omega.rad(), at.x, at.z, at.b.rad()}};
@@ -77,11 +77,10 @@ class Route {
   [[nodiscard]] tl::expected<int, ErrorCode> parts(int interval) const {
     int count = 1;
     while (count <= kMaxPositions) {  // grows by one at least
-      const auto worst = worst_sag(interval, count);
-      if (!worst) return tl::unexpected(worst.error());
-      if (*worst <= kAxisSag) return count;
+      TRY(const double worst, worst_sag(interval, count));
+      if (worst <= kAxisSag) return count;
       count =
-          std::max(count + 1, int(std::ceil(count * std::sqrt(std::min(*worst / kAxisSag, 1e8)))));
+          std::max(count + 1, int(std::ceil(count * std::sqrt(std::min(worst / kAxisSag, 1e8)))));
     }
     return count;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -269,9 +270,8 @@ tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& ra
       }
     }
   }
-  auto found = gap(task.near, task.cone, moved(task.start, task.setup, task.hold, best));
-  if (!found) return tl::unexpected(found.error());
-  return certified(task, best, 0.0, 1 + kLevels * kMoves, std::move(*found));
+  TRY(auto found, gap(task.near, task.cone, moved(task.start, task.setup, task.hold, best)));
+  return certified(task, best, 0.0, 1 + kLevels * kMoves, std::move(found));
 }
 
 }  // namespace tubecut::groove

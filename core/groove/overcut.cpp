@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -28,12 +29,10 @@ Eigen::Vector3d turn_of(const Joint& joint, const Neighbour& ruling, double v) {
 
 tl::expected<Neighbour, ErrorCode> neighbour(const Joint& joint, Angle omega, double delta,
                                              std::optional<double> near) {
-  const auto found = section(joint, omega + Angle::rad(delta), near);
-  if (!found) return tl::unexpected(found.error());
+  TRY(const auto found, section(joint, omega + Angle::rad(delta), near));
   const auto [s, c] = elementary::sincos(delta);
-  return Neighbour{
-      delta,        s,         c, found->toe.y1, found->height, found->z3_d, found->height_d,
-      found->toe.D, found->D_d};
+  return Neighbour{delta,          s,           c,        found.toe.y1, found.height, found.z3_d,
+                   found.height_d, found.toe.D, found.D_d};
 }
 
 /// The cubic by values and slopes at both ends of [0, width].
@@ -98,9 +97,9 @@ tl::expected<Contact, ErrorCode> solve_contact(const Neighbourhood& near, const 
     if (i >= kCubics || !(delta > a && delta < b))
       delta = b - high.value * (b - a) / (high.value - low.value);
     if (!(delta > a && delta < b)) break;  // no double is left between them
-    const auto between = neighbour(*near.joint, near.omega, delta, toe_near(first, last, delta));
-    if (!between) return tl::unexpected(between.error());
-    Slope here = slope_at(near, cone, pose, *between, v);
+    TRY(const auto between,
+        neighbour(*near.joint, near.omega, delta, toe_near(first, last, delta)));
+    Slope here = slope_at(near, cone, pose, between, v);
     if (std::abs(here.value) <= kFlat) return here.contact;
     const int side = here.value < 0.0 ? -1 : 1;
     if (i >= kCubics && side == last_side) (side < 0 ? high : low).value *= 0.5;
@@ -155,12 +154,11 @@ tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle o
   std::optional<double> near;  // D of the ruling before, and its way on
   for (int m = -reach; m <= reach; ++m) {
     if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
-    const auto found = neighbour(joint, omega, m * check.pitch.rad(), near);
-    if (!found) return tl::unexpected(found.error());
-    near = found->D + found->D_d * check.pitch.rad();
-    out.rulings.push_back(*found);
+    TRY(const auto found, neighbour(joint, omega, m * check.pitch.rad(), near));
+    near = found.D + found.D_d * check.pitch.rad();
+    out.rulings.push_back(found);
     for (int i = 0; i < check.points; ++i)
-      out.samples.push_back(point_on(joint, *found, double(i) / (check.points - 1)));
+      out.samples.push_back(point_on(joint, found, double(i) / (check.points - 1)));
   }
   return out;
 }
@@ -190,11 +188,10 @@ tl::expected<Gap, ErrorCode> gap(const Neighbourhood& near, const Cone& cone,
                                  const ToolPose& pose) {
   Gap out;
   for (int i = 0; i < near.points; ++i) {
-    auto found = contact_at(near, cone, pose, i);
-    if (!found) return tl::unexpected(found.error());
-    out.over = std::max(out.over, -found->gap);
-    out.under = std::max(out.under, found->gap);
-    out.contacts.push_back(*found);
+    TRY(const auto found, contact_at(near, cone, pose, i));
+    out.over = std::max(out.over, -found.gap);
+    out.under = std::max(out.under, found.gap);
+    out.contacts.push_back(found);
   }
   out.largest = std::max(out.over, out.under);
   return out;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -176,9 +177,7 @@ double filler_area(const Joint& joint, const Toe& toe, double height) {
 tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
                                          std::optional<double> near) {
   Section out{.omega = omega, .dir = direction(omega)};
-  auto found = toe(joint, out.dir, near);
-  if (!found) return tl::unexpected(found.error());
-  out.toe = *found;
+  TRY(out.toe, toe(joint, out.dir, near));
   const Toe& p = out.toe;
   const ChordLine chord{joint, out.dir};
   const double H = joint.groove_width;

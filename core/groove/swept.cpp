@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/try.hpp"
 #include "core/groove/tool_motion.hpp"
 
 namespace tubecut::groove {
@@ -39,10 +40,9 @@ class Sweep {
   tl::expected<Swept, ErrorCode> run(const std::stop_token& stop) {
     for (int j = 0; j < points_.rulings; ++j) {
       if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
-      const auto found = section(joint_, omega(j));
-      if (!found) return tl::unexpected(found.error());
-      sections_.push_back(*found);
-      motion_.look_at(omega(j).rad(), found->dir);
+      TRY(const auto found, section(joint_, omega(j)));
+      sections_.push_back(found);
+      motion_.look_at(omega(j).rad(), found.dir);
       for (int i = 0; i < points_.per_ruling; ++i) look_on_groove({j, i});
       for (int i = 0; i < points_.root_levels; ++i) look_on_root_face({j, i});
     }
