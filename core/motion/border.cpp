@@ -9,6 +9,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -185,9 +186,8 @@ SmoothTrack smooth_border(const Track& track, const std::stop_token& stop) {
 }  // namespace
 
 Result<PartBorder> part_border(const CutPath& cut_path, double sigma, const std::stop_token& stop) {
-  auto whole = track(cut_path);
-  if (!whole) return tl::unexpected<Error>(whole.error());
-  SmoothTrack border = smooth_border(*whole, stop);
+  TRY(const auto whole, track(cut_path));
+  SmoothTrack border = smooth_border(whole, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   const auto& points = border.track.points;
   const auto [low, high] = std::ranges::minmax(points, {}, &CutPoint::phi);

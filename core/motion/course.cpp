@@ -5,6 +5,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
+#include "core/base/try.hpp"
 #include "core/motion/soft_limits.hpp"
 
 namespace tubecut::motion {
@@ -31,11 +32,6 @@ Result<void> check_periods(const PreparedCut& job, std::int64_t most) {
                static_cast<double>(most),
                "periods",
                {}});
-}
-
-template <class T>
-tl::unexpected<Error> passed_on(const Result<T>& result) {
-  return tl::unexpected<Error>(result.error());
 }
 
 constexpr double kEndMargin = 2.0;  // mm at both ends where a slow tip is a start or stop
@@ -195,31 +191,21 @@ double tip_length(const std::vector<AxisFunction>& tip, const Program& program, 
 }
 
 Result<PreparedCut> prepare_cut(const ScheduleSpec& spec, std::stop_token stop) {
-  if (auto ok = check(spec.machine); !ok) return passed_on(ok);
-  auto axes = axis_functions(spec);
-  if (!axes) return passed_on(axes);
-  auto polyline = program(spec, stop);
-  if (!polyline) return passed_on(polyline);
-  const auto growth = standoff_growth(spec, *polyline);
-  if (!growth) return passed_on(growth);
-  auto speed = SpeedAlong::of(spec.motion.speed, *polyline);
-  if (!speed) return passed_on(speed);
-  PreparedCut job{
-      std::move(*polyline),
-      {{}, std::move(*axes), speed_functions(spec), std::move(*speed), {}, spec.machine},
-      *growth};
+  TRY(check(spec.machine));
+  TRY(auto axes, axis_functions(spec));
+  TRY(auto polyline, program(spec, stop));
+  TRY(const double growth, standoff_growth(spec, polyline));
+  TRY(auto speed, SpeedAlong::of(spec.motion.speed, polyline));
+  PreparedCut job{std::move(polyline),
+                  {{}, std::move(axes), speed_functions(spec), std::move(speed), {}, spec.machine},
+                  growth};
   measure(job, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (auto ok = check_periods(job, spec.max_periods); !ok) return passed_on(ok);
-  auto path = smooth_path(job.program, spec.motion.eps_tip, spec.motion.eps_b, stop);
-  if (!path) return passed_on(path);
+  TRY(check_periods(job, spec.max_periods));
   Course& course = job.course;
-  course.path = std::move(*path);
-  if (auto ok = check_soft_limits(course.path, course.axes, course.machine,
-                                  std::holds_alternative<CutPath>(spec.cut), stop);
-      !ok) {
-    return passed_on(ok);
-  }
+  TRY(course.path, smooth_path(job.program, spec.motion.eps_tip, spec.motion.eps_b, stop));
+  const bool has_phi = std::holds_alternative<CutPath>(spec.cut);
+  TRY(check_soft_limits(course.path, course.axes, course.machine, has_phi, stop));
   course.limits =
       path_limits(course.path, course.axes, course.tip, course.speed, course.machine, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/motion/stretch.hpp"
 
 namespace tubecut::motion {
@@ -287,14 +288,12 @@ int Track::orientation() const {
 }
 
 Result<Track> track(const CutPath& cut_path) {
-  if (auto ok = check_columns(cut_path); !ok) return tl::unexpected<Error>(ok.error());
-  if (auto ok = check_numbers(cut_path); !ok) return tl::unexpected<Error>(ok.error());
+  TRY(check_columns(cut_path));
+  TRY(check_numbers(cut_path));
   Track t{rows(cut_path), cut_path.radius(), cut_path.closed, 0};
-  if (t.closed) {
-    if (auto ok = close(t, cut_path.scrap); !ok) return tl::unexpected<Error>(ok.error());
-  }
-  if (auto ok = check_duplicates(t); !ok) return tl::unexpected<Error>(ok.error());
-  if (auto ok = check_turns(t); !ok) return tl::unexpected<Error>(ok.error());
+  if (t.closed) TRY(close(t, cut_path.scrap));
+  TRY(check_duplicates(t));
+  TRY(check_turns(t));
   return t;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 #include "core/motion/stretch.hpp"
 
 namespace tubecut::motion {
@@ -214,10 +215,10 @@ Result<void> check_clear(const CutWithLead& cut, const PartBorder& part, double 
 
 Result<CutWithLead> clear_lead(const PartBorder& border, const Track& cut, const Lead& lead,
                                double eps_tip, const std::stop_token& stop) {
-  const auto with = [&](LeadBevel bevel) {
+  const auto with = [&](LeadBevel bevel) -> Result<CutWithLead> {
     CutWithLead out = with_lead(cut, lead, border.scrap, bevel);
-    const auto ok = check_clear(out, border, eps_tip, stop);
-    return ok ? Result<CutWithLead>(std::move(out)) : tl::unexpected<Error>(ok.error());
+    TRY(check_clear(out, border, eps_tip, stop));
+    return out;
   };
   auto out = with(LeadBevel::held);
   if (!out && out.error().code() == ErrorCode::lead_blocked)

@@ -6,6 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -380,13 +381,12 @@ Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b, std::sto
   const double bevel = eps_b.rad() * kBevelWeight;
   // With no mean at all a knot is off by at most d / 3, so the halving ends.
   for (double d = kSpacing;; d *= 0.5) {
-    const auto samples = resample(p, d, eps_tip, eps_b.rad(), stop);
-    if (!samples) return tl::unexpected<Error>(samples.error());
-    Smoothed tip = widest(p, *samples, Group::tip, kWidestTip, eps_tip, stop);
-    Smoothed swing = widest(p, *samples, Group::bevel, kWidestBevel, bevel, stop);
+    TRY(const auto samples, resample(p, d, eps_tip, eps_b.rad(), stop));
+    Smoothed tip = widest(p, samples, Group::tip, kWidestTip, eps_tip, stop);
+    Smoothed swing = widest(p, samples, Group::bevel, kWidestBevel, bevel, stop);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (tip.deviation <= eps_tip && swing.deviation <= bevel) {
-      return assembled(p, *samples, std::move(tip), std::move(swing));
+      return assembled(p, samples, std::move(tip), std::move(swing));
     }
   }
 }

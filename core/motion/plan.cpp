@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/stop.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -334,9 +335,7 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
     }
   }
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (auto ok = settle(out, course, options, jerk, stop); !ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
+  TRY(settle(out, course, options, jerk, stop));
   return out;
 }
 

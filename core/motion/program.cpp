@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/try.hpp"
 #include "core/motion/lead.hpp"
 
 namespace tubecut::motion {
@@ -30,8 +31,8 @@ Program from_points(const std::vector<CutPoint>& points, double radius) {
 /// The contour in its direction and, for a sector, only that stretch of it.
 Result<Track> stretch(const Track& whole, const Motion& motion) {
   if (motion.sector) {
-    const auto in_direction = directed(whole, motion.direction, {});
-    return in_direction ? sector_of(*in_direction, *motion.sector) : in_direction;
+    TRY(const auto in_direction, directed(whole, motion.direction, {}));
+    return sector_of(in_direction, *motion.sector);
   }
   return directed(whole, motion.direction, motion.start);
 }
@@ -48,24 +49,20 @@ Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
 
 Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
                             const std::stop_token& stop) {
-  auto whole = track(cut_path);
-  if (!whole) return tl::unexpected<Error>(whole.error());
-  if (spec.way) return of_way(*spec.way, *whole, spec.motion.lead.has_value());
-  const auto cut = stretch(*whole, spec.motion);
-  if (!cut) return tl::unexpected<Error>(cut.error());
+  TRY(const auto whole, track(cut_path));
+  if (spec.way) return of_way(*spec.way, whole, spec.motion.lead.has_value());
+  TRY(const auto cut, stretch(whole, spec.motion));
   if (!spec.motion.lead) {
-    Program out = from_points(cut->points, cut->radius);
-    out.closed = cut->closed;
-    out.turns = cut->turns;
+    Program out = from_points(cut.points, cut.radius);
+    out.closed = cut.closed;
+    out.turns = cut.turns;
     return out;
   }
-  const auto border = part_border(cut_path, spec.machine.sigma(), stop);
-  if (!border) return tl::unexpected<Error>(border.error());
-  const auto whole_way = clear_lead(*border, *cut, *spec.motion.lead, spec.motion.eps_tip, stop);
-  if (!whole_way) return tl::unexpected<Error>(whole_way.error());
-  Program out = from_points(whole_way->points, cut->radius);
-  out.cut_first = whole_way->cut_first;
-  out.cut_last = whole_way->cut_last;
+  TRY(const auto border, part_border(cut_path, spec.machine.sigma(), stop));
+  TRY(const auto way, clear_lead(border, cut, *spec.motion.lead, spec.motion.eps_tip, stop));
+  Program out = from_points(way.points, cut.radius);
+  out.cut_first = way.cut_first;
+  out.cut_last = way.cut_last;
   return out;
 }
 
@@ -158,8 +155,8 @@ Result<void> check_closed(const AxisColumns& cut, const Machine& machine) {
 
 Result<Program> of_columns(const AxisColumns& cut, const ScheduleSpec& spec) {
   const Machine& machine = spec.machine;
-  if (auto ok = check_sizes(cut, machine); !ok) return tl::unexpected<Error>(ok.error());
-  if (auto ok = check_motion_of_columns(spec.motion); !ok) return tl::unexpected<Error>(ok.error());
+  TRY(check_sizes(cut, machine));
+  TRY(check_motion_of_columns(spec.motion));
   const bool mill = follows_tip(cut, machine);
   Program out;
   for (std::size_t a = 0; a < cut.columns.size(); ++a) {
@@ -174,10 +171,8 @@ Result<Program> of_columns(const AxisColumns& cut, const ScheduleSpec& spec) {
   out.corner = cut.corner.empty() ? std::vector<bool>(out.size(), false) : cut.corner;
   out.cut_last = out.size() - 1;
   out.closed = cut.closed;
-  if (auto ok = check_values(out, machine); !ok) return tl::unexpected<Error>(ok.error());
-  if (cut.closed) {
-    if (auto ok = check_closed(cut, machine); !ok) return tl::unexpected<Error>(ok.error());
-  }
+  TRY(check_values(out, machine));
+  if (cut.closed) TRY(check_closed(cut, machine));
   return out;
 }
 

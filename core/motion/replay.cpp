@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/try.hpp"
 #include "core/motion/course.hpp"
 #include "core/motion/invariants.hpp"
 
@@ -112,26 +113,23 @@ Counted Received::counted() const {
 Result<Received> received(const Machine& machine, double period,
                           const std::vector<std::vector<double>>& counts, std::vector<double> start,
                           const std::stop_token& stop) {
-  const auto periods = periods_of(machine, period, counts, start);
-  if (!periods) return tl::unexpected<Error>(periods.error());
+  TRY(const auto periods, periods_of(machine, period, counts, start));
   Received out = integers(counts, stop);
   out.period = period;
-  out.periods = *periods;
+  out.periods = periods;
   out.start = std::move(start);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
 Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop) {
-  const auto job = prepare_cut(spec.job, stop);
-  if (!job) return tl::unexpected<Error>(job.error());
-  const auto whole = received(spec.job.machine, spec.period, spec.counts, spec.start, stop);
-  if (!whole) return tl::unexpected<Error>(whole.error());
-  const Counted counted = whole->counted();
+  TRY(const auto job, prepare_cut(spec.job, stop));
+  TRY(const auto whole, received(spec.job.machine, spec.period, spec.counts, spec.start, stop));
+  const Counted counted = whole.counted();
   Replay out;
   rebuild(spec.job, counted, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  out.invariants = examine(spec.job, *job, counted, whole->worst, false, &out.deviation, stop);
+  out.invariants = examine(spec.job, job, counted, whole.worst, false, &out.deviation, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
 }

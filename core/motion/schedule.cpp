@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/stop.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -126,13 +127,11 @@ std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
 }
 
 Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& stop) {
-  auto job = prepare_cut(spec, stop);
-  if (!job) return tl::unexpected<Error>(job.error());
+  TRY(auto job, prepare_cut(spec, stop));
   const PlanOptions options{spec.motion.jerk, spec.motion.expert.optimism,
                             spec.motion.expert.filter, spec.max_periods};
-  auto timed = plan(job->course, options, stop);
-  if (!timed) return tl::unexpected<Error>(timed.error());
-  PlannedCut out{.job = *std::move(job), .plan = *std::move(timed)};
+  TRY(auto timed, plan(job.course, options, stop));
+  PlannedCut out{.job = std::move(job), .plan = std::move(timed)};
   out.events = events(out.job, out.plan);
   out.report = report(spec, out.job, out.plan, stop);
   out.report.edges = edge_deviation(spec, out.job.program, out.job.course.path, stop);
@@ -141,16 +140,15 @@ Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& sto
 }
 
 Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
-  auto cut = plan_cut(spec, stop);
-  if (!cut) return tl::unexpected<Error>(cut.error());
+  TRY(auto cut, plan_cut(spec, stop));
   Schedule out;
   out.period = spec.machine.period;
-  out.periods = static_cast<std::int64_t>(cut->plan.places.size()) - 1;
-  out.axes = pulses(cut->job, cut->plan, stop);
-  out.events = std::move(cut->events);
-  out.report = std::move(cut->report);
+  out.periods = static_cast<std::int64_t>(cut.plan.places.size()) - 1;
+  out.axes = pulses(cut.job, cut.plan, stop);
+  out.events = std::move(cut.events);
+  out.report = std::move(cut.report);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (spec.motion.compare) out.comparison = comparison(cut->job, stop);
+  if (spec.motion.compare) out.comparison = comparison(cut.job, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   out.warnings = warnings(spec, out.report);
   return out;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/try.hpp"
 #include "core/motion/program.hpp"
 
 namespace tubecut::motion {
@@ -53,15 +54,13 @@ Result<void> check_covered(const SpeedTable& table, const Program& program) {
 Result<SpeedAlong> SpeedAlong::of(const Speed& speed, const Program& program) {
   SpeedAlong out;
   if (const auto* const number = std::get_if<double>(&speed)) {
-    if (auto ok = check_speed(*number, "motion/speed"); !ok) {
-      return tl::unexpected<Error>(ok.error());
-    }
+    TRY(check_speed(*number, "motion/speed"));
     out.number_ = *number;
     return out;
   }
   const auto& table = std::get<SpeedTable>(speed);
-  if (auto ok = check_table(table); !ok) return tl::unexpected<Error>(ok.error());
-  if (auto ok = check_covered(table, program); !ok) return tl::unexpected<Error>(ok.error());
+  TRY(check_table(table));
+  TRY(check_covered(table, program));
   out.pairs_ = table.pairs;
   out.lengths_ = program.lengths();
   out.beam_ = program.beam;
