@@ -26,12 +26,7 @@ Result<void> check_periods(const PreparedCut& job, std::int64_t most) {
   // Smoothing shortens the polyline; half of it can never be gained.
   const double least = periods_of(0.5 * job.ideal, job.course.machine.period);
   if (least <= static_cast<double>(most)) return {};
-  return fail({ErrorCode::too_many_periods,
-               "motion",
-               periods_of(job.ideal, job.course.machine.period),
-               static_cast<double>(most),
-               "periods",
-               {}});
+  return too_many_periods(periods_of(job.ideal, job.course.machine.period), most);
 }
 
 constexpr double kEndMargin = 2.0;  // mm at both ends where a slow tip is a start or stop

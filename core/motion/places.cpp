@@ -157,6 +157,14 @@ double periods_of(double time, double period) {
   return std::max(1.0, std::ceil(time / period - 1e-6));
 }
 
+tl::unexpected<Error> too_many_periods(double periods, std::int64_t most) {
+  return fail({.code = ErrorCode::too_many_periods,
+               .member = "motion",
+               .got = periods,
+               .limit = static_cast<double>(most),
+               .unit = "periods"});
+}
+
 std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
                            const std::stop_token& stop) {
   const Clock clock(duration(timing.x, d) + timing.filter);

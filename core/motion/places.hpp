@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/motion/timing.hpp"
 
 namespace tubecut::motion {
@@ -18,6 +19,9 @@ struct Place {
 
 /// Periods of `period` seconds that a time of `time` seconds takes.
 [[nodiscard]] double periods_of(double time, double period);
+
+/// The error of a schedule that would have more periods than the `most` allowed.
+[[nodiscard]] tl::unexpected<Error> too_many_periods(double periods, std::int64_t most);
 
 /// u at the ends of `periods` equal periods, 0 first and the path's end last, never decreasing.
 ///

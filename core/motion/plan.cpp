@@ -265,20 +265,14 @@ bool any_jerk(const PathLimits& limits) {
   return std::ranges::any_of(limits.axes, [](const AxisBounds& axis) { return axis.j_max > 0.0; });
 }
 
-Error too_many(double periods, std::int64_t most) {
-  return Error{Issue{
-      ErrorCode::too_many_periods, "motion", periods, static_cast<double>(most), "periods", {}}};
-}
-
 /// Samples the plan and stretches it while a limit is broken; a stretch by K divides v, a, j by K,
 /// K^2, K^3.
 Result<void> settle(Plan& out, const Course& course, const PlanOptions& options, bool jerk,
                     const std::stop_token& stop) {
   for (;;) {
     const double periods = periods_of(out.timing.time * out.stretch, course.machine.period);
-    if (!(periods <= static_cast<double>(options.max_periods))) {
-      return tl::unexpected<Error>(too_many(periods, options.max_periods));
-    }
+    if (!(periods <= static_cast<double>(options.max_periods)))
+      return too_many_periods(periods, options.max_periods);
     out.places = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods), stop);
     out.uses = uses(course, out.places, jerk, stop);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -319,9 +313,8 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
   out.timing = fastest_of(x, by_signs.x, course.limits.d);
   out.no_jerk = out.proven = out.timing.time;
   const double least = periods_of(out.no_jerk, course.machine.period);
-  if (!(least <= static_cast<double>(options.max_periods))) {
-    return tl::unexpected<Error>(too_many(least, options.max_periods));
-  }
+  if (!(least <= static_cast<double>(options.max_periods)))
+    return too_many_periods(least, options.max_periods);
   const bool jerk = options.jerk && any_jerk(course.limits);
   if (jerk) {
     const double by_magnitudes = duration(x, course.limits.d);

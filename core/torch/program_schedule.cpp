@@ -110,11 +110,6 @@ motion::Speed speed_of(const ProgramSpec& spec, const TorchCut& cut) {
   return spec.motion.speed;
 }
 
-Result<void> too_many(double periods, std::int64_t most) {
-  return fail(
-      {ErrorCode::too_many_periods, "motion", periods, static_cast<double>(most), "periods", {}});
-}
-
 /// Periods of all ways at the fastest speed asked for, before any of them is planned: smoothing
 /// shortens them, but never by half.
 Result<void> check_periods(const ProgramSpec& spec, const std::vector<ProgramCut>& cuts) {
@@ -129,7 +124,7 @@ Result<void> check_periods(const ProgramSpec& spec, const std::vector<ProgramCut
   }
   const double periods = seconds / spec.machine.period;
   if (0.5 * periods <= static_cast<double>(spec.max_periods)) return {};
-  return too_many(periods, spec.max_periods);
+  return motion::too_many_periods(periods, spec.max_periods);
 }
 
 class Scheduling {
@@ -273,7 +268,7 @@ class Scheduling {
   Result<void> room_for(double periods) const {
     const double all = static_cast<double>(counter_.periods()) + periods;
     if (all <= static_cast<double>(spec_.max_periods)) return {};
-    return too_many(all, spec_.max_periods);
+    return motion::too_many_periods(all, spec_.max_periods);
   }
 
   /// The cut's own bound as that of the whole.
