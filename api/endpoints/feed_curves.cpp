@@ -90,7 +90,9 @@ cutoff::FitSpec decode_fit(Reader& in) {
         if (t.size() == 3) out.nodes = {t[0], t[1], t[2]};
       }
       break;
-    default:
+    case FitMethod::minimax:
+    case FitMethod::least_squares:
+    case FitMethod::equispaced:
       out.degree = in.integer("degree", 1, cutoff::kHighestDegree, 2);
   }
   out.preserve_stroke = in.flag("preserve_stroke", false);

@@ -142,9 +142,11 @@ Result<ChebyshevSeries> fit(const WorkFeed& work, FitMethod method, int degree,
       return equispaced(work, degree);
     case FitMethod::least_squares:
       return least_squares(work, degree);
-    default:
-      return minimax(work, degree, stop);
+    case FitMethod::minimax:
+    case FitMethod::automatic:
+      break;
   }
+  return minimax(work, degree, stop);
 }
 
 Result<ChebyshevSeries> shifted_fit(const WorkFeed& work, const FitSpec& spec, FitMethod method,

@@ -169,7 +169,8 @@ Coordinates Reconstruction::quantum(double largest_b) const {
         for (std::size_t c = 0; c < 3; ++c) out[c] += std::abs(inverse_[a][c]) * half_pulse(a);
       }
       return out;
-    default:
+    case Kind::five_axis:
+    case Kind::crawler:
       break;
   }
   const double cos = elementary::cos(largest_b);
