@@ -53,7 +53,9 @@ struct JointSource {
 /// `target` with `cutters`, or `node`.
 [[nodiscard]] JointSource decode_joint(Reader& in);
 
-/// Finds target and partners of a node's end. Errors  those of joint::joint_at, naming node/...
+/// Finds target and partners of a node's end.
+///
+/// Errors  those of joint::joint_at, naming node/...
 [[nodiscard]] Result<JointSource> resolve(JointSource source, const std::stop_token& stop);
 
 /// The same issue or warning, naming the node's members instead of target and cutters.

@@ -10,7 +10,9 @@
 #include "core/base/error.hpp"
 
 /// Smoothing of the bevel angle B over one turn of the path, so that the swing axis can follow.
-/// Lengths in mm, angles in radians. Source: docs/theory/intersections-and-bevels.md, section 6.
+/// Lengths in mm, angles in radians.
+///
+/// Source    docs/theory/intersections-and-bevels.md, section 6.
 namespace tubecut::bevel {
 
 /// B at nodes of a closed path. The node after the last is the first, one period on.

@@ -66,11 +66,12 @@ struct Division {
 ///
 /// An elbow's junctions are bracketed on a scan of 1440 phases and closed like the others.
 ///
+/// Stopped, it tells nothing.
+///
 /// Accuracy  junction phi within 1e-12 rad; jump phi too, but its lost z only within 1e-5 mm (the
 ///           curve is vertical there).
 /// Cost      quadratic in the number of cutters, about 20 us a pair.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
-/// Stopped, it tells nothing.
 [[nodiscard]] Division divide(std::span<const PreparedCutter> cutters, double rho,
                               const std::stop_token& stop = {});
 

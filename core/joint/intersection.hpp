@@ -12,7 +12,9 @@
 
 namespace tubecut::joint {
 
-/// Every partner as a cutter. Errors  zero_length, parallel_axes (cutters/i/axis).
+/// Every partner as a cutter.
+///
+/// Errors  zero_length, parallel_axes (cutters/i/axis).
 [[nodiscard]] Result<std::vector<Cutter>> resolve(std::span<const Partner> partners);
 
 enum class Surfaces { inner, outer, both };

@@ -106,8 +106,8 @@ struct Part {
 /// Both ends and the holes of one member in one frame, and what it is measured by.
 ///
 /// Frame   right-handed; z along the member from the start's long point, the lowest of either
-/// wall, which has z = 0, to the finish; phi from x towards y, zero at PartSpec::zero. B > 0
-/// everywhere: the outer edge lies further towards +z.
+///         wall, which has z = 0, to the finish; phi from x towards y, zero at PartSpec::zero.
+///         B > 0 everywhere: the outer edge lies further towards +z.
 /// Errors  those of bevel::table and bevel::hole, under start/..., finish/... and holes/i/...;
 ///         member_consumed (the two cuts meet); hole_off_part (holes/i: all of it is cut off);
 ///         out_of_range (no length).

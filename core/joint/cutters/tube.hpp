@@ -78,7 +78,8 @@ struct Placement {
 ///
 /// Errors    zero_length, parallel_axes (limit kParallel), both of `direction`.
 /// Accuracy  line -> numbers -> line passes the point within 1e-13 of |point| + |offset| +
-/// |height|. Source    docs/theory/intersections-and-bevels.md, section 1.1.
+///           |height|.
+/// Source    docs/theory/intersections-and-bevels.md, section 1.1.
 [[nodiscard]] Result<Placement> place(const AxisLine& axis, double radius);
 
 /// The axis in the target's frame: the foot of the common perpendicular and the unit direction.
