@@ -109,8 +109,4 @@ void Rule::angles(const joint::Normals& normals, std::span<Angles> out) const {
   }
 }
 
-double flush_angle(const Eigen::Vector3d& normal) {
-  return elementary::quick_atan2(-normal.x(), normal.z());
-}
-
 }  // namespace tubecut::bevel

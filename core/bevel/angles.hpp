@@ -78,7 +78,4 @@ class Rule {
   Zones zones_;
 };
 
-/// Flush angle alone, the slope of the partner's surface in the axial plane: atan(dz/drho).
-[[nodiscard]] double flush_angle(const Eigen::Vector3d& normal);
-
 }  // namespace tubecut::bevel

@@ -229,15 +229,6 @@ Result<double> Mechanism::tool_feed(double stroke) const {
                .unit = "mm"});
 }
 
-Result<double> Mechanism::cylinder_stroke(double feed) const {
-  if (reaches(feed)) return inverse(feed).stroke;
-  Issue issue{.code = ErrorCode::unreachable_x, .member = "feed", .unit = "mm"};
-  if (std::isfinite(feed)) issue.got = feed;
-  const auto& crossed = feed > 0.0 ? high_ : low_;
-  if (crossed.feed) issue.limit = *crossed.feed;
-  return fail(std::move(issue));
-}
-
 /// With sine and cosine of half the arm's turn all else is algebra: e = e0 - turn, beta's turn
 /// less the arm's as a quotient, sums of angles by their sines and cosines.
 Forward Mechanism::forward(double stroke) const {

@@ -71,16 +71,14 @@ class Mechanism {
   ///           1e-12 of its width.
   [[nodiscard]] Result<double> tool_feed(double stroke) const;
 
-  /// Cylinder stroke at a feed.
-  /// Errors    unreachable_x: the feed is outside the linkage's range, or the arm within 0.06 deg
-  ///           of a tangent position.
-  [[nodiscard]] Result<double> cylinder_stroke(double feed) const;
-
-  /// The same with derivatives, for arguments known to be in range.
+  /// The same, and the cylinder stroke at a feed, with derivatives, for arguments known to be in
+  /// range.
   /// Cost      one call of an elementary function each, three roots and some six quotients.
   [[nodiscard]] Forward forward(double stroke) const;
   [[nodiscard]] Inverse inverse(double feed) const;
 
+  /// Whether a feed is within the linkage's range, and the arm no nearer than 0.06 deg to a tangent
+  /// position.
   [[nodiscard]] bool reaches(double feed) const;
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   /// Horizontal part A of the pivots' distance, the scale of the accuracy line.

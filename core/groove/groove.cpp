@@ -26,8 +26,6 @@ GrooveSection report(const Joint& joint, const Section& section) {
   out.p3 = {joint.branch_radius, section.y3};
   out.height = section.height;
   out.root_z = p.y1;
-  out.root_z_d = section.z3_d;
-  out.height_d = section.height_d;
   if (section.dir.sin != 0.0) out.ellipse_a = joint.chord_radius / std::abs(section.dir.sin);
   out.areas = areas(joint, section);
   out.ruling = ruling(joint, section);

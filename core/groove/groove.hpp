@@ -20,8 +20,6 @@ struct GrooveSection {
   Eigen::Vector2d p1, p2, p3;  // x from the branch axis, y along it, mm
   double height = 0.0;         // h, mm
   double root_z = 0.0;         // of curve 3, mm
-  double root_z_d = 0.0;       // its derivative by omega, mm/rad
-  double height_d = 0.0;       // mm/rad
   std::optional<double>
       ellipse_a;  // semi-axis of the chord's section across the branch, mm; a line pair has none
   Areas areas;

@@ -177,7 +177,6 @@ GridFigures grid_figures(const Neighbourhood& near, const Cone& cone, const Tool
     if (low >= least) continue;
     least = low;
     most = high;
-    out.ruling_offset = near.rulings[j].delta;
   }
   out.over = std::max(0.0, -least);
   out.under = std::max(0.0, most);

@@ -45,7 +45,6 @@ struct Neighbourhood {
 /// what lies between rulings.
 struct GridFigures {
   double over = 0.0, under = 0.0;                                  // mm, both >= 0
-  double ruling_offset = 0.0;                                      // of that ruling, rad
   [[nodiscard]] double objective() const { return over + under; }  // (16)
 };
 [[nodiscard]] GridFigures grid_figures(const Neighbourhood& near, const Cone& cone,

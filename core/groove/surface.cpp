@@ -48,19 +48,12 @@ Eigen::Vector3d surface_point(const Joint& joint, const Section& section, double
 }
 
 Ruling ruling(const Joint& joint, const Section& section) {
-  const double H = joint.groove_width, h = section.height, h_d = section.height_d;
+  const double H = joint.groove_width;
   Ruling out;
-  out.determinant = H * (H * section.z3_d - joint.root_radius * h_d);
-  // d = (H, 0, h) and d' = (0, H, h'): p = det / (|d|^2 |(d/|d|)'|^2), the second factor by
-  // Lagrange's identity.
-  const double d2 = H * H + h * h;
-  const double spread = d2 * (H * H + h_d * h_d) - h * h * h_d * h_d;
-  out.distribution_parameter = out.determinant * d2 / spread;
+  out.determinant = H * (H * section.z3_d - joint.root_radius * section.height_d);
   const Eigen::Vector3d low = normal_at(joint, section, 0.0), high = normal_at(joint, section, 1.0);
   const double twist = elementary::atan2(low.cross(high).norm(), low.dot(high));
   out.twist = Angle::rad(std::copysign(twist, out.determinant));
-  const double middle = normal_at(joint, section, 0.5).squaredNorm();
-  out.curvature = -(out.determinant / middle) * (out.determinant / middle);
   return out;
 }
 

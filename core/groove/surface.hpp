@@ -18,10 +18,8 @@ struct CurvePoints {
 
 /// How far the ruling at one section is from lying in a developable surface.
 struct Ruling {
-  double determinant = 0.0;             // det(C3', d, d'), mm^3; 0 all round <=> developable
-  double distribution_parameter = 0.0;  // mm
-  Angle twist;                          // between the normals at C3 and C4, sign of the determinant
-  double curvature = 0.0;               // Gaussian, half way up, 1/mm^2
+  double determinant = 0.0;  // det(C3', d, d'), mm^3; 0 all round <=> developable
+  Angle twist;               // between the normals at C3 and C4, sign of the determinant
 };
 
 /// Source  docs/theory/grooves-and-milling.md, (1)-(4).

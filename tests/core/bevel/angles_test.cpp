@@ -166,8 +166,8 @@ TEST(Angles, AgreeWithVectorsInSpace) {
         std::cos(elevation) * b.radial + std::sin(elevation) * b.half_target;
     const Eigen::Vector3d torch = std::cos(a.b) * b.radial + std::sin(a.b) * b.axial;
     EXPECT_NEAR(torch.dot(b.along.cross(bevel)), 0.0, 1e-12);
-    EXPECT_NEAR(std::tan(flush_angle(hit->normal)),
-                -b.outward.dot(b.radial) / b.outward.dot(b.axial), 1e-9 / hit->normal.z());
+    EXPECT_NEAR(std::tan(a.flush), -b.outward.dot(b.radial) / b.outward.dot(b.axial),
+                1e-9 / hit->normal.z());
   }
 }
 

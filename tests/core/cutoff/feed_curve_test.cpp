@@ -226,8 +226,7 @@ TEST(Verify, EveryCheckSeesTenTimesItsLimit) {
   const auto middle = [](std::vector<double>& column) -> double& {
     return column[column.size() / 2];
   };
-  spec.linkage.calibrate =
-      MeasuredPair{30.0, Mechanism::make(spec.linkage)->cylinder_stroke(30.0).value()};
+  spec.linkage.calibrate = MeasuredPair{30.0, Mechanism::make(spec.linkage)->inverse(30.0).stroke};
   spec.linkage.rad_per_mm = 0.0;
   const auto good = feed_curve(spec).value();
   using Corrupt = std::function<void(FeedCurve&, double)>;  // the second is ten times the limit

@@ -99,7 +99,7 @@ TEST(ShortArm, GridAndLimits) {
   expect_relative(g.feed_high.value(), number(json, "x_hi"), 1e-12);
   expect_relative(g.stroke_low, number(json, "y_lo"), 1e-12);
   expect_relative(g.stroke_high, number(json, "y_hi"), 1e-12);
-  EXPECT_EQ(machine.cylinder_stroke(*g.feed_high + 1e-6).error().code(), ErrorCode::unreachable_x);
+  EXPECT_FALSE(machine.reaches(*g.feed_high + 1e-6));
   EXPECT_EQ(machine.tool_feed(g.stroke_high).error().code(), ErrorCode::dead_point);
   EXPECT_EQ(machine.tool_feed(g.stroke_low).error().code(), ErrorCode::tan_pole);
 }
@@ -213,7 +213,7 @@ TEST(SeededLinkages, DerivativesAreSlopes) {
 
 TEST(Calibration, OneMeasuredPairGivesTheRate) {
   Linkage linkage = testing::table_3();
-  const double stroke = mechanism(linkage).cylinder_stroke(30.0).value();
+  const double stroke = mechanism(linkage).inverse(30.0).stroke;
   const double rate = std::exchange(linkage.rad_per_mm, 0.0);
   linkage.calibrate = MeasuredPair{30.0, stroke};
   const auto machine = mechanism(linkage);
