@@ -1,6 +1,8 @@
 #include "core/bevel/table.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <type_traits>
 
 #include "core/base/try.hpp"
 #include "core/bevel/table_parts.hpp"
@@ -9,30 +11,35 @@
 namespace tubecut::bevel {
 namespace {
 
+using detail::Point;
 using detail::Rows;
 using detail::TableSetup;
 
+template <class Entry, class F>
+auto each(const std::vector<Entry>& entries, const F& value) {
+  std::vector<std::decay_t<std::invoke_result_t<F, const Entry&>>> out;
+  out.reserve(entries.size());
+  for (const auto& entry : entries) out.push_back(std::invoke(value, entry));
+  return out;
+}
+
 void fill_angles(const TableSetup& g, const Rows& rows, Table& out) {
-  const auto n = rows.points.size();
-  for (auto* column : {&out.phi, &out.developed, &out.length, &out.dihedral, &out.groove, &out.tau,
-                       &out.gamma, &out.flush, &out.b_raw, &out.b_required})
-    column->resize(n);
-  out.cutter.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& node = rows.samples.nodes[i];
-    const auto& [cutter, angles, raw, required, input, face] = rows.points[i];
-    out.phi[i] = node.phi;
-    out.developed[i] = g.root.radius * node.phi;
-    out.length[i] = node.length;
-    out.cutter[i] = cutter;
-    out.dihedral[i] = angles.dihedral;
-    out.groove[i] = angles.groove;
-    out.tau[i] = angles.tau;
-    out.gamma[i] = angles.gamma;
-    out.flush[i] = angles.flush;
-    out.b_raw[i] = raw;
-    out.b_required[i] = required;
-  }
+  const auto& nodes = rows.samples.nodes;
+  const auto& points = rows.points;
+  const auto angle = [&](double Angles::*which) {
+    return each(points, [=](const Point& p) { return p.angles.*which; });
+  };
+  out.phi = each(nodes, &joint::Node::phi);
+  out.developed = each(nodes, [&](const joint::Node& n) { return g.root.radius * n.phi; });
+  out.length = each(nodes, &joint::Node::length);
+  out.cutter = each(points, &Point::cutter);
+  out.dihedral = angle(&Angles::dihedral);
+  out.groove = angle(&Angles::groove);
+  out.tau = angle(&Angles::tau);
+  out.gamma = angle(&Angles::gamma);
+  out.flush = angle(&Angles::flush);
+  out.b_raw = each(points, &Point::raw);
+  out.b_required = each(points, &Point::required);
 }
 
 /// The zone of every row; a dihedral the table does not have is an error.

@@ -11,6 +11,7 @@
 #include "core/bevel/smoothed_area.hpp"
 #include "core/bevel/table.hpp"
 #include "core/bevel/table_arrays.hpp"
+#include "core/bevel/table_columns.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/joint/solid_arrays.hpp"
 #include "core/math/search.hpp"
@@ -233,28 +234,7 @@ double gaps_off(const TableSpec& spec, const Table& t, const std::vector<joint::
 /// proof says anything.
 std::size_t not_numbers(const Table& t) {
   std::size_t out = 0;
-  for (const auto* column : {&t.phi,
-                             &t.developed,
-                             &t.length,
-                             &t.z_inner,
-                             &t.z_outer,
-                             &t.z_face,
-                             &t.b_face,
-                             &t.dihedral,
-                             &t.groove,
-                             &t.tau,
-                             &t.gamma,
-                             &t.flush,
-                             &t.b_raw,
-                             &t.b_required,
-                             &t.b,
-                             &t.gap,
-                             &t.beam,
-                             &t.torch_inner,
-                             &t.torch_outer,
-                             &t.gaps.square.inner,
-                             &t.gaps.square.outer})
-    out += not_finite(*column);
+  each_column([&](ColumnKind, const std::vector<double>& column) { out += not_finite(column); }, t);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/bevel/table_columns.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/edge.hpp"
 
@@ -92,18 +93,14 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
   }
   out.cutter = picked(in.cutter, order);
   out.zone = picked(in.zone, order);
-  for (auto column : {&bevel::Table::z_inner, &bevel::Table::z_outer, &bevel::Table::z_face,
-                      &bevel::Table::torch_inner, &bevel::Table::torch_outer})
-    out.*column = mirrored(in.*column, order, length);
-  for (auto column : {&bevel::Table::tau, &bevel::Table::flush, &bevel::Table::b_raw,
-                      &bevel::Table::b_required, &bevel::Table::b, &bevel::Table::b_face})
-    out.*column = mirrored(in.*column, order);
-  for (auto column : {&bevel::Table::dihedral, &bevel::Table::groove, &bevel::Table::gamma,
-                      &bevel::Table::gap, &bevel::Table::beam})
-    out.*column = picked(in.*column, order);
-  for (auto map : {&bevel::GapMap::square, &bevel::GapMap::bevelled})
-    for (auto edge : {&bevel::EdgeGaps::inner, &bevel::EdgeGaps::outer})
-      out.gaps.*map.*edge = picked(in.gaps.*map.*edge, order);
+  const auto mirror = [&](bevel::ColumnKind kind, const std::vector<double>& from,
+                          std::vector<double>& to) {
+    using enum bevel::ColumnKind;
+    if (kind == height) to = mirrored(from, order, length);
+    if (kind == elevation) to = mirrored(from, order);
+    if (kind == plain) to = picked(from, order);
+  };
+  bevel::each_column(mirror, in, out);
   out.inner_events = mirrored(in.inner_events, length);
   out.outer_events = mirrored(in.outer_events, length);
   mirror_lists(in, out);
@@ -126,9 +123,11 @@ double highest(const bevel::Table& t) {
 }
 
 bevel::Table shifted(bevel::Table table, double dz) {
-  for (auto column : {&bevel::Table::z_inner, &bevel::Table::z_outer, &bevel::Table::z_face,
-                      &bevel::Table::torch_inner, &bevel::Table::torch_outer})
-    for (auto& z : table.*column) z += dz;
+  const auto move = [dz](bevel::ColumnKind kind, std::vector<double>& column) {
+    if (kind != bevel::ColumnKind::height) return;
+    for (auto& z : column) z += dz;
+  };
+  bevel::each_column(move, table);
   for (auto* events : {&table.inner_events, &table.outer_events})
     for (auto& e : *events) {
       e.z_from += dz;
