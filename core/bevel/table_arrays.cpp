@@ -19,7 +19,7 @@ Vectors of(const joint::Places& p) { return {p.x.data(), p.y.data(), p.z.data()}
 struct Circle {
   const double *sine, *cosine;
 };
-Circle of(const Turns& t) { return {t.sine.data(), t.cosine.data()}; }
+Circle of(const Directions& t) { return {t.sine.data(), t.cosine.data()}; }
 
 /// Lengths of radial - side normal and of radial + side normal.
 TUBECUT_WIDE void half_tangents(Circle phi, Vectors normal, double side, double* apart,
@@ -100,7 +100,7 @@ std::vector<double> closed(const std::vector<double>& column, double turn) {
 }  // namespace
 
 RowNormals row_normals(const TableSpec& spec, const Table& t,
-                       const std::vector<joint::Solid>& partners, const Turns& phi) {
+                       const std::vector<joint::Solid>& partners, const Directions& phi) {
   const auto n = t.phi.size();
   const bool outer = spec.root_surface == RootSurface::outer;
   const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
@@ -130,8 +130,8 @@ std::vector<double> dihedrals(const RowNormals& rows, Dihedral dihedral) {
   return out;
 }
 
-std::vector<double> plane_errors(const RowNormals& rows, Dihedral dihedral, const Turns& tau,
-                                 const Turns& b) {
+std::vector<double> plane_errors(const RowNormals& rows, Dihedral dihedral, const Directions& tau,
+                                 const Directions& b) {
   std::vector<double> out(rows.noise.size());
   plane_errors_of(of(rows.phi), of(rows.partner), rows.noise.data(), of(tau), of(b),
                   dihedral == Dihedral::weld_side ? 1.0 : -1.0, out.data(), out.size());
@@ -157,7 +157,7 @@ std::vector<double> BetweenRows::phases(std::span<const double> share) const {
   return out;
 }
 
-joint::Places BetweenRows::places(std::span<const double> share, const Turns& phi,
+joint::Places BetweenRows::places(std::span<const double> share, const Directions& phi,
                                   std::span<const double> radius) const {
   const auto n = share.size();
   joint::Places out(n);

@@ -11,24 +11,25 @@
 /// What the proof of a table looks at, many rows side by side (base/lanes.hpp).
 namespace tubecut::bevel {
 
-/// Sines and cosines of many angles.
-struct Turns {
+/// Sines and cosines of many angles, side by side.
+struct Directions {
   std::vector<double> sine, cosine;
 
-  explicit Turns(std::span<const double> angles) : sine(angles.size()), cosine(angles.size()) {
+  explicit Directions(std::span<const double> angles) : sine(angles.size()), cosine(angles.size()) {
     elementary::sincos(angles, sine, cosine);
   }
 };
 
 /// The rows in space. The tube's outward normal is (phi.cosine, phi.sine, 0).
 struct RowNormals {
-  const Turns& phi;
+  const Directions& phi;
   joint::Places partner;      // its outward normals at the root points
   std::vector<double> noise;  // of those, from the rounding of z
 };
 /// By the table's own z and the partners as solids.
 [[nodiscard]] RowNormals row_normals(const TableSpec& spec, const Table& t,
-                                     const std::vector<joint::Solid>& partners, const Turns& phi);
+                                     const std::vector<joint::Solid>& partners,
+                                     const Directions& phi);
 
 /// Angles between the tube's and the partner's surface by half tangents, rad: full accuracy near 0
 /// and 180 degrees.
@@ -38,7 +39,7 @@ struct RowNormals {
 /// beyond rounding: where both surfaces have one tangent plane the curve's tangent loses its
 /// digits.
 [[nodiscard]] std::vector<double> plane_errors(const RowNormals& rows, Dihedral dihedral,
-                                               const Turns& tau, const Turns& b);
+                                               const Directions& tau, const Directions& b);
 
 /// How many are no finite numbers.
 [[nodiscard]] std::size_t not_finite(std::span<const double> values);
@@ -51,7 +52,7 @@ class BetweenRows {
   /// Phases at such shares of the ways from each row to the next, rad.
   [[nodiscard]] std::vector<double> phases(std::span<const double> share) const;
   /// Places there, at such radii, mm.
-  [[nodiscard]] joint::Places places(std::span<const double> share, const Turns& phi,
+  [[nodiscard]] joint::Places places(std::span<const double> share, const Directions& phi,
                                      std::span<const double> radius) const;
 
  private:

@@ -108,7 +108,7 @@ void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, con
 
 /// How far the cut of each row stays from the nearest partner, mm; negative: it enters.
 std::vector<double> clearances(const TableSpec& spec, const Table& t,
-                               const std::vector<joint::Solid>& solids, const Turns& phi,
+                               const std::vector<joint::Solid>& solids, const Directions& phi,
                                const std::stop_token& stop) {
   const auto n = t.phi.size();
   const bool face = !t.z_face.empty();
@@ -154,7 +154,7 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
   const auto n = t.phi.size();
   const BetweenRows surface(spec, t);
   std::vector<double> least(n, std::numeric_limits<double>::infinity()), distance(n), at(n);
-  const auto see = [&](std::span<const double> share, const Turns& phi,
+  const auto see = [&](std::span<const double> share, const Directions& phi,
                        std::span<const double> radius) {
     if (stop.stop_requested()) return;
     const auto places = surface.places(share, phi, radius);
@@ -168,7 +168,7 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
   const auto golden = golden_shares(3 * n);
   if (stop.stop_requested()) return 0.0;
   const std::vector<double> half(n, 0.5);
-  const Turns middle(surface.phases(half));
+  const Directions middle(surface.phases(half));
   see(half, middle, std::vector<double>(n, inner));
   if (!t.z_face.empty()) see(half, middle, std::vector<double>(n, inner + spec.root_face));
   see(half, middle, std::vector<double>(n, spec.target.outer_radius));
@@ -179,7 +179,7 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
     share[i] = golden[3 * i + 1];
     at[i] = inner + wall * golden[3 * i + 2];
   }
-  see(share, Turns(surface.phases(share)), at);
+  see(share, Directions(surface.phases(share)), at);
   double lowest = 0.0;
   bool numbers = true;
   for (const double d : least) {
@@ -257,13 +257,13 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   const bool published = spec.dihedral == Dihedral::as_published;
   const bool square = std::holds_alternative<SquareCut>(spec.groove);
   const double low = spec.torch.min.rad(), high = spec.torch.max.rad();
-  const Turns phi(t.phi);
+  const Directions phi(t.phi);
   const auto clear_of = clearances(spec, t, solids, phi, stop);
   if (stop.stop_requested()) return {};
   const auto rows = row_normals(spec, t, solids, phi);
   const auto angle = dihedrals(rows, spec.dihedral);
   if (stop.stop_requested()) return {};
-  const auto planes = plane_errors(rows, spec.dihedral, Turns(t.tau), Turns(t.b_raw));
+  const auto planes = plane_errors(rows, spec.dihedral, Directions(t.tau), Directions(t.b_raw));
   const auto input = smoother_input(spec, t);
   for (std::size_t i = 0; i < t.b.size() && !stops(stop, i); ++i) {
     const bool steep = std::abs(rows.partner.z[i]) < kSilhouette;

@@ -15,25 +15,25 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTie = 1e-12;       // of radius + |z|, rounding of one height
 constexpr double kOnCutter = 1e-14;  // relative, of lengths: the root is on the tube
 
-/// Cosines and sines of so many phases.
-struct Turns {
+/// Stations side by side: cosines and sines of their phases.
+struct Run {
   const double *cos_phi, *sin_phi;
   std::size_t n;
 };
-Turns turns(const Stations& s, std::size_t from, std::size_t to) {
+Run run_of(const Stations& s, std::size_t from, std::size_t to) {
   return {s.cos_phi.data() + from, s.sin_phi.data() + from, to - from};
 }
 
 // ---- a tube
 
-TUBECUT_WIDE void sheets_of(const PreparedTube& tube, double radius, Turns on, double* z) {
+TUBECUT_WIDE void sheets_of(const PreparedTube& tube, double radius, Run on, double* z) {
   const auto t = tube;
   for (std::size_t i = 0; i < on.n; ++i)
     z[i] = tube_sheet(t, tube_local(t, radius, on.cos_phi[i], on.sin_phi[i]));
 }
 
 /// Where the tube is higher than what is known: its height, and its number.
-TUBECUT_WIDE void raise(const PreparedTube& tube, double radius, Turns on, double number, double* z,
+TUBECUT_WIDE void raise(const PreparedTube& tube, double radius, Run on, double number, double* z,
                         double* highest) {
   const auto t = tube;
   for (std::size_t i = 0; i < on.n; ++i) {
@@ -45,7 +45,7 @@ TUBECUT_WIDE void raise(const PreparedTube& tube, double radius, Turns on, doubl
   }
 }
 
-TUBECUT_WIDE void slopes_on(const PreparedTube& tube, double radius, Turns on, double* out) {
+TUBECUT_WIDE void slopes_on(const PreparedTube& tube, double radius, Run on, double* out) {
   const auto t = tube;
   for (std::size_t i = 0; i < on.n; ++i)
     out[i] = tube_slope(t, tube_local(t, radius, on.cos_phi[i], on.sin_phi[i]));
@@ -54,7 +54,7 @@ TUBECUT_WIDE void slopes_on(const PreparedTube& tube, double radius, Turns on, d
 struct NormalsOut {
   double *radial, *tangential, *axial;
 };
-TUBECUT_WIDE void normals_on(const PreparedTube& tube, double radius, Turns on, NormalsOut out) {
+TUBECUT_WIDE void normals_on(const PreparedTube& tube, double radius, Run on, NormalsOut out) {
   const auto t = tube;
   for (std::size_t i = 0; i < on.n; ++i) {
     const auto p = tube_local(t, radius, on.cos_phi[i], on.sin_phi[i]);
@@ -67,7 +67,7 @@ TUBECUT_WIDE void normals_on(const PreparedTube& tube, double radius, Turns on, 
 }
 
 /// PreparedTube::steepest without branches, of many: the larger of `slope` and it.
-TUBECUT_WIDE void steepen(const PreparedTube& tube, const Wall& wall, Turns on, const double* root,
+TUBECUT_WIDE void steepen(const PreparedTube& tube, const Wall& wall, Run on, const double* root,
                           double* slope) {
   const auto t = tube;
   const auto w = wall;
@@ -118,13 +118,13 @@ TUBECUT_WIDE void steepen(const PreparedTube& tube, const Wall& wall, Turns on, 
 // ---- any other kind, one by one
 
 template <class Kind>
-void sheets_of(const Kind& cutter, double radius, Turns on, double* z) {
+void sheets_of(const Kind& cutter, double radius, Run on, double* z) {
   for (std::size_t i = 0; i < on.n; ++i)
     z[i] = cutter.continued_sheet({radius, on.cos_phi[i], on.sin_phi[i]});
 }
 
 template <class Kind>
-void raise(const Kind& cutter, double radius, Turns on, double number, double* z, double* highest) {
+void raise(const Kind& cutter, double radius, Run on, double number, double* z, double* highest) {
   for (std::size_t i = 0; i < on.n; ++i) {
     const auto height = cutter.upper_sheet({radius, on.cos_phi[i], on.sin_phi[i]});
     if (!height || !(*height > z[i])) continue;
@@ -134,13 +134,13 @@ void raise(const Kind& cutter, double radius, Turns on, double number, double* z
 }
 
 template <class Kind>
-void slopes_on(const Kind& cutter, double radius, Turns on, double* out) {
+void slopes_on(const Kind& cutter, double radius, Run on, double* out) {
   for (std::size_t i = 0; i < on.n; ++i)
     out[i] = cutter.continued_hit({radius, on.cos_phi[i], on.sin_phi[i]}).z_dphi;
 }
 
 template <class Kind>
-void normals_on(const Kind& cutter, double radius, Turns on, NormalsOut out) {
+void normals_on(const Kind& cutter, double radius, Run on, NormalsOut out) {
   for (std::size_t i = 0; i < on.n; ++i) {
     const auto n = cutter.continued_hit({radius, on.cos_phi[i], on.sin_phi[i]}).normal;
     out.radial[i] = n.x();
@@ -150,7 +150,7 @@ void normals_on(const Kind& cutter, double radius, Turns on, NormalsOut out) {
 }
 
 template <class Kind>
-void steepen(const Kind& cutter, const Wall& wall, Turns on, const double* root, double* slope) {
+void steepen(const Kind& cutter, const Wall& wall, Run on, const double* root, double* slope) {
   for (std::size_t i = 0; i < on.n; ++i)
     slope[i] = std::max(slope[i],
                         cutter.steepest(wall, {wall.inner, on.cos_phi[i], on.sin_phi[i]}, root[i]));
@@ -186,13 +186,13 @@ Contacts contacts_at(const Contour& contour, const Stations& stations,
   }
   by_runs(out.cutter, [&](std::size_t cutter, std::size_t from, std::size_t to) {
     by_kind(contour.cutters[cutter], [&](const auto& kind) {
-      sheets_of(kind, stations.radius, turns(stations, from, to), out.z.data() + from);
+      sheets_of(kind, stations.radius, run_of(stations, from, to), out.z.data() + from);
     });
   });
   std::vector<double> best(n, -kInfinity), number(n, 0.0);
   for (std::size_t k = 0; k < contour.cutters.size(); ++k)
     by_kind(contour.cutters[k], [&](const auto& kind) {
-      raise(kind, stations.radius, turns(stations, 0, n), static_cast<double>(k), best.data(),
+      raise(kind, stations.radius, run_of(stations, 0, n), static_cast<double>(k), best.data(),
             number.data());
     });
   for (std::size_t i = 0; i < n; ++i) {
@@ -210,7 +210,7 @@ Normals normals_at(std::span<const PreparedCutter> cutters, const Stations& stat
   Normals out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   by_runs(cutter, [&](std::size_t own, std::size_t from, std::size_t to) {
     by_kind(cutters[own], [&](const auto& kind) {
-      normals_on(kind, stations.radius, turns(stations, from, to),
+      normals_on(kind, stations.radius, run_of(stations, from, to),
                  {out.radial.data() + from, out.tangential.data() + from, out.axial.data() + from});
     });
   });
@@ -219,7 +219,7 @@ Normals normals_at(std::span<const PreparedCutter> cutters, const Stations& stat
 
 void slopes_of(const PreparedCutter& cutter, const Stations& stations, std::span<double> out) {
   by_kind(cutter, [&](const auto& kind) {
-    slopes_on(kind, stations.radius, turns(stations, 0, stations.size()), out.data());
+    slopes_on(kind, stations.radius, run_of(stations, 0, stations.size()), out.data());
   });
 }
 
@@ -228,7 +228,7 @@ std::vector<double> steepest_at(std::span<const PreparedCutter> cutters, const W
   std::vector<double> out(inner.size(), -kInfinity);
   for (const auto& cutter : cutters)
     by_kind(cutter, [&](const auto& kind) {
-      steepen(kind, wall, turns(inner, 0, inner.size()), z_root.data(), out.data());
+      steepen(kind, wall, run_of(inner, 0, inner.size()), z_root.data(), out.data());
     });
   return out;
 }

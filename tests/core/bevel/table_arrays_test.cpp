@@ -47,7 +47,7 @@ Vector3d radial(double phi) { return {std::cos(phi), std::sin(phi), 0.0}; }
 
 TEST(TableArrays, NormalsAreThoseOfThePartnersAtTheRootPoints) {
   for (const auto& [spec, t, partners] : cuts()) {
-    const Turns phi(t.phi);
+    const Directions phi(t.phi);
     const auto rows = row_normals(spec, t, partners, phi);
     const bool outer = spec.root_surface == RootSurface::outer;
     const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
@@ -64,7 +64,7 @@ TEST(TableArrays, NormalsAreThoseOfThePartnersAtTheRootPoints) {
 TEST(TableArrays, AnglesAndPlanesAreThoseOfVectors) {
   std::size_t seen = 0;
   for (const auto& [spec, t, partners] : cuts()) {
-    const Turns phi(t.phi), tau(t.tau), b(t.b_raw);
+    const Directions phi(t.phi), tau(t.tau), b(t.b_raw);
     const auto rows = row_normals(spec, t, partners, phi);
     const auto angle = dihedrals(rows, spec.dihedral);
     const auto planes = plane_errors(rows, spec.dihedral, tau, b);
@@ -130,7 +130,7 @@ TEST(TableArrays, PlacesBetweenRowsLieOnTheWall) {
     for (const double share : {0.0, 0.25, 1.0}) {
       const std::vector<double> shares(n, share);
       const auto phases = wall.phases(shares);
-      const Turns phi(phases);
+      const Directions phi(phases);
       const auto at = [&](double radius) {
         return wall.places(shares, phi, std::vector<double>(n, radius));
       };
