@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "api/endpoints/frame_part.hpp"
 #include "api/endpoints/frame_request.hpp"
 #include "api/endpoints/parts.hpp"
 #include "api/problem.hpp"

@@ -1,11 +1,10 @@
-// The members of a frame as requests of /v1/parts.
+#include "api/endpoints/frame_part.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "api/endpoints/frame_request.hpp"
 #include "api/frame_names.hpp"
 #include "api/sha256.hpp"
 #include "api/wire_names.hpp"
