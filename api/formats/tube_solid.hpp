@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "api/formats/wall_curve.hpp"
 #include "api/formats/wall_spline.hpp"
 
 namespace tubecut::api {

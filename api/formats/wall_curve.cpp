@@ -1,7 +1,8 @@
+#include "api/formats/wall_curve.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "api/formats/wall_spline.hpp"
 #include "api/stop.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "api/formats/wall_curve.hpp"
 #include "api/stop.hpp"
 #include "core/base/elementary.hpp"
 
