@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/try.hpp"
-#include "core/groove/mill_position.hpp"
+#include "core/groove/mill_parts.hpp"
 #include "core/groove/survey.hpp"
 
 namespace tubecut::groove {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/groove/joint.hpp"
 #include "core/groove/mill.hpp"
+#include "core/groove/mill_position.hpp"
 #include "core/groove/optimise.hpp"
 #include "core/groove/overcut.hpp"
 #include "core/groove/swept.hpp"
@@ -28,28 +28,6 @@ struct MillPathSpec {
   int positions = 90;  // optimised, uniform from omega = 0; 4..20 000
   Optimise optimise;
   GapCheck check;
-};
-
-/// Gap and offset of the touched ruling, by v from curve 3 to curve 4.
-struct ContactLine {
-  std::vector<double> gap;                        // mm, < 0 overcut
-  std::vector<double> offset;                     // rad
-  double over = 0.0, under = 0.0, largest = 0.0;  // mm
-};
-
-/// One emitted position.
-struct MillPosition {
-  Angle omega;
-  AxisPosition at;         // B without jumps of a turn from the position before
-  Increment by;            // from the initial position
-  bool optimised = false;  // else between two optima, with their interpolated increments
-  ContactLine before, after;
-  GridFigures grid_before, grid;  // the source's own
-  double certificate = 0.0;       // mm
-  double bias = 0.0;              // mm, that the certificate refers to
-  std::array<int, 3> reference = {};
-  int evaluations = 0;  // 0 between optima
-  bool qualified = false;
 };
 
 struct MillPath {

@@ -1,10 +1,9 @@
-#include "core/groove/mill_position.hpp"
-
 #include <cmath>
 #include <random>
 #include <utility>
 
 #include "core/base/try.hpp"
+#include "core/groove/mill_parts.hpp"
 
 namespace tubecut::groove {
 namespace {

@@ -1,57 +1,34 @@
 #pragma once
 
-#include <optional>
-#include <stop_token>
-#include <tl/expected.hpp>
+#include <array>
 #include <vector>
 
-#include "core/groove/mill_path.hpp"
-#include "core/groove/periodic_spline.hpp"
+#include "core/base/angle.hpp"
+#include "core/groove/mill.hpp"
+#include "core/groove/overcut.hpp"
 
 namespace tubecut::groove {
 
-/// What every position of a path needs; values, made once. A station counts optimised positions
-/// from omega = 0, with its fraction.
-struct Shop {
-  const MillPathSpec& spec;
-  Joint joint;
-  Cone cone;
-
-  [[nodiscard]] double omega(double station) const { return kTwoPi * station / spec.positions; }
+/// Gap and offset of the touched ruling, by v from curve 3 to curve 4.
+struct ContactLine {
+  std::vector<double> gap;                        // mm, < 0 overcut
+  std::vector<double> offset;                     // rad
+  double over = 0.0, under = 0.0, largest = 0.0;  // mm
 };
 
-/// A position and all that is said about it: optimised by the spec's method, or with a `given`
-/// increment.
-///
-/// Errors  of `gap` and of the method; cancelled.
-[[nodiscard]] tl::expected<MillPosition, ErrorCode> position(const Shop& shop, double station,
-                                                             std::optional<Increment> given,
-                                                             std::stop_token stop);
-
-/// Increments between the optima: smooth where the optima are, broken lines where they are noise.
-class Increments {
- public:
-  Increments(const std::vector<MillPosition>& optima, Method method);
-  [[nodiscard]] Increment at(double station) const;
-
- private:
-  bool smooth_;
-  std::vector<Increment> optima_;
-  PeriodicSpline dz_, db_;
+/// One emitted position.
+struct MillPosition {
+  Angle omega;
+  AxisPosition at;         // B without jumps of a turn from the position before
+  Increment by;            // from the initial position
+  bool optimised = false;  // else between two optima, with their interpolated increments
+  ContactLine before, after;
+  GridFigures grid_before, grid;  // the source's own
+  double certificate = 0.0;       // mm
+  double bias = 0.0;              // mm, that the certificate refers to
+  std::array<int, 3> reference = {};
+  int evaluations = 0;  // 0 between optima
+  bool qualified = false;
 };
-
-/// Stations to emit: the optima, and between each two as many equal parts as keep the sag of linear
-/// axes below `kAxisSag`.
-///
-/// Errors  too_many_nodes, cancelled, those of `section`.
-[[nodiscard]] Result<std::vector<double>> emitted_stations(const Shop& shop,
-                                                           const Increments& increments,
-                                                           std::stop_token stop);
-
-/// `angle` turned by whole turns to within half a turn of `to`; rad.
-[[nodiscard]] double nearest_turn(double angle, double to);
-
-/// A position's failure as the request's: which member to blame, and where.
-[[nodiscard]] tl::unexpected<Error> failed(ErrorCode code, double omega);
 
 }  // namespace tubecut::groove

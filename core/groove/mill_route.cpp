@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/base/try.hpp"
-#include "core/groove/mill_position.hpp"
+#include "core/groove/mill_parts.hpp"
 
 namespace tubecut::groove {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/base/try.hpp"
 #include "core/groove/machine_space.hpp"
 #include "core/groove/mill_limits.hpp"
-#include "core/groove/mill_position.hpp"
+#include "core/groove/mill_parts.hpp"
 #include "core/groove/surface.hpp"
 #include "core/math/rotation.hpp"
 
