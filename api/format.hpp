@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/verdict.hpp"
 #include "core/torch/tabs.hpp"
 
 namespace tubecut::api {
@@ -59,19 +60,6 @@ struct FormatOptions {
   std::optional<double> mark_speed = {};  // mm/min
   std::optional<double> omega = {};       // of the section of a groove that is drawn, deg
   std::vector<BundleFile> files = {};     // of each part, in a bundle
-};
-
-/// What is to be thought of an answer; verdict.hpp makes it and says it.
-struct Verdict {
-  std::string_view status = "ok";          // ok, review, reject
-  std::vector<std::string> reasons = {};   // as in the answer
-  std::vector<std::string> warnings = {};  // of severity `cut`: code, pointer, detail
-  std::vector<std::string> codes = {};     // theirs, each once
-  struct Excess {
-    std::string_view name;  // as in `accept`
-    double value = 0.0, limit = 0.0;
-  };
-  std::vector<Excess> excess = {};  // what it is rejected for
 };
 
 /// What a drawing or a machine file prints beside the result.

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "api/field_names.hpp"
+#include "api/format.hpp"
+#include "api/problem.hpp"
 #include "api/words.hpp"
 
 namespace tubecut::api {

@@ -5,10 +5,27 @@
 #include <string_view>
 #include <vector>
 
-#include "api/format.hpp"
-#include "api/problem.hpp"
+#include "core/base/error.hpp"
 
 namespace tubecut::api {
+
+struct FormatName;
+struct FormatOptions;
+struct Json;
+struct Problem;
+
+/// What is to be thought of an answer.
+struct Verdict {
+  std::string_view status = "ok";          // ok, review, reject
+  std::vector<std::string> reasons = {};   // as in the answer
+  std::vector<std::string> warnings = {};  // of severity `cut`: code, pointer, detail
+  std::vector<std::string> codes = {};     // theirs, each once
+  struct Excess {
+    std::string_view name;  // as in `accept`
+    double value = 0.0, limit = 0.0;
+  };
+  std::vector<Excess> excess = {};  // what it is rejected for
+};
 
 /// What an answer measures of itself, to be held against the request's own `accept`.
 struct Measure {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/columns.hpp"
+#include "api/format.hpp"
 #include "api/verdict.hpp"
 
 namespace tubecut::api {
