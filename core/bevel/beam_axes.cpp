@@ -23,11 +23,6 @@ constexpr double kStill = 1e-4;  // of a stretch
 
 }  // namespace
 
-Vector3d placed(double radius, double phi, double z) {
-  const auto at = elementary::sincos(phi);
-  return {radius * at.cos, radius * at.sin, z};
-}
-
 Line placed(const BeamCut& cut, const AcrossWall& at) {
   const auto inner = elementary::sincos(at.phi_inner);
   const bool axial = at.phi_outer == at.phi_inner;  // as every end's are

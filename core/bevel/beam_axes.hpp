@@ -11,8 +11,6 @@
 namespace tubecut::bevel::beam {
 
 [[nodiscard]] inline double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
-/// A point by its cylinder coordinates.
-[[nodiscard]] Eigen::Vector3d placed(double radius, double phi, double z);
 /// A line across the wall, by its points on both walls.
 struct Line {
   Eigen::Vector3d from, to;

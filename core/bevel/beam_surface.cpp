@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/math/cylinder.hpp"
 
 namespace tubecut::bevel::beam {
 namespace {
@@ -84,7 +85,8 @@ Line Surface::across_wall(std::size_t row, double u, bool land) const {
   const auto wall = placed(cut_, here);
   if (!land) return wall;
   const double z = mixed(cut_.land[row], cut_.land[(row + 1) % rows()], u);
-  return {placed(cut_.inner, here.phi_inner, z), mixed_points(wall.from, wall.to, cut_.from)};
+  return {math::cylinder_point(cut_.inner, here.phi_inner, z),
+          mixed_points(wall.from, wall.to, cut_.from)};
 }
 
 Vector3d Surface::point(const Place& at, const Line& line) const {

@@ -6,15 +6,16 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
 #include "core/joint/placement.hpp"
 #include "core/joint/solid.hpp"
+#include "core/math/cylinder.hpp"
 
 namespace tubecut::bevel {
 namespace {
 
 using Eigen::Vector3d;
+using math::cylinder_point;
 
 constexpr int kAcross = 5;                               // points across the wall
 constexpr std::array kBetween = {0.0, 0.25, 0.5, 0.75};  // from one node to the next
@@ -30,11 +31,6 @@ Edges mixed(const Edges& a, const Edges& b, double t) {
           mix(a.face_z, b.face_z)};
 }
 
-Vector3d placed(double radius, double phi, double z) {
-  const auto at = elementary::sincos(phi);
-  return {radius * at.cos, radius * at.sin, z};
-}
-
 struct Gaps {
   double root, face, least;
 };
@@ -45,8 +41,8 @@ struct Facing {
   joint::Solid solid;
 
   [[nodiscard]] Gaps at(const Edges& e) const {
-    const Vector3d root = placed(root_radius, e.root_phi, e.root_z);
-    const Vector3d face = placed(face_radius, e.face_phi, e.face_z);
+    const Vector3d root = cylinder_point(root_radius, e.root_phi, e.root_z);
+    const Vector3d face = cylinder_point(face_radius, e.face_phi, e.face_z);
     Gaps out{solid.distance(root), solid.distance(face), std::numeric_limits<double>::infinity()};
     for (int k = 0; k < kAcross; ++k) {
       const double t = static_cast<double>(k) / (kAcross - 1);
@@ -134,8 +130,8 @@ double sampled(const CutWall& wall, const joint::TubeCutter& other, const std::s
       const auto j = (i + 1) % wall.gaps();
       const auto on = [&](const WallEdge& e) {
         const double to = e.phi[j] + (j == 0 ? wall.turn : 0.0);
-        return placed(e.radius, e.phi[i] + share * (to - e.phi[i]),
-                      e.z[i] + share * (e.z[j] - e.z[i]));
+        return cylinder_point(e.radius, e.phi[i] + share * (to - e.phi[i]),
+                              e.z[i] + share * (e.z[j] - e.z[i]));
       };
       const Vector3d low = on(wall.edges[0]), high = on(wall.edges[1]);
       for (const double across : {0.0, next(), 1.0}) {
@@ -211,7 +207,7 @@ std::vector<Check> nearest_checks(const HoleSpec& spec, const joint::TubeCutter&
   double off = 0.0, deepest = 0.0;
   for (const auto& hole : cut.holes) {
     const auto& p = hole.fit.nearest;
-    const double there = worst_of({0.0, nearer(other, placed(p.radius, p.phi, p.z))});
+    const double there = worst_of({0.0, nearer(other, cylinder_point(p.radius, p.phi, p.z))});
     const double found = sampled(facing_wall(spec, branch, cut, hole), other, stop);
     off = worst_of({off, std::abs(there - p.depth), found - p.depth});
     deepest = worst_of({deepest, p.depth, found});

@@ -7,20 +7,17 @@
 #include "core/bevel/hole.hpp"
 #include "core/bevel/hole_fit.hpp"
 #include "core/joint/placement.hpp"
+#include "core/math/cylinder.hpp"
 
 namespace tubecut::bevel {
 namespace {
 
 using Eigen::Vector3d;
+using math::cylinder_point;
 
 constexpr double kLength = 1e-6;  // mm
 constexpr double kAngle = 1e-6;   // deg
 constexpr int kAcross = 9;
-
-Vector3d placed(double radius, double phi, double z) {
-  const auto at = elementary::sincos(phi);
-  return {radius * at.cos, radius * at.sin, z};
-}
 
 /// A straight line through space with the distance to it by what is left beside the foot.
 struct Axis {
@@ -58,13 +55,13 @@ Vector3d nearest(const Vector3d& a, const Vector3d& b, const Axis& axis) {
 Row row(const HoleSpec& spec, const Hole& h, const Axis& axis, std::size_t i) {
   Row r;
   const double ro = spec.chord.outer_radius, ri = spec.chord.inner_radius();
-  r.outer = placed(ro, h.phi[i], h.z[i]);
-  r.inner = placed(ri, h.phi_inner[i], h.z_inner[i]);
-  r.torch_outer = placed(ro, h.torch_phi[i], h.torch_z[i]);
-  r.torch_inner = placed(ri, h.torch_phi_inner[i], h.torch_z_inner[i]);
+  r.outer = cylinder_point(ro, h.phi[i], h.z[i]);
+  r.inner = cylinder_point(ri, h.phi_inner[i], h.z_inner[i]);
+  r.torch_outer = cylinder_point(ro, h.torch_phi[i], h.torch_z[i]);
+  r.torch_inner = cylinder_point(ri, h.torch_phi_inner[i], h.torch_z_inner[i]);
   const bool on = spec.kind == JointKind::set_on;
   r.root = on ? r.outer : r.inner;
-  r.chord_normal = placed(1.0, on ? h.phi[i] : h.phi_inner[i], 0.0);
+  r.chord_normal = cylinder_point(1.0, on ? h.phi[i] : h.phi_inner[i], 0.0);
   if (!on && spec.tilt == Tilt::none) {
     r.root = nearest(r.inner, r.outer, axis);
     r.chord_normal = Vector3d(r.root.x(), r.root.y(), 0.0).normalized();
@@ -126,8 +123,8 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
   const double seat = on ? spec.chord.outer_radius + spec.gap
                          : spec.chord.outer_radius - spec.depth.value_or(spec.chord.wall);
   for (std::size_t i = 0; i < end.phi.size() && !stop.stop_requested(); ++i) {
-    const Vector3d root = placed(inner, end.phi[i], end.z_inner[i]);
-    const Vector3d face = placed(outer, end.phi[i], end.z_outer[i]);
+    const Vector3d root = cylinder_point(inner, end.phi[i], end.z_inner[i]);
+    const Vector3d face = cylinder_point(outer, end.phi[i], end.z_outer[i]);
     worsen(p.end, std::abs(axis.distance(root) - seat));
     worsen(p.tilt, std::abs(elementary::atan2(end.z_outer[i] - end.z_inner[i], spec.branch_wall) -
                             end.b[i]) *

@@ -14,6 +14,7 @@
 #include "core/bevel/table_columns.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/joint/solid_arrays.hpp"
+#include "core/math/cylinder.hpp"
 #include "core/math/search.hpp"
 
 namespace tubecut::bevel {
@@ -194,8 +195,7 @@ void penetration_checks(const TableSpec& spec, const Table& t,
                         const std::vector<joint::Solid>& solids, double at_rows,
                         std::vector<Check>& out, const std::stop_token& stop) {
   const auto& p = t.penetration;
-  const auto turn = elementary::sincos(p.phi);
-  const Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z);
+  const auto at = math::cylinder_point(p.radius, p.phi, p.z);
   const double there = p.solid < solids.size() ? worst_of({0.0, -solids[p.solid].distance(at)})
                                                : std::numeric_limits<double>::infinity();
   const double found = worst_of({at_rows, sampled_depth(spec, t, solids, stop)});

@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/solid.hpp"
+#include "core/math/cylinder.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -63,8 +64,7 @@ struct Proof {
 };
 
 void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t i) {
-  const auto turn = elementary::sincos(p.phi[i]);
-  const Eigen::Vector3d at(p.radius * turn.cos, p.radius * turn.sin, p.z[i]);
+  const auto at = math::cylinder_point(p.radius, p.phi[i], p.z[i]);
   const auto& own = solids.at(p.cutter[i]);
   const double scale = std::max(own.scale() + p.radius, std::abs(p.z[i]));
   on_cutter.see(std::abs(own.distance(at)), kOnCutter * scale);

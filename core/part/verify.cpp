@@ -6,6 +6,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
+#include "core/math/cylinder.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
@@ -15,14 +16,10 @@ namespace tubecut::part {
 namespace {
 
 using Eigen::Vector3d;
+using math::cylinder_point;
 
 constexpr double kPlaced = 1e-9;  // mm
 constexpr double kVolume = 1e-9;  // of itself
-
-Vector3d at(double radius, double phi, double z) {
-  const auto turn = elementary::sincos(phi);
-  return {radius * turn.cos, radius * turn.sin, z};
-}
 
 /// The worst of each name, by how near it comes to its limit.
 class Worst {
@@ -64,14 +61,17 @@ double misplaced(const End& end, bool finish, const Place& place, const std::sto
     const auto& b = end.own;
     double off = 0.0;
     const auto pair = [&](double radius, double z, double own) {
-      worsen(off, (place(at(radius, a.phi[k], z)) - at(radius, b.phi[i], own)).norm());
+      worsen(off,
+             (place(cylinder_point(radius, a.phi[k], z)) - cylinder_point(radius, b.phi[i], own))
+                 .norm());
     };
     pair(target.inner_radius(), a.z_inner[k], b.z_inner[i]);
     pair(target.outer_radius, a.z_outer[k], b.z_outer[i]);
     pair(target.inner_radius(), a.torch_inner[k], b.torch_inner[i]);
     pair(target.outer_radius, a.torch_outer[k], b.torch_outer[i]);
     // The beam's direction, turned as the points are.
-    const Vector3d radial = at(1.0, a.phi[k], 0.0), own = at(1.0, b.phi[i], 0.0);
+    const Vector3d radial = cylinder_point(1.0, a.phi[k], 0.0),
+                   own = cylinder_point(1.0, b.phi[i], 0.0);
     const auto beam = elementary::sincos(a.b[k]);
     const auto beam_own = elementary::sincos(b.b[i]);
     worsen(off, (place.turn * (beam.cos * radial + beam.sin * Vector3d::UnitZ()) -
@@ -129,7 +129,8 @@ math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double 
   math::Polygon out;
   for (auto* column : {&out.x, &out.y}) column->reserve(h.phi.size());
   for (std::size_t i = 0; i < h.phi.size() && !stops(stop, i); ++i) {
-    const Vector3d a = at(inner, h.phi_inner[i], 0.0), b = at(outer, h.phi[i], 0.0);
+    const Vector3d a = cylinder_point(inner, h.phi_inner[i], 0.0),
+                   b = cylinder_point(outer, h.phi[i], 0.0);
     const double turn = a.cross(b).z(), way = (b - a).norm();
     const double p = std::min(std::abs(turn) / way, inner);
     const double round = elementary::acos(p / rho) - elementary::acos(p / inner);
