@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "core/bevel/beam.hpp"
+#include "core/math/mixed.hpp"
 
 namespace tubecut::bevel::beam {
 
-[[nodiscard]] inline double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
+using math::mixed;
+
 /// A line across the wall, by its points on both walls.
 struct Line {
   Eigen::Vector3d from, to;

@@ -6,6 +6,7 @@
 #include "core/base/elementary.hpp"
 #include "core/bevel/table_parts.hpp"
 #include "core/joint/solid.hpp"
+#include "core/math/mixed.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -32,7 +33,7 @@ class Heights {
     const double end = p[high] + (from == n ? kTwoPi : 0.0);
     const double t = (phi - start) / (end - start);
     const auto a = row(low), b = row(high);
-    return {(1.0 - t) * a.inner + t * b.inner, (1.0 - t) * a.outer + t * b.outer};
+    return {math::mixed(a.inner, b.inner, t), math::mixed(a.outer, b.outer, t)};
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "core/joint/placement.hpp"
 #include "core/joint/solid.hpp"
 #include "core/math/cylinder.hpp"
+#include "core/math/mixed.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -26,9 +27,8 @@ struct Edges {
 };
 
 Edges mixed(const Edges& a, const Edges& b, double t) {
-  const auto mix = [t](double x, double y) { return (1.0 - t) * x + t * y; };
-  return {mix(a.root_phi, b.root_phi), mix(a.root_z, b.root_z), mix(a.face_phi, b.face_phi),
-          mix(a.face_z, b.face_z)};
+  return {math::mixed(a.root_phi, b.root_phi, t), math::mixed(a.root_z, b.root_z, t),
+          math::mixed(a.face_phi, b.face_phi, t), math::mixed(a.face_z, b.face_z, t)};
 }
 
 struct Gaps {

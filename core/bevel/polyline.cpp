@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/math/mixed.hpp"
 
 namespace tubecut::bevel {
 
@@ -28,7 +29,7 @@ void bends(const Points& p, std::size_t from, std::size_t to, double tolerance,
 }
 
 void raise(double& a, double& b, double u, double value) {
-  if (!(value > (1.0 - u) * a + u * b)) return;
+  if (!(value > math::mixed(a, b, u))) return;
   double& low = a < b ? a : b;
   const double high = std::max(a, b);
   const double share = a < b ? u : 1.0 - u;  // of the higher end

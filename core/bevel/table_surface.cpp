@@ -7,6 +7,7 @@
 #include "core/bevel/table_parts.hpp"
 #include "core/joint/solid.hpp"
 #include "core/joint/stations.hpp"
+#include "core/math/mixed.hpp"
 
 namespace tubecut::bevel {
 
@@ -195,7 +196,7 @@ void note_events_between(const TableSetup& g, Table& out) {
   const auto see = [&](double phi, double input) {
     const auto i = std::min(n - 1, static_cast<std::size_t>(phi / step));
     const double t = phi / step - static_cast<double>(i);
-    const double line = (1.0 - t) * out.b[i] + t * out.b[(i + 1) % n];
+    const double line = math::mixed(out.b[i], out.b[(i + 1) % n], t);
     if (input - line > worst) {
       worst = input - line;
       at = phi;

@@ -6,6 +6,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
 #include "core/bevel/polyline.hpp"
+#include "core/math/mixed.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -21,8 +22,6 @@ constexpr double kLines = 0.25;       // of half a kerf: between finished lines 
 constexpr double kMostLines = 16.0;   // and no more from row to row
 constexpr std::size_t kNodes = 4;     // looked at singly; more are searched by halves
 constexpr int kDeepest = 12;          // halvings of the stretch between two rows
-
-double mixed(double a, double b, double u) { return (1.0 - u) * a + u * b; }
 
 /// One circle of the finished surface, straight from row to row, and the least z of its stretches,
 /// of pairs of them, of fours and so on.
@@ -90,8 +89,8 @@ class LeastDrop {
     for (const double u : shares(inner_, outer, spec.kerf)) {
       if (stop.stop_requested()) return;  // and nothing is asked of what there is
       std::vector<double> z(from.size());
-      for (std::size_t i = 0; i < z.size(); ++i) z[i] = mixed(from[i], t.z_outer[i], u);
-      circles_.emplace_back(mixed(edge, outer, u), half_, std::move(z));
+      for (std::size_t i = 0; i < z.size(); ++i) z[i] = math::mixed(from[i], t.z_outer[i], u);
+      circles_.emplace_back(math::mixed(edge, outer, u), half_, std::move(z));
     }
     for (auto* column : {&slope_, &foot_}) column->reserve(phi_.size());
     for (std::size_t i = 0; i < phi_.size() && !stops(stop, i); ++i) {
@@ -155,7 +154,7 @@ class LeastDrop {
   [[nodiscard]] double inner() const { return inner_; }
   [[nodiscard]] double width(std::size_t i) const { return phase(i + 1) - phi_[i]; }
   [[nodiscard]] double foot(std::size_t i, double u) const {
-    return mixed(foot_[i], foot_[(i + 1) % foot_.size()], u);
+    return math::mixed(foot_[i], foot_[(i + 1) % foot_.size()], u);
   }
 
  private:
@@ -189,11 +188,11 @@ class LeastDrop {
   [[nodiscard]] Axis mixed_line(std::size_t i, double u, const std::vector<double>& foot,
                                 const std::vector<double>& slopes) const {
     const auto j = (i + 1) % phi_.size();
-    const double slope = mixed(slopes[i], slopes[j], u);
-    const double phi = mixed(phi_[i], phase(i + 1), u);
+    const double slope = math::mixed(slopes[i], slopes[j], u);
+    const double phi = math::mixed(phi_[i], phase(i + 1), u);
     return {.phi = phi,
             .turn = u == 0.0 ? turns_[i] : elementary::sincos(phi),
-            .foot = mixed(foot[i], foot[j], u),
+            .foot = math::mixed(foot[i], foot[j], u),
             .slope = slope,
             .secant = elementary::hypot(1.0, slope)};
   }
