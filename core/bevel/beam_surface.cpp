@@ -60,13 +60,13 @@ double Surface::step(std::size_t row) const {
 Place Surface::moved(Place from, double along, double across) const {
   const double wide = this->across(from.row, from.land);
   if (wide > 0.0) from.v = std::clamp(from.v + across / wide, 0.0, 1.0);
-  const double forth = along < 0.0 ? -1.0 : 1.0;
+  const double sense = along < 0.0 ? -1.0 : 1.0;
   double left = std::abs(along);
   for (std::size_t row = 0; row < rows() && left > 0.0; ++row) {
     const double end = along < 0.0 ? 0.0 : 1.0, length = step(from.row);
     const double to_end = std::abs(end - from.u) * length;
     if (left <= to_end) {
-      from.u += forth * left / length;
+      from.u += sense * left / length;
       break;
     }
     left -= to_end;

@@ -346,7 +346,7 @@ void InteriorPoint<Numbers>::keep_best() {
 template <class Numbers>
 Array InteriorPoint<Numbers>::heights() const {
   const Index n = p_.size();
-  // What rounding leaves open at the end is laid over all steps. In the profile's own unit: each
+  // What rounding leaves open at the end is spread over all steps. In the profile's own unit: each
   // height is rounded once.
   double open = 0.0;
   const Array v = by_nodes([](const auto& at) -> const auto& { return at.v; });

@@ -38,7 +38,7 @@ Result<Table> land_pass(const TableSpec& spec, const Table& table, const std::st
   }
   const auto line = torch_line(alone, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  detail::lay_torch(alone, line.drops, out, stop);
+  detail::fill_torch(alone, line.drops, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   TRY(check_spared(beam_cut(alone, out), out.torch_line));
   return out;

@@ -178,7 +178,7 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   detail::state_penetration(g, out, stop);
   if (spec.untilted) TRY(map_gaps(g, out, stop));
   if (!line || added) line = torch_line(spec, out, stop);
-  detail::lay_torch(spec, line->drops, out, stop);
+  detail::fill_torch(spec, line->drops, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   TRY(check_spared(beam_cut(spec, out), out.torch_line));
   return std::move(out);

@@ -111,8 +111,8 @@ template <class F>
 /// Finished surface, root opening and metal in the beam.
 void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop);
 /// The torch's own line, so far below the rows, and what it takes and leaves.
-void lay_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
-               const std::stop_token& stop);
+void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
+                const std::stop_token& stop);
 /// Contact outer: does the cut stay clear of every partner across the wall?
 [[nodiscard]] Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out,
                                            const std::stop_token& stop);

@@ -84,8 +84,8 @@ void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std:
   }
 }
 
-void lay_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
-               const std::stop_token& stop) {
+void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
+                const std::stop_token& stop) {
   const auto n = out.b.size();
   out.torch_inner.resize(n);
   out.torch_outer.resize(n);

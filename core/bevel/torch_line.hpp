@@ -8,8 +8,8 @@
 
 namespace tubecut::bevel {
 
-/// The narrowest kerf that is laid off, mm: what the beam takes is looked for at places as near to
-/// each other as it is wide, and a gouge of this counts as none.
+/// The narrowest kerf that the torch's line allows for, mm: what the beam takes is looked for at
+/// places as near to each other as it is wide, and a gouge of this counts as none.
 inline constexpr double kLeastKerf = kGougeLimit;
 
 /// Errors  out_of_range (kerf): neither 0 nor kLeastKerf or more.

@@ -177,7 +177,7 @@ class Verifier {
     return flank_distance(spec_.mill, tool, point);
   }
 
-  /// The tool half way between two positions against the tool laid on the ruling there.
+  /// The tool half way between two positions against the tool on the ruling there.
   void between(std::size_t i) {
     const MillPosition &a = around(i), &b = around(i + 1);
     const double turn = kTwoPi * std::floor((b.at.b.rad() - a.at.b.rad()) / kTwoPi + 0.5);
@@ -186,7 +186,7 @@ class Verifier {
     half.z = 0.5 * (a.at.z + b.at.z);
     half.b = Angle::rad(0.5 * (a.at.b.rad() + b.at.b.rad() - turn));
     const double omega = 0.5 * (omega_at(i) + omega_at(i + 1));
-    const Tool linear = machine_.tool(half), exact = laid(omega, half_increment(i, omega));
+    const Tool linear = machine_.tool(half), exact = on_ruling(omega, half_increment(i, omega));
     sag_.add((linear.tip - exact.tip).norm());
     sag_.add(
         (linear.tip + spec_.mill.length * linear.axis - exact.tip - spec_.mill.length * exact.axis)
@@ -218,9 +218,9 @@ class Verifier {
     return out;
   }
 
-  /// A tool laid on the ruling by turning the ruling itself about the seam's tangent plane, then
+  /// A tool on the ruling, found by turning the ruling itself about the seam's tangent plane, then
   /// incremented.
-  [[nodiscard]] Tool laid(double omega, Increment by) const {
+  [[nodiscard]] Tool on_ruling(double omega, Increment by) const {
     const double sg = spec_.setup.mount == Mount::end_up ? -1.0 : 1.0;
     const Matrix3d table = machine_.table(spec_.setup.c_zero - Angle::rad(sg * omega));
     const Vector3d root = table * work_point(omega, 0.0) + machine_.lift(),

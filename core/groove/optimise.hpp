@@ -34,7 +34,7 @@ struct LinearMinimax {
 [[nodiscard]] LinearMinimax linear_minimax(std::span<const double> gaps,
                                            std::span<const Eigen::Vector2d> slopes);
 
-/// One position to be bettered.
+/// One position to be improved.
 struct Task {
   const Neighbourhood& near;
   const Cone& cone;

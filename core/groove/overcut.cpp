@@ -80,7 +80,7 @@ double toe_near(const Neighbour& low, const Neighbour& high, double delta) {
 }
 
 /// The zero of the slope between two rulings whose slopes differ in sign: where the cubic through
-/// both distances and slopes is least, thrice, then by the Illinois false position.
+/// both distances and slopes is least, three times, then by the Illinois false position.
 tl::expected<Contact, ErrorCode> solve_contact(const Neighbourhood& near, const Cone& cone,
                                                const ToolPose& pose, double v, int ruling,
                                                Slope low, Slope high) {

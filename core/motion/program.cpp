@@ -37,7 +37,7 @@ Result<Track> stretch(const Track& whole, const Motion& motion) {
   return directed(whole, motion.direction, motion.start);
 }
 
-/// Points that were laid along a checked path.
+/// Points that were placed along a checked path.
 Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
   Program out = from_points(way.points, whole.radius);
   out.cut_first = way.cut_first;

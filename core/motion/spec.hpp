@@ -49,7 +49,7 @@ struct ScheduleSpec {
   Cut cut = CutPath{};
   Machine machine = {};
   Motion motion = {};
-  /// Of a cut path: its points from pierce to where the torch is put out, where they are laid
+  /// Of a cut path: its points from pierce to where the torch is put out, where they are known
   /// already. Start and direction are theirs, and so is the lead: `motion` only tells whether there
   /// is one.
   std::optional<CutWithLead> way = {};

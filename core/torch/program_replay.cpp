@@ -293,7 +293,7 @@ std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedu
                           const std::stop_token& stop) {
   const auto& whole = schedule.whole;
   const std::vector<Check> misfit{{"replayable", 1.0, 0.0, ""}};
-  const auto cuts = lay(spec, stop);
+  const auto cuts = program_cuts(spec, stop);
   if (!cuts || whole.axes.size() != spec.machine.axes.size() ||
       whole.period != spec.machine.period || whole.periods <= 0)
     return misfit;
@@ -313,7 +313,7 @@ std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedu
 
 Result<motion::Replay> replay(const ProgramReplaySpec& spec, const std::stop_token& stop) {
   TRY(motion::check(spec.job.machine));
-  TRY(const auto cuts, lay(spec.job, stop));
+  TRY(const auto cuts, program_cuts(spec.job, stop));
   TRY(const auto whole,
       motion::received(spec.job.machine, spec.period, spec.counts, spec.start, stop));
   const auto counted = whole.counted();

@@ -344,7 +344,7 @@ motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut, dou
   return out;
 }
 
-Result<std::vector<ProgramCut>> lay(const ProgramSpec& spec, const std::stop_token& stop) {
+Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec, const std::stop_token& stop) {
   std::vector<ProgramCut> out;
   for (const auto& cut : spec.cuts) {
     if (!cut.path.a.empty())
@@ -352,17 +352,17 @@ Result<std::vector<ProgramCut>> lay(const ProgramSpec& spec, const std::stop_tok
           cut,
           Issue{.code = ErrorCode::unsupported_combination,
                 .hint = "its torch leans across the tube, and the machine has no axis for it"}));
-    auto laid = program_cut(cut, spec.setup, &cut == &spec.cuts.back(), stop);
+    auto made = program_cut(cut, spec.setup, &cut == &spec.cuts.back(), stop);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    if (!laid) return tl::unexpected(told_of(cut, std::move(laid).error()));
-    std::ranges::move(*laid, std::back_inserter(out));
+    if (!made) return tl::unexpected(told_of(cut, std::move(made).error()));
+    std::ranges::move(*made, std::back_inserter(out));
   }
   return out;
 }
 
 Result<ProgramSchedule> schedule(const ProgramSpec& spec, const std::stop_token& stop) {
   TRY(motion::check(spec.machine));
-  TRY(auto cuts, lay(spec, stop));
+  TRY(auto cuts, program_cuts(spec, stop));
   TRY(check_periods(spec, cuts));
   TRY(auto stand, TorchStand::of(spec.machine, cuts.front().cut.path, spec.setup));
   return Scheduling(spec, std::move(cuts), std::move(stand), stop).run();

@@ -65,14 +65,14 @@ struct Expected {
 };
 [[nodiscard]] std::vector<Expected> expected_segments(const std::vector<ProgramCut>& cuts);
 
-/// One cut of the program as a job of its own, its points laid; `turns`: as `windings`.
+/// One cut of the program as a job of its own, of the points it has; `turns`: as `windings`.
 [[nodiscard]] motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut,
                                            double turns);
 
-/// All of its cuts laid.
+/// All of its cuts, with their points.
 ///
 /// Errors  as `schedule`.
-[[nodiscard]] Result<std::vector<ProgramCut>> lay(const ProgramSpec& spec,
-                                                  const std::stop_token& stop);
+[[nodiscard]] Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec,
+                                                           const std::stop_token& stop);
 
 }  // namespace tubecut::torch

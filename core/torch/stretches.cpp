@@ -108,10 +108,10 @@ std::vector<double> tab_ends(const motion::Track& whole, const std::vector<doubl
   return out;
 }
 
-class Laying {
+class TabbedWays {
  public:
-  Laying(motion::Track whole, motion::PartBorder border, const TorchCut& cut, const Tabs& tabs,
-         const std::stop_token& stop)
+  TabbedWays(motion::Track whole, motion::PartBorder border, const TorchCut& cut, const Tabs& tabs,
+             const std::stop_token& stop)
       : whole_(std::move(whole)),
         length_(motion::lengths_along(whole_)),
         border_(std::move(border)),
@@ -122,7 +122,7 @@ class Laying {
   /// in a small hole it reaches far across.
   Result<std::vector<TorchWay>> run(std::optional<motion::Lead> lead, int count) {
     while (true) {
-      auto out = laid(lead, count);
+      auto out = ways(lead, count);
       const bool narrow = !out && out.error().issues.front().member == "tabs/width_mm";
       if (!narrow || !lead || lead->radius < 2.0 * kShortestLead) return out;
       lead->radius /= 2.0;
@@ -130,7 +130,7 @@ class Laying {
   }
 
  private:
-  Result<std::vector<TorchWay>> laid(const std::optional<motion::Lead>& lead, int count) {
+  Result<std::vector<TorchWay>> ways(const std::optional<motion::Lead>& lead, int count) {
     const double all = length_.back();
     if (2.0 * count * least_ > all)
       return fail({ErrorCode::out_of_range, "tabs/count", static_cast<double>(count),
@@ -140,7 +140,7 @@ class Laying {
     std::vector<TorchWay> out;
     double from = 0.0;
     for (const double end : ends) {
-      TRY(auto way, laid({from, end - least_}, lead));
+      TRY(auto way, way_along({from, end - least_}, lead));
       out.push_back(std::move(way));
       from = end;
     }
@@ -155,7 +155,7 @@ class Laying {
   }
 
   /// The stretch with its way in, as far off as the scrap has room for.
-  Result<TorchWay> laid(const Stretch& s, const std::optional<motion::Lead>& asked) {
+  Result<TorchWay> way_along(const Stretch& s, const std::optional<motion::Lead>& asked) {
     const auto track = motion::stretch_of(whole_, length_, s.from, s.to);
     if (!asked) return TorchWay{{track.points, 0, track.points.size() - 1, true}, 0.0};
     auto lead = *asked;
@@ -245,7 +245,8 @@ Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut, const Appro
   TRY(auto whole, motion::track(path));
   TRY(auto from, motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
   TRY(auto border, torch_border(cut, stop));
-  return Laying(std::move(from), std::move(border), cut, tabs, stop).run(approach.lead, tabs.count);
+  return TabbedWays(std::move(from), std::move(border), cut, tabs, stop)
+      .run(approach.lead, tabs.count);
 }
 
 double metal_between(const motion::PartBorder& border, const TorchCut& cut, const Tabs& tabs,
