@@ -1,18 +1,18 @@
 #pragma once
 
-#include "api/names.hpp"
+#include "core/base/names.hpp"
 #include "core/frame/frame.hpp"
 
 /// The enumerations of frames, as wire_names.hpp has the others.
-namespace tubecut::api {
+namespace tubecut {
 
 template <>
-inline constexpr auto kNames<frame::JointKind> =
-    std::to_array<Option<frame::JointKind>>({{"set_on", frame::JointKind::set_on},
-                                             {"set_in", frame::JointKind::set_in},
-                                             {"through", frame::JointKind::through},
-                                             {"mitre", frame::JointKind::mitre},
-                                             {"butt", frame::JointKind::butt}});
+inline constexpr auto kNames<frame::JointKind> = std::to_array<Option<frame::JointKind>>(
+    {{name_of(joint::JointKind::set_on), frame::JointKind::set_on},
+     {name_of(joint::JointKind::set_in), frame::JointKind::set_in},
+     {name_of(joint::JointKind::through), frame::JointKind::through},
+     {name_of(joint::JointKind::mitre), frame::JointKind::mitre},
+     {"butt", frame::JointKind::butt}});
 template <>
 inline constexpr auto kNames<frame::Why> =
     std::to_array<Option<frame::Why>>({{"free", frame::Why::free},
@@ -20,4 +20,4 @@ inline constexpr auto kNames<frame::Why> =
                                        {"parallel", frame::Why::parallel},
                                        {"not_joined", frame::Why::not_joined}});
 
-}  // namespace tubecut::api
+}  // namespace tubecut

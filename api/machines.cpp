@@ -19,8 +19,6 @@ constexpr Range kLimit{.min = 0.0, .max = 1e9, .open_min = true};
 constexpr Range kAnywhere{.min = -1e6, .max = 1e6};
 constexpr Range kArm{.min = 0.0, .max = 10'000.0};
 
-enum class Type { five_axis_cutter, crawler, cone_mill, generic };
-
 motion::Axis decode_axis(Reader& in) {
   motion::Axis out;
   out.name = in.ascii_text("name", 16);
@@ -37,30 +35,27 @@ motion::Axis decode_axis(Reader& in) {
   return out;
 }
 
-motion::Kinematics decode_kinematics(Reader& in, Type type) {
-  switch (type) {
-    case Type::five_axis_cutter: {
-      motion::FiveAxisCutter out;
-      out.pivot_length = in.number("pivot_length_mm", kArm);
-      out.standoff = in.number("standoff_mm", kArm, 0.0);
-      out.z2_share = in.number("z2_share", {.min = 0.0, .max = 1.0}, 0.0);
-      return out;
-    }
-    case Type::crawler: {
-      motion::Crawler out;
-      out.wheel_offset = in.number("wheel_offset_mm", kArm);
-      out.swing_center = in.choice("swing_center", kNames<SwingCenter>);
-      if (!in.understood("swing_center")) in.silence();
-      if (out.swing_center == SwingCenter::pivot)
-        out.pivot_length = in.number("pivot_length_mm", kArm);
-      out.standoff_max = in.nullable_number("standoff_max_mm", kArm);
-      return out;
-    }
-    case Type::cone_mill:
-      return motion::ConeMill{};
-    case Type::generic:
-      break;
-  }
+motion::Kinematics decode_five_axis_cutter(Reader& in) {
+  motion::FiveAxisCutter out;
+  out.pivot_length = in.number("pivot_length_mm", kArm);
+  out.standoff = in.number("standoff_mm", kArm, 0.0);
+  out.z2_share = in.number("z2_share", {.min = 0.0, .max = 1.0}, 0.0);
+  return out;
+}
+
+motion::Kinematics decode_crawler(Reader& in) {
+  motion::Crawler out;
+  out.wheel_offset = in.number("wheel_offset_mm", kArm);
+  out.swing_center = in.choice("swing_center", kNames<SwingCenter>);
+  if (!in.understood("swing_center")) in.silence();
+  if (out.swing_center == SwingCenter::pivot) out.pivot_length = in.number("pivot_length_mm", kArm);
+  out.standoff_max = in.nullable_number("standoff_max_mm", kArm);
+  return out;
+}
+
+motion::Kinematics decode_cone_mill(Reader& /*in*/) { return motion::ConeMill{}; }
+
+motion::Kinematics decode_generic(Reader& in) {
   motion::Generic out;
   in.note("maps");
   if (in.has("maps"))
@@ -75,6 +70,14 @@ motion::Kinematics decode_kinematics(Reader& in, Type type) {
   return out;
 }
 
+using DecodeKinematics = motion::Kinematics (*)(Reader&);
+constexpr std::array kKinds{
+    Option<DecodeKinematics>{motion::FiveAxisCutter::kName, decode_five_axis_cutter},
+    Option<DecodeKinematics>{motion::Crawler::kName, decode_crawler},
+    Option<DecodeKinematics>{motion::ConeMill::kName, decode_cone_mill},
+    Option<DecodeKinematics>{motion::Generic::kName, decode_generic}};
+static_assert(kKinds.size() == std::variant_size_v<motion::Kinematics>, "every kind is read");
+
 void optional_field(std::string_view name, const std::optional<double>& value, Writer& w) {
   if (value)
     w.field(name, *value);
@@ -85,7 +88,7 @@ void optional_field(std::string_view name, const std::optional<double>& value, W
 void encode_axis(const motion::Axis& axis, Writer& w) {
   w.object([&](Writer& o) {
     o.field("name", axis.name);
-    o.field("unit", motion::name_of(axis.unit));
+    o.field("unit", name_of(axis.unit));
     if (axis.pulses_per_turn > 0)
       o.field("pulses_per_turn", axis.pulses_per_turn);
     else
@@ -181,16 +184,12 @@ void read_pin(Reader& in, const std::string& sha256) {
 }
 
 motion::Machine decode_with_process(Reader& in, std::optional<Process>& process) {
-  static constexpr std::array kTypes{Option<Type>{"five_axis_cutter", Type::five_axis_cutter},
-                                     Option<Type>{"crawler", Type::crawler},
-                                     Option<Type>{"cone_mill", Type::cone_mill},
-                                     Option<Type>{"generic", Type::generic}};
   motion::Machine out;
   if (auto name = in.optional_text("name", 64)) out.name = *name;
-  const auto type = in.tag("type", kTypes);
+  const auto type = in.tag("type", kKinds);
   out.period = in.number("period_us", {.min = 50.0, .max = 1e6}) * 1e-6;
   out.b_positive = in.choice("b_positive", kNames<BPositive>);
-  if (type) out.kinematics = decode_kinematics(in, *type);
+  if (type) out.kinematics = (*type)(in);
   out.axes = in.array("axes", {.min = 1, .max = 8}, decode_axis);
   process = in.optional_object("process", decode_process);
   return out;
@@ -233,9 +232,7 @@ void encode_machine(const motion::Machine& machine, Writer& w) {
   if (!machine.name.empty()) w.field("name", machine.name);
   w.field("type", motion::type_name(machine));
   w.field("period_us", std::round(machine.period * 1e9) / 1e3);
-  w.field("b_positive", machine.b_positive == BPositive::outer_edge_into_part
-                            ? "outer_edge_into_part"
-                            : "outer_edge_to_waste");
+  w.field("b_positive", name_of(machine.b_positive));
   std::visit(KinematicFields{w}, machine.kinematics);
   w.array("axes", machine.axes,
           [](Writer& each, const motion::Axis& axis) { encode_axis(axis, each); });

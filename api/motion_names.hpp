@@ -1,11 +1,11 @@
 #pragma once
 
-#include "api/names.hpp"
+#include "core/base/names.hpp"
 #include "core/motion/cut_path.hpp"
 #include "core/motion/schedule.hpp"
 #include "core/torch/program_schedule.hpp"
 
-namespace tubecut::api {
+namespace tubecut {
 
 // What enumerations of schedules and programs are called on the wire; wire_names.hpp has the
 // others'.
@@ -41,4 +41,4 @@ inline constexpr auto kNames<torch::Tabs::Of> =
                                             {"holes", torch::Tabs::Of::holes},
                                             {"all", torch::Tabs::Of::all}});
 
-}  // namespace tubecut::api
+}  // namespace tubecut

@@ -15,10 +15,10 @@
 
 #include "api/field_names.hpp"
 #include "api/json.hpp"
-#include "api/names.hpp"
 #include "api/stop.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
+#include "core/base/names.hpp"
 
 namespace tubecut::api {
 

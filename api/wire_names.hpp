@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/format.hpp"
-#include "api/names.hpp"
+#include "core/base/names.hpp"
 #include "core/base/warning_codes.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
@@ -11,9 +11,17 @@
 #include "core/motion/cut_path.hpp"
 #include "core/motion/machine.hpp"
 #include "core/part/member.hpp"
+#include "core/part/webs.hpp"
 
-/// Every enumeration that a request or an answer names.
 namespace tubecut::api {
+
+/// How the points of a cut count B.
+enum class BSign { outer_edge_into_part, outer_edge_to_plus_z, inward };
+
+}  // namespace tubecut::api
+
+/// What enumerations are called on the wire, but for those that core itself calls by name.
+namespace tubecut {
 template <>
 inline constexpr auto kNames<Severity> =
     std::to_array<Option<Severity>>({{"cut", Severity::cut}, {"note", Severity::note}});
@@ -30,15 +38,6 @@ inline constexpr auto kNames<joint::EventKind> =
     std::to_array<Option<joint::EventKind>>({{"junction", joint::EventKind::junction},
                                              {"jump", joint::EventKind::jump},
                                              {"kink", joint::EventKind::kink}});
-template <>
-inline constexpr auto kNames<joint::End> = std::to_array<Option<joint::End>>(
-    {{"start", joint::End::start}, {"finish", joint::End::finish}});
-template <>
-inline constexpr auto kNames<joint::JointKind> =
-    std::to_array<Option<joint::JointKind>>({{"set_on", joint::JointKind::set_on},
-                                             {"set_in", joint::JointKind::set_in},
-                                             {"through", joint::JointKind::through},
-                                             {"mitre", joint::JointKind::mitre}});
 template <>
 inline constexpr auto kNames<joint::MitrePlane> = std::to_array<Option<joint::MitrePlane>>(
     {{"bisecting", joint::MitrePlane::bisecting},
@@ -95,9 +94,6 @@ template <>
 inline constexpr auto kNames<motion::Direction> = std::to_array<Option<motion::Direction>>(
     {{"ccw", motion::Direction::ccw}, {"cw", motion::Direction::cw}});
 template <>
-inline constexpr auto kNames<motion::AxisUnit> = std::to_array<Option<motion::AxisUnit>>(
-    {{"deg", motion::AxisUnit::deg}, {"mm", motion::AxisUnit::mm}});
-template <>
 inline constexpr auto kNames<motion::SwingCenter> = std::to_array<Option<motion::SwingCenter>>(
     {{"remote", motion::SwingCenter::remote}, {"pivot", motion::SwingCenter::pivot}});
 template <>
@@ -105,13 +101,11 @@ inline constexpr auto kNames<motion::BPositive> = std::to_array<Option<motion::B
     {{"outer_edge_into_part", motion::BPositive::outer_edge_into_part},
      {"outer_edge_to_waste", motion::BPositive::outer_edge_to_waste}});
 
-/// How the points of a cut count B.
-enum class BSign { outer_edge_into_part, outer_edge_to_plus_z, inward };
 template <>
-inline constexpr auto kNames<BSign> =
-    std::to_array<Option<BSign>>({{"outer_edge_into_part", BSign::outer_edge_into_part},
-                                  {"outer_edge_to_plus_z", BSign::outer_edge_to_plus_z},
-                                  {"inward", BSign::inward}});
+inline constexpr auto kNames<api::BSign> =
+    std::to_array<Option<api::BSign>>({{"outer_edge_into_part", api::BSign::outer_edge_into_part},
+                                       {"outer_edge_to_plus_z", api::BSign::outer_edge_to_plus_z},
+                                       {"inward", api::BSign::inward}});
 
 template <>
 inline constexpr auto kNames<part::Datum> =
@@ -129,6 +123,11 @@ inline constexpr auto kNames<part::Step::What> =
                                              {"hole", part::Step::What::hole},
                                              {"finish", part::Step::What::finish},
                                              {"start", part::Step::What::start}});
+template <>
+inline constexpr auto kNames<part::Beside> =
+    std::to_array<Option<part::Beside>>({{"hole", part::Beside::hole},
+                                         {"start", part::Beside::start},
+                                         {"finish", part::Beside::finish}});
 template <>
 inline constexpr auto kNames<part::Mistake> =
     std::to_array<Option<part::Mistake>>({{"diameter", part::Mistake::diameter},
@@ -153,4 +152,4 @@ inline constexpr auto kNames<cutoff::FitMethod> =
                                               {"auto", cutoff::FitMethod::automatic},
                                               {"equispaced", cutoff::FitMethod::equispaced}});
 
-}  // namespace tubecut::api
+}  // namespace tubecut

@@ -101,10 +101,9 @@ void check_root_face(Reader& in, const bevel::TableSpec& cut) {
 bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
   const bool laser = out.preset == Preset::tube_laser;
   const auto decode = [&](Reader& d) {
-    static constexpr std::array kFound{Option<JointKind>{"set_on", JointKind::set_on},
-                                       Option<JointKind>{"set_in", JointKind::set_in}};
     bevel::TableSpec cut;
-    out.spec.found.kind = d.choice("kind", kFound, JointKind::set_on);
+    out.spec.found.kind =
+        d.choice("kind", kOnly<JointKind::set_on, JointKind::set_in>, JointKind::set_on);
     decode_how(d, d.understood("kind"), out.spec.found);
     decode_cut(d, false, out.preset, cut);
     if (cut.root_gap > 0.0)

@@ -120,16 +120,14 @@ double deepest_of(const joint::Partner& partner) {
 }
 
 joint::Joint decode_end_joint(Reader& in, const joint::Partner* partner) {
-  static constexpr std::array kKinds{Option<joint::JointKind>{"set_on", joint::JointKind::set_on},
-                                     Option<joint::JointKind>{"set_in", joint::JointKind::set_in},
-                                     Option<joint::JointKind>{"mitre", joint::JointKind::mitre}};
+  using joint::JointKind;
   joint::Joint out;
-  const auto kind = in.tag("kind", kKinds);
-  out.kind = kind.value_or(joint::JointKind::set_on);
+  const auto kind = in.tag("kind", kOnly<JointKind::set_on, JointKind::set_in, JointKind::mitre>);
+  out.kind = kind.value_or(JointKind::set_on);
   out.gap = in.number("gap_mm", kGap, 0.0);
-  const bool set_in = out.kind == joint::JointKind::set_in;
+  const bool set_in = out.kind == JointKind::set_in;
   const bool goes =
-      partner == nullptr || out.kind == joint::JointKind::set_on ||
+      partner == nullptr || out.kind == JointKind::set_on ||
       (set_in ? deepest_of(*partner) > 0.0 : std::holds_alternative<joint::PlaneCutter>(*partner));
   if (kind && !goes)
     in.issue({.code = ErrorCode::unsupported_combination,

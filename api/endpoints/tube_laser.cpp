@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "api/tables.hpp"
+#include "api/wire_names.hpp"
+
 namespace tubecut::api {
 namespace {
 
@@ -34,20 +37,8 @@ void encode_gap(std::string_view name, const bevel::Table& table, const bevel::E
   w.object(name, [&](Writer& o) {
     o.field("greatest_mm", most.gap);
     o.degrees("phi_deg", table.phi[most.row]);
-    o.field("edge", most.outer ? "outer" : "inner");
+    o.field("edge", wall_name(most.outer));
   });
-}
-
-std::string_view name_of_side(part::Beside side) {
-  switch (side) {
-    case part::Beside::hole:
-      return "hole";
-    case part::Beside::start:
-      return "start";
-    case part::Beside::finish:
-      return "finish";
-  }
-  return {};
 }
 
 void encode_web(std::string_view name, const part::Web& web, Writer& w) {
@@ -55,7 +46,7 @@ void encode_web(std::string_view name, const part::Web& web, Writer& w) {
     o.field("width_mm", web.width);
     o.field("radius_mm", web.radius);
     o.field("hole", web.hole);
-    o.field("beside", name_of_side(web.beside));
+    o.field("beside", name_of(web.beside));
     if (web.beside == part::Beside::hole) o.field("other_hole", web.other);
     const auto place = [&](std::string_view which, const part::EdgePoint& p) {
       o.object(which, [&](Writer& at) {
@@ -104,15 +95,12 @@ void decode_no_smoothing(Reader& in, bevel::TableSpec& out) {
 
 bevel::Contact decode_untilted_contact(Reader& in) {
   using bevel::Contact;
-  static constexpr std::array kContacts{Option<Contact>{"auto", Contact::automatic},
-                                        Option<Contact>{"outer", Contact::outer},
-                                        Option<Contact>{"none", Contact::none}};
-  return in.choice("contact", kContacts, Contact::automatic);
+  return in.choice("contact", kOnly<Contact::automatic, Contact::outer, Contact::none>,
+                   Contact::automatic);
 }
 
 bevel::Tilt decode_no_tilt(Reader& in) {
-  static constexpr std::array kNone{Option<bevel::Tilt>{"none", bevel::Tilt::none}};
-  return in.choice("tilt", kNone, bevel::Tilt::none);
+  return in.choice("tilt", kOnly<bevel::Tilt::none>, bevel::Tilt::none);
 }
 
 void check_torch_reaches_square(Reader& in, const bevel::TorchRange& torch) {

@@ -134,7 +134,7 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
   for (const auto* end : {&part.start, &part.finish}) {
     auto one = developed(end->spec, end->table);
     const bool finish = end == &part.finish;
-    one.cuts.front().name = finish ? "finish" : "start";
+    one.cuts.front().name = joint::end_name(finish);
     if ((finish ? spec.finish : spec.start).welded) {
       const auto& t = end->table;
       const auto spans = spans_of(t.phi, scrap_side(t, finish), t.cutter, finish);

@@ -21,9 +21,6 @@ namespace {
 std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, const part::Part& p,
                                                   const std::stop_token& stop) {
   std::vector<std::pair<std::string, Columns>> out;
-  const auto end = [&](const char* name, const part::End& cut) {
-    out.emplace_back(name, bevel_columns(cut.spec, cut.table));
-  };
   for (const auto& step : p.sequence) {
     ask(stop);
     if (step.what == part::Step::What::hole) {
@@ -32,8 +29,11 @@ std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, co
                        hole_columns(spec.holes[placed.asked].hole, placed.hole)
                            .append("fit_up_", fit_up_columns(placed.hole)));
     }
-    if (step.what == part::Step::What::finish) end("finish", p.finish);
-    if (step.what == part::Step::What::start) end("start", p.start);
+    const auto end = [&](const part::End& cut) {
+      out.emplace_back(name_of(step.what), bevel_columns(cut.spec, cut.table));
+    };
+    if (step.what == part::Step::What::finish) end(p.finish);
+    if (step.what == part::Step::What::start) end(p.start);
   }
   return out;
 }

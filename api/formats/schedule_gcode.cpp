@@ -111,7 +111,7 @@ std::string header(const motion::Machine& machine, const motion::Schedule& s,
   out += post.comment("machine: " + (machine.name.empty() ? "of the request" : machine.name));
   for (std::size_t a = 0; a < letters.size(); ++a)
     out += post.comment(std::string(1, letters[a]) + " = axis " + s.axes[a].name + ", " +
-                        std::string(motion::name_of(s.axes[a].unit)));
+                        std::string(name_of(s.axes[a].unit)));
   return out + post.comment("units mm, deg") +
          post.comment("time " + measure(s.report.time, Unit::s) +
                       " as planned, each move in its own") +

@@ -25,7 +25,7 @@ WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const 
 
 TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel::Table& table,
                 const Caption& caption) {
-  const auto name = place == TubeCut::Place::start ? "start" : "finish";
+  const std::string name(joint::end_name(place == TubeCut::Place::finish));
   ask(caption.stop);
   const auto wall = bevel::finished_wall(spec, table);
   double low = std::numeric_limits<double>::infinity(), high = -low;

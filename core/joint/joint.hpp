@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/base/names.hpp"
+
 namespace tubecut::joint {
 
 enum class JointKind {
@@ -17,6 +19,31 @@ enum class MitrePlane {
   bisecting,        // leans alike to both axes
   corner_to_corner  // through the corners of the two outlines: unlike tubes meet edge to edge there
 };
+
+enum class End { start, finish };  // of a member
+
+}  // namespace tubecut::joint
+
+namespace tubecut {
+
+template <>
+inline constexpr auto kNames<joint::JointKind> =
+    std::to_array<Option<joint::JointKind>>({{"set_on", joint::JointKind::set_on},
+                                             {"set_in", joint::JointKind::set_in},
+                                             {"through", joint::JointKind::through},
+                                             {"mitre", joint::JointKind::mitre}});
+template <>
+inline constexpr auto kNames<joint::End> = std::to_array<Option<joint::End>>(
+    {{"start", joint::End::start}, {"finish", joint::End::finish}});
+
+}  // namespace tubecut
+
+namespace tubecut::joint {
+
+/// Of an end told by a flag.
+[[nodiscard]] constexpr std::string_view end_name(bool finish) {
+  return name_of(finish ? End::finish : End::start);
+}
 
 /// How two members that meet are joined. Lengths in mm.
 struct Joint {

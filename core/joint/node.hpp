@@ -18,8 +18,6 @@ namespace tubecut::joint {
 /// Cutters one end may have.
 inline constexpr std::size_t kMostCutters = 64;
 
-enum class End { start, finish };
-
 /// A tube by its centre-line in the world. Lengths in mm.
 struct Member {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();

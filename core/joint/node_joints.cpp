@@ -1,6 +1,5 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -29,13 +28,9 @@ std::string place_of(const NodeSpec& spec, std::size_t index) {
   return "members/" + std::to_string(member) + "/joints/" + std::to_string(own);
 }
 
-std::string name_of(JointKind kind) {
-  constexpr std::array kNames{"set_on", "set_in", "through", "mitre"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
 /// "set_in, gap 1.5 mm, depth 8 mm"
 std::string told(const Joint& joint) {
-  return name_of(joint.kind) + ", gap " + shown(joint.gap) + " mm" +
+  return std::string(name_of(joint.kind)) + ", gap " + shown(joint.gap) + " mm" +
          (joint.depth ? ", depth " + shown(*joint.depth) + " mm" : "") +
          (joint.plane == MitrePlane::corner_to_corner ? ", corner to corner" : "");
 }

@@ -1,7 +1,6 @@
 #include "core/motion/machine.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -10,18 +9,18 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-struct Kind {
-  std::string_view type;
-  Names required;
-  Names optional;
+struct AxisNames {
+  Names required = {}, optional = {};
 };
 
-const Kind& kind_of(const Machine& machine) {
-  static const std::array<Kind, 4> kinds{{{"five_axis_cutter", {"C", "Y", "Z1", "B"}, {"Z2"}},
-                                          {"crawler", {"S", "E", "B"}, {}},
-                                          {"cone_mill", {"C", "X", "Z", "B"}, {}},
-                                          {"generic", {}, {}}}};
-  return kinds.at(machine.kinematics.index());
+AxisNames axis_names(const Machine& machine) {
+  struct Of {
+    AxisNames operator()(const FiveAxisCutter&) const { return {{"C", "Y", "Z1", "B"}, {"Z2"}}; }
+    AxisNames operator()(const Crawler&) const { return {{"S", "E", "B"}}; }
+    AxisNames operator()(const ConeMill&) const { return {{"C", "X", "Z", "B"}}; }
+    AxisNames operator()(const Generic&) const { return {}; }
+  };
+  return std::visit(Of{}, machine.kinematics);
 }
 
 class Findings {
@@ -72,12 +71,12 @@ void check_axis(const Axis& axis, const std::string& at, Findings& found) {
 }
 
 void check_names(const Machine& machine, Findings& found) {
-  const Kind& kind = kind_of(machine);
+  const auto [required, optional] = axis_names(machine);
   const auto named = [&](std::string_view name) {
     return std::count_if(machine.axes.begin(), machine.axes.end(),
                          [&](const Axis& axis) { return axis.name == name; });
   };
-  for (const auto name : kind.required) {
+  for (const auto name : required) {
     if (named(name) == 0) {
       found.add(ErrorCode::wrong_count, "axes", {}, {},
                 "axis " + std::string(name) + " is missing");
@@ -87,8 +86,8 @@ void check_names(const Machine& machine, Findings& found) {
     const std::string& name = machine.axes[a].name;
     const std::string at = "axes/" + std::to_string(a) + "/name";
     if (named(name) > 1) found.add(ErrorCode::wrong_count, at, name, {}, "the name is there twice");
-    const bool known = kind.required.empty() || std::ranges::count(kind.required, name) > 0 ||
-                       std::ranges::count(kind.optional, name) > 0;
+    const bool known = required.empty() || std::ranges::count(required, name) > 0 ||
+                       std::ranges::count(optional, name) > 0;
     if (!known) found.add(ErrorCode::bad_choice, at, name);
   }
 }
@@ -239,9 +238,9 @@ CatalogueEntry entry(Machine machine) {
 
 }  // namespace
 
-std::string_view name_of(AxisUnit unit) { return unit == AxisUnit::deg ? "deg" : "mm"; }
-
-std::string_view type_name(const Machine& machine) { return kind_of(machine).type; }
+std::string_view type_name(const Machine& machine) {
+  return std::visit([]<class Kind>(const Kind&) { return Kind::kName; }, machine.kinematics);
+}
 
 Result<void> check(const Machine& machine) {
   Findings found;

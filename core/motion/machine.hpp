@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/names.hpp"
 
 namespace tubecut::motion {
 
 /// An axis counts in its own unit, which its record names; nothing else of core is in degrees.
 enum class AxisUnit : std::uint8_t { deg, mm };
-
-[[nodiscard]] std::string_view name_of(AxisUnit unit);
 
 /// One driven axis. Limits per second in the axis' unit; exactly one of the two pulse counts is
 /// set.
@@ -39,6 +38,7 @@ struct Axis {
 
 /// Source 000: rotating pipe C, carriage Y, height Z1, optional fine height Z2, swinging torch B.
 struct FiveAxisCutter {
+  static constexpr std::string_view kName = "five_axis_cutter";
   double pivot_length = 0.0;  // pivot to torch tip, mm
   double standoff = 0.0;      // tip to wall, mm
   double z2_share = 0.0;      // share of the height given to Z2; 0: left to the height control
@@ -48,6 +48,7 @@ enum class SwingCenter : std::uint8_t { remote, pivot };
 
 /// Source 002: a carriage that crawls round the pipe (S), a cross slide (E) and the swing (B).
 struct Crawler {
+  static constexpr std::string_view kName = "crawler";
   double wheel_offset = 0.0;  // of the wheel path over the pipe, mm
   SwingCenter swing_center = SwingCenter::remote;
   double pivot_length = 0.0;  // pivot above the wall, mm; used with SwingCenter::pivot
@@ -55,7 +56,9 @@ struct Crawler {
 };
 
 /// Source 001: the mill's axes C, X, Z, B, given directly as columns.
-struct ConeMill {};
+struct ConeMill {
+  static constexpr std::string_view kName = "cone_mill";
+};
 
 /// q = k_phi * phi_deg + k_z * z + k_b * B_deg + k_0, in the order of the machine's axes.
 struct LinearMap {
@@ -65,6 +68,7 @@ struct LinearMap {
   double k_0 = 0.0;
 };
 struct Generic {
+  static constexpr std::string_view kName = "generic";
   std::vector<LinearMap> maps = {};  // empty when the cut comes as plain axis columns
 };
 
@@ -87,7 +91,7 @@ struct Machine {
   }
 };
 
-/// The machine's word for its kind: five_axis_cutter, crawler, cone_mill, generic.
+/// The machine's word for its kind, `kName` of its kinematics.
 [[nodiscard]] std::string_view type_name(const Machine& machine);
 
 /// Everything that is wrong with the machine itself; `member` starts at "machine".
@@ -117,3 +121,11 @@ struct CatalogueEntry {
 [[nodiscard]] std::vector<CatalogueEntry> catalogue();
 
 }  // namespace tubecut::motion
+
+namespace tubecut {
+
+template <>
+inline constexpr auto kNames<motion::AxisUnit> = std::to_array<Option<motion::AxisUnit>>(
+    {{"deg", motion::AxisUnit::deg}, {"mm", motion::AxisUnit::mm}});
+
+}  // namespace tubecut

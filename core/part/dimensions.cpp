@@ -8,6 +8,7 @@
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/joint/joint.hpp"
 #include "core/math/rotation.hpp"
 
 namespace tubecut::part {
@@ -72,7 +73,7 @@ double widest_overhang(const Shape& s, bool finish) {
   return at;
 }
 
-std::string called(bool finish) { return finish ? "finish" : "start"; }
+std::string called(bool finish) { return std::string(joint::end_name(finish)); }
 std::string on_girth(const Shape& s, double phi) {
   return brief(std::round(10.0 * s.outer_radius * phi) / 10.0) +
          " mm round from the datum line, the way phi grows";

@@ -20,9 +20,9 @@ namespace {
 
 using bevel::Table;
 
-void carry(std::vector<Warning> warnings, const std::string& parent, std::vector<Warning>& out) {
+void carry(std::vector<Warning> warnings, std::string_view parent, std::vector<Warning>& out) {
   for (auto& w : warnings) {
-    w.member = parent + (w.member.empty() ? "" : "/" + w.member);
+    w.member = std::string(parent) + (w.member.empty() ? "" : "/" + w.member);
     out.push_back(std::move(w));
   }
 }
@@ -50,7 +50,7 @@ Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& st
   End out{.spec = asked.cut};
   const Angle by = finish ? spec.zero : -spec.zero;
   for (auto& partner : out.spec.partners) partner = turned(partner, by);
-  TRY(out.own, under(finish ? "finish" : "start", bevel::table(out.spec, stop)));
+  TRY(out.own, under(joint::end_name(finish), bevel::table(out.spec, stop)));
   if (!asked.welded) return out;
   out.weld_length = welded_length(out);
   out.groove_volume = groove_volume(out.spec, out.own, stop);
@@ -235,8 +235,7 @@ Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>
   for (std::size_t i = 0; i < at.size(); ++i) {
     const auto member = asked_hole(spec, p.holes[i].asked);
     const bool off = at[i].start || at[i].finish;
-    const std::string where =
-        std::string("beyond the cut at the ") + (at[i].start ? "start" : "finish");
+    const std::string where = "beyond the cut at the " + std::string(joint::end_name(!at[i].start));
     if (off && !on_part.contains(p.holes[i].asked))
       return fail({.code = ErrorCode::hole_off_part, .member = member, .hint = "it lies " + where});
     if (at[i].anywhere)
@@ -304,7 +303,7 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
     TRY(auto end, cut_end(spec, finish, stop));
     // A plane square to the axis has nothing to warn of.
     if ((finish ? spec.finish : spec.start).welded)
-      carry(end.own.warnings, finish ? "finish" : "start", out.warnings);
+      carry(end.own.warnings, joint::end_name(finish), out.warnings);
     (finish ? out.finish : out.start) = std::move(end);
   }
   TRY(cut_holes(spec, out, stop));

@@ -95,7 +95,7 @@ Result<std::optional<motion::CutWithLead>> lead_and_pierce(const motion::PartBor
 TorchCut part_end(const part::Part& part, bool finish) {
   const auto& end = finish ? part.finish : part.start;
   auto out = end_cut(end.spec, end.table, finish ? motion::Scrap::plus_z : motion::Scrap::minus_z);
-  out.name = finish ? "finish" : "start";
+  out.name = joint::end_name(finish);
   return out;
 }
 
@@ -172,7 +172,7 @@ Result<std::vector<TorchCut>> torch_passes(const part::PartSpec& spec, const par
                          " cuts the part off, and nothing turns it for the second"});
   std::vector<TorchCut> out;
   for (auto& cut : cuts) {
-    const bool has_land = cut.land > 0.0, finish = cut.name == "finish";
+    const bool has_land = cut.land > 0.0, finish = cut.name == joint::end_name(true);
     out.push_back(std::move(cut));
     if (!has_land) continue;
     TRY(auto land, part_land(spec, part, finish, stop));

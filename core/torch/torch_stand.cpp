@@ -74,7 +74,7 @@ Result<void> TorchStand::check(const std::vector<double>& axes) const {
     const auto see = [&](bool beyond, const char* bound, const std::optional<double>& limit) {
       if (beyond)
         issues.push_back({ErrorCode::soft_limit, "machine/axes/" + std::to_string(a) + "/" + bound,
-                          axes[a], *limit, std::string(motion::name_of(axis.unit)),
+                          axes[a], *limit, std::string(name_of(axis.unit)),
                           "axis " + axis.name + " between two cuts"});
     };
     see(axis.soft_min && axes[a] < *axis.soft_min, "soft_min", axis.soft_min);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace tubecut::api {
+namespace tubecut {
 
 /// A value and its name on the wire.
 template <class E>
@@ -15,7 +15,8 @@ struct Option {
 };
 
 /// The names of all values of an enumeration, once, in the order in which they are offered: read
-/// by `Reader::choice`, written by `name_of`. Given in api/wire_names.hpp.
+/// by the api's `Reader::choice`, written by `name_of`. Given in api/wire_names.hpp, or beside the
+/// enumeration where core's paths and messages name its values too.
 template <class E>
 inline constexpr auto kNames = nullptr;
 
@@ -38,5 +39,9 @@ template <std::size_t Count, class E, std::size_t N>
   std::copy_n(all.begin(), Count, out.begin());
   return out;
 }
+/// These of one enumeration, where not all are offered.
+template <auto First, decltype(First)... Others>
+inline constexpr std::array kOnly{Option<decltype(First)>{name_of(First), First},
+                                  Option<decltype(First)>{name_of(Others), Others}...};
 
-}  // namespace tubecut::api
+}  // namespace tubecut
