@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -36,39 +37,37 @@ Json axis(const Vector3d& at, const Vector3d& along) {
   return Json{Json::Object{{"point_mm", point(at)}, {"direction", direction(along)}}};
 }
 
-/// A cutter's own members: one case for every kind.
+/// A cutter's own members but `kind`: one case for every kind.
 struct Fields {
   using All = Json::Object;
   All operator()(const joint::TubeCutter& t) const {
-    return {{"kind", Json{"tube"}},
-            {"outer_diameter_mm", mm(2.0 * t.radius)},
+    return {{"outer_diameter_mm", mm(2.0 * t.radius)},
             {"inclination_deg", deg(t.inclination)},
             {"clocking_deg", deg(t.clocking)},
             {"offset_mm", mm(t.offset)},
             {"height_mm", mm(t.height)}};
   }
   All operator()(const joint::AxisTube& t) const {
-    return {{"kind", Json{"tube"}},
-            {"outer_diameter_mm", mm(2.0 * t.radius)},
+    return {{"outer_diameter_mm", mm(2.0 * t.radius)},
             {"axis", axis(t.axis.point, t.axis.direction)}};
   }
   All operator()(const joint::PlaneCutter& p) const {
-    return {{"kind", Json{"plane"}}, {"point_mm", point(p.point)}, {"normal", direction(p.normal)}};
+    return {{"point_mm", point(p.point)}, {"normal", direction(p.normal)}};
   }
   All operator()(const joint::RectangularTubeCutter& t) const {
-    return {{"kind", Json{"rectangular_tube"}},   {"width_mm", Json{t.width}},
-            {"height_mm", Json{t.height}},        {"corner_radius_mm", Json{t.corner}},
-            {"axis", axis(t.point, t.direction)}, {"up", direction(t.up)}};
+    return {{"width_mm", Json{t.width}},
+            {"height_mm", Json{t.height}},
+            {"corner_radius_mm", Json{t.corner}},
+            {"axis", axis(t.point, t.direction)},
+            {"up", direction(t.up)}};
   }
   All operator()(const joint::ConeCutter& c) const {
-    return {{"kind", Json{"cone"}},
-            {"outer_diameter_mm", mm(2.0 * c.radius)},
+    return {{"outer_diameter_mm", mm(2.0 * c.radius)},
             {"half_angle_deg", deg(c.half_angle)},
             {"axis", axis(c.point, c.direction)}};
   }
   All operator()(const joint::ElbowCutter& e) const {
-    return {{"kind", Json{"elbow"}},
-            {"outer_diameter_mm", mm(2.0 * e.radius)},
+    return {{"outer_diameter_mm", mm(2.0 * e.radius)},
             {"bend_radius_mm", Json{e.bend_radius}},
             {"bend_deg", deg(e.bend)},
             {"axis", axis(e.point, e.direction)},
@@ -188,11 +187,14 @@ class PartWriter {
     if (all.empty()) return square_end(member, which);
     Json::Array cutters, joints;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      auto fields = joint::by_kind(all[i].partner, Fields{});
+      const auto kind =
+          joint::by_kind(all[i].partner, []<class Kind>(const Kind&) { return Kind::kName; });
+      Json::Object cutter{{"kind", Json{std::string(kind)}}};
       if (names.ids)
         if (const auto name = cutter_name(all[i], names); !name.empty())
-          fields.emplace(fields.begin() + 1, "id", Json{name});
-      cutters.emplace_back(std::move(fields));
+          cutter.emplace_back("id", Json{name});
+      std::ranges::move(joint::by_kind(all[i].partner, Fields{}), std::back_inserter(cutter));
+      cutters.emplace_back(std::move(cutter));
       if (all[i].stated) joints.push_back(joint(i, *all[i].stated));
     }
     Json::Object out{{"cutters", Json{std::move(cutters)}}, {"joints", Json{std::move(joints)}}};
@@ -232,7 +234,7 @@ class PartWriter {
     for (const auto& hole : piece.holes) {
       const auto& how = frame_.joints[hole.joint].how;
       auto branch = Fields{}(hole.branch);
-      branch.front() = {"id", Json{names.of_members[hole.member]}};
+      branch.emplace(branch.begin(), "id", Json{names.of_members[hole.member]});
       branch.insert(branch.begin() + 2, {"wall_mm", Json{hole.wall}});
       Json::Object joint{{"kind", Json{std::string(name_of(how.kind))}}, {"gap_mm", Json{how.gap}}};
       if (how.kind == frame::JointKind::set_in && how.depth)

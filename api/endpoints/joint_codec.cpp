@@ -84,9 +84,11 @@ joint::Partner decode_elbow(Reader& in) {
 
 using Decode = joint::Partner (*)(Reader&);
 constexpr std::array kKinds{
-    Option<Decode>{"tube", decode_tube}, Option<Decode>{"plane", decode_plane},
-    Option<Decode>{"rectangular_tube", decode_rectangular_tube},
-    Option<Decode>{"cone", decode_cone}, Option<Decode>{"elbow", decode_elbow}};
+    Option<Decode>{joint::TubeCutter::kName, decode_tube},
+    Option<Decode>{joint::PlaneCutter::kName, decode_plane},
+    Option<Decode>{joint::RectangularTubeCutter::kName, decode_rectangular_tube},
+    Option<Decode>{joint::ConeCutter::kName, decode_cone},
+    Option<Decode>{joint::ElbowCutter::kName, decode_elbow}};
 static_assert(kKinds.size() == std::variant_size_v<joint::Cutter>, "every kind is read");
 
 /// In the world there is no target to give angles to.

@@ -33,6 +33,7 @@ struct ConeSolid : ConvexSolid<ConeSolid> {
 
 /// A cone as partner (a reducer): one nappe, without end. Lengths in mm.
 struct ConeCutter {
+  static constexpr std::string_view kName = "cone";
   using Prepared = PreparedCone;
   using Solid = ConeSolid;
 

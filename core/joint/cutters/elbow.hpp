@@ -80,6 +80,7 @@ struct ElbowSolid {
 /// Lengths in mm. The bend begins at `point` of the centre line, runs along `direction` there and
 /// turns towards `inwards`.
 struct ElbowCutter {
+  static constexpr std::string_view kName = "elbow";
   using Prepared = PreparedElbow;
   using Solid = ElbowSolid;
 

@@ -56,6 +56,7 @@ concept DescribedKind = requires(const K& kind, K& changed, double by, const Tur
   changed.grow(by);  // its surface moved outwards, normal to it
   changed.turn(turn);
   { kind.bearing() } -> std::same_as<std::optional<Bearing>>;  // empty: it has no side
+  { K::kName } -> std::convertible_to<std::string_view>;       // what requests call it
 };
 
 /// A cutter with the sines and cosines of its own angles taken once, in the target's frame. What

@@ -60,6 +60,7 @@ struct PlaneSolid {
 /// A plane as partner: the target is cut along it, material on the side its normal points to is
 /// kept.
 struct PlaneCutter {
+  static constexpr std::string_view kName = "plane";
   using Prepared = PreparedPlane;
   using Solid = PlaneSolid;
 

@@ -34,6 +34,7 @@ struct RectangularTubeSolid : ConvexSolid<RectangularTubeSolid> {
 
 /// A rectangular hollow section as partner: an infinite prism by its axis. Lengths in mm.
 struct RectangularTubeCutter {
+  static constexpr std::string_view kName = "rectangular_tube";
   using Prepared = PreparedRectangularTube;
   using Solid = RectangularTubeSolid;
 

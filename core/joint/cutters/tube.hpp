@@ -46,6 +46,7 @@ struct TubeSolid {
 /// A round partner of the target, an infinite cylinder. Lengths in mm.
 /// Frame: z along the target axis from the cut end into the kept member, phi from x towards y.
 struct TubeCutter {
+  static constexpr std::string_view kName = "tube";
   using Prepared = PreparedTube;
   using Solid = TubeSolid;
 
@@ -87,6 +88,7 @@ struct Placement {
 
 /// A tube partner given by its axis line in the target's frame.
 struct AxisTube {
+  static constexpr auto kName = TubeCutter::kName;
   double radius = 0.0;
   AxisLine axis;
 
