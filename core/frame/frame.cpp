@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -127,7 +126,7 @@ Result<Joined> stated(const FrameSpec& spec) {
     }
     if (!out.of_members.emplace(std::minmax(said.member, said.with), i).second)
       return contradicts(i, {}, "the joint of these two is stated already");
-    out.node.joints.push_back({said.member, said.with, of_node(said.how)});
+    out.node.joints.push_back({said.member, said.with, of_node(said.how), at_joint(i)});
     if (said.how.kind != JointKind::through) links.push_back(link(spec, out.node, said));
   }
   if (spec.within)
@@ -137,38 +136,6 @@ Result<Joined> stated(const FrameSpec& spec) {
   return out;
 }
 
-/// Takes "members/3/" off the text's head: 3.
-std::optional<std::size_t> taken(std::string_view& text, std::string_view word) {
-  if (!text.starts_with(word)) return std::nullopt;
-  std::size_t out = 0;
-  const auto* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + word.size(), end, out);
-  if (read.ec != std::errc{}) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
-  return out;
-}
-
-/// core's "members/3/joints/0" is the statement of that place among that member's own.
-std::string renamed(const Joined& joined, const std::string& member) {
-  std::string_view rest = member;
-  const auto at = taken(rest, "members/");
-  auto ordinal = at ? taken(rest, "/joints/") : std::nullopt;
-  if (!ordinal) return member;
-  for (const auto& said : joined.node.joints) {
-    if (said.member != *at || (*ordinal)-- > 0) continue;
-    const auto& one = joined.joints[joined.joint_of(said.member, said.with)];
-    return (one.stated ? at_joint(*one.stated) : "defaults") + std::string(rest);
-  }
-  return member;
-}
-
-Result<joint::Nodes> solve_nodes(const Joined& joined, const std::stop_token& stop) {
-  return joint::solve(joined.node, stop).map_error([&](Error error) {
-    for (auto& issue : error.issues) issue.member = renamed(joined, issue.member);
-    return error;
-  });
-}
-
 /// Pairs that meet and of which nobody says how, each by its branch.
 void add_found(const FrameSpec& spec, Joined& joined) {
   for (const auto& end : joined.nodes.ends)
@@ -176,7 +143,7 @@ void add_found(const FrameSpec& spec, Joined& joined) {
       const auto pair = std::minmax(end.member, cut.member);
       if (!joined.of_members.emplace(pair, joined.joints.size()).second) continue;
       joined.joints.push_back({end.member, cut.member, false, spec.found, std::nullopt});
-      joined.node.joints.push_back({end.member, cut.member, of_node(spec.found)});
+      joined.node.joints.push_back({end.member, cut.member, of_node(spec.found), "defaults"});
     }
 }
 
@@ -258,11 +225,11 @@ std::vector<Warning> warnings(const Joined& joined) {
 Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
   TRY(check_others(spec));
   TRY(auto joined, stated(spec));
-  TRY(joined.nodes, solve_nodes(joined, stop));
+  TRY(joined.nodes, joint::solve(joined.node, stop));
   const auto before = joined.joints.size();
   add_found(spec, joined);
   if (joined.joints.size() > before) {
-    TRY(joined.nodes, solve_nodes(joined, stop));
+    TRY(joined.nodes, joint::solve(joined.node, stop));
   }
   TRY(settle(spec, joined));
   Frame out;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "core/base/names.hpp"
 
@@ -59,6 +60,7 @@ struct Joint {
 struct StatedJoint {
   std::size_t member = 0, with = 0;
   Joint joint;
+  std::string at = {};  // what issues call it; empty: members/i/joints/j, of that member's own
 };
 
 /// By how much a partner's surface is to be grown so that an end of this joint lies on it: the gap

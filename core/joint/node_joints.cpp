@@ -19,8 +19,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// "members/3/joints/0": the statement as its member makes it.
+/// Its own path, or "members/3/joints/0": the statement as its member makes it.
 std::string place_of(const NodeSpec& spec, std::size_t index) {
+  if (const auto& own = spec.joints[index].at; !own.empty()) return own;
   const auto member = spec.joints[index].member;
   const auto before = spec.joints.begin() + static_cast<std::ptrdiff_t>(index);
   const auto own = std::count_if(spec.joints.begin(), before,
@@ -147,7 +148,8 @@ tl::unexpected<Error> apart(const NodeSpec& spec, std::size_t index, const std::
 }
 
 Result<void> apply(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
-  const auto& [a, b, joint] = spec.joints[index];
+  const auto a = spec.joints[index].member, b = spec.joints[index].with;
+  const auto& joint = spec.joints[index].joint;
   const auto& p = spec.members[a];
   const auto& q = spec.members[b];
   if (joint.kind == JointKind::through) {
