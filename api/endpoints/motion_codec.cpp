@@ -199,16 +199,14 @@ struct CutOf {
       return fail(
           {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
     job.checks = bevel::verify(spec, table, stop);
-    job.warnings = on_node(spec.source, table.warnings);
-    for (auto& warning : job.warnings) warning.member = "cut/" + warning.member;
+    job.warnings = under("cut", on_node(spec.source, table.warnings));
     warn_of_land("cut/root_face_mm", {}, spec.root_face);
     return (*this)(contour_of(spec, table));
   }
   Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
     TRY(const auto path, under("mill_path", groove::mill_path(spec, stop)));
     job.checks = groove::verify(spec, path, stop);
-    job.warnings = path.warnings;
-    for (auto& warning : job.warnings) warning.member = "mill_path/" + warning.member;
+    job.warnings = under("mill_path", path.warnings);
     TRY(auto columns, columns_of(spec, path, request.machine));
     return motion::Cut{std::move(columns)};
   }
@@ -225,10 +223,9 @@ struct CutOf {
     };
     TRY(const auto part, part::part(spec.part, stop).map_error(named));
     job.checks = part::verify(spec.part, part, stop);
-    job.warnings = on_request(spec, part.warnings);
-    job.warnings.insert(job.warnings.end(), spec.warnings.begin(), spec.warnings.end());
-    for (auto& warning : job.warnings)
-      warning.member = warning.member.empty() ? "part" : "part/" + warning.member;
+    auto warnings = on_request(spec, part.warnings);
+    warnings.insert(warnings.end(), spec.warnings.begin(), spec.warnings.end());
+    job.warnings = under("part", std::move(warnings));
     auto cuts = torch::torch_cuts(spec.part, part);
     if (request.marks) cuts = torch::with_marks(spec.part, part, std::move(cuts));
     job.program = {.cuts = std::move(cuts),

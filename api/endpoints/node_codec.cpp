@@ -203,10 +203,7 @@ Error on_node(const JointSource& source, Error error) {
 std::vector<Warning> on_node(const JointSource& source, std::vector<Warning> warnings) {
   if (!source.node) return warnings;
   for (auto& warning : warnings) warning.member = renamed(source, warning.member);
-  for (auto warning : source.found.warnings) {
-    warning.member = "node/" + warning.member;
-    warnings.push_back(std::move(warning));
-  }
+  for (auto& warning : under("node", source.found.warnings)) warnings.push_back(std::move(warning));
   return warnings;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 
@@ -25,11 +26,16 @@
 
 namespace tubecut {
 
-/// The error of a part of the request as the whole calls it: every path begins with `where`.
+/// Errors and warnings of a part of the request as the whole calls it: every path begins with
+/// `where`.
+template <class Told>
+[[nodiscard]] std::vector<Told> under(std::string_view where, std::vector<Told> all) {
+  for (auto& one : all)
+    one.member = std::string(where) + (one.member.empty() ? "" : "/") + one.member;
+  return all;
+}
 [[nodiscard]] inline Error under(std::string_view where, Error error) {
-  for (auto& issue : error.issues)
-    issue.member = std::string(where) + (issue.member.empty() ? "" : "/") + issue.member;
-  return error;
+  return Error{under(where, std::move(error.issues))};
 }
 template <class T>
 [[nodiscard]] Result<T> under(std::string_view where, Result<T> of) {

@@ -171,8 +171,7 @@ Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
   out.qualified = out.swept.root_face_min.value >= kRootFaceReject &&
                   std::all_of(out.positions.begin(), out.positions.end(),
                               [](const MillPosition& p) { return p.qualified; });
-  out.warnings = std::move(whole.warnings);
-  for (Warning& warning : out.warnings) warning.member.insert(0, "groove/");
+  out.warnings = under("groove", std::move(whole.warnings));
   for (Warning& warning : path_warnings(spec, out)) out.warnings.push_back(std::move(warning));
   return out;
 }

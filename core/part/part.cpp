@@ -21,10 +21,7 @@ namespace {
 using bevel::Table;
 
 void carry(std::vector<Warning> warnings, std::string_view parent, std::vector<Warning>& out) {
-  for (auto& w : warnings) {
-    w.member = std::string(parent) + (w.member.empty() ? "" : "/" + w.member);
-    out.push_back(std::move(w));
-  }
+  for (auto& w : under(parent, std::move(warnings))) out.push_back(std::move(w));
 }
 
 /// The root curve without what is set in: that is welded round its hole.
