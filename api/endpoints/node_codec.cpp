@@ -2,6 +2,7 @@
 
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/renaming.hpp"
 #include "api/limits.hpp"
 #include "api/wire_names.hpp"
 #include "core/base/try.hpp"
@@ -107,19 +108,15 @@ NodeEnd decode_end(Reader& in) {
   return out;
 }
 
-/// "cutters/1/offset" as the member that cutter is.
-std::string renamed(const JointSource& source, std::string_view member) {
+/// Target and cutters as the members that they are.
+Renamings renamings(const JointSource& source) {
   const auto of = [](std::size_t i) { return "node/members/" + std::to_string(i); };
-  if (member.starts_with("target")) return of(source.found.member);
-  constexpr std::string_view kCutters = "cutters/";
-  if (member == "cutters") return of(source.found.member);
-  if (!member.starts_with(kCutters)) return std::string(member);
-  std::size_t index = 0;
-  for (const char c : member.substr(kCutters.size())) {
-    if (c < '0' || c > '9') break;
-    index = index * 10 + static_cast<std::size_t>(c - '0');
-  }
-  return index < source.found.cutters.size() ? of(source.found.cutters[index]) : "node";
+  const auto& found = source.found;
+  Renamings out;
+  for (std::size_t i = 0; i < found.cutters.size(); ++i)
+    out.push_back({"cutters/" + std::to_string(i), of(found.cutters[i]), false});
+  for (const auto* one : {"cutters", "target"}) out.push_back({one, of(found.member), false});
+  return out;
 }
 
 }  // namespace
@@ -195,14 +192,13 @@ Result<JointSource> resolve(JointSource source, const std::stop_token& stop) {
 }
 
 Error on_node(const JointSource& source, Error error) {
-  if (source.node)
-    for (auto& issue : error.issues) issue.member = renamed(source, issue.member);
-  return error;
+  if (!source.node) return error;
+  return renamed(std::move(error), renamings(source));
 }
 
 std::vector<Warning> on_node(const JointSource& source, std::vector<Warning> warnings) {
   if (!source.node) return warnings;
-  for (auto& warning : warnings) warning.member = renamed(source, warning.member);
+  warnings = renamed(std::move(warnings), renamings(source));
   for (auto& warning : under("node", source.found.warnings)) warnings.push_back(std::move(warning));
   return warnings;
 }

@@ -7,6 +7,7 @@
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
+#include "api/endpoints/renaming.hpp"
 #include "api/limits.hpp"
 #include "api/wire_names.hpp"
 #include "core/base/try.hpp"
@@ -237,48 +238,38 @@ void decode_direct(Reader& in, PartRequest& out) {
   });
 }
 
-bool takes(std::string_view& path, std::string_view step) {
-  if (!path.starts_with(step)) return false;
-  path.remove_prefix(step.size());
-  return true;
+/// What is given once, for the whole part.
+void add_once(const std::string& at, bool own_kerf, Renamings& out) {
+  for (const auto* one : {"torch", "sampling"}) out.push_back({at + one, one});
+  if (!own_kerf) out.push_back({at + "kerf", "kerf"});
 }
 
-std::size_t leading_number(std::string_view text) {
-  std::size_t out = 0;
-  for (const char c : text) {
-    if (c < '0' || c > '9') break;
-    out = out * 10 + static_cast<std::size_t>(c - '0');
-  }
-  return out;
-}
-
-bool of_the_whole(std::string_view path) {
-  return path.starts_with("torch") || path.starts_with("sampling") || path.starts_with("kerf");
-}
-
-/// A member of core's part as the request's.
-std::string renamed(const PartRequest& r, const std::string& member) {
-  std::string_view path = member;
+/// Core's part as the request's members or, without a node, as its ends.
+Renamings renamings(const PartRequest& r) {
   const auto of = [](std::size_t i) { return "members/" + std::to_string(i); };
-  if (path.starts_with("target")) return r.member ? of(r.member->member) : member;
-  if (path.starts_with("holes/")) {
-    const auto rest = path.find('/', 6);
-    if (rest == std::string_view::npos) return member;
-    const auto tail = path.substr(rest + 1);
-    if (of_the_whole(tail)) return std::string(tail);
-    return r.member && tail.starts_with("branch") ? member.substr(0, rest) + "/member" : member;
+  Renamings out;
+  for (const auto& hole : r.part.holes) {
+    const auto at = "holes/" + std::to_string(hole.asked) + "/";
+    add_once(at, false, out);
+    if (r.member) out.push_back({at + "branch", at + "member", false});
   }
-  const bool start = takes(path, "start/");
-  if (!start && !takes(path, "finish/")) return member;
-  const bool own_kerf = path.starts_with("kerf") && (start ? r.start_kerf : r.finish_kerf);
-  if (of_the_whole(path) && !own_kerf) return std::string(path);
-  if (path.starts_with("target")) return r.member ? of(r.member->member) : std::string(path);
-  if (!r.member) return (start ? "ends/start/" : "ends/finish/") + std::string(path);
-  if (path == "cutters") return of(r.member->member);
-  if (!takes(path, "cutters/")) return std::string(path);
-  const auto& cutters = start ? r.start_cutters : r.finish_cutters;
-  const auto index = leading_number(path);
-  return of(index < cutters.size() ? cutters[index] : r.member->member);
+  for (const bool finish : {false, true}) {
+    const auto at = std::string(joint::end_name(finish)) + "/";
+    add_once(at, finish ? r.finish_kerf : r.start_kerf, out);
+    if (!r.member) {
+      out.push_back({at + "target", "target"});
+      out.push_back({at, "ends/" + at});
+      continue;
+    }
+    const auto& cutters = finish ? r.finish_cutters : r.start_cutters;
+    for (std::size_t i = 0; i < cutters.size(); ++i)
+      out.push_back({at + "cutters/" + std::to_string(i), of(cutters[i]), false});
+    for (const auto* one : {"cutters", "target"})
+      out.push_back({at + one, of(r.member->member), false});
+    out.push_back({at, ""});
+  }
+  if (r.member) out.push_back({"target", of(r.member->member), false});
+  return out;
 }
 
 std::vector<std::string> names(const joint::NodeSpec& node, const std::vector<std::size_t>& of) {
@@ -332,13 +323,11 @@ Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
 }
 
 Error on_request(const PartRequest& request, Error error) {
-  for (auto& issue : error.issues) issue.member = renamed(request, issue.member);
-  return error;
+  return renamed(std::move(error), renamings(request));
 }
 
 std::vector<Warning> on_request(const PartRequest& request, std::vector<Warning> warnings) {
-  for (auto& warning : warnings) warning.member = renamed(request, warning.member);
-  return warnings;
+  return renamed(std::move(warnings), renamings(request));
 }
 
 }  // namespace tubecut::api
