@@ -115,9 +115,15 @@ void decode_member(Reader& in, PartRequest& out) {
 
 /// A partner is set into at most its radius; a rectangular tube, a cone or an elbow not at all.
 double deepest_of(const joint::Partner& partner) {
-  if (const auto* tube = std::get_if<joint::TubeCutter>(&partner)) return tube->radius;
-  if (const auto* tube = std::get_if<joint::AxisTube>(&partner)) return tube->radius;
-  return 0.0;
+  struct Of {
+    double operator()(const joint::TubeCutter& t) const { return t.radius; }
+    double operator()(const joint::AxisTube& t) const { return t.radius; }
+    double operator()(const joint::PlaneCutter&) const { return 0.0; }
+    double operator()(const joint::RectangularTubeCutter&) const { return 0.0; }
+    double operator()(const joint::ConeCutter&) const { return 0.0; }
+    double operator()(const joint::ElbowCutter&) const { return 0.0; }
+  };
+  return joint::by_kind(partner, Of{});
 }
 
 joint::Joint decode_end_joint(Reader& in, const joint::Partner* partner) {

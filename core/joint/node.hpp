@@ -81,8 +81,6 @@ struct MemberEnd {
 
 /// What cuts: the member's tube, or a mitre's plane.
 [[nodiscard]] Partner partner_of(const CutBy& cut);
-/// The surface the end lies on: as `partner_of`, at the joint's seat.
-[[nodiscard]] Cutter seat_of(const CutBy& cut);
 
 struct Nodes {
   std::vector<MemberEnd> ends;  // start and finish of each member, in their order

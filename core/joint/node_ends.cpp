@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "core/base/try.hpp"
-#include "core/joint/node.hpp"
+#include "core/joint/node_parts.hpp"
 #include "core/joint/overlap.hpp"
 
 namespace tubecut::joint {
@@ -16,10 +16,18 @@ Partner partner_of(const CutBy& cut) {
   return cut.placement.tube;
 }
 
-Cutter seat_of(const CutBy& cut) {
+detail::Seat detail::seat_of(const CutBy& cut) {
   const double by = seat(cut.stated, 0.0, 0.0);
-  if (cut.plane) return grown(Cutter(*cut.plane), by);
-  return grown(Cutter(cut.placement.tube), by);
+  if (cut.plane) return grown(Seat(*cut.plane), by);
+  return grown(Seat(cut.placement.tube), by);
+}
+
+std::vector<PreparedCutter> detail::prepared_seats(const MemberEnd& end) {
+  std::vector<PreparedCutter> out;
+  for (const auto& cut : end.cut_by)
+    if (auto one = by_kind(seat_of(cut), [](const Cutter& cutter) { return prepare(cutter); }))
+      out.push_back(*one);
+  return out;
 }
 
 std::vector<Partner> seats(const EndJoint& joint) {

@@ -11,13 +11,6 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kScan = 180;  // generators looked at for ghosts and the highest z
 
-std::vector<PreparedCutter> prepared(const MemberEnd& end) {
-  std::vector<PreparedCutter> out;
-  for (const auto& cut : end.cut_by)
-    if (auto one = prepare(seat_of(cut))) out.push_back(*one);
-  return out;
-}
-
 /// Every generator of radius rho meets some cutter.
 bool closed(std::span<const PreparedCutter> cutters, double rho) {
   for (const auto& cutter : cutters)
@@ -29,16 +22,18 @@ bool closed(std::span<const PreparedCutter> cutters, double rho) {
 struct Bounds {
   double z, axial;
 };
-Bounds bounds(const Cutter& cutter, double rho) {
-  if (const auto* plane = std::get_if<PlaneCutter>(&cutter)) {
-    const Vector3d n = plane->normal / plane->normal.z();
-    return {plane->point.dot(n) + rho * elementary::hypot(n.x(), n.y()), 0.0};
+struct BoundsOn {
+  double rho;
+  Bounds operator()(const PlaneCutter& plane) const {
+    const Vector3d n = plane.normal / plane.normal.z();
+    return {plane.point.dot(n) + rho * elementary::hypot(n.x(), n.y()), 0.0};
   }
-  const auto& t = std::get<TubeCutter>(cutter);
-  const auto turn = elementary::sincos(t.inclination.rad());
-  return {t.height + (t.radius + rho * std::abs(turn.cos)) / turn.sin,
-          (t.radius * std::abs(turn.cos) + rho) / turn.sin};
-}
+  Bounds operator()(const TubeCutter& t) const {
+    const auto turn = elementary::sincos(t.inclination.rad());
+    return {t.height + (t.radius + rho * std::abs(turn.cos)) / turn.sin,
+            (t.radius * std::abs(turn.cos) + rho) / turn.sin};
+  }
+};
 
 /// Is w, along the axis of the cutter from the common perpendicular, beyond the member's ends?
 bool beyond(const Member& m, const CutBy& cut, double w) {
@@ -69,11 +64,11 @@ void scan(const NodeSpec& spec, std::span<const PreparedCutter> cutters, double 
 void inspect(const NodeSpec& spec, MemberEnd& end) {
   const auto& m = spec.members[end.member];
   const double length = (m.finish - m.start).norm();
-  const auto cutters = prepared(end);
+  const auto cutters = prepared_seats(end);
   for (const double rho : {m.outer_radius - m.wall, m.outer_radius}) {
     end.open = end.open || !closed(cutters, rho);
     const bool nothing = std::ranges::all_of(end.cut_by, [&](const CutBy& cut) {
-      const auto most = bounds(seat_of(cut), rho);
+      const auto most = by_kind(seat_of(cut), BoundsOn{rho});
       if (cut.plane) return most.z < length;
       return most.z < length && !beyond(spec.members[cut.member], cut, most.axial) &&
              !beyond(spec.members[cut.member], cut, -most.axial);

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/joint/nearness.hpp"
@@ -39,6 +40,12 @@ struct Applied {
 /// mitred join at the two ends that are nearest to each other, and there alone.
 /// Errors  joint_contradicts, no_contact, out_of_range (members/i/joints/j).
 [[nodiscard]] Result<Applied> apply_joints(const NodeSpec& spec, Joined& joined);
+
+/// The surface an end lies on: as `partner_of`, at the joint's seat.
+using Seat = std::variant<TubeCutter, PlaneCutter>;
+[[nodiscard]] Seat seat_of(const CutBy& cut);
+/// Those that cut an end, prepared.
+[[nodiscard]] std::vector<PreparedCutter> prepared_seats(const MemberEnd& end);
 
 /// Sets open, consumed and the ghosts of one end; the scan is left out where bounds already say
 /// that there is nothing to find.

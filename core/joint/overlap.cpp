@@ -63,10 +63,7 @@ struct Finished {
 };
 
 Cut cut_of(const MemberEnd& end) {
-  Cut out{.frame = end.frame, .seats = {}};
-  for (const auto& cut : end.cut_by)
-    if (auto one = prepare(seat_of(cut))) out.seats.push_back(*one);
-  return out;
+  return {.frame = end.frame, .seats = detail::prepared_seats(end)};
 }
 
 Finished finished(const NodeSpec& spec, const Nodes& nodes, std::size_t i) {
