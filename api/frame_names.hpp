@@ -7,12 +7,12 @@
 namespace tubecut {
 
 template <>
-inline constexpr auto kNames<frame::JointKind> = std::to_array<Option<frame::JointKind>>(
-    {{name_of(joint::JointKind::set_on), frame::JointKind::set_on},
-     {name_of(joint::JointKind::set_in), frame::JointKind::set_in},
-     {name_of(joint::JointKind::through), frame::JointKind::through},
-     {name_of(joint::JointKind::mitre), frame::JointKind::mitre},
-     {"butt", frame::JointKind::butt}});
+inline constexpr auto kNames<frame::How::Kind> = std::to_array<Option<frame::How::Kind>>(
+    {{name_of(joint::JointKind::set_on), frame::How::Kind::set_on},
+     {name_of(joint::JointKind::set_in), frame::How::Kind::set_in},
+     {name_of(joint::JointKind::through), frame::How::Kind::through},
+     {name_of(joint::JointKind::mitre), frame::How::Kind::mitre},
+     {"butt", frame::How::Kind::butt}});
 template <>
 inline constexpr auto kNames<frame::Why> =
     std::to_array<Option<frame::Why>>({{"free", frame::Why::free},

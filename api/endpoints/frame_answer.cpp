@@ -57,9 +57,9 @@ void add_ends(const FrameJob& frame, const MadeParts& made, std::size_t member,
       auto& seam = seams[cutters[k].joint];
       seam.whole = seam.whole && part.made.has_value();
       const auto kind = frame.frame.joints[cutters[k].joint].how.kind;
-      if (!part.made || kind == frame::JointKind::set_in) continue;
+      if (!part.made || kind == frame::How::Kind::set_in) continue;
       const auto& end = finish ? part.made->out.finish : part.made->out.start;
-      const bool faces = kind == frame::JointKind::mitre || kind == frame::JointKind::butt;
+      const bool faces = kind == frame::How::Kind::mitre || kind == frame::How::Kind::butt;
       const double length = along(end, k);
       seam.weld = faces ? std::max(seam.weld, length) : seam.weld + length;
       if (cutters.size() == 1) seam.groove = seam.groove.value_or(0.0) + end.groove_volume;
@@ -77,7 +77,7 @@ void add_holes(const FrameJob& frame, const MadeParts& made, std::size_t member,
     const auto joint = piece.holes[placed.asked].joint;
     auto& seam = seams[joint];
     const auto& fit = placed.hole.fit;
-    if (frame.frame.joints[joint].how.kind != frame::JointKind::set_on)
+    if (frame.frame.joints[joint].how.kind != frame::How::Kind::set_on)
       seam.weld += placed.hole.length_total;
     seam.least_gap = std::min(seam.least_gap.value_or(fit.least_between), fit.least_between);
     seam.greatest_root =
@@ -100,9 +100,9 @@ void write_joint(const FrameJob& frame, const frame::Joint& joint, const Seam& s
   o.field("chord", chord);
   o.field("kind", name_of(joint.how.kind));
   o.field("gap_mm", joint.how.gap);
-  if (joint.how.kind == frame::JointKind::set_in && joint.how.depth)
+  if (joint.how.kind == frame::How::Kind::set_in && joint.how.depth)
     o.field("depth_mm", *joint.how.depth);
-  if (joint.how.kind == frame::JointKind::mitre) o.field("plane", name_of(joint.how.plane));
+  if (joint.how.kind == frame::How::Kind::mitre) o.field("plane", name_of(joint.how.plane));
   o.field("hole", joint.how.hole ? "cut" : "none");
   o.field("stated", joint.stated.has_value());
   if (!seam.whole) return;

@@ -128,7 +128,7 @@ class PartWriter {
     for (const auto& one : cutters) {
       const auto* own = said(one.joint);
       const bool on_hole =
-          of == &OwnCut::groove && frame_.joints[one.joint].how.kind == frame::JointKind::set_in;
+          of == &OwnCut::groove && frame_.joints[one.joint].how.kind == frame::How::Kind::set_in;
       if (own == nullptr || own->*of == Json{} || on_hole) continue;
       if (first != nullptr && !(*first == own->*of))
         return fail(
@@ -237,7 +237,7 @@ class PartWriter {
       branch.emplace(branch.begin(), "id", Json{names.of_members[hole.member]});
       branch.insert(branch.begin() + 2, {"wall_mm", Json{hole.wall}});
       Json::Object joint{{"kind", Json{std::string(name_of(how.kind))}}, {"gap_mm", Json{how.gap}}};
-      if (how.kind == frame::JointKind::set_in && how.depth)
+      if (how.kind == frame::How::Kind::set_in && how.depth)
         joint.emplace_back("depth_mm", Json{*how.depth});
       TRY(auto groove, hole_groove(hole));
       const auto* own = said(hole.joint);
@@ -253,7 +253,7 @@ class PartWriter {
   /// Set on: that of the branch's end.
   [[nodiscard]] Result<Json> hole_groove(const frame::Hole& hole) const {
     const auto* own = said(hole.joint);
-    if (frame_.joints[hole.joint].how.kind == frame::JointKind::set_on) {
+    if (frame_.joints[hole.joint].how.kind == frame::How::Kind::set_on) {
       TRY(const auto end, cut(hole.member, hole.end));
       for (const auto& [name, value] : end)
         if (name == "groove") return value;

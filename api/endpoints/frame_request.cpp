@@ -16,7 +16,6 @@ namespace tubecut::api {
 namespace {
 
 using frame::How;
-using frame::JointKind;
 
 constexpr Range kGap{.min = 0.0, .max = 50.0};
 constexpr Range kDistance{.min = 0.0, .max = limit::offset_max_mm};
@@ -64,18 +63,18 @@ std::optional<Place> known(Reader& in, const Places& places, const std::string& 
 }
 
 /// Does the branch come into the chord's wall, so that it has a hole unless none is asked for?
-bool enters(JointKind kind) { return kind == JointKind::set_in || kind == JointKind::through; }
+bool enters(How::Kind kind) { return kind == How::Kind::set_in || kind == How::Kind::through; }
 
 /// `gap_mm`, `depth_mm`, `plane` and `hole`, of a kind.
 void decode_how(Reader& in, bool known_kind, How& out) {
   out.gap = in.number("gap_mm", kGap, 0.0);
-  if (out.kind == JointKind::set_in || !known_kind)
+  if (out.kind == How::Kind::set_in || !known_kind)
     out.depth = in.optional_number(
         "depth_mm", {.min = 0.0, .max = kDiameter.max / 2.0, .open_min = true, .open_max = true});
   static constexpr std::array kHoles{Option<bool>{"cut", true}, Option<bool>{"none", false}};
-  if (out.kind == JointKind::mitre || !known_kind)
+  if (out.kind == How::Kind::mitre || !known_kind)
     out.plane = in.choice("plane", joint::MitrePlane::bisecting);
-  if (known_kind && (out.kind == JointKind::mitre || out.kind == JointKind::butt)) return;
+  if (known_kind && (out.kind == How::Kind::mitre || out.kind == How::Kind::butt)) return;
   out.hole = in.choice("hole", kHoles, enters(out.kind));
 }
 
@@ -103,7 +102,7 @@ bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
   const auto decode = [&](Reader& d) {
     bevel::TableSpec cut;
     out.spec.found.kind =
-        d.choice("kind", kOnly<JointKind::set_on, JointKind::set_in>, JointKind::set_on);
+        d.choice("kind", kOnly<How::Kind::set_on, How::Kind::set_in>, How::Kind::set_on);
     decode_how(d, d.understood("kind"), out.spec.found);
     decode_cut(d, false, out.preset, cut);
     if (cut.root_gap > 0.0)
@@ -241,10 +240,10 @@ void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
   frame::StatedJoint joint;
   decode_between(in, places, joint);
   decode_named_end(in, out.spec.within.has_value(), joint);
-  const auto kind = in.tag("kind", kNames<JointKind>);
-  joint.how.kind = kind.value_or(JointKind::set_on);
+  const auto kind = in.tag("kind", kNames<How::Kind>);
+  joint.how.kind = kind.value_or(How::Kind::set_on);
   decode_how(in, kind.has_value(), joint.how);
-  if (kind && joint.other && joint.how.kind != JointKind::set_on)
+  if (kind && joint.other && joint.how.kind != How::Kind::set_on)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "kind",
               .limit = Json{"set_on"},

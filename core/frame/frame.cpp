@@ -32,12 +32,21 @@ tl::unexpected<Error> contradicts(std::size_t joint, const std::string& field,
 }
 
 /// What core's nodes know it as: a butt joint is a mitre of two in line.
-joint::Joint of_node(const How& how) {
-  static constexpr joint::JointKind kKinds[] = {joint::JointKind::set_on, joint::JointKind::set_in,
-                                                joint::JointKind::through, joint::JointKind::mitre,
-                                                joint::JointKind::mitre};
-  return {kKinds[static_cast<std::size_t>(how.kind)], how.gap, how.depth, how.plane};
+joint::JointKind of_node(How::Kind kind) {
+  switch (kind) {
+    case How::Kind::set_on:
+      return joint::JointKind::set_on;
+    case How::Kind::set_in:
+      return joint::JointKind::set_in;
+    case How::Kind::through:
+      return joint::JointKind::through;
+    case How::Kind::mitre:
+    case How::Kind::butt:
+      break;
+  }
+  return joint::JointKind::mitre;
 }
+joint::Joint of_node(const How& how) { return {of_node(how.kind), how.gap, how.depth, how.plane}; }
 
 /// The vectors that say how one stands: none may be without length.
 struct Directions {
@@ -127,7 +136,7 @@ Result<Joined> stated(const FrameSpec& spec) {
     if (!out.of_members.emplace(std::minmax(said.member, said.with), i).second)
       return contradicts(i, {}, "the joint of these two is stated already");
     out.node.joints.push_back({said.member, said.with, of_node(said.how), at_joint(i)});
-    if (said.how.kind != JointKind::through) links.push_back(link(spec, out.node, said));
+    if (said.how.kind != How::Kind::through) links.push_back(link(spec, out.node, said));
   }
   if (spec.within)
     out.node.connect = joint::Within{*spec.within};
@@ -149,7 +158,7 @@ void add_found(const FrameSpec& spec, Joined& joined) {
 
 /// Two ends in line, or a joint that is none.
 Result<void> check_butt(const joint::CutBy& cut, const Joint& one) {
-  if (one.how.kind != JointKind::butt) return {};
+  if (one.how.kind != How::Kind::butt) return {};
   const Vector3d z = Vector3d::UnitZ();
   const double off = 2.0 * z.cross(cut.plane->normal.normalized()).norm();
   if (off <= kInLine) return {};
@@ -171,7 +180,7 @@ Result<void> settle(const FrameSpec& spec, Joined& joined) {
       if (cut.stated) one.how.depth = cut.stated->depth;
     }
   for (auto& one : joined.joints) {
-    if (one.how.kind != JointKind::through) continue;
+    if (one.how.kind != How::Kind::through) continue;
     const double a = spec.members[one.branch].outer_radius;
     const double b = spec.members[one.chord].outer_radius;
     if (a == b)

@@ -11,17 +11,16 @@
 
 namespace tubecut::frame {
 
-enum class JointKind {
-  set_on,
-  set_in,
-  through,
-  mitre,
-  butt  // two ends in line, face to face: both square
-};
-
 /// How two that meet are joined, said once for both. Lengths in mm, as joint::Joint has them.
 struct How {
-  JointKind kind = JointKind::set_on;
+  enum class Kind {
+    set_on,
+    set_in,
+    through,
+    mitre,
+    butt  // two ends in line, face to face: both square
+  };
+  Kind kind = Kind::set_on;
   double gap = 0.0;
   std::optional<double> depth = {};
   joint::MitrePlane plane = joint::MitrePlane::bisecting;

@@ -136,7 +136,7 @@ std::vector<std::vector<Branch>> branches(const Joined& joined) {
         out[cut.member].push_back(
             {end.member, joined.joint_of(end.member, cut.member), end.end, false});
   for (std::size_t i = 0; i < joined.joints.size(); ++i)
-    if (const auto& one = joined.joints[i]; one.how.kind == JointKind::through)
+    if (const auto& one = joined.joints[i]; one.how.kind == How::Kind::through)
       out[one.chord].push_back({one.branch, i, End::start, true});
   return out;
 }
