@@ -11,7 +11,7 @@
 #include "api/machines.hpp"
 #include "api/posts.hpp"
 #include "api/tube_sizes.hpp"
-#include "api/wire_names.hpp"
+#include "api/warning_names.hpp"
 
 namespace tubecut::api {
 namespace {

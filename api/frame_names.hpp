@@ -3,7 +3,7 @@
 #include "core/base/names.hpp"
 #include "core/frame/frame.hpp"
 
-/// The enumerations of frames, as wire_names.hpp has the others.
+/// What the enumerations of frames are called on the wire.
 namespace tubecut {
 
 template <>

@@ -4,9 +4,9 @@
 #include <atomic>
 
 #include "api/api.hpp"
+#include "api/motion_names.hpp"
 #include "api/posts.hpp"
 #include "api/sha256.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -2,13 +2,43 @@
 
 #include "core/base/names.hpp"
 #include "core/motion/cut_path.hpp"
+#include "core/motion/machine.hpp"
 #include "core/motion/schedule.hpp"
 #include "core/torch/program_schedule.hpp"
 
+namespace tubecut::api {
+
+/// How the points of a cut count B.
+enum class BSign { outer_edge_into_part, outer_edge_to_plus_z, inward };
+
+}  // namespace tubecut::api
+
+/// What the enumerations of machines, schedules and programs are called on the wire.
 namespace tubecut {
 
-// What enumerations of schedules and programs are called on the wire; wire_names.hpp has the
-// others'.
+template <>
+inline constexpr auto kNames<motion::Surface> = std::to_array<Option<motion::Surface>>(
+    {{"outer", motion::Surface::outer}, {"inner", motion::Surface::inner}});
+template <>
+inline constexpr auto kNames<motion::Scrap> =
+    std::to_array<Option<motion::Scrap>>({{"-z", motion::Scrap::minus_z},
+                                          {"+z", motion::Scrap::plus_z},
+                                          {"inside", motion::Scrap::inside}});
+template <>
+inline constexpr auto kNames<motion::Direction> = std::to_array<Option<motion::Direction>>(
+    {{"ccw", motion::Direction::ccw}, {"cw", motion::Direction::cw}});
+template <>
+inline constexpr auto kNames<motion::SwingCenter> = std::to_array<Option<motion::SwingCenter>>(
+    {{"remote", motion::SwingCenter::remote}, {"pivot", motion::SwingCenter::pivot}});
+template <>
+inline constexpr auto kNames<motion::BPositive> = std::to_array<Option<motion::BPositive>>(
+    {{"outer_edge_into_part", motion::BPositive::outer_edge_into_part},
+     {"outer_edge_to_waste", motion::BPositive::outer_edge_to_waste}});
+template <>
+inline constexpr auto kNames<api::BSign> =
+    std::to_array<Option<api::BSign>>({{"outer_edge_into_part", api::BSign::outer_edge_into_part},
+                                       {"outer_edge_to_plus_z", api::BSign::outer_edge_to_plus_z},
+                                       {"inward", api::BSign::inward}});
 
 template <>
 inline constexpr auto kNames<motion::EventKind> =

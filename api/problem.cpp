@@ -5,7 +5,7 @@
 
 #include "api/stop.hpp"
 #include "api/suspicion.hpp"
-#include "api/wire_names.hpp"
+#include "api/warning_names.hpp"
 #include "api/writer.hpp"
 #include "core/base/angle.hpp"
 

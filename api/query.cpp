@@ -9,7 +9,6 @@
 #include "api/motion_names.hpp"
 #include "api/posts.hpp"
 #include "api/process.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "api/columns.hpp"
-#include "api/wire_names.hpp"
 #include "core/bevel/hole.hpp"
 #include "core/bevel/table.hpp"
 #include "core/cutoff/feed_curve.hpp"
@@ -10,11 +9,6 @@
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::api {
-
-/// Of a curve on one wall.
-[[nodiscard]] constexpr std::string_view wall_name(bool outer) {
-  return name_of(outer ? joint::Surfaces::outer : joint::Surfaces::inner);
-}
 
 // The tables of answers. Who adds a column here has it in JSON, CBOR and CSV.
 

@@ -4,11 +4,11 @@
 #include <tuple>
 #include <utility>
 
+#include "api/bevel_names.hpp"
 #include "api/column_choice.hpp"
 #include "api/limits.hpp"
 #include "api/machines.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 #include "core/bevel/smoothed_area.hpp"
 
 namespace tubecut::api {

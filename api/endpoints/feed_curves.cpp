@@ -1,10 +1,10 @@
+#include "api/cutoff_names.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/feed_curve_formats.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 #include "core/cutoff/feed_curve.hpp"
 #include "core/cutoff/verify.hpp"
 

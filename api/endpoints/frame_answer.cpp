@@ -6,7 +6,7 @@
 #include "api/answer_text.hpp"
 #include "api/endpoints/place_text.hpp"
 #include "api/frame_names.hpp"
-#include "api/wire_names.hpp"
+#include "api/joint_names.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "api/frame_names.hpp"
 #include "api/sha256.hpp"
-#include "api/wire_names.hpp"
 #include "api/writer.hpp"
 #include "core/base/try.hpp"
 

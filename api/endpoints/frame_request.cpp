@@ -5,12 +5,13 @@
 #include <set>
 #include <utility>
 
+#include "api/bevel_names.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/node_codec.hpp"
 #include "api/frame_names.hpp"
+#include "api/joint_names.hpp"
 #include "api/limits.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/bevel_names.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
@@ -9,10 +10,10 @@
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/hole_formats.hpp"
 #include "api/formats/step.hpp"
+#include "api/joint_names.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 #include "core/bevel/hole.hpp"
 
 namespace tubecut::api {

@@ -4,9 +4,9 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/intersection_formats.hpp"
 #include "api/formats/partner_names.hpp"
+#include "api/joint_names.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
-#include "api/wire_names.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/intersection.hpp"
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "api/joint_names.hpp"
 #include "api/limits.hpp"
 #include "api/tables.hpp"
 #include "api/tube_sizes.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -6,7 +6,6 @@
 #include "api/motion_names.hpp"
 #include "api/process.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

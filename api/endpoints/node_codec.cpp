@@ -4,7 +4,6 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/renaming.hpp"
 #include "api/limits.hpp"
-#include "api/wire_names.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::api {

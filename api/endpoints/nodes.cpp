@@ -9,7 +9,6 @@
 #include "api/endpoints/work.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
-#include "api/wire_names.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/end_tables.hpp"
 #include "core/joint/node.hpp"

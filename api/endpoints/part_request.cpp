@@ -9,7 +9,7 @@
 #include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/renaming.hpp"
 #include "api/limits.hpp"
-#include "api/wire_names.hpp"
+#include "api/part_names.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::api {

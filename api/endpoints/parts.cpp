@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "api/bevel_names.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
@@ -17,9 +18,10 @@
 #include "api/formats/partner_names.hpp"
 #include "api/formats/step.hpp"
 #include "api/limits.hpp"
+#include "api/motion_names.hpp"
+#include "api/part_names.hpp"
 #include "api/pipeline.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::api {

@@ -1,7 +1,6 @@
 #include "api/endpoints/schedule_answer.hpp"
 
 #include "api/motion_names.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "api/tables.hpp"
-#include "api/wire_names.hpp"
+#include "api/bevel_names.hpp"
+#include "api/joint_names.hpp"
+#include "api/part_names.hpp"
 
 namespace tubecut::api {
 namespace {

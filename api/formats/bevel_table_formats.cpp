@@ -13,8 +13,8 @@
 #include "api/formats/numbers.hpp"
 #include "api/formats/part_edges.hpp"
 #include "api/formats/partner_names.hpp"
+#include "api/motion_names.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 #include "api/words.hpp"
 
 namespace tubecut::api {

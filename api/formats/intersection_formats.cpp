@@ -6,8 +6,8 @@
 #include "api/formats/development.hpp"
 #include "api/formats/dxf.hpp"
 #include "api/formats/partner_names.hpp"
+#include "api/joint_names.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

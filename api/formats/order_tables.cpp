@@ -4,7 +4,7 @@
 
 #include "api/formats/numbers.hpp"
 #include "api/formats/part_edges.hpp"
-#include "api/wire_names.hpp"
+#include "api/part_names.hpp"
 #include "api/words.hpp"
 
 namespace tubecut::api {

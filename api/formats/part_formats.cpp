@@ -10,9 +10,9 @@
 #include "api/formats/svg_sheets.hpp"
 #include "api/formats/work_order.hpp"
 #include "api/formats/wrap_template.hpp"
+#include "api/part_names.hpp"
 #include "api/stop.hpp"
 #include "api/tables.hpp"
-#include "api/wire_names.hpp"
 
 namespace tubecut::api {
 namespace {

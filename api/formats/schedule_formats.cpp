@@ -10,7 +10,6 @@
 #include "api/formats/numbers.hpp"
 #include "api/motion_names.hpp"
 #include "api/stop.hpp"
-#include "api/wire_names.hpp"
 #include "api/words.hpp"
 #include "core/base/elementary.hpp"
 #include "core/motion/replay.hpp"

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/base/names.hpp"
+#include "core/base/warning_codes.hpp"
+
+/// What the enumerations of warnings are called on the wire.
+namespace tubecut {
+
+template <>
+inline constexpr auto kNames<Severity> =
+    std::to_array<Option<Severity>>({{"cut", Severity::cut}, {"note", Severity::note}});
+
+}  // namespace tubecut
