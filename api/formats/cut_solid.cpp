@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 
+#include "api/formats/binary.hpp"
 #include "api/formats/gltf.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
@@ -77,13 +77,6 @@ Row between(const Row& a, const Row& b, double share) {
   Row out{.phi = a.phi + share * (b.phi - a.phi), .cut = a.cut};
   for (std::size_t k = 0; k < a.cut.size(); ++k) out.cut[k] += share * (b.cut[k] - a.cut[k]);
   return out;
-}
-
-template <class T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  bytes.append(raw, sizeof(T));
 }
 
 using Point = std::array<float, 3>;
@@ -203,17 +196,17 @@ std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& tabl
   const auto which = caption.view == "before" ? Smoothed::before : Smoothed::after;
   const auto mesh = closed_mesh(cut_solid(spec, table, which, caption.stop), caption.stop);
   std::string out = stl_header(caption);
-  append(out, static_cast<std::uint32_t>(mesh.triangles.size()));
+  append_bytes(out, static_cast<std::uint32_t>(mesh.triangles.size()));
   out.reserve(84 + 50 * mesh.triangles.size());
   Pace pace(caption.stop);
   for (const auto& t : mesh.triangles) {
     pace.turn();
     const auto& [a, b, c] = t;
     const auto n = normal(mesh.points[a], mesh.points[b], mesh.points[c]);
-    for (int k = 0; k < 3; ++k) append(out, n[k]);
+    for (int k = 0; k < 3; ++k) append_bytes(out, n[k]);
     for (const auto i : t)
-      for (const float v : mesh.points[i]) append(out, v);
-    append(out, std::uint16_t{0});
+      for (const float v : mesh.points[i]) append_bytes(out, v);
+    append_bytes(out, std::uint16_t{0});
   }
   return out;
 }

@@ -1,26 +1,17 @@
 #include "api/formats/gltf.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
+#include "api/formats/binary.hpp"
 #include "api/stop.hpp"
 #include "api/writer.hpp"
 
 namespace tubecut::api {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "glTF is little endian");
 constexpr float kMetresPerMm = 1e-3F;
 constexpr int kFloat = 5126, kUnsigned = 5125;  // component types of glTF
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
-
-template <class T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  bytes.append(raw, sizeof(T));
-}
 
 Eigen::Vector3f metres(const Eigen::Vector3d& p) { return kMetresPerMm * p.cast<float>(); }
 
@@ -54,14 +45,14 @@ void append_binary(std::string& out, const Mesh& mesh, Pace& pace) {
     for (const auto& each : all) {
       pace.turn();
       const Eigen::Vector3f v = of(each);
-      for (int i = 0; i < 3; ++i) append(out, v[i]);
+      for (int i = 0; i < 3; ++i) append_bytes(out, v[i]);
     }
   };
   vectors(mesh.positions, metres);
   vectors(mesh.colors, [](const Eigen::Vector3f& color) { return color; });
   for (const auto index : mesh.indices) {
     pace.turn();
-    append(out, index);
+    append_bytes(out, index);
   }
 }
 
@@ -175,8 +166,8 @@ std::string document(const std::vector<Mesh>& meshes, const std::vector<Stretch>
 }
 
 void chunk_head(std::string& out, std::size_t length, std::uint32_t kind) {
-  append(out, static_cast<std::uint32_t>(length));
-  append(out, kind);
+  append_bytes(out, static_cast<std::uint32_t>(length));
+  append_bytes(out, kind);
 }
 
 }  // namespace
@@ -190,8 +181,8 @@ std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption) 
   const auto total = kHead + kChunkHead + json.size() + kChunkHead + length_of(binary);
   std::string out = "glTF";
   out.reserve(total);
-  append(out, std::uint32_t{2});
-  append(out, static_cast<std::uint32_t>(total));
+  append_bytes(out, std::uint32_t{2});
+  append_bytes(out, static_cast<std::uint32_t>(total));
   chunk_head(out, json.size(), 0x4E4F534A);
   out += json;
   chunk_head(out, length_of(binary), 0x004E4942);  // a multiple of 4 as it is
