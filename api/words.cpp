@@ -4,7 +4,6 @@
 #include <charconv>
 #include <tuple>
 
-#include "api/field_names.hpp"
 #include "api/formats/numbers.hpp"
 
 namespace tubecut::api {
@@ -79,11 +78,6 @@ bool begins_with_unit(std::string_view text, std::string_view unit) {
   return text.starts_with(unit) && (text.size() == unit.size() || !of_a_name(text[unit.size()]));
 }
 
-Unit unit_at_end(std::string_view name) {
-  const auto unit = unit_of(name);
-  return unit == "mm" ? Unit::mm : unit == "deg" ? Unit::deg : unit == "s" ? Unit::s : Unit::none;
-}
-
 /// The number `digits`, with its unit where that follows and is taken, or where a name before it
 /// says `unit`.
 std::string number_in_words(std::string_view digits, std::string_view& rest, Unit unit) {
@@ -119,7 +113,7 @@ std::string in_plain_words(std::string_view sentence) {
     else if (first == '/' && piece.size() > 1 && is_letter(piece[1]))
       out += place_in_words(piece);
     else if (is_letter(first) && piece.find('_') != std::string_view::npos)
-      out += name_in_words(piece), unit = unit_at_end(piece);
+      out += name_in_words(piece), unit = unit_named(piece);
     else if (is_digit(first))
       out += number_in_words(piece, sentence, unit);
     else if (piece == "deg")

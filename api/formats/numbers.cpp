@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "api/field_names.hpp"
 #include "api/formats/text.hpp"
 #include "core/base/angle.hpp"
 
@@ -70,6 +71,11 @@ std::string without_tail(std::string text) {
 }
 
 }  // namespace
+
+Unit unit_named(std::string_view field) {
+  const auto unit = unit_of(field);
+  return unit == "mm" ? Unit::mm : unit == "deg" ? Unit::deg : unit == "s" ? Unit::s : Unit::none;
+}
 
 std::string_view sign_of(Unit unit) {
   switch (unit) {

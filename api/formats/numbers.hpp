@@ -12,6 +12,9 @@ namespace tubecut::api {
 
 enum class Unit { none, mm, mm2, deg, percent, s, ms, um, kg, mm_min, mm_s };
 
+/// Of a field, by the end of its name; of units but mm, deg and s none.
+[[nodiscard]] Unit unit_named(std::string_view field);
+
 /// As it stands beside a number and in the label of an axis.
 [[nodiscard]] std::string_view sign_of(Unit unit);
 

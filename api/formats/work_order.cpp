@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "api/field_names.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/formats/order_sheets.hpp"
 #include "api/formats/order_tables.hpp"
@@ -168,11 +167,6 @@ void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::
       sheets.canvas().line({x, y + 0.8}, {x + 5.0, y + 0.8}, {.color = all[i].first, .width = 0.9});
     sheets.canvas().text({x + 6.5, y}, all[i].second, fitted(all[i].second, kSmall, width - 8.0));
   }
-}
-
-Unit unit_named(std::string_view name) {
-  const auto unit = unit_of(name);
-  return unit == "mm" ? Unit::mm : unit == "deg" ? Unit::deg : unit == "s" ? Unit::s : Unit::none;
 }
 
 /// What the request accepts, and how far its points are from the exact curve.
