@@ -45,9 +45,7 @@ std::string read_id(Reader& in) {
 
 /// The endpoint's path; empty beside an issue.
 std::string read_endpoint(Reader& in) {
-  std::string list;
-  for (const auto& endpoint : endpoints())
-    list += (list.empty() ? "" : "|") + std::string(endpoint.id);
+  const auto list = one_of(endpoints(), &Endpoint::id);
   const auto id = in.text("endpoint");
   const auto found =
       std::ranges::find_if(endpoints(), [&](const Endpoint& e) { return e.id == id; });

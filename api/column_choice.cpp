@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace tubecut::api {
-namespace {
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (const auto& name : names) out += (out.empty() ? "" : "|") + name;
-  return out;
-}
-
-}  // namespace
 
 std::vector<std::string> decode_columns(Reader& in, const std::vector<std::string>& known,
                                         const std::vector<std::string>& there) {
@@ -27,7 +18,7 @@ std::vector<std::string> decode_columns(Reader& in, const std::vector<std::strin
     in.issue({.code = ErrorCode::bad_choice,
               .pointer = "columns/" + std::to_string(name - names.begin()),
               .got = Json{*name},
-              .limit = Json{listed(offered)},
+              .limit = Json{one_of(offered)},
               .hint = is_there    ? "named twice"
                       : elsewhere ? "not of this table"
                                   : ""});

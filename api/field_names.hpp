@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,17 @@ namespace tubecut::api {
 
 /// The field that `name` is a slip of the pen from; empty when there is none.
 [[nodiscard]] std::string slip_of(std::string_view name, const std::vector<std::string>& fields);
+
+/// "a|b|c": what may stand in a field, as limits and hints tell it.
+template <class All, class Name = std::identity>
+[[nodiscard]] std::string one_of(const All& all, Name name = {}) {
+  std::string out;
+  for (const auto& one : all) {
+    if (!out.empty()) out += '|';
+    out += std::invoke(name, one);
+  }
+  return out;
+}
 
 /// "mm" for "offset_mm", "" for a pure number.
 [[nodiscard]] std::string_view unit_of(std::string_view field);

@@ -260,9 +260,9 @@ motion::Machine decode_machine_choice(Reader& in, std::string_view name) {
     if (!in.has("machine_sha256")) in.put("machine_sha256", Json{found->sha256});
     return found->machine;
   }
-  std::string list;
-  for (const auto& m : *all) list += (list.empty() ? "" : "|") + m.machine.name;
-  in.issue({.code = ErrorCode::unknown_machine, .pointer = std::string(name), .limit = Json{list}},
+  in.issue({.code = ErrorCode::unknown_machine,
+            .pointer = std::string(name),
+            .limit = Json{one_of(*all, [](const auto& m) { return m.machine.name; })}},
            in.find(name));
   return all->front().machine;
 }

@@ -27,12 +27,6 @@ std::string feed_word(double feed) {
   return fixed(std::max(feed, kLeast), decimals);
 }
 
-std::string listed(const Names& names) {
-  std::string out;
-  for (const auto name : names) out += (out.empty() ? "" : "|") + std::string(name);
-  return out;
-}
-
 /// From a brace to the next that closes one.
 struct Slot {
   std::size_t begin, end;  // of the braces
@@ -62,9 +56,9 @@ void check_line(Reader& in, const std::string& pointer, const std::string& line,
       in.issue({.code = ErrorCode::bad_choice,
                 .pointer = pointer,
                 .got = Json{std::string(slot->name)},
-                .limit = Json{listed(names)},
+                .limit = Json{one_of(names)},
                 .hint = names.size() == 0 ? "this line has no values"
-                                          : "values of this line: " + listed(names)});
+                                          : "values of this line: " + one_of(names)});
   }
   const auto brace = [](char c) { return c == '{' || c == '}'; };
   const bool open = static_cast<std::size_t>(std::ranges::count_if(line, brace)) != braces;
@@ -102,8 +96,8 @@ std::string read_line(Reader& in, std::string_view name, const Names& names,
       in.issue({.code = ErrorCode::bad_text,
                 .pointer = std::string(name),
                 .got = Json{out},
-                .limit = Json{listed(group)},
-                .hint = "the line needs a value between braces: " + listed(group)});
+                .limit = Json{one_of(group)},
+                .hint = "the line needs a value between braces: " + one_of(group)});
   }
   return out;
 }

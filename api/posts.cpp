@@ -92,9 +92,7 @@ const Post& post_of(const FormatOptions& options) {
 }
 
 std::string post_names() {
-  std::string out;
-  for (const auto& p : *posts()) out += (out.empty() ? "" : "|") + p.post.name;
-  return out;
+  return one_of(*posts(), [](const auto& p) { return p.post.name; });
 }
 
 void encode_post_hashes(Writer& w) {

@@ -37,12 +37,6 @@ void refuse_twice(Reader& in, const std::vector<ProcessRow>& rows) {
                          .hint = "another row of this material goes up to this thickness"});
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (const auto& name : names) out += (out.empty() ? "" : "|") + name;
-  return out;
-}
-
 std::vector<std::string> materials(const Process& process) {
   std::vector<std::string> out;
   for (const auto& row : process.rows)
@@ -77,7 +71,7 @@ std::optional<MachineProcess> process_of(Reader& in, const std::string& machine,
     if (m.process) names.push_back(m.machine.name);
   if (at == all->end() || !at->process) {
     refuse_choice(in, at == all->end() ? ErrorCode::unknown_machine : ErrorCode::bad_choice,
-                  "machine", listed(names), "machines that have a process table: ");
+                  "machine", one_of(names), "machines that have a process table: ");
     return std::nullopt;
   }
   MachineProcess out{.machine = machine,
@@ -88,7 +82,7 @@ std::optional<MachineProcess> process_of(Reader& in, const std::string& machine,
                        [&](const ProcessRow& row) { return row.material == material; });
   if (!out.rows.empty()) return out;
   if (!material) return std::nullopt;
-  refuse_choice(in, ErrorCode::bad_choice, "material", listed(materials(*at->process)),
+  refuse_choice(in, ErrorCode::bad_choice, "material", one_of(materials(*at->process)),
                 "materials of " + machine + ": ");
   return std::nullopt;
 }

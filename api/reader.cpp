@@ -429,8 +429,7 @@ std::optional<std::size_t> Reader::choose(std::string_view name,
     put(name, Json{std::string(names[*fallback])});
     return fallback;
   }
-  std::string list;
-  for (const auto option : names) list += (list.empty() ? "" : "|") + std::string(option);
+  auto list = one_of(names);
   const auto* field = required(name, "one of " + list);
   if (field == nullptr) return std::nullopt;
   const auto* value = field->as<std::string>();
