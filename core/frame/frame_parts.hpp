@@ -32,7 +32,4 @@ struct Joined {
 [[nodiscard]] Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
                                                 const std::stop_token& stop);
 
-/// From an end into its member.
-[[nodiscard]] Eigen::Vector3d into(const joint::Member& m, joint::End end);
-
 }  // namespace tubecut::frame::detail

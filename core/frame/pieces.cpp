@@ -174,7 +174,7 @@ Result<Side> side(const FrameSpec& spec, const joint::Member& m, const std::vect
       part::datum_angle(part::Datum::first_cutter, {}, partners(at_start), partners(at_finish));
   if (!turn && !on_it.empty()) {
     const auto& branch = spec.members[on_it.front().member];
-    const Vector3d along = any.start.rows * into(branch, on_it.front().end);
+    const Vector3d along = any.start.rows * branch.into(on_it.front().end);
     turn = Angle::rad(joint::bearing_of_axis(along).perpendicular);
   }
   const auto by = elementary::sincos(turn ? turn->rad() : 0.0);
@@ -231,7 +231,7 @@ Result<void> add_branches(const FrameSpec& spec, const Joined& joined,
       out.stands.push_back(
           {part::mark_of(branch, one.end, out.frame, out.target.outer_radius), one.member});
     if (!how.hole) continue;
-    const AxisLine axis{branch.at(one.end), into(branch, one.end)};
+    const AxisLine axis{branch.at(one.end), branch.into(one.end)};
     TRY(const auto at, under("members/" + std::to_string(one.member),
                              joint::place(out.frame.local(axis), branch.outer_radius)));
     out.holes.push_back({at.tube, branch.wall, one.member, one.joint, one.end});
@@ -279,10 +279,6 @@ Result<Piece> piece(const FrameSpec& spec, const Joined& joined, std::size_t mem
 }
 
 }  // namespace
-
-Eigen::Vector3d into(const joint::Member& m, joint::End end) {
-  return m.at(end == End::start ? End::finish : End::start) - m.at(end);
-}
 
 Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
                                   const std::stop_token& stop) {

@@ -31,6 +31,10 @@ struct Member {
   [[nodiscard]] const Eigen::Vector3d& at(End end) const {
     return end == End::start ? start : finish;
   }
+  /// From an end towards the other.
+  [[nodiscard]] Eigen::Vector3d into(End end) const {
+    return at(end == End::start ? End::finish : End::start) - at(end);
+  }
 };
 
 /// An end joins every member whose axis, between its ends, is within `distance` + that member's

@@ -22,10 +22,6 @@ using joint::End;
 using joint::MemberEnd;
 using joint::MemberFrame;
 
-Vector3d into(const joint::Member& m, End end) {
-  return m.at(end == End::start ? End::finish : End::start) - m.at(end);
-}
-
 /// A mitre's plane, seen from another frame at the same end.
 joint::PlaneCutter turned(const joint::PlaneCutter& plane, const MemberFrame& from,
                           const MemberFrame& to) {
@@ -69,7 +65,7 @@ Result<std::pair<MemberFrame, MemberFrame>> frames(const joint::Member& m, const
 }  // namespace
 
 Mark mark_of(const joint::Member& branch, joint::End end, const MemberFrame& frame, double radius) {
-  const AxisLine line = frame.local(AxisLine{branch.at(end), into(branch, end)});
+  const AxisLine line = frame.local(AxisLine{branch.at(end), branch.into(end)});
   const Vector3d d = line.direction / line.direction.norm();
   const Vector3d& p = line.point;
   const double flat = d.x() * d.x() + d.y() * d.y();
@@ -106,7 +102,7 @@ bevel::HoleSpec hole_for(bevel::HoleSpec hole, const joint::Target& chord,
   hole.chord = chord;
   hole.chord.length.reset();
   hole.branch = joint::AxisTube{.radius = branch.outer_radius,
-                                .axis = frame.local(AxisLine{branch.at(end), into(branch, end)})};
+                                .axis = frame.local(AxisLine{branch.at(end), branch.into(end)})};
   hole.branch_wall = branch.wall;
   return hole;
 }
