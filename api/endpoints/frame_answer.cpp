@@ -55,7 +55,7 @@ void add_ends(const FrameJob& frame, const MadeParts& made, std::size_t member,
     const auto& cutters = finish ? piece.finish : piece.start;
     for (std::size_t k = 0; k < cutters.size(); ++k) {
       auto& seam = seams[cutters[k].joint];
-      seam.whole = seam.whole && part.made.has_value();
+      seam.whole = seam.whole && part.made != nullptr;
       const auto kind = frame.frame.joints[cutters[k].joint].how.kind;
       if (!part.made || kind == frame::How::Kind::set_in) continue;
       const auto& end = finish ? part.made->out.finish : part.made->out.start;
@@ -71,7 +71,7 @@ void add_holes(const FrameJob& frame, const MadeParts& made, std::size_t member,
   const auto& piece = frame.frame.pieces[member];
   const auto& part = made[frame.part_of[member]];
   for (const auto& hole : piece.holes)
-    seams[hole.joint].whole = seams[hole.joint].whole && part.made.has_value();
+    seams[hole.joint].whole = seams[hole.joint].whole && part.made != nullptr;
   if (!part.made) return;
   for (const auto& placed : part.made->out.holes) {
     const auto joint = piece.holes[placed.asked].joint;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,13 +18,13 @@ namespace tubecut::api {
 struct FrameJob : FrameRequest {
   frame::Frame frame;
   std::vector<FramePart> parts;
-  std::vector<std::optional<Parts::Spec>> asked;  // of each part; none: it is refused when made
-  std::vector<std::size_t> part_of;               // of each member
+  std::vector<std::unique_ptr<const Parts::Spec>> asked;  // of each part; none: refused when made
+  std::vector<std::size_t> part_of;                       // of each member
 };
 
 /// A part as /v1/parts answers, or why there is none.
 struct MadePart {
-  std::optional<Worked<Parts>> made;
+  std::unique_ptr<const Worked<Parts>> made;
   std::optional<Problem> problem;
 
   [[nodiscard]] bool is_open() const { return !made && !problem; }  // still to be made

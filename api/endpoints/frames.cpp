@@ -44,7 +44,7 @@ Result<MadePart> make(const Json& request, const std::stop_token& stop) {
     return out;
   }
   made->answer.result_sha256 = made->hashed(stop, in_order);
-  out.made = *std::move(made);
+  out.made = std::make_unique<const Worked<Parts>>(*std::move(made));
   return out;
 }
 
@@ -78,7 +78,7 @@ struct FrameBase {
       (void)read_common_fields(in, Parts::kAccepts);
       auto part = Parts::decode(in);
       if (in.finish_root().empty())
-        spec.asked.emplace_back(std::move(part));
+        spec.asked.push_back(std::make_unique<const Parts::Spec>(std::move(part)));
       else
         spec.asked.emplace_back();
     }
@@ -120,6 +120,7 @@ struct Frames : FrameBase {
       made[i] = make(spec.parts[i].request, stop);
     });
     Out out;
+    out.reserve(made.size());
     for (auto& part : made) {
       TRY(auto one, *std::move(part));
       out.push_back(std::move(one));
