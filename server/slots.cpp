@@ -129,7 +129,7 @@ std::chrono::nanoseconds Slots::cpu(const Job& job) const {
 
 Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
   Offer out{.taken = true};
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   estimate(*job);
   job->claim.since = now_s();
   const auto most = most_ + (job->claim.quick ? kLane : 0);
@@ -140,7 +140,10 @@ Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
   queue_.push(job);
   waiting_ = queue_.size();
   tell_helpers();
-  if (in_slots_ < count_) wake_one(job->claim.quick);  // else whoever is done next takes it
+  if (in_slots_ >= count_) return out;  // whoever is done next takes it
+  auto& sleeping = who_takes(job->claim.quick);
+  lock.unlock();  // who is woken would at once wait for the mutex
+  sleeping.notify_one();
   return out;
 }
 
@@ -168,13 +171,11 @@ void Slots::look(Job& job) {
   wake_all();
 }
 
-/// A thread for a job that a slot is free for; a quick one's own thread comes before long jobs'. To
-/// wake all for each took more than the job where it is short. Of the mutex.
-void Slots::wake_one(bool quick) {
-  if (quick && std::exchange(quick_waits_, false))
-    quick_.notify_one();
-  else
-    some_.notify_one();
+/// The threads of which one is to be woken for a job that a slot is free for; a quick one's own
+/// thread comes before long jobs'. To wake all for each took more than the job where it is short.
+/// Of the mutex.
+std::condition_variable& Slots::who_takes(bool quick) {
+  return quick && std::exchange(quick_waits_, false) ? quick_ : some_;
 }
 
 void Slots::wake_all() {
@@ -266,8 +267,9 @@ void Slots::run(bool quick_only) {
     lock.lock();
     finish(*job);  // before the answer is out: its client's next request finds the slot free
     // This thread takes the next; one that takes quick jobs alone may have left a slot to others.
-    if (quick_only && queue_.size() > 0) some_.notify_one();
+    const bool others = quick_only && queue_.size() > 0;
     lock.unlock();
+    if (others) some_.notify_one();
     done_(std::move(job));
     lock.lock();
   }

@@ -110,7 +110,7 @@ class Slots {
  private:
   void run(bool quick_only);
   [[nodiscard]] std::shared_ptr<Job> next(bool quick_only);
-  void wake_one(bool quick);
+  [[nodiscard]] std::condition_variable& who_takes(bool quick);
   void wake_all();
   void estimate(Job& job) const;
   void leave_lane(Job& job);
