@@ -18,9 +18,6 @@ Hit hit_on(const SurfaceAt& surface, const Eigen::Matrix3d& rows, const Generato
   out.z = surface.z;
   out.normal = {surface.gradient.dot(radial), surface.gradient.dot(round), surface.steep};
   out.z_dphi = -line.radius * out.normal.y() / surface.steep;
-  const Vector3d tangent = line.radius * round + out.z_dphi * rows.col(2);
-  out.z_dphi2 =
-      (line.radius * out.normal.x() - tangent.dot(surface.hessian * tangent)) / surface.steep;
   out.axial = surface.axial;
   return out;
 }

@@ -22,22 +22,20 @@ struct Generator {
 
 /// Where a generator of the target leaves a cutter upwards. `normal` is the cutter's outward unit
 /// normal as (radial, tangential, axial) of the target. At a silhouette its axial part is 0 and
-/// the derivatives are infinite.
+/// `z_dphi` infinite.
 struct Hit {
   double z = 0.0;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  double z_dphi = 0.0;   // dz/dphi at constant radius, mm/rad
-  double z_dphi2 = 0.0;  // d2z/dphi2, mm/rad^2
-  double axial = 0.0;    // w, along the cutter's axis from the common perpendicular (plane: 0)
+  double z_dphi = 0.0;  // dz/dphi at constant radius, mm/rad
+  double axial = 0.0;   // w, along the cutter's axis from the common perpendicular (plane: 0)
 };
 
-/// A surface at the point of a hit, in the partner's own frame: its unit gradient, the gradient's
-/// part along z as the caller knows it best, and its Hessian.
+/// A surface at the point of a hit, in the partner's own frame: its unit gradient, and the
+/// gradient's part along z as the caller knows it best.
 struct SurfaceAt {
   double z = 0.0;
   Eigen::Vector3d gradient;
   double steep = 0.0;
-  Eigen::Matrix3d hessian;
   double axial = 0.0;
 };
 /// `rows` is the partner's frame seen from the target's.

@@ -46,10 +46,4 @@ Crossing crossing(const AxisFrame& frame, double rho) {
           frame.component({0.0, 0.0, 1.0}, rho)};
 }
 
-Eigen::Matrix3d round_hessian(const Eigen::Vector2d& u, double radius, double scale) {
-  Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
-  h.topLeftCorner<2, 2>() = scale / radius * (Eigen::Matrix2d::Identity() - u * u.transpose());
-  return h;
-}
-
 }  // namespace tubecut::joint

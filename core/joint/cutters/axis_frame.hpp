@@ -42,7 +42,4 @@ struct Crossing {
 [[nodiscard]] Crossing crossing(const AxisFrame& frame, double rho);
 [[nodiscard]] Trig<1> constant(double value);
 
-/// Of a round piece of a surface whose outward direction across its axis is u.
-[[nodiscard]] Eigen::Matrix3d round_hessian(const Eigen::Vector2d& u, double radius, double scale);
-
 }  // namespace tubecut::joint

@@ -96,8 +96,7 @@ Hit PreparedCone::continued_hit(const Generator& line) const {
   const Vector2d u = across / elementary::hypot(across.x(), across.y());
   const Vector3d gradient = scale * Vector3d(u.x(), u.y(), -slope);
   const double axial = o.z() + z * frame.rise.z();
-  return hit_on({z, gradient, scale * q.s / round, round_hessian(u, round, scale), axial},
-                frame.rows, line);
+  return hit_on({z, gradient, scale * q.s / round, axial}, frame.rows, line);
 }
 
 double PreparedCone::silhouette_height(const Generator& line) const {

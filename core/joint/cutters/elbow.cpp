@@ -14,7 +14,6 @@
 namespace tubecut::joint {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -220,15 +219,7 @@ Hit PreparedElbow::continued_hit(const Generator& line) const {
   const Vector3d p = foot_of(*this, line) + z * rise;
   const auto near = stretches(*this, p).nearest();
   const Vector3d u = (p - near.foot) / near.distance;
-  const double r = elementary::hypot(p.x(), p.y());
-  const Vector3d t = near.arc ? Vector3d(-p.y() / r, p.x() / r, 0.0)
-                     : near.foot.y() <= 0.0 && near.foot.x() == bend_radius
-                         ? Vector3d(Vector3d::UnitY())
-                         : legs(*this).end_along;
-  const Vector3d v = u.cross(t);
-  Matrix3d hessian = v * v.transpose() / near.distance;
-  if (near.arc) hessian += (u.x() * p.x() + u.y() * p.y()) / (r * r) * (t * t.transpose());
-  return hit_on({z, u, std::max(0.0, u.dot(rise)), hessian, 0.0}, rows, line);
+  return hit_on({z, u, std::max(0.0, u.dot(rise)), 0.0}, rows, line);
 }
 
 Met PreparedElbow::met(double rho) const { return met_between_silhouettes(*this, rho); }

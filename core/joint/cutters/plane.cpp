@@ -40,12 +40,10 @@ std::optional<Bearing> PlaneCutter::bearing() const {
 
 Hit PreparedPlane::continued_hit(const Generator& g) const {
   const auto& n = normal;
-  const double z = continued_sheet(g);
-  return {.z = z,
+  return {.z = continued_sheet(g),
           .normal = {n.x() * g.cos_phi + n.y() * g.sin_phi, n.y() * g.cos_phi - n.x() * g.sin_phi,
                      n.z()},
           .z_dphi = g.radius * (slope_y * g.cos_phi - slope_x * g.sin_phi),
-          .z_dphi2 = height - z,
           .axial = 0.0};
 }
 

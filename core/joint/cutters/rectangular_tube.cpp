@@ -8,7 +8,6 @@
 namespace tubecut::joint {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -40,7 +39,6 @@ struct Leaving {
   double z;
   Vector2d normal;
   double steep;  // normal . w
-  bool round;
 };
 
 /// The corner's circle, its upper point; S clamped.
@@ -55,7 +53,6 @@ Leaving on_corner(const CrossSection& s, const Vector2d& center) {
   const Vector2d n = (beside * s.normal + half * s.w / length) / s.c;
   out.normal = n / std::max(1.0, n.norm());
   out.steep = half * length / s.c;
-  out.round = true;
   return out;
 }
 
@@ -71,7 +68,7 @@ Vector2d touched_corner(const CrossSection& s) {
 Leaving leaving(const CrossSection& s) {
   if (std::abs(s.offset) >= s.support) return on_corner(s, touched_corner(s));
   const double slack = kSeam * (s.inner.norm() + s.c);
-  Leaving best{0.0, Vector2d::Zero(), 0.0, false};
+  Leaving best{0.0, Vector2d::Zero(), 0.0};
   bool found = false;
   const auto take = [&](const Leaving& one) {
     if (!found || one.z > best.z) best = one;
@@ -83,7 +80,7 @@ Leaving leaving(const CrossSection& s) {
     const double side = s.w[i] > 0.0 ? 1.0 : -1.0;
     const double z = (side * (s.inner[i] + s.c) - s.o[i]) / s.w[i];
     if (std::abs(s.o[j] + z * s.w[j]) > s.inner[j] + slack) continue;
-    Leaving flat{z, Vector2d::Zero(), std::abs(s.w[i]), false};
+    Leaving flat{z, Vector2d::Zero(), std::abs(s.w[i])};
     flat.normal[i] = side;
     take(flat);
   }
@@ -150,10 +147,8 @@ double PreparedRectangularTube::continued_sheet(const Generator& line) const {
 Hit PreparedRectangularTube::continued_hit(const Generator& line) const {
   const auto out = leaving(section(*this, line));
   const Vector3d gradient(out.normal.x(), out.normal.y(), 0.0);
-  const Matrix3d hessian =
-      out.round ? round_hessian(out.normal, corner, 1.0) : Matrix3d(Matrix3d::Zero());
   const double axial = frame.foot(line).z() + out.z * frame.rise.z();
-  return hit_on({out.z, gradient, out.steep, hessian, axial}, frame.rows, line);
+  return hit_on({out.z, gradient, out.steep, axial}, frame.rows, line);
 }
 
 double PreparedRectangularTube::silhouette_height(const Generator& line) const {

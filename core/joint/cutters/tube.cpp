@@ -118,12 +118,9 @@ double PreparedTube::continued_sheet(const Generator& line) const {
 
 Hit PreparedTube::continued_hit(const Generator& line) const {
   const auto p = local(*this, line);
-  const double ds = p.x * p.v / p.s;
-  const double dds = (p.x * p.u - p.v * p.v - ds * ds) / p.s;
   return {.z = tube_sheet(*this, p),
           .normal = normal_at(*this, p, clamped_cosine(*this, p), p.s / radius),
           .z_dphi = tube_slope(*this, p),
-          .z_dphi2 = (dds + p.v * cos_inclination) / sin_inclination,
           .axial = (p.s * cos_inclination - p.v) / sin_inclination};
 }
 
@@ -151,7 +148,6 @@ Hit PreparedTube::hit_at_corner(const Generator& line, Side side) const {
   return {.z = height,
           .normal = {1.0, kBeside * (-d + cos_a * ratio), kBeside * sin_inclination * ratio},
           .z_dphi = (ds - u * cos_inclination) / sin_inclination,
-          .z_dphi2 = 0.0,
           .axial = 0.0};
 }
 
