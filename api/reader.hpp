@@ -29,7 +29,6 @@ struct Range {
   bool open_min = false;
   bool open_max = false;
 };
-inline constexpr Range kPositive{.min = 0.0, .open_min = true};
 inline constexpr Range kNotNegative{.min = 0.0};
 
 struct CountRange {

@@ -28,7 +28,6 @@ struct SinCos {
 [[nodiscard]] double atan2(double y, double x);
 [[nodiscard]] double quick_atan2(double y, double x);
 [[nodiscard]] double exp(double x);
-[[nodiscard]] double log(double x);
 [[nodiscard]] double pow(double x, double y);
 [[nodiscard]] double cbrt(double x);
 /// sqrt(x^2 + y^2); lengths here are far from overflow, so no scaling is done.

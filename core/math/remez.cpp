@@ -103,12 +103,6 @@ double highest(const std::vector<Extreme>& extrema) {
 
 }  // namespace
 
-SampledCurve sample(std::function<double(double)> curve, std::vector<double> grid) {
-  SampledCurve out{std::move(curve), std::move(grid), {}};
-  for (const double t : out.grid) out.values.push_back(out.at(t));
-  return out;
-}
-
 Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree,
                                          std::stop_token stop) {
   const auto count = static_cast<std::size_t>(degree) + 2;

@@ -16,8 +16,6 @@ struct SampledCurve {
   std::vector<double> values;
 };
 
-[[nodiscard]] SampledCurve sample(std::function<double(double)> curve, std::vector<double> grid);
-
 struct RelativeMinimax {
   ChebyshevSeries series;
   double level = 0.0;                  // |p/f - 1| at the reference points

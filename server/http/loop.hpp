@@ -64,10 +64,6 @@ class Strand : public std::enable_shared_from_this<Strand> {
     return {};
   }
 
-  /// What wakes it, as a handler for Asio. Keeps it alive until then.
-  [[nodiscard]] auto waker() {
-    return [self = shared_from_this()](const boost::system::error_code&) { self->wake(); };
-  }
   /// Ends it where it stands.
   void drop() { chain_.drop(); }
   /// It has ended: for its owner.
