@@ -140,10 +140,9 @@ Slots::Offer Slots::offer(const std::shared_ptr<Job>& job) {
   queue_.push(job);
   waiting_ = queue_.size();
   tell_helpers();
-  if (in_slots_ >= count_) return out;  // whoever is done next takes it
-  auto& sleeping = who_takes(job->claim.quick);
+  auto* const called = call_one(job->claim.quick);
   lock.unlock();  // who is woken would at once wait for the mutex
-  sleeping.notify_one();
+  if (called != nullptr) called->wake_one();
   return out;
 }
 
@@ -171,16 +170,19 @@ void Slots::look(Job& job) {
   wake_all();
 }
 
-/// The threads of which one is to be woken for a job that a slot is free for; a quick one's own
-/// thread comes before long jobs'. To wake all for each took more than the job where it is short.
-/// Of the mutex.
-std::condition_variable& Slots::who_takes(bool quick) {
-  return quick && std::exchange(quick_waits_, false) ? quick_ : some_;
+/// Calls a thread for a job that has come, where a slot is free that nobody is on the way to: to
+/// wake more took longer than a short job. A quick one's own thread comes before long jobs'. Whose
+/// `wake_one` is to follow; of the mutex.
+Sleepers* Slots::call_one(bool quick) {
+  if (in_slots_ + back_ + others_.called() + quick_.called() >= count_) return nullptr;
+  if (quick && quick_.call()) return &quick_;
+  return others_.call() ? &others_ : nullptr;  // nullptr: all have work, and look for more after it
 }
 
 void Slots::wake_all() {
-  some_.notify_all();
-  quick_.notify_all();
+  const std::lock_guard lock(mutex_);
+  others_.wake_all();
+  quick_.wake_all();
 }
 
 void Slots::leave_lane(Job& job) {
@@ -253,11 +255,11 @@ void Slots::run(bool quick_only) {
   for (;;) {
     std::shared_ptr<Job> job;
     while (!ending_ && !(job = next(quick_only))) {
-      if (quick_only && queue_.size() > 0 && in_slots_ < count_) some_.notify_one();  // not for it
-      quick_waits_ = quick_waits_ || quick_only;
-      (quick_only ? quick_ : some_).wait(lock);
+      auto* const called =
+          quick_only && queue_.size() > 0 ? call_one(false) : nullptr;  // not for it
+      if (called != nullptr) called->wake_one();
+      (quick_only ? quick_ : others_).sleep(lock);
     }
-    if (quick_only) quick_waits_ = false;
     if (!job) return;
     lock.unlock();
     {
@@ -266,12 +268,11 @@ void Slots::run(bool quick_only) {
     }
     lock.lock();
     finish(*job);  // before the answer is out: its client's next request finds the slot free
-    // This thread takes the next; one that takes quick jobs alone may have left a slot to others.
-    const bool others = quick_only && queue_.size() > 0;
+    ++back_;
     lock.unlock();
-    if (others) some_.notify_one();
     done_(std::move(job));
     lock.lock();
+    --back_;
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -21,6 +20,7 @@
 #include "server/http/fair_queue.hpp"
 #include "server/http/memory_share.hpp"
 #include "server/http/printer.hpp"
+#include "server/sleepers.hpp"
 
 namespace tubecut::server {
 
@@ -110,7 +110,7 @@ class Slots {
  private:
   void run(bool quick_only);
   [[nodiscard]] std::shared_ptr<Job> next(bool quick_only);
-  [[nodiscard]] std::condition_variable& who_takes(bool quick);
+  [[nodiscard]] Sleepers* call_one(bool quick);
   void wake_all();
   void estimate(Job& job) const;
   void leave_lane(Job& job);
@@ -125,8 +125,8 @@ class Slots {
   int count_;
   std::size_t most_;
   mutable std::mutex mutex_;
-  std::condition_variable some_, quick_;  // for the others, for the thread of quick jobs alone
-  bool quick_waits_ = false;              // that thread, and nobody has woken it
+  Sleepers others_, quick_;  // quick_: the thread that does quick jobs alone
+  int back_ = 0;             // threads that are done with a job and have not looked for the next
   FairQueue queue_;
   using Means = std::map<std::string_view, double>;  // seconds, by kind
   Means means_;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+
+namespace tubecut::server {
+
+/// Threads that sleep until they are called. All of their user's mutex, but for `wake_one`.
+class Sleepers {
+ public:
+  void sleep(std::unique_lock<std::mutex>& lock) {
+    ++asleep_;
+    some_.wait(lock, [this] { return called_ > 0; });
+    --asleep_;
+    --called_;
+  }
+
+  /// Whether there was one that nobody had called: `wake_one` is to follow.
+  [[nodiscard]] bool call() {
+    if (called_ == asleep_) return false;
+    ++called_;
+    return true;
+  }
+  void wake_one() { some_.notify_one(); }
+  void wake_all() {
+    called_ = asleep_;
+    some_.notify_all();
+  }
+
+  /// That still sleep, and will not for long.
+  [[nodiscard]] int called() const { return called_; }
+
+ private:
+  std::condition_variable some_;
+  int asleep_ = 0;
+  int called_ = 0;
+};
+
+}  // namespace tubecut::server
