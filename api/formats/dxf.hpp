@@ -7,7 +7,8 @@
 
 namespace tubecut::api {
 
-/// The cut as DXF R2000 in millimetres on the layers CUT_OUTER, CUT_INNER, SEAM, DATUM and TEXT.
+/// The cut as DXF R2000 in millimetres on the layers CUT_OUTER, CUT_INNER, TORCH,
+/// SEAM, DATUM, TEXT and MARK.
 ///
 /// As developed (the default) each wall lies on its own surface, x = its radius * phi, y = z, so
 /// that lengths are the wall's own: a hole is a closed polyline; a cut round the tube begins and

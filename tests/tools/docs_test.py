@@ -20,6 +20,19 @@ class Docs(unittest.TestCase):
                     path = ROOT / place
                     self.assertTrue(path.exists() or list(path.parent.glob(path.name + ".*")), place)
 
+    def test_every_file_of_the_map_is_there(self):
+        """Where a row names files of a room without the room: one of them has that name."""
+        rows = [line for line in (ROOT / "docs/architecture.md").read_text().partition("## Where to look")[2].splitlines() if line.startswith("| ")]
+        seen = 0
+        for row in rows:
+            rooms = [ROOT / place for place in PLACE.findall(row)]
+            stems = {path.stem for room in rooms for path in (room if room.is_dir() else room.parent).rglob("*")}
+            for word in re.findall(r"`([a-z][a-z0-9_]*)`", row):
+                with self.subTest(word=word):
+                    self.assertIn(word, stems)
+                    seen += 1
+        self.assertGreater(seen, 20)
+
     def test_every_example_is_in_the_list(self):
         told = (ROOT / "examples/README.md").read_text()
         for path in (ROOT / "examples").rglob("*.json"):
