@@ -5,12 +5,13 @@
 
 namespace tubecut::server {
 
-/// Threads that sleep until they are called. All of their user's mutex, but for `wake_one`.
+/// Threads that sleep until they are called. The owner's mutex is held at every call but
+/// `wake_one`.
 class Sleepers {
  public:
   void sleep(std::unique_lock<std::mutex>& lock) {
     ++asleep_;
-    some_.wait(lock, [this] { return called_ > 0; });
+    wake_.wait(lock, [this] { return called_ > 0; });
     --asleep_;
     --called_;
   }
@@ -21,17 +22,17 @@ class Sleepers {
     ++called_;
     return true;
   }
-  void wake_one() { some_.notify_one(); }
+  void wake_one() { wake_.notify_one(); }
   void wake_all() {
     called_ = asleep_;
-    some_.notify_all();
+    wake_.notify_all();
   }
 
-  /// That still sleep, and will not for long.
+  /// How many are called and not awake yet.
   [[nodiscard]] int called() const { return called_; }
 
  private:
-  std::condition_variable some_;
+  std::condition_variable wake_;
   int asleep_ = 0;
   int called_ = 0;
 };

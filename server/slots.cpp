@@ -162,7 +162,9 @@ bool Slots::withdraw(const std::shared_ptr<Job>& job) {
 void Slots::look(Job& job) {
   {
     const std::lock_guard lock(mutex_);
-    const bool waits = job.began_s == 0.0 && job.claim.quick && in_lane_ < kLane;
+    // In a free slot somebody has long been called for it; but glibc 2.36 can lose a call.
+    const bool place = in_slots_ < count_ || (job.claim.quick && in_lane_ < kLane);
+    const bool waits = job.began_s == 0.0 && place;
     const bool outgrown = job.in_lane && (cpu_s(job) > kOutgrown || now_s() - job.began_s > kHeld);
     if (!waits && (!outgrown || !has_spare())) return;
     if (outgrown) leave_lane(job);
@@ -171,17 +173,17 @@ void Slots::look(Job& job) {
 }
 
 /// Calls a thread for a job that has come, where a slot is free that nobody is on the way to: to
-/// wake more took longer than a short job. A quick one's own thread comes before long jobs'. Whose
-/// `wake_one` is to follow; of the mutex.
+/// wake more took longer than a short job. A quick one's own thread comes before long jobs'.
+/// Returns whom to `wake_one`, best without the mutex, which is held here.
 Sleepers* Slots::call_one(bool quick) {
-  if (in_slots_ + back_ + others_.called() + quick_.called() >= count_) return nullptr;
+  if (in_slots_ + back_ + any_.called() + quick_.called() >= count_) return nullptr;
   if (quick && quick_.call()) return &quick_;
-  return others_.call() ? &others_ : nullptr;  // nullptr: all have work, and look for more after it
+  return any_.call() ? &any_ : nullptr;
 }
 
 void Slots::wake_all() {
   const std::lock_guard lock(mutex_);
-  others_.wake_all();
+  any_.wake_all();
   quick_.wake_all();
 }
 
@@ -202,13 +204,16 @@ void Slots::tell_helpers() {
 /// Whether a job that outgrows the lane can make room in it.
 bool Slots::has_spare() const { return in_slots_ < count_ + kSpare; }
 
-/// The job whose turn it is, if there is a place for it.
+/// The job whose turn it is, if there is a place for it. The thread of quick jobs has a slot only
+/// while it is a quick one's turn: else a long job would wait behind quick ones that come for ever.
 std::shared_ptr<Job> Slots::next(bool quick_only) {
-  const bool slot = in_slots_ < count_;
+  bool slot = in_slots_ < count_;
+  if (slot && quick_only) {
+    const Claim* const turn = queue_.next();
+    slot = turn != nullptr && turn->quick;
+  }
   if (!slot && in_lane_ >= kLane) return nullptr;
-  auto job = slot && !quick_only
-                 ? queue_.pop()
-                 : queue_.pop_quick(now_s() - (slot ? 0.0 : kLaneAfter), has_spare());
+  auto job = slot ? queue_.pop() : queue_.pop_quick(now_s() - kLaneAfter, has_spare());
   if (!job) return nullptr;
   job->in_lane = !slot;
   ++(slot ? in_slots_ : in_lane_);
@@ -254,14 +259,17 @@ void Slots::run(bool quick_only) {
   std::unique_lock lock(mutex_);
   for (;;) {
     std::shared_ptr<Job> job;
-    while (!ending_ && !(job = next(quick_only))) {
-      auto* const called =
-          quick_only && queue_.size() > 0 ? call_one(false) : nullptr;  // not for it
+    Sleepers* called = nullptr;
+    while (!ending_ && !job) {
+      job = next(quick_only);
+      called = quick_only && queue_.size() > 0 ? call_one(false) : nullptr;  // it left a slot free
+      if (job) break;
       if (called != nullptr) called->wake_one();
-      (quick_only ? quick_ : others_).sleep(lock);
+      (quick_only ? quick_ : any_).sleep(lock);
     }
     if (!job) return;
     lock.unlock();
+    if (called != nullptr) called->wake_one();
     {
       const CpuLimit limit(job->all_cpu, job->budget.cpu);
       work_(job);

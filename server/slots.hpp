@@ -125,8 +125,8 @@ class Slots {
   int count_;
   std::size_t most_;
   mutable std::mutex mutex_;
-  Sleepers others_, quick_;  // quick_: the thread that does quick jobs alone
-  int back_ = 0;             // threads that are done with a job and have not looked for the next
+  Sleepers any_, quick_;  // the threads that do any job, and the one that does quick ones alone
+  int back_ = 0;          // threads that are done with a job and have not looked for the next
   FairQueue queue_;
   using Means = std::map<std::string_view, double>;  // seconds, by kind
   Means means_;

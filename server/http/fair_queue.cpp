@@ -13,7 +13,7 @@ namespace {
 /// nullptr without one.
 template <class Shares, class May, class Came>
 auto* least_used(Shares& shares, May may, Came came) {
-  typename Shares::mapped_type* least = nullptr;
+  decltype(&shares.begin()->second) least = nullptr;
   for (auto& [name, share] : shares) {
     if (!may(share)) continue;
     if (least == nullptr ||
@@ -62,8 +62,9 @@ std::shared_ptr<Job> FairQueue::pop_quick(double since, bool trials) {
   });
 }
 
-template <class May>
-std::shared_ptr<Job> FairQueue::pop_where(May may) {
+/// Whose turn it is, of those whose first job `may`: client and flow; nullptr without one.
+template <class Clients, class May>
+auto FairQueue::turn_of(Clients& clients, May may) {
   const auto flow_may = [&may](const Flow& flow) {
     return !flow.jobs.empty() && may(flow.jobs.front()->claim);
   };
@@ -72,9 +73,20 @@ std::shared_ptr<Job> FairQueue::pop_where(May may) {
                                [&](const auto& flow) { return flow_may(flow.second); });
   };
   const auto when = [](const auto& share) { return came(share); };
-  Client* const client = least_used(clients_, client_may, when);
+  auto* const client = least_used(clients, client_may, when);
+  using Turn = std::pair<decltype(client), decltype(least_used(client->flows, flow_may, when))>;
+  return client == nullptr ? Turn{} : Turn{client, least_used(client->flows, flow_may, when)};
+}
+
+const Claim* FairQueue::next() const {
+  const auto [client, flow] = turn_of(clients_, [](const Claim&) { return true; });
+  return client == nullptr ? nullptr : &flow->jobs.front()->claim;
+}
+
+template <class May>
+std::shared_ptr<Job> FairQueue::pop_where(May may) {
+  const auto [client, flow] = turn_of(clients_, may);
   if (client == nullptr) return nullptr;
-  Flow* const flow = least_used(client->flows, flow_may, when);
   auto job = std::move(flow->jobs.front());
   flow->jobs.pop_front();
   take_out(*client, *flow, *job);

@@ -33,6 +33,9 @@ class FairQueue {
   /// The next to run; nothing when none waits.
   [[nodiscard]] std::shared_ptr<Job> pop();
 
+  /// What the next to run claims; nullptr when none waits.
+  [[nodiscard]] const Claim* next() const;
+
   /// The next of the quick that have waited since then; `trials`: or of those believed to be.
   [[nodiscard]] std::shared_ptr<Job> pop_quick(double since, bool trials = true);
 
@@ -71,6 +74,8 @@ class FairQueue {
 
   template <class May>
   [[nodiscard]] std::shared_ptr<Job> pop_where(May may);
+  template <class Clients, class May>
+  [[nodiscard]] static auto turn_of(Clients& clients, May may);
   [[nodiscard]] static std::size_t came(const Flow& flow);
   [[nodiscard]] static std::size_t came(const Client& client);
   void take_out(Client& client, Flow& flow, const Job& job);

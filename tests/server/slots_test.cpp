@@ -23,6 +23,13 @@ std::shared_ptr<Job> job_of(std::string_view kind) {
   return job;
 }
 
+/// A batch's line: never taken for quick.
+std::shared_ptr<Job> long_job() {
+  auto job = job_of("of some time");
+  job->request.line = 1;
+  return job;
+}
+
 /// Waits at most ten seconds.
 template <class Condition>
 bool comes(const Condition& true_now) {
@@ -51,8 +58,7 @@ TEST(Slots, DoWhatComesWhateverTheirThreadsAreAt) {
     int offered = 0;
     for (int burst = 0; burst < 3'000; ++burst) {
       for (int i = at_most(7); i >= 0; --i, ++offered) {
-        const auto kind = at_most(9) == 0 ? std::string_view("of some time") : "short";
-        ASSERT_TRUE(slots.offer(job_of(kind)).taken);
+        ASSERT_TRUE(slots.offer(at_most(9) == 0 ? long_job() : job_of("short")).taken);
       }
       if (at_most(3) == 0) std::this_thread::sleep_for(std::chrono::microseconds(at_most(100)));
       if (at_most(1) == 0) continue;
@@ -80,6 +86,33 @@ TEST(Slots, AreAllTakenByJobsThatComeTogether) {
       ASSERT_TRUE(ended) << "round " << round << ", slots " << count;
     }
   }
+}
+
+/// Three that ask again as soon as they are answered, and one with a long job: it has its turn.
+TEST(Slots, BelongToLongJobsTooBesideQuickOnesWithoutEnd) {
+  std::atomic<bool> begun = false, over = false;
+  std::atomic<Slots*> slots = nullptr;
+  std::atomic<int> quick = 0;
+  const auto work = [&](const std::shared_ptr<Job>& job) {
+    if (job->request.line > 0) begun = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  const auto done = [&](const std::shared_ptr<Job>& job) {
+    if (job->request.line > 0 || over) return;
+    ++quick;
+    EXPECT_TRUE(slots.load()->offer(job_of("short")).taken);
+  };
+  Slots one(1, 64, work, done);
+  slots = &one;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(one.offer(job_of("short")).taken);
+  ASSERT_TRUE(comes([&] { return quick > 50; }));
+  const auto asked = long_job();
+  asked->claim.client = "another";
+  const int before = quick;
+  ASSERT_TRUE(one.offer(asked).taken);
+  EXPECT_TRUE(comes([&] { return begun || quick > before + 1'000; }));
+  EXPECT_TRUE(begun) << quick - before << " quick jobs went before it";
+  over = true;
 }
 
 }  // namespace
