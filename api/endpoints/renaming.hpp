@@ -15,12 +15,12 @@ struct Renaming {
 };
 using Renamings = std::vector<Renaming>;
 
-/// The path by the first that goes for it, or as it is.
+/// The path by the first that matches it, or as it is.
 [[nodiscard]] std::string renamed(const std::string& member, const Renamings& by);
 
 /// Of issues or warnings.
-template <class Told>
-[[nodiscard]] std::vector<Told> renamed(std::vector<Told> all, const Renamings& by) {
+template <class Finding>
+[[nodiscard]] std::vector<Finding> renamed(std::vector<Finding> all, const Renamings& by) {
   for (auto& one : all) one.member = renamed(one.member, by);
   return all;
 }

@@ -154,12 +154,12 @@ void make_alike(const TableSetup& g, std::span<const std::size_t> at, Rows& rows
 
 /// So many rows take `make_alike` some 3 ms.
 std::size_t rows_between_looks(std::span<const joint::PreparedCutter> cutters) {
-  constexpr std::size_t kOf64Tubes = 1024, kOfOneElbow = 128;  // an elbow is searched, row by row
+  constexpr std::size_t kWithoutElbow = 1024, kOfOneElbow = 128;  // searched, row by row
   const auto elbows =
       static_cast<std::size_t>(std::ranges::count_if(cutters, [](const joint::PreparedCutter& c) {
         return std::holds_alternative<joint::PreparedElbow>(c);
       }));
-  return elbows == 0 ? kOf64Tubes : std::max<std::size_t>(1, kOfOneElbow / elbows);
+  return elbows == 0 ? kWithoutElbow : std::max<std::size_t>(1, kOfOneElbow / elbows);
 }
 
 bool same_place(const joint::Node& a, const joint::Node& b) {
@@ -261,10 +261,10 @@ Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Ro
     else
       out.points[i] = point(g, node.phi, joint::hits_at(g.root, node).before, node.before, node.z);
   }
-  const auto block_of = rows_between_looks(g.root.cutters);
+  const auto block_rows = rows_between_looks(g.root.cutters);
   for (std::span<const std::size_t> left = together; !left.empty();) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    const auto block = left.first(std::min(block_of, left.size()));
+    const auto block = left.first(std::min(block_rows, left.size()));
     make_alike(g, block, out);
     left = left.subspan(block.size());
   }
