@@ -59,7 +59,7 @@ def axis(cutter):
         return cutter["axis"]["point_mm"], cutter["axis"]["direction"]
     a, b = math.radians(cutter["inclination_deg"]), math.radians(cutter["clocking_deg"])
     s = cutter["offset_mm"]
-    return ([-s * math.cos(b), -s * math.sin(b), cutter["height_mm"]],
+    return ([-s * math.cos(b), -s * math.sin(b), cutter.get("height_mm", 0.0)],
             [math.sin(a) * math.sin(b), -math.sin(a) * math.cos(b), math.cos(a)])
 
 
@@ -115,4 +115,5 @@ def main(server, program):
     sys.exit(1 if failed else 0)
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,5 +1,7 @@
 // Reads cases (compare.py writes them) and lets Open CASCADE cut: a line for each kind of
-// comparison with the points compared and the largest deviation in mm.
+// comparison with the points compared and the largest deviation in mm. With `--time TOLERANCE` its
+// curves alone, made to so many mm: a line with the ms they take, the points compared and the
+// largest deviation.
 #include <GeomAPI_IntCS.hxx>
 #include <GeomAPI_IntSS.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
@@ -9,6 +11,7 @@
 #include <Geom_Line.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <gp_Ax3.hxx>
@@ -20,7 +23,7 @@
 namespace {
 
 constexpr double kSteep = 0.05;      // sine between line and surface below which z is not compared
-constexpr double kTolerance = 1e-7;  // of the curves, mm
+constexpr double kTolerance = 1e-7;  // of the curves that are compared, mm
 constexpr double kReach = 20'000.0;  // mm, of the trimmed surfaces along their axes
 constexpr double kNearApex = 1e-3;   // mm, where the trimmed cone begins
 
@@ -110,14 +113,17 @@ void compare_generators(const std::vector<Partner>& partners, double rho,
   }
 }
 
-void compare_curves(const std::vector<Partner>& partners, double rho,
-                    const std::vector<Point>& points, Comparison& out) {
+Handle(Geom_Surface) target_of(double rho) {
   Handle(Geom_Surface) round = new Geom_CylindricalSurface(gp_Ax3(gp::XOY()), rho);
-  Handle(Geom_Surface) target =
-      new Geom_RectangularTrimmedSurface(round, -kReach, kReach, Standard_False);
+  return new Geom_RectangularTrimmedSurface(round, -kReach, kReach, Standard_False);
+}
+
+void compare_curves(const std::vector<Partner>& partners, double rho,
+                    const std::vector<Point>& points, double tolerance, Comparison& out) {
+  const auto target = target_of(rho);
   for (std::size_t k = 0; k < partners.size(); ++k) {
     if (std::ranges::none_of(points, [&](const Point& p) { return p.cutter == k; })) continue;
-    GeomAPI_IntSS met(target, partners[k].trimmed, kTolerance);
+    GeomAPI_IntSS met(target, partners[k].trimmed, tolerance);
     for (const auto& point : points) {
       if (point.cutter != k) continue;
       double nearest = INFINITY;
@@ -138,27 +144,66 @@ void report(const char* name, const Worst& worst) {
   std::printf("%s %ld %.17g\n", name, worst.points, worst.deviation);
 }
 
+struct Case {
+  std::vector<Partner> partners;
+  std::vector<std::pair<double, std::vector<Point>>> surfaces;  // radius, and what was answered
+};
+
+bool read(Case& out) {
+  std::size_t partners = 0, surfaces = 0;
+  if (!(std::cin >> partners)) return false;
+  out = {};
+  for (std::size_t i = 0; i < partners; ++i) out.partners.push_back(read_partner());
+  std::cin >> surfaces;
+  for (std::size_t i = 0; i < surfaces; ++i) {
+    double rho = 0.0;
+    std::size_t n = 0;
+    std::cin >> rho >> n;
+    std::vector<Point> points(n);
+    for (auto& p : points) std::cin >> p.phi >> p.z >> p.cutter;
+    out.surfaces.emplace_back(rho, std::move(points));
+  }
+  return true;
+}
+
+void compare(const Case& of) {
+  Comparison out;
+  for (const auto& [rho, points] : of.surfaces) {
+    compare_generators(of.partners, rho, points, out);
+    compare_curves(of.partners, rho, points, kTolerance, out);
+  }
+  report("generator", out.generator);
+  report("grazing", out.grazing);
+  report("curve", out.curve);
+}
+
+/// Every surface with every partner: what a cut of them takes at the least.
+void time(const Case& of, double tolerance) {
+  constexpr int kRounds = 9;
+  std::vector<double> ms;
+  for (int i = 0; i < kRounds; ++i) {
+    const auto begun = std::chrono::steady_clock::now();
+    for (const auto& [rho, points] : of.surfaces)
+      for (const auto& partner : of.partners)
+        const GeomAPI_IntSS met(target_of(rho), partner.trimmed, tolerance);
+    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun)
+                     .count());
+  }
+  std::ranges::sort(ms);
+  Comparison out;
+  for (const auto& [rho, points] : of.surfaces)
+    compare_curves(of.partners, rho, points, tolerance, out);
+  std::printf("%.6f %ld %.17g\n", ms[kRounds / 2], out.curve.points, out.curve.deviation);
+}
+
 }  // namespace
 
-int main() {
-  std::size_t count = 0;
-  while (std::cin >> count) {
-    std::vector<Partner> partners;
-    for (std::size_t i = 0; i < count; ++i) partners.push_back(read_partner());
-    std::size_t surfaces = 0;
-    std::cin >> surfaces;
-    Comparison out;
-    for (std::size_t i = 0; i < surfaces; ++i) {
-      double rho = 0.0;
-      std::size_t n = 0;
-      std::cin >> rho >> n;
-      std::vector<Point> points(n);
-      for (auto& p : points) std::cin >> p.phi >> p.z >> p.cutter;
-      compare_generators(partners, rho, points, out);
-      compare_curves(partners, rho, points, out);
-    }
-    report("generator", out.generator);
-    report("grazing", out.grazing);
-    report("curve", out.curve);
+int main(int argc, char** argv) {
+  const bool timed = argc == 3 && std::string(argv[1]) == "--time";
+  for (Case one; read(one);) {
+    if (timed)
+      time(one, std::stod(argv[2]));
+    else
+      compare(one);
   }
 }
