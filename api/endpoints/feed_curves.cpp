@@ -21,7 +21,9 @@ constexpr Range kAxisLimit{.min = 1e-3, .max = 1e6};
 constexpr Range kJerkLimit{.min = 1e-3, .max = 1e9};
 constexpr Range kTime{.min = 0.0, .max = 86'400.0};
 
-constexpr auto kMethods = first<4>(kNames<FitMethod>);  // equispaced only in comparisons
+// Equispaced only in comparisons.
+constexpr auto kMethods = kOnly<FitMethod::minimax, FitMethod::least_squares,
+                                FitMethod::three_point, FitMethod::automatic>;
 
 cutoff::Linkage decode_linkage(Reader& in) {
   cutoff::Linkage out;

@@ -52,7 +52,8 @@ HoleBranch decode_hole_branch(Reader& in) {
 joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members) {
   joint::Joint out;
   const auto kind =
-      of_members ? in.tag("kind", kNames<JointKind>) : in.tag("kind", first<3>(kNames<JointKind>));
+      of_members ? in.tag("kind", kNames<JointKind>)
+                 : in.tag("kind", kOnly<JointKind::set_on, JointKind::set_in, JointKind::through>);
   out.kind = kind.value_or(JointKind::set_in);
   out.gap = in.number("gap_mm", kGap, 0.0);
   if (out.kind != JointKind::set_in && in.has("depth_mm"))
