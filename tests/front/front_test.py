@@ -75,7 +75,10 @@ class Stub:
             def do_GET(self):
                 reply(self, 200 if ready else 503)
 
-        self.servers = [http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) for handler in (Work, Ready)]
+        class Server(http.server.ThreadingHTTPServer):
+            request_queue_size = 128
+
+        self.servers = [Server(("127.0.0.1", 0), handler) for handler in (Work, Ready)]
         self.port, self.admin_port = (s.server_address[1] for s in self.servers)
         for s in self.servers:
             s.handle_error = lambda *_: None  # the proxy may leave early
@@ -281,6 +284,49 @@ class Proxy(unittest.TestCase):
                     with ssl._create_unverified_context().wrap_socket(raw) as sock:
                         sock.sendall(b"POST /v1/intersections HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\n{}")
                         self.assertIn(b" 200 ", sock.recv(4096))
+
+    def test_an_address_has_so_many_requests_at_a_time(self):
+        """However it sends them: streams of HTTP/2 are not counted by its connections."""
+        hard, most = (int(n) for n in re.findall(r"sc2_conn_cur gt (\d+)", CONFIG))
+        requests = 100  # of a client
+        self.assertTrue(most < requests < hard)
+        lock, over, now, peak = threading.Lock(), threading.Event(), 0, 0
+
+        def hold(handler):
+            nonlocal now, peak
+            if handler.path == "/v1/mill-paths":
+                with lock:
+                    now, peak = now + 1, max(peak, now + 1)
+                over.wait(20)
+                with lock:
+                    now -= 1
+            reply(handler, 200)
+
+        def wanting(url):
+            """A client that is held; it prints answers and statuses."""
+            return subprocess.Popen(["curl", "-sk", "--http2", "-Z", "--parallel-max", str(requests), "--interface", "127.0.0.11", "-d", "{}",
+                                     "-w", "\n%{http_code}\n", *[url + "/v1/mill-paths"] * requests], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+
+        def other(url):
+            return subprocess.run(["curl", "-sk", "--interface", "127.0.0.12", "-m", "10", "-d", "{}", "-o", os.devnull, "-w", "%{http_code}",
+                                   url + "/v1/bevel-tables"], capture_output=True).stdout
+
+        for clients in (1, 4):  # the second: more than any bound
+            over.clear()
+            now = peak = 0
+            with self.subTest(clients=clients), proxied(hold, hold, hold) as (url, _):
+                greedy = [wanting(url) for _ in range(clients)]
+                try:
+                    restarts.until(lambda: peak >= most, 10, "as many as may be")
+                    self.assertEqual([other(url) for _ in range(20)], [b"200"] * 20)
+                    self.assertEqual(peak, most)
+                finally:
+                    over.set()
+                    answers = [line for one in greedy for line in one.communicate(timeout=30)[0].decode().splitlines()]
+                problems = [json.loads(line) for line in answers if '"code"' in line]
+                self.assertLessEqual({(429, "overloaded", True)}, {(p["status"], p["code"], p["retryable"]) for p in problems})
+                if clients == 1:  # each is told
+                    self.assertEqual((answers.count("200"), answers.count("429")), (most, requests - most))
 
     def test_headers(self):
         with proxied(lambda h: reply(h, 200, headers=[("Tubecut-Replica", "a")])) as (url, stubs):
@@ -504,7 +550,7 @@ class Agreement(unittest.TestCase):
 
     def test_problems_of_the_proxy(self):
         subprocess.run([DOCKER / "errors/make", "--check"], check=True)
-        named = set(re.findall(r"TUBECUT_ERRORS}/([\w.]+)", CONFIG))
+        named = set(re.findall(r"TUBECUT_ERRORS}/([\w.-]+)", CONFIG))
         self.assertEqual(named, {p.name for p in (DOCKER / "errors").iterdir() if p.suffix in (".http", ".json")})
 
     def test_the_proxy_calls_retryable_what_the_service_does(self):
@@ -513,11 +559,12 @@ class Agreement(unittest.TestCase):
         problems = {p.stem: json.loads(re.search(r"{.*}", p.read_text())[0])
                     for p in (DOCKER / "errors").iterdir() if p.suffix in (".http", ".json")}
         self.assertGreater(len(problems), 6)
-        self.assertEqual({status for status, problem in problems.items() if problem["retryable"]}, retryable & problems.keys())
-        self.assertEqual(set(re.findall(r"http-error status (\d+) .* hdr Retry-After", CONFIG)), retryable & problems.keys())
-        for status, problem in problems.items():
-            self.assertEqual(str(problem["status"]), status)
-            self.assertEqual("again" in problem["action"], problem["retryable"], status)
+        statuses = {str(problem["status"]) for problem in problems.values()}
+        self.assertEqual(set(re.findall(r"(?:http-error|return) status (\d+) .* hdr Retry-After", CONFIG)), retryable & statuses)
+        for name, problem in problems.items():
+            self.assertEqual(str(problem["status"]), name.partition("-")[0])
+            self.assertEqual(problem["retryable"], str(problem["status"]) in retryable, name)
+            self.assertEqual("again" in problem["action"], problem["retryable"], name)
 
     def test_dockerfile_installs_what_dev_does(self):
         listed = re.search(r"^for_build=\((.*?)\)$", (ROOT / "dev").read_text(), re.M | re.S)[1].split()
