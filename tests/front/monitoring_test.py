@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.request
 
 import yaml
 
@@ -16,10 +17,35 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import alarms  # noqa: E402
 import front_test  # noqa: E402
-from front_test import DOCKER, promtool, series  # noqa: E402
+from alarms import promtool  # noqa: E402
+from front_test import ask, DOCKER, ROOT  # noqa: E402
 
 BASE, MONITORING = DOCKER / "kubernetes/base", DOCKER / "kubernetes/monitoring"
-RULES, TRIED = front_test.Alerts.RULES, front_test.Alerts.TRIED
+RULES, TRIED = DOCKER / "prometheus-rules.yml", ROOT / "tests/front/prometheus-rules-test.yml"
+
+
+def served_series(begun=lambda name: True):
+    """What a replica serves from its start, of those `begun` what it serves after requests too, and what HAProxy does: (name, labels)."""
+    def scraped(port):
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics") as answer:
+            return [s for line in answer.read().decode().splitlines() for s in series(line) if line[0] != "#"]
+
+    with tempfile.TemporaryDirectory() as folder, front_test.restarts.everything(front_test.SERVER, pathlib.Path(folder), running=1) as (replicas, proxy):
+        admin_port = re.findall(r"--admin-port (\d+)", " ".join(replicas[0].command))[0]
+        fresh = scraped(admin_port)
+        for body in (b"{}", (ROOT / "examples/bevel-tables/source-000-table-1.json").read_bytes()):
+            ask(f"https://127.0.0.1:{proxy.port}", body=body)
+        return fresh + [s for s in scraped(admin_port) if begun(s[0])] + scraped(proxy.stats_port)
+
+
+def labels(text):
+    return dict(re.findall(r'(\w+)="(.*?)"', text))
+
+
+def series(text):
+    """(name, {label: value}) of what is ours or HAProxy's."""
+    for name, of in re.findall(r"\b(?<!:)((?:tubecut|http_server|process|haproxy)_\w+)\b(?!:)(?:{(.*?)})?", text):
+        yield name, labels(of)
 
 
 def read(path):
@@ -150,7 +176,7 @@ class Scraping(unittest.TestCase):
 
     def test_no_label_of_a_target_is_one_of_the_service(self):
         """Prometheus would rename the service's: exported_endpoint."""
-        served = {label for _, of in front_test.served_series() for label in of}
+        served = {label for _, of in served_series() for label in of}
         self.assertLessEqual({"endpoint", "code", "reason", "http_route"}, served)
         for target in (*of_compose().values(), *of_operator(), *of_cluster()):
             self.assertEqual(target.keys() & served, set())
@@ -227,8 +253,8 @@ class Dashboard(unittest.TestCase):
             targets["tubecut-haproxy", "haproxy"] = f"http://127.0.0.1:{proxy.stats_port}/metrics"
             record = alarms.Record(targets, alarms.words(asked))
             for step in range(6):
-                for body in (b"{}", (front_test.ROOT / "examples/intersections/source-000-table-1.json").read_bytes()) * 3:
-                    front_test.ask(f"https://127.0.0.1:{proxy.port}", "/v1/intersections", body)
+                for body in (b"{}", (ROOT / "examples/intersections/source-000-table-1.json").read_bytes()) * 3:
+                    ask(f"https://127.0.0.1:{proxy.port}", "/v1/intersections", body)
                 record.scrape()
         self.assertGreater(len(asked), 20)
         for expression, values in zip(asked, record.values((one, 5) for one in asked)):
@@ -237,7 +263,7 @@ class Dashboard(unittest.TestCase):
                 self.assertTrue(all(value == value for value in values.values()), values)  # not NaN
 
     def test_asks_for_series_there_are(self):
-        served = front_test.served_series()
+        served = served_series()
         names = {name for name, _ in served}
         jobs = of_compose()
         queries = [v["query"]["query"] for v in self.FILE["templating"]["list"] if v["type"] == "query"]
@@ -261,6 +287,53 @@ class Dashboard(unittest.TestCase):
                 shown = set(re.findall(r"{{(\w+)}}", legend))
                 outer = re.search(r"by \((.*?)\)", expression)
                 self.assertLessEqual(shown, set(outer[1].split(", ")) if outer else set())
+
+
+class Alerts(unittest.TestCase):
+    def test_promtool_reads_them(self):
+        subprocess.run([promtool(), "check", "rules", RULES], check=True, stdout=subprocess.DEVNULL)
+
+    def test_each_says_what_to_do(self):
+        for rule in (r for g in yaml.safe_load(RULES.read_text())["groups"] for r in g["rules"] if "alert" in r):
+            self.assertEqual(rule["annotations"].keys(), {"summary", "description"}, rule["alert"])
+
+    def test_each_fires_and_is_silent(self):
+        subprocess.run([promtool(), "test", "rules", TRIED], check=True, stdout=subprocess.DEVNULL)
+        alerts = {r["alert"] for g in yaml.safe_load(RULES.read_text())["groups"] for r in g["rules"] if "alert" in r}
+        quiet, loud, _ = yaml.safe_load(TRIED.read_text())["tests"]
+        self.assertEqual({t["alertname"] for t in quiet["alert_rule_test"]}, alerts)
+        fired = {re.search(r'"(\w+)"', s["labels"])[1] for s in loud["promql_expr_test"][1]["exp_samples"]}
+        self.assertEqual(fired, alerts)
+
+    def test_they_ask_for_series_there_are(self):
+        rules = [r for g in yaml.safe_load(RULES.read_text())["groups"] for r in g["rules"]]
+        recorded = {r["record"]: next(series(r["expr"])) for r in rules if "record" in r}
+        asked = [s for r in rules for s in series(r["expr"])]
+        for r in rules:
+            for name, text in re.findall(r"\b(\w+:[\w:]+)(?:{(.*?)})?", r["expr"]):
+                asked.append((recorded[name][0], recorded[name][1] | labels(text)))
+        self.assertGreater(len({name for name, _ in asked}), 10)
+        self.assertEqual(labels('a="1",b="x"'), {"a": "1", "b": "x"})
+
+        # A failure is counted from a zero that was there before it; only the times of requests begin with requests.
+        served = served_series(lambda name: name.startswith("http_server_request_duration_seconds"))
+        for name, wanted in asked:
+            wanted = {label: value for label, value in wanted.items() if label != "job"}
+            self.assertTrue(any(n == name and wanted.items() <= l.items() for n, l in served), f"{name}{wanted}")
+
+        # What promtool tries the rules on has the service's own labels and values, but for the versions and hashes that must differ.
+        values = {}
+        for _, of in served:
+            for label, value in of.items():
+                values.setdefault(label, set()).add(value)
+        values["http_route"] = {f"/v1/{e}" for e in values["endpoint"]}
+        values["code"] |= set(re.findall(r"X\((\w+),", (ROOT / "core/base/error_codes.hpp").read_text()))
+        tried = [s["series"] for t in yaml.safe_load(TRIED.read_text())["tests"] for s in t["input_series"]]
+        self.assertGreater(len(tried), 30)
+        for name, of in (s for text in tried for s in series(text)):
+            self.assertLessEqual(of.keys() - {"job", "instance"}, {label for n, l in served if n == name for label in l}, name)
+            for label in of.keys() - {"job", "instance", "version", "sha256"}:
+                self.assertIn(of[label], values[label], name)
 
 
 if __name__ == "__main__":
