@@ -29,7 +29,7 @@ constexpr std::size_t kScanAtOnce = 256u << 10;  // bytes looked through in one 
 /// A large line is not even read for its id: that would hold up the port.
 void refuse_line(Request& line, Refusal refusal) {
   line.refusal = std::move(refusal);
-  if (line.body.size() > kReadAtOnce) line.body = {};
+  if (line.body.size() > kReadAtOnce) give_back(line.body);
 }
 
 }  // namespace

@@ -2,9 +2,13 @@
 
 #include <atomic>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 namespace tubecut::server {
+
+/// Frees what a text holds. `text = {}` assigns it an empty list, for which it keeps its bytes.
+inline void give_back(std::string& text) { std::string().swap(text); }
 
 /// A bound on bytes, and how many are in use: counted by the shares that hold them. From any
 /// thread.

@@ -155,6 +155,7 @@ void Port::work(Job& job) {
         given, [&](std::size_t bytes) { return grow(job, bytes); }, &job.held);
     answer(job);
   }
+  give_back(job.request.body);   // a client slow to take its answer holds that alone
   job.request.turns = in_order;  // what is left of it is not this job's
   job.request.helped_ns = nullptr;
 }
@@ -172,7 +173,7 @@ void Port::answer(Job& job) const {
       job.begins = std::move(response);
     }
   } catch (const std::exception&) {  // no memory for the bytes: no answer, and its connection ends
-    job.answer.bytes = {};
+    give_back(job.answer.bytes);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "server/http/framing.hpp"
+#include "server/http/memory_share.hpp"
 
 namespace tubecut::server {
 namespace {
@@ -157,7 +158,7 @@ std::size_t RequestReader::Impl::read_head(std::string_view bytes, std::size_t t
   auto target = origin_form(request.target, request.method);
   if (target.empty()) return malformed("The target is no path of this service.", taken);
   request.target = std::move(target);
-  head = {};
+  give_back(head);
   head_length = bytes.size();
   state = parser.is_done() ? State::whole : State::body;
   return taken;

@@ -204,7 +204,7 @@ std::optional<Session::Got> Session::receive() {
 }
 
 void Session::drop_rest() {
-  in_ = {};
+  give_back(in_);
   in_at_ = 0;
   starved_ = false;
 }
@@ -219,7 +219,7 @@ void Session::give_way() {
   gives_way_ = state_ == State::head || state_ == State::body;
   drop_rest();
   if (gives_way_) {
-    reader_.request().body = {};
+    give_back(reader_.request().body);
   } else {  // what came behind the request being answered is not read
     ends_ = true;
     for (const auto& job : jobs_) job->close = true;
@@ -254,7 +254,7 @@ std::shared_ptr<Job> Session::take_job() {
   Request& request = job->request;
   request = std::move(reader_.request());
   request.refusal = std::exchange(refusal_, std::nullopt);
-  if (request.refusal) request.body = {};
+  if (request.refusal) give_back(request.body);
   request.peer = peer_;
   request.stop = job->stop.get_token();
   request.times = {.received = seconds(received_), .read = seconds(Clock::now())};
@@ -406,7 +406,7 @@ bool Session::send_some() {
   }
   if (error && error != asio::error::would_block) throw Gone{};
   if (out_at_ < out_.size()) return false;
-  out_ = {};
+  give_back(out_);
   out_at_ = 0;
   count_sending();
   return true;
@@ -479,8 +479,8 @@ void Session::cut() {
   boost::system::error_code error;
   socket_.close(error);
   drop_rest();
-  out_ = {};
-  rest_ = {};
+  give_back(out_);
+  give_back(rest_);
   arriving_.resize(0);
   sending_.resize(0);
   wake();

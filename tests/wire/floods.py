@@ -2,18 +2,23 @@
 """Six floods from one socket each: `floods.py BINARY [MEGABYTES] [--must-fail]`. The peak of resident memory may grow by
 16 MiB at most during each, and the probe answers meanwhile. With --must-fail, BINARY being the stock library, a flood has
 to break that. Then a crowd of sockets that begin bodies and never end them: they may hold half of the memory for jobs, and
-good jobs beside them are answered."""
+good jobs beside them are answered; and a crowd that has taken long answers and stays, which may hold nothing of them."""
 
+import contextlib
+import json
 import pathlib
 import socket
 import sys
+import time
 import zlib
 
-from service import Service, connect, exchange, get, head, post, receive
+from service import BODY, Service, connect, exchange, get, head, post, receive
 
 LIMIT_MIB = 16
 BLOCK = 1 << 18
 CROWD = 120  # sockets, each with a body of 1 MB
+TAKERS = 80  # sockets, each with an answer of 1.1 MB
+GIVEN_BACK_S = 5.0  # memory that nobody takes again goes back to the system within
 CONTAINER = 256 << 20
 
 
@@ -84,6 +89,26 @@ def crowd(binary):
         return growth <= most and refused > 0 and statuses.count(200) == CROWD
 
 
+def takers(binary):
+    """True when clients that have taken long answers, and keep their connections, hold nothing of them."""
+    body = json.loads(BODY)
+    body["sampling"] = {"uniform_points": 20000}
+    with Service(binary, "--slots", "1") as service, contextlib.ExitStack() as stack:
+        request = post(json.dumps(body).encode())
+        size = len(exchange(service.port, request)[0].body)
+        before = service.memory("VmRSS")
+        for _ in range(TAKERS):
+            sock = stack.enter_context(connect(service.port))
+            sock.sendall(request)
+            if receive(sock, enough=1)[0][0].status != 200:
+                return False
+        end = time.monotonic() + GIVEN_BACK_S
+        while (growth := service.memory("VmRSS") - before) > LIMIT_MIB and time.monotonic() < end:
+            time.sleep(0.2)
+        print(f"{TAKERS} answers of {size / 1e6:.1f} MB taken, connections kept: {growth:.1f} MiB held (limit {LIMIT_MIB})")
+        return TAKERS * size > 4 * (LIMIT_MIB << 20) and growth <= LIMIT_MIB and service.metric("tubecut_connections") >= TAKERS
+
+
 def oversize_line(binary):
     """True when a batch of one line of 8 MB, which would take 48 times that to read, is refused within the memory."""
     share = 0.6 * CONTAINER
@@ -121,7 +146,7 @@ def main():
             print(f"{name}: {sent / 1e6:.1f} of {megabytes} MB taken or dropped, peak grows {growth:.1f} MiB, "
                   f"{'answers after it' if ok else 'DEAD'}", flush=True)
     print(f"worst growth {worst:.1f} MiB, limit {LIMIT_MIB}")
-    sys.exit((worst <= LIMIT_MIB) if must_fail else not (worst <= LIMIT_MIB and crowd(words[0]) and oversize_line(words[0])))
+    sys.exit((worst <= LIMIT_MIB) if must_fail else not (worst <= LIMIT_MIB and crowd(words[0]) and takers(words[0]) and oversize_line(words[0])))
 
 
 main()
