@@ -290,17 +290,22 @@ Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
                                       std::optional<std::size_t> only,
                                       const std::stop_token& stop) {
   const auto stated = stated_apart(spec);
-  std::vector<Overlap> out;
+  // Counted first: too many are refused in a moment, not after all that may be looked at were.
   std::size_t near = 0;
-  const bool whole = near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
-    if (settled(nodes, stated, a, b)) return true;
-    if (++near > kMostNearPairs) return false;
-    if (const auto one = overlap(spec, nodes, a, b, stop)) out.push_back(*one);
-    return out.size() <= kMostOverlaps;
-  });
-  if (!whole) return fail({.code = ErrorCode::cancelled});
+  if (!near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
+        if (!settled(nodes, stated, a, b)) ++near;
+        return near <= kMostNearPairs;
+      }))
+    return fail({.code = ErrorCode::cancelled});
   if (near > kMostNearPairs)
     return too_many(near, kMostNearPairs, "come nearer than their radii and do not cut each other");
+  std::vector<Overlap> out;
+  if (!near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
+        if (settled(nodes, stated, a, b)) return true;
+        if (const auto one = overlap(spec, nodes, a, b, stop)) out.push_back(*one);
+        return out.size() <= kMostOverlaps;
+      }))
+    return fail({.code = ErrorCode::cancelled});
   if (out.size() > kMostOverlaps) return too_many(out.size(), kMostOverlaps, "share metal");
   std::ranges::sort(out, {}, [](const Overlap& o) { return std::pair{o.a, o.b}; });
   return out;

@@ -202,6 +202,22 @@ TEST(Overlap, TellsNoMorePairsThanItMay) {
   EXPECT_EQ(found(crossed(20)).size(), 190U);
 }
 
+// Counted before any is looked at: these would share metal 5 000 times first.
+TEST(Overlap, LooksAtNoMorePairsThanItMay) {
+  constexpr std::size_t kMembers = 1415;
+  static_assert(kMembers * (kMembers - 1) / 2 > kMostNearPairs);
+  const auto spec = crossed(kMembers);
+  const auto nodes = solve(spec);
+  ASSERT_TRUE(nodes);
+  const auto all = overlaps(spec, *nodes);
+  ASSERT_FALSE(all);
+  const auto& issue = all.error().issues.front();
+  EXPECT_EQ(issue.code, ErrorCode::wrong_count);
+  EXPECT_EQ(issue.member, "members");
+  EXPECT_EQ(std::get<double>(issue.limit), double{kMostNearPairs});
+  EXPECT_EQ(std::get<double>(issue.got), double{kMostNearPairs} + 1.0);
+}
+
 TEST(Overlap, StopsWhenAsked) {
   std::stop_source stop;
   stop.request_stop();
