@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kJson = "application/json";
 
-std::string errors_page(const Context& /*context*/) {
+std::string print_errors() {
   Writer out;
   out.object([](Writer& w) {
     w.array("errors", all_errors(), [](Writer& each, const ErrorInfo& error) {
@@ -38,6 +38,11 @@ std::string errors_page(const Context& /*context*/) {
     });
   });
   return out.take();
+}
+
+std::string errors_page(const Context& /*context*/) {
+  static const std::string page = print_errors();  // the same for ever: 20 kB of text to escape
+  return page;
 }
 
 /// A limit as this replica holds to it: its bodies may be smaller than the contract's.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <exception>
 
-#include "server/cpu_clock.hpp"
 #include "server/identity.hpp"
 #include "server/job_memory.hpp"
 #include "server/static_files.hpp"
@@ -260,7 +259,6 @@ api::Outcome App::answer_guarded(const Request& request, const Identity& id,
 Response App::handle(const Request& request) const {
   if (auto page = static_answer(request, static_files())) return *std::move(page);  // no job
   const double start = steady_seconds();
-  const auto cpu = CpuClock::of_this_thread();
   if (auto response = preflight(request)) return *std::move(response);
   x_.started();
   const Identity id = identify(request.headers);
@@ -286,9 +284,7 @@ Response App::handle(const Request& request) const {
   allow_origin(request, response.headers);
   add_if(response.headers, "Tubecut-Replica", x_.replica);
   record.seconds = steady_seconds() - start;
-  const std::chrono::nanoseconds helped(request.helped_ns != nullptr ? request.helped_ns->load()
-                                                                     : 0);
-  record.cpu = std::chrono::duration<double>(cpu.used() + helped).count();
+  if (request.used_cpu) record.cpu = std::chrono::duration<double>(request.used_cpu()).count();
   record.facts = std::move(outcome.job);
   response.headers.emplace_back("Server-Timing", server_timing(record));
   if (record.facts.id.empty()) record.facts.id = id.job_id;

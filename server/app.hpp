@@ -29,7 +29,7 @@ struct JobRecord {
   std::string failure = {};   // text of an unexpected exception; the caller never sees it
   int status = 0;
   double seconds = 0.0;  // in `handle`
-  double cpu = 0.0;      // seconds of CPU for it there, of whatever threads
+  double cpu = 0.0;      // seconds that all threads had for it; 0: no slot began it
   std::size_t bytes_in = 0;
   std::size_t bytes_out = 0;
   std::size_t memory = 0;  // the most bytes it took at a time, its body aside; 0: not known

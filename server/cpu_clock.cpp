@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <limits>
+#include <utility>
 
 #ifndef sigev_notify_thread_id  // glibc of Debian 12 has the field without the name
 #define sigev_notify_thread_id _sigev_un._tid
@@ -19,9 +21,15 @@ constexpr std::chrono::nanoseconds kLeastShare = std::chrono::microseconds(500);
 
 /// Whose time the timer of this thread counts. Read by the signal's handler, in this thread alone.
 thread_local std::atomic<CpuBudget*> limited = nullptr;
+/// When the timer of this thread fires at the latest, by the thread's clock; none: not at all, or
+/// nobody knows. It stays set from one short job to the next, which spares two calls a job: one
+/// that fires early only looks.
+constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+thread_local std::atomic<std::int64_t> fires_ns = kNone;
 
 extern "C" void end_job(int) {
   const int before = errno;
+  fires_ns.store(kNone, std::memory_order_relaxed);
   if (auto* const mine = limited.load(std::memory_order_relaxed)) mine->look();
   errno = before;
 }
@@ -84,7 +92,7 @@ std::chrono::nanoseconds CpuBudget::Part::used() const {
   return read(clock) - std::chrono::nanoseconds(begin_ns);
 }
 
-void CpuBudget::look() {
+bool CpuBudget::look() {
   using std::chrono::nanoseconds;
   nanoseconds left(most_ns_ - done_ns_);
   int threads = 0;
@@ -95,45 +103,63 @@ void CpuBudget::look() {
   }
   if (left <= nanoseconds::zero()) {
     stop_.request_stop();
-    return;
+    return false;
   }
   for (const auto& part : parts_)
     if (part.runs) set(part.timer, std::max(kLeastShare, left / std::max(1, threads)));
+  return true;
 }
 
-CpuLimit::CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most) : budget_(budget) {
-  const auto& timer = thread_timer();
-  if (most.count() <= 0 || !timer.there()) return;
-  for (auto& part : budget.parts_) {
+CpuBudget::Part* CpuBudget::take_part() {
+  for (auto& part : parts_) {
     if (part.taken.exchange(true)) continue;
-    part_ = &part;
-    break;
+    if (&part != parts_.data()) shared_ = true;
+    return &part;
   }
-  clockid_t clock{};
-  if (part_ == nullptr || ::pthread_getcpuclockid(::pthread_self(), &clock) != 0) return;
+  return nullptr;
+}
+
+CpuLimit::CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most, const CpuClock& clock)
+    : budget_(budget), clock_(clock) {
+  const auto& timer = thread_timer();
+  if (most.count() <= 0 || !timer.there() || !clock.runs_) return;
+  part_ = budget.take_part();
+  if (part_ == nullptr) return;
   budget.most_ns_ = most.count();
-  part_->clock = clock;
-  part_->begin_ns = read(clock).count();
+  part_->clock = clock.clock_;
+  part_->begin_ns = clock.begin_.count();
   part_->timer = timer.timer();
   part_->runs = true;
   limited = &budget;
-  budget.look();
+  const std::int64_t ends_ns = part_->begin_ns + budget.most_ns_ - budget.done_ns_;
+  if (budget.shared_ || fires_ns > ends_ns) {
+    const bool set = budget.look();
+    fires_ns = set && !budget.shared_ ? ends_ns : kNone;
+  }
 #ifdef TUBECUT_LOOKS
   looks::begin();
 #endif
 }
 
-CpuLimit::~CpuLimit() {
-  if (part_ == nullptr) return;
+std::chrono::nanoseconds CpuLimit::end() {
+  if (std::exchange(ended_, true)) return {};
 #ifdef TUBECUT_LOOKS
-  looks::end();
+  if (part_ != nullptr) looks::end();
 #endif
-  if (part_->runs.exchange(false)) {
+  if (part_ != nullptr) {
+    part_->runs = false;
     limited = nullptr;
-    set(part_->timer, {});
-    budget_.done_ns_ += part_->used().count();
+    if (budget_.shared_) {  // others may have set it
+      set(part_->timer, {});
+      fires_ns = kNone;
+    }
   }
-  part_->taken = false;
+  const auto used = clock_.used();
+  if (part_ != nullptr) {
+    budget_.done_ns_ += used.count();
+    part_->taken = false;
+  }
+  return used;
 }
 
 CpuClock CpuClock::of_this_thread() {
@@ -147,8 +173,8 @@ std::chrono::nanoseconds CpuClock::read() const { return runs_ ? server::read(cl
 
 std::chrono::nanoseconds CpuClock::used() const { return runs_ ? read() - begin_ : used_; }
 
-void CpuClock::stop() {
-  used_ = used();
+void CpuClock::stop(std::chrono::nanoseconds used) {
+  used_ = used;
   runs_ = false;
 }
 

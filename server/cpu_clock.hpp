@@ -18,10 +18,11 @@ class CpuClock {
   [[nodiscard]] static CpuClock of_this_thread();
 
   [[nodiscard]] std::chrono::nanoseconds used() const;
-  /// What was used stands; the thread may end.
-  void stop();
+  /// What was used stands, as it was last read; the thread may end.
+  void stop(std::chrono::nanoseconds used);
 
  private:
+  friend class CpuLimit;
   [[nodiscard]] std::chrono::nanoseconds read() const;
 
   bool runs_ = false;
@@ -42,9 +43,9 @@ class CpuBudget {
 
   explicit CpuBudget(std::stop_source& stop) : stop_(stop) {}
 
-  /// Stops the job, or shares what is left. From a signal's handler too: a stop is a few atomic
-  /// operations here, for no job has callbacks of its stop token.
-  void look();
+  /// Shares what is left, or stops the job: false. From a signal's handler too: a stop is a few
+  /// atomic operations here, for no job has callbacks of its stop token.
+  bool look();
 
  private:
   friend class CpuLimit;
@@ -57,23 +58,32 @@ class CpuBudget {
 
     [[nodiscard]] std::chrono::nanoseconds used() const;
   };
+  Part* take_part();
+
   std::stop_source& stop_;
+  std::atomic<bool> shared_ = false;  // by several threads, now or before
   std::atomic<std::int64_t> most_ns_ = 0;
   std::atomic<std::int64_t> done_ns_ = 0;  // of those that no longer work at it
   std::array<Part, kThreads> parts_ = {};
 };
 
-/// This thread works at the job whose budget it is, which is so much in all; 0: it has none.
+/// This thread works at the job whose budget it is, which is so much in all; 0: it has none. Its
+/// CPU counts from the beginning of `clock`, which is this thread's.
 class CpuLimit {
  public:
-  CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most);
+  CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most, const CpuClock& clock);
   CpuLimit(const CpuLimit&) = delete;
   CpuLimit& operator=(const CpuLimit&) = delete;
-  ~CpuLimit();
+  ~CpuLimit() { end(); }
+
+  /// The thread has done its part: what it used of the budget, by its clock.
+  std::chrono::nanoseconds end();
 
  private:
   CpuBudget& budget_;
+  CpuClock clock_;
   CpuBudget::Part* part_ = nullptr;
+  bool ended_ = false;
 };
 
 }  // namespace tubecut::server

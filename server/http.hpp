@@ -47,7 +47,8 @@ struct Request {
   bool reports_sending = false;  // the transport will call `Response::sent`
   std::size_t line = 0;          // of a batch, from 1; 0: a request by itself
   Turns turns = in_order;        // by whom pieces of the job are done
-  const std::atomic<std::int64_t>* helped_ns = nullptr;  // CPU of others than its thread for it
+  /// CPU that all threads have had for it since a slot began it; empty: no slot did.
+  std::function<std::chrono::nanoseconds()> used_cpu = {};
 };
 
 /// What a job may take; 0: no end.

@@ -1,17 +1,27 @@
 #pragma once
 
-#include <condition_variable>
+#include <semaphore.h>
+
 #include <mutex>
 
 namespace tubecut::server {
 
 /// Threads that sleep until they are called. The owner's mutex is held at every call but
-/// `wake_one`.
+/// `wake_one`. By a semaphore: who wakes from a condition variable of glibc holds the mutex as one
+/// that others wait for, and to give it back takes a call of the system, one for every short job.
 class Sleepers {
  public:
+  Sleepers() { ::sem_init(&calls_, 0, 0); }
+  Sleepers(const Sleepers&) = delete;
+  Sleepers& operator=(const Sleepers&) = delete;
+  ~Sleepers() { ::sem_destroy(&calls_); }
+
   void sleep(std::unique_lock<std::mutex>& lock) {
     ++asleep_;
-    wake_.wait(lock, [this] { return called_ > 0; });
+    lock.unlock();
+    while (::sem_wait(&calls_) != 0) {  // a signal came
+    }
+    lock.lock();
     --asleep_;
     --called_;
   }
@@ -22,17 +32,16 @@ class Sleepers {
     ++called_;
     return true;
   }
-  void wake_one() { wake_.notify_one(); }
+  void wake_one() { ::sem_post(&calls_); }
   void wake_all() {
-    called_ = asleep_;
-    wake_.notify_all();
+    while (call()) wake_one();
   }
 
   /// How many are called and not awake yet.
   [[nodiscard]] int called() const { return called_; }
 
  private:
-  std::condition_variable wake_;
+  sem_t calls_{};
   int asleep_ = 0;
   int called_ = 0;
 };

@@ -45,10 +45,6 @@ void step_back(int by) {
   static_cast<void>(::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + by));
 }
 
-std::chrono::nanoseconds used(const Job& job) {
-  return job.cpu.used() + std::chrono::nanoseconds(job.helped_ns);
-}
-
 double cpu_s(const Job& job) { return std::chrono::duration<double>(used(job)).count(); }
 
 double now_s() {
@@ -56,6 +52,10 @@ double now_s() {
 }
 
 }  // namespace
+
+std::chrono::nanoseconds used(const Job& job) {
+  return job.cpu.used() + std::chrono::nanoseconds(job.helped_ns);
+}
 
 Slots::Slots(int count, std::size_t queue, Step work, Step done)
     : work_(std::move(work)),
@@ -162,9 +162,7 @@ bool Slots::withdraw(const std::shared_ptr<Job>& job) {
 void Slots::look(Job& job) {
   {
     const std::lock_guard lock(mutex_);
-    // In a free slot somebody has long been called for it; but glibc 2.36 can lose a call.
-    const bool place = in_slots_ < count_ || (job.claim.quick && in_lane_ < kLane);
-    const bool waits = job.began_s == 0.0 && place;
+    const bool waits = job.began_s == 0.0 && job.claim.quick && in_lane_ < kLane;
     const bool outgrown = job.in_lane && (cpu_s(job) > kOutgrown || now_s() - job.began_s > kHeld);
     if (!waits && (!outgrown || !has_spare())) return;
     if (outgrown) leave_lane(job);
@@ -240,15 +238,15 @@ void Slots::learn(const Job& job, double took) {
   }
 }
 
-void Slots::finish(Job& job) {
+/// `own`: CPU of the job's thread.
+void Slots::finish(Job& job, std::chrono::nanoseconds own) {
   const double took = now_s() - job.began_s;
-  job.cpu.stop();
-  const double own = cpu_s(job);
+  job.cpu.stop(own);
   --(job.in_lane ? in_lane_ : in_slots_);
   queue_.done(
       job.claim,
       took + std::chrono::duration<double>(std::chrono::nanoseconds(job.helped_ns)).count());
-  learn(job, own);  // not what others made it wait
+  learn(job, cpu_s(job));  // not what others made it wait
   std::erase_if(running_, [&job](const auto& one) { return one.get() == &job; });
   busy_ = static_cast<int>(running_.size());
   tell_helpers();
@@ -257,30 +255,31 @@ void Slots::finish(Job& job) {
 void Slots::run(bool quick_only) {
   step_back(quick_only ? kLaneNice : kNice);
   std::unique_lock lock(mutex_);
+  std::shared_ptr<Job> done;  // to be handed over, once the next one is found or there is none
   for (;;) {
-    std::shared_ptr<Job> job;
-    Sleepers* called = nullptr;
-    while (!ending_ && !job) {
-      job = next(quick_only);
-      called = quick_only && queue_.size() > 0 ? call_one(false) : nullptr;  // it left a slot free
-      if (job) break;
-      if (called != nullptr) called->wake_one();
-      (quick_only ? quick_ : any_).sleep(lock);
-    }
-    if (!job) return;
-    lock.unlock();
+    auto job = ending_ ? nullptr : next(quick_only);
+    auto* const called =  // it left a slot free
+        quick_only && !ending_ && queue_.size() > 0 ? call_one(false) : nullptr;
     if (called != nullptr) called->wake_one();
-    {
-      const CpuLimit limit(job->all_cpu, job->budget.cpu);
+    if (!job && !done) {
+      if (ending_) return;
+      (quick_only ? quick_ : any_).sleep(lock);
+      continue;
+    }
+    const bool looks_again = !job;
+    if (looks_again) ++back_;
+    lock.unlock();
+    if (done) done_(std::exchange(done, nullptr));
+    std::chrono::nanoseconds own{0};
+    if (job) {
+      CpuLimit limit(job->all_cpu, job->budget.cpu, job->cpu);
       work_(job);
+      own = limit.end();
     }
     lock.lock();
-    finish(*job);  // before the answer is out: its client's next request finds the slot free
-    ++back_;
-    lock.unlock();
-    done_(std::move(job));
-    lock.lock();
-    --back_;
+    if (looks_again) --back_;
+    if (job) finish(*job, own);  // before its answer is out: who gets it finds the slot free
+    done = std::move(job);
   }
 }
 

@@ -58,6 +58,9 @@ struct Job {
   std::shared_ptr<Job> next = {};       // handed over to the port after this one
 };
 
+/// CPU of all threads for a job that a slot has begun. In its thread, or with the slots' mutex.
+[[nodiscard]] std::chrono::nanoseconds used(const Job& job);
+
 /// The threads that compute, and the bounded queue before them. Beside the slots there is a lane
 /// for jobs that are expected to be quick: long ones never wait in front of them. A job that turns
 /// out not to be makes room in the lane and counts among the long ones.
@@ -115,7 +118,7 @@ class Slots {
   void estimate(Job& job) const;
   void leave_lane(Job& job);
   [[nodiscard]] bool has_spare() const;
-  void finish(Job& job);
+  void finish(Job& job, std::chrono::nanoseconds own);
   void tell_helpers();
   void learn(const Job& job, double took);
   [[nodiscard]] const double* mean_of(const Job& job) const;

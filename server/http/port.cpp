@@ -118,8 +118,8 @@ void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
   const auto within = [&](const Helpers::Stint& stint) {
     ++job.helped_by;
     const auto clock = CpuClock::of_this_thread();
+    CpuLimit limit(job.all_cpu, job.budget.cpu, clock);
     {
-      const CpuLimit limit(job.all_cpu, job.budget.cpu);
       const JobMemory own(0, [&](std::size_t bytes) { return grow(job, bytes); });
       stint();
       const auto taken = own.taken();
@@ -129,7 +129,7 @@ void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
       all.given += taken.given - unused;
       all.live += taken.live;
     }
-    job.helped_ns += clock.used().count();
+    job.helped_ns += limit.end().count();
     --job.helped_by;
   };
   try {
@@ -144,7 +144,7 @@ void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
 /// In a slot's thread.
 void Port::work(Job& job) {
   job.request.times.started = seconds(Clock::now());
-  job.request.helped_ns = &job.helped_ns;
+  job.request.used_cpu = [&job] { return used(job); };
   job.request.turns = [this, &job](std::size_t count, const Turn& turn) {
     take_turns(job, count, turn);
   };
@@ -157,7 +157,7 @@ void Port::work(Job& job) {
   }
   give_back(job.request.body);   // a client slow to take its answer holds that alone
   job.request.turns = in_order;  // what is left of it is not this job's
-  job.request.helped_ns = nullptr;
+  job.request.used_cpu = nullptr;
 }
 
 void Port::answer(Job& job) const {

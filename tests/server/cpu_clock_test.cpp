@@ -24,7 +24,7 @@ TEST(CpuLimit, StopsAThreadByItsOwnTimeWhoeverElseLooks) {
     for (const auto most : {20ms, 50ms}) {
       std::stop_source stop;
       CpuBudget budget(stop);
-      const CpuLimit limit(budget, most);
+      const CpuLimit limit(budget, most, CpuClock::of_this_thread());
       const auto used = worked(stop.get_token());
       EXPECT_GE(used, most);
       EXPECT_LT(used, 1s);
@@ -35,7 +35,7 @@ TEST(CpuLimit, StopsAThreadByItsOwnTimeWhoeverElseLooks) {
 TEST(CpuLimit, DoesNotCountWhatAThreadWaits) {
   std::stop_source stop;
   CpuBudget budget(stop);
-  const CpuLimit limit(budget, 200ms);
+  const CpuLimit limit(budget, 200ms, CpuClock::of_this_thread());
   std::this_thread::sleep_for(300ms);
   EXPECT_FALSE(stop.stop_requested());
 }
@@ -43,15 +43,39 @@ TEST(CpuLimit, DoesNotCountWhatAThreadWaits) {
 TEST(CpuLimit, EndsWithItsJob) {
   std::stop_source first;
   CpuBudget of_first(first);
-  { const CpuLimit limit(of_first, 20ms); }
+  { const CpuLimit limit(of_first, 20ms, CpuClock::of_this_thread()); }
   std::stop_source none;
   CpuBudget of_none(none);
-  const CpuLimit limit(of_none, 0ms);  // no budget
   const auto cpu = CpuClock::of_this_thread();
+  const CpuLimit limit(of_none, 0ms, cpu);  // no budget
   while (cpu.used() < 60ms) {
   }
   EXPECT_FALSE(first.stop_requested());
   EXPECT_FALSE(none.stop_requested());
+}
+
+// The timer stays set from one job to the next: as it was for a longer one, a shorter one, one
+// that had all its time.
+TEST(CpuLimit, IsEachJobsOwnWhateverTheOneBeforeLeft) {
+  std::jthread([] {
+    const auto stopped_after = [](std::chrono::nanoseconds most, std::chrono::nanoseconds part) {
+      std::stop_source stop;
+      CpuBudget budget(stop);
+      const auto cpu = CpuClock::of_this_thread();
+      CpuLimit limit(budget, most, cpu);
+      while (!stop.stop_requested() && cpu.used() < part) {
+      }
+      EXPECT_EQ(stop.stop_requested(), part > most);
+      return limit.end();
+    };
+    for (int i = 0; i < 1000; ++i) stopped_after(2s, 0s);
+    for (const auto most : {100ms, 30ms, 200ms, 30ms}) {
+      const auto used = stopped_after(most, 5s);
+      EXPECT_GE(used, most);
+      EXPECT_LT(used, most + 50ms);
+      stopped_after(300ms, 250ms);  // its timer would end the next one late, the last one's early
+    }
+  }).join();
 }
 
 // Whenever they begin and end: a thread that joins late, one that has done its part, one that
@@ -64,8 +88,8 @@ TEST(CpuLimit, IsOfAllThreadsOfAJobTogether) {
     std::atomic<std::int64_t> used = 0;
     const auto work = [&](std::chrono::milliseconds waits, std::chrono::nanoseconds part) {
       std::this_thread::sleep_for(waits);
-      const CpuLimit limit(budget, kMost);
       const auto cpu = CpuClock::of_this_thread();
+      const CpuLimit limit(budget, kMost, cpu);
       while (!stop.stop_requested() && cpu.used() < part) {
       }
       used += cpu.used().count();
@@ -87,12 +111,12 @@ TEST(CpuLimit, OfAJobThatAThreadHasLeftIsNotTheNextOnes) {
   std::stop_source first, next;
   CpuBudget of_first(first), of_next(next);
   std::jthread stays([&] {
-    const CpuLimit limit(of_first, 60ms);
+    const CpuLimit limit(of_first, 60ms, CpuClock::of_this_thread());
     worked(first.get_token());
   });
-  { const CpuLimit limit(of_first, 60ms); }
-  const CpuLimit limit(of_next, 5s);
+  { const CpuLimit limit(of_first, 60ms, CpuClock::of_this_thread()); }
   const auto cpu = CpuClock::of_this_thread();
+  const CpuLimit limit(of_next, 5s, cpu);
   while (!first.stop_requested() || cpu.used() < 60ms) {
   }
   EXPECT_FALSE(next.stop_requested());
