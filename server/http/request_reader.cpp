@@ -42,6 +42,7 @@ class Parser final : public http::basic_parser<true> {
   int minor = 1;
   bool too_many_fields = false;
   bool head_done = false;
+  std::size_t announced = 0;  // bytes of body
 
  private:
   void on_request_impl(http::verb /*verb*/, Text method, Text target, int version,
@@ -70,7 +71,15 @@ class Parser final : public http::basic_parser<true> {
   }
   void on_finish_impl(Code& /*ec*/) override {}
 
+  /// An announced length takes no memory before its bytes come: at most twice theirs, and in the
+  /// end its own.
   std::size_t append(Text bytes) {
+    const auto needed = request.body.size() + bytes.size();
+    if (needed > request.body.capacity()) {
+      auto room = std::max(announced, needed);
+      while (room / 2 >= needed) room = (room + 1) / 2;
+      request.body.reserve(room);
+    }
     request.body.append(bytes.data(), bytes.size());
     return bytes.size();
   }
@@ -208,8 +217,7 @@ RequestReader::State RequestReader::state() const { return x_->state; }
 void RequestReader::allow_body(std::size_t bytes) {
   x_->body_limit = bytes;
   x_->parser.body_limit(bytes);
-  x_->parser.request.body.reserve(
-      static_cast<std::size_t>(std::min<std::uint64_t>(content_length(), bytes)));
+  x_->parser.announced = static_cast<std::size_t>(std::min<std::uint64_t>(content_length(), bytes));
 }
 
 Request& RequestReader::request() { return x_->parser.request; }
@@ -232,8 +240,9 @@ bool RequestReader::keeps_alive() const {
 }
 
 std::size_t RequestReader::held() const {
-  const auto head = x_->state == State::body ? x_->head_length : x_->head.size();
-  return head + x_->parser.request.body.size();
+  const auto taken = [](const std::string& text) { return text.empty() ? 0 : text.capacity(); };
+  const auto head = x_->state == State::body ? x_->head_length : taken(x_->head);
+  return head + taken(x_->parser.request.body);
 }
 
 }  // namespace tubecut::server

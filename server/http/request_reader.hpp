@@ -46,7 +46,8 @@ class RequestReader {
   [[nodiscard]] bool takes_chunks() const;
   /// Whether the client leaves the connection open for another request.
   [[nodiscard]] bool keeps_alive() const;
-  /// Bytes kept: of the head, and of the body so far.
+  /// Bytes taken from memory: for the head, and for the body as far as it came. What a length
+  /// announces takes none.
   [[nodiscard]] std::size_t held() const;
 
  private:
