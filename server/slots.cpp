@@ -78,8 +78,9 @@ void Slots::join() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
+    any_.wake_all();
+    quick_.wake_all();
   }
-  wake_all();
   for (auto& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
@@ -160,14 +161,16 @@ bool Slots::withdraw(const std::shared_ptr<Job>& job) {
 }
 
 void Slots::look(Job& job) {
+  Sleepers* called = nullptr;
   {
     const std::lock_guard lock(mutex_);
     const bool waits = job.began_s == 0.0 && job.claim.quick && in_lane_ < kLane;
     const bool outgrown = job.in_lane && (cpu_s(job) > kOutgrown || now_s() - job.began_s > kHeld);
     if (!waits && (!outgrown || !has_spare())) return;
     if (outgrown) leave_lane(job);
+    called = call_any(true);  // for the one place in the lane
   }
-  wake_all();
+  if (called != nullptr) called->wake_one();
 }
 
 /// Calls a thread for a job that has come, where a slot is free that nobody is on the way to: to
@@ -175,14 +178,12 @@ void Slots::look(Job& job) {
 /// Returns whom to `wake_one`, best without the mutex, which is held here.
 Sleepers* Slots::call_one(bool quick) {
   if (in_slots_ + back_ + any_.called() + quick_.called() >= count_) return nullptr;
-  if (quick && quick_.call()) return &quick_;
-  return any_.call() ? &any_ : nullptr;
+  return call_any(quick);
 }
 
-void Slots::wake_all() {
-  const std::lock_guard lock(mutex_);
-  any_.wake_all();
-  quick_.wake_all();
+Sleepers* Slots::call_any(bool quick) {
+  if (quick && quick_.call()) return &quick_;
+  return any_.call() ? &any_ : nullptr;
 }
 
 void Slots::leave_lane(Job& job) {

@@ -114,7 +114,7 @@ class Slots {
   void run(bool quick_only);
   [[nodiscard]] std::shared_ptr<Job> next(bool quick_only);
   [[nodiscard]] Sleepers* call_one(bool quick);
-  void wake_all();
+  [[nodiscard]] Sleepers* call_any(bool quick);
   void estimate(Job& job) const;
   void leave_lane(Job& job);
   [[nodiscard]] bool has_spare() const;
