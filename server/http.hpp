@@ -79,6 +79,8 @@ struct Response {
   std::string content_type = {};
   Headers headers = {};
   std::string body = {};
+  /// Instead of it: bytes that stand as long as the program does, and are not copied.
+  std::string_view fixed = {};
   /// Requests as a batch has them, one a line: their answers follow the body, in chunks.
   std::string lines = {};
   /// Called once: when the last byte is handed to the kernel (true), or never will be (false).

@@ -78,7 +78,7 @@ std::optional<Response> static_answer(const Request& request, std::span<const St
     response.status = 304;
     return response;
   }
-  response.body = packed ? file->gzip : file->body;
+  response.fixed = packed ? file->gzip : file->body;
   return response;
 }
 

@@ -64,9 +64,11 @@ std::string print_head(const Response& response, std::chrono::seconds idle,
 Printed print(Response response, std::string_view method, std::chrono::seconds idle) {
   const bool bare = response.status == 204 || response.status == 304;  // RFC 9110, 8.6
   const auto framing =
-      bare ? std::string() : fmt::format("Content-Length: {}\r\n", response.body.size());
+      bare ? std::string()
+           : fmt::format("Content-Length: {}\r\n", response.body.size() + response.fixed.size());
   Printed out{.bytes = print_head(response, idle, framing), .sent = std::move(response.sent)};
   if (bare || method == "HEAD") return out;
+  out.fixed = response.fixed;
   if (response.body.size() > kCopied) {
     out.rest = std::move(response.body);
     return out;

@@ -376,6 +376,7 @@ void Session::look() {
 Task<void> Session::send(Printed answer) {
   out_ = std::move(answer.bytes);
   rest_ = std::move(answer.rest);
+  fixed_ = answer.fixed;
   sent_ = std::move(answer.sent);
   count_sending();
   state_ = State::writing;
@@ -395,18 +396,20 @@ Task<void> Session::send(Printed answer) {
 
 /// Sends what the socket takes; true when nothing is left.
 bool Session::send_some() {
+  const std::string_view front = out_, tail = rest_.empty() ? fixed_ : std::string_view(rest_);
+  const auto all = front.size() + tail.size();
   boost::system::error_code error;
-  while (out_at_ < out_.size() && !error) {
-    const std::array left{asio::buffer(out_.data() + out_at_, out_.size() - out_at_),
-                          asio::buffer(rest_.data(), rest_.size())};
+  while (out_at_ < all && !error) {
+    const auto first = std::min(out_at_, front.size()), then = out_at_ - first;
+    const std::array left{asio::buffer(front.substr(first)), asio::buffer(tail.substr(then))};
     out_at_ += socket_.write_some(left, error);
     if (error == asio::error::interrupted) error = {};
-    if (out_at_ >= out_.size() && !rest_.empty())
-      out_at_ -= std::exchange(out_, std::exchange(rest_, {})).size();
   }
   if (error && error != asio::error::would_block) throw Gone{};
-  if (out_at_ < out_.size()) return false;
+  if (out_at_ < all) return false;
   give_back(out_);
+  give_back(rest_);
+  fixed_ = {};
   out_at_ = 0;
   count_sending();
   return true;

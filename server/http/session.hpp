@@ -117,7 +117,8 @@ class Session final : public Strand {
   std::size_t in_at_ = 0;
   bool starved_ = false;  // the reader wants more than there is
   std::string out_;
-  std::string rest_;  // follows it
+  std::string rest_;        // follows it
+  std::string_view fixed_;  // or this does
   std::size_t out_at_ = 0;
   std::function<void(bool)> sent_;
   MemoryShare arriving_;

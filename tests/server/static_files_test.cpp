@@ -31,17 +31,17 @@ Request get(std::string target, Headers headers = {}) {
 TEST(StaticFiles, ArePackedForThoseWhoTakeIt) {
   const auto plain = static_answer(get("/"), kFiles);
   ASSERT_TRUE(plain);
-  EXPECT_EQ(plain->body, "plain");
+  EXPECT_EQ(plain->fixed, "plain");
   EXPECT_EQ(header(plain->headers, "Content-Encoding"), "");
   EXPECT_EQ(header(plain->headers, "Vary"), "Accept-Encoding");
   for (const char* accepted : {"gzip", "br, gzip;q=0.5", "gzip, deflate"}) {
     const auto packed = static_answer(get("/", {{"Accept-Encoding", accepted}}), kFiles);
     ASSERT_TRUE(packed);
-    EXPECT_EQ(packed->body, "packed") << accepted;
+    EXPECT_EQ(packed->fixed, "packed") << accepted;
     EXPECT_EQ(header(packed->headers, "Content-Encoding"), "gzip");
   }
   for (const char* refused : {"gzip;q=0", "identity", "gzipped"}) {
-    EXPECT_EQ(static_answer(get("/", {{"Accept-Encoding", refused}}), kFiles)->body, "plain")
+    EXPECT_EQ(static_answer(get("/", {{"Accept-Encoding", refused}}), kFiles)->fixed, "plain")
         << refused;
   }
 }
@@ -54,7 +54,7 @@ TEST(StaticFiles, PagesAllowNothingFromElsewhereAndNothingInline) {
   EXPECT_NE(policy.find("script-src 'self' 'wasm-unsafe-eval';"), policy.npos);
   const auto docs = static_answer(get("/docs/"), kFiles);
   ASSERT_TRUE(docs);
-  EXPECT_EQ(docs->body, "reference");
+  EXPECT_EQ(docs->fixed, "reference");
   EXPECT_EQ(header(docs->headers, "Content-Security-Policy").find("unsafe-eval"),
             std::string_view::npos);
 }
@@ -83,7 +83,7 @@ TEST(StaticFiles, WithoutAConsoleThePageSaysSo) {
   for (const char* path : {"/", "/docs"}) {
     const auto page = static_answer(get(path), {});
     ASSERT_TRUE(page);
-    EXPECT_NE(page->body.find("without the console"), std::string::npos);
+    EXPECT_NE(page->fixed.find("without the console"), std::string::npos);
   }
   EXPECT_FALSE(static_answer(get("/assets/a-1.js"), {}));
 }

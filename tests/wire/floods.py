@@ -2,8 +2,8 @@
 """Six floods from one socket each: `floods.py BINARY [MEGABYTES] [--must-fail]`. The peak of resident memory may grow by
 16 MiB at most during each, and the probe answers meanwhile. With --must-fail, BINARY being the stock library, a flood has
 to break that. Then a crowd of sockets that begin bodies and never end them: they may hold half of the memory for jobs, and
-good jobs beside them are answered; one that only announces bodies, and one that has taken long answers and stays: these may hold
-nothing."""
+good jobs beside them are answered; one that only announces bodies, one that reads nothing of the console's files, and one that has
+taken long answers and stays: these may hold nothing."""
 
 import contextlib
 import json
@@ -13,7 +13,7 @@ import sys
 import time
 import zlib
 
-from service import BODY, Service, connect, exchange, get, head, post, receive
+from service import BODY, ROOT, Service, connect, exchange, get, head, post, receive
 
 LIMIT_MIB = 16
 BLOCK = 1 << 18
@@ -106,6 +106,19 @@ def announcers(binary):
         return growth <= LIMIT_MIB and waiting >= CROWD
 
 
+def readers(binary):
+    """True when clients that ask for the console's largest file, and read nothing of it, take no copy of it."""
+    file = max((ROOT / "web/dist/assets").iterdir(), key=lambda path: path.stat().st_size)
+    with Service(binary, "--slots", "1") as service, contextlib.ExitStack() as stack:
+        before = service.memory("VmRSS")
+        for _ in range(CROWD):
+            stack.enter_context(connect(service.port)).sendall(get(f"/assets/{file.name}"))
+        time.sleep(0.5)  # those who take nothing are cut later than that
+        growth = service.memory("VmHWM") - before
+        print(f"{CROWD} clients that take nothing of {file.stat().st_size / 1e6:.1f} MB of the console: peak grows {growth:.1f} MiB (limit {LIMIT_MIB})")
+        return growth <= LIMIT_MIB and service.metric("tubecut_connections") >= CROWD
+
+
 def takers(binary):
     """True when clients that have taken long answers, and keep their connections, hold nothing of them."""
     body = json.loads(BODY)
@@ -163,7 +176,7 @@ def main():
             print(f"{name}: {sent / 1e6:.1f} of {megabytes} MB taken or dropped, peak grows {growth:.1f} MiB, "
                   f"{'answers after it' if ok else 'DEAD'}", flush=True)
     print(f"worst growth {worst:.1f} MiB, limit {LIMIT_MIB}")
-    sys.exit((worst <= LIMIT_MIB) if must_fail else not (worst <= LIMIT_MIB and crowd(words[0]) and announcers(words[0]) and takers(words[0]) and oversize_line(words[0])))
+    sys.exit((worst <= LIMIT_MIB) if must_fail else not (worst <= LIMIT_MIB and crowd(words[0]) and announcers(words[0]) and readers(words[0]) and takers(words[0]) and oversize_line(words[0])))
 
 
 main()
