@@ -93,6 +93,7 @@ def crowd(binary):
 def announcers(binary):
     """True when bodies that are announced, and of which a byte comes, take no memory before the rest."""
     with Service(binary, "--memory-bytes", str(int(0.6 * CONTAINER)), "--slots", "1") as service, contextlib.ExitStack() as stack:
+        most = LIMIT_MIB * service.bytes_per_byte()
         exchange(service.port, post())
         before = service.memory("VmRSS")
         for _ in range(CROWD):
@@ -102,21 +103,22 @@ def announcers(binary):
         while (waiting := service.metric("tubecut_connections")) < CROWD and time.monotonic() < end:
             time.sleep(0.05)
         growth = service.memory("VmRSS") - before
-        print(f"{CROWD} bodies of 1 MB announced, a byte of each sent: {growth:.1f} MiB (limit {LIMIT_MIB})")
-        return growth <= LIMIT_MIB and waiting >= CROWD
+        print(f"{CROWD} bodies of 1 MB announced, a byte of each sent: {growth:.1f} MiB (limit {most})")
+        return growth <= most and waiting >= CROWD
 
 
 def readers(binary):
     """True when clients that ask for the console's largest file, and read nothing of it, take no copy of it."""
     file = max((ROOT / "web/dist/assets").iterdir(), key=lambda path: path.stat().st_size)
     with Service(binary, "--slots", "1") as service, contextlib.ExitStack() as stack:
+        most = LIMIT_MIB * service.bytes_per_byte()
         before = service.memory("VmRSS")
         for _ in range(CROWD):
             stack.enter_context(connect(service.port)).sendall(get(f"/assets/{file.name}"))
         time.sleep(0.5)  # those who take nothing are cut later than that
         growth = service.memory("VmHWM") - before
-        print(f"{CROWD} clients that take nothing of {file.stat().st_size / 1e6:.1f} MB of the console: peak grows {growth:.1f} MiB (limit {LIMIT_MIB})")
-        return growth <= LIMIT_MIB and service.metric("tubecut_connections") >= CROWD
+        print(f"{CROWD} clients that take nothing of {file.stat().st_size / 1e6:.1f} MB of the console: peak grows {growth:.1f} MiB (limit {most})")
+        return growth <= most and service.metric("tubecut_connections") >= CROWD
 
 
 def takers(binary):
@@ -124,6 +126,7 @@ def takers(binary):
     body = json.loads(BODY)
     body["sampling"] = {"uniform_points": 20000}
     with Service(binary, "--slots", "1") as service, contextlib.ExitStack() as stack:
+        most = LIMIT_MIB * service.bytes_per_byte()
         request = post(json.dumps(body).encode())
         size = len(exchange(service.port, request)[0].body)
         before = service.memory("VmRSS")
@@ -133,10 +136,10 @@ def takers(binary):
             if receive(sock, enough=1)[0][0].status != 200:
                 return False
         end = time.monotonic() + GIVEN_BACK_S
-        while (growth := service.memory("VmRSS") - before) > LIMIT_MIB and time.monotonic() < end:
+        while (growth := service.memory("VmRSS") - before) > most and time.monotonic() < end:
             time.sleep(0.2)
-        print(f"{TAKERS} answers of {size / 1e6:.1f} MB taken, connections kept: {growth:.1f} MiB held (limit {LIMIT_MIB})")
-        return TAKERS * size > 4 * (LIMIT_MIB << 20) and growth <= LIMIT_MIB and service.metric("tubecut_connections") >= TAKERS
+        print(f"{TAKERS} answers of {size / 1e6:.1f} MB taken, connections kept: {growth:.1f} MiB held (limit {most})")
+        return TAKERS * size > 4 * (most << 20) / service.bytes_per_byte() and growth <= most and service.metric("tubecut_connections") >= TAKERS
 
 
 def oversize_line(binary):
