@@ -90,6 +90,16 @@ def crowd(binary):
         return growth <= most and refused > 0 and statuses.count(200) == CROWD
 
 
+def all_there(service, count):
+    """Whether the service has so many connections open, now or soon."""
+    end = time.monotonic() + 5.0
+    while service.metric("tubecut_connections") < count:
+        if time.monotonic() >= end:
+            return False
+        time.sleep(0.05)
+    return True
+
+
 def announcers(binary):
     """True when bodies that are announced, and of which a byte comes, take no memory before the rest."""
     with Service(binary, "--memory-bytes", str(int(0.6 * CONTAINER)), "--slots", "1") as service, contextlib.ExitStack() as stack:
@@ -99,12 +109,10 @@ def announcers(binary):
         for _ in range(CROWD):
             sock = stack.enter_context(connect(service.port))
             sock.sendall(head("Content-Length: 1000000", target="/v1/nodes") + b" ")
-        end = time.monotonic() + 5.0
-        while (waiting := service.metric("tubecut_connections")) < CROWD and time.monotonic() < end:
-            time.sleep(0.05)
+        there = all_there(service, CROWD)
         growth = service.memory("VmRSS") - before
         print(f"{CROWD} bodies of 1 MB announced, a byte of each sent: {growth:.1f} MiB (limit {most})")
-        return growth <= most and waiting >= CROWD
+        return growth <= most and there
 
 
 def readers(binary):
@@ -115,10 +123,11 @@ def readers(binary):
         before = service.memory("VmRSS")
         for _ in range(CROWD):
             stack.enter_context(connect(service.port)).sendall(get(f"/assets/{file.name}"))
+        there = all_there(service, CROWD)
         time.sleep(0.5)  # those who take nothing are cut later than that
         growth = service.memory("VmHWM") - before
         print(f"{CROWD} clients that take nothing of {file.stat().st_size / 1e6:.1f} MB of the console: peak grows {growth:.1f} MiB (limit {most})")
-        return growth <= most and service.metric("tubecut_connections") >= CROWD
+        return growth <= most and there
 
 
 def takers(binary):
@@ -139,7 +148,7 @@ def takers(binary):
         while (growth := service.memory("VmRSS") - before) > most and time.monotonic() < end:
             time.sleep(0.2)
         print(f"{TAKERS} answers of {size / 1e6:.1f} MB taken, connections kept: {growth:.1f} MiB held (limit {most})")
-        return TAKERS * size > 4 * (most << 20) / service.bytes_per_byte() and growth <= most and service.metric("tubecut_connections") >= TAKERS
+        return TAKERS * size > 4 * (most << 20) / service.bytes_per_byte() and growth <= most and all_there(service, TAKERS)
 
 
 def oversize_line(binary):
