@@ -218,6 +218,7 @@ Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop) {
   const std::size_t n = limits.intervals();
   Conditions out;
   out.caps.assign(n + 1, kNoLimit);
+  out.rows.rows.reserve(n * limits.axes.size());  // to grow would move all of them at once
   for (std::size_t i = 0; i < n; ++i) {
     if (stops(stop, i)) return out;
     double fastest = limits.slowness[i] > 0.0 ? 1.0 / limits.slowness[i] : 1e150;

@@ -318,7 +318,8 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
   const bool jerk = options.jerk && any_jerk(course.limits);
   if (jerk) {
     const double by_magnitudes = duration(x, course.limits.d);
-    FilteredProfiles profiles(course.limits);
+    FilteredProfiles profiles(course.limits, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     limit_jerk(out, LadderSearch(course, options, profiles, x, stop), course, options);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!options.filter && options.optimism > 1.0 && by_magnitudes > kCancels * out.least) {

@@ -61,9 +61,9 @@ void add_scaled(const HalfPlanes& rows, std::size_t i, double scale, HalfPlanes&
 
 }  // namespace
 
-FilteredProfiles::FilteredProfiles(const PathLimits& limits)
+FilteredProfiles::FilteredProfiles(const PathLimits& limits, const std::stop_token& stop)
     : limits_(limits),
-      maxima_(limits),
+      maxima_(limits, stop),
       beside_(around(limits.intervals(), kReach)),
       root_(limits.intervals() + 1),
       bound_(limits.intervals()),

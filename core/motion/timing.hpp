@@ -30,7 +30,8 @@ struct SignedRows {
 /// for all trials, and so is the room they are made in.
 class FilteredProfiles {
  public:
-  explicit FilteredProfiles(const PathLimits& limits);
+  /// Stopped, they are half made and for nothing.
+  explicit FilteredProfiles(const PathLimits& limits, const std::stop_token& stop = {});
 
   /// The profile for a filter of `filter` seconds. With optimism 1 everywhere the filtered motion
   /// keeps every limit by proof.

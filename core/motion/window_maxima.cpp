@@ -24,15 +24,16 @@ void widen(const std::vector<double>& values, const Windows& w, const std::stop_
   }
 }
 
-WindowMaxima::WindowMaxima(const PathLimits& limits)
+WindowMaxima::WindowMaxima(const PathLimits& limits, const std::stop_token& stop)
     : axes_((limits.axes.size() + kPack - 1) / kPack * kPack),
       slowness_(3 * axes_),
       optimism_(slowness_ + 1),
       speed_(optimism_ + 1),
-      width_((speed_ / kPack + 1) * kPack),
-      rows_(limits.intervals() * width_, 0.0),
-      maxima_(rows_.size()) {
-  for (std::size_t i = 0; i < limits.intervals(); ++i) {
+      width_((speed_ / kPack + 1) * kPack) {
+  for (auto* const of : {&rows_, &maxima_}) of->reserve(limits.intervals() * width_);
+  for (std::size_t i = 0; i < limits.intervals() && !stops(stop, i); ++i) {
+    // Row by row: to fill them all at once takes tens of milliseconds, in which nothing can ask.
+    for (auto* const of : {&rows_, &maxima_}) of->resize((i + 1) * width_, 0.0);
     double* const row = at(rows_, i);
     for (std::size_t a = 0; a < limits.axes.size(); ++a) {
       row[a] = limits.axes[a].first[i];

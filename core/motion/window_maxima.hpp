@@ -31,7 +31,8 @@ void widen(const std::vector<double>& values, const Windows& w, const std::stop_
 /// of rows does for all of them.
 class WindowMaxima {
  public:
-  explicit WindowMaxima(const PathLimits& limits);
+  /// Stopped, it is half made and for nothing.
+  explicit WindowMaxima(const PathLimits& limits, const std::stop_token& stop = {});
 
   void set_optimism(std::size_t i, double optimism) { at(rows_, i)[optimism_] = -optimism; }
   void set_speed(std::size_t i, double speed) { at(rows_, i)[speed_] = speed; }
