@@ -33,6 +33,27 @@ struct Progress {
   }
 };
 
+/// How many elements or members the innermost container open at `at` still has: its commas up to
+/// its end, or to that of bytes that are no JSON. A byte costs a nanosecond or so.
+std::size_t commas_ahead(Progress progress, const char* at) {
+  std::size_t commas = 0, depth = 0;
+  for (; at != progress.end; ++at) {
+    progress.reach(at);
+    if (*at == '"') {
+      while (++at != progress.end && *at != '"')
+        if (*at == '\\' && ++at == progress.end) return commas;
+      if (at == progress.end) return commas;
+    } else if (*at == '[' || *at == '{') {
+      ++depth;
+    } else if (*at == ']' || *at == '}') {
+      if (depth-- == 0) return commas;
+    } else if (*at == ',' && depth == 0) {
+      ++commas;
+    }
+  }
+  return commas;
+}
+
 /// Walks bytes and tells a shared place how far it has come, so that a SAX callback knows its
 /// offset.
 class CountingIterator {
@@ -74,11 +95,11 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool number_integer(number_integer_t v) override {
     constexpr std::int64_t kExact = std::int64_t{1} << 53;
     if (v < -kExact || v > kExact) return refuse("integer beyond 2^53");
-    return put(Json{static_cast<double>(v)});
+    return put_number(static_cast<double>(v));
   }
   bool number_unsigned(number_unsigned_t v) override {
     if (v > (std::uint64_t{1} << 53)) return refuse("integer beyond 2^53");
-    return put(Json{static_cast<double>(v)});
+    return put_number(static_cast<double>(v));
   }
   bool number_float(number_float_t v, const string_t& text) override {
     if (!std::isfinite(v)) return refuse("number too large");
@@ -86,7 +107,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     if (v == 0.0 && mantissa.find_first_of("123456789") != string_t::npos)
       return refuse("number too small");
     if (text.find_first_of(".eE") == string_t::npos) return refuse("integer beyond 2^53");
-    return put(Json{v});
+    return put_number(v);
   }
   bool string(string_t& v) override { return put(Json{std::move(v)}); }
   bool binary(binary_t& /*unused*/) override { return refuse("binary value"); }
@@ -97,6 +118,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& v) override {
     auto& object = *stack_.back().as<Json::Object>();
     if (!keys_.back().insert(v).second) return refuse("duplicate key");
+    make_room(object, progress_->at);
     // In its place: of one moved in, g++ 12 warns as at put.
     object.emplace_back(std::piecewise_construct, std::forward_as_tuple(std::move(v)),
                         std::forward_as_tuple());
@@ -118,16 +140,22 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     error_ = {static_cast<std::size_t>(progress_->at - begin_), reason};
     return false;
   }
+  /// A long container is moved once, to where all of it has its place: by halves it would move as a
+  /// whole, and for longer than a stop waits. `at`: what comes after its last element.
+  template <class Container>
+  void make_room(Container& container, const char* at) {
+    constexpr std::size_t kLong = 4096;
+    if (container.size() == kLong) container.reserve(kLong + 1 + commas_ahead(*progress_, at));
+  }
+  // Where a number ends is known only behind it.
+  bool put_number(double v) { return put(Json{v}, progress_->at - 1); }
+  bool put(Json v) { return put(std::move(v), progress_->at); }
   // Inlined, g++ 12 takes the other members of the variant for uninitialised.
-  [[gnu::noinline]] bool put(Json v) {
+  [[gnu::noinline]] bool put(Json v, const char* at) {
     if (stack_.empty()) {
       root_ = std::move(v);
     } else if (auto* array = stack_.back().as<Json::Array>()) {
-      // Growth by halves would move a long array at once, and for longer than a stop waits.
-      if (array->size() == kLong && !reserved_) {
-        reserved_ = true;  // once: memory is taken as it is written
-        array->reserve(kLong + static_cast<std::size_t>(progress_->end - progress_->at) / 2);
-      }
+      make_room(*array, at);
       array->push_back(std::move(v));
     } else {
       stack_.back().as<Json::Object>()->back().second = std::move(v);
@@ -152,8 +180,6 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   const Progress* progress_;
   std::vector<Json> stack_;
   std::vector<std::set<std::string>> keys_;  // of each open object
-  static constexpr std::size_t kLong = 4096;
-  bool reserved_ = false;
   Json root_;
   ParseError error_;
 };

@@ -54,6 +54,37 @@ TEST(Json, RefusesWithTheByteOffset) {
   EXPECT_EQ(parse("[1,\n x]").error().offset, 5u);
 }
 
+// A place for each is found before the most of them are read: what grows by halves is moved as a
+// whole, in a time that grows with it.
+TEST(Json, HasAPlaceForWhatIsLongBeforeItIsRead) {
+  const auto repeated = [](std::string_view element, int count) {
+    std::string out;
+    for (int i = 0; i < count; ++i) out.append(i == 0 ? "" : ",").append(element);
+    return out;
+  };
+  for (const std::string_view element :
+       {"7", "-0.5e1", "true", R"("a,]}\"[,\\")", "[1,[2,3]]", R"({"a":[1,{"b":"}"}],"c":2})"}) {
+    const auto elements = repeated(element, 20000);
+    const auto doc = parse(R"({"first": [)" + elements + R"( ], "second":[)" + elements + "]}");
+    ASSERT_TRUE(doc) << element;
+    for (const auto& [name, value] : *doc->as<Json::Object>()) {
+      const auto& array = *value.as<Json::Array>();
+      EXPECT_EQ(array.size(), 20000) << element;
+      EXPECT_EQ(array.capacity(), 20000) << name << " of " << element;
+    }
+  }
+  std::string members;
+  for (int i = 0; i < 20000; ++i)
+    members.append(i == 0 ? "\"" : ",\"")
+        .append(std::to_string(i))
+        .append(R"(":[1,"}",{"a":2,"b":3}])");
+  const auto object = parse("[[0], {" + members + "}, {}]");
+  ASSERT_TRUE(object);
+  EXPECT_EQ((*object->as<Json::Array>())[1].as<Json::Object>()->capacity(), 20000);
+  EXPECT_FALSE(parse("[" + repeated("7", 20000)));
+  EXPECT_FALSE(parse("[" + repeated("7", 20000) + R"(,"a\)"));
+}
+
 TEST(Writer, AsksBetweenPartsOfWhatIsLong) {
   for (const auto encoding : {Encoding::json, Encoding::cbor}) {
     std::stop_source source;
