@@ -19,7 +19,7 @@ namespace {
 
 /// How far the bytes are read. A single text of a body may take longer than a stop waits.
 struct Progress {
-  static constexpr std::ptrdiff_t kAskEvery = 65536;
+  static constexpr std::ptrdiff_t kAskEvery = 16384;
   const char* at;
   const char* ask_at;
   const char* end;
@@ -144,7 +144,6 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   /// whole, and for longer than a stop waits. `at`: what comes after its last element.
   template <class Container>
   void make_room(Container& container, const char* at) {
-    constexpr std::size_t kLong = 4096;
     if (container.size() == kLong) container.reserve(kLong + 1 + commas_ahead(*progress_, at));
   }
   // Where a number ends is known only behind it.
@@ -171,10 +170,14 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool close() {
     Json done = std::move(stack_.back());
     stack_.pop_back();
+    // One by one: a long object's, freed at once, would keep a stop waiting.
+    for (auto& keys = keys_.back(); keys.size() > kLong; keys.erase(keys.begin()))
+      if (keys.size() % 1024 == 0) ask(progress_->stop);
     keys_.pop_back();
     return put(std::move(done));
   }
 
+  static constexpr std::size_t kLong = 4096;  // what is freed or moved in no time
   std::size_t depth_;
   const char* begin_;
   const Progress* progress_;

@@ -189,6 +189,7 @@ Result<PreparedCut> prepare_cut(const ScheduleSpec& spec, std::stop_token stop) 
   TRY(check(spec.machine));
   TRY(auto axes, axis_functions(spec));
   TRY(auto polyline, program(spec, stop));
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   TRY(const double growth, standoff_growth(spec, polyline));
   TRY(auto speed, SpeedAlong::of(spec.motion.speed, polyline));
   PreparedCut job{std::move(polyline),

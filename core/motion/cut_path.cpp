@@ -75,12 +75,12 @@ Result<void> check_numbers(const CutPath& c) {
 }
 
 std::vector<CutPoint> rows(const CutPath& c) {
-  std::vector<CutPoint> points(c.phi.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  std::vector<CutPoint> points;
+  points.reserve(c.phi.size() + 1);  // what closes them
+  for (std::size_t i = 0; i < c.phi.size(); ++i) {
     const double beam = c.beam.empty() ? c.wall / elementary::cos(c.b[i]) : c.beam[i];
-    points[i] = {c.phi[i], c.z[i],
-                 c.b[i],   !c.corner.empty() && c.corner[i],
-                 beam,     c.a.empty() ? 0.0 : c.a[i]};
+    points.push_back({c.phi[i], c.z[i], c.b[i], !c.corner.empty() && c.corner[i], beam,
+                      c.a.empty() ? 0.0 : c.a[i]});
   }
   return points;
 }

@@ -63,7 +63,7 @@ class Examination {
     std::vector<bool> part;
     for (std::size_t c = 0; c < job_.program.x.size(); ++c) part.push_back(takes_part(c));
     const double look = kLook + 2.0 * allow_.tip + 2.0 * fastest() * counted_.period;
-    Follower follower(job_.program, part, look);
+    Follower follower(job_.program, part, look, stop_);
     AxisValues values(counted_, job_.course.machine);
     for (std::size_t k = 0; k <= counted_.periods && !stop_.stop_requested(); ++k) {
       if (k > 0) values.step(k - 1);

@@ -191,8 +191,11 @@ Result<Resampled> resample(const Program& p, double d, double eps_tip, double ep
   std::vector<HermiteCurve> curves;
   for (std::size_t c = 0; c < p.x.size(); ++c) {
     const bool tip = p.coordinates[c].group == Coordinate::Group::tip;
-    curves.emplace_back(p.x[c], lengths).set_tangents(corner);
-    curves.back().limit(0.5 * (tip ? eps_tip : eps_b * kBevelWeight) / p.coordinates[c].weight);
+    HermiteCurve& curve = curves.emplace_back(p.x[c], lengths);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    curve.set_tangents(corner);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    curve.limit(0.5 * (tip ? eps_tip : eps_b * kBevelWeight) / p.coordinates[c].weight);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   }
   Resampled out;

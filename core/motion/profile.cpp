@@ -128,8 +128,11 @@ std::vector<double> cornered(std::vector<double> caps, const std::vector<double>
 std::vector<double> largest_profile(std::vector<double> x, double d, const Rows& rows,
                                     const std::stop_token& stop) {
   const std::size_t n = x.size() - 1;
-  std::vector<double> slope(rows.rows.size()), shift(rows.rows.size());
+  std::vector<double> slope, shift;
+  for (auto* const of : {&slope, &shift}) of->reserve(rows.rows.size());
   for (std::size_t i = 0; i < n && !stops(stop, i); ++i) {
+    // Interval by interval: filled at once, they keep a stop waiting.
+    for (auto* const of : {&slope, &shift}) of->resize(rows.first[i + 1]);
     for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
       const Row& row = rows.rows[r];
       const double below = row.alpha + 2.0 * d * row.beta;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/try.hpp"
 #include "core/motion/lead.hpp"
@@ -17,6 +18,7 @@ Program from_points(const std::vector<CutPoint>& points, double radius) {
                      {1.0, Coordinate::Group::tip},
                      {kBevelWeight, Coordinate::Group::bevel}};
   out.x.assign(3, {});
+  for (auto* const of : {&out.x[0], &out.x[1], &out.x[2], &out.beam}) of->reserve(points.size());
   for (const CutPoint& p : points) {
     out.x[0].push_back(p.phi);
     out.x[1].push_back(p.z);
@@ -29,12 +31,12 @@ Program from_points(const std::vector<CutPoint>& points, double radius) {
 }
 
 /// The contour in its direction and, for a sector, only that stretch of it.
-Result<Track> stretch(const Track& whole, const Motion& motion) {
+Result<Track> stretch(Track whole, const Motion& motion) {
   if (motion.sector) {
-    TRY(const auto in_direction, directed(whole, motion.direction, {}));
+    TRY(const auto in_direction, directed(std::move(whole), motion.direction, {}));
     return sector_of(in_direction, *motion.sector);
   }
-  return directed(whole, motion.direction, motion.start);
+  return directed(std::move(whole), motion.direction, motion.start);
 }
 
 /// Points that were placed along a checked path.
@@ -49,9 +51,11 @@ Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
 
 Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
                             const std::stop_token& stop) {
-  TRY(const auto whole, track(cut_path));
+  TRY(auto whole, track(cut_path));
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (spec.way) return of_way(*spec.way, whole, spec.motion.lead.has_value());
-  TRY(const auto cut, stretch(whole, spec.motion));
+  TRY(const auto cut, stretch(std::move(whole), spec.motion));
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (!spec.motion.lead) {
     Program out = from_points(cut.points, cut.radius);
     out.closed = cut.closed;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -92,7 +93,9 @@ using TipPoint = Coordinates;
 class Follower {
  public:
   /// `part`: coordinates that take part. `window`: mm of tip path looked at on both sides.
-  Follower(const Program& program, const std::vector<bool>& part, double window);
+  /// Stopped, it follows nothing.
+  Follower(const Program& program, const std::vector<bool>& part, double window,
+           const std::stop_token& stop);
 
   struct Found {
     double distance = 0.0;  // mm

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/make_room.hpp"
 #include "core/base/stop.hpp"
 #include "core/motion/window_maxima.hpp"
 
@@ -146,8 +147,9 @@ void FilteredProfiles::bound_edges(double filter, const std::stop_token& stop) {
       if ((most * twice > left).any()) most = (left / twice.max(left / kFree)).minCoeff();
       if (!(need > kEdgeShare * jerk).any()) continue;
       for (Eigen::Index k = 0; k < jerk.size(); ++k) {
-        if (need[k] > kEdgeShare * jerk[k])
-          extra_.push_back({second[k], third[k], kEdgeShare * jerk[k]});
+        if (!(need[k] > kEdgeShare * jerk[k])) continue;
+        make_room(extra_, stop);
+        extra_.push_back({second[k], third[k], kEdgeShare * jerk[k]});
       }
     }
     bound_[i] = most;
@@ -211,7 +213,9 @@ std::vector<double> FilteredProfiles::passed(std::vector<double> x,
 HalfPlanes FilteredProfiles::signed_rows(const SignedRows& rows,
                                          const std::stop_token& stop) const {
   HalfPlanes out;
-  out.rows.reserve(rows.acceleration.rows.size() + 8 * bound_.size());
+  // No more, and no less: what has to grow moves as a whole.
+  out.rows.reserve(rows.acceleration.rows.size() + 2 * bound_.size() + 4 * extra_.size());
+  out.first.reserve(bound_.size() + 1);
   for (std::size_t i = 0; i < bound_.size() && !stops(stop, i); ++i) {
     add_scaled(rows.acceleration, i, 1.0 / rows.share[i], out);
     for (std::size_t r = extra_first_[i]; r < extra_first_[i + 1]; ++r) {
