@@ -428,10 +428,15 @@ def signed_area(face, solid):
     elif kind == "cylinder":
         x, y = np.unwrap(np.arctan2(points[:, 1], points[:, 0])), points[:, 2]
     else:
+        # Between the rulings too: one may be shorter than the way to the next, and slant.
         at, _ = about[0].at(about[0].within((0, 0.5)))
         middle = at.mean(axis=1)
-        x = np.argmin(np.linalg.norm(points[:, None] - middle[None], axis=2), axis=1).astype(float)
-        foot, far = at[x.astype(int), 0], at[x.astype(int), 1]
+        along = np.gradient(middle, axis=0)
+        k = np.argmin(np.linalg.norm(points[:, None] - middle[None], axis=2), axis=1)
+        beside = np.einsum("pi,pi->p", points - middle[k], along[k]) / np.einsum("pi,pi->p", along[k], along[k])
+        x = np.clip(k + np.clip(beside, -1, 1), 0, len(at) - 1)
+        low = np.minimum(x.astype(int), len(at) - 2)
+        foot, far = np.moveaxis(at[low] + (x - low)[:, None, None] * (at[low + 1] - at[low]), 1, 0)[:2]
         y = np.einsum("pi,pi->p", points - foot, far - foot) / np.einsum("pi,pi->p", far - foot, far - foot)
     return 0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
 

@@ -109,7 +109,20 @@ def volume_off(target, result):
     return VOLUME_OFF * result["lengths"]["volume_mm3"] + MEAN_OFF * least_cut_area(target, result)
 
 
+NARROW_LAND = {  # its rulings are shorter than the way from one to the next, and slant
+    "target": {"outer_diameter_mm": 32.89, "wall_mm": 0.83, "length_mm": 148},
+    "ends": {"start": {"cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}], "root_surface": "inner",
+                       "groove": {"rule": "none"}, "contact": "none", "smoothing": {"method": "none"}},
+             "finish": {"cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0.3657727, 0.6011576, 0.7105068]}],
+                        "root_surface": "inner", "groove": {"rule": "half_dihedral"}, "contact": "inner",
+                        "smoothing": {"method": "none"}, "root_face_mm": 0.166}},
+    "kerf_mm": 0, "datum": "seam", "seam_deg": 0, "torch": {"min_deg": -85, "max_deg": 85}, "sampling": {"tolerance_mm": 0.01}}
+
+
 class Step(FormatTest):
+    def test_narrow_land(self):
+        self.assertEqual(step_reader.faults(solid_of(self.service.text("parts", NARROW_LAND, "format=step")), 1), [])
+
     def test_drawn_parts(self):
         seed = random.randrange(10**9)
         print(f"seed {seed}")
