@@ -213,7 +213,7 @@ std::vector<double> FilteredProfiles::passed(std::vector<double> x,
 HalfPlanes FilteredProfiles::signed_rows(const SignedRows& rows,
                                          const std::stop_token& stop) const {
   HalfPlanes out;
-  // No more, and no less: what has to grow moves as a whole.
+  // Room for all there can be: what has to grow moves as a whole.
   out.rows.reserve(rows.acceleration.rows.size() + 2 * bound_.size() + 4 * extra_.size());
   out.first.reserve(bound_.size() + 1);
   for (std::size_t i = 0; i < bound_.size() && !stops(stop, i); ++i) {

@@ -85,6 +85,26 @@ TEST(Json, HasAPlaceForWhatIsLongBeforeItIsRead) {
   EXPECT_FALSE(parse("[" + repeated("7", 20000) + R"(,"a\)"));
 }
 
+TEST(Json, HasAPlaceForWhatIsLongAtEveryDepth) {
+  constexpr int kDeep = 30, kBefore = 5000, kBehind = 3000;
+  std::string before, behind, text;
+  for (int i = 0; i < kBefore; ++i) before += "1,";
+  for (int i = 0; i < kBehind; ++i) behind += ",1";
+  for (int depth = 0; depth < kDeep; ++depth) text += "[" + before;
+  text += "1";
+  for (int depth = 0; depth < kDeep; ++depth) text += behind + "]";
+  const auto doc = parse(text);
+  ASSERT_TRUE(doc);
+  const Json* level = &*doc;
+  for (int depth = 0; depth < kDeep; ++depth) {
+    const auto* const array = level->as<Json::Array>();
+    ASSERT_NE(array, nullptr);
+    EXPECT_EQ(array->size(), kBefore + 1 + kBehind);
+    EXPECT_EQ(array->capacity(), array->size());
+    level = &(*array)[kBefore];
+  }
+}
+
 TEST(Writer, AsksBetweenPartsOfWhatIsLong) {
   for (const auto encoding : {Encoding::json, Encoding::cbor}) {
     std::stop_source source;
