@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "api/shortest.hpp"
 #include "api/stop.hpp"
@@ -33,25 +36,33 @@ struct Progress {
   }
 };
 
-/// How many elements or members the innermost container open at `at` still has: its commas up to
-/// its end, or to that of bytes that are no JSON. A byte costs a nanosecond or so.
-std::size_t commas_ahead(Progress progress, const char* at) {
-  std::size_t commas = 0, depth = 0;
-  for (; at != progress.end; ++at) {
+constexpr std::size_t kLong = 4096;  // elements or members that are moved or freed in no time
+
+/// How many elements or members each container of more than kLong has, by its number in the order
+/// in which they open. Of bytes that are no JSON, or deeper than `depth`, it need not be right.
+std::map<std::size_t, std::size_t> long_containers(Progress progress, const char* at,
+                                                   std::size_t depth) {
+  std::map<std::size_t, std::size_t> out;
+  progress.ask_at = at;
+  std::vector<std::pair<std::size_t, std::size_t>> open;  // number, commas so far
+  for (std::size_t opened = 0; at != progress.end; ++at) {
     progress.reach(at);
-    if (*at == '"') {
+    if (*at == ',') {
+      if (!open.empty()) ++open.back().second;
+    } else if (*at == '"') {
       while (++at != progress.end && *at != '"')
-        if (*at == '\\' && ++at == progress.end) return commas;
-      if (at == progress.end) return commas;
+        if (*at == '\\' && ++at == progress.end) return out;
+      if (at == progress.end) return out;
     } else if (*at == '[' || *at == '{') {
-      ++depth;
+      if (open.size() == depth) return out;
+      open.emplace_back(opened++, 0);
     } else if (*at == ']' || *at == '}') {
-      if (depth-- == 0) return commas;
-    } else if (*at == ',' && depth == 0) {
-      ++commas;
+      if (open.empty()) return out;
+      if (open.back().second >= kLong) out.emplace(open.back().first, open.back().second + 1);
+      open.pop_back();
     }
   }
-  return commas;
+  return out;
 }
 
 /// Walks bytes and tells a shared place how far it has come, so that a SAX callback knows its
@@ -95,11 +106,11 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool number_integer(number_integer_t v) override {
     constexpr std::int64_t kExact = std::int64_t{1} << 53;
     if (v < -kExact || v > kExact) return refuse("integer beyond 2^53");
-    return put_number(static_cast<double>(v));
+    return put(Json{static_cast<double>(v)});
   }
   bool number_unsigned(number_unsigned_t v) override {
     if (v > (std::uint64_t{1} << 53)) return refuse("integer beyond 2^53");
-    return put_number(static_cast<double>(v));
+    return put(Json{static_cast<double>(v)});
   }
   bool number_float(number_float_t v, const string_t& text) override {
     if (!std::isfinite(v)) return refuse("number too large");
@@ -107,7 +118,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     if (v == 0.0 && mantissa.find_first_of("123456789") != string_t::npos)
       return refuse("number too small");
     if (text.find_first_of(".eE") == string_t::npos) return refuse("integer beyond 2^53");
-    return put_number(v);
+    return put(Json{v});
   }
   bool string(string_t& v) override { return put(Json{std::move(v)}); }
   bool binary(binary_t& /*unused*/) override { return refuse("binary value"); }
@@ -118,7 +129,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& v) override {
     auto& object = *stack_.back().as<Json::Object>();
     if (!keys_.back().insert(v).second) return refuse("duplicate key");
-    make_room(object, progress_->at);
+    make_room(object);
     // In its place: of one moved in, g++ 12 warns as at put.
     object.emplace_back(std::piecewise_construct, std::forward_as_tuple(std::move(v)),
                         std::forward_as_tuple());
@@ -141,20 +152,20 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     return false;
   }
   /// A long container is moved once, to where all of it has its place: by halves it would move as a
-  /// whole, and for longer than a stop waits. `at`: what comes after its last element.
+  /// whole, and for longer than a stop waits. The bytes are read for it once, if there is any.
   template <class Container>
-  void make_room(Container& container, const char* at) {
-    if (container.size() == kLong) container.reserve(kLong + 1 + commas_ahead(*progress_, at));
+  void make_room(Container& container) {
+    if (container.size() != kLong) return;
+    if (!sizes_) sizes_ = long_containers(*progress_, begin_, depth_);
+    if (const auto size = sizes_->find(numbers_.back()); size != sizes_->end())
+      container.reserve(size->second);
   }
-  // Where a number ends is known only behind it.
-  bool put_number(double v) { return put(Json{v}, progress_->at - 1); }
-  bool put(Json v) { return put(std::move(v), progress_->at); }
   // Inlined, g++ 12 takes the other members of the variant for uninitialised.
-  [[gnu::noinline]] bool put(Json v, const char* at) {
+  [[gnu::noinline]] bool put(Json v) {
     if (stack_.empty()) {
       root_ = std::move(v);
     } else if (auto* array = stack_.back().as<Json::Array>()) {
-      make_room(*array, at);
+      make_room(*array);
       array->push_back(std::move(v));
     } else {
       stack_.back().as<Json::Object>()->back().second = std::move(v);
@@ -165,6 +176,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     if (stack_.size() >= depth_) return refuse("nested too deeply");
     stack_.push_back(std::move(container));
     keys_.emplace_back();
+    numbers_.push_back(opened_++);
     return true;
   }
   bool close() {
@@ -174,15 +186,18 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     for (auto& keys = keys_.back(); keys.size() > kLong; keys.erase(keys.begin()))
       if (keys.size() % 1024 == 0) ask(progress_->stop);
     keys_.pop_back();
+    numbers_.pop_back();
     return put(std::move(done));
   }
 
-  static constexpr std::size_t kLong = 4096;  // what is freed or moved in no time
   std::size_t depth_;
   const char* begin_;
   const Progress* progress_;
   std::vector<Json> stack_;
   std::vector<std::set<std::string>> keys_;  // of each open object
+  std::vector<std::size_t> numbers_;         // of the open containers, as they opened
+  std::size_t opened_ = 0;
+  std::optional<std::map<std::size_t, std::size_t>> sizes_;  // of the long ones, when one is met
   Json root_;
   ParseError error_;
 };
