@@ -28,14 +28,17 @@ void* allocate(std::size_t size) {
   return found;
 }
 
+/// Not inline: gcc 12 would see `free` where it still sees `new`, and calls them mismatched.
+[[gnu::noinline]] void release(void* at) noexcept { std::free(at); }
+
 }  // namespace
 
 void* operator new(std::size_t size) { return allocate(size); }
 void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* at) noexcept { std::free(at); }
-void operator delete[](void* at) noexcept { std::free(at); }
-void operator delete(void* at, std::size_t) noexcept { std::free(at); }
-void operator delete[](void* at, std::size_t) noexcept { std::free(at); }
+void operator delete(void* at) noexcept { release(at); }
+void operator delete[](void* at) noexcept { release(at); }
+void operator delete(void* at, std::size_t) noexcept { release(at); }
+void operator delete[](void* at, std::size_t) noexcept { release(at); }
 
 namespace tubecut::server {
 namespace {
