@@ -45,14 +45,15 @@ std::map<std::size_t, std::size_t> long_containers(Progress progress, const char
   std::map<std::size_t, std::size_t> out;
   progress.ask_at = at;
   std::vector<std::pair<std::size_t, std::size_t>> open;  // number, commas so far
+  bool in_text = false;
   for (std::size_t opened = 0; at != progress.end; ++at) {
     progress.reach(at);
-    if (*at == ',') {
+    if (*at == '"') {
+      in_text = !in_text;
+    } else if (in_text) {
+      if (*at == '\\' && ++at == progress.end) return out;
+    } else if (*at == ',') {
       if (!open.empty()) ++open.back().second;
-    } else if (*at == '"') {
-      while (++at != progress.end && *at != '"')
-        if (*at == '\\' && ++at == progress.end) return out;
-      if (at == progress.end) return out;
     } else if (*at == '[' || *at == '{') {
       if (open.size() == depth) return out;
       open.emplace_back(opened++, 0);

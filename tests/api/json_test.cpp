@@ -1,6 +1,11 @@
 #include "api/json.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
 
 #include "api/header_list.hpp"
 #include "api/writer.hpp"
@@ -102,6 +107,78 @@ TEST(Json, HasAPlaceForWhatIsLongAtEveryDepth) {
     EXPECT_EQ(array->size(), kBefore + 1 + kBehind);
     EXPECT_EQ(array->capacity(), array->size());
     level = &(*array)[kBefore];
+  }
+}
+
+/// Bytes of which two pages tell when they are read again, after all were looked through for NUL:
+/// the first requests a stop then.
+class WatchedBytes {
+ public:
+  WatchedBytes(const std::string& bytes, std::size_t stops_at, std::size_t seen_at)
+      : size_(bytes.size()),
+        at_(static_cast<char*>(
+            ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0))),
+        stops_at_(page(stops_at)),
+        seen_at_(page(seen_at)),
+        last_(page(size_ - 1)) {
+    std::ranges::copy(bytes, at_);
+    ::mprotect(last_, kPage, PROT_NONE);
+    s_watched = this;
+    struct sigaction action {};
+    action.sa_flags = SA_SIGINFO;
+    action.sa_sigaction = [](int, siginfo_t* fault, void*) { s_watched->read(fault->si_addr); };
+    ::sigaction(SIGSEGV, &action, &before_);
+  }
+  ~WatchedBytes() {
+    ::sigaction(SIGSEGV, &before_, nullptr);
+    ::munmap(at_, size_);
+  }
+  WatchedBytes(const WatchedBytes&) = delete;
+  WatchedBytes& operator=(const WatchedBytes&) = delete;
+
+  [[nodiscard]] std::string_view bytes() const { return {at_, size_}; }
+  [[nodiscard]] std::stop_token stop() const { return stop_.get_token(); }
+  [[nodiscard]] bool seen() const { return seen_; }
+
+ private:
+  static constexpr std::size_t kPage = 4096;
+  char* page(std::size_t offset) { return at_ + offset / kPage * kPage; }
+  void read(const void* place) {
+    char* const touched = page(static_cast<std::size_t>(static_cast<const char*>(place) - at_));
+    if (touched == last_) {
+      ::mprotect(stops_at_, kPage, PROT_NONE);
+      ::mprotect(seen_at_, kPage, PROT_NONE);
+    } else if (touched == stops_at_) {
+      stop_.request_stop();
+    } else if (touched == seen_at_) {
+      seen_ = true;
+    } else {
+      std::abort();
+    }
+    ::mprotect(touched, kPage, PROT_READ);
+  }
+
+  static inline WatchedBytes* s_watched = nullptr;
+  std::size_t size_;
+  char* at_;
+  char* stops_at_;
+  char* seen_at_;
+  char* last_;
+  std::stop_source stop_;
+  bool seen_ = false;
+  struct sigaction before_ {};
+};
+
+/// A text behind a long array is read for the array's size first: 8 MiB of it were 12 ms.
+TEST(Json, LooksAtTheTokenWithinATextThatIsReadAhead) {
+  std::string text = "[";
+  for (int i = 0; i < 5000; ++i) text += "1,";
+  const auto begin = text.size();
+  text += '"' + std::string(1 << 20, 'a') + "\"]";
+  for (const std::size_t into : {100'000, 500'000}) {
+    const WatchedBytes watched(text, begin + into, begin + into + 100'000);
+    EXPECT_THROW(static_cast<void>(parse(watched.bytes(), {.stop = watched.stop()})), Stopped);
+    EXPECT_FALSE(watched.seen()) << into;
   }
 }
 
