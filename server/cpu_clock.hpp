@@ -35,17 +35,23 @@ class CpuClock {
 /// itself, within a tick of its clock, when its share of what is left is used: then all clocks are
 /// read, and what is left is shared again. Whoever looks from another thread has to be given a CPU
 /// first, which on a crowded host takes tens of milliseconds. None where the kernel has no timer
-/// left.
+/// left. A job is stopped so much before that it has given back by then what it holds.
 class CpuBudget {
  public:
   /// That may work at one job at a time.
   static constexpr std::size_t kThreads = 16;
 
-  explicit CpuBudget(std::stop_source& stop) : stop_(stop) {}
+  /// `held`: bytes of memory that the job holds now; nullptr: nobody counts them.
+  explicit CpuBudget(std::stop_source& stop, const std::atomic<std::size_t>* held = nullptr)
+      : stop_(stop), held_(held) {}
 
-  /// Shares what is left, or stops the job: false. From a signal's handler too: a stop is a few
-  /// atomic operations here, for no job has callbacks of its stop token.
-  bool look();
+  /// Shares what is left, or stops the job. After how much of its own CPU each thread looks again;
+  /// 0: stopped. From a signal's handler too: a stop is a few atomic operations here, for no job
+  /// has callbacks of its stop token.
+  std::chrono::nanoseconds look();
+
+  /// CPU that the job takes to give back what it holds, once it is stopped.
+  [[nodiscard]] std::chrono::nanoseconds to_give_back() const;
 
  private:
   friend class CpuLimit;
@@ -61,6 +67,7 @@ class CpuBudget {
   Part* take_part();
 
   std::stop_source& stop_;
+  const std::atomic<std::size_t>* held_;
   std::atomic<bool> shared_ = false;  // by several threads, now or before
   std::atomic<std::int64_t> most_ns_ = 0;
   std::atomic<std::int64_t> done_ns_ = 0;  // of those that no longer work at it

@@ -44,11 +44,11 @@ struct Job {
   bool in_lane = false;                     // of the slots' mutex
   double began_s = 0.0;                     // of the slots' mutex; 0: it waits
   CpuClock cpu = {};                        // of the slots' mutex; its thread's while it runs
-  CpuBudget all_cpu{stop};                  // of all threads that work at it
+  std::atomic<std::size_t> held = 0;        // bytes of memory, while it runs
+  CpuBudget all_cpu{stop, &held};           // of all threads that work at it
   std::atomic<std::int64_t> helped_ns = 0;  // CPU that others than its thread have had for it
   std::atomic<int> helped_by = 0;
-  std::atomic<std::size_t> held = 0;  // bytes of memory, while it runs
-  bool displaced = false;             // known to the port: it lost its place in the queue
+  bool displaced = false;  // known to the port: it lost its place in the queue
   Printed answer = {};
   std::optional<Response> begins = {};  // instead: an answer that its lines' answers follow
   bool refused = false;                 // of a batch's line: its answer is a problem

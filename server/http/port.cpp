@@ -22,9 +22,6 @@ constexpr auto kTaken = 1s;  // most answers are by then: the others give way wh
 constexpr int kWaitShare = 2;
 /// Between two looks at a job's CPU: it may be a hair below its budget for long, without the CPU.
 constexpr std::chrono::nanoseconds kLeastLook = 500us;
-/// What a job holds it gives back when it is stopped, in its own CPU: so much per byte (24 to 31 ms
-/// for the 168 MiB of a replay's values, part of which were never touched).
-constexpr double kGiveBackS = 0.16e-3 / (1u << 20);
 /// Until what is left of a budget can be used up a job may come to hold more, and that takes time
 /// too: looked at before.
 constexpr double kLookShare = 0.6;
@@ -240,9 +237,7 @@ void Port::set_budget(Job& job) const {
 /// A thread uses at most its time: until `due` nothing need be asked.
 void Port::hold_to_budget(Job& job) const {
   const auto now = Clock::now();
-  const std::chrono::duration<double> give_back(kGiveBackS * static_cast<double>(job.held));
-  const auto left =
-      job.budget.cpu - slots.cpu(job) - std::chrono::ceil<std::chrono::nanoseconds>(give_back);
+  const auto left = job.budget.cpu - slots.cpu(job) - job.all_cpu.to_give_back();
   const bool used = job.budget.cpu > 0ms && left <= 0ns;
   if (used || now >= job.end) {
     job.stop.request_stop();

@@ -114,6 +114,30 @@ TEST(CpuLimit, IsOfAllThreadsOfAJobTogether) {
   }
 }
 
+// It may come to hold much once it has run for long: from then on it is stopped sooner.
+TEST(CpuLimit, StopsInTimeToGiveBackWhatTheJobHolds) {
+  constexpr auto kMost = 400ms;
+  std::chrono::nanoseconds used{0};
+  const auto job = [&used, kMost] {
+    std::stop_source stop;
+    std::atomic<std::size_t> held = 0;
+    CpuBudget budget(stop, &held);
+    const auto cpu = CpuClock::of_this_thread();
+    const CpuLimit limit(budget, kMost, cpu);
+    while (!stop.stop_requested() && cpu.used() < 300ms) {
+    }
+    ASSERT_FALSE(stop.stop_requested());
+    held = std::size_t{256} << 20;
+    worked(stop.get_token());
+    used = cpu.used();
+    EXPECT_GE(budget.to_give_back(), 40ms);  // 0.16 ms per MiB were measured and more
+    EXPECT_GE(used, kMost - budget.to_give_back());
+  };
+  for (int tries = 0; tries < 3 && (tries == 0 || used >= kMost); ++tries)  // as above
+    std::jthread(job).join();
+  EXPECT_LT(used, kMost);
+}
+
 // Who has left a job works at the next: the shares of those who stay are not its own.
 TEST(CpuLimit, OfAJobThatAThreadHasLeftIsNotTheNextOnes) {
   std::stop_source first, next;
