@@ -105,8 +105,10 @@ std::chrono::nanoseconds CpuBudget::Part::used() const {
 }
 
 std::chrono::nanoseconds CpuBudget::to_give_back() const {
-  const auto bytes = held_ != nullptr ? static_cast<double>(*held_) : 0.0;
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(kGiveBackNs * bytes));
+  if (held_ == nullptr) return {};
+  const std::size_t bytes = held_->own + held_->helpers;
+  return std::chrono::nanoseconds(
+      static_cast<std::int64_t>(kGiveBackNs * static_cast<double>(bytes)));
 }
 
 std::chrono::nanoseconds CpuBudget::look() {

@@ -31,6 +31,12 @@ class CpuClock {
   std::chrono::nanoseconds used_{0};
 };
 
+/// Bytes of memory that a job holds now.
+struct HeldBytes {
+  std::atomic<std::size_t> own = 0;      // taken by its thread
+  std::atomic<std::size_t> helpers = 0;  // by those that help
+};
+
 /// CPU that the threads of one job may use together. Each that works at it is told by the kernel
 /// itself, within a tick of its clock, when its share of what is left is used: then all clocks are
 /// read, and what is left is shared again. Whoever looks from another thread has to be given a CPU
@@ -41,8 +47,8 @@ class CpuBudget {
   /// That may work at one job at a time.
   static constexpr std::size_t kThreads = 16;
 
-  /// `held`: bytes of memory that the job holds now; nullptr: nobody counts them.
-  explicit CpuBudget(std::stop_source& stop, const std::atomic<std::size_t>* held = nullptr)
+  /// `held`: nullptr: nobody counts it.
+  explicit CpuBudget(std::stop_source& stop, const HeldBytes* held = nullptr)
       : stop_(stop), held_(held) {}
 
   /// Shares what is left, or stops the job. After how much of its own CPU each thread looks again;
@@ -67,7 +73,7 @@ class CpuBudget {
   Part* take_part();
 
   std::stop_source& stop_;
-  const std::atomic<std::size_t>* held_;
+  const HeldBytes* held_;
   std::atomic<bool> shared_ = false;  // by several threads, now or before
   std::atomic<std::int64_t> most_ns_ = 0;
   std::atomic<std::int64_t> done_ns_ = 0;  // of those that no longer work at it

@@ -44,7 +44,7 @@ struct Job {
   bool in_lane = false;                     // of the slots' mutex
   double began_s = 0.0;                     // of the slots' mutex; 0: it waits
   CpuClock cpu = {};                        // of the slots' mutex; its thread's while it runs
-  std::atomic<std::size_t> held = 0;        // bytes of memory, while it runs
+  HeldBytes held = {};                      // while it runs
   CpuBudget all_cpu{stop, &held};           // of all threads that work at it
   std::atomic<std::int64_t> helped_ns = 0;  // CPU that others than its thread have had for it
   std::atomic<int> helped_by = 0;

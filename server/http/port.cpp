@@ -111,18 +111,26 @@ JobMemory::Grant Port::grow(Job& job, std::size_t bytes) const {
 /// In the job's thread, whose memory takes over what others took: the pieces they made are its own.
 void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
   JobMemory::Taken all;
-  const auto give_over = [&] { JobMemory::take_over(all); };
+  const auto give_over = [&] {
+    JobMemory::take_over(all);
+    job.held.helpers -= all.given;
+  };
   const auto within = [&](const Helpers::Stint& stint) {
     ++job.helped_by;
     const auto clock = CpuClock::of_this_thread();
     CpuLimit limit(job.all_cpu, job.budget.cpu, clock);
     {
-      const JobMemory own(0, [&](std::size_t bytes) { return grow(job, bytes); });
+      const JobMemory own(0, [&](std::size_t bytes) {
+        const auto grant = grow(job, bytes);
+        if (grant == JobMemory::Grant::given) job.held.helpers += bytes;
+        return grant;
+      });
       stint();
       const auto taken = own.taken();
       const auto unused = taken.given - std::min(taken.given, taken.live);
       const std::lock_guard lock(job.growing);
       job.memory.resize(job.memory.bytes() - unused);
+      job.held.helpers -= unused;
       all.given += taken.given - unused;
       all.live += taken.live;
     }
@@ -149,7 +157,7 @@ void Port::work(Job& job) {
   const auto given = kThreadBytes + job.memory.bytes() - body;
   {
     const JobMemory taken(
-        given, [&](std::size_t bytes) { return grow(job, bytes); }, &job.held);
+        given, [&](std::size_t bytes) { return grow(job, bytes); }, &job.held.own);
     answer(job);
   }
   give_back(job.request.body);   // a client slow to take its answer holds that alone
