@@ -111,7 +111,7 @@ std::chrono::nanoseconds CpuBudget::to_give_back() const {
       static_cast<std::int64_t>(kGiveBackNs * static_cast<double>(bytes)));
 }
 
-std::chrono::nanoseconds CpuBudget::look() {
+bool CpuBudget::look() {
   using std::chrono::nanoseconds;
   nanoseconds left = nanoseconds(most_ns_ - done_ns_) - to_give_back();
   int threads = 0;
@@ -122,12 +122,12 @@ std::chrono::nanoseconds CpuBudget::look() {
   }
   if (left <= nanoseconds::zero()) {
     stop_.request_stop();
-    return {};
+    return false;
   }
   const auto share = std::max(kLeastShare, until_look(left) / std::max(1, threads));
   for (const auto& part : parts_)
     if (part.runs) set(part.timer, share);
-  return share;
+  return true;
 }
 
 CpuBudget::Part* CpuBudget::take_part() {
@@ -154,8 +154,8 @@ CpuLimit::CpuLimit(CpuBudget& budget, std::chrono::nanoseconds most, const CpuCl
   const auto left = std::chrono::nanoseconds(budget.most_ns_ - budget.done_ns_);
   const std::int64_t looks_ns = part_->begin_ns + until_look(left).count();
   if (budget.shared_ || fires_ns > looks_ns) {
-    const auto share = budget.look();
-    fires_ns = share.count() > 0 && !budget.shared_ ? looks_ns : kNone;
+    const bool set = budget.look();
+    fires_ns = set && !budget.shared_ ? looks_ns : kNone;
   }
 #ifdef TUBECUT_LOOKS
   looks::begin();

@@ -51,10 +51,9 @@ class CpuBudget {
   explicit CpuBudget(std::stop_source& stop, const HeldBytes* held = nullptr)
       : stop_(stop), held_(held) {}
 
-  /// Shares what is left, or stops the job. After how much of its own CPU each thread looks again;
-  /// 0: stopped. From a signal's handler too: a stop is a few atomic operations here, for no job
-  /// has callbacks of its stop token.
-  std::chrono::nanoseconds look();
+  /// Shares what is left, or stops the job: false. From a signal's handler too: a stop is a few
+  /// atomic operations here, for no job has callbacks of its stop token.
+  bool look();
 
   /// CPU that the job takes to give back what it holds, once it is stopped.
   [[nodiscard]] std::chrono::nanoseconds to_give_back() const;

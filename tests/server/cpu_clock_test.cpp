@@ -139,6 +139,20 @@ TEST(CpuLimit, StopsInTimeToGiveBackWhatTheJobHolds) {
   EXPECT_LT(used, kMost);
 }
 
+TEST(CpuLimit, LeavesAJobAllOfItsBudgetOnceItHoldsNothing) {
+  constexpr auto kMost = 200ms;
+  std::stop_source stop;
+  HeldBytes held{.own = std::size_t{256} << 20};
+  CpuBudget budget(stop, &held);
+  const auto cpu = CpuClock::of_this_thread();
+  const CpuLimit limit(budget, kMost, cpu);
+  while (!stop.stop_requested() && cpu.used() < 110ms) {
+  }
+  held.own = 0;
+  worked(stop.get_token());
+  EXPECT_GE(cpu.used(), kMost);
+}
+
 // Who has left a job works at the next: the shares of those who stay are not its own.
 TEST(CpuLimit, OfAJobThatAThreadHasLeftIsNotTheNextOnes) {
   std::stop_source first, next;
