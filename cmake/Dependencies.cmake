@@ -8,6 +8,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(OpenSSL REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(prometheus-cpp REQUIRED)
 if(NOT TUBECUT_SANITIZE)  # a sanitizer brings its own
   pkg_check_modules(JEMALLOC REQUIRED IMPORTED_TARGET jemalloc)

@@ -1,6 +1,13 @@
 #include "server/static_files.hpp"
 
+#include <fmt/format.h>
+#include <zlib.h>
+
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <string>
 
 #include "api/header_list.hpp"
 
@@ -25,7 +32,7 @@ constexpr StaticFile kNoConsole = {
     .path = "/",
     .content_type = kHtml,
     .etag = "\"no-console\"",
-    .body =
+    .plain =
         "<!doctype html><html lang=\"en\"><title>tubecut</title><h1>tubecut</h1>"
         "<p>This binary was built without the console (./dev build makes it where Node.js is)."
         "</p><p>The API is here: <a href=\"/openapi.yaml\">openapi.yaml</a>, "
@@ -47,6 +54,30 @@ bool takes_gzip(const Request& request) {
   return std::ranges::any_of(
       api::header_list(header(request.headers, "Accept-Encoding")),
       [](const auto& coding) { return coding.name == "gzip" && coding.quality > 0.0; });
+}
+
+std::string unpack(const StaticFile& file) {
+  constexpr int kGzip = 16 + MAX_WBITS;  // zlib's way to say that it is no stream of its own format
+  std::string plain(file.bytes, '\0');
+  z_stream stream{};
+  if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
+  // NOLINTNEXTLINE(*-const-cast): zlib reads it only, and says so where ZLIB_CONST is set
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(file.gzip.data()));
+  stream.avail_in = static_cast<uInt>(file.gzip.size());
+  stream.next_out = reinterpret_cast<Bytef*>(plain.data());
+  stream.avail_out = static_cast<uInt>(plain.size());
+  const bool whole = inflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_out == 0;
+  inflateEnd(&stream);
+  if (!whole) throw std::runtime_error(fmt::format("{} does not unpack", file.path));
+  return plain;
+}
+
+std::string_view unpacked(const StaticFile& file) {
+  static std::mutex one_at_a_time;
+  static std::map<std::string_view, std::string> kept;  // by the ETag, the name of what is in it
+  const std::lock_guard lock(one_at_a_time);
+  const auto found = kept.find(file.etag);
+  return found != kept.end() ? found->second : kept.emplace(file.etag, unpack(file)).first->second;
 }
 
 Headers headers_of(const StaticFile& file, bool packed) {
@@ -78,7 +109,7 @@ std::optional<Response> static_answer(const Request& request, std::span<const St
     response.status = 304;
     return response;
   }
-  response.fixed = packed ? file->gzip : file->body;
+  response.fixed = packed ? file->gzip : file->gzip.empty() ? file->plain : unpacked(*file);
   return response;
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes a C++ file that carries the built console inside the binary, each file as it is and gzipped.
+"""Writes a C++ file that carries the built console inside the binary, each file gzipped.
 
 usage: embed_web.py OUT.cpp DIST FILE...        files are named relative to DIST; without any the table is empty
 """
@@ -30,7 +30,7 @@ def row(name: str, data: bytes) -> str:
     packed = gzip.compress(data, 9, mtime=0)
     kept = "true" if name.startswith("assets/") else "false"  # their names carry a hash of what is in them
     return (f'    {{"{address(name)}", "{TYPES.get(pathlib.Path(name).suffix, "application/octet-stream")}", '
-            f'"\\"{hashlib.sha256(data).hexdigest()[:16]}\\"", {kept},\n{literal(data)},\n{literal(packed)}}},')
+            f'"\\"{hashlib.sha256(data).hexdigest()[:16]}\\"", {kept}, {{}},\n{literal(packed)}, {len(data)}}},')
 
 
 def main() -> None:

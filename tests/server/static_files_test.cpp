@@ -7,22 +7,39 @@
 namespace tubecut::server {
 namespace {
 
+// As Python's gzip.compress makes them.
+constexpr std::string_view kPlain{
+    "\037\213\010\000\000\000\000\000\002\003\053\310\111\314\314\003\000\317\142\040\031\005\000"
+    "\000\000",
+    25};
+constexpr std::string_view kReference{
+    "\037\213\010\000\000\000\000\000\002\003\053\112\115\113\055\112\315\113\116\005\000\023\111"
+    "\243\256\011\000\000\000",
+    29};
+constexpr std::string_view kScript{
+    "\037\213\010\000\000\000\000\000\002\003\053\116\056\312\054\050\001\000\072\207\201\034\006"
+    "\000\000\000",
+    26};
+
 constexpr StaticFile kFiles[] = {{.path = "/",
                                   .content_type = "text/html; charset=utf-8",
                                   .etag = "\"page\"",
-                                  .body = "plain",
-                                  .gzip = "packed"},
+                                  .plain = {},
+                                  .gzip = kPlain,
+                                  .bytes = 5},
                                  {.path = "/docs",
                                   .content_type = "text/html; charset=utf-8",
                                   .etag = "\"docs\"",
-                                  .body = "reference",
-                                  .gzip = "r"},
+                                  .plain = {},
+                                  .gzip = kReference,
+                                  .bytes = 9},
                                  {.path = "/assets/a-1.js",
                                   .content_type = "text/javascript; charset=utf-8",
                                   .etag = "\"script\"",
                                   .immutable = true,
-                                  .body = "script",
-                                  .gzip = "s"}};
+                                  .plain = {},
+                                  .gzip = kScript,
+                                  .bytes = 6}};
 
 Request get(std::string target, Headers headers = {}) {
   return {.method = "GET", .target = std::move(target), .headers = std::move(headers), .body = {}};
@@ -37,13 +54,35 @@ TEST(StaticFiles, ArePackedForThoseWhoTakeIt) {
   for (const char* accepted : {"gzip", "br, gzip;q=0.5", "gzip, deflate"}) {
     const auto packed = static_answer(get("/", {{"Accept-Encoding", accepted}}), kFiles);
     ASSERT_TRUE(packed);
-    EXPECT_EQ(packed->fixed, "packed") << accepted;
+    EXPECT_EQ(packed->fixed, kPlain) << accepted;
     EXPECT_EQ(header(packed->headers, "Content-Encoding"), "gzip");
   }
   for (const char* refused : {"gzip;q=0", "identity", "gzipped"}) {
     EXPECT_EQ(static_answer(get("/", {{"Accept-Encoding", refused}}), kFiles)->fixed, "plain")
         << refused;
   }
+}
+
+TEST(StaticFiles, AreUnpackedOnceHoweverManyAsk) {
+  const auto first = static_answer(get("/assets/a-1.js"), kFiles);
+  EXPECT_EQ(first->fixed, "script");
+  EXPECT_EQ(static_answer(get("/assets/a-1.js"), kFiles)->fixed.data(), first->fixed.data());
+  EXPECT_EQ(first->body, "");
+}
+
+TEST(StaticFiles, AreNeverHalf) {
+  const auto with = [](std::string_view gzip, std::size_t bytes, std::string_view etag) {
+    return StaticFile{.path = "/",
+                      .content_type = "text/plain",
+                      .etag = etag,
+                      .plain = {},
+                      .gzip = gzip,
+                      .bytes = bytes};
+  };
+  for (const auto& broken :
+       {with(kPlain, 4, "\"longer\""), with(kPlain, 6, "\"shorter\""),
+        with(kPlain.substr(0, 20), 5, "\"cut\""), with("no gzip", 5, "\"other\"")})
+    EXPECT_THROW(static_answer(get("/"), {&broken, 1}), std::runtime_error) << broken.etag;
 }
 
 TEST(StaticFiles, PagesAllowNothingFromElsewhereAndNothingInline) {
