@@ -3,6 +3,7 @@
 the files say the same as one another and as the code.   front_test.py SERVER"""
 
 import contextlib
+import gzip
 import hashlib
 import http.server
 import importlib.machinery
@@ -673,14 +674,14 @@ class Agreement(unittest.TestCase):
             copyrights = {
                 "share/doc/libc6": machine + "LGPL-2.1+\n\nFiles: a\nLicense: GPL-1+ or Artistic\n\nLicense: Artistic\n As Perl is.\n .\n Or not.\n",
                 "share/doc/gcc-12-base": "This is GCC. See /usr/share/common-licenses/GPL-3.\n",
-                "share/tubecut/copyright/cli11": machine + "BSD-3-clause\n All of it.\n"}
+                "share/tubecut/copyright/cli11.gz": machine + "BSD-3-clause\n All of it.\n"}
             for path, text in copyrights.items():
                 file = root / "usr" / path
                 if "doc" in path:
                     file.mkdir(parents=True)
                     file /= "copyright"
                 file.parent.mkdir(exist_ok=True)
-                file.write_text(text)
+                file.write_bytes(gzip.compress(text.encode()) if file.suffix == ".gz" else text.encode())
             (root / "usr/share/doc/libstdc++6").symlink_to("gcc-12-base")
             d = spdx.document(root, "1.2.3", "abc", "2026-01-01T00:00:00Z")
         declared = {p["name"]: p["licenseDeclared"] for p in d["packages"]}
