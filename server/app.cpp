@@ -257,7 +257,13 @@ api::Outcome App::answer_guarded(const Request& request, const Identity& id,
 }
 
 Response App::handle(const Request& request) const {
-  if (auto page = static_answer(request, static_files())) return *std::move(page);  // no job
+  try {
+    if (auto page = static_answer(request, static_files())) return *std::move(page);  // no job
+  } catch (const NoRoom& memory) {  // for a file that has to be unpacked
+    Request refused = request;
+    refused.refusal = refusal_of(memory);
+    return handle(refused);
+  }
   const double start = steady_seconds();
   if (auto response = preflight(request)) return *std::move(response);
   x_.started();

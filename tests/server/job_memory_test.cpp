@@ -18,6 +18,7 @@
 #include "api/endpoint.hpp"
 #include "api/memory.hpp"
 #include "server/app.hpp"
+#include "server/static_files.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
@@ -356,6 +357,27 @@ TEST(JobMemory, EndsAJobWithARefusalWhereverItIs) {
       }
     }
   EXPECT_GT(refused, 80U);
+}
+
+TEST(JobMemory, RefusesAFileOfTheConsoleThatItHasNoRoomToUnpack) {
+  const auto files = server::static_files();
+  if (files.empty()) GTEST_SKIP() << "built without the console";
+  const auto& largest = *std::ranges::max_element(files, {}, &server::StaticFile::bytes);
+  const server::App app({});
+  const auto ask = [&](Grant grant) {
+    const JobMemory memory(1u << 16, [=](std::size_t) { return grant; });
+    return app.handle({.method = "GET", .target = std::string(largest.path)});
+  };
+  for (const auto& [grant, status] :
+       {std::pair(Grant::in_use, 429), std::pair(Grant::never, 413)}) {
+    const auto refused = ask(grant);
+    EXPECT_EQ(refused.status, status);
+    EXPECT_NE(refused.body.find("memory"), std::string::npos) << refused.body;
+  }
+  const auto unpacked = ask(Grant::given);
+  EXPECT_EQ(unpacked.status, 200);
+  EXPECT_EQ(unpacked.fixed.size(), largest.bytes);
+  EXPECT_EQ(ask(Grant::in_use).status, 200) << "it is kept";
 }
 
 }  // namespace
