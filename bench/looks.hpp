@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <functional>
 #include <stop_token>
+#include <utility>
 
 /// For builds with TUBECUT_LOOKS alone, which bench/looks asks: a job's thread says on stderr where
 /// it worked for long without a look at its stop token. Stands in the precompiled headers; `|`
@@ -19,15 +21,18 @@ extern "C" const char __executable_start;  // NOLINT: the linker's
 
 struct Look {
   double ms = 0.0;                            // by the thread's CPU clock
+  double kept_ms = 0.0;                       // to give back what the job holds here
   std::array<std::uintptr_t, kCallers> at{};  // in the program, the innermost first
 };
 inline thread_local Look last;
+inline thread_local std::function<double()> kept_ms;  // that the job's budget keeps, as it is now
 
 /// By frame pointers, which these builds keep.
 [[gnu::noinline]] inline Look now() {
   timespec t{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  Look out{.ms = 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec)};
+  Look out{.ms = 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec),
+           .kept_ms = kept_ms ? kept_ms() : 0.0};
   constexpr std::uintptr_t kWidest = 1u << 20;  // of a frame: beyond it is no frame of ours
   auto* frame = static_cast<const std::uintptr_t*>(__builtin_frame_address(0));
   for (auto& at : out.at) {
@@ -44,24 +49,37 @@ inline void print(const Look& look) {
     if (at != 0) std::fprintf(stderr, "%zx,", at);
 }
 
-/// The job, or the piece of it that this thread has, begins.
-inline void begin() { last = now(); }
+/// The job, or the piece of it that this thread has, begins. `kept`: none: no budget keeps any.
+inline void begin(std::function<double()> kept = {}) {
+  kept_ms = std::move(kept);
+  last = now();
+}
 
-/// False, always.
-[[gnu::noinline]] inline bool look() {
+/// Says what the thread did since the last look, but so much of it, when that was long.
+[[gnu::noinline]] inline void say(double but_ms) {
   const auto at = now();
-  if (at.ms - last.ms > kLongMs) {
-    std::fprintf(stderr, "look %.1f ", at.ms - last.ms);
+  const double ms = at.ms - last.ms - but_ms;
+  if (ms > kLongMs) {
+    std::fprintf(stderr, "look %.1f ", ms);
     print(last);
     std::fputc(' ', stderr);
     print(at);
     std::fputc('\n', stderr);
   }
   last = now();
+}
+
+/// False, always.
+[[gnu::noinline]] inline bool look() {
+  say(0.0);
   return false;
 }
 
-inline void end() { look(); }
+/// What the job held at its last look it has given back by now: in time that its budget kept.
+inline void end() {
+  say(last.kept_ms);
+  kept_ms = {};
+}
 
 }  // namespace tubecut::looks
 
