@@ -7,6 +7,7 @@
 #include "api/file_name.hpp"
 #include "api/formats/text.hpp"
 #include "api/limits.hpp"
+#include "api/stop.hpp"
 #include "api/text_encoding.hpp"
 
 namespace tubecut::api {
@@ -222,20 +223,22 @@ std::string Post::comment(std::string_view text) const {
   return comment_begin + out + comment_end + "\n";
 }
 
-std::string Post::numbered(const std::string& program) const {
+std::string Post::numbered(std::string program, const std::stop_token& stop) const {
   if (block_numbers == 0) return program;
   std::string out;
+  Pace pace(stop);
   std::size_t unnumbered = begin.size();
   int number = 0;
   for (std::size_t from = 0; from < program.size();) {
     const auto next = program.find('\n', from) + 1;
     const auto line = std::string_view(program).substr(from, next - from);
     from = next;
+    pace.turn();
     if (unnumbered > 0)
       --unnumbered;
     else if (!line.starts_with(comment_begin) && line != "%\n")
-      out += "N" + std::to_string(number += block_numbers) + " ";
-    out += line;
+      append(out, "N" + std::to_string(number += block_numbers) + " ", stop);
+    append(out, line, stop);
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -63,7 +64,7 @@ struct Post {
   /// A comment line; what is a client's passes gcode_text, which leaves nothing that ends one.
   [[nodiscard]] std::string comment(std::string_view text) const;
   /// The blocks of a program numbered, where the post has that: all but comments and `begin`.
-  [[nodiscard]] std::string numbered(const std::string& program) const;
+  [[nodiscard]] std::string numbered(std::string program, const std::stop_token& stop) const;
 };
 
 /// One axis within one move.

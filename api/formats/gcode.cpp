@@ -16,6 +16,7 @@
 #include "api/posts.hpp"
 #include "api/stop.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/make_room.hpp"
 #include "core/torch/marks.hpp"
 #include "core/torch/stretches.hpp"
 #include "core/torch/torch_program.hpp"
@@ -57,6 +58,7 @@ void refine(const motion::CutWithLead& way, const TorchReach& reach, const std::
     told.inserted += moves.size() - 1;
     for (const auto& next : moves) {
       told.sag = std::max(told.sag, sag(reach, at, next));
+      tubecut::make_room(out.places, stop);
       out.places.push_back(at = next);
     }
     if (i == way.cut_first) out.cut_first = out.places.size() - 1;
@@ -141,40 +143,41 @@ std::string retract(const TorchJoints& joints, const Post& post) {
 }
 
 /// From the retract before one cut to the one behind it.
-std::string print_cut(const TorchJob& job, const TorchCutPlaces& way, const TorchJoints& joints,
-                      const Caption& caption) {
+void print_cut(const TorchJob& job, const TorchCutPlaces& way, const TorchJoints& joints,
+               const Caption& caption, std::string& out) {
   const auto& o = caption.options;
   const auto& post = post_of(o);
   const auto& first = way.places.front();
   const double off = o.cut_height.value_or(0.0);
   const double above = way.mark ? off : o.pierce_height.value_or(off);
-  std::string out = cut_title(way, joints, o) + retract(joints, post);
+  const auto add = [&](std::string_view lines) { append(out, lines, caption.stop); };
   const auto rapid = [&](const std::string& words) {
-    out += post_line(post.rapid, {{"axes", words}});
+    add(post_line(post.rapid, {{"axes", words}}));
   };
+  add(cut_title(way, joints, o) + retract(joints, post));
   if (joints.has_pivot()) {
     rapid(joints.level_words(first, above));
     rapid(joints.height(first, above));
   } else {
     rapid(joints.words(first, 0.0));
   }
-  if (o.torch) out += post_lines(way.mark ? post.mark_on : post.torch_on);
+  if (o.torch) add(post_lines(way.mark ? post.mark_on : post.torch_on));
   if (o.pierce_delay && !way.mark)
-    out += post_line(post.dwell, {{"seconds", fixed(*o.pierce_delay, 3)}});
-  out += post_lines(post.cut_begin);
+    add(post_line(post.dwell, {{"seconds", fixed(*o.pierce_delay, 3)}}));
+  add(post_lines(post.cut_begin));
   const bool by_axes = feeds_by_axes(way.mark ? post.timed_move : post.cut_move);
   const auto go = [&](const TorchPlace& from, double from_off, const TorchPlace& to,
                       double length) {
-    out += timed(joints.words(to, off), length, joints.distance(from, from_off, to, off),
-                 by_axes ? joints.moves(from, from_off, to, off) : std::vector<AxisMove>{},
-                 way.mark, o);
+    add(timed(joints.words(to, off), length, joints.distance(from, from_off, to, off),
+              by_axes ? joints.moves(from, from_off, to, off) : std::vector<AxisMove>{}, way.mark,
+              o));
   };
   if (above != off) go(first, above, first, std::abs(above - off));
   for (std::size_t i = 1; i < way.places.size(); ++i) {
     ask(caption.stop);
     go(way.places[i - 1], off, way.places[i], way_between(job, way.places[i - 1], way.places[i]));
   }
-  return out + post_lines(post.cut_end) + post_lines(way.mark ? post.mark_off : post.torch_off);
+  add(post_lines(post.cut_end) + post_lines(way.mark ? post.mark_off : post.torch_off));
 }
 
 TorchJoints::Leaning leaning(const TorchJob& job) {
@@ -318,8 +321,9 @@ std::string print_gcode(TorchJob job, Caption caption) {
   const auto ways = ways_of(job, caption, moves);
   std::string out =
       post_lines(post.begin) + program_header(job, ways, joints, moves, caption) + modes(caption);
-  for (const auto& way : ways) out += print_cut(job, way, joints, caption);
-  return post.numbered(out + retract(joints, post) + post_lines(post.end));
+  for (const auto& way : ways) print_cut(job, way, joints, caption, out);
+  append(out, retract(joints, post) + post_lines(post.end), caption.stop);
+  return post.numbered(std::move(out), caption.stop);
 }
 
 }  // namespace tubecut::api

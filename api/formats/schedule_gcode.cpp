@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "api/formats/gcode_header.hpp"
 #include "api/formats/numbers.hpp"
@@ -237,6 +238,7 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
                     (names.empty() ? "" : lifted(machine, s, letters, post)) +
                     post_line(post.rapid, {{"axes", words(machine, s, letters, at.sums())}}) +
                     post_lines(post.cut_begin);
+  const auto add = [&](std::string_view lines) { append(out, lines, caption.stop); };
   std::int64_t from = 0;
   for (const auto end : move_ends(s, kTolerance, caption.stop)) {
     ask(caption.stop);
@@ -244,17 +246,18 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
     at.advance_to(end);
     const double seconds = s.period * static_cast<double>(end - from);
     if (end > from && dwells && before == at.sums())
-      out += post_line(post.dwell, {{"seconds", fixed(seconds, 6)}});
+      add(post_line(post.dwell, {{"seconds", fixed(seconds, 6)}}));
     else if (end > from)
-      out += timed(
+      add(timed(
           post, words(machine, s, letters, at.sums()), distance(machine, before, at.sums()),
           seconds,
-          by_axes ? axis_moves(machine, letters, before, at.sums()) : std::vector<AxisMove>{});
+          by_axes ? axis_moves(machine, letters, before, at.sums()) : std::vector<AxisMove>{}));
     from = end;
     for (const auto& event : s.events)
-      if (event.period == end && contour) out += told(event, names, caption);
+      if (event.period == end && contour) add(told(event, names, caption));
   }
-  return post.numbered(out + post_lines(post.cut_end) + post_lines(post.end));
+  add(post_lines(post.cut_end) + post_lines(post.end));
+  return post.numbered(std::move(out), caption.stop);
 }
 
 }  // namespace tubecut::api
