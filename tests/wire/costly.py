@@ -1,5 +1,5 @@
 """The costliest requests found so far: costly.jsonl, a line {"target", "cpu_ms", "bytes", "body"} each, the worst ten of every
-endpoint, as bench/costly keeps them. `requests()` yields (target, body)."""
+endpoint, as bench/costly keeps them. `requests()` gives them as (target, body), and that none is there twice."""
 
 import json
 import pathlib
@@ -8,6 +8,8 @@ FILE = pathlib.Path(__file__).with_name("costly.jsonl")
 
 
 def requests(file=FILE):
-    for line in file.read_text().splitlines() if file.exists() else ():
-        one = json.loads(line)
-        yield one["target"], one["body"]
+    found = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
+    asked = [(one["target"], one["body"]) for one in found]
+    if twice := [one for i, one in enumerate(asked) if one in asked[:i]]:
+        raise ValueError(f"{file.name} has {len(twice)} requests twice, first {twice[0]}")
+    return asked
