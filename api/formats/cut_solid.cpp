@@ -116,8 +116,7 @@ Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>
       out.indices.push_back(base + index);
     }
   };
-  out.positions.reserve(2 * n * across);
-  out.colors.reserve(2 * n * across);
+  out.reserve(2 * n * across);
   out.indices.reserve(6 * n * across);
   for (std::size_t k = 0; k < across; ++k) strip(k, (k + 1) % across, k + 1 < solid.cut_points);
   return out;

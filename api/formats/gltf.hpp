@@ -17,6 +17,13 @@ struct Mesh {
   std::vector<Eigen::Vector3f> colors;  // linear RGB, 0..1, one per position
   std::vector<std::uint32_t> indices;   // three a triangle, counter-clockwise seen from outside
   float opacity = 1.0F;
+
+  /// Room for so many positions: many that move as they grow would do it without a look at the stop
+  /// token.
+  void reserve(std::size_t count) {
+    positions.reserve(count);
+    colors.reserve(count);
+  }
 };
 
 /// glTF 2.0 binary (.glb), one node a mesh, in metres as the format asks; flat normals are the

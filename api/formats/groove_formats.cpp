@@ -69,6 +69,7 @@ std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g,
   Mesh mesh{.name = "groove", .positions = {}, .colors = {}, .indices = {}};
   double worst = 1e-12;
   for (const auto& s : g.sections) worst = std::max(worst, std::abs(s.ruling.twist.rad()));
+  mesh.reserve(4 * g.sections.size());
   for (const auto& s : g.sections)
     for (const auto& point : {s.curves.c1, s.curves.c2, s.curves.c3, s.curves.c4}) {
       mesh.positions.push_back(point);
@@ -127,11 +128,11 @@ std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillP
                            {.name = "after", .positions = {}, .colors = {}, .indices = {}}};
   double worst = 1e-12;
   for (const auto& p : path.positions) worst = std::max(worst, p.before.largest);
-  std::size_t across = 0;
+  const std::size_t across = path.positions.empty() ? 0 : path.positions.front().after.gap.size();
+  for (auto& mesh : meshes) mesh.reserve(across * path.positions.size());
   for (const auto& p : path.positions) {
     ask(caption.stop);
     const auto section = groove::section(*joint, p.omega);
-    across = p.after.gap.size();
     for (std::size_t k = 0; k < across; ++k) {
       const double v = static_cast<double>(k) / static_cast<double>(across - 1);
       for (auto& mesh : meshes)
