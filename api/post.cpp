@@ -226,14 +226,12 @@ std::string Post::comment(std::string_view text) const {
 std::string Post::numbered(std::string program, const std::stop_token& stop) const {
   if (block_numbers == 0) return program;
   std::string out;
-  Pace pace(stop);
   std::size_t unnumbered = begin.size();
   int number = 0;
   for (std::size_t from = 0; from < program.size();) {
     const auto next = program.find('\n', from) + 1;
     const auto line = std::string_view(program).substr(from, next - from);
     from = next;
-    pace.turn();
     if (unnumbered > 0)
       --unnumbered;
     else if (!line.starts_with(comment_begin) && line != "%\n")
