@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <thread>
+#include <vector>
+
 #include "server/app.hpp"
 
 namespace tubecut::server {
@@ -68,6 +72,25 @@ TEST(StaticFiles, AreUnpackedOnceHoweverManyAsk) {
   EXPECT_EQ(first->fixed, "script");
   EXPECT_EQ(static_answer(get("/assets/a-1.js"), kFiles)->fixed.data(), first->fixed.data());
   EXPECT_EQ(first->body, "");
+}
+
+TEST(StaticFiles, AreUnpackedOnceByClientsThatComeTogether) {
+  const StaticFile file{.path = "/",
+                        .content_type = "text/plain",
+                        .etag = "\"together\"",
+                        .plain = {},
+                        .gzip = kReference,
+                        .bytes = 9};
+  std::array<std::string_view, 8> seen;
+  {
+    std::vector<std::jthread> clients;
+    for (auto& one : seen)
+      clients.emplace_back([&] { one = static_answer(get("/"), {&file, 1})->fixed; });
+  }
+  for (const auto one : seen) {
+    EXPECT_EQ(one, "reference");
+    EXPECT_EQ(one.data(), seen.front().data());
+  }
 }
 
 TEST(StaticFiles, AreNeverHalf) {

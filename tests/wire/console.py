@@ -6,7 +6,7 @@ import gzip
 import pathlib
 import sys
 
-from service import ROOT, Service, exchange, get
+from service import ROOT, Service, connect, exchange, get, receive
 
 DIST = ROOT / "web/dist"
 LEAST = 4096  # bytes: of a smaller file the same bytes may well be elsewhere
@@ -21,7 +21,9 @@ def wrong_of(service, file):
     """What is not as it was built, by name."""
     built, target = file.read_bytes(), address(file)
     plain, packed = (exchange(service.port, get(target, f"Accept-Encoding: {coding}"))[0] for coding in ("identity", "gzip"))
-    length = exchange(service.port, get(target))[0].get("Content-Length")
+    with connect(service.port) as sock:
+        sock.sendall(get(target, method="HEAD"))
+        length = receive(sock, enough=1, bodiless=True)[0][0].get("Content-Length")
     seen = {"as it is": plain.body == built, "coding": (plain.get("Content-Encoding"), packed.get("Content-Encoding")) == (None, "gzip"),
             "gzipped": gzip.decompress(packed.body) == built, "smaller": len(packed.body) < len(built) or len(built) < LEAST,
             "length": length == str(len(built))}
