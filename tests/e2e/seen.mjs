@@ -79,55 +79,73 @@ export async function drawn(page, ratio) {
   return solid || (points.length && points.every((count) => count > 1)) ? [] : ['no picture'];
 }
 
-const other = (theme) => (theme === 'light' ? 'dark' : 'light');
-
-/** What is wrong with the words, the room and the colours of what is shown. */
+/** What is wrong with the words, the layout and the colours of what is shown. */
 async function read(page, names) {
   const text = await page.evaluate(() => document.body.innerText);
   const hints = await page.locator('[title]').evaluateAll((nodes) => nodes.map((node) => node.title).join('\n'));
   return [...new Set([...faultsOf(text, names), ...faultsOf(hints, names).map((each) => `${each} in a hint`), ...await unseen(page)])];
 }
 
-/** Visits examples on one page, and says what is wrong with each. `whole`: every tab of each, and axe; else the tabs of the first of each kind, which is
- *  seen in the other theme too. */
-export async function visited({browser, origin, service}, {width, height, theme, chosen = () => true, whole = false, tell = () => {}}) {
+const WIDE = {width: 1280, height: 800};
+const NARROW = {width: 390, height: 844};
+const named = ({size, theme}) => `${size.width} px ${theme}`;
+
+/** Resizes the page and switches its theme, because both are cheaper than a second visit. */
+async function show(page, {size, theme}) {
+  await page.setViewportSize(size);
+  await page.emulateMedia({colorScheme: theme});
+  await page.locator(`:root[data-theme=${theme}]`).waitFor();
+}
+
+/** What each look at an example checks. `tabs`: every tab is read; `axe`: each is given to axe too. */
+function looksAt({whole, first, every}) {
+  const both = [{size: WIDE, theme: 'light', words: true, tabs: first || every, axe: every}, {size: NARROW, theme: 'dark', words: true, tabs: first || every, axe: every}];
+  if (whole) return [...both, {size: NARROW, theme: 'light', words: true, tabs: true, axe: true}, {size: WIDE, theme: 'dark', words: true, tabs: true, axe: true}];
+  return first ? [...both, {size: NARROW, theme: 'light'}, {size: WIDE, theme: 'dark'}] : both;
+}
+
+/** What is wrong with one look at the example that is open. */
+async function faultsIn(page, look, names) {
+  await show(page, look);
+  const found = (faults, where) => faults.map((fault) => `${named(look)} ${where}: ${fault}`);
+  const wrong = [...found(await drawn(page, 'coarse'), 'picture'), ...found(await faint(page), 'colours')];
+  if (look.words) {
+    await unfolded(page);
+    wrong.push(...found(await read(page, names), 'proof'));
+  }
+  if (look.axe) wrong.push(...found(await barred(page), 'axe'));
+  for (const tab of look.tabs ? ['table', 'downloads', 'proof'] : []) {
+    await page.locator(`#tab-${tab}`).click();
+    if (tab === 'proof') continue;  // read above; it stays open
+    wrong.push(...found(await read(page, names), tab));
+    if (look.axe) wrong.push(...found(await barred(page), `${tab} axe`));
+  }
+  return wrong;
+}
+
+/** Visits each example once, at both widths and in both themes, and lists what is wrong with each. `whole` chooses the examples of which every
+ *  tab is read and given to axe in two of the four looks, `every` all of them in all four; of the others the first of each kind has its tabs read. */
+export async function visited({browser, origin, service}, {whole = () => false, every = false, tell = () => {}} = {}) {
   const contract = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
   const names = wireNames(contract);
   const {examples} = JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text);
   assert.ok(examples.length > 40);
   const wrong = [];
   const kinds = new Set();
-  const page = await open(browser, origin, '', {width, height, theme});
+  const page = await open(browser, origin, '', WIDE);
   await answered(page);
   let at = 'bevel-tables/source-000-table-1';
-  for (const {endpoint, name} of examples.filter(chosen)) {
+  for (const {endpoint, name} of examples) {
     const example = `${endpoint}/${name}`;
-    const note = (faults, where = '') => wrong.push(...faults.map((fault) => `${example} ${where}: ${fault}`));
     if (example !== at) {
       await then(page, () => page.evaluate((to) => {
         location.hash = to;
       }, `#/${example}`));
     }
     at = example;
-    note(await drawn(page));
-    await unfolded(page);
-    note(await read(page, names), 'proof');
-    note(await faint(page));
-    if (whole) note(await barred(page), 'axe');
-    if (whole || !kinds.has(endpoint)) {
-      for (const tab of ['table', 'downloads', 'proof']) {
-        await page.locator(`#tab-${tab}`).click();
-        if (tab === 'proof') continue;  // seen and read above
-        note(await read(page, names), tab);
-        if (whole) note(await barred(page), `${tab} axe`);
-      }
-    }
-    if (!whole && !kinds.has(endpoint)) {
-      await page.emulateMedia({colorScheme: other(theme)});  // what differs by it are colours: one example of each kind
-      await page.locator(`:root[data-theme=${other(theme)}]`).waitFor();
-      note([...await drawn(page, 'coarse'), ...await faint(page)], other(theme));
-      await page.emulateMedia({colorScheme: theme});
-    }
+    const looks = looksAt({every, whole: every || whole({endpoint, name}), first: !kinds.has(endpoint)});
+    if (looks.length === 2 && page.viewportSize().width === NARROW.width) looks.reverse();  // one resize per example
+    for (const look of looks) wrong.push(...(await faultsIn(page, look, names)).map((fault) => `${example} at ${fault}`));
     kinds.add(endpoint);
     tell(example);
   }

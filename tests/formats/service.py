@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -50,6 +51,14 @@ def examples(endpoint):
     if not found:
         raise AssertionError(f"no examples for {endpoint}")
     return found
+
+
+def drawing_seed():
+    """The seed of requests that are drawn: always the same one, because a change is tested by the same requests as the one before
+    it, unless TUBECUT_SEED gives another; `./dev soak drawn` gives new ones."""
+    seed = int(os.environ.get("TUBECUT_SEED", "1"))
+    print(f"seed {seed}")
+    return seed
 
 
 class FormatTest(unittest.TestCase):

@@ -9,7 +9,7 @@ import re
 import drawn_parts
 import numpy as np
 import step_reader
-from service import FormatTest, examples, main
+from service import FormatTest, drawing_seed, examples, main
 
 PARTS = int(os.environ.get("TUBECUT_PARTS", "60"))
 NEAR_CUT = 2e-3   # mm from the cut as answered
@@ -124,8 +124,7 @@ class Step(FormatTest):
         self.assertEqual(step_reader.faults(solid_of(self.service.text("parts", NARROW_LAND, "format=step")), 1), [])
 
     def test_drawn_parts(self):
-        seed = random.randrange(10**9)
-        print(f"seed {seed}")
+        seed = drawing_seed()
         r, read, refused, worst, farthest, holes = random.Random(seed), 0, 0, 0.0, 0.0, 0
         while read < PARTS:
             body = drawn_parts.part(r)
