@@ -89,7 +89,7 @@ std::vector<FieldIssue> program_issues(const std::string& format, const FormatOp
              pivot_of_table = table && o.process->pivot_length && !pairs;
   const bool led = o.lead ? *o.lead > 0.0 : table;
   const bool has_pivot = o.pivot_length || pivot_of_table;
-  constexpr std::string_view kLit = "a program that lights the torch needs it";
+  constexpr std::string_view kLit = "required if torch=on";
   const std::string control = "the control has it: " + of_control.value_or("");
   constexpr std::string_view kOfLead = "goes with lead_mm", kOfPivot = "goes with pivot_length_mm";
   const std::string_view height = by_control ? std::string_view(control) : kOfPivot;

@@ -67,7 +67,7 @@ void check_line(Reader& in, const std::string& pointer, const std::string& line,
     in.issue({.code = ErrorCode::bad_text,
               .pointer = pointer,
               .got = Json{line},
-              .hint = open ? "a brace that has no other" : "printable ASCII characters alone"});
+              .hint = open ? "unmatched brace" : "printable ASCII characters alone"});
 }
 
 Post::Lines read_lines(Reader& in, std::string_view name, const Names& names = {}) {

@@ -256,7 +256,7 @@ std::vector<FieldIssue> refuse_parameters(std::string_view text) {
   Reader in(body);
   finish(in, out);
   for (auto& issue : out)
-    if (issue.code == ErrorCode::unknown_field) issue.hint = "no parameter is read here";
+    if (issue.code == ErrorCode::unknown_field) issue.hint = "this path takes no query parameters";
   return out;
 }
 

@@ -200,7 +200,7 @@ void decode_own_ends(Reader& in, const NamedMembers& members, const bevel::Table
     if (!e.refused() && !said.emplace(own.member, own.end).second)
       e.issue({.code = ErrorCode::duplicate_id,
                .pointer = "end",
-               .hint = "how this end is cut is said already"},
+               .hint = "the cut of this end is already specified"},
               e.find("end"));
     return own;
   });
@@ -248,7 +248,7 @@ void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "kind",
               .limit = Json{"set_on"},
-              .hint = "what is not cut itself is only stood on"},
+              .hint = "bodies in `others` are not cut: use joint set_on"},
              in.find("kind"));
   else if (joint.other && joint.how.hole)
     in.issue({.code = ErrorCode::unsupported_combination,

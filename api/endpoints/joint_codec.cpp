@@ -122,7 +122,7 @@ TubeSection decode_tube_section(Reader& in, bool with_wall) {
     if (with_wall && in.has("wall_mm"))
       in.issue({.code = ErrorCode::exclusive_fields,
                 .pointer = "wall_mm",
-                .hint = "the size already tells the wall"},
+                .hint = "size already defines the wall; remove this field"},
                in.find("wall_mm"));
     return {size->outer_diameter / 2.0, size->wall};
   }

@@ -100,7 +100,7 @@ struct WarningInfo {
 
 /// A number as text, shortest that reads back the same.
 [[nodiscard]] std::string shown(double value);
-/// A number as text for hints and details: six significant digits.
+/// Returns a number as text for hints and details: six significant digits, 0 below 1e-9.
 [[nodiscard]] std::string brief(double value);
 
 [[nodiscard]] const ErrorInfo& info(ErrorCode code);

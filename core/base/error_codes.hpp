@@ -11,8 +11,8 @@
   /* request as bytes */                                                                           \
   X(unreadable_json, unreadable, "The body is not one strict JSON document.",                      \
     "Correct the JSON at the byte offset given.")                                                  \
-  X(bad_request, unreadable, "The HTTP request itself is malformed.",                              \
-    "Correct the client's HTTP request.")                                                          \
+  X(bad_request, unreadable, "The request line, a header or a query parameter is not valid.",      \
+    "Correct the part that detail and errors name.")                                               \
   X(unauthorized, unauthorized, "No valid API key was sent.",                                      \
     "Send a key this service knows in the Authorization header.")                                  \
   X(forbidden, forbidden, "The key may not use this endpoint.",                                    \
@@ -20,15 +20,15 @@
   X(not_found, not_found, "There is no such path.", "Check the path against /openapi.yaml.")       \
   X(method_not_allowed, method_not_allowed, "The path exists, but not with this method.",          \
     "Use a method named in the Allow header.")                                                     \
-  X(not_acceptable, not_acceptable, "The answer is not available in the format asked for.",        \
-    "Ask for one of the formats listed.")                                                          \
+  X(not_acceptable, not_acceptable, "The answer is not available in the requested format.",        \
+    "Request one of the formats listed.")                                                          \
   X(numerics_mismatch, conflict,                                                                   \
     "The request pins another numerics version than this engine has.",                             \
     "Send the job to an engine of that numerics version, or remove the pin.")                      \
   X(machine_mismatch, conflict,                                                                    \
-    "The request pins another machine than this replica has so named.",                            \
-    "Send the job to a replica that has that machine, or look why the two differ.")                \
-  X(body_too_large, too_large, "The body is larger than this endpoint takes.",                     \
+    "This replica's machine of that name differs from the pinned one.",                            \
+    "Send the job to a replica that has that machine, or remove the pin.")                         \
+  X(body_too_large, too_large, "The body exceeds the limit of this endpoint.",                     \
     "Send a smaller request, or split it.")                                                        \
   X(unsupported_media_type, unsupported_media, "The body's media type is not accepted.",           \
     "Send one of the accepted types, as Content-Type.")                                            \
@@ -41,7 +41,7 @@
   X(unknown_field, invalid, "The field is not part of this request.",                              \
     "Remove or rename the field.")                                                                 \
   X(wrong_type, invalid, "The value has the wrong JSON type.",                                     \
-    "Send the type the schema asks for.")                                                          \
+    "Send the type that the schema requires.")                                                     \
   X(not_a_number, invalid, "A number is required.", "Send a JSON number.")                         \
   X(not_an_integer, invalid, "A whole number is required.", "Send a whole number.")                \
   X(not_finite, invalid, "The number is not finite.", "Send a finite number.")                     \
@@ -51,11 +51,11 @@
   X(bad_text, invalid, "The text has characters or a length that are not allowed.",                \
     "Send printable text within the length given.")                                                \
   X(wrong_count, invalid, "The array has the wrong number of elements.",                           \
-    "Send the number of elements asked for.")                                                      \
+    "Send the required number of elements.")                                                       \
   X(exclusive_fields, invalid, "Exactly one of these fields must be given.",                       \
     "Give exactly one of them.")                                                                   \
   X(repeated_parameter, invalid, "The query parameter is given more than once.", "Give it once.")  \
-  X(unsupported_combination, invalid, "These choices do not go together.",                         \
+  X(unsupported_combination, invalid, "These choices cannot be combined.",                         \
     "Choose one of the combinations documented for the endpoint.")                                 \
   X(unsupported_target, invalid, "Only round targets can be cut for now.", "Send a round target.") \
   X(unknown_size, invalid, "No tube of this name is in the catalogue.",                            \
@@ -64,14 +64,14 @@
   X(unknown_machine, invalid, "No machine of this name is in the catalogue.",                      \
     "Use a machine listed by GET /v1/machines, or describe it.")                                   \
   /* joints and bevels */                                                                          \
-  X(open_profile, no_solution, "On some generators no partner is met, so the cut is not closed.",  \
+  X(open_profile, no_solution, "No partner covers some angles, so the cut is not closed.",         \
     "Add an end plane or check diameters and offsets.")                                            \
   X(no_contact, no_solution, "No partner meets the target.",                                       \
     "Check the offsets, heights and diameters of the partners.")                                   \
   X(parallel_axes, no_solution, "A partner's axis is parallel to the target's axis.",              \
     "Check the inclination, or use a plane.")                                                      \
   X(member_consumed, no_solution, "The cut lies beyond the far end of the member.",                \
-    "Check the member's length and the partners' places.")                                         \
+    "Check the member's length and the positions of its partners.")                                \
   X(torch_range, no_solution,                                                                      \
     "The bevel that keeps partners out of the wall is beyond the torch's range.",                  \
     "Use contact auto, a wider torch range, or another root surface.")                             \
@@ -80,7 +80,7 @@
   X(cut_enters, no_solution, "With this bevel the cut enters a partner.",                          \
     "Use contact auto, another bevel, or root and contact inner.")                                 \
   X(sampling_not_uniform, no_solution, "The chosen smoothing needs uniform points.",               \
-    "Use sampling uniform_points alone, or smoothing envelope.")                                   \
+    "Use only uniform_points, or smoothing envelope.")                                             \
   X(smoothing_not_converged, no_solution, "The published smoothing left steps above its limit.",   \
     "Raise transition_points or the limit, or use smoothing envelope.")                            \
   X(smoothing_enters, no_solution,                                                                 \
@@ -99,16 +99,17 @@
   X(bad_reference_direction, no_solution, "The reference direction is parallel to the axis.",      \
     "Choose another reference direction.")                                                         \
   /* what may be cut */                                                                            \
-  X(rejected, no_solution, "The verdict is reject: no program that lights the torch is printed.",  \
-    "Change the cut until it is accepted, or ask without torch=on.")                               \
+  X(rejected, no_solution,                                                                         \
+    "The verdict is reject, so a program that lights the torch is refused.",                       \
+    "Change the cut until it is accepted, or request it without torch=on.")                        \
   X(not_acknowledged, no_solution,                                                                 \
     "The verdict is review, and its warnings are not all acknowledged.",                           \
-    "Look at each warning; then name their codes, and no others, in acknowledge.")                 \
+    "Review each warning, then list exactly their codes in acknowledge.")                          \
   X(comparison_only, no_solution,                                                                  \
-    "The answer is for comparison with published figures: no machine may cut by it.",              \
-    "Use dihedral weld_side for what is cut.")                                                     \
+    "This answer only reproduces published figures; do not cut it.",                               \
+    "To cut, use dihedral weld_side.")                                                             \
   X(hole_off_part, no_solution, "The hole lies wholly outside the finished part.",                 \
-    "Check where the branch stands, or leave the hole out.")                                       \
+    "Check the position of the branch, or omit the hole.")                                         \
   /* feed curves */                                                                                \
   X(r2_lt_a, no_solution, "The pivot distance is smaller than its horizontal part.",               \
     "Check pivot_distance_mm and pivot_offset_mm.")                                                \
@@ -129,10 +130,11 @@
     "Make slowdown_mm at most clearance_mm.")                                                      \
   X(approach_too_short, no_solution, "The approach is too short for the limits given.",            \
     "Raise the clearance or the limits.")                                                          \
-  X(work_speed_above_limit, no_solution, "The work feed asks more cylinder speed than allowed.",   \
+  X(work_speed_above_limit, no_solution,                                                           \
+    "The work feed requires more cylinder speed than allowed.",                                    \
     "Lower feed_mm_s.")                                                                            \
   X(work_accel_above_limit, no_solution,                                                           \
-    "The work feed asks more cylinder acceleration than allowed.", "Lower feed_mm_s.")             \
+    "The work feed requires more cylinder acceleration than allowed.", "Lower feed_mm_s.")         \
   X(max_feed_exceeded, no_solution, "The tool travels beyond its largest feed.",                   \
     "Shorten the cut or raise max_feed_mm.")                                                       \
   X(too_many_samples, no_solution, "The cycle has more servo samples than allowed.",               \
@@ -144,8 +146,8 @@
   X(root_width, no_solution, "The root face leaves no groove in the wall.",                        \
     "Make the root face narrower than the branch wall.")                                           \
   X(area, no_solution, "The filler area is not positive.", "Give a positive filler area.")         \
-  X(normal_area, no_solution, "The normal sections cannot all be made to have the asked area.",    \
-    "Ask for equal areas in axial sections: area_in axial.")                                       \
+  X(normal_area, no_solution, "Some normal sections cannot have the requested area.",              \
+    "Request equal areas in axial sections: area_in axial.")                                       \
   X(angle, no_solution, "The intersecting angle is outside (0, 90] degrees.",                      \
     "Give an angle within (0, 90].")                                                               \
   X(no_pierce, no_solution, "The root cylinder does not pass wholly into the chord.",              \
@@ -179,8 +181,8 @@
   X(not_closed, no_solution, "The contour's two ends differ.",                                     \
     "Close the contour, or send closed false.")                                                    \
   X(duplicate_point, no_solution, "Two neighbouring points are equal.", "Remove one of them.")     \
-  X(turns_back, no_solution, "The contour runs back over the way it came.",                        \
-    "Leave out what is passed twice.")                                                             \
+  X(turns_back, no_solution, "The contour runs back over itself.",                                 \
+    "Remove the points that it passes twice.")                                                     \
   X(angle_out_of_range, no_solution, "The bevel angle is beyond 85 degrees.",                      \
     "Check the bevel angles.")                                                                     \
   X(zero_limit, no_solution, "An axis limit is zero.", "Give limits above zero.")                  \
@@ -195,9 +197,9 @@
   X(lead_blocked, no_solution, "The lead or pierce point would lie in the finished part.",         \
     "Use a smaller lead or another start.")                                                        \
   X(schedule_invalid, no_solution, "The schedule breaks an invariant.",                            \
-    "Do not run this schedule; ask for a new one.")                                                \
+    "Do not run this schedule; request a new one.")                                                \
   /* service */                                                                                    \
-  X(verification_failed, internal, "The answer did not pass its own proof and was withheld.",      \
+  X(verification_failed, internal, "The answer failed its own verification and was withheld.",     \
     "Report the request id; do not cut.")                                                          \
   X(not_converged, internal, "A solver did not converge within its documented domain.",            \
     "Report the request id; do not cut.")                                                          \

@@ -227,7 +227,7 @@ Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, c
        .got = std::move(back),
        .limit = "an edge that does not cross itself",
        .unit = "deg",
-       .hint = "the wall's lines run together here before they are through the chord's wall"});
+       .hint = "the cut lines cross inside the wall here the chord's wall"});
 }
 
 void note_lost(const HoleSpec& spec, const std::vector<Node>& nodes, std::vector<Warning>& out) {

@@ -85,7 +85,7 @@ void check_names(const Machine& machine, Findings& found) {
   for (std::size_t a = 0; a < machine.axes.size(); ++a) {
     const std::string& name = machine.axes[a].name;
     const std::string at = "axes/" + std::to_string(a) + "/name";
-    if (named(name) > 1) found.add(ErrorCode::wrong_count, at, name, {}, "the name is there twice");
+    if (named(name) > 1) found.add(ErrorCode::wrong_count, at, name, {}, "duplicate name");
     const bool known = required.empty() || std::ranges::count(required, name) > 0 ||
                        std::ranges::count(optional, name) > 0;
     if (!known) found.add(ErrorCode::bad_choice, at, name);

@@ -221,7 +221,7 @@ Result<Angle> datum_angle(Datum datum, Angle seam, const std::vector<joint::Part
                .got = "first_cutter",
                .limit = "up|seam",
                .unit = {},
-               .hint = "neither end has a partner that points anywhere"});
+               .hint = "no partner defines a direction"});
 }
 
 EndSpec square_end(const bevel::TableSpec& options, double height) {
