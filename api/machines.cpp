@@ -155,7 +155,7 @@ Shelf built_in() {
   return out;
 }
 
-std::atomic<std::shared_ptr<const Shelf>>& shelf() {
+std::atomic<std::shared_ptr<const Shelf>>& machine_shelf() {
   static std::atomic<std::shared_ptr<const Shelf>> now(std::make_shared<const Shelf>(built_in()));
   return now;
 }
@@ -204,7 +204,7 @@ std::string add_machine(std::string_view json, Shelf& all) {
   auto machine = decode_with_process(in, process);
   if (const auto issues = in.finish_root(); !issues.empty())
     return issues.front().pointer + ": " + std::string(info(issues.front().code).meaning);
-  if (machine.name.empty()) return "/name: a machine on the shelf needs a name";
+  if (machine.name.empty()) return "/name: a machine on the machine_shelf needs a name";
   if (find(all, machine.name) != nullptr) return "/name: there is a machine of this name already";
   if (const auto sound = motion::check(machine); !sound)
     return sound.error().issues.front().member + ": " +
@@ -221,7 +221,7 @@ std::string add_machine(std::string_view json, Shelf& all) {
 
 }  // namespace
 
-std::shared_ptr<const Shelf> machines() { return shelf().load(); }
+std::shared_ptr<const Shelf> machines() { return machine_shelf().load(); }
 
 motion::Machine decode_machine(Reader& in) {
   std::optional<Process> process;
@@ -304,7 +304,7 @@ std::string set_machines(std::span<const FileText> texts) {
   auto all = built_in();
   for (const auto& [file, json] : texts)
     if (const auto wrong = add_machine(json, all); !wrong.empty()) return file + ": " + wrong;
-  shelf().store(std::make_shared<const Shelf>(std::move(all)));
+  machine_shelf().store(std::make_shared<const Shelf>(std::move(all)));
   return {};
 }
 

@@ -22,7 +22,7 @@ namespace tubecut::server {
 namespace {
 
 constexpr std::size_t kQueueBytes = 4u << 20;
-constexpr auto kPatience = std::chrono::milliseconds(500);
+constexpr auto kLogPatience = std::chrono::milliseconds(500);
 
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -151,7 +151,7 @@ JobLog::JobLog(std::size_t queue, const std::string& least, int descriptor)
   std::thread([q = queue_] { q->run(); }).detach();
 }
 
-JobLog::~JobLog() { queue_->end(kPatience); }
+JobLog::~JobLog() { queue_->end(kLogPatience); }
 
 void JobLog::write_job(int status, std::string_view line) {
   loggers_->jobs.log(level_of(status), spdlog::string_view_t(line.data(), line.size()));

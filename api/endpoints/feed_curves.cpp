@@ -145,7 +145,7 @@ std::pair<double, double> decode_span(Reader& in, std::string_view name, Range r
   return {span[0], span[1]};
 }
 
-cutoff::TubeSpec decode_tube(Reader& in) {
+cutoff::TubeSpec decode_cut_tube(Reader& in) {
   cutoff::TubeSpec out;
   out.outer_diameter = in.number("outer_diameter_mm", kDiameter);
   out.wall = in.number("wall_mm", kWall);
@@ -295,7 +295,7 @@ struct FeedCurves {
     out.table = in.defaulted_object("table", decode_table);
     out.cycle = in.optional_object("cycle", decode_cycle);
     out.tool = in.optional_object("tool", decode_tool);
-    out.tube = in.optional_object("tube", decode_tube);
+    out.tube = in.optional_object("tube", decode_cut_tube);
     out.comparison = in.optional_object("comparison", decode_comparison);
     return out;
   }

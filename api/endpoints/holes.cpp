@@ -23,7 +23,7 @@ using bevel::JointKind;
 using bevel::Tilt;
 
 constexpr Range kGap{.min = 0.0, .max = 50.0};
-constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
+constexpr Range kBranchInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 
 }  // namespace
@@ -41,7 +41,7 @@ HoleBranch decode_hole_branch(Reader& in) {
     return out;
   }
   joint::TubeCutter tube{.radius = size.outer_radius};
-  if (which) tube.inclination = in.angle("inclination_deg", kInclinationDeg);
+  if (which) tube.inclination = in.angle("inclination_deg", kBranchInclinationDeg);
   tube.clocking = in.angle("clocking_deg", kAnyAngleDeg, Angle{});
   tube.offset = in.number("offset_mm", kOffset, 0.0);
   tube.height = in.number("height_mm", kOffset, 0.0);

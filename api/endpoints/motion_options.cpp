@@ -110,7 +110,7 @@ torch::Tabs decode_tabs(Reader& in) {
 }
 
 /// The strokes' own speed, mm/s, or none.
-std::optional<double> decode_marks(Reader& in) {
+std::optional<double> decode_mark_options(Reader& in) {
   const auto speed = in.optional_number("speed_mm_min", kTorchSpeed);
   return speed ? std::optional(*speed / 60.0) : std::nullopt;
 }
@@ -143,7 +143,7 @@ PartMotion decode_part_motion(Reader& in, const motion::Machine& machine) {
   setup.pierce_delay = in.number("pierce_delay_s", kPierceDelay, 0.0);
   if (!in.is_null("tabs")) setup.tabs = in.optional_object("tabs", decode_tabs);
   if (!in.is_null("marks"))
-    if (const auto marks = in.optional_object("marks", decode_marks)) {
+    if (const auto marks = in.optional_object("marks", decode_mark_options)) {
       out.marks = true;
       setup.mark_speed = *marks;
     }

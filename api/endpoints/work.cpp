@@ -19,7 +19,8 @@ constexpr double kBetweenCuts = 5.0;  // s, from one cut of a part to the next
 constexpr double kSpacing = 0.1;      // mm between the knots of a path
 constexpr double kSquarePair = 0.1;   // of a pair's price: nothing leans beside it
 constexpr double kMotions = 2.5;      // a cycle's whole motion, in times of its work feed
-constexpr double kUntilted = 1.2;     // tables: its own, which nothing smooths, and a flush one's
+constexpr double kUntiltedTables =
+    1.2;  // tables: its own, which nothing smooths, and a flush one's
 
 /// Points of one curve round a tube.
 double points_of(const joint::Sampling& sampling, double radius) {
@@ -166,7 +167,7 @@ bool is_square(const bevel::TableSpec& spec) {
 
 void add_table(const bevel::TableSpec& spec, double radius, double cutters, Work& work) {
   const double points = points_of(spec.sampling, radius);
-  const double tables = spec.untilted ? kUntilted : 1.0;
+  const double tables = spec.untilted ? kUntiltedTables : 1.0;
   const double pairs = tables * bevel::kerf_pairs(points, spec.kerf, radius);
   if (is_square(spec)) {
     work.add(Cost::square_table, tables);

@@ -15,14 +15,14 @@ constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 
 Eigen::Vector3f metres(const Eigen::Vector3d& p) { return kMetresPerMm * p.cast<float>(); }
 
-struct Stretch {
+struct BufferView {
   std::size_t from = 0, length = 0;
   int target = 0;
 };
 
 /// Where the positions, colours and indices of each mesh stand in the binary part.
-std::vector<Stretch> views(const std::vector<Mesh>& meshes) {
-  std::vector<Stretch> out;
+std::vector<BufferView> views(const std::vector<Mesh>& meshes) {
+  std::vector<BufferView> out;
   std::size_t from = 0;
   const auto add = [&](std::size_t length, int target) {
     out.push_back({from, length, target});
@@ -36,7 +36,7 @@ std::vector<Stretch> views(const std::vector<Mesh>& meshes) {
   return out;
 }
 
-std::size_t length_of(const std::vector<Stretch>& binary) {
+std::size_t length_of(const std::vector<BufferView>& binary) {
   return binary.empty() ? 0 : binary.back().from + binary.back().length;
 }
 
@@ -107,7 +107,7 @@ std::string scenes(const std::vector<Mesh>& meshes) {
          before + "]}]";
 }
 
-std::string document(const std::vector<Mesh>& meshes, const std::vector<Stretch>& binary,
+std::string document(const std::vector<Mesh>& meshes, const std::vector<BufferView>& binary,
                      const Caption& caption, Pace& pace) {
   std::vector<std::size_t> numbers(meshes.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
@@ -152,7 +152,7 @@ std::string document(const std::vector<Mesh>& meshes, const std::vector<Stretch>
       });
     });
     accessors(meshes, w, pace);
-    w.array("bufferViews", binary, [](Writer& each, const Stretch& view) {
+    w.array("bufferViews", binary, [](Writer& each, const BufferView& view) {
       each.object([&](Writer& o) {
         o.field("buffer", 0);
         o.field("byteOffset", view.from);

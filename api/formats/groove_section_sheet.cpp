@@ -14,7 +14,7 @@ constexpr int kSections = 8, kColumns = 4, kRows = 3;  // the lowest row holds t
 constexpr int kChordPoints = 60;
 constexpr double kTable = 52.0;  // mm of paper, below a section alone
 constexpr Stroke kBranch{.color = "#38424d", .width = 0.3, .fill = "#dfe4e9"};
-constexpr Stroke kChord{.color = "#38424d", .width = 0.3, .fill = "#c9d2da"};
+constexpr Stroke kChordStyle{.color = "#38424d", .width = 0.3, .fill = "#c9d2da"};
 constexpr Stroke kFiller{.color = "#c2571a", .width = 0.35, .fill = "#f3d9c5"};
 constexpr Stroke kLeader{.color = "#56626e", .width = 0.15};
 
@@ -79,7 +79,7 @@ Placing placing(const Cell& room, const Outlines& o, double scale) {
 }
 
 void draw(Canvas& canvas, const Outlines& o, const Placing& at) {
-  canvas.polyline(at(o.chord), kChord, {}, true);
+  canvas.polyline(at(o.chord), kChordStyle, {}, true);
   canvas.polyline(at(o.branch), kBranch, {}, true);
   canvas.polyline(at(o.filler), kFiller, {}, true);
 }

@@ -12,7 +12,7 @@
 namespace tubecut::api {
 namespace {
 
-std::vector<double> closed(std::vector<double> values, double scale = 1.0) {
+std::vector<double> closed_ring(std::vector<double> values, double scale = 1.0) {
   for (auto& v : values) v *= scale;
   values.push_back(values.front());
   return values;
@@ -20,22 +20,22 @@ std::vector<double> closed(std::vector<double> values, double scale = 1.0) {
 
 Chart edge_chart(const NamedHole& spec, const bevel::Hole& hole) {
   const double ro = spec.chord.outer_radius;
-  return {.title = for_branch(hole.far ? "Far hole" : "Hole", spec.branch_name) +
-                   " on the developed chord" +
-                   (spec.chord_name.empty() ? "" : " " + spec.chord_name),
-          .x_label = "around the chord's outer surface, mm",
-          .y_label = "z, mm",
-          .series = {{.name = "outer edge", .x = closed(hole.developed), .y = closed(hole.z)},
-                     {.name = "inner edge",
-                      .x = closed(hole.phi_inner, ro),
-                      .y = closed(hole.z_inner),
-                      .color = "#6f8598"},
-                     {.name = "torch",
-                      .x = closed(hole.torch_phi, ro),
-                      .y = closed(hole.torch_z),
-                      .color = "#c0392b",
-                      .dashed = true}},
-          .undistorted = true};
+  return {
+      .title = for_branch(hole.far ? "Far hole" : "Hole", spec.branch_name) +
+               " on the developed chord" + (spec.chord_name.empty() ? "" : " " + spec.chord_name),
+      .x_label = "around the chord's outer surface, mm",
+      .y_label = "z, mm",
+      .series = {{.name = "outer edge", .x = closed_ring(hole.developed), .y = closed_ring(hole.z)},
+                 {.name = "inner edge",
+                  .x = closed_ring(hole.phi_inner, ro),
+                  .y = closed_ring(hole.z_inner),
+                  .color = "#6f8598"},
+                 {.name = "torch",
+                  .x = closed_ring(hole.torch_phi, ro),
+                  .y = closed_ring(hole.torch_z),
+                  .color = "#c0392b",
+                  .dashed = true}},
+      .undistorted = true};
 }
 
 Chart gap_chart(const bevel::Hole& hole) {
@@ -45,9 +45,11 @@ Chart gap_chart(const bevel::Hole& hole) {
   return {.title = hole.far ? "Gap to the branch, far side" : "Gap between the cut surfaces",
           .x_label = "phase on the branch, °",
           .y_label = "gap, mm",
-          .series =
-              {{.name = "root", .x = phase, .y = closed(hole.fit.root)},
-               {.name = "other edge", .x = phase, .y = closed(hole.fit.face), .color = "#c2571a"}},
+          .series = {{.name = "root", .x = phase, .y = closed_ring(hole.fit.root)},
+                     {.name = "other edge",
+                      .x = phase,
+                      .y = closed_ring(hole.fit.face),
+                      .color = "#c2571a"}},
           .y_from_zero = true};
 }
 

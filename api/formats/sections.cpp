@@ -9,15 +9,15 @@
 namespace tubecut::api {
 namespace {
 
-constexpr int kSections = 8, kColumns = 4, kRows = 3;  // the lowest row holds the table
-constexpr Stroke kMetal{.color = "#38424d", .width = 0.3, .fill = "#dfe4e9"};
-constexpr Stroke kCut{.color = "#1f5fbf", .width = 0.5};
+constexpr int kSectionCount = 8, kColumns = 4, kRows = 3;  // the lowest row holds the table
+constexpr Stroke kMetalStyle{.color = "#38424d", .width = 0.3, .fill = "#dfe4e9"};
+constexpr Stroke kCutStyle{.color = "#1f5fbf", .width = 0.5};
 
 /// The rows nearest to 0, 45, 90 ... deg of a column of angles.
 std::vector<std::size_t> spread(const std::vector<double>& phi) {
   std::vector<std::size_t> out;
-  for (int k = 0; k < kSections && !phi.empty(); ++k) {
-    const double wanted = phi.front() + kTwoPi * k / kSections;
+  for (int k = 0; k < kSectionCount && !phi.empty(); ++k) {
+    const double wanted = phi.front() + kTwoPi * k / kSectionCount;
     std::size_t best = 0;
     for (std::size_t i = 0; i < phi.size(); ++i)
       if (std::abs(phi[i] - wanted) < std::abs(phi[best] - wanted)) best = i;
@@ -48,8 +48,8 @@ void draw_section(Canvas& canvas, const Cell& room, const WallSection& s, double
   metal = cut;
   metal.push_back({cut.back().x, top});
   metal.push_back({cut.front().x, top});
-  canvas.polyline(metal, kMetal, {}, true);
-  canvas.polyline(cut, kCut);
+  canvas.polyline(metal, kMetalStyle, {}, true);
+  canvas.polyline(cut, kCutStyle);
   canvas.text({(room.low.x + room.high.x) / 2.0, room.high.y - 5.0}, s.name,
               {.height = 2.8, .anchor = Anchor::middle, .bold = true});
   canvas.text({x - 1.0, top - 3.0}, "bore",

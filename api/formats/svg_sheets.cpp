@@ -23,9 +23,9 @@ std::string look(const Stroke& s) {
   return out;
 }
 
-class Printer {
+class SvgPrinter {
  public:
-  explicit Printer(const std::stop_token& stop) : stop_(stop) {}
+  explicit SvgPrinter(const std::stop_token& stop) : stop_(stop) {}
   void sheet(const Canvas& canvas, double top) {
     top_ = top + canvas.height();
     for (const auto& ink : canvas.drawn()) {
@@ -111,7 +111,7 @@ std::string print_svg(const std::vector<Canvas>& sheets, std::string_view title,
     height += sheet.height();
   }
   const auto w = fixed(width, 3), h = fixed(height, 3);
-  Printer printer(stop);
+  SvgPrinter printer(stop);
   printer.out =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h +
       "mm\" viewBox=\"0 0 " + w + " " + h +

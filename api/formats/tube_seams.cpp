@@ -11,7 +11,7 @@
 namespace tubecut::api {
 namespace {
 
-constexpr int kPhases = 90;      // that a seam may have
+constexpr int kSeamPhases = 90;  // that a seam may have
 constexpr double kClear = 0.02;  // mm, between a seam and the side of a hole
 
 /// A hole's edge on one cylinder: phi from, to.
@@ -83,18 +83,19 @@ std::array<double, 2> tube_seams(double inner, double outer, const std::vector<T
   const auto holes = spreads(cuts);
   const auto along = jumps(cuts);
   std::vector<double> bad;
-  const auto phase = [](int i) { return kTwoPi * i / kPhases; };
-  for (int i = 0; i < kPhases; ++i) {
+  const auto phase = [](int i) { return kTwoPi * i / kSeamPhases; };
+  for (int i = 0; i < kSeamPhases; ++i) {
     ask(stop);
     bad.push_back(badness(phase(i), {inner, outer}, holes, along));
   }
   double best = std::numeric_limits<double>::infinity();
-  int first = 0, second = kPhases / 2;
-  for (int i = 0; i < kPhases; ++i)
-    for (int j = i + kPhases / 6; j < kPhases && j - i <= kPhases - kPhases / 6; ++j) {
+  int first = 0, second = kSeamPhases / 2;
+  for (int i = 0; i < kSeamPhases; ++i)
+    for (int j = i + kSeamPhases / 6; j < kSeamPhases && j - i <= kSeamPhases - kSeamPhases / 6;
+         ++j) {
       // Halves of one size, where that costs nothing.
       const double here = bad[static_cast<std::size_t>(i)] + bad[static_cast<std::size_t>(j)] +
-                          std::abs(j - i - kPhases / 2) / (4.0 * kPhases);
+                          std::abs(j - i - kSeamPhases / 2) / (4.0 * kSeamPhases);
       if (here < best) {
         best = here;
         first = i;

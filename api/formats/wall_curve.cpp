@@ -31,7 +31,7 @@ constexpr double kWidest = 0.5;  // rad, of a span
 // them than the file's uncertainty fits one of its own, which swings at the corners.
 constexpr double kOffFlat = 6e-5;
 constexpr std::size_t kForgotten = 54;  // 2^-54 is below the last bit
-constexpr double kApart = 3e-4;         // mm along the rows: nearer places are one
+constexpr double kKnotDistance = 3e-4;  // mm along the rows: nearer places are one
 
 }  // namespace
 
@@ -288,11 +288,12 @@ std::vector<WallCurve::Place> WallCurve::crossings(std::size_t edge, double phi)
         const bool first = (pass(e, {i, middle}).at.x() < at) == (from < at);
         (first ? low : high) = middle;
       }
-      const bool at_row = low * length_[i] < kApart, at_next = (1.0 - low) * length_[i] < kApart;
+      const bool at_row = low * length_[i] < kKnotDistance,
+                 at_next = (1.0 - low) * length_[i] < kKnotDistance;
       const auto place = at_next ? Place{next, 0.0} : Place{i, at_row ? 0.0 : low};
       const bool known = std::ranges::any_of(out, [&](const Place& other) {
         const double d = std::abs(along(place) - along(other));
-        return std::min(d, around_ - d) < kApart;
+        return std::min(d, around_ - d) < kKnotDistance;
       });
       if (!known) out.push_back(place);
     }
@@ -316,11 +317,11 @@ std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations
   for (const auto& place : stations) add(place, true, 0.0);
   const auto held = [&](double at) {
     const auto after = std::lower_bound(
-        out.begin(), out.begin() + static_cast<std::ptrdiff_t>(stations.size()), at - kApart,
+        out.begin(), out.begin() + static_cast<std::ptrdiff_t>(stations.size()), at - kKnotDistance,
         [](const Node& node, double value) { return node.along < value; });
     const bool by_station = after != out.begin() + static_cast<std::ptrdiff_t>(stations.size()) &&
-                            after->along <= at + kApart;
-    return by_station || at > around_ - kApart;
+                            after->along <= at + kKnotDistance;
+    return by_station || at > around_ - kKnotDistance;
   };
   for (std::size_t i = 0; i < rows(); ++i) {
     ask(stop);
@@ -336,7 +337,7 @@ std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations
   }
   std::ranges::sort(out, {}, &Node::along);
   for (std::size_t i = 1; i < out.size();) {
-    if (!out[i].station && out[i].along - out[i - 1].along < kApart) {
+    if (!out[i].station && out[i].along - out[i - 1].along < kKnotDistance) {
       out[i - 1].corner = out[i - 1].corner || out[i].corner;
       out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
     } else {

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kLaps = 16;  // 4 are the most seen, on 10 000 hostile profiles
 
 /// The closed path and what its limits say about each node.
-struct Path {
+struct BrakingPath {
   const std::vector<double>& s;
   const std::vector<double>& b;
   double period = 0.0;
@@ -33,7 +33,7 @@ struct Path {
 
 double clamped(double x, double bound) { return std::clamp(x, -bound, bound); }
 
-void choose_start(Path& path, std::size_t j) {
+void choose_start(BrakingPath& path, std::size_t j) {
   const auto& b = path.b;
   const auto before = path.previous(j);
   const auto& [slope, rate] = path.limits;
@@ -52,16 +52,16 @@ void choose_start(Path& path, std::size_t j) {
   path.keeps[j] = !corner && std::max(std::abs(slope_in), std::abs(slope_out)) <= slope;
 }
 
-Path make_path(const AngleProfile& profile, const EnvelopeSpec& spec) {
+BrakingPath make_path(const AngleProfile& profile, const EnvelopeSpec& spec) {
   const std::size_t n = profile.b.size();
-  Path path{.s = profile.s,
-            .b = profile.b,
-            .period = profile.period,
-            .limits = spec.limits,
-            .highest = spec.highest,
-            .ahead = std::vector<double>(n),
-            .leave = std::vector<double>(n),
-            .keeps = std::vector<char>(n)};
+  BrakingPath path{.s = profile.s,
+                   .b = profile.b,
+                   .period = profile.period,
+                   .limits = spec.limits,
+                   .highest = spec.highest,
+                   .ahead = std::vector<double>(n),
+                   .leave = std::vector<double>(n),
+                   .keeps = std::vector<char>(n)};
   for (std::size_t j = 0; j < n; ++j) path.ahead[j] = path.distance(j, path.next(j));
   for (std::size_t j = 0; j < n; ++j) choose_start(path, j);
   return path;
@@ -91,14 +91,14 @@ Braking brake(Braking from, double h, const BevelRateLimits& limits) {
 enum class Sense { forward, backward };
 
 /// The start of node j's own curve.
-Braking start(const Path& path, std::size_t j, Sense sense) {
+Braking start(const BrakingPath& path, std::size_t j, Sense sense) {
   if (path.keeps[j]) return {path.b[j], kNoCurve.slope};
   return {path.b[j], sense == Sense::forward ? path.leave[j] : -path.leave[j]};
 }
 
 /// Once round from j to j, the state there after it. What it passes goes to `out`, or raises it. A
 /// curve that arrives at a node below B ends there, and the node's own begins.
-Braking lap(const Path& path, std::size_t j, Sense sense, Braking at, bool raise,
+Braking lap(const BrakingPath& path, std::size_t j, Sense sense, Braking at, bool raise,
             std::vector<double>& out) {
   for (std::size_t visit = 0; visit < path.size(); ++visit) {
     const auto before = j;
@@ -111,7 +111,7 @@ Braking lap(const Path& path, std::size_t j, Sense sense, Braking at, bool raise
 }
 
 /// The braking curves of all nodes in one sense: the highest at each.
-std::vector<double> sweep(const Path& path, Sense sense) {
+std::vector<double> sweep(const BrakingPath& path, Sense sense) {
   std::vector<double> out(path.size());
   const auto top = static_cast<std::size_t>(std::ranges::max_element(path.b) - path.b.begin());
   std::vector<Braking> seen{start(path, top, sense)};
@@ -137,7 +137,7 @@ std::vector<double> sweep(const Path& path, Sense sense) {
 // Both are the upper hull of e - A s^2/2, written in differences: no s^2 to cancel, and no origin.
 /// The parabola of second derivative A through (i, e_i) and (k, e_k) passes below or through e_j, i
 /// < j < k.
-bool touches(const Path& path, const std::vector<double>& e, std::size_t i, std::size_t j,
+bool touches(const BrakingPath& path, const std::vector<double>& e, std::size_t i, std::size_t j,
              std::size_t k) {
   const double left = path.distance(i, j);
   const double right = path.distance(j, k);
@@ -146,7 +146,7 @@ bool touches(const Path& path, const std::vector<double>& e, std::size_t i, std:
 }
 
 /// That parabola at j, never below e_j.
-double rolled(const Path& path, const std::vector<double>& e, std::size_t i, std::size_t j,
+double rolled(const BrakingPath& path, const std::vector<double>& e, std::size_t i, std::size_t j,
               std::size_t k) {
   const double chord = (e[k] - e[i]) / path.distance(i, k);
   return std::max(e[j], e[i] + path.distance(i, j) *
@@ -155,7 +155,7 @@ double rolled(const Path& path, const std::vector<double>& e, std::size_t i, std
 
 /// The contacts from the highest e (always one: the constant through it lies above e) once round to
 /// it again.
-std::vector<std::size_t> contacts(const Path& path, const std::vector<double>& e) {
+std::vector<std::size_t> contacts(const BrakingPath& path, const std::vector<double>& e) {
   const std::size_t n = path.size();
   const auto top = static_cast<std::size_t>(std::ranges::max_element(e) - e.begin());
   std::vector<std::size_t> hull{top};

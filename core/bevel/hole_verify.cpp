@@ -15,12 +15,12 @@ namespace {
 using Eigen::Vector3d;
 using math::cylinder_point;
 
-constexpr double kLength = 1e-6;  // mm
-constexpr double kAngle = 1e-6;   // deg
-constexpr int kAcross = 9;
+constexpr double kLength = 1e-6;     // mm
+constexpr double kWallAngle = 1e-6;  // deg
+constexpr int kWallLines = 9;
 
 /// A straight line through space with the distance to it by what is left beside the foot.
-struct Axis {
+struct WallAxis {
   Vector3d point, direction;
   [[nodiscard]] Vector3d beside(const Vector3d& p) const {
     const Vector3d from = p - point;
@@ -46,13 +46,13 @@ struct Row {
 };
 
 /// The place between two points that is nearest to an axis.
-Vector3d nearest(const Vector3d& a, const Vector3d& b, const Axis& axis) {
+Vector3d nearest(const Vector3d& a, const Vector3d& b, const WallAxis& axis) {
   const Vector3d from = axis.beside(a), way = axis.beside(b) - from;
   const double square = way.squaredNorm();
   return a + (square > 0.0 ? std::clamp(-from.dot(way) / square, 0.0, 1.0) : 0.0) * (b - a);
 }
 
-Row row(const HoleSpec& spec, const Hole& h, const Axis& axis, std::size_t i) {
+Row row(const HoleSpec& spec, const Hole& h, const WallAxis& axis, std::size_t i) {
   Row r;
   const double ro = spec.chord.outer_radius, ri = spec.chord.inner_radius();
   r.outer = cylinder_point(ro, h.phi[i], h.z[i]);
@@ -95,18 +95,18 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
 
 /// A set-on hole cut with free tilt is the branch's bore prolonged, wherever the torch leans so
 /// far.
-void prove_bore(const HoleSpec& spec, const Row& r, const Axis& axis, double rho, Proof& p) {
+void prove_bore(const HoleSpec& spec, const Row& r, const WallAxis& axis, double rho, Proof& p) {
   const double lean = between(r.chord_normal, axis.direction.normalized());
   if (spec.tilt == Tilt::free && lean <= spec.torch.max.rad())
     worsen(p.root, std::abs(axis.distance(r.inner) - rho));
 }
 
 /// The hole's wall against the branch.
-void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Axis& axis,
+void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const WallAxis& axis,
                      double branch_radius, std::size_t i, Proof& p) {
   worsen(p.gap, std::abs(axis.distance(r.root) - branch_radius - spec.gap));
-  for (int k = 0; k < kAcross; ++k) {
-    const double t = static_cast<double>(k) / (kAcross - 1);
+  for (int k = 0; k < kWallLines; ++k) {
+    const double t = static_cast<double>(k) / (kWallLines - 1);
     worsen(p.gap, spec.gap + branch_radius - axis.distance((1.0 - t) * r.inner + t * r.outer));
   }
   worsen(p.fit, std::abs(axis.distance(r.inner) - branch_radius - h.fit.root[i]));
@@ -117,7 +117,7 @@ void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Ax
 void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const BranchEnd& end,
                const FitUp& fit, Proof& p, const std::stop_token& stop) {
   const auto line = joint::axis_of(end.chord);
-  const Axis axis{line.point, line.direction};
+  const WallAxis axis{line.point, line.direction};
   const double outer = branch.radius, inner = branch.radius - spec.branch_wall;
   const bool on = spec.kind == JointKind::set_on;
   const double seat = on ? spec.chord.outer_radius + spec.gap
@@ -129,8 +129,8 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
     worsen(p.tilt, std::abs(elementary::atan2(end.z_outer[i] - end.z_inner[i], spec.branch_wall) -
                             end.b[i]) *
                        kDegPerRad);
-    for (int k = 0; k < kAcross; ++k) {
-      const double t = static_cast<double>(k) / (kAcross - 1);
+    for (int k = 0; k < kWallLines; ++k) {
+      const double t = static_cast<double>(k) / (kWallLines - 1);
       worsen(p.gap, seat - axis.distance((1.0 - t) * root + t * face));
     }
     // Set in, it lies flush: in the seat's tangent plane at the root.
@@ -164,7 +164,7 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::s
   const auto branch = branch_tube(spec.branch);
   if (!branch) return {};
   const auto line = joint::axis_of(*branch);
-  const Axis axis{line.point, line.direction};
+  const WallAxis axis{line.point, line.direction};
   const bool on = spec.kind == JointKind::set_on;
   const double rho = on ? branch->radius - spec.branch_wall : branch->radius + spec.gap;
   Proof p;
@@ -180,10 +180,10 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::s
     }
   if (cut.branch) prove_end(spec, *branch, *cut.branch, cut.holes.front().fit, p, stop);
   std::vector<Check> out{
-      {"on_branch", p.root, kLength, "mm"}, {"gap", p.gap, kLength, "mm"},
-      {"fit_up", p.fit, kLength, "mm"},     {"dihedral", p.dihedral, kAngle, "deg"},
-      {"groove", p.groove, kAngle, "deg"},  {"tilt", p.tilt, kAngle, "deg"},
-      {"kerf", p.kerf, kLength, "mm"},      {"branch_end", p.end, kLength, "mm"}};
+      {"on_branch", p.root, kLength, "mm"},    {"gap", p.gap, kLength, "mm"},
+      {"fit_up", p.fit, kLength, "mm"},        {"dihedral", p.dihedral, kWallAngle, "deg"},
+      {"groove", p.groove, kWallAngle, "deg"}, {"tilt", p.tilt, kWallAngle, "deg"},
+      {"kerf", p.kerf, kLength, "mm"},         {"branch_end", p.end, kLength, "mm"}};
   for (auto& check : nearest_checks(spec, *branch, cut, stop)) out.push_back(std::move(check));
   for (auto& check : torch_checks(spec, cut, stop)) out.push_back(std::move(check));
   return out;

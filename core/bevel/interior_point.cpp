@@ -23,8 +23,8 @@ constexpr double kSmall = 1e-3;   // an area that counts as one: 1e-3 spacings t
 constexpr double kStart = 0.1;    // of the range of B: how far above it the search begins
 constexpr double kNarrow = 0.05;  // least room below the limit to begin with
 constexpr double kPinned = 1e60;  // weight of such a height, and of a bend where no node is
-constexpr double kKept = 0.99;    // share of the way to the next limit, at least
-constexpr double kLost = 100.0;   // of that way: as far leads only what arcs made without digits
+constexpr double kKeptShare = 0.99;  // share of the way to the next limit, at least
+constexpr double kLost = 100.0;      // of that way: as far leads only what arcs made without digits
 
 /// The inequalities, a slack of every node in each group.
 enum Group : std::size_t {
@@ -309,7 +309,7 @@ void InteriorPoint<Numbers>::step(const std::stop_token& stop) {
   if (stop.stop_requested()) return;
   aim_at(aim());
   if (stop.stop_requested()) return;
-  go(std::max(kKept, 1.0 - gap_ / area_));
+  go(std::max(kKeptShare, 1.0 - gap_ / area_));
 }
 
 TUBECUT_WIDE TUBECUT_WHOLE void step(InteriorPoint<Pack>& point, const std::stop_token& stop) {

@@ -80,7 +80,7 @@ struct Strip {
 };
 
 /// Where that of another stands: a part of a gap, along and across.
-struct Cell {
+struct WallCell {
   std::size_t gap = 0;
   double from = 0.0, to = 1.0;   // along
   double low = 0.0, high = 1.0;  // across
@@ -89,7 +89,7 @@ struct Cell {
 };
 
 /// The wall between two neighbouring edges, all the way round.
-struct Ring {
+struct RowRing {
   std::vector<Piece> pieces;    // of each gap
   std::vector<double> ways;     // of each piece, whole: apart, since most are asked nothing else
   std::array<Places, 2> edges;  // both ends of the line across, where each begins
@@ -124,10 +124,10 @@ std::array<Places, 2> rows_of(const WallEdge& low, const WallEdge& high, bool ax
   return out;
 }
 
-Ring ring_of(const CutWall& wall, std::size_t edge) {
+RowRing ring_of(const CutWall& wall, std::size_t edge) {
   const auto &low = wall.edges[edge], &high = wall.edges[edge + 1];
   const bool axial = std::ranges::equal(low.phi, high.phi);
-  Ring out{{}, {}, rows_of(low, high, axial), axial};
+  RowRing out{{}, {}, rows_of(low, high, axial), axial};
   out.pieces.reserve(wall.gaps());
   out.ways.reserve(wall.gaps());
   for (std::size_t gap = 0; gap < wall.gaps(); ++gap) {
@@ -142,7 +142,7 @@ Ring ring_of(const CutWall& wall, std::size_t edge) {
 template <class Aim, joint::SolidKind Kind>
 class Search {
  public:
-  Search(const Ring& ring, const Kind& solid, std::size_t index, Aim& aim)
+  Search(const RowRing& ring, const Kind& solid, std::size_t index, Aim& aim)
       : ring_(ring), solid_(solid), index_(index), aim_(aim) {}
 
   void run(const std::stop_token& stop) {
@@ -197,8 +197,8 @@ class Search {
 
   /// Another solid is searched by cells. Edges first: the deepest place lies on one of them more
   /// often than not.
-  std::vector<Cell> cells() {
-    std::vector<Cell> out(ring_.pieces.size());
+  std::vector<WallCell> cells() {
+    std::vector<WallCell> out(ring_.pieces.size());
     for (std::size_t gap = 0; gap < out.size(); ++gap) {
       out[gap].gap = gap;
       for (const auto& edge : ring_.edges) see(gap, edge.at(gap));
@@ -256,7 +256,8 @@ class Search {
     return out;
   }
 
-  void divide(const std::vector<Cell>& level, std::vector<Cell>& out, const std::stop_token& stop) {
+  void divide(const std::vector<WallCell>& level, std::vector<WallCell>& out,
+              const std::stop_token& stop) {
     for (const auto& cell : level) {
       if (stop.stop_requested()) return;
       divide(cell, out);
@@ -265,7 +266,7 @@ class Search {
 
   /// Looks at a cell's middle and halves it unless its tangent plane bounds it: along where only
   /// the edges' bow keeps it from that, else the longer way.
-  void divide(const Cell& c, std::vector<Cell>& out) {
+  void divide(const WallCell& c, std::vector<WallCell>& out) {
     const auto& piece = ring_.pieces[c.gap];
     const double u = c.middle(), v = 0.5 * (c.low + c.high);
     const Vector3d middle = piece.at(u, v);
@@ -289,7 +290,7 @@ class Search {
     const double plane = 0.5 * hollow * reach * reach - fall;
     const double enough = aim_.enough(c.gap);
     if (!(std::min(reach, plane + bow) - distance > enough)) return;
-    Cell left = c, right = c;
+    WallCell left = c, right = c;
     const double across = (piece.at(u, c.high) - piece.at(u, c.low)).norm();
     if (plane - distance <= enough || piece.way(c.to - c.from) > across)
       left.to = right.from = u;
@@ -299,7 +300,7 @@ class Search {
     out.push_back(right);
   }
 
-  const Ring& ring_;
+  const RowRing& ring_;
   const Kind& solid_;
   std::size_t index_;
   Aim& aim_;

@@ -8,13 +8,13 @@
 namespace tubecut::bevel {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 double required_bevel(std::span<const joint::PreparedCutter> cutters, const Wall& wall,
                       const joint::Generator& inner_line, double z_root) {
-  double slope = -kInfinity;
+  double slope = -kUnbounded;
   for (const auto& cutter : cutters)
     slope = std::max(slope, joint::steepest(cutter, wall, inner_line, z_root));
   return elementary::quick_atan2(slope, 1.0);
@@ -30,7 +30,7 @@ std::vector<double> required_bevels(std::span<const joint::PreparedCutter> cutte
 
 double lift(std::span<const joint::PreparedCutter> cutters, const Wall& wall,
             const joint::Generator& inner_line, double slope) {
-  double z = -kInfinity;
+  double z = -kUnbounded;
   for (const auto& cutter : cutters)
     z = std::max(z, joint::support(cutter, wall, inner_line, slope));
   return z;

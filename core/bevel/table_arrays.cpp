@@ -16,13 +16,13 @@ struct Vectors {
 };
 Vectors of(const joint::Places& p) { return {p.x.data(), p.y.data(), p.z.data()}; }
 
-struct Circle {
+struct WallCircle {
   const double *sine, *cosine;
 };
-Circle of(const Directions& t) { return {t.sine.data(), t.cosine.data()}; }
+WallCircle of(const Directions& t) { return {t.sine.data(), t.cosine.data()}; }
 
 /// Lengths of radial - side normal and of radial + side normal.
-TUBECUT_WIDE void half_tangents(Circle phi, Vectors normal, double side, double* apart,
+TUBECUT_WIDE void half_tangents(WallCircle phi, Vectors normal, double side, double* apart,
                                 double* along, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const double x = side * normal.x[i], y = side * normal.y[i], z = side * normal.z[i];
@@ -33,8 +33,9 @@ TUBECUT_WIDE void half_tangents(Circle phi, Vectors normal, double side, double*
   }
 }
 
-TUBECUT_WIDE void plane_errors_of(Circle phi, Vectors normal, const double* noise, Circle tau,
-                                  Circle b, double outwards, double* out, std::size_t n) {
+TUBECUT_WIDE void plane_errors_of(WallCircle phi, Vectors normal, const double* noise,
+                                  WallCircle tau, WallCircle b, double outwards, double* out,
+                                  std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const double c = phi.cosine[i], s = phi.sine[i];
     // The curve's tangent: radial x normal.

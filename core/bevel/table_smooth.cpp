@@ -10,18 +10,18 @@ namespace tubecut::bevel::detail {
 namespace {
 
 /// The smoother's path: each phi once; along the true length both nodes of a jump stay.
-struct Path {
+struct ArcPath {
   AngleProfile profile;
   std::vector<std::size_t> entry;  // of each node
   std::vector<std::size_t> node;   // first node of each entry
 };
 
-Path path(const TableSetup& g, const Rows& rows) {
+ArcPath path(const TableSetup& g, const Rows& rows) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
   const auto* envelope = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing);
   const bool along_length = envelope != nullptr && envelope->along == Along::length;
-  Path out;
+  ArcPath out;
   out.profile.period = along_length ? samples.true_length : samples.developed_length;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool second = i > 0 && rows.jump_pair(i - 1);
@@ -49,7 +49,7 @@ std::vector<std::size_t> junction_steps(const TableSetup& g, std::size_t n) {
 }
 
 Result<std::vector<double>> smooth_hermite(const TableSetup& g, const joint::Samples& samples,
-                                           const Path& p, const HermiteSmoothing& method,
+                                           const ArcPath& p, const HermiteSmoothing& method,
                                            Table& out, const std::stop_token& stop) {
   if (g.spec.sampling.tolerance)
     return fail({.code = ErrorCode::sampling_not_uniform,
@@ -79,7 +79,7 @@ Result<std::vector<double>> smooth_hermite(const TableSetup& g, const joint::Sam
 }
 
 Result<std::vector<double>> smooth(const TableSetup& g, const joint::Samples& samples,
-                                   const Path& p, Table& out, const std::stop_token& stop) {
+                                   const ArcPath& p, Table& out, const std::stop_token& stop) {
   if (const auto* method = std::get_if<HermiteSmoothing>(&g.spec.smoothing))
     return smooth_hermite(g, samples, p, *method, out, stop);
   if (const auto* method = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing)) {
@@ -143,8 +143,8 @@ Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
   return {};
 }
 
-constexpr double kTurn = 0.25;     // of K, at one row
-constexpr double kNarrow = 0.125;  // of K/A: no segment shorter than this is halved
+constexpr double kRowBend = 0.25;      // of K, at one row
+constexpr double kMinSegment = 0.125;  // of K/A: no segment shorter than this is halved
 
 struct Segment {
   double length = 0.0;  // along the smoother's path, mm
@@ -242,12 +242,12 @@ std::vector<double> rows_where_b_turns(const TableSpec& spec, const Table& table
   const auto* envelope = std::get_if<EnvelopeSmoothing>(&spec.smoothing);
   if (envelope == nullptr || !spec.sampling.tolerance) return {};
   const double slope = envelope->limits.slope;
-  const double narrow = kNarrow * slope / envelope->limits.curvature;
+  const double narrow = kMinSegment * slope / envelope->limits.curvature;
   const auto all = segments(table, envelope->along == Along::length);
   std::vector<bool> halve(all.size(), false);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto j = (i + 1) % all.size();
-    if (std::abs(all[j].slope - all[i].slope) <= kTurn * slope) continue;
+    if (std::abs(all[j].slope - all[i].slope) <= kRowBend * slope) continue;
     halve[i] = halve[j] = true;
   }
   std::vector<double> out;

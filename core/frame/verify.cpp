@@ -13,14 +13,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using joint::End;
 
-constexpr double kWritten = 1e-5;  // mm: numbers are written to six decimals, angles to eleven
-constexpr double kFar = 1e5;       // mm: beyond it digits are lost with the distance
+constexpr double kWrittenDecimals =
+    1e-5;                     // mm: numbers are written to six decimals, angles to eleven
+constexpr double kFar = 1e5;  // mm: beyond it digits are lost with the distance
 
 /// The worst of many by what each may be.
 struct Most {
-  double value = 0.0, limit = kWritten;
+  double value = 0.0, limit = kWrittenDecimals;
   void see(double one, double size) {
-    const double most = kWritten * std::max(1.0, size / kFar);
+    const double most = kWrittenDecimals * std::max(1.0, size / kFar);
     if (!std::isnan(value) && !(one * limit <= value * most)) {
       value = one;
       limit = most;

@@ -19,7 +19,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Running worst value.
-struct Worst {
+struct MaxResidual {
   double value = 0.0;
   void add(double deviation) { worsen(value, deviation); }
 };
@@ -319,7 +319,7 @@ class Verifier {
   Machine machine_;
   std::vector<Block> blocks_;
   std::vector<Tool> tools_;  // at the blocks, seen from the workpiece
-  Worst start_, gap_, least_, figures_, certificate_, sag_, swept_, root_;
+  MaxResidual start_, gap_, least_, figures_, certificate_, sag_, swept_, root_;
 };
 
 }  // namespace

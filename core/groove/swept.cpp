@@ -11,7 +11,7 @@
 namespace tubecut::groove {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kFarAway = std::numeric_limits<double>::infinity();
 constexpr double kSearched =
     1e-6;  // mm; a search between blocks errs by less, and so do its bounds
 
@@ -99,8 +99,8 @@ class Sweep {
   Extreme extreme(std::vector<Bounded> heap, const PointAt& point_at, Part part, double sign,
                   const std::stop_token& stop) {
     std::make_heap(heap.begin(), heap.end());
-    Bounded best{kFar, {}};
-    Extreme out{.value = sign * kFar};
+    Bounded best{kFarAway, {}};
+    Extreme out{.value = sign * kFarAway};
     while (!heap.empty() && heap.front().bound <= best.bound + kSearched &&
            !stop.stop_requested()) {
       std::pop_heap(heap.begin(), heap.end());

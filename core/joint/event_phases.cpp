@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSameCurve = 1e-13;  // relative; rounding of two descriptions of one curve
 constexpr std::array kBrackets = {1e-9, 1e-7, 1e-5, 1e-4, 1e-3};  // rad
-constexpr std::size_t kScan = 1440;
+constexpr std::size_t kScanSteps = 1440;
 constexpr double kLeap = 0.02;      // relative; a difference between scanned phases worth a look
 constexpr double kJump = 1e-4;      // relative; what a continuous curve cannot do within 1e-15 rad
 constexpr double kTouching = 1e-6;  // relative; kept without a sign change
@@ -78,7 +78,7 @@ double close_bracket(const G& g, double a, double ga, double b, double gb) {
   return b;
 }
 
-double phase_of(std::size_t k) { return kTwoPi * static_cast<double>(k) / kScan; }
+double phase_of(std::size_t k) { return kTwoPi * static_cast<double>(k) / kScanSteps; }
 
 }  // namespace
 
@@ -163,9 +163,9 @@ bool EventPhases::passed_over(std::size_t i, std::size_t j, const Generator& lin
 
 /// Height, continued beyond the silhouettes, at a phase of the scan.
 double EventPhases::scanned_height(std::size_t i, std::size_t k) {
-  auto& heights = scans_.try_emplace(i, kScan, kUnknown).first->second;
-  double& z = heights[k % kScan];
-  if (std::isnan(z)) z = continued_sheet(cutters_[i], generator_at(rho_, phase_of(k % kScan)));
+  auto& heights = scans_.try_emplace(i, kScanSteps, kUnknown).first->second;
+  double& z = heights[k % kScanSteps];
+  if (std::isnan(z)) z = continued_sheet(cutters_[i], generator_at(rho_, phase_of(k % kScanSteps)));
   return z;
 }
 
@@ -179,7 +179,7 @@ bool EventPhases::same_height(std::size_t i, std::size_t j, std::size_t k) {
 void EventPhases::add_scanned() {
   if (active_.size() < 2) return;
   if (!std::ranges::any_of(active_, [&](std::size_t i) { return scanned(i); })) return;
-  for (std::size_t k = 0; k < kScan; k += kBlock) add_cells(k, k + kBlock, active_);
+  for (std::size_t k = 0; k < kScanSteps; k += kBlock) add_cells(k, k + kBlock, active_);
 }
 
 /// Cells `from` to `to`: parts of them where many cutters may be on top.
@@ -240,7 +240,7 @@ void EventPhases::add_cell(std::size_t k, const std::vector<std::size_t>& cutter
 void EventPhases::add_in_cell(std::size_t i, std::size_t j, std::size_t k) {
   const auto g = [&](std::size_t at) { return scanned_height(i, at) - scanned_height(j, at); };
   const auto same = [&](std::size_t at) { return same_height(i, j, at); };
-  if (same(k) && same(k + kScan - 1)) return add_border(i, j, phase_of(k), phase_of(k + 1));
+  if (same(k) && same(k + kScanSteps - 1)) return add_border(i, j, phase_of(k), phase_of(k + 1));
   if (same(k + 1) && same(k + 2)) return add_border(i, j, phase_of(k + 1), phase_of(k));
   const auto close = [&](double from, double gf, double to, double gt) {
     if ((gf <= 0.0) != (gt <= 0.0))
@@ -269,7 +269,7 @@ void EventPhases::add_border(std::size_t i, std::size_t j, double inside, double
 std::optional<double> EventPhases::hidden_at(std::size_t i) {
   const auto z = [&](std::size_t k) { return scanned_height(i, k); };
   const double size = size_of(i);
-  for (std::size_t k = 0; k < kScan; ++k) {
+  for (std::size_t k = 0; k < kScanSteps; ++k) {
     if (!(std::abs(z(k + 1) - z(k)) > kLeap * size)) continue;
     double from = phase_of(k), to = phase_of(k + 1), zf = z(k), zt = z(k + 1);
     for (int step = 0; step < 45; ++step) {

@@ -11,9 +11,9 @@
 namespace tubecut::joint {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTie = 1e-12;       // of radius + |z|, rounding of one height
-constexpr double kOnCutter = 1e-14;  // relative, of lengths: the root is on the tube
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kStationTie = 1e-12;  // of radius + |z|, rounding of one height
+constexpr double kOnSurface = 1e-14;   // relative, of lengths: the root is on the tube
 
 /// Stations side by side: cosines and sines of their phases.
 struct Run {
@@ -79,17 +79,17 @@ TUBECUT_WIDE void steepen(const PreparedTube& tube, const Wall& wall, Run on, co
     const auto met = tube_section(t, w, cd);
     const auto leaning = [&](double x, double y) {
       const double radial = x * cd + t.cos_inclination * y * sd;
-      const double steep = radial > 0.0 ? -kInfinity : kInfinity;
+      const double steep = radial > 0.0 ? -kUnbounded : kUnbounded;
       return y > 0.0 ? -radial / (t.sin_inclination * y) : steep;
     };
     const double x = w.inner * cd + t.offset;
     const double y = (z - t.height) * t.sin_inclination + w.inner * sd * t.cos_inclination;
-    const double noise = kOnCutter * (t.radius + std::abs(z) + std::abs(t.height));
+    const double noise = kOnSurface * (t.radius + std::abs(z) + std::abs(t.height));
     const double square = x * x + y * y, radius2 = t.radius * t.radius;
     // Standing on it: its own slope.
     const double own = leaning(x, std::sqrt(std::max(0.0, (t.radius - x) * (t.radius + x))));
     // Seen from outside: to both ends of what is met, and along the tangents.
-    double best = -kInfinity;
+    double best = -kUnbounded;
     const auto see = [&](bool seen, double value) {
       best = (seen & (value > best)) ? value : best;
     };
@@ -189,14 +189,14 @@ Contacts contacts_at(const Contour& contour, const Stations& stations,
       sheets_of(kind, stations.radius, run_of(stations, from, to), out.z.data() + from);
     });
   });
-  std::vector<double> best(n, -kInfinity), number(n, 0.0);
+  std::vector<double> best(n, -kUnbounded), number(n, 0.0);
   for (std::size_t k = 0; k < contour.cutters.size(); ++k)
     by_kind(contour.cutters[k], [&](const auto& kind) {
       raise(kind, stations.radius, run_of(stations, 0, n), static_cast<double>(k), best.data(),
             number.data());
     });
   for (std::size_t i = 0; i < n; ++i) {
-    const double tie = kTie * (contour.radius + std::abs(out.z[i]));
+    const double tie = kStationTie * (contour.radius + std::abs(out.z[i]));
     if (!(best[i] > out.z[i] + tie)) continue;
     out.z[i] = best[i];
     out.cutter[i] = static_cast<std::size_t>(number[i]);
@@ -225,7 +225,7 @@ void slopes_of(const PreparedCutter& cutter, const Stations& stations, std::span
 
 std::vector<double> steepest_at(std::span<const PreparedCutter> cutters, const Wall& wall,
                                 const Stations& inner, std::span<const double> z_root) {
-  std::vector<double> out(inner.size(), -kInfinity);
+  std::vector<double> out(inner.size(), -kUnbounded);
   for (const auto& cutter : cutters)
     by_kind(cutter, [&](const auto& kind) {
       steepen(kind, wall, run_of(inner, 0, inner.size()), z_root.data(), out.data());

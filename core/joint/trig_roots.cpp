@@ -116,11 +116,11 @@ RootPhases by_all_roots(const Complex* c, std::size_t degree) {
 }
 
 /// A phase with its cosine and sine.
-struct Place {
+struct PhasePoint {
   double phi, cos, sin;
 
   /// Turned by no more than the width of a first cell: the series leaves 1e-14.
-  [[nodiscard]] Place turned(double by) const {
+  [[nodiscard]] PhasePoint turned(double by) const {
     const double q = by * by;
     const double c = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0 - q / 40320.0)));
     const double s = by * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));
@@ -135,7 +135,7 @@ struct Cells {
   static constexpr double kHalf = kPi / kNumber;
   using OfEach = std::array<double, kNumber>;
 
-  std::array<Place, kNumber> middle;
+  std::array<PhasePoint, kNumber> middle;
   std::array<OfEach, kMost / 2 + 1> cos{}, sin{};
 
   Cells() {
@@ -217,7 +217,7 @@ class Wave {
   struct At {
     double value, slope, bend;
   };
-  [[nodiscard]] At at(const Place& p) const {
+  [[nodiscard]] At at(const PhasePoint& p) const {
     At out{is_.mean, 0.0, 0.0};
     double c = 1.0, s = 0.0;
     for (std::size_t k = 1; k <= is_.order; ++k) {
@@ -233,7 +233,7 @@ class Wave {
     return out;
   }
 
-  [[nodiscard]] bool look(const Place& middle, double half, RootPhases& found) {
+  [[nodiscard]] bool look(const PhasePoint& middle, double half, RootPhases& found) {
     if (++looks_ > kLooks) return false;
     const At here = at(middle);
     const double turn = bend_ * half;  // of the slope, at most
@@ -249,7 +249,8 @@ class Wave {
   }
 
   /// The one zero of a cell in which the wave only rises or falls, if its ends leave one.
-  [[nodiscard]] bool close(const Place& middle, double half, const At& here, RootPhases& found) {
+  [[nodiscard]] bool close(const PhasePoint& middle, double half, const At& here,
+                           RootPhases& found) {
     const double rise = here.slope > 0.0 ? 1.0 : -1.0;
     const double low = rise * at(middle.turned(-half)).value;
     const double high = rise * at(middle.turned(half)).value;

@@ -50,7 +50,7 @@ class Findings {
   std::vector<Issue> issues_;
 };
 
-constexpr double kMostLength = 1e6;  // mm; anything longer is a unit mistake
+constexpr double kMaxLength = 1e6;  // mm; anything longer is a unit mistake
 
 void check_axis(const Axis& axis, const std::string& at, Findings& found) {
   if (axis.name.empty()) found.add(ErrorCode::bad_text, at + "/name");
@@ -66,8 +66,8 @@ void check_axis(const Axis& axis, const std::string& at, Findings& found) {
   found.positive(at + "/a_max", axis.a_max);
   if (axis.j_max) found.positive(at + "/j_max", *axis.j_max);
   if (axis.n_max) found.positive(at + "/n_max", static_cast<double>(*axis.n_max));
-  if (axis.soft_min) found.within(at + "/soft_min", *axis.soft_min, -kMostLength, kMostLength);
-  if (axis.soft_max) found.within(at + "/soft_max", *axis.soft_max, -kMostLength, kMostLength);
+  if (axis.soft_min) found.within(at + "/soft_min", *axis.soft_min, -kMaxLength, kMaxLength);
+  if (axis.soft_max) found.within(at + "/soft_max", *axis.soft_max, -kMaxLength, kMaxLength);
 }
 
 void check_names(const Machine& machine, Findings& found) {
@@ -97,8 +97,8 @@ struct KinematicsCheck {
   Findings& found;
 
   void operator()(const FiveAxisCutter& cutter) const {
-    found.within("pivot_length", cutter.pivot_length, 0.0, kMostLength);
-    found.within("standoff", cutter.standoff, 0.0, kMostLength);
+    found.within("pivot_length", cutter.pivot_length, 0.0, kMaxLength);
+    found.within("standoff", cutter.standoff, 0.0, kMaxLength);
     found.within("z2_share", cutter.z2_share, 0.0, 1.0);
     const bool has_z2 = std::ranges::count(machine.axes, "Z2", &Axis::name) > 0;
     if (cutter.z2_share > 0.0 && !has_z2) {
@@ -106,9 +106,9 @@ struct KinematicsCheck {
     }
   }
   void operator()(const Crawler& crawler) const {
-    found.within("wheel_offset", crawler.wheel_offset, 0.0, kMostLength);
-    found.within("pivot_length", crawler.pivot_length, 0.0, kMostLength);
-    if (crawler.standoff_max) found.within("standoff_max", *crawler.standoff_max, 0.0, kMostLength);
+    found.within("wheel_offset", crawler.wheel_offset, 0.0, kMaxLength);
+    found.within("pivot_length", crawler.pivot_length, 0.0, kMaxLength);
+    if (crawler.standoff_max) found.within("standoff_max", *crawler.standoff_max, 0.0, kMaxLength);
   }
   void operator()(const ConeMill&) const {}
   void operator()(const Generic& generic) const {
@@ -118,7 +118,7 @@ struct KinematicsCheck {
     }
     for (const LinearMap& map : generic.maps) {
       for (const double k : {map.k_phi, map.k_z, map.k_b, map.k_0}) {
-        found.within("maps", k, -kMostLength, kMostLength);
+        found.within("maps", k, -kMaxLength, kMaxLength);
       }
     }
   }

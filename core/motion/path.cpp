@@ -16,8 +16,8 @@ constexpr double kWidestTip = 1.0;    // mm, full width of one mean over the tip
 constexpr double kWidestBevel = 6.0;  // mm, of one mean over B
 constexpr double kLeastTip = 1e-3;    // mm
 constexpr double kLeastBevel = 0.01 * kRadPerDeg;
-constexpr double kCornerCos = 0.93969262078590838;  // cos 20 deg
-constexpr int kInner = 15;                          // test points inside a segment
+constexpr double kKnotCornerCos = 0.93969262078590838;  // cos 20 deg
+constexpr int kInner = 15;                              // test points inside a segment
 constexpr int kMostHalvings = 8;
 constexpr double kMostKnots = 1'000'000.0;  // about 320 bytes each while planning
 
@@ -127,7 +127,7 @@ std::vector<bool> corners(const Program& p, const std::vector<double>& lengths) 
       const double w = p.coordinates[c].weight;
       dot += w * (p.x[c][i] - p.x[c][i - 1]) * w * (p.x[c][i + 1] - p.x[c][i]);
     }
-    if (dot < kCornerCos * lengths[i - 1] * lengths[i]) corner[i] = true;
+    if (dot < kKnotCornerCos * lengths[i - 1] * lengths[i]) corner[i] = true;
   }
   return corner;
 }

@@ -10,7 +10,7 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr double kNoLimit = 1e300;
+constexpr double kUnlimited = 1e300;
 constexpr double kInside = 1.0 - 1e-12;  // rounding must not leave a row
 
 /// The rows of one interval seen from one of its knots: near * a + far * b <= 1.
@@ -137,14 +137,14 @@ std::vector<double> largest_profile(std::vector<double> x, double d, const Rows&
       const Row& row = rows.rows[r];
       const double below = row.alpha + 2.0 * d * row.beta;
       slope[r] = below > 0.0 ? row.alpha / below : 1.0;
-      shift[r] = below > 0.0 ? 2.0 * d * row.c / below : kNoLimit;
+      shift[r] = below > 0.0 ? 2.0 * d * row.c / below : kUnlimited;
       if (row.beta <= 0.0) continue;
       x[i] = std::min(x[i], row.c / row.beta);
       x[i + 1] = std::min(x[i + 1], row.c / row.beta);
     }
   }
   const auto reach = [&](std::size_t i, double from) {
-    double most = kNoLimit;
+    double most = kUnlimited;
     for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
       most = std::min(most, slope[r] * from + shift[r]);
     }

@@ -10,7 +10,7 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr std::size_t kPhi = 0, kZ = 1, kB = 2;
+constexpr std::size_t kPhiAxis = 0, kZ = 1, kB = 2;
 
 std::size_t index_of(const std::vector<Axis>& axes, std::string_view name) {
   return static_cast<std::size_t>(std::ranges::find(axes, name, &Axis::name) - axes.begin());
@@ -81,7 +81,7 @@ Reconstruction::Reconstruction(const ScheduleSpec& spec)
     set_generic(*generic);
     return;
   }
-  known_[kPhi] = known_[kZ] = known_[kB] = true;
+  known_[kPhiAxis] = known_[kZ] = known_[kB] = true;
 }
 
 void Reconstruction::set_tube(const CutPath& cut_path) {
@@ -132,14 +132,14 @@ Coordinates Reconstruction::at(const std::vector<double>& q) const {
     case Kind::five_axis: {
       const double b = q[roles_.b] * kRadPerDeg;
       const double reach = pivot_ * elementary::sin(b) + past_ * elementary::tan(b);
-      x[kPhi] = q[roles_.phi] * kRadPerDeg;
+      x[kPhiAxis] = q[roles_.phi] * kRadPerDeg;
       x[kZ] = q[roles_.z] + sigma_ * reach;
       x[kB] = b;
       return x;
     }
     case Kind::crawler: {
       const double b = q[roles_.b] * kRadPerDeg;
-      x[kPhi] = q[roles_.phi] / wheel_;
+      x[kPhiAxis] = q[roles_.phi] / wheel_;
       x[kZ] = q[roles_.z] + sigma_ * (past_ + pivot_) * elementary::tan(b);
       x[kB] = b;
       return x;
@@ -179,8 +179,8 @@ Coordinates Reconstruction::quantum(double largest_b) const {
   const double tilt = kind_ == Kind::five_axis ? pivot_ + slope * past_ : slope * (past_ + pivot_);
   out[kB] = half_pulse(roles_.b) * kRadPerDeg;
   out[kZ] = half_pulse(roles_.z) + tilt * out[kB];
-  out[kPhi] = kind_ == Kind::five_axis ? half_pulse(roles_.phi) * kRadPerDeg
-                                       : half_pulse(roles_.phi) / wheel_;
+  out[kPhiAxis] = kind_ == Kind::five_axis ? half_pulse(roles_.phi) * kRadPerDeg
+                                           : half_pulse(roles_.phi) / wheel_;
   return out;
 }
 

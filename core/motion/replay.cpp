@@ -13,7 +13,7 @@ namespace tubecut::motion {
 namespace {
 
 constexpr double kMostCount = 2147483647.0;
-constexpr std::size_t kAskEvery = 1024;  // numbers
+constexpr std::size_t kCheckEvery = 1024;  // numbers
 
 Received integers(const std::vector<std::vector<double>>& counts, const std::stop_token& stop) {
   Received out;
@@ -21,7 +21,7 @@ Received integers(const std::vector<std::vector<double>>& counts, const std::sto
     std::vector<std::int32_t> whole;
     whole.reserve(column.size());
     for (const double n : column) {
-      if (whole.size() % kAskEvery == 0 && stop.stop_requested()) return out;
+      if (whole.size() % kCheckEvery == 0 && stop.stop_requested()) return out;
       const double nearest = std::floor(n + 0.5);
       worsen(out.worst, std::abs(n - nearest));
       whole.push_back(static_cast<std::int32_t>(nearest));
@@ -95,7 +95,7 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
   for (auto* column : {&out.phi, &out.z, &out.b})
     column->reserve(counted.periods + 1);  // grown, a million would move in one piece
   for (std::size_t k = 0; k <= counted.periods; ++k) {
-    if (k % kAskEvery == 0 && stop.stop_requested()) return;
+    if (k % kCheckEvery == 0 && stop.stop_requested()) return;
     if (k > 0) values.step(k - 1);
     const Coordinates x = torch.at(values.now());
     out.phi.push_back(x[0]);

@@ -34,8 +34,8 @@ class Walls {
   std::array<double, 2> rise_{};
 };
 
-constexpr double kEndMargin = 2.0;  // mm where slow is just starting or stopping
-constexpr double kSlow = 0.5;       // of the speed asked
+constexpr double kReportMargin = 2.0;  // mm where slow is just starting or stopping
+constexpr double kSlow = 0.5;          // of the speed asked
 
 /// Largest share of its limits that an axis uses over samples `from`..`to`; roots make the three
 /// kinds comparable as speeds.
@@ -191,12 +191,12 @@ std::optional<EdgeDeviation> edge_deviation(const ScheduleSpec& spec, const Prog
 std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place>& places,
                                  const std::stop_token& stop) {
   const Course& course = job.course;
-  const double d = course.path.d, end = course.path.length() - kEndMargin;
+  const double d = course.path.d, end = course.path.length() - kReportMargin;
   // Where a lead comes onto the cut at a corner, the cut is just starting: there a tab is broken
   // off.
   const auto first = job.program.cut_first;
   const bool turns_in = first > 0 && job.program.corner[first];
-  const double begin = turns_in ? course.path.at_point[first] + kEndMargin : kEndMargin;
+  const double begin = turns_in ? course.path.at_point[first] + kReportMargin : kReportMargin;
   std::vector<SlowZone> out;
   bool inside = false;
   TipCursor tip(course);

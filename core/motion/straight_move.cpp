@@ -9,7 +9,7 @@ namespace tubecut::motion {
 namespace {
 
 constexpr double kFree = 1e300;
-constexpr double kInside = 1.0 - 1e-9;  // rounding must not lift a count over n_max
+constexpr double kInsideShare = 1.0 - 1e-9;  // rounding must not lift a count over n_max
 
 }  // namespace
 
@@ -52,9 +52,9 @@ std::optional<SCurve> timed(const StraightMove& move, const Machine& machine, bo
     if (way == 0.0) continue;
     const Axis& axis = machine.axes[i];
     moves = true;
-    v = std::min(v, kInside * velocity_limit(axis, machine.period) / way);
-    a = std::min(a, kInside * axis.a_max / way);
-    if (jerk && axis.j_max) j = std::min(j.value_or(kFree), kInside * *axis.j_max / way);
+    v = std::min(v, kInsideShare * velocity_limit(axis, machine.period) / way);
+    a = std::min(a, kInsideShare * axis.a_max / way);
+    if (jerk && axis.j_max) j = std::min(j.value_or(kFree), kInsideShare * *axis.j_max / way);
   }
   if (!moves) return std::nullopt;
   if (move.speed > 0.0 && move.length > 0.0) v = std::min(v, move.speed / move.length);

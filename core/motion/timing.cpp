@@ -11,7 +11,7 @@ namespace tubecut::motion {
 namespace {
 
 constexpr double kEdgeShare = 0.6;    // most of the jerk budget given to curvature
-constexpr double kFree = 1e150;       // no limit, and its square still a number
+constexpr double kFreeTime = 1e150;   // no limit, and its square still a number
 constexpr std::uint32_t kReach = 10;  // intervals over which a round looks for |u_ddot|
 
 /// Intervals that a filter window can reach from each interval; `root` is the speed at the knots.
@@ -72,7 +72,8 @@ FilteredProfiles::FilteredProfiles(const PathLimits& limits, const std::stop_tok
       wide_(limits.intervals()) {
   for (std::size_t a = 0; a < maxima_.axes(); ++a) {
     if (a % kPack == 0) {
-      for (auto* const packs : {&jerk_, &acceleration_}) packs->push_back(Pack::Constant(kFree));
+      for (auto* const packs : {&jerk_, &acceleration_})
+        packs->push_back(Pack::Constant(kFreeTime));
       for (auto* const packs : {&per_speed_, &per_acceleration_, &per_jerk_})
         packs->push_back(Pack::Zero());
     }
@@ -112,7 +113,7 @@ void FilteredProfiles::bound_acceleration(double filter, bool by_axes,
     edges *= 2.0 / filter;
     const double optimism = maxima_.optimism(i);
     if (!by_axes || axes * optimism <= edges) {
-      bound_[i] = edges > 0.0 ? std::min(kFree, optimism / edges) : kFree;
+      bound_[i] = edges > 0.0 ? std::min(kFreeTime, optimism / edges) : kFreeTime;
     } else {
       bound_[i] = 1.0 / axes;
     }
@@ -144,7 +145,7 @@ void FilteredProfiles::bound_edges(double filter, const std::stop_token& stop) {
       const Pack second = 3.0 * speed * maxima_.second(i, a), third = speed * maxima_.third(i, a);
       const Pack need = second * wide_[i] + third * (speed * speed);
       const Pack left = (jerk - need).max((1.0 - kEdgeShare) * jerk) * filter;
-      if ((most * twice > left).any()) most = (left / twice.max(left / kFree)).minCoeff();
+      if ((most * twice > left).any()) most = (left / twice.max(left / kFreeTime)).minCoeff();
       if (!(need > kEdgeShare * jerk).any()) continue;
       for (Eigen::Index k = 0; k < jerk.size(); ++k) {
         if (!(need[k] > kEdgeShare * jerk[k])) continue;

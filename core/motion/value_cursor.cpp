@@ -5,11 +5,11 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr std::size_t kB = 2;         // index of the coordinate B
-constexpr double kNear = 1.0 / 16.0;  // rad; further on the series would leave 1e-18
+constexpr std::size_t kB = 2;              // index of the coordinate B
+constexpr double kNearValue = 1.0 / 16.0;  // rad; further on the series would leave 1e-18
 
-/// Sine and cosine of an angle turned on by at most `kNear`: Taylor's series of what is turned by,
-/// cut off below 3e-19, and the sum of the two angles.
+/// Sine and cosine of an angle turned on by at most `kNearValue`: Taylor's series of what is turned
+/// by, cut off below 3e-19, and the sum of the two angles.
 elementary::SinCos turned(const elementary::SinCos& of, double by) {
   const double s = by * by;
   const double sine =
@@ -56,7 +56,7 @@ void ValueCursor::enter(std::size_t interval) {
 
 elementary::SinCos ValueCursor::lean(double w) const {
   const double by = w * (b_[1] + w * (b_[2] + w * b_[3]));
-  return std::abs(by) <= kNear ? turned(at_start_, by) : elementary::sincos(b_[0] + by);
+  return std::abs(by) <= kNearValue ? turned(at_start_, by) : elementary::sincos(b_[0] + by);
 }
 
 const std::vector<double>& ValueCursor::at(const Place& place) {

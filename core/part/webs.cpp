@@ -22,7 +22,7 @@ struct Piece {
 };
 
 /// An upright box.
-struct Box {
+struct WebBox {
   Point least = Point::Constant(kFar), most = Point::Constant(-kFar);
 
   void take(const Point& p) {
@@ -30,7 +30,7 @@ struct Box {
     most = most.cwiseMax(p);
   }
   /// A bound of the way to another, `shift` further round, from below.
-  [[nodiscard]] double apart(const Box& other, double shift) const {
+  [[nodiscard]] double apart(const WebBox& other, double shift) const {
     const double x =
         std::max({0.0, other.least.x() + shift - most.x(), least.x() - other.most.x() - shift});
     const double y = std::max({0.0, other.least.y() - most.y(), least.y() - other.most.y()});
@@ -144,8 +144,8 @@ class Line {
 
   std::vector<Point> points_;
   std::vector<Piece> pieces_;
-  std::vector<Box> boxes_;
-  Box whole_;
+  std::vector<WebBox> boxes_;
+  WebBox whole_;
 };
 
 /// One of the two walls, developed.

@@ -26,7 +26,7 @@ constexpr std::size_t kChunkOverhead =
 constexpr std::size_t kShortestEnd = std::string_view("0\r\n\r\n").size();
 /// Room for a body by what has come of it. Twice would be enough, but for the moment of a move
 /// there is the room before it too.
-constexpr std::size_t kAhead = 8;
+constexpr std::size_t kReadAhead = 8;
 constexpr std::size_t kEmptyLines = 8;  // bytes of CR LF before a request line (RFC 9112, 2.2)
 
 std::string_view view(Text text) { return {text.data(), text.size()}; }
@@ -74,13 +74,13 @@ class Parser final : public http::basic_parser<true> {
   }
   void on_finish_impl(Code& /*ec*/) override {}
 
-  /// An announced length takes no memory before its bytes come: at most kAhead times theirs, and in
-  /// the end its own.
+  /// An announced length takes no memory before its bytes come: at most kReadAhead times theirs,
+  /// and in the end its own.
   std::size_t append(Text bytes) {
     const auto needed = request.body.size() + bytes.size();
     if (needed > request.body.capacity()) {
       auto room = std::max(announced, needed);
-      while (room / kAhead >= needed) room = (room + kAhead - 1) / kAhead;
+      while (room / kReadAhead >= needed) room = (room + kReadAhead - 1) / kReadAhead;
       request.body.reserve(room);
     }
     request.body.append(bytes.data(), bytes.size());

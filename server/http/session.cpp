@@ -25,9 +25,9 @@ constexpr std::size_t kLingerBytes = 64u << 20;
 /// A client that has closed its side only half still reads a quick answer; one that hung up cannot
 /// be told apart until this has passed.
 constexpr auto kHangUpGrace = 250ms;
-constexpr auto kQuickLook = 5ms;  // of those, whether its turn in the lane has come
-constexpr auto kLook = 20ms;      // whether the client is still there, while its job is worked on
-constexpr double kLikely = 0.5;   // of a job's wait, as the last jobs of its kind foretell
+constexpr auto kQuickLook = 5ms;   // of those, whether its turn in the lane has come
+constexpr auto kCheckPeer = 20ms;  // whether the client is still there, while its job is worked on
+constexpr double kLikely = 0.5;    // of a job's wait, as the last jobs of its kind foretell
 
 constexpr std::string_view kFull = "All slots and the queue are full.";
 
@@ -345,7 +345,7 @@ Task<void> Session::take_turn(std::shared_ptr<Job> job) {
   bool waits = true;
   while (!job->finished) {
     const auto when = std::min(std::min(job->due, gone_by_),
-                               Clock::now() + (job->claim.quick ? kQuickLook : kLook));
+                               Clock::now() + (job->claim.quick ? kQuickLook : kCheckPeer));
     co_await pause(when);
     if (job->finished) break;
     look();
