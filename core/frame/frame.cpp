@@ -245,7 +245,8 @@ Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
   TRY(out.pieces, detail::pieces(spec, joined, stop));
   out.not_cut = not_cut(spec, joined);
   out.warnings = warnings(joined);
-  TRY(const auto shared, joint::overlaps(joined.node, joined.nodes, {}, stop));
+  TRY(const auto shared,
+      joint::overlaps(joined.node, joined.nodes, {}, stop, detail::seats_of_others(spec, joined)));
   for (auto& warning : joint::warnings_of(joined.node, shared))
     out.warnings.push_back(std::move(warning));
   out.joints = std::move(joined.joints);

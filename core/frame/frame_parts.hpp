@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/frame/frame.hpp"
+#include "core/joint/overlap.hpp"
 
 /// For `solve` only.
 namespace tubecut::frame::detail {
@@ -27,6 +28,9 @@ struct Joined {
     return of_members.at(std::minmax(a, b));
   }
 };
+
+/// The surfaces of the others that cut each end, in that end's frame.
+[[nodiscard]] joint::Beside seats_of_others(const FrameSpec& spec, const Joined& joined);
 
 /// Errors  as `solve`.
 [[nodiscard]] Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,

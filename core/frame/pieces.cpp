@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -279,6 +280,20 @@ Result<Piece> piece(const FrameSpec& spec, const Joined& joined, std::size_t mem
 }
 
 }  // namespace
+
+joint::Beside seats_of_others(const FrameSpec& spec, const Joined& joined) {
+  joint::Beside out(joined.others.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (const auto& one : joined.others[i]) {
+      const auto partner =
+          joint::by_kind(spec.others[one.other].partner, In{joined.nodes.ends[i].frame});
+      if (!partner) continue;  // `pieces` refuses it
+      const std::array grown{joint::grown(*partner, joined.joints[one.joint].how.gap)};
+      const auto cutters = joint::resolve(grown);
+      if (cutters) out[i].push_back(cutters->front());
+    }
+  return out;
+}
 
 Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
                                   const std::stop_token& stop) {

@@ -9,88 +9,31 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/finished.hpp"
 #include "core/joint/node_parts.hpp"
-#include "core/math/search.hpp"
 
 namespace tubecut::joint {
 namespace {
 
+using detail::Finished;
 using Eigen::Vector3d;
 
-constexpr double kLeast = 0.01;      // mm: what the proofs of two cuts may share anyway
-constexpr int kGenerators = 48;      // of a wall, looked at for how near it comes
+constexpr int kGenerators = 48;      // of a wall, looked at for how deep it lies
 constexpr int kAlong = 12;           // points of a generator inside the other member
 constexpr double kInfinite = 1e300;  // mm
-constexpr double kWorth = 0.01;      // of the radius: a nearer least value may lie between samples
+constexpr double kThin = 0.02;       // of both radii: what the points of `look` may pass by
 constexpr int kHalvings = 14;        // of the steps of the search for the deepest point
 constexpr int kMoves = 24;           // with one step
 
-/// One cut end: its frame, and the seats that cut it.
-struct Cut {
-  MemberFrame frame;
-  std::vector<PreparedCutter> seats;
-
-  /// z into the member where the generator on the side `q` leaves the seats; the work point where
-  /// nothing cuts it.
-  [[nodiscard]] double top(double rho, const Vector3d& q) const {
-    const Generator line{rho, q.dot(frame.rows.row(0)), q.dot(frame.rows.row(1))};
-    const auto hit = highest(seats, line);
-    return hit ? hit->z : 0.0;
-  }
-};
-
-/// A member as it is once cut, its axis from the start.
-struct Finished {
-  Vector3d start, axis;
-  double length, inner, outer;
-  Cut first, last;
-
-  struct Span {
-    double from, to;
-  };
-  [[nodiscard]] Span span(double rho, const Vector3d& q) const {
-    return {first.top(rho, q), length - last.top(rho, q)};
-  }
-  /// A side of the member: a unit vector across its axis.
-  [[nodiscard]] Vector3d side(double phi) const {
-    const auto at = elementary::sincos(phi);
-    return at.cos * first.frame.rows.row(0).transpose() +
-           at.sin * first.frame.rows.row(1).transpose();
-  }
-  [[nodiscard]] Vector3d point(double rho, const Vector3d& q, double z) const {
-    return start + z * axis + rho * q;
-  }
-};
-
-Cut cut_of(const MemberEnd& end) {
-  return {.frame = end.frame, .seats = detail::prepared_seats(end)};
-}
-
-Finished finished(const NodeSpec& spec, const Nodes& nodes, std::size_t i) {
-  const auto& m = spec.members[i];
-  const Vector3d along = m.finish - m.start;
-  return {.start = m.start,
-          .axis = along.normalized(),
-          .length = along.norm(),
-          .inner = m.outer_radius - m.wall,
-          .outer = m.outer_radius,
-          .first = cut_of(nodes.ends[2 * i]),
-          .last = cut_of(nodes.ends[2 * i + 1])};
-}
-
-/// How deep a point lies inside the finished member, and how deep in its metal.
-struct Depth {
-  double solid = -kInfinite, metal = -kInfinite;
-};
-Depth depth(const Finished& m, const Vector3d& p) {
+/// How deep a point lies inside the finished member, its bore filled.
+double depth(const Finished& m, const Vector3d& p) {
   const Vector3d from = p - m.start;
   const double z = from.dot(m.axis);
   const Vector3d beside = from - z * m.axis;
   const double rho = beside.norm();
   const Vector3d q = rho > 0.0 ? Vector3d(beside / rho) : m.side(0.0);
   const auto span = m.span(std::clamp(rho, m.inner, m.outer), q);
-  const double solid = std::min({m.outer - rho, z - span.from, span.to - z});
-  return {solid, std::min(solid, rho - m.inner)};
+  return std::min({m.outer - rho, z - span.from, span.to - z});
 }
 
 /// The stretch of a generator of `m` inside the other's outer cylinder, prolonged, and between its
@@ -118,30 +61,9 @@ std::array<double, 3> walls(const Finished& m) {
   return {m.outer, 0.5 * (m.inner + m.outer), m.inner};
 }
 
-/// Does any of the wall come into the other's outer cylinder, prolonged without end?
-bool enters(const Finished& m, const Finished& other, const std::stop_token& stop) {
-  for (const double rho : walls(m)) {
-    if (stop.stop_requested()) return false;
-    const auto near = [&](double phi) { return -reach(m, other, rho, m.side(phi)).clearance; };
-    std::array<double, kGenerators> sampled{};
-    for (std::size_t k = 0; k < kGenerators; ++k)
-      if (sampled[k] = near(kTwoPi * static_cast<double>(k) / kGenerators); sampled[k] > kLeast)
-        return true;
-    for (std::size_t k = 0; k < kGenerators; ++k) {
-      const double here = sampled[k];
-      const bool best = here >= sampled[(k + kGenerators - 1) % kGenerators] &&
-                        here >= sampled[(k + 1) % kGenerators];
-      if (!best || here < -kWorth * (m.outer + other.outer)) continue;
-      const double phi = kTwoPi * static_cast<double>(k) / kGenerators, step = kTwoPi / kGenerators;
-      if (math::golden_maximum(near, phi - step, phi + step).value > kLeast) return true;
-    }
-  }
-  return false;
-}
-
-/// The deepest of one member's metal in the other, and the deepest in both metals.
+/// The deepest of one member's metal in the other.
 struct Deepest {
-  double solid = 0.0, metal = 0.0;
+  double depth = 0.0;
   Vector3d at = Vector3d::Zero();
 };
 
@@ -155,14 +77,13 @@ void see(const Finished& m, const Finished& other, const Place& place, Deepest& 
   const auto r = reach(m, other, place.rho, q);
   if (!(r.clearance < 0.0 && r.from < r.to)) return;
   const Vector3d p = m.point(place.rho, q, r.from + place.share * (r.to - r.from));
-  const auto d = depth(other, p);
-  out.metal = std::max(out.metal, d.metal);
-  if (d.solid <= out.solid) return;
-  out.solid = d.solid;
+  const double deep = depth(other, p);
+  if (deep <= out.depth) return;
+  out.depth = deep;
   out.at = p;
 }
 
-/// From the deepest of the sampled places on, by steps that halve.
+/// From a place on, by steps that halve.
 void climb(const Finished& m, const Finished& other, Place from, const std::stop_token& stop,
            Deepest& out) {
   double turn = kTwoPi / kGenerators, along = 1.0 / kAlong;
@@ -173,9 +94,9 @@ void climb(const Finished& m, const Finished& other, Place from, const std::stop
       for (const auto& [dphi, dshare] : {std::pair{turn, 0.0}, std::pair{-turn, 0.0},
                                          std::pair{0.0, along}, std::pair{0.0, -along}}) {
         const Place next{from.rho, from.phi + dphi, std::clamp(from.share + dshare, 0.0, 1.0)};
-        const double before = out.solid;
+        const double before = out.depth;
         see(m, other, next, out);
-        if (!(out.solid > before * (1.0 + 1e-9))) continue;
+        if (!(out.depth > before * (1.0 + 1e-9))) continue;
         from = next;
         better = true;
       }
@@ -183,6 +104,11 @@ void climb(const Finished& m, const Finished& other, Place from, const std::stop
   }
 }
 
+void keep_deeper(const Deepest& one, Deepest& out) {
+  if (one.depth > out.depth) out = one;
+}
+
+/// The wall's generators, each at points that lie evenly inside the other.
 void look(const Finished& m, const Finished& other, const std::stop_token& stop, Deepest& out) {
   for (const double rho : walls(m)) {
     Deepest own;
@@ -190,15 +116,31 @@ void look(const Finished& m, const Finished& other, const std::stop_token& stop,
     for (int i = 0; i < kGenerators && !stop.stop_requested(); ++i)
       for (int k = 0; k <= kAlong; ++k) {
         const Place place{rho, kTwoPi * i / kGenerators, static_cast<double>(k) / kAlong};
-        const double before = own.solid;
+        const double before = own.depth;
         see(m, other, place, own);
-        if (own.solid > before) best = place;
+        if (own.depth > before) best = place;
       }
-    if (own.solid > 0.0) climb(m, other, best, stop, own);
-    out.metal = std::max(out.metal, own.metal);
-    if (own.solid <= out.solid) continue;
-    out.solid = own.solid;
-    out.at = own.at;
+    if (own.depth > 0.0) climb(m, other, best, stop, own);
+    keep_deeper(own, out);
+  }
+}
+
+/// From a point that both share, at its own radius and at those of the wall: what is thinner than
+/// the steps between generators is found from there.
+void look_from(const Finished& m, const Finished& other, const Vector3d& shared,
+               const std::stop_token& stop, Deepest& out) {
+  const Vector3d from = shared - m.start;
+  const double z = from.dot(m.axis);
+  const Vector3d beside = m.first.frame.rows * (from - z * m.axis);
+  const double phi = elementary::atan2(beside.y(), beside.x());
+  for (const double rho : {beside.norm(), m.outer, 0.5 * (m.inner + m.outer), m.inner}) {
+    const auto r = reach(m, other, rho, m.side(phi));
+    if (!(r.from < r.to)) continue;
+    const Place place{rho, phi, std::clamp((z - r.from) / (r.to - r.from), 0.0, 1.0)};
+    Deepest own;
+    see(m, other, place, own);
+    climb(m, other, place, stop, own);
+    keep_deeper(own, out);
   }
 }
 
@@ -264,15 +206,36 @@ bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std
   return !stop.stop_requested();
 }
 
-std::optional<Overlap> overlap(const NodeSpec& spec, const Nodes& nodes, std::size_t a,
-                               std::size_t b, const std::stop_token& stop) {
-  const auto one = finished(spec, nodes, a), two = finished(spec, nodes, b);
-  if (!enters(one, two, stop) || !enters(two, one, stop)) return std::nullopt;
-  Deepest deepest;
-  look(one, two, stop, deepest);
-  look(two, one, stop, deepest);
-  if (!(deepest.solid > kLeast && deepest.metal > kLeast)) return std::nullopt;
-  return Overlap{a, b, deepest.solid, deepest.at};
+/// Members as they are once cut, each made where it is first asked for.
+class FinishedMembers {
+ public:
+  FinishedMembers(const NodeSpec& spec, const Nodes& nodes, const Beside& beside)
+      : spec_(spec), nodes_(nodes), beside_(beside), made_(spec.members.size()) {}
+
+  const Finished& operator[](std::size_t i) {
+    if (!made_[i]) made_[i] = detail::finished(spec_, nodes_, i, beside_);
+    return *made_[i];
+  }
+
+ private:
+  const NodeSpec& spec_;
+  const Nodes& nodes_;
+  const Beside& beside_;
+  std::vector<std::optional<Finished>> made_;
+};
+
+std::optional<Overlap> overlap(FinishedMembers& members, std::size_t a, std::size_t b,
+                               const std::stop_token& stop) {
+  const auto &one = members[a], &two = members[b];
+  const auto shared = detail::shared_metal(one, two, stop);
+  if (!shared) return std::nullopt;
+  Deepest deepest{std::min(depth(one, *shared), depth(two, *shared)), *shared};
+  for (const auto& [m, other] : {std::pair{&one, &two}, std::pair{&two, &one}}) {
+    look(*m, *other, stop, deepest);
+    if (deepest.depth < kThin * (one.outer + two.outer))
+      look_from(*m, *other, *shared, stop, deepest);
+  }
+  return Overlap{a, b, deepest.depth, deepest.at};
 }
 
 tl::unexpected<Error> too_many(std::size_t pairs, std::size_t most, const char* what) {
@@ -287,8 +250,8 @@ tl::unexpected<Error> too_many(std::size_t pairs, std::size_t most, const char* 
 }  // namespace
 
 Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
-                                      std::optional<std::size_t> only,
-                                      const std::stop_token& stop) {
+                                      std::optional<std::size_t> only, const std::stop_token& stop,
+                                      const Beside& beside) {
   const auto stated = stated_apart(spec);
   // Counted first: too many are refused in a moment, not after all that may be looked at were.
   std::size_t near = 0;
@@ -300,9 +263,10 @@ Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
   if (near > kMostNearPairs)
     return too_many(near, kMostNearPairs, "come nearer than their radii and do not cut each other");
   std::vector<Overlap> out;
+  FinishedMembers members(spec, nodes, beside);
   if (!near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
         if (settled(nodes, stated, a, b)) return true;
-        if (const auto one = overlap(spec, nodes, a, b, stop)) out.push_back(*one);
+        if (const auto one = overlap(members, a, b, stop)) out.push_back(*one);
         return out.size() <= kMostOverlaps;
       }))
     return fail({.code = ErrorCode::cancelled});

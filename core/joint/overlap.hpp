@@ -20,20 +20,28 @@ struct Overlap {
 /// be found to share metal: both grow with the square of the members.
 inline constexpr std::size_t kMostNearPairs = 1'000'000, kMostOverlaps = 5'000;
 
-/// The members that share metal once cut: modelled twice, crossing, or beside each other at a node
-/// with neither cutting the other. Ends are flush with their seats as `nodes` tells, one that
-/// nobody cuts is square at its work point; grooves and holes are not counted out, nor pairs looked
-/// at that by what is stated are set in, pass through, or are mitred. `only`: the pairs of this
-/// one.
+/// What else cuts each end of a node's members (2 i, 2 i + 1), in the end's own frame: surfaces
+/// that stand in no list of members. May be empty.
+using Beside = std::vector<std::vector<Cutter>>;
+
+/// The members that share metal once cut: modelled twice, crossing, beside each other at a node
+/// with neither cutting the other, or along each other. Metal is the wall, between the bore and the
+/// outer surface and between both ends: flush with their seats as `nodes` tells and with what cuts
+/// them `beside`, square at the work point where nothing does. Grooves and holes are not counted
+/// out, nor pairs looked at that by what is stated are set in, pass through, or are mitred. `only`:
+/// the pairs of this one.
 ///
 /// Errors    wrong_count (members: more pairs than may be looked at, or than may overlap),
 ///           cancelled.
-/// Accuracy  depth within 0.01 mm and 1e-3 radii; reported above 0.01 mm.
-/// Cost      5 us for a pair whose axes come nearer than their radii, 1 ms for one that overlaps.
+/// Accuracy  told if a ball of 0.01 mm fits into both walls, decided by bounds (`shared_metal`);
+///           depth within 0.01 mm and 1e-3 radii.
+/// Cost      5 us for a pair whose axes come nearer than their radii, 0.1 ms where the walls are
+///           1 mm apart, 1 ms for one that overlaps.
 /// Source    docs/theory/intersections-and-bevels.md, section 1.4.
 [[nodiscard]] Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
                                                     std::optional<std::size_t> only = {},
-                                                    const std::stop_token& stop = {});
+                                                    const std::stop_token& stop = {},
+                                                    const Beside& beside = {});
 
 /// One warning at each of the two; with `only` at that one alone.
 [[nodiscard]] std::vector<Warning> warnings_of(const NodeSpec& spec,

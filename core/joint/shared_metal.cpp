@@ -1,0 +1,262 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/base/elementary.hpp"
+#include "core/joint/finished.hpp"
+
+namespace tubecut::joint::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHalf = 0.5 * kLeastShared;  // of the ball that must fit into both
+constexpr double kSmall = 0.5 * kHalf;        // mm: a cell that is not divided
+constexpr double kFar = 1e7;                  // mm: beyond every member
+constexpr double kAlong = 1e-9;               // sine: over 10 m the axes stay 1e-5 mm as far apart
+constexpr double kOpposite = 1e-12;           // of two unit normals, 1 + their product
+constexpr int kAround = 16;                   // cells to begin with
+constexpr std::size_t kBetweenLooks = 256;    // cells, about 50 us
+
+struct Interval {
+  double from, to;
+  [[nodiscard]] bool empty() const { return !(from <= to); }
+};
+
+/// A bundle of generators of the thinner member, and a stretch of them.
+struct Cell {
+  double phi, half_phi, rho, half_rho;
+  Interval z;
+
+  /// How far a generator of it lies from the middle one.
+  [[nodiscard]] double off() const {
+    return std::sqrt(half_rho * half_rho + rho * (rho + half_rho) * half_phi * half_phi);
+  }
+};
+
+/// A straight line seen from an axis: the squared distance is least^2 + sine^2 (z - at)^2.
+struct Line {
+  Vector3d beside, across;  // across the axis: of z = 0, and growing with z
+  double along, rise;       // on the axis: of z = 0, and growing with z
+  double sine, at, least;
+
+  Line(const Vector3d& from, const Vector3d& direction, const Vector3d& axis)
+      : along(from.dot(axis)), rise(direction.dot(axis)) {
+    beside = from - along * axis;
+    across = direction - rise * axis;
+    sine = across.norm();
+    at = sine > kAlong ? -beside.dot(across) / (sine * sine) : 0.0;
+    least = (beside + at * across).norm();
+  }
+  /// Where it is no further from the axis than this; empty: nowhere.
+  [[nodiscard]] Interval within(double radius) const {
+    if (!(least <= radius)) return {1.0, 0.0};
+    if (!(sine > kAlong)) return {-kFar, kFar};
+    const double half = std::sqrt((radius - least) * (radius + least)) / sine;
+    return {at - half, at + half};
+  }
+  /// On both sides of the bore, or one stretch.
+  [[nodiscard]] std::array<Interval, 2> in_wall(double inner, double outer, Interval z) const {
+    const auto near = within(outer);
+    z = {std::max(z.from, near.from), std::min(z.to, near.to)};
+    const auto bore = inner > 0.0 ? within(inner) : Interval{1.0, 0.0};
+    if (bore.empty()) return {z, Interval{1.0, 0.0}};
+    return {Interval{z.from, std::min(z.to, bore.from)}, Interval{std::max(z.from, bore.to), z.to}};
+  }
+};
+
+/// The stretch of the line whose place on the axis is at least `low` and at most `high`.
+Interval clip(const Line& line, Interval z, double low, double high) {
+  if (std::abs(line.rise) <= kAlong) {
+    const double slack = kAlong * (std::abs(z.from) + std::abs(z.to));
+    const double there = line.along + line.rise * 0.5 * (z.from + z.to);
+    return there + slack < low || there - slack > high ? Interval{1.0, 0.0} : z;
+  }
+  const double one = (low - line.along) / line.rise, two = (high - line.along) / line.rise;
+  return {std::max(z.from, std::min(one, two)), std::min(z.to, std::max(one, two))};
+}
+
+/// A place in the other member: its generator, and the way along that.
+struct Seen {
+  double rho;
+  Vector3d q;
+};
+Seen seen(const Finished& m, const Line& line, double z) {
+  const Vector3d beside = line.beside + z * line.across;
+  const double rho = beside.norm();
+  return {rho, rho > 0.0 ? Vector3d(beside / rho) : m.side(0.0)};
+}
+
+/// The search of one pair: generators of `m` in the wall of `other`.
+class Search {
+ public:
+  Search(const Finished& m, const Finished& other) : m_(m), other_(other) {
+    curved_ = !other.first.seats.empty() || !other.last.seats.empty();
+  }
+
+  std::optional<Vector3d> run(const std::stop_token& stop) {
+    const double half = 0.5 * (m_.outer - m_.inner);
+    for (int k = 0; k < kAround; ++k)
+      cells_.push_back({kTwoPi * k / kAround,
+                        kPi / kAround,
+                        m_.inner + half,
+                        std::max(0.0, half - kHalf),
+                        {-kFar, kFar}});
+    for (std::size_t next = 0; next < cells_.size() && next < kMostCells; ++next) {
+      if (next % kBetweenLooks == 0 && stop.stop_requested()) return std::nullopt;
+      const auto cell = cells_[next];  // a copy, because the list grows
+      if (auto found = look(cell)) return found;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<Vector3d> look(const Cell& cell) {
+    const double off = cell.off();
+    const Vector3d q = m_.side(cell.phi);
+    const Line line(m_.start + cell.rho * q - other_.start, m_.axis, other_.axis);
+    const auto own = m_.span(cell.rho, q, {off, kHalf});
+    const Interval z{std::max(cell.z.from, own.from), std::min(cell.z.to, own.to)};
+    for (const auto& piece :
+         line.in_wall(other_.inner + kHalf - off, other_.outer - kHalf + off, z)) {
+      if (piece.empty()) continue;
+      const auto rest = between_ends(line, piece, off);
+      if (rest.empty()) continue;
+      const auto middle = on_middle(line, cell.rho, q, rest);
+      if (middle.found) return m_.point(cell.rho, q, *middle.found);
+      divide(cell, rest, line.sine, middle.in_wall);
+    }
+    return std::nullopt;
+  }
+
+  /// What no generator of the bundle leaves the other's ends on.
+  [[nodiscard]] Interval between_ends(const Line& line, Interval z, double off) const {
+    const double middle = 0.5 * (z.from + z.to), half = 0.5 * (z.to - z.from);
+    const auto at = seen(other_, line, middle);
+    const auto ends = other_.span(at.rho, at.q, {off + half * line.sine, kHalf});
+    // A step across the one is a step along the other by the sine of their angle.
+    return clip(line, z, ends.from - off * line.sine, ends.to + off * line.sine);
+  }
+
+  struct Middle {
+    std::optional<double> found;  // z of a place in both
+    bool in_wall = false;         // but for the other's ends
+  };
+  [[nodiscard]] Middle on_middle(const Line& line, double rho, const Vector3d& q,
+                                 Interval z) const {
+    const auto own = m_.span(rho, q, {0.0, kHalf});
+    Middle out;
+    for (const auto& piece : line.in_wall(other_.inner + kHalf, other_.outer - kHalf,
+                                          {std::max(z.from, own.from), std::min(z.to, own.to)})) {
+      if (piece.empty()) continue;
+      out.in_wall = true;
+      for (const double share : {0.5, 0.0, 1.0}) {
+        const double there = piece.from + share * (piece.to - piece.from);
+        const auto at = seen(other_, line, there);
+        const auto ends = other_.span(at.rho, at.q, {0.0, kHalf});
+        const double along = line.along + line.rise * there;
+        if (along >= ends.from && along <= ends.to) {
+          out.found = there;
+          return out;
+        }
+      }
+    }
+    return out;
+  }
+
+  /// Into two, across the longest side: along the generators only where the other's ends are to be
+  /// decided.
+  void divide(const Cell& cell, Interval z, double sine, bool in_wall) {
+    const double round = cell.rho * cell.half_phi, across = cell.half_rho;
+    const double along = curved_ ? 0.5 * (z.to - z.from) * sine : 0.0;
+    if (std::max({round, across, along}) < kSmall) return;
+    auto one = cell, two = cell;
+    one.z = two.z = z;
+    if (along > std::max(round, across) && (in_wall || along > 8.0 * std::max(round, across))) {
+      one.z.to = two.z.from = 0.5 * (z.from + z.to);
+    } else if (across > round) {
+      one.half_rho = two.half_rho = 0.5 * across;
+      one.rho -= 0.5 * across;
+      two.rho += 0.5 * across;
+    } else {
+      one.half_phi = two.half_phi = 0.5 * cell.half_phi;
+      one.phi -= one.half_phi;
+      two.phi += two.half_phi;
+    }
+    cells_.push_back(one);
+    cells_.push_back(two);
+  }
+
+  const Finished& m_;
+  const Finished& other_;
+  bool curved_;
+  std::vector<Cell> cells_;
+};
+
+/// No metal of the member lies beyond these z.
+Interval extent(const Finished& m) {
+  const auto all = m.span(0.0, m.side(0.0), {m.outer, 0.0});
+  return {std::max(-kFar, all.from), std::min(kFar, all.to)};
+}
+
+/// Apart beside each other, one in the other's bore, or one beyond the other's end.
+bool clear_of(const Finished& m, Interval z, const Finished& other, Interval ends) {
+  const Line axis(m.start - other.start, m.axis, other.axis);
+  const auto from_axis = [&](double at) { return (axis.beside + at * axis.across).norm(); };
+  const double least = from_axis(std::clamp(axis.at, z.from, z.to));
+  if (least >= m.outer + other.outer - kLeastShared) return true;
+  const double most = std::max(from_axis(z.from), from_axis(z.to));
+  if (most + m.outer <= other.inner + kLeastShared) return true;
+  const double one = axis.along + axis.rise * z.from, two = axis.along + axis.rise * z.to;
+  const double reach = m.outer * axis.sine;
+  return std::max(one, two) + reach <= ends.from + kLeastShared ||
+         std::min(one, two) - reach >= ends.to - kLeastShared;
+}
+
+/// A plane that cuts a member, seen in the world: its metal lies where normal . p >= from.
+struct Kept {
+  Vector3d normal;
+  double from;
+};
+std::vector<Kept> planes(const Finished& m) {
+  std::vector<Kept> out;
+  for (const auto* end : {&m.first, &m.last})
+    for (const auto& one : end->prepared)
+      if (const auto* plane = std::get_if<PreparedPlane>(&one)) {
+        const Vector3d normal = end->frame.rows.transpose() * plane->normal;
+        out.push_back({normal, normal.dot(end->frame.origin) + plane->height * plane->normal.z()});
+      }
+  return out;
+}
+
+/// One of the planes that cut `m` has all of the other on its other side.
+bool parted(const Finished& m, const Finished& other, Interval z) {
+  const auto others = planes(other);
+  for (const auto& plane : planes(m)) {
+    const double rise = plane.normal.dot(other.axis);
+    const double across = std::sqrt(std::max(0.0, (1.0 - rise) * (1.0 + rise)));
+    double most =
+        plane.normal.dot(other.start) + std::max(rise * z.from, rise * z.to) + other.outer * across;
+    for (const auto& one : others)
+      if (1.0 + one.normal.dot(plane.normal) < kOpposite) most = std::min(most, -one.from);
+    if (most <= plane.from + kLeastShared) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<Vector3d> shared_metal(const Finished& a, const Finished& b,
+                                     const std::stop_token& stop) {
+  const auto on_a = extent(a), on_b = extent(b);
+  if (on_a.empty() || on_b.empty()) return std::nullopt;
+  if (clear_of(a, on_a, b, on_b) || clear_of(b, on_b, a, on_a)) return std::nullopt;
+  if (parted(a, b, on_b) || parted(b, a, on_a)) return std::nullopt;
+  return a.outer <= b.outer ? Search(a, b).run(stop) : Search(b, a).run(stop);
+}
+
+}  // namespace tubecut::joint::detail
