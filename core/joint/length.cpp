@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/borders.hpp"
 #include "core/joint/stations.hpp"
 
 namespace tubecut::joint {
@@ -77,7 +78,7 @@ double arc_length(const Contour& contour, const Segment& segment, double from, d
 
 namespace {
 
-/// A part of a segment between two phases asked for, or an event.
+/// A part of a segment between two phases asked for, events, or borders of its cutter's surfaces.
 struct Piece {
   std::size_t segment;
   double from, to;  // rad, as the segment counts them
@@ -88,7 +89,10 @@ struct Piece {
 /// in the last segment, whose phases are then phi + 2 pi.
 class Walk {
  public:
-  explicit Walk(const Contour& contour) : contour_(contour) {
+  explicit Walk(const Contour& contour) : contour_(contour), borders_(contour.cutters.size()) {
+    for (const auto& segment : contour.segments)
+      if (auto& own = borders_[segment.cutter]; own.empty())
+        own = borders(contour.cutters[segment.cutter], contour.radius);
     if (contour.events.empty()) return;
     segment_ = contour.segments.size() - 1;
     turn_ = kTwoPi;
@@ -116,6 +120,14 @@ class Walk {
   }
 
   void add(double phi) {
+    const auto& own = borders_[contour_.segments[segment_].cutter];
+    for (auto border = std::ranges::upper_bound(own, at_); border != own.end() && *border < phi;
+         ++border)
+      add_piece(*border);
+    add_piece(phi);
+  }
+
+  void add_piece(double phi) {
     if (phi > at_) pieces.push_back({segment_, at_ + turn_, phi + turn_});
     at_ = std::max(at_, phi);
   }
@@ -129,6 +141,7 @@ class Walk {
   }
 
   const Contour& contour_;
+  std::vector<std::vector<double>> borders_;  // of each cutter that holds a segment
   std::size_t segment_ = 0;
   double turn_ = 0.0, at_ = 0.0, leaps_ = 0.0;
   std::optional<double> asked_;

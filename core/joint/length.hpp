@@ -17,7 +17,8 @@ namespace tubecut::joint {
 /// True length from phi = 0 up to each of the ascending phases (rad, [0, 2 pi)); at a jump the
 /// height difference counts after the first of two equal phases. One more entry than phases: the
 /// last is the length of the whole closed curve.
-/// Accuracy  as arc_length; the total does not depend on the phases beyond that.
+/// Accuracy  as arc_length, however narrow a cutter's corners are; the total does not depend on the
+///           phases beyond that.
 /// Cost      seven slopes of a smooth gap, side by side with those of the others. Stopped, the rest
 ///           are 0.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
