@@ -18,7 +18,9 @@ namespace tubecut::api {
   X(diameter_min_mm, 5)              \
   X(diameter_max_mm, 5'000)          \
   X(wall_min_mm, 0.5)                \
-  X(wall_max_mm, 200)                \
+  X(wall_max_mm, 2'499.9)            \
+  X(bore_min_mm, 0.2)                \
+  X(plate_min_mm, 0.5)               \
   X(offset_max_mm, 1e6)              \
   X(angle_max_deg, 3'600)            \
   X(periods_json_max, 400'000)       \
@@ -49,6 +51,13 @@ inline constexpr double kLongBudgetS = 30.0;  // 11.4 s: 20 000 mill positions, 
 
 inline constexpr Range kDiameter{.min = limit::diameter_min_mm, .max = limit::diameter_max_mm};
 inline constexpr Range kWall{.min = limit::wall_min_mm, .max = limit::wall_max_mm};
+/// Of a tube of this radius: it has a bore.
+constexpr Range wall_of(double outer_radius) {
+  return {.min = kWall.min, .max = outer_radius - 0.5 * limit::bore_min_mm};
+}
+static_assert(2.0 * limit::wall_max_mm + limit::bore_min_mm == limit::diameter_max_mm);
+/// Of a rectangular partner: it may be a plate.
+inline constexpr Range kPlate{.min = limit::plate_min_mm, .max = limit::diameter_max_mm};
 inline constexpr Range kOffset{.min = -limit::offset_max_mm, .max = limit::offset_max_mm};
 inline constexpr Range kAnyAngleDeg{.min = -limit::angle_max_deg, .max = limit::angle_max_deg};
 

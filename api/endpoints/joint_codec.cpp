@@ -48,8 +48,10 @@ joint::Partner decode_plane(Reader& in) {
 }
 
 joint::Partner decode_rectangular_tube(Reader& in) {
-  joint::RectangularTubeCutter out{.width = in.number("width_mm", kDiameter),
-                                   .height = in.number("height_mm", kDiameter)};
+  joint::RectangularTubeCutter out{.width = in.number("width_mm", kPlate)};
+  // A plate is thin one way only; what is narrow both ways is likely in another unit.
+  const bool thin = in.understood("width_mm") && out.width < kDiameter.min;
+  out.height = in.number("height_mm", thin ? kDiameter : kPlate);
   const bool sized = in.understood("width_mm") && in.understood("height_mm");
   const double widest = 0.5 * (sized ? std::min(out.width, out.height) : kDiameter.max);
   out.corner = in.number("corner_radius_mm", {.min = 0.0, .max = widest, .open_min = true});
@@ -129,12 +131,8 @@ TubeSection decode_tube_section(Reader& in, bool with_wall) {
   if (!which) return out;
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
   if (!with_wall) return out;
-  // 0 < wall < radius, and within what the service cuts
-  const Range wall{.min = kWall.min,
-                   .max = std::min(kWall.max, out.outer_radius),
-                   .open_min = false,
-                   .open_max = out.outer_radius <= kWall.max};
-  out.wall = in.number("wall_mm", in.understood("outer_diameter_mm") ? wall : kWall);
+  const bool sized = in.understood("outer_diameter_mm");
+  out.wall = in.number("wall_mm", sized ? wall_of(out.outer_radius) : kWall);
   return out;
 }
 

@@ -91,10 +91,8 @@ motion::CutPath decode_contour(Reader& in) {
   motion::CutPath out;
   out.surface = in.choice("surface", kNames<Surface>);
   out.outer_radius = in.number("outer_diameter_mm", kDiameter) / 2.0;
-  const Range wall{.min = kWall.min,
-                   .max = std::min(kWall.max, out.outer_radius),
-                   .open_max = out.outer_radius <= kWall.max};
-  out.wall = in.number("wall_mm", in.understood("outer_diameter_mm") ? wall : kWall);
+  const bool sized = in.understood("outer_diameter_mm");
+  out.wall = in.number("wall_mm", sized ? wall_of(out.outer_radius) : kWall);
   out.closed = in.flag("closed");
   const auto sign = decode_b_sign(in);
   in.note("scrap");

@@ -252,7 +252,7 @@ TEST(FeedCurves, EveryFieldIsRefusedByNameValueAndLimit) {
       {"linkage/rad_per_mm", 1e-9, 10},
       {"cut/clearance_mm", 0, 10'000},
       {"cut/slowdown_mm", 0, 10'000},
-      {"cut/wall_mm", 0.5, 200},
+      {"cut/wall_mm", 0.5, 2499.9},
       {"cut/overcut_mm", 0, 10'000},
       {"cut/feed_mm_s", 1e-3, 10'000},
       {"fit/tolerance_ratio", 1e-9, 1},
@@ -270,7 +270,7 @@ TEST(FeedCurves, EveryFieldIsRefusedByNameValueAndLimit) {
       {"tool/corner_radius_mm", 1e-3, 100},
       {"tool/kerf_mm", 0.01, 50},
       {"tube/outer_diameter_mm", 5, 5'000},
-      {"tube/wall_mm", 0.5, 200},
+      {"tube/wall_mm", 0.5, 2499.9},
   };
   const auto body = example_of("cut-off-194-mm-whole-cycle");
   for (const auto& field : fields)

@@ -45,7 +45,7 @@ TEST(Partners, EveryFieldIsChecked) {
   };
   EXPECT_EQ(refusal(box("corner_radius_mm", 0.0), "/cutters/0/corner_radius_mm"), "out_of_range");
   EXPECT_EQ(refusal(box("corner_radius_mm", 51.0), "/cutters/0/corner_radius_mm"), "out_of_range");
-  EXPECT_EQ(refusal(box("width_mm", 4.0), "/cutters/0/width_mm"), "out_of_range");
+  EXPECT_EQ(refusal(box("width_mm", 0.4), "/cutters/0/width_mm"), "out_of_range");
   EXPECT_EQ(refusal(box("depth_mm", 4.0), "/cutters/0/depth_mm"), "unknown_field");
   EXPECT_EQ(refusal(without(mixed(), "cutters/0/up"), "/cutters/0/up"), "missing_field");
   EXPECT_EQ(refusal(box("up", at(mixed(), "cutters/0/axis/direction")), "/cutters/0/up"),

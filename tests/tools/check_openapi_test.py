@@ -8,11 +8,11 @@ from tool import load
 check_openapi = load("check_openapi")
 
 LIMITS = {"uniform_points_min": 8, "uniform_points_max": 20000, "tolerance_min_mm": 1e-4, "tolerance_max_mm": 10, "cutters_max": 64,
-          "members_max": 10000, "diameter_min_mm": 5, "diameter_max_mm": 5000, "wall_min_mm": 0.5, "wall_max_mm": 200,
+          "members_max": 10000, "diameter_min_mm": 5, "diameter_max_mm": 5000, "wall_min_mm": 0.5, "wall_max_mm": 2499.9,
           "offset_max_mm": 1e6, "angle_max_deg": 3600, "problems_named_max": 32, "reference_characters_max": 64, "nesting_max": 32}
 PROPERTIES = {
     "uniform_points": {"minimum": 8, "maximum": 20000}, "tolerance_mm": {"minimum": 0.0001, "maximum": 10},
-    "outer_diameter_mm": {"minimum": 5, "maximum": 5000}, "wall_mm": {"minimum": 0.5, "maximum": 200},
+    "outer_diameter_mm": {"minimum": 5, "maximum": 5000}, "wall_mm": {"minimum": 0.5, "maximum": 2499.9},
     "offset_mm": {"minimum": -1000000, "maximum": 1000000}, "height_mm": {"minimum": -1000000, "maximum": 1000000},
     "clocking_deg": {"minimum": -3600, "maximum": 3600}, "cutters": {"$ref": "#/components/schemas/Cutters"},
     "errors": {"maxItems": 32}, "part": {"maxLength": 64}, "members": {"maxItems": 10000},
