@@ -53,7 +53,15 @@ class Worst {
 constexpr double kOnCutter = 1e-12;  // of the larger of radius + rho and |z|
 constexpr double kAbove = 1e-9;      // likewise
 constexpr double kTouch = 1e-12;     // likewise
+constexpr double kGraze = 4e-12;     // likewise: two proofs of one touch
 constexpr double kLabel = 1e-7;      // likewise: the curve is vertical at a silhouette
+
+/// A generator that only touches the partner, within rounding, from the one height to the other:
+/// neither is the surface's own.
+bool grazes(const Solid& solid, const Eigen::Vector3d& at, double top, double scale) {
+  const Eigen::Vector3d middle(at.x(), at.y(), 0.5 * (at.z() + top));
+  return std::abs(solid.distance(middle)) <= kGraze * scale;
+}
 
 struct Proof {
   Worst on_cutter{"on_cutter", "mm"}, none_above{"none_above", "mm"}, event_gap{"event_gap", "mm"},
@@ -71,10 +79,10 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
   const auto top = own.top(at.x(), at.y());
   // A silhouette may be missed by rounding: there the generator touches instead.
   const bool touches = !top && std::abs(own.clearance(at.x(), at.y())) <= kTouch * scale;
-  labels.see(top       ? std::abs(*top - p.z[i])
-             : touches ? std::abs(own.distance(at))
-                       : scale,
-             kLabel * scale);
+  double off = top ? std::abs(*top - p.z[i]) : scale;
+  if (touches || (off > kLabel * scale && top && grazes(own, at, *top, scale)))
+    off = std::abs(own.distance(at));
+  labels.see(off, kLabel * scale);
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (k == p.cutter[i]) continue;  // `labels` holds its own height
     // A partner lost or found here stands above on one side only.
@@ -84,7 +92,13 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
     });
     if (beside) continue;
     const auto height = solids[k].top(at.x(), at.y());
-    if (height) none_above.see(worst_of({0.0, *height - p.z[i]}), kAbove * scale);
+    if (!height) continue;
+    double above = worst_of({0.0, *height - p.z[i]});
+    // What only touches the generator takes no metal off it.
+    if (above > kAbove * scale &&
+        solids[k].clearance(at.x(), at.y()) >= -kTouch * (solids[k].scale() + p.radius))
+      above = 0.0;
+    none_above.see(above, kAbove * scale);
   }
 }
 

@@ -89,6 +89,89 @@ struct Answers {
   }
 };
 
+TEST(Tangent, APartnerThatTouchesTheRootsCircleIsCut) {
+  const auto request = field("tangent-partner-500.bevel-table.json");
+  for (const double apart : {1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 5e-7, 1e-6, 0.0}) {
+    const auto answer = post("/v1/bevel-tables", with(request, "cutters/0/offset_mm", 70 - apart));
+    EXPECT_FALSE(answer.outcome.error) << apart << answer.outcome.body.substr(0, 400);
+  }
+}
+
+/// A distance that is rounding or nearly so.
+double hair(Draw& draw) {
+  return draw.sign() * draw.of(std::array{0.0, 1.0, 1.0, 1.0}) *
+         std::pow(10.0, draw.any(-13.0, -5.5));
+}
+
+/// Its side as far from the target's axis as one of the target's surfaces, but for a hair.
+Json tangent(Draw& draw, double rho, double hair) {
+  const double lean = draw.of(std::array{90.0, 90.0, 60.0, draw.any(30, 150)});
+  const double turn = draw.of(std::array{0.0, 90.0, 180.0, draw.any(0, 360)});
+  const double half = draw.any(1.0, 3.0) * rho;
+  const double offset = draw.sign() * (half - rho - hair);
+  if (draw.of(std::array{true, false}))
+    return Json{Json::Object{{"kind", "tube"},
+                             {"outer_diameter_mm", 2 * half},
+                             {"inclination_deg", lean},
+                             {"clocking_deg", turn},
+                             {"offset_mm", offset}}};
+  const double a = lean * std::numbers::pi / 180, b = turn * std::numbers::pi / 180;
+  return Json{Json::Object{
+      {"kind", "rectangular_tube"},
+      {"width_mm", 2 * half},
+      {"height_mm", draw.any(60, 200)},
+      {"corner_radius_mm", draw.of(std::array{0.5, 2.0, 8.0})},
+      {"axis",
+       Json{Json::Object{{"point_mm", triple(-offset * std::cos(b), -offset * std::sin(b), 0)},
+                         {"direction", triple(std::sin(a) * std::sin(b), -std::sin(a) * std::cos(b),
+                                              std::cos(a))}}}},
+      {"up", triple(0, 0, 1)}}};
+}
+
+TEST(Tangent, EveryKindAtEveryHairIsAnsweredOrRefused) {
+  Draw draw(48);
+  Answers answers;
+  int good = 0;
+  for (int round = 0; round < 200; ++round) {
+    const double diameter = draw.of(std::array{60.0, 48.3, 114.3}), wall = draw.any(2, 8);
+    const double rho = 0.5 * diameter - draw.of(std::array{0.0, wall});
+    Json::Array cutters{tangent(draw, rho, hair(draw))};
+    if (round % 3 == 0) cutters.push_back(plane(-2 * diameter, 0.1));
+    const auto tube = target(diameter, wall);
+    good += answers.good("/v1/bevel-tables", table(tube, cutters, cut(draw))) ? 1 : 0;
+    good += answers.good("/v1/intersections", curves(tube, cutters)) ? 1 : 0;
+  }
+  EXPECT_GT(good, 150);
+}
+
+TEST(Tangent, HolesOfBranchesThatTouchTheChordsSide) {
+  Draw draw(49);
+  Answers answers;
+  int good = 0;
+  for (int round = 0; round < 200; ++round) {
+    const double chord = draw.of(std::array{114.3, 168.3}), wall = draw.of(std::array{4.0, 8.0});
+    const double branch = chord * draw.of(std::array{0.8, 0.6, 0.5});
+    const double own = draw.of(std::array{3.0, 5.0});
+    const double rho = 0.5 * chord - draw.of(std::array{0.0, wall});
+    const double r = 0.5 * branch - draw.of(std::array{0.0, own});
+    const Json request{Json::Object{
+        {"chord", target(chord, wall)},
+        {"branch", Json{Json::Object{{"outer_diameter_mm", branch},
+                                     {"wall_mm", own},
+                                     {"inclination_deg", draw.of(std::array{90.0, 60.0})},
+                                     {"clocking_deg", draw.of(std::array{0.0, 90.0, 33.0})},
+                                     {"offset_mm", draw.sign() * (rho - r - hair(draw))}}}},
+        {"joint",
+         Json{Json::Object{{"kind", draw.of(std::array{"set_on", "set_in"})}, {"gap_mm", 0.0}}}},
+        {"groove", Json{Json::Object{{"rule", draw.of(std::array{"none", "half_dihedral"})}}}},
+        {"tilt", draw.of(std::array{"none", "axial", "free"})},
+        {"kerf_mm", 1.0},
+        {"sampling", Json{Json::Object{{"uniform_points", 72.0}}}}}};
+    good += answers.good("/v1/holes", request) ? 1 : 0;
+  }
+  EXPECT_GT(good, 20);
+}
+
 TEST(ThinPlate, OneOfThreeMillimetresIsAPartner) {
   const auto request = field("slot-for-3-mm-gusset.intersection.json");
   EXPECT_FALSE(post("/v1/intersections", request).outcome.error);

@@ -331,15 +331,25 @@ Vector3d ElbowSolid::normal(const Vector3d& p) const {
   return (p - on_centre_line(p)).normalized();
 }
 
+// Where the line grazes the elbow the steps shrink for ever: now and then the place below that is
+// nearest is looked for, within the least bend that the distance can have.
 std::optional<double> ElbowSolid::top(double x, double y) const {
-  constexpr int kDown = 20'000;
+  constexpr int kDown = 20'000, kPatience = 100;
   const auto between = range(x, y);
   const double near = 1e-12 * (radius + bend_radius + std::abs(point.z()));
+  const auto away = [&](double at) { return distance({x, y, at}); };
   double z = between[1];
-  for (int step = 0; step < kDown && z > between[0]; ++step) {
-    const double away = distance({x, y, z});
-    if (away <= near) return z;
-    z -= away;
+  for (int step = 1; step < kDown && z > between[0]; ++step) {
+    const double gap = away(z);
+    if (gap <= near) return z;
+    if (step % kPatience == 0) {
+      const double below = 4.0 * std::sqrt(2.0 * (radius + bend_radius) * gap);
+      const double deep =
+          math::golden_maximum([&](double at) { return -away(at); }, z - below, z).at;
+      if (away(deep) <= near)
+        return math::last_true([&](double at) { return away(at) <= near; }, deep, z);
+    }
+    z -= gap;
   }
   return std::nullopt;
 }

@@ -136,7 +136,10 @@ double PreparedTube::silhouette_slope(const Generator& line) const {
 }
 
 // With d the distance in phi from the corner, S = sqrt(r rho) |d| and X = +-(r - rho d^2 / 2); the
-// curve is mirrored at delta = 0 and pi, so u and the tangential part take the side's sign.
+// curve is mirrored at delta = 0 and pi, so u and the tangential part take the side's sign. Where
+// the tube is wider than the target by more than rounding, the corner is rounded over the least
+// stretch of phi: its sides keep their directions, and the normal has the dihedral angle of its
+// tip.
 Hit PreparedTube::hit_at_corner(const Generator& line, Side side) const {
   constexpr double kBeside = 1e-12;
   const double d = side == Side::before ? -1.0 : 1.0;
@@ -145,10 +148,16 @@ Hit PreparedTube::hit_at_corner(const Generator& line, Side side) const {
   const double ratio = std::sqrt(line.radius / radius);  // dS/dphi / r
   const double cos_a = cos_inclination * (front >= 0.0 ? 1.0 : -1.0);
   const double ds = d * ratio * radius;
-  return {.z = height,
+  Hit out{.z = height,
           .normal = {1.0, kBeside * (-d + cos_a * ratio), kBeside * sin_inclination * ratio},
           .z_dphi = (ds - u * cos_inclination) / sin_inclination,
           .axial = 0.0};
+  const double wider = radius - (front >= 0.0 ? offset : -offset) - line.radius;
+  if (!(wider > kTouch * (radius + line.radius))) return out;
+  const double slant = std::sqrt(wider * (2.0 * radius - wider)) / radius;
+  const double to = slant / elementary::hypot(out.normal.y(), out.normal.z());
+  out.normal = {(radius - wider) / radius, to * out.normal.y(), to * out.normal.z()};
+  return out;
 }
 
 Vector3d PreparedTube::published_normal(const Generator& line) const {
