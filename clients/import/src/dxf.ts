@@ -1,5 +1,6 @@
 import library, {type IDxf, type IEntity} from 'dxf-parser';
-import {exact, type Found, type FrameOptions, frameOf, type Imported, names, nothing, rounded, type Size} from './frame.js';
+import {exact, full, type Found, type FrameOptions, frameOf, type Imported, names, nothing, rounded, type Size} from './frame.js';
+import {limits} from './limits.js';
 import {distance, times, type Vector} from './geometry.js';
 import {lengths, type LengthUnit} from './units.js';
 
@@ -71,6 +72,7 @@ function polyline(entity: Drawn): Piece[] {
   if (is3dPolygonMesh || isPolyfaceMesh) throw new Trouble('it is a mesh');
   if (includesCurveFitVertices || includesSplineFitVertices) throw new Trouble('it is fitted by a curve');
   if (points.length < 2) throw new Trouble('it has no two points');
+  if (points.length > limits.points) throw new Trouble(`it has ${points.length} points, and at most ${limits.points} are read`);
   const curved = points.some(({bulge}) => bulge);
   if (entity.type === 'LWPOLYLINE' || curved) flat(entity);
   const lift = (p: Point): Vector => (entity.type === 'LWPOLYLINE' ? [p.x, p.y, entity.elevation ?? 0] : at(p));
@@ -134,7 +136,7 @@ export function layersOf(text: string): string[] {
   return [
     ...new Set(
       parsed(text)
-        .entities.filter(({type}) => kinds[type])
+        .entities.filter(({type}) => Object.hasOwn(kinds, type))
         .map(({layer}) => layer),
     ),
   ].sort();
@@ -150,12 +152,13 @@ function every(text: string, sizesByLayer: Record<string, Size>, found: Found, o
   const mm = lengths[unit];
   const name = names();
   for (const entity of drawing.entities as Drawn[]) {
+    if (full(found)) return;
     const mark = `handle ${entity.handle}`;
     try {
-      const kind = kinds[entity.type];
+      const kind = Object.hasOwn(kinds, entity.type) ? kinds[entity.type] : undefined;
       if (!kind) throw new Trouble(`${entity.type} is not imported`);
       if (entity.inPaperSpace) throw new Trouble('it is drawn on a sheet, not in the model');
-      const size = sizesByLayer[entity.layer];
+      const size = Object.hasOwn(sizesByLayer, entity.layer) ? sizesByLayer[entity.layer] : undefined;
       if (!size) throw new Trouble(`no size was given for layer ${entity.layer}`);
       const pieces = kind(entity);
       const one = nothing();
@@ -178,5 +181,5 @@ export function fromDxf(text: string, sizesByLayer: Record<string, Size>, option
     if (!(failure instanceof Trouble)) throw failure;
     found.notUnderstood.push({id: 'file', type: 'DXF', reason: failure.message});
   }
-  return frameOf(found, options);
+  return frameOf(found, options, 'DXF');
 }

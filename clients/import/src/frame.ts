@@ -1,9 +1,14 @@
+import {limits} from './limits.js';
 import {cross, distance, dot, length, minus, times, unit, type Vector} from './geometry.js';
 
 /** What all importers give: a request of POST /v1/frames and what of the file is not in it. `frame` is null where no member was found. */
 export interface Imported {
   frame: Frame | null;
   notUnderstood: NotUnderstood[];
+  /** What the file does not state and the import must know: options to set before the next run. */
+  asks: Ask[];
+  /** Where members and others come from, if the file has names of its own for them. */
+  sources: Source[];
 }
 
 /** `id` as the file counts: #12 of IFC, "line 12" of PCF, "row 12" of CSV, "handle 2F" of DXF. */
@@ -11,6 +16,25 @@ export interface NotUnderstood {
   id: string;
   type: string;
   reason: string;
+  /** IFC: the GlobalId. */
+  guid?: string;
+}
+
+/** An option that is missing. `key` is what it is stated for, `likely` the probable values, the likeliest first: nothing is assumed. */
+export interface Ask {
+  option: 'bore' | 'schedule' | 'unit' | 'nodes' | 'decimal' | 'column';
+  key?: string;
+  count: number;
+  likely: string[];
+  text: string;
+}
+
+/** An id of the frame, and the entity that it stands for. */
+export interface Source {
+  id: string;
+  entity: string;
+  type: string;
+  guid?: string;
 }
 
 /** By millimetres, or by a name that GET /v1/tubes lists. */
@@ -32,6 +56,7 @@ export interface Joint {
   between: [string, string];
   kind: 'set_on' | 'mitre' | 'butt';
   end?: 'start' | 'finish';
+  hole?: 'cut';
 }
 
 /** A request of POST /v1/frames. What no file tells is as `FrameOptions` say. */
@@ -40,6 +65,7 @@ export interface Frame {
   others?: Other[];
   joints?: Joint[];
   connect: {within_mm: number};
+  merge_in_line?: boolean;
   defaults: Record<string, unknown>;
   kerf_mm: number;
   [field: string]: unknown;
@@ -50,19 +76,26 @@ export interface FrameOptions {
   within_mm?: number;
   /** This point of the file, in mm, is the frame's origin: for coordinates of a country, where the service takes a kilometre. */
   origin_mm?: Vector;
+  /** Members that continue in line become one piece (`merge_in_line` of the request). */
+  merge_in_line?: boolean;
   /** Fields of the request instead of ours: `defaults`, `kerf_mm`, `torch`, ... */
   fields?: Record<string, unknown>;
 }
 
-/** What a reader found. An other's length is how far it goes along its axis; the request knows it without end. */
+/** What a reader found. An other's length is how far it goes along its axis, of which the request knows no end; `from` is its entity. */
 export interface Found {
   members: Member[];
-  others: {other: Other; length_mm?: number}[];
+  others: {other: Other; length_mm?: number; from?: {id: string; type: string; guid?: string}}[];
   joints: Joint[];
   notUnderstood: NotUnderstood[];
+  asks: Ask[];
+  sources: Source[];
 }
 
-export const nothing = (): Found => ({members: [], others: [], joints: [], notUnderstood: []});
+export const nothing = (): Found => ({members: [], others: [], joints: [], notUnderstood: [], asks: [], sources: []});
+
+/** mm: `within_mm` if nobody states it. */
+export const nearby = 5;
 
 const sampled = {
   defaults: {root_surface: 'inner', groove: {rule: 'half_dihedral'}, smoothing: {method: 'none'}},
@@ -123,21 +156,30 @@ function atBend(other: Other & {kind: 'elbow'}, at: Vector, run: Vector, within:
   return near && turn > 0 && turn < (other.bend_deg * Math.PI) / 180 && slanted(run, tangent);
 }
 
+/** No point of it is farther from where it begins. */
+const reachOf = (other: Exclude<Other, {kind: 'plane'}>, long: number): number =>
+  other.kind === 'elbow' ? 2 * other.bend_radius_mm + other.outer_diameter_mm : long + other.width_mm + other.height_mm;
+
 /** The service finds the joints of members; those with the others are stated. */
 function withOthers(found: Found, within: number): Joint[] {
   const joints: Joint[] = [];
-  for (const {other, length_mm} of found.others)
-    for (const member of found.members)
-      for (const [end, at, run] of ends(member)) {
-        const box = other.kind === 'rectangular_tube' && atBox(other, length_mm ?? Infinity, at, run, within);
-        const bend = other.kind === 'elbow' && atBend(other, at, run, within);
-        if (box || bend) joints.push({between: [member.id, other.id], kind: 'set_on', end});
-      }
+  const all = found.members.flatMap((member) => ends(member).map((each) => [member, ...each] as const));
+  for (const {other, length_mm} of found.others) {
+    if (other.kind === 'plane') continue;
+    const reach = reachOf(other, length_mm ?? Infinity) + within;
+    for (const [member, end, at, run] of all) {
+      if (distance(at, other.axis.point_mm) > reach) continue;
+      const box = other.kind === 'rectangular_tube' && atBox(other, length_mm ?? Infinity, at, run, within);
+      const bend = other.kind === 'elbow' && atBend(other, at, run, within);
+      if (box || bend) joints.push({between: [member.id, other.id], kind: 'set_on', end});
+    }
+  }
   return joints;
 }
 
 const sized = (m: Member): string => ('size' in m ? m.size : `${m.outer_diameter_mm} x ${m.wall_mm}`);
 const near = 1e-3; // mm, rad: of ends that meet in line
+const crowd = 64; // ends at one place: no node has more
 
 /** Ends of alike tubes that meet in line are face to face: by nearness alone they would be said to be parallel. */
 function inLine(members: Member[]): Joint[] {
@@ -157,7 +199,7 @@ function inLine(members: Member[]): Joint[] {
           for (const z of [-1, 0, 1]) {
             const beside = [x, y, z].map((step, i) => Math.round((at[i as 0] + step * near) / 10)).join();
             const cell = cells.get(beside) ?? [];
-            if (!cell.some(([one, point]) => one === member && point === at)) cell.push([member, at, run]);
+            if (cell.length < crowd && !cell.some(([one, point]) => one === member && point === at)) cell.push([member, at, run]);
             cells.set(beside, cell);
           }
     }
@@ -176,25 +218,87 @@ function moved({members, others, ...rest}: Found, origin: Vector): Found {
   };
 }
 
+/** A rectangular tube is sent if a round one ends at it: no others can be cut by it. */
+function boxesTouched(found: Found, joints: Joint[]): {others: Found['others']; rest: NotUnderstood[]} {
+  const joined = new Set(joints.flatMap(({between}) => between));
+  const rest: NotUnderstood[] = [];
+  const others = found.others.filter(({other, from}) => {
+    if (other.kind !== 'rectangular_tube' || joined.has(other.id)) return true;
+    const size = `${exact(other.width_mm)} x ${exact(other.height_mm)} mm`;
+    const reason = `a rectangular tube of ${size}, named ${other.id}: it is not in the frame because no round tube ends at it`;
+    rest.push({id: from?.id ?? other.id, type: from?.type ?? 'rectangular_tube', reason, ...(from?.guid === undefined ? {} : {guid: from.guid})});
+    return false;
+  });
+  return {others, rest};
+}
+
+/** If the service would take fewer: what joins nothing is left out first, then the frame is too large and the list states it. */
+function fitted(found: Found, others: Found['others'], joints: Joint[]): Found['others'] {
+  if (others.length <= limits.others) return others;
+  const joined = new Set(joints.flatMap(({between}) => between));
+  const needed = others.filter(({other}) => joined.has(other.id));
+  if (needed.length > limits.others)
+    found.notUnderstood.push({
+      id: 'file',
+      type: 'frame',
+      reason: `${needed.length} others cut tubes here, and a frame has at most ${limits.others}: split the model`,
+    });
+  return needed;
+}
+
+const printable = ({id, type, reason, ...more}: NotUnderstood): NotUnderstood => ({id: clean(id), type: clean(type), reason: clean(reason), ...more});
+/** A file's text in a message: without control characters, and not longer than can be read. */
+export const clean = (text: string): string => (text.length > 500 ? `${text.slice(0, 500)} ...` : text).replace(unwanted, ' ');
+
+function listed(notUnderstood: NotUnderstood[]): NotUnderstood[] {
+  const shown = notUnderstood.slice(0, limits.listed).map(printable);
+  const more = notUnderstood.length - shown.length;
+  return more > 0 ? [...shown, {id: 'file', type: 'list', reason: `${more} more things are not in the frame`}] : shown;
+}
+
+/** Why there is no frame, if nothing else states it. */
+function empty({notUnderstood, asks, sources}: Found, rest: NotUnderstood[], format: string): Imported {
+  const all = [...notUnderstood, ...rest];
+  if (!all.some(({id}) => id === 'file')) {
+    const square = rest.length > 0 ? `; it has ${rest.length} rectangular ${rest.length === 1 ? 'tube' : 'tubes'}` : '';
+    const reason = `there is no frame because the file has no round tube that can be read${square}`;
+    all.push({id: 'file', type: format, reason});
+  }
+  return {frame: null, notUnderstood: listed(all), asks, sources};
+}
+
+/** Readers stop here: the rest of the file would not change the answer. */
+export const full = ({members}: Found): boolean => members.length > limits.members;
+
+function tooMany({notUnderstood, asks, sources}: Found): Imported {
+  const reason = `there is no frame because the file has more than ${limits.members} tubes, and a frame has at most so many: split the model`;
+  return {frame: null, notUnderstood: listed([...notUnderstood, {id: 'file', type: 'frame', reason}]), asks, sources};
+}
+
 /** The request of what was found, and what was not. */
-export function frameOf(given: Found, options: FrameOptions = {}): Imported {
+export function frameOf(given: Found, options: FrameOptions, format: string): Imported {
   const found = options.origin_mm ? moved(given, options.origin_mm) : given;
-  const {members, notUnderstood} = found;
-  if (members.length === 0) return {frame: null, notUnderstood};
-  const within = options.within_mm ?? 5;
-  const others = found.others.map(({other}) => other);
+  found.notUnderstood.push(...found.asks.map(({text}) => ({id: 'file', type: format, reason: text})));
+  const {members, notUnderstood, asks} = found;
+  const within = options.within_mm ?? nearby;
   const stated = new Set(found.joints.map(({between}) => [...between].sort().join('\n')));
-  const more = [...inLine(members), ...withOthers(found, within)].filter(({between}) => !stated.has([...between].sort().join('\n')));
-  const joints = [...found.joints, ...more];
+  const near = [...(options.merge_in_line ? [] : inLine(members)), ...withOthers(found, within)];
+  const joints = [...found.joints, ...near.filter(({between}) => !stated.has([...between].sort().join('\n')))];
+  const {others: touched, rest} = boxesTouched(found, joints);
+  if (members.length > limits.members) return tooMany(found);
+  if (members.length === 0) return empty(found, rest, format);
+  const others = fitted(found, touched, joints).map(({other}) => other);
   const frame = {
     members,
     ...(others.length > 0 ? {others} : {}),
     ...(joints.length > 0 ? {joints} : {}),
     connect: {within_mm: within},
+    ...(options.merge_in_line ? {merge_in_line: true} : {}),
     ...sampled,
     ...options.fields,
   };
-  return {frame, notUnderstood};
+  const ids = new Set([...members, ...others].map(({id}) => id));
+  return {frame, notUnderstood: listed([...notUnderstood, ...rest]), asks, sources: found.sources.filter(({id}) => ids.has(id))};
 }
 
 /** As text that is good to read and to edit: a member, an other, a joint a line. */

@@ -1,7 +1,20 @@
-export {bores} from './bores.js';
-export {columnsOf, type CsvMapping, type Field, fields, fromCsv} from './csv.js';
+export {boreMap, bores} from './bores.js';
+export {catalogue} from './catalogue.js';
+export {columnsOf, type CsvMapping, type Field, fields, fromCsv} from './csv/index.js';
 export {type DxfOptions, fromDxf, layersOf, unitOf} from './dxf.js';
-export {type Frame, type FrameOptions, type Imported, type Joint, type Member, type NotUnderstood, type Other, printed, type Size} from './frame.js';
+export {
+  type Ask,
+  type Frame,
+  type FrameOptions,
+  type Imported,
+  type Joint,
+  type Member,
+  type NotUnderstood,
+  type Other,
+  printed,
+  type Size,
+  type Source,
+} from './frame.js';
 export {fromIfc, type IfcOptions} from './ifc/index.js';
-export {fromPcf, type PcfOptions} from './pcf.js';
+export {fromPcf, type PcfOptions} from './pcf/index.js';
 export {lengths, type LengthUnit} from './units.js';

@@ -1,26 +1,32 @@
 #!/usr/bin/env node
 // node dist/main.js FILE [options] > frame.json
-import {readFileSync} from 'node:fs';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {extname} from 'node:path';
 import {parseArgs} from 'node:util';
-import {fields, fromCsv, fromDxf, fromIfc, fromPcf, type Imported, lengths, type LengthUnit, printed, type Size} from './index.js';
+import {boreMap, fields, fromCsv, fromDxf, fromIfc, fromPcf, type Imported, lengths, type LengthUnit, printed, type Size} from './index.js';
 
 const usage = `usage: node dist/main.js FILE [options] > frame.json
 
-FILE is .ifc, .pcf, .csv or .dxf. What was not understood goes to the standard error, a line each.
+FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf. What is not in the frame goes to the standard error, a line each.
 
   --within MM          an end joins what it comes as near as this to (5)
   --origin X,Y,Z       this point of the file, in mm, is the frame's origin; the service takes 1 km about it
+  --merge-in-line      members that continue in line become one piece
   --fields JSON        fields of the request instead of ours, for example {"kerf_mm": 2}
-  --corner MM          IFC: corner radius of rectangular tubes that the file draws sharp; without it they are not understood
-  --schedule NAME      PCF: of pipes whose wall the file does not tell, for example "SCH 40"
-  --wall-attribute A   PCF: the attribute that tells a wall (WALL-THICKNESS)
-  --unit UNIT          CSV, DXF: mm, cm, m, in or ft; CSV is in mm without it, DXF in what the drawing tells
+  --sources FILE       writes a CSV of the ids of the frame with their entities and GUIDs
+  --corner MM          IFC: corner radius of rectangular tubes that the file draws sharp; without it they are listed
+  --schedule NAME      PCF: of pipes whose wall the file does not state, for example "SCH 40"
+  --bore BORE=SIZE     PCF: what a bore means: "152.4=NPS 6", "160=DN 150", "168=168.3" (outside diameter in mm), "168=168.3x7.11"
+  --wall-attribute A   PCF: the attribute that states a wall (WALL-THICKNESS)
+  --unit UNIT          CSV, DXF: mm, cm, m, in or ft, of lengths that state no unit; CSV is in mm without it, DXF in what the drawing states
   --column FIELD=NAME  CSV: the column of a field (${fields.join(', ')})
+  --nodes FILE         CSV: the table of nodes, if it is not in the same file (columns node, x, y, z)
+  --decimal MARK       CSV: comma or point, if the numbers leave it open
   --size SIZE          CSV: of rows without their own, "114.3x6.3" (mm) or "NPS 4 SCH 40"
-  --layer NAME=SIZE    DXF: the size of what is drawn on a layer; the others are not understood
+  --layer NAME=SIZE    DXF: the size of what is drawn on a layer; the others are listed
 
-ends with 0, 1 (no frame could be made), 2 (wrong usage), 3 (a frame, and something that was not understood)
+ends with 0, 1 (no frame could be made), 2 (wrong usage), 3 (a frame, and something is not in it),
+4 (options are missing: the last lines state which; what could be read without them is on the standard output)
 `;
 
 class Usage extends Error {}
@@ -71,6 +77,11 @@ function asked() {
       corner: text,
       fields: text,
       schedule: text,
+      'merge-in-line': {type: 'boolean'} as const,
+      sources: text,
+      bore: list,
+      nodes: text,
+      decimal: text,
       'wall-attribute': text,
       unit: text,
       column: list,
@@ -83,6 +94,36 @@ function asked() {
   }
 }
 
+function boresOf(given: string[] | undefined): {bores?: Record<string, string>} {
+  if (given === undefined) return {};
+  const bores = Object.fromEntries(pairs(given, 'bore'));
+  try {
+    boreMap(bores);
+  } catch (failure) {
+    throw new Usage(`--bore: ${(failure as Error).message}`);
+  }
+  return {bores};
+}
+
+function decimalOf(text: string | undefined): {decimal?: '.' | ','} {
+  if (text === undefined) return {};
+  if (text !== 'comma' && text !== 'point') throw new Usage('--decimal is comma or point');
+  return {decimal: text === 'comma' ? ',' : '.'};
+}
+
+const quoted = (cell: string): string => (/[",\n]/.test(cell) ? `"${cell.replace(/"/g, '""')}"` : cell);
+const table = ({sources}: Imported): string =>
+  [['id', 'entity', 'type', 'guid'], ...sources.map(({id, entity, type, guid}) => [id, entity, type, guid ?? ''])]
+    .map((row) => `${row.map(quoted).join(',')}\n`)
+    .join('');
+
+/** The options that are missing, as they would be written. */
+function missing({asks}: Imported): string[] {
+  const bores = asks.filter(({option}) => option === 'bore').map(({key, likely}) => `--bore "${key}=${likely[0] ?? 'SIZE'}"`);
+  const others = [...new Set(asks.filter(({option}) => option !== 'bore').map(({option}) => `--${option}`))];
+  return asks.length === 0 ? [] : [`Options are missing. Check the likely values, then state: ${[...bores, ...others].join(' ')}`];
+}
+
 async function imported(): Promise<Imported> {
   const {values, positionals} = asked();
   const [file, ...rest] = positionals;
@@ -93,30 +134,40 @@ async function imported(): Promise<Imported> {
   const common = {
     ...(within === undefined ? {} : {within_mm: within}),
     ...(values.origin === undefined ? {} : {origin_mm: originOf(values.origin)}),
+    ...(values['merge-in-line'] ? {merge_in_line: true} : {}),
     ...(values.fields === undefined ? {} : {fields: objectOf(values.fields)}),
   };
   const columns = Object.fromEntries(pairs(values.column, 'column'));
   for (const field of Object.keys(columns)) if (!(fields as readonly string[]).includes(field)) throw new Usage(`--column knows no field ${field}`);
   const layers = Object.fromEntries(pairs(values.layer, 'layer').map(([layer, size]) => [layer, sizeOf(size)]));
   const unit = unitOf(values.unit);
-  const {schedule, 'wall-attribute': wallAttribute, size} = values;
+  const {schedule, 'wall-attribute': wallAttribute, size, nodes} = values;
+  const [bores, mark] = [boresOf(values.bore), decimalOf(values.decimal)];
+  const ofTables = {...unit, ...mark, columns, ...(size ? {size: sizeOf(size)} : {})};
+  const csv = (bytes: Buffer) => fromCsv(bytes.toString(), {...common, ...ofTables, ...(nodes === undefined ? {} : {nodes: readFileSync(nodes, 'utf8')})});
   const readers: Record<string, (bytes: Buffer) => Imported | Promise<Imported>> = {
     '.ifc': (bytes) => fromIfc(bytes, {...common, ...(corner === undefined ? {} : {corner_radius_mm: corner})}),
-    '.pcf': (bytes) => fromPcf(bytes.toString(), {...common, ...(schedule ? {schedule} : {}), ...(wallAttribute ? {wallAttribute} : {})}),
-    '.csv': (bytes) => fromCsv(bytes.toString(), {...common, ...unit, columns, ...(size ? {size: sizeOf(size)} : {})}),
+    '.pcf': (bytes) => fromPcf(bytes.toString(), {...common, ...(schedule ? {schedule} : {}), ...bores, ...(wallAttribute ? {wallAttribute} : {})}),
+    '.csv': csv,
+    '.tsv': csv,
+    '.txt': csv,
     '.dxf': (bytes) => fromDxf(bytes.toString(), layers, {...common, ...unit}),
   };
   const reader = readers[extname(file).toLowerCase()];
   if (!reader) throw new Usage(`${file} is none of ${Object.keys(readers).join(', ')}`);
-  return reader(readFileSync(file));
+  const found = await reader(readFileSync(file));
+  if (values.sources !== undefined) writeFileSync(values.sources, table(found));
+  return found;
 }
 
 try {
-  const {frame, notUnderstood} = await imported();
+  const found = await imported();
+  const {frame, notUnderstood} = found;
   for (const {id, type, reason} of notUnderstood) console.error(`${id} ${type}: ${reason}`);
+  for (const line of missing(found)) console.error(line);
   if (frame) process.stdout.write(printed(frame));
-  else console.error('no member was found: there is no frame');
-  process.exitCode = !frame ? 1 : notUnderstood.length > 0 ? 3 : 0;
+  else console.error('there is no frame');
+  process.exitCode = found.asks.length > 0 ? 4 : !frame ? 1 : notUnderstood.length > 0 ? 3 : 0;
 } catch (failure) {
   const wrong = failure instanceof Usage;
   console.error(wrong ? `${failure.message}\n\n${usage}` : (failure as Error).message);

@@ -4,6 +4,6 @@ declare module 'papaparse' {
     data: T[];
     errors: {type: string; message: string; row?: number}[];
   }
-  const Papa: {parse<T>(text: string, options: {preview?: number; skipEmptyLines?: boolean | 'greedy'}): Result<T>};
+  const Papa: {parse<T>(text: string, options: {skipEmptyLines?: boolean | 'greedy'; delimiter?: string}): Result<T>};
   export default Papa;
 }

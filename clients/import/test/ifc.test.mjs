@@ -1,7 +1,7 @@
 // Thirty IFC files whose axes are known: they come back within 1e-6 mm, sizes as they were. And spoilt ones: just what is spoilt is listed.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {fromIfc} from '../dist/index.js';
+import {catalogue, fromIfc} from '../dist/index.js';
 import {models} from './support/models.mjs';
 import {bytes, rotation, shift, Step} from './support/step.mjs';
 import {written} from './support/written.mjs';
@@ -9,6 +9,9 @@ import {written} from './support/written.mjs';
 const apart = (a, b) => Math.hypot(...a.map((v, i) => v - b[i]));
 const size = (v) => Math.hypot(...v);
 const read = (text, options) => fromIfc(bytes(text), options);
+
+/** As numbers; a listed size by its name. */
+const measured = (member) => catalogue.find(({name}) => name === member.size) ?? member;
 
 /** What is wrong with an import, in words; nothing where it is as expected. */
 function faults({frame, notUnderstood}, {members, others, joints = []}) {
@@ -21,7 +24,8 @@ function faults({frame, notUnderstood}, {members, others, joints = []}) {
     if (!found) { out.push(`no ${id}`); continue; }
     wrong(`${id} starts ${apart(found.start_mm, start)} mm off`, apart(found.start_mm, start) <= 1e-6);
     wrong(`${id} ends ${apart(found.end_mm, end)} mm off`, apart(found.end_mm, end) <= 1e-6);
-    wrong(`${id} is ${found.outer_diameter_mm} x ${found.wall_mm}`, found.outer_diameter_mm === outer && found.wall_mm === wall);
+    const is = measured(found);
+    wrong(`${id} is ${is.outer_diameter_mm} x ${is.wall_mm}`, Math.abs(is.outer_diameter_mm - outer) < 1e-9 && Math.abs(is.wall_mm - wall) < 1e-9);
   }
   wrong('others', (frame.others ?? []).length === others.length);
   for (const {id, point, direction, side: [name, side], ...rest} of others) {
@@ -106,7 +110,7 @@ const spoils = {
     return beam('X', 200, item, step.add('IFCLOCALPLACEMENT', `#${step.lines.length + 1}`, axes));
   }, /is placed by itself/],
   'a slanted extrusion': [({step, ring, beam}) => beam('X', 200, step.add('IFCEXTRUDEDAREASOLID', ring(), '$', step.direction([0.1, 0, 1]), 1000)), /at a slant/],
-  'a square tube with sharp corners': [({step, solid, beam}) => beam('X', 200, solid(step.add('IFCRECTANGLEHOLLOWPROFILEDEF', '.AREA.', '$', '$', 100, 100, 5, '$', '$'))), /no OuterFilletRadius/],
+  'a square tube with sharp corners': [({step, solid, beam}) => beam('X', 0, step.add('IFCEXTRUDEDAREASOLID', step.add('IFCRECTANGLEHOLLOWPROFILEDEF', '.AREA.', '$', '$', 100, 100, 5, '$', '$'), step.axes(rotation(1, 90)), step.direction([0, 0, 1]), 1000)), /without OuterFilletRadius/],
   'a faceted body': [({step, beam}) => beam('X', 200, step.add('IFCFACETEDBREP', step.add('IFCCLOSEDSHELL', '()'))), /IfcFacetedBrep is no solid that is known/],
   'another kind of product': [({step, solid, ring}) => step.product('IFCPLATE', 'X', step.placement(shift(0, 0, 0)), step.body([solid(ring())])), /IfcPlate is not imported/],
 };

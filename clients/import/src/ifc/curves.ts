@@ -1,4 +1,5 @@
 import {add, cross, distance, dot, length, minus, placed, times, unit, type Vector} from '../geometry.js';
+import {limits} from '../limits.js';
 import {type Line, type Model, told, Trouble} from './model.js';
 import {axes, direction, point, towards} from './placement.js';
 
@@ -15,12 +16,14 @@ export interface Context {
   model: Model;
   radians: number | undefined;
   codes: {line: number; arc: number};
+  /** How many curves the one that is read lies in. */
+  nested?: number;
 }
 
 const straight = (points: Vector[]): Piece[] => points.slice(1).map((to, i) => ({from: points[i] as Vector, to}));
 
 function polyline({model}: Context, line: Line): Way {
-  const points = model.list(line, 'Points').map((each) => point(model, each));
+  const points = model.list(line, 'Points', limits.points).map((each) => point(model, each));
   return {pieces: straight(points), range: points.length - 1};
 }
 
@@ -50,7 +53,9 @@ function indexed({model, codes}: Context, line: Line): Way {
     if (!found) throw new Trouble(`${told(line)} names its point ${index}, of ${points.length}`);
     return found;
   };
+  if (points.length > limits.points) throw new Trouble(`${told(line)} has more than ${limits.points} points`);
   const segments = model.selected(line, 1);
+  if (segments.length > limits.points) throw new Trouble(`${told(line)} has more than ${limits.points} segments`);
   if (segments.length === 0) return {pieces: straight(points)};
   const pieces = segments.flatMap(({code, values}) => {
     if (code === codes.line) return straight(values.map(at));
@@ -66,9 +71,14 @@ const backwards = (piece: Piece): Piece =>
 
 function composite(context: Context, line: Line): Way {
   let range: number | undefined = 0;
-  const pieces = context.model.list(line, 'Segments').flatMap((segment) => {
+  const nested = (context.nested ?? 0) + 1;
+  if (nested > limits.depth) throw new Trouble(`${told(line)} is nested more than ${limits.depth} deep`);
+  let count = 0;
+  const pieces = context.model.list(line, 'Segments', limits.points).flatMap((segment) => {
     if (!segment.type.endsWith('CompositeCurveSegment')) throw new Trouble(`${told(segment)} is no IfcCompositeCurveSegment`);
-    const way = wayOf(context, context.model.of(segment, 'ParentCurve'));
+    const way = wayOf({...context, nested}, context.model.of(segment, 'ParentCurve'));
+    count += way.pieces.length;
+    if (count > limits.points) throw new Trouble(`${told(line)} has more than ${limits.points} pieces`);
     range = range === undefined || way.range === undefined ? undefined : range + way.range;
     return context.model.flag(segment, 'SameSense') ? way.pieces : way.pieces.map(backwards).reverse();
   });
@@ -130,8 +140,9 @@ const kinds: Record<string, (context: Context, line: Line) => Way> = {
   IfcTrimmedCurve: trimmed,
 };
 
-function wayOf(context: Context, line: Line): Way {
-  const kind = kinds[line.type];
+/** The pieces of a curve, as it is drawn. */
+export function wayOf(context: Context, line: Line): Way {
+  const kind = Object.hasOwn(kinds, line.type) ? kinds[line.type] : undefined;
   if (!kind) throw new Trouble(`${told(line)} is no curve that is known`);
   return kind(context, line);
 }
@@ -153,7 +164,7 @@ export function directrix(context: Context, solid: Line): Piece[] {
 }
 
 /** Pieces end to end, straight ones that go on in line made one. */
-function joined(pieces: Piece[], who: string): Piece[] {
+export function joined(pieces: Piece[], who: string): Piece[] {
   const out: Piece[] = [];
   for (const piece of pieces) {
     if (distance(piece.from, piece.to) === 0) continue;

@@ -1,10 +1,13 @@
 import type * as WebIfc from 'web-ifc';
-import {type Axis, exact, type Found, type FrameOptions, frameOf, type Imported, names, nothing, type NotUnderstood, rounded} from '../frame.js';
+import {sizeMeasuring} from '../catalogue.js';
+import {type Axis, exact, type Found, type FrameOptions, frameOf, full, type Imported, names, nothing, rounded, type Size} from '../frame.js';
 import {distance, type Matrix, minus, times, unit, type Vector} from '../geometry.js';
-import type {Context} from './curves.js';
+import {limits} from '../limits.js';
 import {type Line, Model, told, Trouble} from './model.js';
 import {inWorld} from './placement.js';
-import {bodies, type Body} from './solids.js';
+import {normalised} from './normalise.js';
+import {bodies, type Body, type Reading} from './solids.js';
+import {relations, structural} from './structure.js';
 import {millimetres, radians} from './units.js';
 
 export interface IfcOptions extends FrameOptions {
@@ -53,10 +56,15 @@ function shape(model: Model, product: Line): {items: Line[]; world: Matrix} {
 
 const scaled = (v: Vector, mm: number): Vector => rounded(times(v, mm));
 
-function add(found: Found, body: Body, id: string, mm: number): void {
+/** By its listed name if it is that of a listed size. */
+function sized(outer: number, wall: number): Size {
+  const listed = sizeMeasuring(outer, wall);
+  return listed ? {size: listed.name} : {outer_diameter_mm: exact(outer), wall_mm: exact(wall)};
+}
+
+function add(found: Found, body: Body, id: string, mm: number, from: {id: string; type: string; guid?: string}): void {
   if (body.kind === 'tube') {
-    const size = {outer_diameter_mm: exact(body.outer * mm), wall_mm: exact(body.wall * mm)};
-    found.members.push({id, start_mm: scaled(body.from, mm), end_mm: scaled(body.to, mm), ...size});
+    found.members.push({id, start_mm: scaled(body.from, mm), end_mm: scaled(body.to, mm), ...sized(body.outer * mm, body.wall * mm)});
     return;
   }
   const way = body.kind === 'box' ? (unit(minus(body.to, body.from)) as Vector) : body.direction;
@@ -64,56 +72,129 @@ function add(found: Found, body: Body, id: string, mm: number): void {
   if (body.kind === 'box') {
     const [width_mm, height_mm, corner_radius_mm] = [body.width, body.height, body.corner_radius].map((each) => exact(each * mm)) as [number, number, number];
     const other = {kind: 'rectangular_tube' as const, id, width_mm, height_mm, corner_radius_mm, axis, up: rounded(body.up)};
-    found.others.push({other, length_mm: distance(body.from, body.to) * mm});
+    found.others.push({other, length_mm: distance(body.from, body.to) * mm, from});
     return;
   }
   const [outer_diameter_mm, bend_radius_mm] = [exact(body.outer * mm), exact(body.radius * mm)];
   const bend_deg = exact((body.angle * 180) / Math.PI);
-  found.others.push({other: {kind: 'elbow', id, outer_diameter_mm, bend_radius_mm, bend_deg, axis, inwards: rounded(body.inwards)}});
+  found.others.push({other: {kind: 'elbow', id, outer_diameter_mm, bend_radius_mm, bend_deg, axis, inwards: rounded(body.inwards)}, from});
 }
 
+/** Marks that programs draw at random: no name for a person. */
+const guid = /^(?:ID|_)?\{?(?:[0-9A-F]{8}-[0-9A-F]{4}-[0-9A-F]{4}-[0-9A-F]{4}-[0-9A-F]{12}|[0-3][0-9A-Z_$]{21})\}?$/i;
+const isGuid = (text: string, own: string | undefined): boolean => text === own || guid.test(text.trim());
+
+/** Its mark, else its name; a GUID is neither. */
+function nameOf(model: Model, product: Line): string | undefined {
+  const own = model.text(product, 'GlobalId');
+  return ['Tag', 'Name'].map((attribute) => model.text(product, attribute)).find((text) => text !== undefined && !isGuid(text, own));
+}
+
+const guidOf = (model: Model, product: Line): {guid?: string} => {
+  const own = model.text(product, 'GlobalId');
+  return own === undefined ? {} : {guid: own};
+};
+
 /** One product: all of it or nothing, so that no half of it passes for the whole. */
-function read(context: Context & {corner: number | undefined}, product: Line, found: Found, name: ReturnType<typeof names>, mm: number): void {
+function put(context: Reading, product: Line, list: Body[], found: Found, name: ReturnType<typeof names>, mm: number): void {
   const {model} = context;
-  const notes: NotUnderstood[] = [];
-  const {items, world} = shape(model, product);
-  const list = bodies({...context, notes}, items, world);
-  if (fittings.test(product.type) && list.some(({kind}) => kind !== 'bend')) throw new Trouble(`${told(product)} is a fitting and no bend`);
-  const called = model.text(product, 'Tag') ?? model.text(product, 'Name');
+  const called = nameOf(model, product);
+  const from = {id: `#${product.id}`, type: product.type, ...guidOf(model, product)};
   let before = '';
   list.forEach((body, i) => {
     const id = list.length === 1 ? name(called, `#${product.id}`) : name(called && `${called}/${i + 1}`, `#${product.id}/${i + 1}`);
-    add(found, body, id, mm);
+    add(found, body, id, mm, from);
+    found.sources.push({id, entity: from.id, type: from.type, ...guidOf(model, product)});
     if (body.kind === 'tube' && body.corner) found.joints.push({between: [before, id], kind: 'mitre'});
     before = id;
   });
-  found.notUnderstood.push(...notes);
 }
 
-function every(library: typeof WebIfc, model: Model, found: Found, {corner_radius_mm}: IfcOptions): void {
-  const project = model.all(library.IFCPROJECT)[0];
-  if (project === undefined) throw new Trouble('there is no IfcProject');
-  const mm = millimetres(model, model.line(project));
-  const codes = {line: library.IFCLINEINDEX, arc: library.IFCARCINDEX};
-  const corner = corner_radius_mm === undefined ? undefined : corner_radius_mm / mm;
-  const context = {model, radians: radians(model, model.line(project)), codes, corner};
-  const name = names();
-  for (const id of [...model.all(library.IFCELEMENT), ...model.all(library.IFCPROXY)]) {
-    let type = '';
-    try {
-      const product = model.line(id);
-      type = product.type;
-      const known = segments.test(type) || fittings.test(type);
-      if (!known && product.attributes['Representation'] == null) continue; // a group of others
-      if (!known) throw new Trouble(`${type} is not imported`);
-      read(context, product, found, name, mm);
-    } catch (failure) {
-      found.notUnderstood.push({id: `#${id}`, type, reason: why(failure)});
+function read(given: Reading, product: Line, found: Found, name: ReturnType<typeof names>, mm: number): void {
+  const context = {...given, notes: []};
+  const {items, world} = shape(context.model, product);
+  const list = bodies(context, items, world);
+  if (fittings.test(product.type) && list.some(({kind}) => kind !== 'bend')) throw new Trouble(`${told(product)} is a fitting and no bend`);
+  put(context, product, list, found, name, mm);
+  found.notUnderstood.push(...context.notes);
+}
+
+/** The products and the structural members of a file, each tried in its turn. */
+class File {
+  readonly name = names();
+  private readonly mm: number;
+  private readonly context: Reading;
+  private readonly imported = new Set<number>();
+
+  constructor(
+    private readonly library: typeof WebIfc,
+    private readonly model: Model,
+    private readonly found: Found,
+    {corner_radius_mm}: IfcOptions,
+  ) {
+    const project = model.all(library.IFCPROJECT)[0];
+    if (project === undefined) throw new Trouble('there is no IfcProject');
+    this.mm = millimetres(model, model.line(project));
+    const codes = {line: library.IFCLINEINDEX, arc: library.IFCARCINDEX};
+    const corner = corner_radius_mm === undefined ? undefined : corner_radius_mm / this.mm;
+    this.context = {model, radians: radians(model, model.line(project)), codes, corner, notes: [], budget: {steps: limits.steps}};
+  }
+
+  private each(ids: number[], act: (line: Line) => void): void {
+    for (const id of ids) {
+      if (full(this.found)) return;
+      let [type, more]: [string, {guid?: string}] = ['', {}];
+      try {
+        const line = this.model.line(id);
+        type = line.type;
+        more = guidOf(this.model, line);
+        act(line);
+      } catch (failure) {
+        this.found.notUnderstood.push({id: `#${id}`, type, reason: why(failure), ...more});
+      }
     }
+  }
+
+  products(): void {
+    const {model, library} = this;
+    this.each([...model.all(library.IFCELEMENT), ...model.all(library.IFCPROXY)], (product) => {
+      const known = segments.test(product.type) || fittings.test(product.type);
+      if (!known && product.attributes['Representation'] == null) return; // a group of others
+      if (!known) throw new Trouble(`${product.type} is not imported`);
+      read(this.context, product, this.found, this.name, this.mm);
+      this.imported.add(product.id);
+    });
+  }
+
+  /** Members of an analysis model; those that stand for products which are imported are there already. */
+  structure(): void {
+    const ids = this.model.all(this.library.IFCSTRUCTURALCURVEMEMBER);
+    if (ids.length === 0) return;
+    const related = relations(this.model, this.library);
+    const tubes = new Set(this.found.members.map(({start_mm, end_mm}) => segmentKey(start_mm, end_mm)));
+    this.each(ids, (member) => {
+      if ((related.products.get(member.id) ?? []).some((id) => this.imported.has(id))) return;
+      const body = structural(this.context, member, related);
+      if (body.kind === 'tube' && tubes.has(segmentKey(scaled(body.from, this.mm), scaled(body.to, this.mm)))) return;
+      put(this.context, member, [body], this.found, this.name, this.mm);
+    });
   }
 }
 
-/** Beams, columns, members, pipes and bends of an IFC file (2x3, 4, 4x3) as a frame. */
+/** Of a line in any sense, to 0.1 mm. */
+const segmentKey = (a: Vector, b: Vector): string =>
+  [a, b]
+    .map((each) => each.map((v) => Math.round(v * 10)).join())
+    .sort()
+    .join(' ');
+
+function every(library: typeof WebIfc, model: Model, found: Found, options: IfcOptions): void {
+  const file = new File(library, model, found, options);
+  file.products();
+  file.structure();
+}
+
+/** Beams, columns, members, pipes, bends and structural members of an IFC file (2x3, 4, 4x3) as a frame. */
 export async function fromIfc(bytes: Uint8Array, options: IfcOptions = {}): Promise<Imported> {
   loading ??= load(options.wasm);
   const [library, api] = await loading.catch((failure) => {
@@ -121,15 +202,17 @@ export async function fromIfc(bytes: Uint8Array, options: IfcOptions = {}): Prom
     throw failure;
   });
   const found = nothing();
-  const handle = opened(api, bytes);
+  const {bytes: file, long} = normalised(bytes);
+  const handle = opened(api, file);
   if (handle < 0) found.notUnderstood.push({id: 'file', type: 'IFC', reason: 'this is no IFC file of a known schema'});
   else
     try {
-      every(library, new Model(api, handle), found, options);
-    } catch (failure) {
-      found.notUnderstood.push({id: 'file', type: 'IFC', reason: why(failure)});
-    } finally {
+      every(library, new Model(api, handle, long), found, options);
       api.CloseModel(handle);
+    } catch (failure) {
+      if (failure instanceof Trouble) api.CloseModel(handle);
+      else loading = undefined; // its memory is not to be relied on after a fault
+      found.notUnderstood.push({id: 'file', type: 'IFC', reason: failure instanceof Trouble ? failure.message : `it cannot be read: ${String(failure)}`});
     }
-  return frameOf(found, options);
+  return frameOf(found, options, 'IFC');
 }

@@ -1,5 +1,6 @@
 import type {IfcAPI} from 'web-ifc';
 import type {Vector} from '../geometry.js';
+import {limits} from '../limits.js';
 
 /** Why something of the file cannot be read; it names the entity that is to blame. */
 export class Trouble extends Error {}
@@ -25,11 +26,14 @@ export class Model {
   constructor(
     private readonly api: IfcAPI,
     private readonly handle: number,
+    /** Entities that are too long to be read. */
+    private readonly long: ReadonlySet<number> = new Set(),
   ) {}
 
   line(id: number): Line {
     const known = this.lines.get(id);
     if (known) return known;
+    if (this.long.has(id)) throw new Trouble(`#${id} is longer than ${limits.statement} bytes`);
     let attributes: unknown;
     let type = '';
     try {
@@ -65,13 +69,21 @@ export class Model {
     return found;
   }
 
-  list(line: Line, name: string): Line[] {
+  list(line: Line, name: string, most: number = limits.statement): Line[] {
     const values = line.attributes[name];
     if (!Array.isArray(values)) throw new Trouble(`${told(line)} has no ${name}`);
+    if (values.length > most) throw new Trouble(`${told(line)} has ${values.length} ${name}, and at most ${most} are read`);
     return values.map((each: Value) => {
       if (each?.type !== reference || typeof each.value !== 'number') throw new Trouble(`${told(line)} has a ${name} that is no entity`);
       return this.line(each.value);
     });
+  }
+
+  /** The numbers of the entities of a list, which need not be read. */
+  ids(line: Line, name: string): number[] {
+    const values = line.attributes[name];
+    if (!Array.isArray(values)) throw new Trouble(`${told(line)} has no ${name}`);
+    return values.flatMap((each: Value) => (each?.type === reference && typeof each.value === 'number' ? [each.value] : []));
   }
 
   maybeNumber(line: Line, name: string): number | undefined {

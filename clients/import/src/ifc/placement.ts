@@ -1,4 +1,5 @@
 import {add, after, cross, dot, identity, length, type Matrix, minus, times, unit, type Vector} from '../geometry.js';
+import {limits} from '../limits.js';
 import {type Line, type Model, told, Trouble} from './model.js';
 
 const X: Vector = [1, 0, 0];
@@ -55,6 +56,7 @@ export function inWorld(model: Model, placement: Line): Matrix {
   const seen = new Set<number>();
   for (let at: Line | undefined = placement; at; at = model.maybe(at, 'PlacementRelTo')) {
     if (at.type !== 'IfcLocalPlacement') throw new Trouble(`${told(at)} is no IfcLocalPlacement`);
+    if (seen.size > limits.points) throw new Trouble(`${told(at)} is placed in more than ${limits.points} others`);
     if (seen.has(at.id)) throw new Trouble(`${told(at)} is placed by itself`);
     seen.add(at.id);
     out = after(axes(model, model.of(at, 'RelativePlacement')), out);
@@ -74,6 +76,17 @@ export function operator(model: Model, line: Line): Matrix {
   const [second, third] = ['Scale2', 'Scale3'].map((name) => model.maybeNumber(line, name) ?? scale) as [number, number];
   const origin = point(model, model.of(line, 'LocalOrigin'));
   return {x: times(x, scale), y: times(y, second), z: times(z, third), origin};
+}
+
+/** IfcCartesianTransformationOperator2D, with one scale or two. */
+export function operator2d(model: Model, line: Line): Matrix {
+  if (!line.type.startsWith('IfcCartesianTransformationOperator2D')) throw new Trouble(`${told(line)} is no transformation in the plane`);
+  const x = maybeDirection(model, line, 'Axis1') ?? X;
+  const left = cross(Z, x);
+  const given = maybeDirection(model, line, 'Axis2');
+  const y = given && dot(given, left) < 0 ? times(left, -1) : left;
+  const scale = model.maybeNumber(line, 'Scale') ?? 1;
+  return {x: times(x, scale), y: times(y, model.maybeNumber(line, 'Scale2') ?? scale), z: Z, origin: point(model, model.of(line, 'LocalOrigin'))};
 }
 
 /** The one scale of a matrix. */

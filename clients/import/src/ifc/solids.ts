@@ -1,7 +1,9 @@
 import type {NotUnderstood} from '../frame.js';
 import {after, cross, dot, length, type Matrix, minus, placed, times, turned, unit, type Vector} from '../geometry.js';
 import {type Arc, type Context, directrix, filleted, tangentAt} from './curves.js';
+import {limits} from '../limits.js';
 import {type Line, told, Trouble} from './model.js';
+import {type Section, sectionOf} from './profiles.js';
 import {axes, direction, maybeAxes, operator, point, scaleOf} from './placement.js';
 
 /** What a body is made of, in the world and in the file's unit. `corner`: mitred to the tube before it. */
@@ -10,50 +12,43 @@ export type Body =
   | {kind: 'box'; from: Vector; to: Vector; width: number; height: number; corner_radius: number; up: Vector}
   | {kind: 'bend'; from: Vector; direction: Vector; inwards: Vector; radius: number; angle: number; outer: number};
 
-interface Reading extends Context {
+export interface Reading extends Context {
   notes: NotUnderstood[];
   corner: number | undefined; // of rectangular tubes that tell none, in the file's unit
+  /** Bodies that may still be looked at: of the whole file, so that none nests them without end. */
+  budget: {steps: number};
+  depth?: number;
 }
 
-/** A ring's size, in the units of its own coordinates. */
-function ring({model}: Reading, profile: Line): {outer: number; wall: number} {
-  const radius = model.positive(profile, 'Radius');
-  const wall = model.positive(profile, 'WallThickness');
-  if (wall >= radius) throw new Trouble(`${told(profile)} has a wall of ${wall} and a radius of ${radius}`);
-  return {outer: 2 * radius, wall};
-}
-
-function box({model, corner}: Reading, profile: Line, scale: number) {
-  const own = model.maybeNumber(profile, 'OuterFilletRadius') ?? 0;
-  const corner_radius = own > 0 ? own * scale : corner;
-  if (corner_radius === undefined) throw new Trouble(`${told(profile)} has no OuterFilletRadius: the service takes no sharp corners`);
-  model.positive(profile, 'WallThickness');
-  return {width: model.positive(profile, 'XDim') * scale, height: model.positive(profile, 'YDim') * scale, corner_radius};
+/** A section swept along a straight line: from and to are the middles of its ends, in the world. */
+export function prism(reading: Reading, section: Section, place: Matrix, depth: number, who: Line): Body {
+  const whole = after(place, section.place);
+  const scale = scaleOf(whole, who);
+  const [from, to] = [whole.origin, placed(whole, [0, 0, depth])];
+  if (section.kind === 'ring') return {kind: 'tube', from, to, outer: section.outer * scale, wall: section.wall * scale};
+  const corner_radius = section.corner === undefined ? reading.corner : section.corner * scale;
+  if (corner_radius === undefined)
+    throw new Trouble(`${told(who)} is a rectangular tube without OuterFilletRadius or with sharp corners: the service takes no sharp ones, state --corner`);
+  return {kind: 'box', from, to, up: unit(whole.y) as Vector, width: section.width * scale, height: section.height * scale, corner_radius};
 }
 
 function extruded(reading: Reading, solid: Line, world: Matrix): Body[] {
   const {model} = reading;
   const profile = model.of(solid, 'SweptArea');
-  if (!/^Ifc(Circle|Rectangle)HollowProfileDef$/.test(profile.type)) throw new Trouble(`${told(profile)} is no tube`);
+  const section = sectionOf(reading, profile);
   const way = direction(model, model.of(solid, 'ExtrudedDirection'));
   if (Math.hypot(way[0], way[1]) > 1e-9) throw new Trouble(`${told(solid)} is extruded at a slant`);
   const depth = model.positive(solid, 'Depth');
-  const place = after(after(world, maybeAxes(model, solid, 'Position')), maybeAxes(model, profile, 'Position'));
-  const scale = scaleOf(place, solid);
-  const [from, to] = [place.origin, placed(place, [0, 0, way[2] * depth])];
-  if (profile.type === 'IfcCircleHollowProfileDef') {
-    const {outer, wall} = ring(reading, profile);
-    return [{kind: 'tube', from, to, outer: outer * scale, wall: wall * scale}];
-  }
-  return [{kind: 'box', from, to, up: unit(place.y) as Vector, ...box(reading, profile, scale)}];
+  return [prism(reading, section, after(world, maybeAxes(model, solid, 'Position')), way[2] * depth, profile)];
 }
 
 /** Turned about an axis in the profile's plane: a bend. */
 function revolved(reading: Reading, solid: Line, world: Matrix): Body[] {
   const {model} = reading;
   const profile = model.of(solid, 'SweptArea');
-  if (profile.type !== 'IfcCircleHollowProfileDef') throw new Trouble(`${told(profile)} is no tube`);
-  const {outer} = ring(reading, profile);
+  const section = sectionOf(reading, profile);
+  if (section.kind !== 'ring') throw new Trouble(`${told(profile)} is no round tube`);
+  const {outer} = section;
   const axis = model.of(solid, 'Axis');
   const given = model.maybe(axis, 'Axis');
   const about: Vector = given ? direction(model, given) : [0, 0, 1];
@@ -61,7 +56,7 @@ function revolved(reading: Reading, solid: Line, world: Matrix): Body[] {
   if (reading.radians === undefined) throw new Trouble(`${told(solid)} is turned by an angle, and the project has no unit of them`);
   const angle = model.positive(solid, 'Angle') * reading.radians;
   const place = after(world, maybeAxes(model, solid, 'Position'));
-  const from = maybeAxes(model, profile, 'Position').origin;
+  const from = section.place.origin;
   const at = point(model, model.of(axis, 'Location'));
   const foot = minus(from, at);
   const out = minus(foot, times(about, dot(foot, about)));
@@ -105,12 +100,18 @@ function mapped(reading: Reading, item: Line, world: Matrix): Body[] {
   return bodies(reading, model.list(model.of(source, 'MappedRepresentation'), 'Items'), place);
 }
 
-/** The tube is imported whole; what is cut from it is listed. */
+/** The tube is imported whole; what is cut from it is listed. A cut in a cut in a cut is followed without recursion. */
 function cut(reading: Reading, solid: Line, world: Matrix): Body[] {
   const {model} = reading;
-  if (model.text(solid, 'Operator') !== 'DIFFERENCE') throw new Trouble(`${told(solid)} is no difference`);
-  const found = bodies(reading, [model.of(solid, 'FirstOperand')], world);
-  reading.notes.push({id: `#${solid.id}`, type: solid.type, reason: 'this cut is not in the frame: the tube is whole'});
+  let at = solid;
+  const notes: NotUnderstood[] = [];
+  for (; at.type === 'IfcBooleanClippingResult' || at.type === 'IfcBooleanResult'; at = model.of(at, 'FirstOperand')) {
+    if (model.text(at, 'Operator') !== 'DIFFERENCE') throw new Trouble(`${told(at)} is no difference`);
+    notes.push({id: `#${at.id}`, type: at.type, reason: 'this cut is not in the frame: the tube is whole'});
+    if (notes.length > limits.clips) throw new Trouble(`${told(solid)} has more than ${limits.clips} cuts`);
+  }
+  const found = bodies(reading, [at], world);
+  reading.notes.push(...notes);
   return found;
 }
 
@@ -124,10 +125,16 @@ const kinds: Record<string, (reading: Reading, item: Line, world: Matrix) => Bod
   IfcBooleanResult: cut,
 };
 
-export function bodies(reading: Reading, items: Line[], world: Matrix): Body[] {
-  return items.flatMap((item) => {
-    const kind = kinds[item.type];
+export function bodies(given: Reading, items: Line[], world: Matrix): Body[] {
+  const reading = {...given, depth: (given.depth ?? 0) + 1};
+  const out: Body[] = [];
+  for (const item of items) {
+    const kind = Object.hasOwn(kinds, item.type) ? kinds[item.type] : undefined;
     if (!kind) throw new Trouble(`${told(item)} is no solid that is known`);
-    return kind(reading, item, world);
-  });
+    if (reading.depth > limits.depth) throw new Trouble(`${told(item)} is nested more than ${limits.depth} deep`);
+    if (--reading.budget.steps < 0) throw new Trouble(`${told(item)} is one of more than ${limits.steps} bodies, and no more are read`);
+    out.push(...kind(reading, item, world));
+    if (out.length > limits.members) throw new Trouble(`${told(item)} is one of more than ${limits.members} bodies of a product`);
+  }
+  return out;
 }

@@ -1,0 +1,11 @@
+/** What one import may take, so that no file holds up who opens it. */
+export const limits = {
+  members: 10000, // of a frame, by the contract
+  others: 1000, // the same
+  listed: 20000, // things in the list
+  depth: 64, // of items, curves and units in one another
+  clips: 1000, // cuts of one body, each in the next
+  steps: 200000, // bodies that are looked at in one file
+  points: 10000, // of one curve or polyline
+  statement: 400000, // bytes of one entity of IFC: 20 000 references
+} as const;
