@@ -62,7 +62,7 @@ interface Heading {
 export function plain(heading: string): Heading {
   const text = heading.slice(0, 80).trim().toLowerCase();
   const [, word, unitName] =
-    /^([^([,]+?)[ _]?[([,] ?([^)\]]{1,12}?) ?[)\]]?$/.exec(text) ?? /^(.+?)(?:[_ ]| in )([a-z]{1,11})$/.exec(text) ?? /^(.+?)("|″)$/.exec(text) ?? [];
+    /^([^([,]+?)[ _]?[([,] ?([^)\]]{1,12}?) ?[)\]]?$/.exec(text) ?? /^(.+?)(?:[_ ]in[_ ]|[_ ])([a-z]{1,11})$/.exec(text) ?? /^(.+?)("|″)$/.exec(text) ?? [];
   const unit = unitName === undefined ? undefined : unitNamed(unitName);
   const name = (unit && word !== undefined ? word : text)
     .replace(/[\s.\-/]+/g, '_')

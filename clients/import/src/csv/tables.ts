@@ -49,9 +49,10 @@ export function rowsOf(given: string, notUnderstood: NotUnderstood[] = []): Row[
     .filter(({cells}) => !ruled || !cells.every((cell) => /^[:+-]*$/.test(cell)));
 }
 
-function table<F extends string>(rows: Row[], top: number, columns: Partial<Record<F, string>>): Table<F> {
+/** `ends`: is a row the heading of the next table? A row of data may look like one of its own: nodes named N1 and N2. */
+function table<F extends string>(rows: Row[], top: number, columns: Partial<Record<F, string>>, ends: (row: string[]) => boolean): Table<F> {
   const headings = rows[top]?.cells ?? [];
-  const next = rows.findIndex(({cells}, i) => i > top && isHeading(cells));
+  const next = rows.findIndex(({cells}, i) => i > top && ends(cells));
   const below = rows.slice(top + 1, next < 0 ? rows.length : next).filter(filled);
   const first = below[0];
   const told = first?.cells.every((cell) => cell === '' || unitNamed(cell) !== undefined || /^[-–()[\]]+$/.test(cell)) ? first : undefined;
@@ -66,11 +67,11 @@ export function membersTable(rows: Row[], given: Partial<Record<Field, string>> 
   const own = rows.findIndex(({cells}) => isMembers(cells));
   const top = byName >= 0 ? byName : own >= 0 ? own : rows.findIndex((row) => filled(row) && !isNodes(row.cells));
   const headings = rows[top]?.cells ?? [];
-  return table<Field>(rows, top, {...membersIn(headings), ...given});
+  return table<Field>(rows, top, {...membersIn(headings), ...given}, isNodes);
 }
 
 export function nodeTables(rows: Row[]): Table<NodeField>[] {
-  return rows.flatMap(({cells}, i) => (isNodes(cells) ? [table<NodeField>(rows, i, nodesIn(cells))] : []));
+  return rows.flatMap(({cells}, i) => (isNodes(cells) ? [table<NodeField>(rows, i, nodesIn(cells), isMembers)] : []));
 }
 
 /** What a row has in the column of a field; undefined if it is empty or there is no such column. */
