@@ -124,7 +124,7 @@ function add(found: Found, piece: Piece, id: string, size: Size, mm: number): vo
 function parsed(text: string): IDxf {
   try {
     const drawing = new Parser().parseSync(text);
-    if (drawing) return drawing;
+    if (Array.isArray(drawing?.entities)) return drawing as IDxf;
   } catch (failure) {
     throw new Trouble(`it cannot be read: ${failure instanceof Error ? failure.message : String(failure)}`);
   }

@@ -112,14 +112,21 @@ export const rounded = (v: Vector): Vector => [tidy(v[0]), tidy(v[1]), tidy(v[2]
 const unwanted = /[\p{C}\p{Zl}\p{Zp}\u{FFFC}-\u{10FFFF}]+/gu; // what the contract takes for no text
 const longest = 64; // characters of an id, by the contract
 
-/** Gives ids: the name a file has where it is one of its own, else that name and `mark`. */
+/** Gives ids: the name a file has where it is one of its own, else that name and `mark`, else `mark` and a number. */
 export function names(): (name: string | undefined, mark: string) => string {
   const taken = new Set<string>();
+  const numbers = new Map<string, number>(); // where to go on with a mark, so that many of one name take no longer
   return (name, mark) => {
-    const clean = (name ?? '').replace(unwanted, ' ').trim();
-    const tries = [clean.slice(0, longest).trim(), clean ? `${clean.slice(0, longest - mark.length - 1).trim()} ${mark}` : mark];
-    for (let n = 2; tries.every((id) => !id || taken.has(id)); ++n) tries.push(`${mark} (${n})`);
-    const id = tries.find((each) => each && !taken.has(each)) as string;
+    const clean = (name ?? '')
+      .slice(0, 10 * longest)
+      .replace(unwanted, ' ')
+      .trim();
+    const tries = [clean.slice(0, longest).trim(), clean ? `${clean.slice(0, Math.max(0, longest - mark.length - 1)).trim()} ${mark}` : mark];
+    let id = tries.find((each) => each.trim() && !taken.has(each));
+    for (let n = numbers.get(mark) ?? 2; id === undefined; ++n) {
+      numbers.set(mark, n + 1);
+      if (!taken.has(`${mark} (${n})`)) id = `${mark} (${n})`;
+    }
     taken.add(id);
     return id;
   };
@@ -193,15 +200,13 @@ function inLine(members: Member[]): Joint[] {
         if (other === member || distance(at, point) > near || apart > 1e-9 || dot(run, way) > 0 || sized(other) !== sized(member)) continue;
         joints.set(`${other.id}\n${member.id}`, {between: [other.id, member.id], kind: 'butt'});
       }
-      // In the neighbouring cells as well: a pair may lie on both sides of a border.
-      for (const x of [-1, 0, 1])
-        for (const y of [-1, 0, 1])
-          for (const z of [-1, 0, 1]) {
-            const beside = [x, y, z].map((step, i) => Math.round((at[i as 0] + step * near) / 10)).join();
-            const cell = cells.get(beside) ?? [];
-            if (cell.length < crowd && !cell.some(([one, point]) => one === member && point === at)) cell.push([member, at, run]);
-            cells.set(beside, cell);
-          }
+      // In the neighbouring cell as well, if the point is at a border: a pair may lie on both sides.
+      const [xs, ys, zs] = at.map((v) => [...new Set([-near, near].map((step) => Math.round((v + step) / 10)))]) as [number[], number[], number[]];
+      for (const beside of xs.flatMap((x) => ys.flatMap((y) => zs.map((z) => `${x},${y},${z}`)))) {
+        const cell = cells.get(beside) ?? [];
+        if (cell.length < crowd) cell.push([member, at, run]);
+        cells.set(beside, cell);
+      }
     }
   return [...joints.values()];
 }
@@ -275,17 +280,45 @@ function tooMany({notUnderstood, asks, sources}: Found): Imported {
   return {frame: null, notUnderstood: listed([...notUnderstood, {id: 'file', type: 'frame', reason}]), asks, sources};
 }
 
+const farthest = 1e9; // mm: beyond it no coordinate is one, and 1e-9 mm are not told apart
+const isPoint = (p: Vector): boolean => p.every((v) => Math.abs(v) <= farthest);
+const isLength = (v: number): boolean => v > 0 && v <= farthest;
+const isMember = (m: Member): boolean => isPoint(m.start_mm) && isPoint(m.end_mm) && ('size' in m || (isLength(m.outer_diameter_mm) && isLength(m.wall_mm)));
+
+function isOther(other: Other): boolean {
+  if (other.kind === 'plane') return isPoint(other.point_mm);
+  const sizes =
+    other.kind === 'elbow' ? [other.outer_diameter_mm, other.bend_radius_mm, other.bend_deg] : [other.width_mm, other.height_mm, other.corner_radius_mm];
+  return isPoint(other.axis.point_mm) && isPoint(other.axis.direction) && sizes.every(isLength);
+}
+
+/** Numbers so large that they are none are listed, with what is joined to them. */
+function possible(found: Found): Found {
+  const lost = [...found.members.filter((each) => !isMember(each)), ...found.others.map(({other}) => other).filter((each) => !isOther(each))].map(({id}) => id);
+  if (lost.length === 0) return found;
+  const gone = new Set(lost);
+  const of = new Map(found.sources.map((each) => [each.id, each]));
+  const notes = lost.map((id) => ({id: of.get(id)?.entity ?? id, type: of.get(id)?.type ?? 'tube', reason: 'its size or its place is beyond any frame'}));
+  return {
+    ...found,
+    members: found.members.filter(({id}) => !gone.has(id)),
+    others: found.others.filter(({other}) => !gone.has(other.id)),
+    joints: found.joints.filter(({between}) => !between.some((id) => gone.has(id))),
+    notUnderstood: [...found.notUnderstood, ...notes],
+  };
+}
+
 /** The request of what was found, and what was not. */
 export function frameOf(given: Found, options: FrameOptions, format: string): Imported {
-  const found = options.origin_mm ? moved(given, options.origin_mm) : given;
+  const found = possible(options.origin_mm ? moved(given, options.origin_mm) : given);
   found.notUnderstood.push(...found.asks.map(({text}) => ({id: 'file', type: format, reason: text})));
   const {members, notUnderstood, asks} = found;
+  if (full(found)) return tooMany(found);
   const within = options.within_mm ?? nearby;
   const stated = new Set(found.joints.map(({between}) => [...between].sort().join('\n')));
   const near = [...(options.merge_in_line ? [] : inLine(members)), ...withOthers(found, within)];
   const joints = [...found.joints, ...near.filter(({between}) => !stated.has([...between].sort().join('\n')))];
   const {others: touched, rest} = boxesTouched(found, joints);
-  if (members.length > limits.members) return tooMany(found);
   if (members.length === 0) return empty(found, rest, format);
   const others = fitted(found, touched, joints).map(({other}) => other);
   const frame = {

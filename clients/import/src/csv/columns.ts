@@ -71,8 +71,11 @@ export function plain(heading: string): Heading {
   return unit ? {plain: name, unit} : {plain: name};
 }
 
+/** Columns in which a heading is looked for. */
+const widest = 1000;
+
 function match<F extends string>(row: string[], known: Record<F, string[]>): Partial<Record<F, string>> {
-  const words = row.map(plain);
+  const words = row.slice(0, widest).map(plain);
   const taken = new Set<number>();
   const out: Partial<Record<F, string>> = {};
   for (const field of Object.keys(known) as F[])
@@ -91,11 +94,14 @@ export const membersIn = (row: string[]): Partial<Record<Field, string>> => matc
 export const nodesIn = (row: string[]): Partial<Record<NodeField, string>> => match(row, nodeHeadings);
 
 const has = (columns: Partial<Record<string, string>>, ...names: string[]): boolean => names.every((name) => columns[name] !== undefined);
+/** Rows of numbers are no headings: they are most rows, so this is asked first. */
+const wordy = (row: string[]): boolean => row.length > 1 && row.slice(0, widest).filter((cell) => /^[^\d.,+-]/.test(cell)).length > 1;
 export const isMembers = (row: string[]): boolean => {
+  if (!wordy(row)) return false;
   const columns = membersIn(row);
   return has(columns, 'start_x', 'end_x') || has(columns, 'start_y', 'end_y') || has(columns, 'node_a', 'node_b');
 };
-export const isNodes = (row: string[]): boolean => has(nodesIn(row), 'node', 'x', 'y') && !isMembers(row);
+export const isNodes = (row: string[]): boolean => wordy(row) && has(nodesIn(row), 'node', 'x', 'y') && !isMembers(row);
 
 /** Examples for a message. */
 export const examples = (field: Field | NodeField): string =>

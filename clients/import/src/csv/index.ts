@@ -104,16 +104,18 @@ function pointsMissing({table}: Reading): Field[] {
   });
 }
 
+/** Columns that no row can do without; those of sizes only if each row needs them. */
+function columnsMissing(reading: Reading): Field[] {
+  const {table, mapping} = reading;
+  const has = (field: Field) => table.columns[field] !== undefined;
+  const sizes: Field[] =
+    has('size') || mapping.size
+      ? []
+      : [...(has('outer_diameter') || has('radius') ? [] : ['outer_diameter' as const]), ...(has('wall') ? [] : ['wall' as const])];
+  return [...pointsMissing(reading), ...sizes];
+}
+
 function memberOf(reading: Reading, row: Row): Omit<Member, 'id'> {
-  const missing = pointsMissing(reading);
-  if (missing.length > 0) {
-    try {
-      sizeIn(reading, row);
-    } catch (failure) {
-      if (failure instanceof Missing) throw new Missing([...missing, ...failure.fields]);
-    }
-    throw new Missing(missing);
-  }
   const [start_mm, end_mm] = [pointIn(reading, row, 'start'), pointIn(reading, row, 'end')];
   if (distance(start_mm, end_mm) === 0) throw new Trouble('it has no length');
   const said = reading.cells(row, 'priority');
@@ -127,7 +129,13 @@ const rowsNamed = (rows: number[]): string => `${rows.slice(0, 5).join(', ')}${r
 function readRows(reading: Reading, found: Found): void {
   const name = names();
   const missing = new Map<Field, number[]>();
-  for (const row of reading.table.rows) {
+  const never = columnsMissing(reading);
+  for (const field of never)
+    missing.set(
+      field,
+      reading.table.rows.map(({number}) => number),
+    );
+  for (const row of never.length > 0 ? [] : reading.table.rows) {
     if (full(found)) return;
     try {
       const member = memberOf(reading, row);

@@ -25,7 +25,8 @@ class Places<T> {
   near(at: Vector): T[] {
     const cell = at.map((v) => Math.round(v / (2 * touch)));
     const steps = [-1, 0, 1];
-    const keys = steps.flatMap((x) => steps.flatMap((y) => steps.map((z) => [x, y, z].map((step, i) => (cell[i] as number) + step).join())));
+    const [x, y, z] = cell as Vector;
+    const keys = steps.flatMap((i) => steps.flatMap((j) => steps.map((k) => `${x + i},${y + j},${z + k}`)));
     return keys.flatMap((key) => (this.cells.get(key) ?? []).filter((each) => distance(each.at, at) <= touch).map(({value}) => value));
   }
 }
@@ -77,7 +78,7 @@ export class Fittings {
       this.ends.add(member.end_mm, {member, end: 'finish', at: member.end_mm, to: member.start_mm});
     }
     for (const component of all)
-      if (!pipeOf.has(component) && fitting.test(component.type)) for (const at of this.pointsOf(component)) this.others.add(at, component);
+      if (!pipeOf.has(component) && fitting.test(component.type)) for (const at of this.pointsOf(component).slice(0, crowd)) this.others.add(at, component);
   }
 
   private pointsOf(component: Component): Vector[] {
@@ -101,9 +102,10 @@ export class Fittings {
   /** A plane at each pipe that begins at the fitting: its end is square there. */
   planes(component: Component, name: string): void {
     const at = this.pointsOf(component);
+    if (at.length > crowd) throw new Trouble(`it has ${at.length} points, and at most ${crowd} are read`);
     const own = at.filter((p, i) => at.findIndex((q) => distance(p, q) <= touch) === i);
     const pipes = own.map((p) => this.ends.near(p));
-    const alone = own.every((p) => this.ends.near(p).length === 0 && this.others.near(p).every((each) => each === component));
+    const alone = pipes.every((each) => each.length === 0) && own.every((p) => this.others.near(p).every((each) => each === component));
     if (alone && !elbows.test(component.type)) throw new Trouble('no pipe ends at it');
     const ends = pipes.filter((each) => each.length === 1).flat();
     ends.forEach((end, i) => {
