@@ -1,4 +1,4 @@
-// Comes when the first model does: the parsers, and where the one of IFC has its WebAssembly.
+// Comes with the worker, when the first model does: the parsers, and where the one of IFC has its WebAssembly.
 import wasm from 'web-ifc/web-ifc.wasm?url';
 
 export {columnsOf, fields, fromCsv, fromDxf, fromIfc, fromPcf, layersOf, lengths, unitOf} from '../../clients/import/src/index';

@@ -9,6 +9,10 @@ export interface Question {
   choices?: [value: string, name: string][];
   value?: string;
   hint?: string;
+  /** Yes or nothing. */
+  check?: boolean;
+  /** More lines than one. */
+  lines?: boolean;
 }
 export interface Kind {
   questions(importer: Importer, text: string, schedules: string[]): Question[];
@@ -18,6 +22,10 @@ export interface Kind {
 export const text = (file: Uint8Array): string => new TextDecoder().decode(file);
 const named = (list: readonly string[]): [string, string][] => list.map((each) => [each, each]);
 const unitAnswer = (answers: Answers): {unit?: LengthUnit} => (answers['unit'] ? {unit: answers['unit'] as LengthUnit} : {});
+
+const merge: Question = {key: 'merge', text: 'Members that go on in line are one piece', check: true};
+const merged = ({merge: said}: Answers): {merge_in_line?: true} => (said ? {merge_in_line: true} : {});
+const most = 30; // bores that are asked for one by one
 
 /** "114.3x6.3" in mm, or a name that the service lists. */
 function sizeOf(said: string | undefined): Size | undefined {
@@ -41,51 +49,95 @@ function pointOf(said: string): [number, number, number] {
   return [x, y, z];
 }
 
+/** Bores that are not certain, with what they probably are. */
+function boreQuestions(importer: Importer, file: string): Question[] {
+  const {asks} = importer.fromPcf(file);
+  const bores = asks.filter(({option}) => option === 'bore').slice(0, most);
+  return bores.map(({key = '', count, likely}) => ({
+    key: `bore ${key}`,
+    text: `Size of bore ${key}, of ${count} ${count === 1 ? 'component' : 'components'}`,
+    hint: likely.length > 0 ? `${likely.join(' or ')}?` : 'NPS 6, DN 150 or 168.3',
+  }));
+}
+
+function boresOf(answers: Answers): {bores?: Record<string, string>} {
+  const said = Object.entries(answers).filter(([key, value]) => key.startsWith('bore ') && value.trim());
+  return said.length > 0 ? {bores: Object.fromEntries(said.map(([key, value]) => [key.slice('bore '.length), value]))} : {};
+}
+
+function tableQuestions(importer: Importer, file: string): Question[] {
+  const {headings, columns, nodes} = importer.columnsOf(file);
+  const choices: [string, string][] = [['', '–'], ...named(headings.map((each) => each.trim()).filter(Boolean))];
+  const open = importer.fromCsv(file).asks.map(({option}) => option);
+  const marks: Question = {
+    key: 'decimal',
+    text: 'Mark of decimals',
+    choices: [
+      ['', 'not certain'],
+      ['.', 'point'],
+      [',', 'comma'],
+    ],
+  };
+  return [
+    {key: 'unit', text: 'Lengths in', choices: [['', 'as the table states, else mm'], ...named(Object.keys(importer.lengths))], value: ''},
+    ...(open.includes('decimal') ? [marks] : []),
+    ...importer.fields.map((field) => ({key: field, text: `Column of ${field.replace(/_/g, ' ')}`, choices, value: columns[field]?.trim() ?? ''})),
+    {key: 'all', text: 'Size of the other rows'},
+    ...(nodes ? [] : [{key: 'nodes', text: 'Table of nodes: node, x, y, z', lines: true, hint: 'node, x, y, z'}]),
+    merge,
+  ];
+}
+
 export const kinds: Record<string, Kind> = {
   ifc: {
     questions: () => [
       {key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'},
       {key: 'corner', text: 'Radius of square tubes’ sharp corners, mm', hint: 'none'},
+      merge,
     ],
-    read: (importer, file, {origin, corner}) => {
+    read: (importer, file, answers) => {
+      const {origin, corner} = answers;
       const more = {...(origin?.trim() ? {origin_mm: pointOf(origin)} : {}), ...(corner?.trim() ? {corner_radius_mm: positive(corner)} : {})};
-      return importer.fromIfc(file, {wasm: importer.wasm, ...more});
+      return importer.fromIfc(file, {wasm: importer.wasm, ...more, ...merged(answers)});
     },
   },
   pcf: {
-    questions: (_, __, schedules) => [
+    questions: (importer, file, schedules) => [
       {key: 'schedule', text: 'Schedule of pipes whose wall the file does not tell', choices: [['', 'none'], ...named(schedules)]},
+      ...boreQuestions(importer, file),
+      merge,
     ],
-    read: (importer, file, {schedule}) => importer.fromPcf(text(file), schedule ? {schedule} : {}),
+    read: (importer, file, answers) => {
+      const {schedule} = answers;
+      return importer.fromPcf(text(file), {...(schedule ? {schedule} : {}), ...boresOf(answers), ...merged(answers)});
+    },
   },
   csv: {
-    questions: (importer, file) => {
-      const {headings, columns} = importer.columnsOf(file);
-      const choices: [string, string][] = [['', '–'], ...named(headings.map((each) => each.trim()).filter(Boolean))];
-      return [
-        {key: 'unit', text: 'Lengths in', choices: named(Object.keys(importer.lengths)), value: 'mm'},
-        ...importer.fields.map((field) => ({key: field, text: `Column of ${field.replace(/_/g, ' ')}`, choices, value: columns[field]?.trim() ?? ''})),
-        {key: 'all', text: 'Size of the other rows'},
-      ];
-    },
+    questions: tableQuestions,
     read: (importer, file, answers) => {
       const columns = Object.fromEntries(importer.fields.flatMap((field) => (answers[field] ? [[field, answers[field]]] : [])));
+      const {nodes, decimal} = answers;
       const size = sizeOf(answers['all']);
-      return importer.fromCsv(text(file), {columns, ...unitAnswer(answers), ...(size ? {size} : {})});
+      const more = {...(size ? {size} : {}), ...(nodes?.trim() ? {nodes} : {}), ...(decimal ? {decimal: decimal as '.' | ','} : {})};
+      return importer.fromCsv(text(file), {columns, ...unitAnswer(answers), ...more, ...merged(answers)});
     },
   },
   dxf: {
     questions: (importer, file) => [
       {key: 'unit', text: 'Drawn in', choices: [['', 'as it says'], ...named(Object.keys(importer.lengths))], value: ''},
       ...importer.layersOf(file).map((layer) => ({key: `layer ${layer}`, text: `Size of ${layer}`})),
+      merge,
     ],
     read: (importer, file, answers) => {
       const layers = Object.entries(answers).flatMap(([key, said]) => {
         const size = key.startsWith('layer ') && sizeOf(said);
         return size ? [[key.slice('layer '.length), size]] : [];
       });
-      return importer.fromDxf(text(file), Object.fromEntries(layers), unitAnswer(answers));
+      return importer.fromDxf(text(file), Object.fromEntries(layers), {...unitAnswer(answers), ...merged(answers)});
     },
   },
 };
+// A table may have other names.
+kinds['tsv'] = kinds['csv'] as Kind;
+kinds['txt'] = kinds['csv'] as Kind;
 export const endings = Object.keys(kinds).map((each) => `.${each}`);

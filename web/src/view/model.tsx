@@ -1,7 +1,8 @@
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
 import type {Imported} from '../importer';
 import {clone, type Row} from '../json';
-import {endings, kinds, text, type Answers, type Importer, type Question} from '../model';
+import {endings, kinds, type Answers, type Question} from '../model';
+import type {Order, Reading} from '../reading';
 
 interface Opened {
   name: string;
@@ -20,17 +21,29 @@ interface Given {
 
 const reason = (failure: unknown) => (failure instanceof Error ? failure.message : String(failure));
 
+/** Of the page; the worker of the last model serves the next. */
+let reader: Promise<Reading> | undefined;
+const reading = (): Promise<Reading> => {
+  reader ??= import('../reading').then(({Reading: Reader}) => new Reader());
+  return reader;
+};
+
 async function opened(file: File, schedules: string[]): Promise<Opened> {
   const {name} = file;
   try {
-    const kind = kinds[name.toLowerCase().replace(/^.*\./, '')];
-    if (!kind) throw new Error(`It is none of ${endings.join(', ')}.`);
-    const [importer, buffer] = await Promise.all([import('../importer') as Promise<Importer>, file.arrayBuffer()]);
-    const bytes = new Uint8Array(buffer);
+    const ending = name.toLowerCase().replace(/^.*\./, '');
+    if (!Object.hasOwn(kinds, ending)) throw new Error(`It is none of ${endings.join(', ')}.`);
+    const [worker, buffer] = await Promise.all([reading(), file.arrayBuffer()]);
+    const order: Order = {ending, file: new Uint8Array(buffer), schedules};
+    const told = await worker.ask(order);
     return {
       name,
-      questions: kind.questions(importer, text(bytes), schedules),
-      read: async (answers) => kind.read(importer, new Uint8Array(buffer.slice(0)), answers),
+      ...('questions' in told ? {questions: told.questions} : {}),
+      read: async (answers) => {
+        const found = await worker.ask({...order, answers});
+        if (!('imported' in found)) throw new Error('There is no answer.');
+        return found.imported;
+      },
     };
   } catch (failure) {
     return {name, failure};
@@ -68,6 +81,7 @@ export function useModel({schedules, job, body, shown, take}: Given) {
     await read(each);
   };
   const end = () => {
+    if (model) void reader?.then((each) => each.end());
     turn.current += 1;
     given.current = undefined;
     say(undefined);
@@ -160,8 +174,15 @@ const Heading = ({model, close}: {model: Opened; close(): void}) =>
 
 const Refused = ({failure}: {failure: unknown}) => <p role="alert">It cannot be read. {reason(failure)}</p>;
 
-function Asked({question: {key, text: said, choices, hint}, value, answer}: {question: Question; value: string; answer(value: string): void}) {
+function Asked({question: {key, text: said, choices, hint, check, lines}, value, answer}: {question: Question; value: string; answer(value: string): void}) {
   const shared = {'data-question': key, value, onChange: (event: Event) => answer((event.currentTarget as HTMLInputElement).value)};
+  if (check)
+    return (
+      <label class="check">
+        <input type="checkbox" data-question={key} checked={value !== ''} onChange={(event) => answer(event.currentTarget.checked ? 'yes' : '')} />
+        <span>{said}</span>
+      </label>
+    );
   return (
     <label>
       <span>{said}</span>
@@ -173,6 +194,8 @@ function Asked({question: {key, text: said, choices, hint}, value, answer}: {que
             </option>
           ))}
         </select>
+      ) : lines ? (
+        <textarea rows={4} placeholder={hint} {...shared} />
       ) : (
         <input list={hint ? undefined : 'tube-sizes'} placeholder={hint ?? '114.3x6.3'} {...shared} />
       )}

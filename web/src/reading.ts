@@ -1,0 +1,46 @@
+import type {Imported} from './importer';
+import type {Answers, Question} from './model';
+
+/** What is to be done with a file: without answers its questions are wanted, else what it holds. */
+export interface Order {
+  ending: string;
+  file: Uint8Array;
+  schedules: string[];
+  answers?: Answers;
+}
+export type Told = {questions: Question[]} | {imported: Imported} | {failure: string};
+
+const patience = 60; // s: models of thousands of tubes take a few
+
+/** The worker that reads models. An order that comes while it is at another ends that one. */
+export class Reading {
+  private worker: Worker | undefined;
+  private drop: (() => void) | undefined;
+
+  async ask(order: Order): Promise<Told> {
+    if (this.drop) this.end();
+    this.worker ??= new Worker(new URL('./import_worker.ts', import.meta.url), {type: 'module'});
+    const {worker} = this;
+    return new Promise<Told>((resolve, reject) => {
+      const over = (act: () => void, end: boolean) => {
+        clearTimeout(timer);
+        this.drop = undefined;
+        if (end) this.end();
+        act();
+      };
+      const timer = setTimeout(() => over(() => reject(new Error(`Reading took longer than ${patience} s and was stopped.`)), true), patience * 1000);
+      this.drop = () => clearTimeout(timer);
+      worker.onmessage = ({data}: MessageEvent<Told>) => over(() => ('failure' in data ? reject(new Error(data.failure)) : resolve(data)), false);
+      worker.onerror = (event) => over(() => reject(new Error(event.message || 'The reader of models could not be loaded.')), true);
+      worker.postMessage(order);
+    });
+  }
+
+  /** What was ordered last is answered no more. */
+  end(): void {
+    this.drop?.();
+    this.drop = undefined;
+    this.worker?.terminate();
+    this.worker = undefined;
+  }
+}
