@@ -1,0 +1,27 @@
+# Unity builds (preset release) compile eight sources of a target as one, because most of a source's time goes into its headers.
+# These sources are compiled alone: names local to them equal names local to a neighbour. To shorten the list, rename them.
+function(tubecut_alone target folder)
+  list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/${folder}/)
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+tubecut_alone(tubecut_core core/bevel beam.cpp beam_axes.cpp programme.cpp)
+tubecut_alone(tubecut_core core/joint contour.cpp event_phases.cpp intersection.cpp length.cpp overlap.cpp shared_metal.cpp)
+tubecut_alone(tubecut_core core/part member.cpp)
+tubecut_alone(tubecut_api api batch.cpp tube_sizes.cpp)
+tubecut_alone(tubecut_api api/endpoints frame_request.cpp holes.cpp joint_codec.cpp node_codec.cpp)
+tubecut_alone(tubecut_api api/formats dxf.cpp gcode.cpp order_tables.cpp part_development.cpp sheet.cpp tiles.cpp work_order.cpp)
+tubecut_alone(tubecut_server server job_log.cpp)
+if(TUBECUT_TESTS)
+  tubecut_alone(core_joint_test tests/core/joint degenerate_test.cpp ray_test.cpp shared_metal_test.cpp)
+  tubecut_alone(core_bevel_test tests/core/bevel between_rows_test.cpp elbow_table_test.cpp envelope_test.cpp hole_test.cpp)
+  tubecut_alone(core_groove_test tests/core/groove groove_test.cpp)
+  tubecut_alone(core_motion_test tests/core/motion lead_on_tables_test.cpp lower_bound_test.cpp)
+  tubecut_alone(core_part_test tests/core/part dimensions_test.cpp)
+  tubecut_alone(core_part_test tests/core/torch program_schedule_test.cpp)
+  tubecut_alone(api_endpoints_test tests/api bevel_tables_test.cpp columns_test.cpp feed_curves_test.cpp holes_test.cpp
+                tangent_and_thin_test.cpp verification_test.cpp)
+  tubecut_alone(api_formats_test tests/api formats_test.cpp)
+  tubecut_alone(api_members_test tests/api everyday_joints_test.cpp frames_test.cpp nodes_test.cpp parts_test.cpp)
+  tubecut_alone(server_app_test tests/server app_test.cpp)
+endif()
