@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/try.hpp"
+#include "core/joint/cutters/elbow_leg.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -29,6 +30,22 @@ Result<std::vector<PreparedCutter>> prepare_all(std::span<const Cutter> cutters,
   return out;
 }
 
+/// A run of an elbow that goes up along the member has no place where it ends to cut it.
+Result<void> check_legs(std::span<const PreparedCutter> cutters, double rho) {
+  for (std::size_t i = 0; i < cutters.size(); ++i) {
+    const auto* elbow = std::get_if<PreparedElbow>(&cutters[i]);
+    if (elbow == nullptr) continue;
+    if (const auto sine = endless_leg(*elbow, rho))
+      return under(
+          "cutters/" + std::to_string(i),
+          Result<void>(parallel_axes(
+              "", *sine,
+              "a straight run of the elbow goes along the kept member and would cut it away "
+              "without end; let that run point the other way, or pass clear of the member")));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Contour> trace(std::span<const Cutter> cutters, double rho, const std::stop_token& stop) {
@@ -36,6 +53,7 @@ Result<Contour> trace(std::span<const Cutter> cutters, double rho, const std::st
   Contour out;
   out.radius = rho;
   TRY(out.cutters, prepare_all(cutters, stop));
+  TRY(check_legs(out.cutters, rho));
   for (std::size_t i = 0; i < out.cutters.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (met(out.cutters[i], rho) == Met::never) out.missed.push_back(i);

@@ -25,7 +25,11 @@ Result<NearestFrame> nearest_frame(const Vector3d& point, const Vector3d& direct
   if (!(size >= kParallel * up.norm()))
     return fail({.code = ErrorCode::bad_reference_direction, .member = "up"});
   const double flat = d.x() * d.x() + d.y() * d.y();
-  if (!(flat >= kParallel * kParallel)) return parallel_axes("", std::sqrt(flat));
+  if (!(flat >= kParallel * kParallel))
+    return parallel_axes(
+        "", std::sqrt(flat),
+        "its axis runs along the member's and cuts no end of it; the angle must be "
+        "greater than the limit");
   NearestFrame out;
   out.moved = -(point.x() * d.x() + point.y() * d.y()) / flat;
   out.frame.point = point + out.moved * d;

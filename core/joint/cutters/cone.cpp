@@ -56,7 +56,10 @@ Result<PreparedCone> ConeCutter::prepare() const {
   TRY(const auto made, nearest_frame(point, direction, direction.unitOrthogonal()));
   const double slope = elementary::tan(half_angle.rad());
   const PreparedCone out{{}, made.frame, radius + slope * made.moved, slope};
-  if (!(out.sine() >= kParallel)) return parallel_axes("", out.sine());
+  if (!(out.sine() >= kParallel))
+    return parallel_axes("", out.sine(),
+                         "a line of its surface runs along the member; the angle must be greater "
+                         "than the limit");
   return out;
 }
 

@@ -8,13 +8,13 @@
 
 #include "core/base/elementary.hpp"
 #include "core/joint/cutters/convex.hpp"
+#include "core/joint/cutters/elbow_leg.hpp"
 #include "core/joint/sheets.hpp"
 #include "core/math/search.hpp"
 
 namespace tubecut::joint {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kSteps = 400;
@@ -24,7 +24,6 @@ constexpr std::size_t kScan = 720;
 /// An elbow is not convex: its section is scanned across the wall and refined around the steepest
 /// place. What lies between is caught by the table's own proof, not by this.
 constexpr int kAcross = 33;
-constexpr int kAlong = 24;
 
 /// One stretch of the centre line seen from a point: its nearest point and how the distance from
 /// it may bend along a line.
@@ -46,6 +45,19 @@ struct Legs {
 Legs legs(const PreparedElbow& e) {
   const Vector3d end(e.end.x() * e.bend_radius, e.end.y() * e.bend_radius, 0.0);
   return {{e.bend_radius, 0.0, 0.0}, end, {-e.end.y(), e.end.x(), 0.0}};
+}
+
+/// A leg by itself: where it leaves the bend, and which way.
+struct Leg {
+  Vector3d from, along;
+};
+std::array<Leg, 2> each_leg(const PreparedElbow& e) {
+  const auto l = legs(e);
+  return {Leg{l.start, -Vector3d::UnitY()}, Leg{l.end, l.end_along}};
+}
+
+bool runs_along(const PreparedElbow& e, const Leg& leg) {
+  return e.rise.cross(leg.along).norm() < kAlongTarget;
 }
 
 bool in_sector(const PreparedElbow& e, const Vector3d& p) {
@@ -108,16 +120,22 @@ Vector3d foot_of(const PreparedElbow& e, const Generator& g) {
 }
 
 /// The line's two heights between which it can meet the elbow: in reach of the bend, or of a leg's
-/// whole cylinder.
+/// whole cylinder; of one that runs along it, as far as that is looked at.
 std::array<double, 2> range(const PreparedElbow& e, const Vector3d& o) {
-  const auto l = legs(e);
   const double reach = e.bend_radius + e.radius;
   const double middle = -o.dot(e.rise);
   std::array<double, 2> out{middle - reach, middle + reach};
-  for (const auto& [from, along] :
-       {std::pair{l.start, Vector3d(-Vector3d::UnitY())}, std::pair{l.end, l.end_along}}) {
-    const Vector3d v = o - from;
-    const Vector3d across = e.rise - e.rise.dot(along) * along;
+  for (const auto& leg : each_leg(e)) {
+    if (runs_along(e, leg)) {
+      const double far = leg_reach(e.radius, e.bend_radius);
+      if (leg.along.dot(e.rise) > 0.0)
+        out[1] = std::max(out[1], middle + far);
+      else
+        out[0] = std::min(out[0], middle - far);
+      continue;
+    }
+    const Vector3d v = o - leg.from;
+    const Vector3d across = e.rise - e.rise.dot(leg.along) * leg.along;
     const double a = across.squaredNorm();
     const double z = -v.dot(across) / a;
     const double half = e.radius / std::sqrt(a);
@@ -169,7 +187,6 @@ Result<PreparedElbow> ElbowCutter::prepare() const {
   out.bend_radius = bend_radius;
   const auto at = elementary::sincos(bend.rad());
   out.end = {at.cos, at.sin};
-  if (!(out.sine() >= kParallel)) return parallel_axes("", out.sine());
   return out;
 }
 
@@ -181,8 +198,26 @@ void ElbowCutter::turn(const TurnAboutAxis& turn) {
 
 // ---- on the target's generators
 
+// Of the legs; of those alone that do not run along the target.
 double PreparedElbow::sine() const {
-  return std::min(elementary::hypot(rise.x(), rise.z()), rise.cross(legs(*this).end_along).norm());
+  const double first = elementary::hypot(rise.x(), rise.z());
+  const double last = rise.cross(legs(*this).end_along).norm();
+  double out = 1.0;
+  for (const double leg : {first, last})
+    if (leg >= kAlongTarget) out = std::min(out, leg);
+  return out;
+}
+
+// The surface is a circle about the target's axis; the leg is looked at where it is out of reach.
+std::optional<double> endless_leg(const PreparedElbow& elbow, double rho) {
+  const Vector3d o = -(elbow.rows * elbow.center);
+  const double far = leg_reach(elbow.radius, elbow.bend_radius);
+  for (const auto& leg : each_leg(elbow)) {
+    if (!runs_along(elbow, leg) || leg.along.dot(elbow.rise) < 0.0) continue;
+    const double off = (leg.from + far * leg.along - o).cross(elbow.rise).norm();
+    if (std::abs(off - rho) < elbow.radius) return elbow.rise.cross(leg.along).norm();
+  }
+  return std::nullopt;
 }
 
 ElbowPass PreparedElbow::pass(const Generator& line) const {
@@ -286,103 +321,6 @@ double PreparedElbow::steepest(const Wall& wall, const Generator& g, double z_ro
 double PreparedElbow::support(const Wall& wall, const Generator& g, double slope) const {
   return greatest_across(*this, wall, g, wall.inner,
                          [&](double rho, double z) { return z - (rho - wall.inner) * slope; });
-}
-
-// ---- in space
-
-ElbowSolid ElbowCutter::solid() const {
-  const Vector3d along = direction.normalized();
-  const Vector3d across = -(inwards - inwards.dot(along) * along).normalized();
-  return {point - bend_radius * across, along, across, radius, bend_radius, bend.rad()};
-}
-
-// By the angle around the bend's axis, clamped to the arc, and by the feet on the two legs.
-Vector3d ElbowSolid::on_centre_line(const Vector3d& p) const {
-  const Vector3d from = p - point;
-  double turn = elementary::atan2(from.dot(direction), from.dot(across)) - 0.5 * bend;
-  turn -= kTwoPi * std::floor(turn / kTwoPi + 0.5);
-  const auto at = elementary::sincos(std::clamp(turn, -0.5 * bend, 0.5 * bend) + 0.5 * bend);
-  const auto end = elementary::sincos(bend);
-  const Vector3d start_point = point + bend_radius * across;
-  const Vector3d end_point = point + bend_radius * (end.cos * across + end.sin * direction);
-  const Vector3d leaving = end.cos * direction - end.sin * across;
-  Vector3d best = point + bend_radius * (at.cos * across + at.sin * direction);
-  for (const Vector3d& foot :
-       {Vector3d(start_point - std::max(0.0, (start_point - p).dot(direction)) * direction),
-        Vector3d(end_point + std::max(0.0, (p - end_point).dot(leaving)) * leaving)})
-    if ((p - foot).norm() < (p - best).norm()) best = foot;
-  return best;
-}
-
-Vector2d ElbowSolid::range(double x, double y) const {
-  const auto end = elementary::sincos(bend);
-  const Vector3d leaving = end.cos * direction - end.sin * across;
-  const double steep = std::max(std::abs(direction.z()), std::abs(leaving.z()));
-  const double flat = std::sqrt(std::max(1e-12, (1.0 - steep) * (1.0 + steep)));
-  const double reach = elementary::hypot(x - point.x(), y - point.y()) + bend_radius + radius;
-  return {point.z() - 2.0 * reach / flat, point.z() + 2.0 * reach / flat};
-}
-
-double ElbowSolid::distance(const Vector3d& p) const {
-  return (p - on_centre_line(p)).norm() - radius;
-}
-
-Vector3d ElbowSolid::normal(const Vector3d& p) const {
-  return (p - on_centre_line(p)).normalized();
-}
-
-// Where the line grazes the elbow the steps shrink for ever: now and then the place below that is
-// nearest is looked for, within the least bend that the distance can have.
-std::optional<double> ElbowSolid::top(double x, double y) const {
-  constexpr int kDown = 20'000, kPatience = 100;
-  const auto between = range(x, y);
-  const double near = 1e-12 * (radius + bend_radius + std::abs(point.z()));
-  const auto away = [&](double at) { return distance({x, y, at}); };
-  double z = between[1];
-  for (int step = 1; step < kDown && z > between[0]; ++step) {
-    const double gap = away(z);
-    if (gap <= near) return z;
-    if (step % kPatience == 0) {
-      const double below = 4.0 * std::sqrt(2.0 * (radius + bend_radius) * gap);
-      const double deep =
-          math::golden_maximum([&](double at) { return -away(at); }, z - below, z).at;
-      if (away(deep) <= near)
-        return math::last_true([&](double at) { return away(at) <= near; }, deep, z);
-    }
-    z -= gap;
-  }
-  return std::nullopt;
-}
-
-double ElbowSolid::clearance(double x, double y) const {
-  constexpr int kSamples = 400;
-  const auto between = range(x, y);
-  std::vector<double> z, deep;
-  const auto depth = [&](double at) { return -distance({x, y, at}); };
-  for (int k = 0; k <= kSamples; ++k) {
-    z.push_back(between[0] + (between[1] - between[0]) * k / kSamples);
-    deep.push_back(depth(z.back()));
-  }
-  return -math::grid_maximum(depth, z, deep).value;
-}
-
-// The distance along a line may have several least values: they are looked for on a grid.
-double ElbowSolid::least_distance(const Vector3d& a, const Vector3d& b) const {
-  const auto near = [&](double share) { return -distance(a + share * (b - a)); };
-  std::vector<double> grid, sampled;
-  for (int k = 0; k <= kAlong; ++k) {
-    grid.push_back(static_cast<double>(k) / kAlong);
-    sampled.push_back(near(grid.back()));
-  }
-  return std::min({distance(a), distance(0.5 * (a + b)), distance(b),
-                   -math::grid_maximum(near, grid, sampled).value});
-}
-
-// The centre line, an arc of at most half a turn with its legs, is nowhere nearer to itself than
-// its bend radius R: within s < R of it the distance bends inwards by at most 1/(R - s).
-double ElbowSolid::most_hollow(double to) const {
-  const double room = bend_radius - std::max(0.0, radius + to);
-  return room > 0.0 ? 1.0 / room : kInfinity;
 }
 
 }  // namespace tubecut::joint
