@@ -20,7 +20,6 @@ constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
 constexpr double kStep = 0.01;  // mm between two mitred edges: as good as none
 
 using detail::Applied;
-using detail::between_axes;
 using detail::called;
 using detail::goes_before;
 using detail::Joined;
@@ -217,8 +216,8 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
               .gap = touch.near.distance};
     const AxisLine axis{other.start, other.finish - other.start};
     if (mitre != nullptr) {
-      cut.plane = PlaneCutter{frame.local(mitre->point), frame.rows * mitre->normal};
-      cut.eccentricity = between_axes(spec.members[member], other);
+      cut.plane = PlaneCutter{frame.rows * mitre->point, frame.rows * mitre->normal};
+      cut.eccentricity = mitre->eccentricity;
     } else {
       TRY(cut.placement,
           under(place_of(touch.other), place(frame.local(axis), other.outer_radius)));

@@ -68,7 +68,7 @@ struct CutBy {
   std::optional<PlaneCutter> plane = {};  // of a mitre, in the same frame: cuts instead of the tube
   std::optional<Joint> stated = {};       // how they are joined, if stated; set-in with its depth
   double gap = 0.0;                       // from the end to the member's axis between its ends
-  double eccentricity = 0.0;              // least distance of the two axes, >= 0
+  double eccentricity = 0.0;              // distance of the axes; of a mitre at its plane
   bool ghost = false;                     // the cut follows it beyond one of its own ends
 };
 
@@ -96,8 +96,8 @@ struct Nodes {
 /// furthest from its own (the first of equals).
 ///
 /// A joint that is stated changes who cuts: through, neither the other; mitre, a plane both. The
-/// plane passes where the axes are nearest to each other (parallel axes: midway between the ends)
-/// and leans alike to both.
+/// plane passes where the axes are nearest to each other (in line, and that far from the ends:
+/// midway between these) and leans alike to both.
 ///
 /// Errors    zero_length, bad_reference_direction (members/i...); wrong_count (more than
 ///           kMostCutters join one end); ambiguous_connection (two passing members, alike in

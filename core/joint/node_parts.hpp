@@ -19,15 +19,14 @@ namespace tubecut::joint::detail {
 /// Sine of the angle between two members.
 [[nodiscard]] double sine_between(const Member& a, const Member& b);
 
-/// Least distance of the two axes, prolonged.
-[[nodiscard]] double between_axes(const Member& a, const Member& b);
-
 /// What joins each end: others in index order, with how near they are.
 using Joined = std::vector<std::vector<Touch>>;
 
-/// The plane of a mitre in the world; `normal` points into the member whose end is asked for.
+/// The plane of a mitre as one of its two ends has it, along the world's axes: `point` from where
+/// the end is, `normal` into its member.
 struct Mitre {
   Eigen::Vector3d point, normal;
+  double eccentricity = 0.0;  // distances of the two axes from the point, together
 };
 /// What is stated, once applied.
 struct Applied {

@@ -21,18 +21,19 @@ double between(const Vector3d& a, const Vector3d& b) {
   return 2.0 * elementary::atan2((a - b).norm(), (a + b).norm());
 }
 
-/// The cutter's axis in the world, from the four numbers alone: turned and tilted step by step.
+/// The cutter's axis along the world's axes, from the end's own origin (a node far out in the world
+/// loses no digits), from the four numbers alone: turned and tilted step by step.
 struct Line {
   Vector3d point, direction;
 };
-Line in_world(const MemberFrame& frame, const TubeCutter& t) {
+Line from_origin(const MemberFrame& frame, const TubeCutter& t) {
   const auto a = elementary::sincos(t.inclination.rad());
   const auto b = elementary::sincos(t.clocking.rad());
   Eigen::Matrix3d tilt, clock;
   tilt << 1, 0, 0, 0, a.cos, -a.sin, 0, a.sin, a.cos;
   clock << b.cos, -b.sin, 0, b.sin, b.cos, 0, 0, 0, 1;
   const Eigen::Matrix3d out = frame.rows.transpose() * clock * tilt;
-  return {frame.origin + frame.rows.transpose() * Vector3d(0, 0, t.height) -
+  return {frame.rows.transpose() * Vector3d(0, 0, t.height) -
               t.offset * (frame.rows.transpose() * clock.col(0)),
           out.col(2)};
 }
@@ -67,7 +68,8 @@ void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Wor
   const auto& member = spec.members[end.member];
   const auto& other = spec.members[cut.member];
   const Vector3d normal = (end.frame.rows.transpose() * cut.plane->normal).normalized();
-  const Vector3d point = end.frame.origin + end.frame.rows.transpose() * cut.plane->point;
+  const Vector3d& origin = end.frame.origin;
+  const Vector3d point = end.frame.rows.transpose() * cut.plane->point;  // from there
   const Vector3d own = end.frame.rows.row(2);
   Vector3d along = (other.finish - other.start).normalized();
   if (along.dot(normal) > 0.0) along = -along;
@@ -77,9 +79,13 @@ void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Wor
                 between(corner_of(own, member.outer_radius, along, other.outer_radius), normal)
           : between(own, normal) + between(along, normal) - kPi;
   worsen(worst.angle, std::abs(off) * kDegPerRad);
-  const double scale = (member.start - point).norm() + (other.start - point).norm();
+  // At least both lengths, wherever the ends lie: any of them may be the plane's own point.
+  const auto ends = [&](const Member& m) {
+    return (m.start - origin - point).norm() + (m.finish - origin - point).norm();
+  };
+  const double scale = ends(member) + ends(other);
   const auto aside = [&](const Member& m) {
-    return from_line(point, {m.start, (m.finish - m.start).normalized()});
+    return from_line(point, {m.start - origin, (m.finish - m.start).normalized()});
   };
   worsen(worst.axis, std::abs(aside(member) - aside(other)) / scale);
   worsen(worst.eccentricity, std::abs(aside(member) + aside(other) - cut.eccentricity) / scale);
@@ -99,9 +105,9 @@ void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& wo
   const double scale = (other.start - end.frame.origin).norm() +
                        (other.finish - end.frame.origin).norm() + std::abs(t.height) +
                        std::abs(t.offset);
-  const auto line = in_world(end.frame, t);
-  worst.axis = worst_of(
-      {worst.axis, from_line(other.start, line) / scale, from_line(other.finish, line) / scale});
+  const auto line = from_origin(end.frame, t);
+  for (const Vector3d& tip : {other.start, other.finish})
+    worsen(worst.axis, from_line(tip - end.frame.origin, line) / scale);
   worsen(
       worst.angle,
       std::abs(between(own.normalized(), along.normalized()) - t.inclination.rad()) * kDegPerRad);
