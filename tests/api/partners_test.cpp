@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/support/call.hpp"
 
@@ -60,6 +61,57 @@ TEST(Partners, EveryFieldIsChecked) {
   };
   EXPECT_EQ(refusal(bend("bend_radius_mm", 57.0), "/cutters/0/bend_radius_mm"), "out_of_range");
   EXPECT_EQ(refusal(bend("bend_deg", 181.0), "/cutters/0/bend_deg"), "out_of_range");
+}
+
+// The support stands on the bend along its run, on the axis: on the back of the torus.
+TEST(Partners, AnElbowCarriesALegAlongItsRun) {
+  const auto request =
+      *api::parse(read_project_file("tests/field/dummy-leg-on-elbow.intersection.json"));
+  const auto curves = post("/v1/intersections", request);
+  ASSERT_FALSE(curves.outcome.error) << curves.outcome.body.substr(0, 1500);
+  EXPECT_EQ(text(curves.body, "verdict/status"), "ok");
+  std::size_t seen = 0;
+  for (const auto& curve : *at(curves.body, "result/profiles").as<api::Json::Array>()) {
+    const auto phi = numbers(curve, "points/phi_deg"), z = numbers(curve, "points/z_mm");
+    for (std::size_t i = 0; i < phi.size(); ++i, ++seen) {
+      const double turn = phi[i] * std::acos(-1.0) / 180.0, rho = number(curve, "radius_mm");
+      const double x = rho * std::cos(turn), y = rho * std::sin(turn);
+      const double reach = 228.6 + std::sqrt(84.15 * 84.15 - y * y);
+      EXPECT_NEAR(z[i], std::sqrt(reach * reach - (x - 228.6) * (x - 228.6)), 1e-9);
+    }
+  }
+  EXPECT_GE(seen, 720U);
+  const auto table = post(kPath, with(with(with(without(request, "sampling"), "sampling",
+                                                *api::parse(R"({"uniform_points": 60})")),
+                                           "groove", *api::parse(R"({"rule": "half_dihedral"})")),
+                                      "root_surface", "inner"));
+  ASSERT_FALSE(table.outcome.error) << table.outcome.body.substr(0, 1500);
+  EXPECT_EQ(at(table.body, "verification/passed"), api::Json{true});
+}
+
+TEST(Partners, ARefusalForAxesThatRunAlongSaysWhatToDo) {
+  const auto up = [](const char* z) { return *api::parse(std::string("[0, 0, ") + z + "]"); };
+  const auto leg =
+      *api::parse(read_project_file("tests/field/dummy-leg-on-elbow.intersection.json"));
+  const auto along = [](const api::Json& request, const char* cutter, api::Json direction) {
+    return with(request, std::string("cutters/") + cutter + "/axis/direction",
+                std::move(direction));
+  };
+  const auto box = with(along(mixed(), "0", up("1")), "cutters/0/up", *api::parse("[1, 0, 0]"));
+  struct {
+    const char* path;
+    api::Json request;
+  } const cases[] = {{"/v1/intersections", along(leg, "0", up("-1"))},
+                     {kPath, box},
+                     {kPath, along(mixed(), "1", up("1"))},
+                     {kPath, with(mixed(), "cutters/1/half_angle_deg", 79.0)}};
+  for (const auto& [path, request] : cases) {
+    const auto answer = post(path, request);
+    ASSERT_TRUE(answer.outcome.error) << path;
+    EXPECT_EQ(text(answer.body, "code"), "parallel_axes") << answer.outcome.body;
+    for (const auto& one : *at(answer.body, "errors").as<api::Json::Array>())
+      EXPECT_FALSE(text(one, "hint").empty()) << answer.outcome.body;
+  }
 }
 
 }  // namespace
