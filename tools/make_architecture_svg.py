@@ -31,7 +31,8 @@ LAYERS = ("server", "api", "core")
 INK, FAINT, WAY = "#1c2733", "#66727f", "#c0392b"
 FILL = {"server": "#efe6d3", "api": "#e2efe6", "core": "#dfeaf5"}
 BOX = (168, 62)
-WIDTH = 1000
+COLUMN = 188  # from one level of core to the next
+WIDTH = 1000  # at least: core takes as many columns as it has levels
 
 
 def room_of(file):
@@ -83,15 +84,15 @@ def needed(edges):
 
 
 class Picture:
-    def __init__(self):
-        self.out = []
+    def __init__(self, width):
+        self.out, self.width = [], width
 
     def text(self, x, y, words, size=12, colour=INK, weight="normal", anchor="middle"):
         self.out.append(f'<text x="{x:.0f}" y="{y:.0f}" font-size="{size}" font-weight="{weight}" fill="{colour}" '
                         f'text-anchor="{anchor}">{words}</text>')
 
     def band(self, layer, y, height):
-        self.out.append(f'<rect x="20" y="{y}" width="{WIDTH - 40}" height="{height}" rx="8" fill="{FILL[layer]}"/>')
+        self.out.append(f'<rect x="20" y="{y}" width="{self.width - 40}" height="{height}" rx="8" fill="{FILL[layer]}"/>')
         self.text(36, y + 24, layer, 17, weight="bold", anchor="start")
 
     def box(self, room, x, y):
@@ -126,7 +127,7 @@ class Picture:
 
 
 def places(rooms, edges):
-    """Centre of each room: server and api in a row, core by levels from the right."""
+    """Centre of each room, the lower edge of core, the picture's width: server and api in a row, core by levels from the right."""
     at = {}
     for layer, y in (("server", 74), ("api", 206)):
         row = sorted((r for r in rooms if r.split("/")[0] == layer), reverse=layer == "server")
@@ -135,26 +136,27 @@ def places(rooms, edges):
     columns = {}
     for room in (r for r in rooms if r.startswith("core/")):
         columns.setdefault(level(room, edges), []).append(room)
+    width = max(WIDTH, 2 * (BOX[0] // 2 + 32) + COLUMN * max(columns, default=0))
     for step, column in columns.items():
         deep = sorted(column, key=lambda r: (-sum(r in reached(o, edges) for o in rooms), r))
         for i, room in enumerate(deep):
-            at[room] = (WIDTH - 116 - 188 * step, 364 + 86 * i)
-    return at, 364 + 86 * max(map(len, columns.values())) - 32
+            at[room] = (width - BOX[0] // 2 - 32 - COLUMN * step, 364 + 86 * i)
+    return at, 364 + 86 * max(map(len, columns.values())) - 32, width
 
 
 def svg(root=sources.ROOT):
     rooms, edges, down = rooms_and_edges(root)
     if unknown := [room for room in rooms if room not in HOLDS]:
         sys.exit(f"make_architecture_svg: say what they hold: {', '.join(unknown)}")
-    at, bottom = places(rooms, edges)
-    p = Picture()
+    at, bottom, width = places(rooms, edges)
+    p = Picture(width)
     p.band("server", 24, 100)
     p.band("api", 156, 100)
     p.band("core", 288, bottom - 288)
     for above, below in sorted(down):
         y = {("server", "api"): 124, ("api", "core"): 256, ("server", "core"): 124}[above, below]
         end = 156 if below == "api" else 288
-        x = 900 if LAYERS.index(below) - LAYERS.index(above) == 1 else 930
+        x = width - 100 if LAYERS.index(below) - LAYERS.index(above) == 1 else width - 70
         p.out.append(f'<path d="M{x} {y}V{end - 3}" stroke="{INK}" stroke-width="2" marker-end="url(#tip-{INK[1:]})"/>')
     core = needed({room: to for room, to in edges.items() if room.startswith("core/")})
     beside = {room: to for room, to in edges.items() if not room.startswith("core/")}
@@ -188,10 +190,10 @@ def svg(root=sources.ROOT):
                    f'</marker>' for c in (INK, FAINT))
     height = bottom + 20
     return "\n".join((
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
         f'font-family="DejaVu Sans, Verdana, Arial, sans-serif">',
         "<title>tubecut's layers and rooms by their includes, and the way of a request</title>",
-        f'<defs>{tips}</defs><rect width="{WIDTH}" height="{height}" fill="#ffffff"/>',
+        f'<defs>{tips}</defs><rect width="{width}" height="{height}" fill="#ffffff"/>',
         *p.out, "</svg>", ""))
 
 
