@@ -31,7 +31,7 @@ inline constexpr BundleFile kBundleFiles[] = {
     {"step", "step", ".step"},     {"csv", "csv", ".csv"}, {"gcode", "gcode", ".ngc", true}};
 
 /// What a template is printed on: one sheet as large as it is, or pages.
-enum class Paper { sheet, a4, a3 };
+enum class Paper { sheet, a4, a3, letter, tabloid };
 
 /// Which passes of an end with a land a program has: nobody says, the bevel's alone, or both.
 enum class Passes { unsaid, bevel, both };

@@ -16,7 +16,8 @@ namespace {
 constexpr std::array kSwitch{Option<bool>{"on", true}, Option<bool>{"off", false}};
 constexpr std::array kAxial{Option<bool>{"x", false}, Option<bool>{"z", true}};
 constexpr std::array kPaper{Option<Paper>{"sheet", Paper::sheet}, Option<Paper>{"a4", Paper::a4},
-                            Option<Paper>{"a3", Paper::a3}};
+                            Option<Paper>{"a3", Paper::a3}, Option<Paper>{"letter", Paper::letter},
+                            Option<Paper>{"tabloid", Paper::tabloid}};
 constexpr std::array kPasses{Option<Passes>{"bevel", Passes::bevel},
                              Option<Passes>{"both", Passes::both}};
 constexpr Range kOvercut{.min = 0.0, .max = 1'000.0};   // mm

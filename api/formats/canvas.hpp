@@ -35,8 +35,31 @@ struct Lettering {
 /// How wide a text is in mm, in the widest of the fonts that a viewer may take.
 [[nodiscard]] double text_width(std::string_view text, double height, bool bold = false);
 
-/// `l`, as much smaller as the text needs to fit into `room` mm.
+/// The smallest lettering on paper, mm: smaller text cannot be read at the machine.
+inline constexpr double kLeastText = 2.2;
+
+/// `l`, as much smaller as the text needs to fit into `room` mm, but not below kLeastText: what is
+/// wider even then is for `wrapped` or `shortened`.
 [[nodiscard]] Lettering fitted(std::string_view text, Lettering l, double room);
+
+/// The text as lines within `room` mm, broken at blanks, and within words that are wider.
+[[nodiscard]] std::vector<std::string> wrapped(std::string_view text, double height, double room,
+                                               bool bold = false);
+
+/// The text, or as much of its beginning as fits into `room` mm with "..." behind it.
+[[nodiscard]] std::string shortened(std::string_view text, double height, double room,
+                                    bool bold = false);
+
+/// An upright rectangle of a drawing.
+struct DrawingBox {
+  DrawingPoint low, high;
+
+  [[nodiscard]] bool holds(const DrawingBox& other) const;
+  [[nodiscard]] bool meets(const DrawingBox& other) const;
+};
+
+/// Where a text stands, in the widest of the fonts.
+[[nodiscard]] DrawingBox text_box(DrawingPoint at, std::string_view what, const Lettering& l);
 
 /// One thing drawn.
 struct Ink {
@@ -62,9 +85,12 @@ class Canvas {
   void rectangle(DrawingPoint low, DrawingPoint high, const Stroke& stroke = {},
                  std::string_view id = {});
   void text(DrawingPoint at, std::string_view what, const Lettering& lettering = {});
-  /// Another drawing, moved by `by`, its ids with a suffix; what lies off this sheet is left out.
+  /// A text in one line of at most `room` mm: as `fitted`, then as `shortened`.
+  void label(DrawingPoint at, std::string_view what, const Lettering& lettering, double room);
+  /// Another drawing, moved by `by`, its ids with a suffix. What lies off this sheet is left out,
+  /// and so is a text that is not whole within `window` of this sheet.
   void place(const Canvas& other, DrawingPoint by, std::string_view suffix,
-             const std::stop_token& stop);
+             const DrawingBox& window, const std::stop_token& stop);
   /// Everything drawn until `end_group` is cut off at the rectangle, or the polygon.
   void begin_clip(DrawingPoint low, DrawingPoint high);
   void begin_clip(std::vector<DrawingPoint> border);

@@ -17,7 +17,9 @@ namespace {
 constexpr double kWidth = 960.0, kHeight = 360.0;  // px, of one chart
 constexpr double kLeft = 78.0, kRight = 24.0, kTop = 56.0, kBottom = 56.0;
 constexpr double kLegendLine = 18.0, kVerdictLine = 16.0;
-constexpr double kFont = 12.0, kSmall = 11.0;  // px, of words and of labels
+constexpr double kFont = 12.0, kSmall = 11.0, kJob = 10.0,
+                 kTitle = 15.0;  // px, of words, labels, the job, titles
+constexpr double kPlot = kWidth - kLeft - kRight, kJobLine = 13.0, kTitleLine = 18.0;
 
 /// Round ticks that cover [low, high]: steps of 1, 2 or 5 times a power of ten.
 struct Scale {
@@ -116,6 +118,14 @@ void line(std::string& out, double x1, double y1, double x2, double y2, const ch
          fixed(y2) + "\" " + look + "/>\n";
 }
 
+std::vector<std::string> title_lines(const Chart& chart) {
+  return wrapped(chart.title, kTitle, kPlot, true);
+}
+/// What a chart is taller by than one with a title of one line.
+double more_title(const Chart& chart) {
+  return kTitleLine * static_cast<double>(title_lines(chart).size() - 1);
+}
+
 void axes(std::string& out, const Chart& chart, const Frame& f) {
   constexpr const char* kGrid = "stroke=\"#d8dde3\" stroke-width=\"1\"";
   const double bottom = f.py(f.y.low), right = f.px(f.x.high);
@@ -136,7 +146,10 @@ void axes(std::string& out, const Chart& chart, const Frame& f) {
   const double middle = (f.top + bottom) / 2;
   out += "<text transform=\"translate(18," + fixed(middle) +
          ") rotate(-90)\" text-anchor=\"middle\">" + xml_text(chart.y_label) + "</text>\n";
-  text(out, kLeft, f.top - 34, chart.title, "font-size=\"15\" font-weight=\"600\"");
+  const auto title = title_lines(chart);
+  for (std::size_t i = 0; i < title.size(); ++i)
+    text(out, kLeft, f.top - 34 - kTitleLine * static_cast<double>(title.size() - 1 - i), title[i],
+         "font-size=\"15\" font-weight=\"600\"");
 }
 
 void legend(std::string& out, const Chart& chart, const Frame& f) {
@@ -227,14 +240,15 @@ void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bot
   constexpr double kLine = kLabelLine;
   double before = 0.0, y = foot;  // where the label before ends
   for (const auto& mark : chart.marks) {
-    const double x = f.px(mark.x), width = text_width(mark.label, kSmall) + 6.0;
+    const auto label = shortened(mark.label, kSmall, kPlot - 6.0);
+    const double x = f.px(mark.x), width = text_width(label, kSmall) + 6.0;
     line(out, x, f.top, x, bottom,
          "stroke=\"#7a8794\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
     const bool last = x + width > kWidth - kRight;
-    const double from = last ? x - width : x;
+    const double from = last ? std::max(kLeft, x - width) : x;
     y = from < before ? y - kLine : foot;
     before = std::max(before, from + width);
-    text(out, last ? x - 3.0 : x + 3.0, y, mark.label,
+    text(out, last ? from + width - 3.0 : x + 3.0, y, label,
          last ? "font-size=\"11\" fill=\"#56626e\" text-anchor=\"end\""
               : "font-size=\"11\" fill=\"#56626e\"");
   }
@@ -263,11 +277,12 @@ double draw_bands(std::string& out, const Chart& chart, const Frame& f, double b
     const double from = f.px(std::clamp(band.from, f.x.low, f.x.high));
     const double to = f.px(std::clamp(band.to, f.x.low, f.x.high));
     draw_band(out, band, {from, to}, {f.top, bottom});
-    const double width = text_width(band.label, kSmall) + 6.0;
+    const auto label = shortened(band.label, kSmall, kPlot - 6.0);
+    const double width = text_width(label, kSmall) + 6.0;
     const double at = std::min(from, kWidth - kRight - width);
     y = at < before ? y + step : first;
     before = std::max(before, at + width);
-    text(out, at + 3.0, y, band.label, "font-size=\"11\"");
+    text(out, at + 3.0, y, label, "font-size=\"11\"");
     if (ribbon) left = std::min(left, y - kLabelLine);
   }
   return left;
@@ -295,10 +310,16 @@ std::string job_in_words(Caption caption) {
 }  // namespace
 
 std::string print_charts(const std::vector<Chart>& charts, const Caption& caption) {
-  const auto verdict =
-      verdict_lines(caption.verdict, {.width = 130, .warnings = 12, .plain = true});
+  const bool loud = caption.verdict.status != "ok";
+  std::vector<std::string> verdict;
+  for (const auto& line :
+       verdict_lines(caption.verdict, {.width = 130, .warnings = 12, .plain = true}))
+    for (auto& part : wrapped(line, kFont, kPlot, loud)) verdict.push_back(std::move(part));
+  const auto job = wrapped(job_in_words(caption), kJob, kPlot);
   const double head = kVerdictLine * static_cast<double>(verdict.size()) + 8.0;
-  const double height = head + kHeight * static_cast<double>(charts.size()) + kLegendLine;
+  double foot = head;
+  for (const auto& chart : charts) foot += kHeight + more_title(chart);
+  const double height = foot + kLegendLine + kJobLine * static_cast<double>(job.size() - 1);
   std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(kWidth, 0) +
                     " " + fixed(height, 0) + "\" width=\"" + fixed(kWidth, 0) + "\" height=\"" +
                     fixed(height, 0) +
@@ -307,14 +328,16 @@ std::string print_charts(const std::vector<Chart>& charts, const Caption& captio
   double top = 0.0;
   for (const auto& line : verdict)
     text(out, kLeft, top += kVerdictLine, line,
-         caption.verdict.status == "ok" ? "fill=\"#56626e\""
-                                        : "fill=\"#b3261e\" font-weight=\"600\"");
+         loud ? "fill=\"#b3261e\" font-weight=\"600\"" : "fill=\"#56626e\"");
   top = head;
   for (const auto& chart : charts) {
+    top += more_title(chart);
     plot(out, chart, top);
     top += kHeight;
   }
-  text(out, kLeft, height - 8, job_in_words(caption), "font-size=\"10\" fill=\"#56626e\"");
+  for (std::size_t i = 0; i < job.size(); ++i)
+    text(out, kLeft, foot + 10.0 + kJobLine * static_cast<double>(i), job[i],
+         "font-size=\"10\" fill=\"#56626e\"");
   return out + "</svg>\n";
 }
 

@@ -95,6 +95,8 @@ Development developed(const joint::IntersectionSpec& spec, const joint::Intersec
     (profile.outer ? outline.outer : outline.inner) = profile_curve(profile);
     if (profile.outer)
       for (const auto& event : profile.events) out.junctions.push_back(event.phi);
+    if (profile.outer || out.spans.empty())
+      out.spans = spans_of(profile.phi, profile.z, profile.cutter, false);
   }
   out.cuts.push_back(std::move(outline));
   return out;

@@ -67,7 +67,8 @@ void name_holes(DxfWriter& w, const Development& d) {
   for (const auto& cut : d.cuts) {
     if (cut.around) continue;
     const auto [phi, z, room] = label_place(cut);
-    const double height = std::max(kLeast, fitted(cut.label, {.height = kHeight}, room).height);
+    const double share = std::min(1.0, room / text_width(cut.label, kHeight));
+    const double height = std::max(kLeast, kHeight * share);
     w.text(kText, {d.outer_radius * phi - 0.5 * text_width(cut.label, height), z}, height,
            cut.label);
   }

@@ -32,8 +32,8 @@ void OrderSheets::begin() {
   const double high = kHeight - kBorder, right = kWidth - kBorder;
   canvas.rectangle({kBorder, kBorder}, {right, high}, kFrame);
   canvas.text({kBorder + kPad, high - 5.0}, title_, {.height = 2.8, .color = "#566370"});
-  canvas.text({kBorder + kPad, high - 12.0}, part_,
-              fitted(part_, {.height = 6.0, .bold = true}, right - kBorder - kBadge - 3.0 * kPad));
+  canvas.label({kBorder + kPad, high - 12.0}, part_, {.height = 6.0, .bold = true},
+               right - kBorder - kBadge - 3.0 * kPad);
   const auto look = look_of(caption_.verdict.status);
   canvas.rectangle({right - kBadge, high - kHead}, {right, high},
                    {.color = look.color, .width = 0.2, .fill = look.color});
@@ -62,7 +62,7 @@ std::vector<Canvas> OrderSheets::finished() {
     const auto job = "tubecut " + std::string(version()) + ", input " +
                      caption_.input_sha256.substr(0, 16) + ", result " +
                      caption_.result_sha256.substr(0, 16);
-    canvas.text({kBorder + kPad, kBorder + 2.0}, job, {.height = 2.1, .color = "#566370"});
+    canvas.text({kBorder + kPad, kBorder + 2.0}, job, {.height = 2.2, .color = "#566370"});
     canvas.text({right - kPad, kBorder + 2.0},
                 "sheet " + std::to_string(i + 1) + " of " + std::to_string(sheets_.size()),
                 {.height = 2.6, .anchor = Anchor::end, .bold = true});

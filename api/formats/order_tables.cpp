@@ -14,7 +14,7 @@ constexpr Stroke kLine{.color = "#7a8794", .width = 0.18};
 constexpr Stroke kBox{.color = "#566370", .width = 0.25};
 constexpr Lettering kHead{.height = 3.2, .bold = true};
 constexpr Lettering kSmall{.height = 2.3};
-constexpr Lettering kGrey{.height = 2.0, .color = "#566370"};
+constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
 constexpr std::string_view kGreen = "#1d7a46";
 
 /// A table's head and rows, each with a box to write in at its right end.
@@ -40,20 +40,6 @@ void draw_head(OrderSheets& sheets, const std::string& title, const std::vector<
   for (const auto& column : columns)
     canvas.text({OrderSheets::kLeft + column.at, top - 9.0}, column.head, kGrey);
   draw_row_line(canvas, top - kTall);
-}
-
-/// Broken at blanks.
-std::vector<std::string> lines_within(std::string_view text, double height, double room) {
-  std::vector<std::string> out(1);
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' ') + 1, text.size());
-    const auto word = end == 0 ? text : text.substr(0, end);
-    if (!out.back().empty() && text_width(out.back() + std::string(word), height) > room)
-      out.emplace_back();
-    out.back() += word;
-    text.remove_prefix(word.size());
-  }
-  return out;
 }
 
 /// How many of the quantity each member is.
@@ -82,11 +68,10 @@ void draw_members(OrderSheets& sheets, const Caption& caption) {
     }
     text += next;
   }
-  const auto lines = lines_within(text + each_of(caption), kSmall.height, OrderSheets::kWide);
+  const auto lines = wrapped(text + each_of(caption), kSmall.height, OrderSheets::kWide);
   double y = sheets.take(kRow * static_cast<double>(lines.size()) + 1.4);
   for (const auto& line : lines)
-    sheets.canvas().text({OrderSheets::kLeft, y -= kRow}, line,
-                         fitted(line, kSmall, OrderSheets::kWide));
+    sheets.canvas().text({OrderSheets::kLeft, y -= kRow}, line, kSmall);
 }
 
 void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part) {
@@ -107,8 +92,7 @@ void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
     const double ro = spec.target.outer_radius, top = sheets.take(kRow), y = top - 4.2;
     auto& canvas = sheets.canvas();
     const auto put = [&](double x, const std::string& text, double room, bool bold = false) {
-      canvas.text({OrderSheets::kLeft + x, y}, text,
-                  fitted(text, {.height = 2.4, .bold = bold}, room));
+      canvas.label({OrderSheets::kLeft + x, y}, text, {.height = 2.4, .bold = bold}, room);
     };
     const auto between = [](double a, double b) {
       return number(a, Unit::mm) + " to " + number(b, Unit::mm);
@@ -163,26 +147,30 @@ std::string joined(const std::vector<part::Mistake>& mistakes) {
 }  // namespace
 
 void draw_checks(OrderSheets& sheets, const part::Part& part) {
-  constexpr double kRow = 7.6, kMore = 2.8;
+  constexpr double kRow = 7.6, kMore = 3.0, kWithin = 158.0, kMistakes = 63.0;
   draw_head(
       sheets, "Check dimensions, in mm",
       {{0.0, "what, and from where"}, {88.0, "by"}, {100.0, "changes with"}, {162.0, "measured"}},
       kRow * static_cast<double>(part.check_dimensions.size()) + 3.0 * kMore);
   for (const auto& d : part.check_dimensions) {
-    const auto from = lines_within(in_plain_words(d.measured_from), kGrey.height, 158.0);
-    const double tall = kRow + kMore * static_cast<double>(from.size() - 1);
-    const double top = sheets.take(tall);
-    auto& canvas = sheets.canvas();
-    const auto name = called(d.name, Term::value);
+    const auto from = wrapped(in_plain_words(d.measured_from), kGrey.height, kWithin);
     const auto mistakes = joined(d.changes_with);
-    canvas.text({OrderSheets::kLeft, top - 3.3}, name,
-                fitted(name, {.height = 2.5, .bold = true}, 66.0));
+    // Many of them take a line of their own below their column's head.
+    const bool many = text_width(mistakes, kGrey.height) > kMistakes;
+    const double below = kMore * ((many ? 1.0 : 0.0) + static_cast<double>(from.size() - 1));
+    const double tall = kRow + below, top = sheets.take(tall);
+    auto& canvas = sheets.canvas();
+    canvas.label({OrderSheets::kLeft, top - 3.3}, called(d.name, Term::value),
+                 {.height = 2.5, .bold = true}, 66.0);
     canvas.text({OrderSheets::kLeft + 85.0, top - 3.3}, number(d.value, Unit::mm),
                 {.height = 2.8, .anchor = Anchor::end, .bold = true, .color = kGreen});
     canvas.text({OrderSheets::kLeft + 88.0, top - 3.3}, name_of(d.tool), kSmall);
-    canvas.text({OrderSheets::kLeft + 100.0, top - 3.3}, mistakes, fitted(mistakes, kGrey, 63.0));
-    for (std::size_t i = 0; i < from.size(); ++i)
-      canvas.text({OrderSheets::kLeft, top - 6.3 - kMore * static_cast<double>(i)}, from[i], kGrey);
+    auto grey = kGrey;
+    if (many) grey.anchor = Anchor::end;
+    canvas.text({OrderSheets::kLeft + (many ? kWithin : 100.0), top - (many ? 6.3 : 3.3)}, mistakes,
+                grey);
+    double y = top - (many ? 6.3 + kMore : 6.3);
+    for (const auto& line : from) canvas.text({OrderSheets::kLeft, y}, line, kGrey), y -= kMore;
     draw_box(canvas, top, tall);
     draw_row_line(canvas, top - tall);
   }
@@ -223,8 +211,7 @@ void draw_steps(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
       const double x = OrderSheets::kLeft + (k == i ? 0.0 : 0.5 * OrderSheets::kWide);
       const auto text = std::to_string(k + 1) + "  " + words(spec, part, all[k]);
       sheets.canvas().rectangle({x, y - 0.4}, {x + 2.4, y + 2.0}, kBox);
-      sheets.canvas().text({x + 4.0, y}, text,
-                           fitted(text, kSmall, 0.5 * OrderSheets::kWide - 6.0));
+      sheets.canvas().label({x + 4.0, y}, text, kSmall, 0.5 * OrderSheets::kWide - 6.0);
     }
   }
 }

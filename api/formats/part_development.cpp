@@ -22,7 +22,7 @@ constexpr Stroke kDatum{.color = "#c0392b", .width = 0.35};
 constexpr Stroke kMark{.color = "#2b6ca3", .width = 0.3};
 constexpr Stroke kDimension{.color = "#1d242b", .width = 0.18};
 constexpr std::string_view kMetal = "#eef3f8";
-constexpr Lettering kGrey{.height = 2.1, .color = "#566370"};
+constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
 
 std::vector<Place> places_of(const part::Part& part) {
   std::vector<Place> out{place_of(part.start.table), place_of(part.finish.table)};
@@ -223,9 +223,8 @@ class Stretch {
                        plan_.scale.factor * spec_.target.outer_radius * (place.phi_to - phi_in));
     }
     const bool room = below - 2.6 > top_.y - plan_.scale.factor * plan_.girth;
-    canvas_.text(
-        {where.x, room ? below - 2.3 : where.y + 1.2}, mark.text,
-        fitted(mark.text, {.height = 2.1, .anchor = Anchor::middle, .color = kMark.color}, 16.0));
+    canvas_.label({where.x, room ? below - 2.3 : where.y + 1.2}, mark.text,
+                  {.height = kLeastText, .anchor = Anchor::middle, .color = kMark.color}, 24.0);
   }
 
   Canvas& canvas_;

@@ -18,32 +18,59 @@ constexpr Stroke kRule{.color = "#7a8794", .width = 0.18};
 
 Sheet::Sheet(const std::string& title, const SheetFacts& facts, const Caption& caption)
     : canvas_(kWidth, kHeight) {
-  const double half = (kWidth - 2.0 * kBorder) / 2.0;
-  const auto lines = static_cast<double>(std::max(facts.size(), caption.reference.size() + 3));
-  low_ = kBorder + kLine * (lines + 2.0) + kPad;
-  canvas_.rectangle({kBorder, kBorder}, {kWidth - kBorder, kHeight - kBorder}, kFrame);
-  canvas_.line({kBorder, low_}, {kWidth - kBorder, low_}, kFrame);
-  canvas_.line({kBorder + half, kBorder}, {kBorder + half, low_}, kRule);
-  const auto column = [&](double x, std::string_view head, const SheetFacts& rows) {
-    double y = low_ - kLine;
-    canvas_.text({x, y}, head, {.height = 3.6, .bold = true});
-    for (const auto& [name, value] : rows) {
-      const auto line = name + ": " + value;
-      canvas_.text({x, y -= kLine}, line, fitted(line, {.height = 2.6}, half - 2.0 * kPad));
-    }
-  };
-  column(kBorder + kPad, title, facts);
   SheetFacts job;
   for (const auto& [name, value] : caption.reference)
     job.emplace_back(called(name, Term::field), value);
   job.emplace_back("engine", "tubecut " + std::string(version()));
   job.emplace_back("input", caption.input_sha256.substr(0, 32));
   job.emplace_back("result", caption.result_sha256.substr(0, 32));
-  column(kBorder + half + kPad, "Job", job);
+  draw_block(title, facts, job);
+  draw_verdict(caption);
+}
+
+void Sheet::draw_block(const std::string& title, const SheetFacts& facts, const SheetFacts& job) {
+  constexpr double kText = 2.6, kAll = kWidth - 2.0 * kBorder, kHalf = 0.5 * kAll;
+  std::vector<std::string> wide;  // lines that no half has room for
+  const auto within = [&](const SheetFacts& rows) {
+    std::vector<std::string> out;
+    for (const auto& [name, value] : rows) {
+      auto line = name + ": " + value;
+      if (text_width(line, kLeastText) <= kHalf - 2.0 * kPad)
+        out.push_back(std::move(line));
+      else
+        for (auto& part : wrapped(line, kLeastText, kAll - 2.0 * kPad))
+          wide.push_back(std::move(part));
+    }
+    return out;
+  };
+  const auto left = within(facts), right = within(job);
+  const auto lines = static_cast<double>(std::max(left.size(), right.size()));
+  const double below = kBorder + kLine * static_cast<double>(wide.size());
+  low_ = below + kLine * (lines + 2.0) + kPad;
+  canvas_.rectangle({kBorder, kBorder}, {kWidth - kBorder, kHeight - kBorder}, kFrame);
+  canvas_.line({kBorder, low_}, {kWidth - kBorder, low_}, kFrame);
+  canvas_.line({kBorder + kHalf, below}, {kBorder + kHalf, low_}, kRule);
+  const auto column = [&](double x, std::string_view head, const std::vector<std::string>& rows) {
+    double y = low_ - kLine;
+    canvas_.label({x, y}, head, {.height = 3.6, .bold = true}, kHalf - 2.0 * kPad);
+    for (const auto& line : rows)
+      canvas_.label({x, y -= kLine}, line, {.height = kText}, kHalf - 2.0 * kPad);
+  };
+  column(kBorder + kPad, title, left);
+  column(kBorder + kHalf + kPad, "Job", right);
+  double y = below + 0.3 * kLine;
+  if (!wide.empty()) canvas_.line({kBorder, below}, {kWidth - kBorder, below}, kRule);
+  for (const auto& line : wide)
+    canvas_.label({kBorder + kPad, y -= kLine}, line, {.height = kText}, kAll - 2.0 * kPad);
+}
+
+void Sheet::draw_verdict(const Caption& caption) {
+  const auto l = verdict_lettering(caption, 2.3);
   high_ = kHeight - kBorder;
   for (const auto& line :
        verdict_lines(caption.verdict, {.width = 120, .warnings = 5, .plain = true}))
-    canvas_.text({kBorder + kPad, high_ -= kVerdictLine}, line, verdict_lettering(caption, 2.3));
+    for (const auto& part : wrapped(line, l.height, kWidth - 2.0 * (kBorder + kPad), l.bold))
+      canvas_.text({kBorder + kPad, high_ -= kVerdictLine}, part, l);
   high_ -= kPad;
   canvas_.line({kBorder, high_}, {kWidth - kBorder, high_}, kRule);
 }

@@ -26,6 +26,9 @@ class Sheet {
   [[nodiscard]] Canvas& canvas() { return canvas_; }
 
  private:
+  void draw_block(const std::string& title, const SheetFacts& facts, const SheetFacts& job);
+  void draw_verdict(const Caption& caption);
+
   Canvas canvas_;
   double low_ = 0.0, high_ = 0.0;
 };

@@ -25,7 +25,7 @@ constexpr Stroke kGlue{.color = "#7a8794", .width = 0.2, .dashes = "1 1", .fill 
 double scale_step(double radius) {
   for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0})
     if (radius * step * kRadPerDeg >= 9.0) return step;
-  return 180.0;
+  return radius * kPi >= 9.0 ? 180.0 : 360.0;
 }
 
 class Drawing {
@@ -46,19 +46,13 @@ class Drawing {
     scale();
     out_.all.begin_clip({0.0, 0.0}, {field_.width(), field_.height()});
     for (std::size_t i = 0; i < d_.cuts.size(); ++i) outline(d_.cuts[i], i);
-    for (const auto& span : d_.spans) partner(span);
     for (const auto& mark : d_.marks) draw(mark);
-    for (const auto& cut : d_.cuts)
-      if (!cut.around) label(cut);
     out_.all.end_group();
     return std::move(out_);
   }
 
  private:
-  [[nodiscard]] DrawingPoint at(double x, double z) const {
-    const double along = caption_.options.mirror ? field_.tab + field_.x_to - x : x - field_.x_from;
-    return {along, z - field_.z_from};
-  }
+  [[nodiscard]] DrawingPoint at(double x, double z) const { return field_.at(x, z); }
   [[nodiscard]] double x_of(double phi) const { return d_.outer_radius * phi; }
   void upright(double phi, const Stroke& stroke, std::string_view id = {}) {
     out_.all.line(at(x_of(phi), field_.z_from), at(x_of(phi), field_.z_datum), stroke, id);
@@ -69,8 +63,6 @@ class Drawing {
     const double out = caption_.options.mirror ? -field_.tab : field_.tab;
     out_.all.polyline({low, {low.x + out, low.y + 6.0}, {high.x + out, high.y - 6.0}, high}, kGlue,
                       "seam-tab", true);
-    out_.all.text({low.x + 0.5 * out + 0.8, 0.5 * (low.y + high.y)}, "glue below phi 0",
-                  {.height = 2.4, .anchor = Anchor::middle, .turn = 90.0, .color = "#56626e"});
     upright(0.0, kSeam, "seam-0");
     upright(kTwoPi, kSeam, "seam-360");
     for (int i = 1; i < 4; ++i) upright(0.25 * i * kTwoPi, kQuarter);
@@ -106,32 +98,35 @@ class Drawing {
       out_.all.text({top.x, top.y + 3.0}, number(step * i, Unit::deg),
                     {.height = 2.4, .anchor = anchor});
     }
+    way_of_phi();
+  }
+  /// An arrow over the scale, its name behind its tail, before its head where that is off the
+  /// sheet.
+  void way_of_phi() {
+    constexpr std::string_view kName = "phi, °";
+    constexpr double kHeight = 2.2;
     const double y = field_.height() + 7.2, middle = 0.5 * (field_.x_from + field_.x_to);
     const double reach = std::min(10.0, 0.3 * (field_.x_to - field_.x_from));
-    draw_arrow(out_.all, {at(middle - reach, 0.0).x, y}, {at(middle + reach, 0.0).x, y},
-               {.color = "#56626e", .width = 0.2});
-    const auto tail = at(middle - reach, 0.0).x;
-    const bool mirrored = caption_.options.mirror;
-    out_.all.text(
-        {tail + (mirrored ? 1.0 : -1.0), y - 0.8}, "phi, °",
-        {.height = 2.2, .anchor = mirrored ? Anchor::start : Anchor::end, .color = "#56626e"});
+    const double tail = at(middle - reach, 0.0).x, tip = at(middle + reach, 0.0).x;
+    draw_arrow(out_.all, {tail, y}, {tip, y}, {.color = "#56626e", .width = 0.2});
+    const double back = tip > tail ? -1.0 : 1.0, width = text_width(kName, kHeight) + 2.0;
+    const bool room = tail + back * width >= 0.0 && tail + back * width <= field_.width();
+    const double side = room ? back : -back;
+    out_.all.text({(room ? tail : tip) + side, y - 0.8}, kName,
+                  {.height = kHeight,
+                   .anchor = side < 0.0 ? Anchor::end : Anchor::start,
+                   .color = "#56626e"});
   }
 
   void curve(const CylinderCurve& c, bool around, const Stroke& stroke, const std::string& id) {
     if (c.empty()) return;
-    for (const double turn : {0.0, kTwoPi, -kTwoPi}) {
+    ask(caption_.stop);
+    bool again = false;
+    for (auto& points : copies_on(field_, c, !around && d_.around())) {
       ask(caption_.stop);
-      std::vector<DrawingPoint> points;
-      bool inside = false;
-      for (std::size_t i = 0; i < c.phi.size(); ++i) {
-        const double x = x_of(c.phi[i] + turn);
-        inside = inside || (x >= field_.x_from && x <= field_.x_to);
-        points.push_back(at(x, c.z[i]));
-      }
-      const bool again = turn != 0.0;
-      if (again && (around || !inside || !d_.around())) continue;
       out_.cuts.polyline(points, stroke, {}, !around);
       out_.all.polyline(std::move(points), stroke, again ? id + "-again" : id, !around);
+      again = true;
     }
   }
   void outline(const CutOutline& cut, std::size_t i) {
@@ -139,19 +134,6 @@ class Drawing {
     curve(cut.inner, cut.around, kInnerEdge, "cut-inner" + number);
     curve(cut.torch, cut.around, kTorchLine, "torch" + number);
     curve(cut.outer, cut.around, kOuterEdge, "cut-outer" + number);
-  }
-  /// Beside its stretch of the edge, on the side of the scrap.
-  void partner(const PartnerSpan& span) {
-    const auto& names = span.finish ? caption_.finish_partners : caption_.partners;
-    if (span.partner >= names.size()) return;
-    const auto& name = names[span.partner];
-    const double room = d_.outer_radius * (span.phi_to - span.phi_from) - 1.0;
-    if (room < 4.0) return;
-    const auto l =
-        fitted(name, {.height = 2.8, .anchor = Anchor::middle, .color = "#38424d"}, room);
-    const auto place = at(x_of(0.5 * (span.phi_from + span.phi_to)), span.z);
-    const double off = span.finish ? 1.5 : -1.5 - l.height;
-    out_.all.text({place.x, std::clamp(place.y + off, 0.5, field_.height() - 3.0)}, name, l);
   }
   void draw(const part::Mark& mark) {
     if (mark.kind == part::Mark::Kind::datum_line) return;
@@ -161,24 +143,6 @@ class Drawing {
     out_.all.line({from.x, from.y - kArm}, {to.x, to.y + kArm}, kMark);
     out_.all.line({from.x - kArm, 0.5 * (from.y + to.y)}, {from.x + kArm, 0.5 * (from.y + to.y)},
                   kMark);
-    const bool right = from.x > 0.5 * field_.width();
-    out_.all.text(
-        {from.x + (right ? -1.0 : 1.0), from.y - 4.2}, mark.text,
-        fitted(mark.text,
-               {.height = 2.8, .anchor = right ? Anchor::end : Anchor::start, .color = kMark.color},
-               0.5 * field_.width()));
-  }
-
-  /// Whole on the sheet, where the hole lies across the seam too.
-  void label(const CutOutline& hole) {
-    const auto [phi, z, room] = label_place(hole);
-    const double here = d_.around() ? phi - kTwoPi * std::floor(phi / kTwoPi) : phi;
-    const auto l =
-        fitted(hole.label,
-               {.height = 2.8, .anchor = Anchor::middle, .bold = true, .color = "#38424d"}, room);
-    const double half = 0.5 * text_width(hole.label, l.height, true) + 1.0;
-    const double x = std::min(std::max(x_of(here), field_.x_from + half), field_.x_to - half);
-    out_.all.text(at(x, z), hole.label, l);
   }
 
   const Development& d_;
@@ -189,15 +153,51 @@ class Drawing {
 
 }  // namespace
 
-TemplateField template_field(const Development& d) {
+std::vector<std::vector<DrawingPoint>> copies_on(const TemplateField& field,
+                                                 const CylinderCurve& curve, bool repeated) {
+  std::vector<std::vector<DrawingPoint>> out;
+  for (const double turn : {0.0, kTwoPi, -kTwoPi}) {
+    std::vector<DrawingPoint> points;
+    bool inside = turn == 0.0;
+    for (std::size_t i = 0; i < curve.phi.size(); ++i) {
+      const double x = field.radius * (curve.phi[i] + turn);
+      inside = inside || (x >= field.x_from && x <= field.x_to);
+      points.push_back(field.at(x, curve.z[i]));
+    }
+    if (inside) out.push_back(std::move(points));
+    if (!repeated) break;
+  }
+  return out;
+}
+
+namespace {
+
+/// Rows of names that their stretches of an edge are too short for.
+double name_rows(const Development& d, const Caption& c, bool finish) {
+  const auto& names = finish ? c.finish_partners : c.partners;
+  double rows = 0.0;
+  for (const auto& span : d.spans)
+    if (span.finish == finish && span.partner < names.size() &&
+        text_width(names[span.partner], kLeastText) >
+            d.outer_radius * (span.phi_to - span.phi_from) - 1.0)
+      rows += 1.0;
+  return std::min(rows, 12.0);
+}
+
+}  // namespace
+
+TemplateField template_field(const Development& d, const Caption& caption) {
+  constexpr double kBelow = 12.0, kAbove = 15.0, kRow = 3.2;  // SCRAP or KEEP, and a row of names
   const auto e = extent(d);
   const double room = d.around() ? 0.0 : 15.0;
   const auto down = [](double v) { return 10.0 * std::floor(v / 10.0); };
   return {.x_from = d.around() ? 0.0 : d.outer_radius * e.phi_from - room,
           .x_to = d.around() ? d.outer_radius * kTwoPi : d.outer_radius * e.phi_to + room,
-          .z_from = down(e.z_from - 5.0),
-          .z_datum = -down(-e.z_to - 15.0),
-          .tab = d.around() ? kTab : 0.0};
+          .z_from = down(e.z_from - kBelow - kRow * name_rows(d, caption, false)),
+          .z_datum = -down(-e.z_to - kAbove - kRow * name_rows(d, caption, true)),
+          .tab = d.around() ? kTab : 0.0,
+          .radius = d.outer_radius,
+          .mirrored = caption.options.mirror};
 }
 
 TemplateDrawing draw_template(const Development& development, const TemplateField& field,

@@ -6,6 +6,7 @@
 
 #include "api/format.hpp"
 #include "api/formats/canvas.hpp"
+#include "api/formats/template_labels.hpp"
 
 namespace tubecut::api {
 
@@ -19,9 +20,11 @@ struct TileWords {
 
 /// A drawing at full size on pages of the paper, upright or across, whichever needs fewer: each
 /// shows a window of it, with what the next page overlaps marked to glue on, crop marks at its
-/// corners, a map of the pages, what the window shows, and a 100 mm ruler each way. Pages that
-/// nothing of `cuts` is on are left out. The window of page k has the id `window-k`.
-[[nodiscard]] std::vector<Canvas> tiles(const Canvas& drawing, const Canvas& cuts, Paper paper,
+/// corners, a map of the pages, what the window shows, and a 100 mm ruler each way. Every page has
+/// the labels of its own window, whole. Pages that nothing of `cuts` is on are left out. The window
+/// of page k has the id `window-k`.
+[[nodiscard]] std::vector<Canvas> tiles(const TemplateDrawing& drawing,
+                                        const TemplateLabels& labels, Paper paper,
                                         const TileWords& words, const std::stop_token& stop);
 
 }  // namespace tubecut::api

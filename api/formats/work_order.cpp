@@ -23,33 +23,44 @@ constexpr Stroke kLine{.color = "#7a8794", .width = 0.18};
 constexpr Stroke kBox{.color = "#566370", .width = 0.25};
 constexpr Lettering kHead{.height = 3.2, .bold = true};
 constexpr Lettering kSmall{.height = 2.3};
-constexpr Lettering kGrey{.height = 2.0, .color = "#566370"};
-
-/// A small name over a value; without one a line to write on.
-void draw_fact(Canvas& canvas, DrawingPoint at, double width, const std::string& name,
-               const std::string& value) {
-  canvas.text({at.x, at.y - 2.4}, name, fitted(name, kGrey, width - 2.0));
-  if (value.empty())
-    canvas.line({at.x, at.y - 6.2}, {at.x + width - 4.0, at.y - 6.2}, kLine);
-  else
-    canvas.text({at.x, at.y - 5.6}, value,
-                fitted(value, {.height = 2.7, .bold = true}, width - 2.0));
-}
+constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
 
 struct Fact {
   std::string name, value;
 };
 
+/// A small name over a value; without one a line to write on.
+void draw_fact(Canvas& canvas, DrawingPoint at, double width, const Fact& fact) {
+  canvas.label({at.x, at.y - 2.4}, fact.name, kGrey, width - 2.0);
+  if (fact.value.empty())
+    canvas.line({at.x, at.y - 6.2}, {at.x + width - 4.0, at.y - 6.2}, kLine);
+  else
+    canvas.label({at.x, at.y - 5.6}, fact.value, {.height = 2.7, .bold = true}, width - 2.0);
+}
+
+/// Row by row; a long value takes more columns than one.
 void draw_facts(OrderSheets& sheets, const std::vector<Fact>& facts, std::size_t columns) {
   constexpr double kRow = 7.4;
-  const std::size_t rows = (facts.size() + columns - 1) / columns;
-  const double top = sheets.take(kRow * static_cast<double>(rows) + 2.0) - 0.6;
   const double width = kWide / static_cast<double>(columns);
+  struct Place {
+    std::size_t row, column, span;
+  };
+  std::vector<Place> places;
+  std::size_t row = 0, column = 0;
+  for (const auto& fact : facts) {
+    const double wide =
+        std::max(text_width(fact.value, kLeastText, true), text_width(fact.name, kLeastText)) + 2.0;
+    const auto span = std::min(columns, static_cast<std::size_t>(std::ceil(wide / width)));
+    if (column + std::max<std::size_t>(1, span) > columns) column = 0, ++row;
+    places.push_back({row, column, std::max<std::size_t>(1, span)});
+    column += places.back().span;
+  }
+  const double top = sheets.take(kRow * static_cast<double>(row + 1) + 2.0) - 0.6;
   for (std::size_t i = 0; i < facts.size(); ++i)
     draw_fact(sheets.canvas(),
-              {kLeft + width * static_cast<double>(i % columns),
-               top - kRow * static_cast<double>(i / columns)},
-              width, facts[i].name, facts[i].value);
+              {kLeft + width * static_cast<double>(places[i].column),
+               top - kRow * static_cast<double>(places[i].row)},
+              width * static_cast<double>(places[i].span), facts[i]);
 }
 
 void rule(OrderSheets& sheets) {
@@ -109,16 +120,20 @@ std::string bevel_range(const part::PartSpec& spec, const part::Part& part) {
 void draw_verdict(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
                   const Caption& caption) {
   constexpr double kRow = 3.3;
-  auto lines = verdict_lines(caption.verdict, {.width = 125, .warnings = 8, .plain = true});
-  lines.push_back(bevel_range(spec, part));
+  auto loud = kSmall;
+  if (caption.verdict.status != "ok")
+    loud = {.height = kSmall.height, .bold = true, .color = "#b3261e"};
+  std::vector<std::pair<std::string, Lettering>> lines;
+  const auto add = [&](const std::string& text, const Lettering& l) {
+    for (auto& line : wrapped(text, l.height, kWide, l.bold))
+      lines.emplace_back(std::move(line), l);
+  };
+  for (const auto& line :
+       verdict_lines(caption.verdict, {.width = 125, .warnings = 8, .plain = true}))
+    add(line, loud);
+  add(bevel_range(spec, part), kSmall);
   double y = sheets.take(kRow * static_cast<double>(lines.size()) + 2.0) - 0.4;
-  for (const auto& line : lines) {
-    const bool loud = caption.verdict.status != "ok" && &line != &lines.back();
-    auto l = kSmall;
-    l.bold = loud;
-    if (loud) l.color = "#b3261e";
-    sheets.canvas().text({kLeft, y -= kRow}, line, fitted(line, l, kWide));
-  }
+  for (const auto& [line, l] : lines) sheets.canvas().text({kLeft, y -= kRow}, line, l);
 }
 
 /// As tall as what else goes on the sheet leaves it.
@@ -165,7 +180,7 @@ void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::
     const double y = top - kRow * static_cast<double>(i / kColumns) - 3.0;
     if (all[i].first != "none")
       sheets.canvas().line({x, y + 0.8}, {x + 5.0, y + 0.8}, {.color = all[i].first, .width = 0.9});
-    sheets.canvas().text({x + 6.5, y}, all[i].second, fitted(all[i].second, kSmall, width - 8.0));
+    sheets.canvas().label({x + 6.5, y}, all[i].second, kSmall, width - 8.0);
   }
 }
 
@@ -183,10 +198,7 @@ std::string accepted(const Caption& caption) {
 }
 
 void draw_sign_off(OrderSheets& sheets, const part::PartSpec& spec, const Caption& caption) {
-  constexpr double kTall = 30.0, kBoxes = 14.0;
-  const double top = sheets.take(kTall);
-  auto& canvas = sheets.canvas();
-  canvas.text({kLeft, top - 5.0}, "Tolerances and release", kHead);
+  constexpr double kBoxes = 14.0, kRow = 3.3;
   const auto limits = accepted(caption);
   const auto& sampling = spec.start.cut.sampling;
   std::string line = limits.empty() ? "The request states none; general tolerance as agreed: "
@@ -194,15 +206,20 @@ void draw_sign_off(OrderSheets& sheets, const part::PartSpec& spec, const Captio
                                     : "As the request accepts: " + limits + ".";
   if (sampling.tolerance)
     line += " Drawn within " + mm(sampling.tolerance->value) + " of the exact curve.";
-  canvas.text({kLeft, top - 9.4}, line, fitted(line, kSmall, kWide));
+  const auto lines = wrapped(line, kSmall.height, kWide);
+  const double tall = 26.7 + kRow * static_cast<double>(lines.size()), top = sheets.take(tall);
+  auto& canvas = sheets.canvas();
+  canvas.text({kLeft, top - 5.0}, "Tolerances and release", kHead);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    canvas.text({kLeft, top - 9.4 - kRow * static_cast<double>(i)}, lines[i], kSmall);
   const double width = kWide / 4.0;
   for (int i = 0; i < 4; ++i) {
     static constexpr std::array<std::string_view, 4> kSigned{"cut by", "measured by", "released by",
                                                              "parts measured"};
     const double x = kLeft + width * i;
-    canvas.rectangle({x, top - kTall + 3.0}, {x + width, top - kTall + 3.0 + kBoxes}, kBox);
-    canvas.text({x + 1.5, top - kTall + kBoxes}, kSigned[static_cast<std::size_t>(i)], kGrey);
-    if (i < 3) canvas.text({x + 0.62 * width, top - kTall + kBoxes}, "on", kGrey);
+    canvas.rectangle({x, top - tall + 3.0}, {x + width, top - tall + 3.0 + kBoxes}, kBox);
+    canvas.text({x + 1.5, top - tall + kBoxes}, kSigned[static_cast<std::size_t>(i)], kGrey);
+    if (i < 3) canvas.text({x + 0.62 * width, top - tall + kBoxes}, "on", kGrey);
   }
 }
 

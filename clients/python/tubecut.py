@@ -512,7 +512,7 @@ class Client:
         """The same answer as a drawing, table or machine file: `format` "csv", "svg" and what GET /v1/version lists. Its `verdict` says
         whether it may be cut.
 
-        options  those of the format, by the contract's names: view; mirror (true, false) and paper (sheet, a4, a3) of templates; of G-code speed_mm_min,
+        options  those of the format, by the contract's names: view; mirror (true, false) and paper (sheet, a4, a3, letter, tabloid) of templates; of G-code speed_mm_min,
                  post (a name of GET /v1/posts) or dialect (linuxcnc, qtplasmac), torch (on, off), acknowledge (codes of warnings, with torch=on), axial (x, z), lead_mm,
                  overcut_mm, start_deg, pierce_b_deg, pivot_length_mm, pierce_height_mm, pierce_delay_s, cut_height_mm, clearance_mm, passes (bevel, both),
                  tabs, tab_mm, tabs_of (last, ends, holes, all), marks (on, off), mark_speed_mm_min,
