@@ -1,5 +1,7 @@
 #include "api/formats/intersection_formats.hpp"
 
+#include <algorithm>
+
 #include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/cut_sheets.hpp"
@@ -32,13 +34,30 @@ Chart profile_chart(const joint::Intersection& cut, const Caption& caption) {
   return out;
 }
 
+/// Where the cut reaches furthest: on the outer wall, if that is there.
+double long_point(const joint::Intersection& cut) {
+  const auto* lead = &cut.profiles.front();
+  for (const auto& p : cut.profiles)
+    if (p.outer) lead = &p;
+  return std::ranges::min(lead->z);
+}
+
 }  // namespace
 
 std::string intersection_csv(const joint::IntersectionSpec& spec, const joint::Intersection& cut,
                              const Caption& caption) {
   std::vector<std::pair<std::string, Columns>> walls;
-  for (const auto& p : cut.profiles)
-    walls.emplace_back(wall_name(p.outer), profile_columns(p, spec.sampling));
+  const double tip = long_point(cut);
+  for (const auto& p : cut.profiles) {
+    std::vector<double> girth, drop;  // on the paper that is wrapped round the outside
+    for (std::size_t i = 0; i < p.phi.size(); ++i) {
+      girth.push_back(spec.target.outer_radius * p.phi[i]);
+      drop.push_back(p.z[i] - tip);
+    }
+    walls.emplace_back(wall_name(p.outer), profile_columns(p, spec.sampling)
+                                               .column("girth_mm", std::move(girth))
+                                               .column("drop_mm", std::move(drop)));
+  }
   return Csv(caption).stacked("surface", walls).print();
 }
 

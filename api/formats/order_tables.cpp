@@ -6,6 +6,7 @@
 #include "api/formats/part_edges.hpp"
 #include "api/part_names.hpp"
 #include "api/words.hpp"
+#include "core/part/notch.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -116,6 +117,47 @@ void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
     draw_box(canvas, top, kRow);
     draw_row_line(canvas, top - kRow);
   }
+}
+
+void draw_notches(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+                  const Caption& caption) {
+  const auto all = part::notches(spec, part);
+  if (all.empty()) return;
+  constexpr double kRow = 4.4;
+  draw_head(sheets, "Settings of a tube notcher, in mm",
+            {{0.0, "end"},
+             {44.0, "hole saw"},
+             {64.0, "angle from perpendicular"},
+             {100.0, "offset"},
+             {138.0, "depth"},
+             {156.0, "rotation"}},
+            kRow * static_cast<double>(all.size()));
+  for (const auto& notch : all) {
+    const double y = sheets.take(kRow) - 3.2;
+    const auto put = [&](double x, const std::string& text, double room) {
+      sheets.canvas().label({OrderSheets::kLeft + x, y}, text, {.height = 2.4}, room);
+    };
+    const auto& names = notch.finish ? caption.finish_partners : caption.partners;
+    put(0.0,
+        std::string(joint::end_name(notch.finish)) + " by " +
+            (notch.partner < names.size() ? names[notch.partner]
+                                          : std::to_string(notch.partner + 1)),
+        43.0);
+    put(44.0, number(notch.saw_diameter, Unit::mm), 19.0);
+    put(64.0, degrees(notch.angle), 35.0);
+    put(100.0,
+        number(notch.offset, Unit::mm) +
+            (notch.offset < 0.005 ? "" : " towards phi " + degrees(notch.offset_towards)),
+        37.0);
+    put(138.0, number(notch.depth, Unit::mm), 17.0);
+    put(156.0, degrees(notch.rotation), 26.0);
+  }
+  constexpr std::string_view kNote =
+      "Depth: along the tube from the end's long point to the throat, outside. Rotation: of the "
+      "tube "
+      "from the first notch on, the way phi grows.";
+  for (const auto& line : wrapped(kNote, kGrey.height, OrderSheets::kWide))
+    sheets.canvas().text({OrderSheets::kLeft, sheets.take(3.2) - 2.8}, line, kGrey);
 }
 
 namespace {

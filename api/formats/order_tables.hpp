@@ -15,6 +15,11 @@ void draw_members(OrderSheets& sheets, const Caption& caption);
 /// large, its bevel.
 void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
 
+/// What is set at a tube notcher for each round partner of an end, where a shop has no torch for
+/// it.
+void draw_notches(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+                  const Caption& caption);
+
 /// The check dimensions, on one sheet where they fit, with the mistakes that change them.
 void draw_checks(OrderSheets& sheets, const part::Part& part);
 

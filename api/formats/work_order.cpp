@@ -250,6 +250,7 @@ std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& par
   draw_partners(sheets, spec, part, caption);
   draw_holes(sheets, spec, part);
   draw_steps(sheets, spec, part);
+  draw_notches(sheets, spec, part, caption);
   draw_checks(sheets, part);
   draw_sign_off(sheets, spec, caption);
   return sheets.finished();
