@@ -22,9 +22,10 @@ constexpr double kSameAngle = 2e-3;    // relative: 1.57 and 1.5708 are 90 deg, 
 constexpr double kRoundAngleDeg = 15;  // people mean multiples of it
 constexpr double kExactAngle = 1e-4;   // relative: with as many digits also multiples of
 constexpr double kFineAngleDeg = 5;
-constexpr double kShortest = 0.05;  // of its diameter: a tube shorter than that is a ring
-constexpr double kTyped = 0.1;      // mm: lengths are designed in multiples of it
-constexpr double kDesigned = 0.5;   // mm: nearly all of a metric design are multiples of it
+constexpr double kLastBits = 4e-15;  // rad: of a product by pi / 180
+constexpr double kShortest = 0.05;   // of its diameter: a tube shorter than that is a ring
+constexpr double kTyped = 0.1;       // mm: lengths are designed in multiples of it
+constexpr double kDesigned = 0.5;    // mm: nearly all of a metric design are multiples of it
 constexpr double kRounding = 0.5e-3 * kMmPerInch;  // of inches to three decimals
 constexpr std::size_t kEnough = 3;  // lengths that differ; by chance one is as near in twenty
 
@@ -64,11 +65,32 @@ bool is_near_multiple(double value, double of, double relative) {
   return nearest > 0.0 && std::abs(value - nearest) <= relative * nearest;
 }
 
+/// What its last digit counts, as it is written in the fewest digits that read back the same.
+double last_digit(double value) {
+  const auto text = shown(value);
+  const auto e = text.find('e');
+  const auto exponent = e == std::string::npos ? 0 : std::stoi(text.substr(e + 1));
+  const auto digits = text.substr(0, e);
+  const auto point = digits.find('.');
+  const auto decimals =
+      point == std::string::npos ? 0 : static_cast<int>(digits.size() - point) - 1;
+  return std::pow(10.0, exponent - decimals);
+}
+
+/// People write an angle in radians rounded or cut off, however many digits they give: 1.5708 is
+/// 90 deg. A number that was computed has all its digits, and so lies beside every round angle.
+bool is_written_of(double value, double of_deg) {
+  const double nearest = of_deg * std::floor(degrees_of(value) / of_deg + 0.5);
+  return std::abs(value - nearest * std::numbers::pi / 180.0) <= last_digit(value) + kLastBits;
+}
+
 bool is_round_angle_in_radians(double value) {
-  const double degrees = degrees_of(std::abs(value));
-  const bool round = is_near_multiple(degrees, kRoundAngleDeg, kSameAngle) ||
-                     is_near_multiple(degrees, kFineAngleDeg, kExactAngle);
-  return round && degrees <= 360.0 && std::abs(value) != std::floor(std::abs(value));
+  const double size = std::abs(value), degrees = degrees_of(size);
+  const bool round =
+      (is_near_multiple(degrees, kRoundAngleDeg, kSameAngle) &&
+       is_written_of(size, kRoundAngleDeg)) ||
+      (is_near_multiple(degrees, kFineAngleDeg, kExactAngle) && is_written_of(size, kFineAngleDeg));
+  return round && degrees <= 360.0 && size != std::floor(size);
 }
 
 /// Fields whose angles people give in radians by mistake; those of a torch are as often small.
@@ -115,7 +137,9 @@ class MetricInInches {
     const double mm = std::abs(value);
     if (is_near(mm, kTyped, 1e-9)) return;
     const double meant = mm * kMmPerInch;
-    if (meant < kDesigned / 2.0 || !is_near(meant, kDesigned, kRounding)) {
+    // As written: a length that was computed has digits that no rounded one has.
+    if (meant < kDesigned / 2.0 || !is_near(meant, kDesigned, kRounding) ||
+        !is_near(meant, kDesigned, kMmPerInch * last_digit(mm) + 1e-9)) {
       ++others_;
       return;
     }

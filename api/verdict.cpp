@@ -84,7 +84,7 @@ Verdict judge(const std::vector<Warning>& warnings, const Json& request,
     const auto& about = info(warning.code);
     if (about.severity != Severity::cut) continue;
     out.status = "review";
-    out.reasons.emplace_back(about.code);
+    add_once(out.reasons, std::string(about.code));
     add_once(out.codes, std::string(about.code));
     const auto pointer = pointer_of(warning.member, request);
     out.warnings.push_back(std::string(about.code) + (pointer.empty() ? "" : " at " + pointer) +
@@ -98,8 +98,8 @@ Verdict judge(const std::vector<Warning>& warnings, const Json& request,
           (least ? measure.value >= bound.value : measure.value <= bound.value))
         continue;
       out.status = "reject";
-      out.reasons.push_back(std::string(bound.name) + ": " + brief(measure.value) +
-                            std::string(least ? kBelow : kAbove) + brief(bound.value));
+      add_once(out.reasons, std::string(bound.name) + ": " + brief(measure.value) +
+                                std::string(least ? kBelow : kAbove) + brief(bound.value));
       out.excess.push_back({bound.name, measure.value, bound.value});
     }
   return out;

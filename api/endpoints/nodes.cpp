@@ -187,7 +187,7 @@ struct Nodes {
   }
 
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
-    auto all = spec.solved.warnings;
+    auto all = joint::once_a_pair(spec.node, spec.solved);
     for (auto& warning : joint::warnings_of(spec.node, out.overlaps))
       all.push_back(std::move(warning));
     for (std::size_t i = 0; i < out.tables.size(); ++i) {

@@ -221,7 +221,7 @@ std::vector<Warning> warnings(const Joined& joined) {
     if (!joined.others[i].empty())
       cut_by_others.insert(joint::place_of(joined.nodes.ends[i].member, joined.nodes.ends[i].end));
   std::vector<Warning> out;
-  for (const auto& w : joined.nodes.warnings) {
+  for (const auto& w : joint::once_a_pair(joined.node, joined.nodes)) {
     const bool good = w.code == WarningCode::free_end || w.code == WarningCode::end_open ||
                       w.code == WarningCode::parallel_members;
     if (!good || !cut_by_others.contains(w.member)) out.push_back(w);

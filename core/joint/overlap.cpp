@@ -278,14 +278,31 @@ Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
 std::vector<Warning> warnings_of(const NodeSpec& spec, const std::vector<Overlap>& overlaps,
                                  std::optional<std::size_t> only) {
   std::vector<Warning> out;
-  for (const auto& o : overlaps)
-    for (const auto& [member, other] : {std::pair{o.a, o.b}, std::pair{o.b, o.a}})
-      if (!only || *only == member)
-        out.push_back({.code = WarningCode::members_overlap,
-                       .member = "members/" + std::to_string(member),
-                       .detail = "it and " + detail::called(spec, other) + " share metal, up to " +
-                                 brief(o.depth) + " mm deep, at " + brief(o.at.x()) + ", " +
-                                 brief(o.at.y()) + ", " + brief(o.at.z()) + " mm"});
+  for (const auto& o : overlaps) {
+    const auto at = only == o.b ? o.b : o.a;
+    if (only && *only != at) continue;
+    out.push_back({.code = WarningCode::members_overlap,
+                   .member = "members/" + std::to_string(at),
+                   .detail = "it and " + detail::called(spec, at == o.a ? o.b : o.a) +
+                             " share metal, up to " + brief(o.depth) + " mm deep, at " +
+                             brief(o.at.x()) + ", " + brief(o.at.y()) + ", " + brief(o.at.z()) +
+                             " mm"});
+  }
+  return out;
+}
+
+std::vector<Warning> once_a_pair(const NodeSpec& spec, const Nodes& nodes) {
+  auto out = nodes.warnings;
+  for (const auto& end : nodes.ends)
+    for (const auto& cut : end.cut_by) {
+      if (!cut.plane || cut.member > end.member) continue;
+      const auto place = place_of(end.member, end.end);
+      const auto of = " that of " + detail::called(spec, cut.member) + " stand ";
+      std::erase_if(out, [&](const Warning& w) {
+        return w.code == WarningCode::mitre_steps && w.member == place &&
+               w.detail.find(of) != std::string::npos;
+      });
+    }
   return out;
 }
 

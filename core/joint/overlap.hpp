@@ -43,9 +43,12 @@ using Beside = std::vector<std::vector<Cutter>>;
                                                     const std::stop_token& stop = {},
                                                     const Beside& beside = {});
 
-/// One warning at each of the two; with `only` at that one alone.
+/// One warning of each pair, at its earlier member; with `only` at that one.
 [[nodiscard]] std::vector<Warning> warnings_of(const NodeSpec& spec,
                                                const std::vector<Overlap>& overlaps,
                                                std::optional<std::size_t> only = {});
+
+/// The warnings of `nodes`; of a mitre's two ends, which say the same of each other, the earlier's.
+[[nodiscard]] std::vector<Warning> once_a_pair(const NodeSpec& spec, const Nodes& nodes);
 
 }  // namespace tubecut::joint

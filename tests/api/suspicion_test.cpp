@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
 #include "api/api.hpp"
 #include "tests/support/call.hpp"
 
@@ -52,6 +57,39 @@ TEST(Suspicion, SparesWhatIsPlausible) {
     const auto file = "tests/golden/" + std::string(golden) + ".json";
     EXPECT_EQ(suspects(testing::read_project_file(file)), "") << golden;
   }
+}
+
+// Angles as people write them in radians, to any number of decimals, and angles that were computed,
+// which lie as near to a round one and have all their digits.
+TEST(Suspicion, TellsWhatIsWrittenFromWhatIsComputed) {
+  std::mt19937_64 random{20261127};
+  const auto angle = [](const std::string& digits) {
+    return suspects(R"({"cutters":[{"clocking_deg":)" + digits + "}]}");
+  };
+  int written = 0, computed = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int fifteens = std::uniform_int_distribution<int>(1, 23)(random);
+    const double rad = fifteens * 15.0 * std::acos(-1.0) / 180.0;
+    std::array<char, 40> text{};
+    const int decimals = std::uniform_int_distribution<int>(4, 15)(random);
+    std::snprintf(text.data(), text.size(), "%.*f", decimals, rad);
+    EXPECT_NE(angle(text.data()), "") << text.data();
+    ++written;
+    const double off = std::uniform_real_distribution<double>(2e-9, 1e-3)(random);
+    std::snprintf(text.data(), text.size(), "%.11f", rad * (i % 2 == 0 ? 1.0 + off : 1.0 - off));
+    EXPECT_EQ(angle(text.data()), "") << text.data();
+    ++computed;
+  }
+  EXPECT_EQ(written + computed, 800);
+}
+
+// A brace whose chords are turned by 1.5708 deg to each other: the service computes that clocking.
+TEST(Suspicion, SparesTheNumbersOfAFramesParts) {
+  const auto text = testing::read_project_file("tests/field/unit_suspicion_of_own_number.json");
+  const auto answer = post("/v1/frames", parse(text).value());
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+  EXPECT_EQ(answer.outcome.body.find("unit_suspicion"), std::string::npos);
+  EXPECT_EQ(testing::text(answer.body, "verdict/status"), "ok");
 }
 
 /// The unit_suspicion warnings of an answer, each "pointer: detail".

@@ -43,6 +43,18 @@ TEST(Verdict, TheHeaderNamesEachReasonOnce) {
   EXPECT_EQ(api::verdict_header({}), "ok");
 }
 
+TEST(Verdict, ReasonsAreASet) {
+  const std::vector<Warning> warnings{{.code = WarningCode::free_end, .member = "members/0"},
+                                      {.code = WarningCode::free_end, .member = "members/1"},
+                                      {.code = WarningCode::members_overlap, .member = "members/0"},
+                                      {.code = WarningCode::near_parallel, .member = "members/0"},
+                                      {.code = WarningCode::free_end, .member = "members/2"}};
+  const auto verdict = api::judge(warnings, Json{}, {{"max_b_deg", 83.0}}, {{"max_b_deg", 80.0}});
+  EXPECT_EQ(verdict.reasons,
+            (std::vector<std::string>{"free_end", "members_overlap", "max_b_deg: 83 > 80"}));
+  EXPECT_EQ(verdict.warnings.size(), 4U) << "each is told";
+}
+
 // A cut that follows a member beyond its end is reviewed by whatever way it is asked for.
 TEST(Verdict, AGhostIsNamedByEveryWay) {
   const auto member = *api::parse(R"([
