@@ -39,7 +39,7 @@ std::vector<std::size_t> indices(const std::vector<T>& of) {
 void write_member(const FrameJob& frame, const MadePart& part, std::size_t member, Writer& o) {
   o.field("id", frame.spec.members[member].name);
   o.field("part", name_of_part(frame, frame.part_of[member]));
-  const auto& start = frame.frame.pieces[member].frame;
+  const auto start = frame.start_of(member);
   if (part.is_open())
     o.object("start", [&](Writer& f) { write_place(start.origin, start.rows, f); });
   if (!part.made) return;
@@ -53,6 +53,7 @@ void add_ends(const FrameJob& frame, const MadeParts& made, std::size_t member,
   const auto& part = made[frame.part_of[member]];
   for (const bool finish : {false, true}) {
     const auto& cutters = finish ? piece.finish : piece.start;
+    const auto& of_part = finish ? frame.laid[member].finish : frame.laid[member].start;
     for (std::size_t k = 0; k < cutters.size(); ++k) {
       auto& seam = seams[cutters[k].joint];
       seam.whole = seam.whole && part.made != nullptr;
@@ -60,7 +61,7 @@ void add_ends(const FrameJob& frame, const MadeParts& made, std::size_t member,
       if (!part.made || kind == frame::How::Kind::set_in) continue;
       const auto& end = finish ? part.made->out.finish : part.made->out.start;
       const bool faces = kind == frame::How::Kind::mitre || kind == frame::How::Kind::butt;
-      const double length = along(end, k);
+      const double length = along(end, of_part[k]);
       seam.weld = faces ? std::max(seam.weld, length) : seam.weld + length;
       if (cutters.size() == 1) seam.groove = seam.groove.value_or(0.0) + end.groove_volume;
     }
@@ -74,7 +75,9 @@ void add_holes(const FrameJob& frame, const MadeParts& made, std::size_t member,
     seams[hole.joint].whole = seams[hole.joint].whole && part.made != nullptr;
   if (!part.made) return;
   for (const auto& placed : part.made->out.holes) {
-    const auto joint = piece.holes[placed.asked].joint;
+    const auto at = std::ranges::find(frame.laid[member].holes, placed.asked);
+    const auto own = static_cast<std::size_t>(at - frame.laid[member].holes.begin());
+    const auto joint = piece.holes[own].joint;
     auto& seam = seams[joint];
     const auto& fit = placed.hole.fit;
     if (frame.frame.joints[joint].how.kind != frame::How::Kind::set_on)
@@ -149,7 +152,7 @@ const std::string& name_of_part(const FrameJob& frame, std::size_t part) {
 }
 
 FramePlace place_of(const FrameJob& frame, const Worked<Parts>& part, std::size_t member) {
-  const auto& start = frame.frame.pieces[member].frame;
+  const auto start = frame.start_of(member);
   const auto& own = part.out.frame;
   return {start.origin + start.rows.transpose() * own.origin, own.rows * start.rows};
 }

@@ -14,12 +14,19 @@
 
 namespace tubecut::api {
 
-/// A frame whose joints are found, and its parts as requests, read again as /v1/parts does.
-struct FrameJob : FrameRequest {
-  frame::Frame frame;
-  std::vector<FramePart> parts;
-  std::vector<std::unique_ptr<const Parts::Spec>> asked;  // of each part; none: refused when made
-  std::vector<std::size_t> part_of;                       // of each member
+/// A frame whose joints are found, and its parts as requests.
+struct FrameJob : FrameRequest, FrameParts {
+  frame::Frame frame = {};
+  std::vector<std::size_t> part_of = {};  // of each member
+
+  /// What a member asks for itself, without names; nullptr where it cannot be read.
+  [[nodiscard]] const Parts::Spec* own(std::size_t member) const {
+    return forms[form_of[member]].get();
+  }
+  /// Where its part's start stands in the world.
+  [[nodiscard]] joint::MemberFrame start_of(std::size_t member) const {
+    return laid[member].stand(frame.pieces[member].frame);
+  }
 };
 
 /// A part as /v1/parts answers, or why there is none.
@@ -61,6 +68,8 @@ void cut_list_row(const FrameJob& frame, std::size_t i, const MadePart& part, Ro
   const auto members = members_of_part(frame, i);
   row.field("count", members.size());
   row.column("members", members);
+  row.field("made_by", frame.spec.members[frame.parts[i].by].name);
+  row.field("differs_at_most_mm", frame.parts[i].differs);
   row.field("outer_diameter_mm", 2.0 * m.outer_radius);
   row.field("wall_mm", m.wall);
   if (!part.is_open()) row.field("verdict", part.made ? part.made->answer.verdict.status : "none");

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "api/common_fields.hpp"
+#include "api/endpoints/frame_shape.hpp"
 #include "api/frame_names.hpp"
 #include "api/sha256.hpp"
 #include "api/writer.hpp"
@@ -268,43 +270,97 @@ class PartWriter {
   OwnEnds own_ends_;
 };
 
-/// Members whose requests without ids are alike, by the text.
-using Alike = std::map<std::string, std::vector<std::size_t>>;
+/// Members by the text of their requests without ids.
+struct Forms {
+  std::vector<std::string> texts;
+  std::vector<std::size_t> of_members;
+  std::vector<std::unique_ptr<const Parts::Spec>> read;
+};
 
-Result<Alike> alike(const PartWriter& writer, const Names& names, const std::stop_token& stop) {
-  Alike out;
+std::unique_ptr<const Parts::Spec> read(const Json& part) {
+  Reader in(part);
+  (void)read_common_fields(in, Parts::kAccepts);
+  auto spec = Parts::decode(in);
+  if (!in.finish_root().empty()) return nullptr;
+  return std::make_unique<const Parts::Spec>(std::move(spec));
+}
+
+Result<Forms> forms(const PartWriter& writer, const Names& names, const std::stop_token& stop) {
+  Forms out;
+  std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < names.of_members.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     TRY(const auto part, writer.part(i, names));
-    out[dump(part)].push_back(i);
+    auto text = dump(part);
+    const auto [at, fresh] = known.emplace(text, out.texts.size());
+    out.of_members.push_back(at->second);
+    if (!fresh) continue;
+    out.texts.push_back(std::move(text));
+    out.read.push_back(read(part));
   }
   return out;
 }
 
-}  // namespace
+/// Members as shapes, with the names of the parts that they are so far.
+Result<std::vector<frame::Shape>> shapes(const PartWriter& writer, const Forms& forms,
+                                         const Names& names) {
+  std::vector<frame::Shape> out;
+  for (std::size_t i = 0; i < names.of_members.size(); ++i) {
+    TRY(const auto part, writer.part(i, names));
+    out.push_back(shape_of(part));
+    out.back().form = forms.of_members[i];
+    out.back().key += names.of_members[i];
+  }
+  return out;
+}
 
-Result<std::vector<FramePart>> parts_of(const FrameRequest& request, const frame::Frame& frame,
-                                        const std::stop_token& stop) {
-  const auto& members = request.spec.members;
-  const PartWriter writer(request, frame);
-  // At first nothing tells parts apart but their shape; then what stands on them does too, by the
-  // part that it is: until no group falls apart any more.
-  Names names{.ids = false, .of_members = std::vector<std::string>(members.size(), "-")};
-  Alike groups;
+/// At first nothing tells parts apart but their shape; then what stands on them does too, by the
+/// part that it is: until no group falls apart any more.
+Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const Forms& known,
+                                                const FrameRequest& request, Names& names,
+                                                const std::stop_token& stop) {
+  std::vector<const part::PartSpec*> parts;
+  for (const auto& one : known.read) parts.push_back(one ? &one->part : nullptr);
+  frame::Gatherer gatherer(parts, known.texts, request.alike_within);
   for (std::size_t before = 0;;) {
-    TRY(groups, alike(writer, names, stop));
-    for (const auto& [text, all] : groups)
-      for (const auto i : all) names.of_members[i] = members[all.front()].name;
-    if (groups.size() == before) break;
+    TRY(const auto all, shapes(writer, known, names));
+    TRY(auto groups, gatherer.groups(all, stop));
+    for (const auto& group : groups)
+      for (const auto& [i, laid] : group.shapes)
+        names.of_members[i] = request.spec.members[group.shapes.front().first].name;
+    if (groups.size() == before) return groups;
     before = groups.size();
   }
-  names.ids = true;
-  std::vector<FramePart> out;
-  for (auto& [text, all] : groups) {
-    TRY(auto part, writer.part(all.front(), names));
-    out.push_back({std::move(all), std::move(part), sha256(text, stop)});
+}
+
+}  // namespace
+
+Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
+                            const std::stop_token& stop) {
+  const auto members = request.spec.members.size();
+  const PartWriter writer(request, frame);
+  Names names{.ids = false, .of_members = std::vector<std::string>(members, "-")};
+  TRY(auto known, forms(writer, names, stop));
+  TRY(auto groups, gathered(writer, known, request, names, stop));
+  FrameParts out{.parts = {},
+                 .laid = std::vector<frame::Laid>(members),
+                 .forms = std::move(known.read),
+                 .form_of = std::move(known.of_members)};
+  auto named = names;
+  named.ids = true;
+  for (auto& group : groups) {
+    FramePart part{.members = {}, .by = group.by};
+    for (auto& [i, laid] : group.shapes) {
+      part.members.push_back(i);
+      part.differs = std::max(part.differs, laid.differs);
+      out.laid[i] = std::move(laid);
+    }
+    TRY(const auto unnamed, writer.part(group.by, names));
+    part.sha256 = sha256(dump(unnamed), stop);
+    TRY(part.request, writer.part(group.by, named));
+    out.parts.push_back(std::move(part));
   }
-  std::ranges::sort(out, {}, [](const FramePart& p) { return p.members.front(); });
+  std::ranges::sort(out.parts, {}, [](const FramePart& p) { return p.members.front(); });
   return out;
 }
 

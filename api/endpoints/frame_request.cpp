@@ -20,6 +20,8 @@ using frame::How;
 
 constexpr Range kGap{.min = 0.0, .max = 50.0};
 constexpr Range kDistance{.min = 0.0, .max = limit::offset_max_mm};
+constexpr Range kAlike{.min = 0.0, .max = 5.0};
+constexpr double kAlikeByDefault = 0.02;  // mm: coordinates of three decimals make 0.005 of it
 constexpr Range kAllowance{.min = 0.0, .max = 1e5};
 constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
 constexpr std::size_t kMostOthers = 1'000;
@@ -301,6 +303,7 @@ FrameRequest decode_frame_request(Reader& in) {
       return 0;
     });
   decode_own_ends(in, members, cut, out);
+  out.alike_within = in.number("alike_within_mm", kAlike, kAlikeByDefault);
   decode_once(in, out);
   return out;
 }

@@ -27,11 +27,12 @@ struct OwnEnd {
 struct FrameRequest {
   Preset preset = Preset::none;
   frame::FrameSpec spec;
-  Json::Object end;          // how an end is cut by default, as a part's end says it
-  Json tilt;                 // of a hole by default
-  std::vector<OwnCut> cuts;  // of each stated joint
-  std::vector<OwnEnd> ends;  // each end once
-  Json::Object once;         // what every part has once: preset, kerf, torch and the like
+  Json::Object end;           // how an end is cut by default, as a part's end says it
+  Json tilt;                  // of a hole by default
+  double alike_within = 0.0;  // mm: parts whose finished surfaces differ by no more are one
+  std::vector<OwnCut> cuts;   // of each stated joint
+  std::vector<OwnEnd> ends;   // each end once
+  Json::Object once;          // what every part has once: preset, kerf, torch and the like
 };
 
 [[nodiscard]] FrameRequest decode_frame_request(Reader& in);

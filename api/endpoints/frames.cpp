@@ -65,23 +65,19 @@ struct FrameBase {
              }),
              Parts::kChecks);
 
-  static Spec decode(Reader& in) { return {decode_frame_request(in), {}, {}, {}, {}}; }
+  static Spec decode(Reader& in) {
+    Spec out;
+    static_cast<FrameRequest&>(out) = decode_frame_request(in);
+    return out;
+  }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
     TRY(spec.frame, frame::solve(spec.spec, stop));
-    TRY(spec.parts, parts_of(spec, spec.frame, stop));
+    TRY(auto parts, parts_of(spec, spec.frame, stop));
+    static_cast<FrameParts&>(spec) = std::move(parts);
     spec.part_of.resize(spec.spec.members.size());
-    for (std::size_t i = 0; i < spec.parts.size(); ++i) {
-      ask(stop);
+    for (std::size_t i = 0; i < spec.parts.size(); ++i)
       for (const auto member : spec.parts[i].members) spec.part_of[member] = i;
-      Reader in(spec.parts[i].request);
-      (void)read_common_fields(in, Parts::kAccepts);
-      auto part = Parts::decode(in);
-      if (in.finish_root().empty())
-        spec.asked.push_back(std::make_unique<const Parts::Spec>(std::move(part)));
-      else
-        spec.asked.emplace_back();
-    }
     return spec;
   }
   static void count_members(const Spec& spec, Work& work) {
@@ -90,8 +86,10 @@ struct FrameBase {
 
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
     std::vector<const part::PartSpec*> asked;
-    for (const auto part : spec.part_of)
-      asked.push_back(spec.asked[part] ? &spec.asked[part]->part : nullptr);
+    for (std::size_t i = 0; i < spec.part_of.size(); ++i) {
+      const auto* own = spec.own(i);
+      asked.push_back(own == nullptr ? nullptr : &own->part);
+    }
     auto checks = frame::verify(spec.spec, spec.frame, asked, stop);
     for (const auto& part : out)
       if (part.made) keep_worst(checks, part.made->answer.checks);
@@ -110,8 +108,8 @@ struct FrameBase {
 struct Frames : FrameBase {
   static void count(const Spec& spec, Work& work) {
     count_members(spec, work);
-    for (const auto& part : spec.asked)
-      if (part) Parts::count(*part, work);
+    for (const auto& part : spec.parts)
+      if (const auto* own = spec.own(part.by)) Parts::count(*own, work);
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop, const Turns& turns) {
     std::vector<std::optional<Result<MadePart>>> made(spec.parts.size());
@@ -129,6 +127,7 @@ struct Frames : FrameBase {
   }
 
   /// Those of the ends and of members; then of each part one of a code, and why one is not there.
+  /// Numbers that look like another unit's are the frame's own, where the frame itself says so.
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     auto all = spec.frame.warnings;
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -139,7 +138,7 @@ struct Frames : FrameBase {
         all.push_back({.code = WarningCode::no_part, .member = at, .detail = told(name, *why)});
         continue;
       }
-      std::vector<WarningCode> said;
+      std::vector<WarningCode> said{WarningCode::unit_suspicion};
       for (const auto& w : out[i].made->answer.warnings) {
         if (info(w.code).severity != Severity::cut || std::ranges::count(said, w.code) > 0)
           continue;

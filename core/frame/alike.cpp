@@ -1,0 +1,253 @@
+#include "core/frame/alike.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/frame/alike_form.hpp"
+#include "core/frame/alike_match.hpp"
+#include "core/math/rotation.hpp"
+
+namespace tubecut::frame {
+namespace {
+
+using detail::Form;
+using detail::FormWall;
+using detail::near_zero;
+using detail::Side;
+
+constexpr double kWritten = 1e6;  // lengths are told apart to six decimals
+// By how much a mean over phases may be off where the contour has corners and jumps.
+constexpr double kMeanOff = 0.1, kMeanOffOfRadius = 0.01;  // mm; of the radius
+
+/// What two alike have in common to the letter, in no order.
+std::vector<std::string> key_of(const Shape& shape) {
+  std::vector<std::string> out{shape.key};
+  for (const auto* keys : {&shape.start, &shape.finish, &shape.holes, &shape.marks}) {
+    auto sorted = *keys;
+    std::ranges::sort(sorted);
+    out.insert(out.end(), sorted.begin(), sorted.end());
+    out.emplace_back();  // where the next begin
+  }
+  return out;
+}
+
+/// Ways from points of one wall to those of another: round the tube and along it.
+struct Ways {
+  std::vector<double> round, along;
+  double between = 0.0;  // what more may lie between two phases
+
+  /// False where they have no points in common.
+  bool add(const FormWall::Line& one, const FormWall::Line& other) {
+    const auto n = one.z.size();
+    if (other.z.size() != n || other.phi.size() != one.phi.size()) return false;
+    std::vector<double> r(n, 0.0), a(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      a[i] = one.z[i] - other.z[i];
+      if (!one.phi.empty()) r[i] = one.radius * near_zero(one.phi[i] - other.phi[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto before = (i + n - 1) % n, after = (i + 1) % n;
+      // Of a smooth curve an eighth of the second difference.
+      worsen(between, 0.25 * elementary::hypot(r[before] - 2.0 * r[i] + r[after],
+                                               a[before] - 2.0 * a[i] + a[after]));
+    }
+    round.insert(round.end(), r.begin(), r.end());
+    along.insert(along.end(), a.begin(), a.end());
+    return true;
+  }
+  bool add(const std::vector<FormWall::Line>& one, const std::vector<FormWall::Line>& other) {
+    bool same = one.size() == other.size();
+    for (std::size_t i = 0; same && i < one.size(); ++i) same = add(one[i], other[i]);
+    return same;
+  }
+  void add_mark(const part::Mark& one, const part::Mark& other, double radius, double turn) {
+    round.push_back(radius * near_zero(one.phi + turn - other.phi));
+    along.push_back(one.z_from - other.z_from);
+  }
+
+  /// The move along the axis that leaves the least of them, and what it leaves.
+  [[nodiscard]] std::pair<double, double> fitted() const {
+    const auto [least, most] = std::ranges::minmax(along);
+    const double shift = 0.5 * (least + most);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < along.size(); ++i)
+      worsen(worst, elementary::hypot(round[i], along[i] - shift));
+    return {shift, worst + between};
+  }
+};
+
+}  // namespace
+
+joint::MemberFrame Laid::stand(const joint::MemberFrame& own) const {
+  auto out = own;
+  if (shift != 0.0) out.origin += shift * own.rows.row(2).transpose();
+  if (turn.rad() != 0.0) out.rows = math::turn_about_z(turn.rad()) * own.rows;
+  return out;
+}
+
+/// What the forms are, and what was compared.
+class Gatherer::Known {
+ public:
+  Known(std::span<const part::PartSpec* const> forms, std::span<const std::string> texts,
+        double within)
+      : texts_(texts.begin(), texts.end()), within_(std::max(within, kLeastAlike)) {
+    for (const auto* part : forms)
+      forms_.push_back(part == nullptr ? std::nullopt : detail::form_of(*part));
+    walls_.resize(forms_.size());
+  }
+
+  Result<std::vector<AlikeGroup>> groups(std::span<const Shape> shapes,
+                                         const std::stop_token& stop);
+
+ private:
+  using Column = std::vector<std::size_t>;  // of shapes, holes or marks
+  /// Two forms, the turn, and which of holes and marks answer which.
+  using Pair = std::tuple<std::size_t, std::size_t, std::int64_t, Column, Column>;
+  struct Fit {
+    bool there = false;
+    double shift = 0.0, differs = 0.0;
+  };
+
+  [[nodiscard]] double left(const Shape& shape) const {
+    const auto& form = forms_[shape.form];
+    return form ? form->left : std::numeric_limits<double>::quiet_NaN();
+  }
+  [[nodiscard]] auto order(const Shape& shape) const {
+    const auto& form = forms_[shape.form];
+    const double mean = left(shape);
+    const auto written = [](double value) { return std::round(value * kWritten); };
+    return std::tuple(std::isnan(mean) ? 0.0 : written(mean),
+                      form ? written(*form->part->target.length) : 0.0,
+                      std::string_view(texts_[shape.form]));
+  }
+  /// May two be alike by the length that is left?
+  [[nodiscard]] bool near(const Shape& a, const Shape& b) const {
+    const auto& form = forms_[a.form];
+    const double off = std::abs(left(a) - left(b));
+    return !form || std::isnan(off) ||
+           off <= 2.0 * within_ + kMeanOff + kMeanOffOfRadius * form->part->target.outer_radius;
+  }
+
+  void gather(std::span<const Shape> shapes, Column rest, std::vector<AlikeGroup>& out,
+              const std::stop_token& stop);
+  std::optional<Laid> lay(const Shape& member, const Shape& by, const std::stop_token& stop);
+  Fit fit(const Side& member, const Side& by, const Laid& laid, const std::stop_token& stop);
+
+  std::vector<std::optional<Form>> forms_;
+  std::vector<std::string> texts_;
+  double within_;
+  std::vector<std::optional<std::optional<FormWall>>> walls_;  // of each form, once asked for
+  std::map<Pair, Fit> fits_;
+};
+
+/// Every point of the member's wall, turned, against the same point of the other's.
+Gatherer::Known::Fit Gatherer::Known::fit(const Side& member, const Side& by, const Laid& laid,
+                                          const std::stop_token& stop) {
+  const Pair pair{member.shape.form, by.shape.form,
+                  std::llround(laid.turn.rad() / detail::kSameTurn), laid.holes, laid.marks};
+  if (const auto known = fits_.find(pair); known != fits_.end()) return known->second;
+  auto& theirs = walls_[by.shape.form];
+  if (!theirs) theirs = detail::wall_of(*by.form.part, {}, stop);
+  const auto make = [&]() -> Fit {
+    if (!*theirs) return {};
+    const auto own = detail::wall_of(*member.form.part, laid.turn, stop);
+    Ways ways;
+    if (!own || !ways.add(own->ends, (*theirs)->ends)) return {};
+    for (std::size_t i = 0; i < own->holes.size(); ++i)
+      if (!ways.add(own->holes[i], (*theirs)->holes[laid.holes[i]])) return {};
+    for (std::size_t i = 0; i < laid.marks.size(); ++i)
+      ways.add_mark(member.form.part->partners[i], by.form.part->partners[laid.marks[i]],
+                    by.form.part->target.outer_radius, laid.turn.rad());
+    const auto [shift, differs] = ways.fitted();
+    return {true, shift, differs};
+  };
+  const auto out = make();
+  if (!stop.stop_requested()) fits_.emplace(pair, out);
+  return out;
+}
+
+std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by,
+                                         const std::stop_token& stop) {
+  if (member.form == by.form && member.start == by.start && member.finish == by.finish &&
+      member.holes == by.holes && member.marks == by.marks) {
+    Laid same;
+    for (const auto& [to, of] :
+         {std::pair{&same.start, &by.start}, std::pair{&same.finish, &by.finish},
+          std::pair{&same.holes, &by.holes}, std::pair{&same.marks, &by.marks}})
+      for (std::size_t i = 0; i < of->size(); ++i) to->push_back(i);
+    return same;
+  }
+  const auto& form = forms_[member.form];
+  const auto& other = forms_[by.form];
+  if (!form || !other || !near(member, by)) return std::nullopt;
+  const Side one{*form, member}, two{*other, by};
+  if (!one.whole() || !two.whole()) return std::nullopt;
+  for (const double turn : detail::turns(one, two)) {
+    auto laid = detail::resembles(one, two, turn, within_);
+    if (!laid) continue;
+    const auto found = fit(one, two, *laid, stop);
+    if (!found.there || !(found.differs <= within_)) continue;
+    laid->shift = found.shift;
+    laid->differs = found.differs;
+    return laid;
+  }
+  return std::nullopt;
+}
+
+/// Of shapes in their order, near each other in length.
+void Gatherer::Known::gather(std::span<const Shape> shapes, Column rest,
+                             std::vector<AlikeGroup>& out, const std::stop_token& stop) {
+  while (!rest.empty() && !stop.stop_requested()) {
+    AlikeGroup group{.by = rest[rest.size() / 2], .shapes = {}};
+    Column others;
+    for (const auto i : rest) {
+      if (stop.stop_requested()) return;
+      if (auto laid = lay(shapes[i], shapes[group.by], stop))
+        group.shapes.emplace_back(i, *std::move(laid));
+      else
+        others.push_back(i);
+    }
+    std::ranges::sort(group.shapes, {}, &std::pair<std::size_t, Laid>::first);
+    out.push_back(std::move(group));
+    rest = std::move(others);
+  }
+}
+
+Result<std::vector<AlikeGroup>> Gatherer::Known::groups(std::span<const Shape> shapes,
+                                                        const std::stop_token& stop) {
+  std::map<std::vector<std::string>, Column> by_key;
+  for (std::size_t i = 0; i < shapes.size(); ++i) by_key[key_of(shapes[i])].push_back(i);
+  std::vector<AlikeGroup> out;
+  for (auto& [key, all] : by_key) {
+    std::ranges::stable_sort(all, {}, [&](std::size_t i) { return order(shapes[i]); });
+    Column chain;
+    for (const auto i : all) {
+      if (!chain.empty() && !near(shapes[chain.back()], shapes[i]))
+        gather(shapes, std::exchange(chain, {}), out, stop);
+      chain.push_back(i);
+    }
+    gather(shapes, std::move(chain), out, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  }
+  return out;
+}
+
+Gatherer::Gatherer(std::span<const part::PartSpec* const> forms, std::span<const std::string> texts,
+                   double within)
+    : known_(std::make_unique<Known>(forms, texts, within)) {}
+Gatherer::~Gatherer() = default;
+
+Result<std::vector<AlikeGroup>> Gatherer::groups(std::span<const Shape> shapes,
+                                                 const std::stop_token& stop) {
+  return known_->groups(shapes, stop);
+}
+
+}  // namespace tubecut::frame

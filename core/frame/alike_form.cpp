@@ -1,0 +1,122 @@
+#include "core/frame/alike_form.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/elementary.hpp"
+#include "core/bevel/hole.hpp"
+#include "core/bevel/table.hpp"
+#include "core/joint/intersection.hpp"
+
+namespace tubecut::frame::detail {
+namespace {
+
+constexpr std::size_t kMeanOver = 256;  // phases
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Mean height of the contour on the bore.
+double mean_height(const FormEnd& end, double radius) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < kMeanOver; ++k) {
+    const auto line = joint::generator_at(
+        radius, kTwoPi * static_cast<double>(k) / static_cast<double>(kMeanOver));
+    double top = -std::numeric_limits<double>::infinity();
+    for (const auto& partner : end.partners)
+      if (const auto z = joint::upper_sheet(partner, line)) top = std::max(top, *z);
+    if (!std::isfinite(top)) return kNone;
+    sum += top;
+  }
+  return sum / static_cast<double>(kMeanOver);
+}
+
+std::optional<FormEnd> end_of(const bevel::TableSpec& cut) {
+  const auto seats = bevel::grown_partners(cut);
+  if (!seats) return std::nullopt;
+  FormEnd out;
+  for (std::size_t i = 0; i < seats->size(); ++i) {
+    auto prepared = joint::prepare((*seats)[i]);
+    if (!prepared) return std::nullopt;
+    out.partners.push_back(*std::move(prepared));
+    const auto to = joint::bearing(cut.partners[i]);
+    out.perpendicular.push_back(to ? std::optional(to->perpendicular) : std::nullopt);
+  }
+  out.left = mean_height(out, cut.target.inner_radius());
+  return out;
+}
+
+/// On phases of its own, as many as are compared; the kerf leaves no trace on the finished part.
+bevel::TableSpec on_phases(bevel::TableSpec cut, Angle turn) {
+  for (auto& partner : cut.partners) partner = joint::turned(partner, turn);
+  cut.sampling = {.uniform_points = kAlikePhases};
+  cut.kerf = 0.0;
+  return cut;
+}
+
+/// The edges of an end, of a finish as the start sees them.
+bool add_end(const bevel::TableSpec& cut, Angle turn, std::optional<double> length, FormWall& out,
+             const std::stop_token& stop) {
+  const auto table = bevel::table(on_phases(cut, turn), stop);
+  if (!table || table->phi.size() != kAlikePhases) return false;
+  for (const auto* z : {&table->z_inner, &table->z_face, &table->z_outer}) {
+    if (z->empty()) continue;  // without a land
+    auto& line = out.ends.emplace_back();
+    for (const double one : *z) line.z.push_back(length ? *length - one : one);
+  }
+  return true;
+}
+
+bool add_hole(bevel::HoleSpec asked, Angle turn, FormWall& out, const std::stop_token& stop) {
+  asked.branch = joint::turned(asked.branch, turn);
+  asked.sampling = {.uniform_points = kAlikePhases / 2};
+  asked.kerf = 0.0;
+  const auto cut = bevel::hole(asked, stop);
+  if (!cut) return false;
+  auto& lines = out.holes.emplace_back();
+  for (const auto& hole : cut->holes) {
+    if (hole.phi.size() != kAlikePhases / 2) return false;
+    lines.push_back({hole.z, hole.phi, asked.chord.outer_radius});
+    lines.push_back({hole.z_inner, hole.phi_inner, asked.chord.inner_radius()});
+  }
+  return true;
+}
+
+}  // namespace
+
+Looks FormEnd::looks(std::size_t partner, double radius, double turned_by) const {
+  Looks out;
+  for (std::size_t k = 0; k < kLooks; ++k)
+    out[k] = joint::upper_sheet(
+        partners[partner],
+        joint::generator_at(
+            radius, kTwoPi * static_cast<double>(k) / static_cast<double>(kLooks) - turned_by));
+  return out;
+}
+
+double Form::middle() const { return part->target.outer_radius - 0.5 * part->target.wall; }
+
+std::optional<Form> form_of(const part::PartSpec& part) {
+  auto start = end_of(part.start.cut);
+  auto finish = end_of(part.finish.cut);
+  if (!start || !finish || !part.target.length) return std::nullopt;
+  Form out{.part = &part, .start = *std::move(start), .finish = *std::move(finish), .holes = {}};
+  for (const auto& one : part.holes) {
+    const auto branch = bevel::branch_tube(one.hole.branch);
+    if (!branch) return std::nullopt;
+    out.holes.push_back(*branch);
+  }
+  out.left = *part.target.length - out.start.left - out.finish.left;
+  return out;
+}
+
+std::optional<FormWall> wall_of(const part::PartSpec& part, Angle turn,
+                                const std::stop_token& stop) {
+  FormWall out;
+  if (!add_end(part.start.cut, turn, {}, out, stop) ||
+      !add_end(part.finish.cut, -turn, part.target.length, out, stop))
+    return std::nullopt;
+  for (const auto& one : part.holes)
+    if (!add_hole(one.hole, turn, out, stop)) return std::nullopt;
+  return out;
+}
+
+}  // namespace tubecut::frame::detail

@@ -1,0 +1,210 @@
+#include "core/frame/alike_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/error.hpp"
+
+namespace tubecut::frame::detail {
+namespace {
+
+constexpr double kResembles = 1.0;    // mm: at a few places, before the walls are compared
+constexpr double kHasASide = 1.0;     // mm: of a partner's heights, by which a part is turned
+constexpr std::size_t kRimLooks = 3;  // a partner's rim may pass so many looks on one part alone
+
+/// By how much one partner stands higher than another: empty where their heights differ otherwise.
+std::optional<double> higher_by(const Looks& one, const Looks& other, double within) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  std::size_t on_one = 0;
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    if (one[k].has_value() != other[k].has_value()) ++on_one;
+    if (!one[k] || !other[k]) continue;
+    least = std::min(least, *one[k] - *other[k]);
+    most = std::max(most, *one[k] - *other[k]);
+  }
+  if (on_one > kRimLooks || most - least > within) return std::nullopt;
+  return most < least ? 0.0 : 0.5 * (most + least);  // neither is met at all
+}
+
+/// How the partners of one end answer those of another: each the other's index.
+struct Answered {
+  std::vector<std::size_t> which;
+  double higher = 0.0;  // than the other's
+};
+
+std::optional<Answered> answer(const FormEnd& end, const std::vector<std::string>& keys,
+                               const FormEnd& to, const std::vector<std::string>& to_keys,
+                               double radius, double turned, double within) {
+  Answered out{.which = std::vector<std::size_t>(keys.size()), .higher = 0.0};
+  std::vector<bool> taken(to_keys.size(), false);
+  std::vector<Looks> others;
+  for (std::size_t j = 0; j < to_keys.size(); ++j) others.push_back(to.looks(j, radius, 0.0));
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto seen = end.looks(i, radius, turned);
+    std::optional<double> nearest;
+    for (std::size_t j = 0; j < to_keys.size(); ++j) {
+      if (taken[j] || keys[i] != to_keys[j]) continue;
+      const auto higher = higher_by(seen, others[j], within);
+      if (!higher || (i > 0 && std::abs(*higher - out.higher) > within)) continue;
+      if (nearest && std::abs(*nearest) <= std::abs(*higher)) continue;
+      nearest = higher;
+      out.which[i] = j;
+    }
+    if (!nearest) return std::nullopt;
+    if (i == 0) out.higher = *nearest;
+    taken[out.which[i]] = true;
+  }
+  return out;
+}
+
+/// A hole's or a mark's own place on the tube.
+struct Spot {
+  double phi = 0.0, z = 0.0, offset = 0.0, inclination = 0.0;
+};
+
+std::vector<Spot> holes_of(const Form& form) {
+  std::vector<Spot> out;
+  for (const auto& b : form.holes)
+    out.push_back({b.clocking.rad(), b.height, b.offset, b.inclination.rad()});
+  return out;
+}
+std::vector<Spot> marks_of(const Form& form) {
+  std::vector<Spot> out;
+  for (const auto& m : form.part->partners) out.push_back({m.phi, m.z_from, 0.0, 0.0});
+  return out;
+}
+
+/// Of each spot the nearest of the others that answers it.
+std::optional<std::vector<std::size_t>> answer(const std::vector<Spot>& spots,
+                                               const std::vector<std::string>& keys,
+                                               const std::vector<Spot>& to,
+                                               const std::vector<std::string>& to_keys,
+                                               double radius, double turn, double shift,
+                                               double within) {
+  std::vector<std::size_t> out(spots.size());
+  std::vector<bool> taken(to.size(), false);
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    double nearest = within;
+    bool found = false;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      if (taken[j] || keys[i] != to_keys[j]) continue;
+      const double off = worst_of({std::abs(spots[i].z - shift - to[j].z),
+                                   radius * std::abs(near_zero(spots[i].phi + turn - to[j].phi)),
+                                   std::abs(spots[i].offset - to[j].offset),
+                                   radius * std::abs(spots[i].inclination - to[j].inclination)});
+      if (!(off <= nearest)) continue;
+      nearest = off;
+      found = true;
+      out[i] = j;
+    }
+    if (!found) return std::nullopt;
+    taken[out[i]] = true;
+  }
+  return out;
+}
+
+/// Sides of a part by which it may be turned onto another, in the start's frame: of the partners of
+/// one key, or of its holes or marks.
+std::vector<double> sides_of(const Side& side, int room, const std::string& key) {
+  std::vector<double> out;
+  const auto add_end = [&](const FormEnd& end, const std::vector<std::string>& keys, double sign) {
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (keys[i] == key && end.perpendicular[i]) out.push_back(sign * *end.perpendicular[i]);
+  };
+  const auto add_spots = [&](const std::vector<Spot>& spots, const std::vector<std::string>& keys) {
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (keys[i] == key) out.push_back(spots[i].phi);
+  };
+  if (room == 0) add_end(side.form.start, side.shape.start, 1.0);
+  if (room == 1) add_end(side.form.finish, side.shape.finish, -1.0);
+  if (room == 2) add_spots(holes_of(side.form), side.shape.holes);
+  if (room == 3) add_spots(marks_of(side.form), side.shape.marks);
+  return out;
+}
+
+/// The side that a part is turned by: of the first partner that is not square to the tube, else of
+/// a hole or mark.
+struct Handle {
+  int room = -1;  // none: it may stay as it is
+  std::string key;
+  double phi = 0.0;
+};
+Handle handle_of(const Side& side) {
+  for (const int room : {0, 1}) {
+    const auto& end = room == 0 ? side.form.start : side.form.finish;
+    const auto& keys = room == 0 ? side.shape.start : side.shape.finish;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (!end.perpendicular[i]) continue;
+      const auto looks = end.looks(i, side.form.middle(), 0.0);
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      bool all = true;
+      for (const auto& z : looks) {
+        all = all && z.has_value();
+        if (z) least = std::min(least, *z), most = std::max(most, *z);
+      }
+      if (all && most - least < kHasASide) continue;
+      return {room, keys[i], (room == 0 ? 1.0 : -1.0) * *end.perpendicular[i]};
+    }
+  }
+  if (!side.shape.holes.empty())
+    return {2, side.shape.holes.front(), holes_of(side.form).front().phi};
+  if (!side.shape.marks.empty())
+    return {3, side.shape.marks.front(), marks_of(side.form).front().phi};
+  return {};
+}
+
+}  // namespace
+
+bool Side::whole() const {
+  return shape.start.size() == form.start.partners.size() &&
+         shape.finish.size() == form.finish.partners.size() &&
+         shape.holes.size() == form.holes.size() &&
+         shape.marks.size() == form.part->partners.size();
+}
+
+double near_zero(double angle) { return angle - kTwoPi * std::round(angle / kTwoPi); }
+
+std::vector<double> turns(const Side& member, const Side& by) {
+  const auto handle = handle_of(by);
+  if (handle.room < 0) return {0.0};
+  std::vector<double> out;
+  for (const double phi : sides_of(member, handle.room, handle.key))
+    for (const double half : {0.0, kPi}) {
+      const double turn = near_zero(handle.phi - phi + half);
+      const bool there = std::ranges::any_of(
+          out, [&](double one) { return std::abs(near_zero(one - turn)) < kSameTurn; });
+      if (!there) out.push_back(turn);
+    }
+  return out;
+}
+
+std::optional<Laid> resembles(const Side& member, const Side& by, double turn, double within) {
+  const double radius = by.form.middle();
+  const double coarse = kResembles + 10.0 * within;
+  auto start = answer(member.form.start, member.shape.start, by.form.start, by.shape.start, radius,
+                      turn, coarse);
+  if (!start) return std::nullopt;
+  auto finish = answer(member.form.finish, member.shape.finish, by.form.finish, by.shape.finish,
+                       radius, -turn, coarse);
+  if (!finish) return std::nullopt;
+  const double longer = *member.form.part->target.length - *by.form.part->target.length;
+  if (!(std::abs(longer - finish->higher - start->higher) <= coarse)) return std::nullopt;
+  const double outer = by.form.part->target.outer_radius;
+  auto holes = answer(holes_of(member.form), member.shape.holes, holes_of(by.form), by.shape.holes,
+                      outer, turn, start->higher, coarse);
+  if (!holes) return std::nullopt;
+  auto marks = answer(marks_of(member.form), member.shape.marks, marks_of(by.form), by.shape.marks,
+                      outer, turn, start->higher, coarse);
+  if (!marks) return std::nullopt;
+  return Laid{.turn = Angle::rad(turn),
+              .shift = start->higher,
+              .differs = 0.0,
+              .start = std::move(start->which),
+              .finish = std::move(finish->which),
+              .holes = *std::move(holes),
+              .marks = *std::move(marks)};
+}
+
+}  // namespace tubecut::frame::detail
