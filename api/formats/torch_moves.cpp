@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/elementary.hpp"
+#include "core/motion/straight_edges.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -87,42 +88,21 @@ double sag_in_space(const TorchReach& r, const TorchPlace& from, const TorchPlac
   return 1.1 * edge + inner_sag(*d, a, b);
 }
 
-/// Where the torch meets the inner wall.
-InnerPlace inner_edge(const TorchReach& r, const TorchPlace& p, const Depth& d) {
-  const double rho = elementary::tan(p.a);
-  return {.phi = p.phi - elementary::atan2(d.h * rho, r.outer_radius - d.h),
-          .z = p.z - d.h * elementary::tan(p.b)};
-}
-
-double mixed(double a, double b, double share) { return a + share * (b - a); }
+motion::WallRadii wall(const TorchReach& r) { return {r.outer_radius, r.inner_radius}; }
+motion::TorchLean lean(const TorchPlace& p) { return {p.phi, p.z, p.b, p.a}; }
 
 /// The place at which both edges are on their lines.
 TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace& to,
                    double share) {
-  TorchPlace out{.phi = mixed(from.phi, to.phi, share), .z = mixed(from.z, to.z, share)};
-  const auto d0 = depth(r, elementary::tan(from.a)), d1 = depth(r, elementary::tan(to.a));
-  const bool in_plane = from.a == 0.0 && to.a == 0.0;
-  if (in_plane || !d0 || !d1) {
-    const auto angle = [&](double a, double b) {
-      return elementary::atan(mixed(elementary::tan(a), elementary::tan(b), share));
-    };
-    out.b = angle(from.b, to.b);
-    out.a = in_plane ? 0.0 : angle(from.a, to.a);
-    return out;
-  }
-  const auto i0 = inner_edge(r, from, *d0), i1 = inner_edge(r, to, *d1);
-  const auto [sin, cos] = elementary::sincos(mixed(i0.phi, i1.phi, share) - out.phi);
-  const double outwards = r.outer_radius - r.inner_radius * cos;
-  out.a = elementary::atan2(-r.inner_radius * sin, outwards);
-  out.b = elementary::atan2(out.z - mixed(i0.z, i1.z, share), outwards);
-  return out;
+  const auto at = motion::between(wall(r), lean(from), lean(to), share);
+  return {at.phi, at.z, at.b, at.a};
 }
 
 }  // namespace
 
 std::optional<InnerPlace> inner_place(const TorchReach& reach, const TorchPlace& at) {
-  const auto d = depth(reach, elementary::tan(at.a));
-  return d ? std::optional(inner_edge(reach, at, *d)) : std::nullopt;
+  const auto exit = motion::inner_exit(wall(reach), lean(at));
+  return exit ? std::optional(InnerPlace{exit->phi, exit->z}) : std::nullopt;
 }
 
 double metal_in_beam(const TorchReach& reach, const TorchPlace& at) {

@@ -198,7 +198,8 @@ std::optional<std::size_t> at_phi(Track& t, double phi) {
     if (std::abs(target - b.phi) <= kSamePhi) return i + 1;
     if (target > std::max(a.phi, b.phi)) continue;
     const double share = (target - a.phi) / (b.phi - a.phi);
-    t.points.insert(t.points.begin() + static_cast<std::ptrdiff_t>(i) + 1, between(a, b, share));
+    t.points.insert(t.points.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                    between(t.wall, a, b, share));
     return i + 1;
   }
   return std::nullopt;
@@ -291,6 +292,7 @@ Result<Track> track(const CutPath& cut_path) {
   TRY(check_columns(cut_path));
   TRY(check_numbers(cut_path));
   Track t{rows(cut_path), cut_path.radius(), cut_path.closed, 0};
+  if (cut_path.surface == Surface::outer) t.wall = {cut_path.outer_radius, cut_path.inner_radius()};
   if (t.closed) TRY(close(t, cut_path.scrap));
   TRY(check_duplicates(t));
   TRY(check_turns(t));

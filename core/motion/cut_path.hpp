@@ -8,6 +8,7 @@
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
 #include "core/motion/machine.hpp"
+#include "core/motion/straight_edges.hpp"
 
 namespace tubecut::motion {
 
@@ -79,7 +80,8 @@ struct Track {
   std::vector<CutPoint> points = {};
   double radius = 0.0;  // of the surface the points lie on
   bool closed = false;
-  int turns = 0;  // of a stretch: the orientation of what it is of
+  int turns = 0;        // of a stretch: the orientation of what it is of
+  WallRadii wall = {};  // of points on the outer surface: what their beams go through
 
   /// Distance of two points along the developed surface, mm; B plays no part.
   [[nodiscard]] double tip_step(std::size_t from, std::size_t to) const;

@@ -132,9 +132,8 @@ Line line_of(const Track& cut, double past_start) {
     const auto &from = cut.points[index(k)], &to = cut.points[index(k + 1)];
     const double step = cut.tip_step(index(k), index(k + 1));
     if (step == 0.0 || (k > 0 && from.corner)) break;
-    const double u = std::min(1.0, left / step);
-    out = {from.b + u * (to.b - from.b), from.beam + u * (to.beam - from.beam),
-           from.a + u * (to.a - from.a)};
+    const auto at = between(cut.wall, from, to, std::min(1.0, left / step));
+    out = {at.b, at.beam, at.a};
     left -= step;
   }
   return out;

@@ -20,10 +20,10 @@ std::pair<std::size_t, std::size_t> points_at(const std::vector<double>& length,
 
 }  // namespace
 
-CutPoint between(const CutPoint& a, const CutPoint& b, double share) {
-  const auto mix = [share](double from, double to) { return from + share * (to - from); };
-  return {mix(a.phi, b.phi),   mix(a.z, b.z), mix(a.b, b.b), false,
-          mix(a.beam, b.beam), mix(a.a, b.a)};
+CutPoint between(const WallRadii& wall, const CutPoint& a, const CutPoint& b, double share) {
+  const auto at =
+      between(wall, TorchLean{a.phi, a.z, a.b, a.a}, TorchLean{b.phi, b.z, b.b, b.a}, share);
+  return {at.phi, at.z, at.b, false, a.beam + share * (b.beam - a.beam), at.a};
 }
 
 std::vector<CutPoint> first_stretch(const Track& t, double length) {
@@ -31,7 +31,8 @@ std::vector<CutPoint> first_stretch(const Track& t, double length) {
   for (std::size_t i = 1; i < t.points.size() && length > kSamePlace; ++i) {
     const double step = t.tip_step(i - 1, i);
     const bool whole = step <= length + kSamePlace;
-    out.push_back(whole ? t.points[i] : between(t.points[i - 1], t.points[i], length / step));
+    out.push_back(whole ? t.points[i]
+                        : between(t.wall, t.points[i - 1], t.points[i], length / step));
     length -= step;
   }
   return out;
@@ -47,11 +48,11 @@ CutPoint at_length(const Track& whole, const std::vector<double>& length, double
   const auto [first, past] = points_at(length, at);
   if (first < past || past == length.size()) return whole.points[past - 1];
   const double share = (at - length[past - 1]) / (length[past] - length[past - 1]);
-  return between(whole.points[past - 1], whole.points[past], share);
+  return between(whole.wall, whole.points[past - 1], whole.points[past], share);
 }
 
 Track stretch_of(const Track& whole, const std::vector<double>& length, double from, double to) {
-  Track out{.radius = whole.radius, .turns = whole.orientation()};
+  Track out{.radius = whole.radius, .turns = whole.orientation(), .wall = whole.wall};
   const auto begin = points_at(length, from), end = points_at(length, to);
   if (begin.first == begin.second) out.points.push_back(at_length(whole, length, from));
   const auto all = whole.points.begin();

@@ -6,8 +6,10 @@
 
 namespace tubecut::motion {
 
-/// The point so far along the chord from one to the other, 0 to 1; no corner.
-[[nodiscard]] CutPoint between(const CutPoint& a, const CutPoint& b, double share);
+/// The point so far along the way from one to the other, 0 to 1, at which both edges are on their
+/// straight lines; no corner. `wall`: of the track.
+[[nodiscard]] CutPoint between(const WallRadii& wall, const CutPoint& a, const CutPoint& b,
+                               double share);
 
 /// The first `length` mm of a track, its start point included. Here and below, a place within 1e-8
 /// mm of a point is that point: none stands twice.
