@@ -67,7 +67,7 @@ struct PulseSchedules {
       {"torch_lit", "0", "periods"},
       {"pierce_place", "half a pulse of every axis", "mm"},
       {"pierce_delay", "0", "s"},
-      {"tab_width", "1e-6", "mm"},
+      {"tab_width", "half a pulse of every axis, on both sides", "mm"},
       {"rapid_clearance", "half a pulse of height and swing", "mm"},
       {"nested cut", "the checks of its own endpoint", ""},
   }};

@@ -13,6 +13,7 @@
 #include "core/motion/invariants.hpp"
 #include "core/motion/reconstruction.hpp"
 #include "core/torch/stretches.hpp"
+#include "core/torch/tab_width.hpp"
 
 namespace tubecut::torch {
 namespace {
@@ -22,7 +23,7 @@ using motion::EventKind;
 using motion::Worst;
 
 constexpr double kRounding = 1e-9;     // s, mm
-constexpr double kTabRounding = 1e-6;  // mm, what a tab's place is found within
+constexpr double kTabRounding = 2e-6;  // mm, what a tab's place is found within
 
 /// The worst of checks of one name.
 class WorstOf {
@@ -233,25 +234,75 @@ class Between {
   Worst pierce_ = {}, delay_ = {}, clear_ = {};
 };
 
-/// The metal of every tab, from the stretch that ends there to the one that goes on, or the first.
-///
-/// Errors  those of torch_border.
-Result<void> see_tabs(const Looked& l, WorstOf& out) {
-  motion::PartBorder border;  // of the cut whose stretches these are
-  for (std::size_t k = 0; k < l.cuts.size(); ++k) {
-    const auto& cut = l.cuts[k];
-    if (!cut.way.points.stretch) continue;
-    const bool ends = cut.stretch + 1 == cut.stretches;
-    const auto& next = l.cuts[ends ? k - cut.stretch : k + 1];
-    const auto& tabs = *l.spec.setup.tabs;
-    if (cut.stretch == 0) {
-      TRY(border, torch_border(cut.cut, l.stop));
+/// The metal of every tab by the counts: from the stretch that ends there to the one that goes on,
+/// or the first.
+class SeenTabs {
+ public:
+  explicit SeenTabs(const Looked& l) : l_(l) {
+    for (std::size_t k = 0; k < l.cuts.size(); ++k) {
+      const auto& cut = l.cuts[k];
+      const bool any = cut.way.points.stretch;
+      const auto beside =
+          any ? beside_tab(cut.cut, tabs(), cut.way, l.cuts[next(k)].way) : BesideTab{};
+      const auto into =
+          any ? beside_tab(cut.cut, tabs(), l.cuts[before(k)].way, cut.way) : BesideTab{};
+      trails_.emplace_back(cut.cut.path.radius(), into.start, beside.end);
     }
-    const double metal = metal_between(border, cut.cut, tabs, cut.way, next.way, l.stop);
-    out.see({"tab_width", worst_of({0.0, tabs.width - metal}), kTabRounding, "mm"});
   }
-  return {};
-}
+
+  /// The counts of a cut's segment; `turns`: of its winding.
+  void follow(std::size_t k, double turns, const motion::Counted& counted) {
+    const auto& cut = l_.cuts[k];
+    if (!cut.way.points.stretch) return;
+    const motion::Reconstruction torch(cut_job(l_.spec, cut, turns));
+    if (!(torch.knows(0) && torch.knows(1))) return;
+    const auto& machine = l_.spec.machine;
+    const double sign = machine.b_positive == motion::BPositive::outer_edge_to_waste ? -1.0 : 1.0;
+    motion::AxisValues values(counted, machine);
+    const auto add = [&] {
+      const auto x = torch.at(values.now());
+      trails_[k].add({.phi = x[0] - turns, .z = x[1], .b = sign * x[2]});
+    };
+    add();
+    for (std::size_t p = 0; p < counted.periods && !stops(l_.stop, p); ++p) {
+      values.step(p);
+      add();
+    }
+  }
+
+  /// Errors  those of torch_border.
+  Result<void> report(WorstOf& out) const {
+    motion::PartBorder border;  // of the cut whose stretches these are
+    for (std::size_t k = 0; k < l_.cuts.size(); ++k) {
+      const auto& cut = l_.cuts[k];
+      if (!cut.way.points.stretch) continue;
+      if (cut.stretch == 0) {
+        TRY(border, torch_border(cut.cut, l_.stop));
+      }
+      const auto &end = trails_[k].end(), &start = trails_[next(k)].start();
+      if (end.empty() || start.empty()) continue;
+      const double metal = metal_between(border, cut.cut.kerf, end, start, l_.stop);
+      const motion::Reconstruction torch(cut_job(l_.spec, cut, 0.0));
+      out.see({"tab_width", worst_of({0.0, tabs().width - metal}),
+               tab_rounding(torch, cut) + kTabRounding, "mm"});
+    }
+    return {};
+  }
+
+ private:
+  [[nodiscard]] const Tabs& tabs() const { return *l_.spec.setup.tabs; }
+  [[nodiscard]] std::size_t next(std::size_t k) const {
+    const auto& cut = l_.cuts[k];
+    return cut.stretch + 1 == cut.stretches ? k - cut.stretch : k + 1;
+  }
+  [[nodiscard]] std::size_t before(std::size_t k) const {
+    const auto& cut = l_.cuts[k];
+    return cut.stretch == 0 ? k + cut.stretches - 1 : k - 1;
+  }
+
+  const Looked& l_;
+  std::vector<Trail> trails_ = {};
+};
 
 /// All that can be told where the segments are the program's.
 ///
@@ -259,6 +310,7 @@ Result<void> see_tabs(const Looked& l, WorstOf& out) {
 Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double& deviation) {
   WorstOf all;
   Between between(l);
+  SeenTabs tabs(l);
   const auto turns = windings(l.cuts);
   std::vector<std::int64_t> sums(l.counted.counts.size(), 0);
   for (const auto& segment : l.segments) {
@@ -274,6 +326,7 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
       const auto followed = motion::path_invariants(job, prepared, part, own, l.stop);
       for (const auto& check : followed.checks) all.see(check);
       worsen(deviation, followed.deviation);
+      tabs.follow(segment.cut, turns[segment.cut], part);
     }
     add_up(part, l.stop, sums);
   }
@@ -281,7 +334,7 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
   for (const auto& check : motion::rate_invariants(machine, l.counted, l.spec.motion.jerk, l.stop))
     all.see(check);
   all.see({"torch_lit", wrongly_lit(l), 0.0, "periods"});
-  TRY(see_tabs(l, all));
+  TRY(tabs.report(all));
   between.report(all);
   for (auto& check : all.checks()) out.push_back(std::move(check));
   return {};

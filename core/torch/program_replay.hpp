@@ -26,7 +26,7 @@ struct ProgramReplaySpec {
 ///   torch_lit         periods lit in a rapid or a mark, or dark in a cut; the marking tool
 ///   likewise pierce_place      mm from where the pierce of the program is, its height with it
 ///   pierce_delay      s that a pierce stands still for less than asked
-///   tab_width         mm by which a tab is narrower than asked
+///   tab_width         mm by which a tab is narrower than asked, by the counts
 ///   rapid_clearance   mm by which the tip is lower than asked while anything else moves
 ///
 /// Errors  wrong_count, bad_number, and those of the job itself.

@@ -9,6 +9,7 @@
 #include "core/base/try.hpp"
 #include "core/motion/places.hpp"
 #include "core/motion/straight_move.hpp"
+#include "core/torch/tab_width.hpp"
 #include "core/torch/torch_stand.hpp"
 
 namespace tubecut::torch {
@@ -352,7 +353,7 @@ Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec, const std:
           cut,
           Issue{.code = ErrorCode::unsupported_combination,
                 .hint = "its torch leans across the tube, and the machine has no axis for it"}));
-    auto made = program_cut(cut, spec.setup, &cut == &spec.cuts.back(), stop);
+    auto made = followed_cut(spec, cut, &cut == &spec.cuts.back(), stop);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (!made) return tl::unexpected(told_of(cut, std::move(made).error()));
     std::ranges::move(*made, std::back_inserter(out));

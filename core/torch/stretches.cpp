@@ -66,19 +66,6 @@ double way_in(const TorchWay& way, double radius) {
   return motion::lengths_along(track).back();
 }
 
-/// The points of a way within `length` of its end, or of its start.
-Points near_end(const Points& way, double radius, double length, bool end) {
-  Points out;
-  double gone = 0.0;
-  for (std::size_t k = 0; k < way.size() && gone <= length; ++k) {
-    const auto& p = way[end ? way.size() - 1 - k : k];
-    if (!out.empty())
-      gone += elementary::hypot(radius * (p.phi - out.back().phi), p.z - out.back().z);
-    out.push_back(p);
-  }
-  return out;
-}
-
 Points turned(Points points, double by) {
   for (auto& p : points) p.phi += by;
   return points;
@@ -110,13 +97,17 @@ std::vector<double> tab_ends(const motion::Track& whole, const std::vector<doubl
 
 class TabbedWays {
  public:
+  /// `more`: of each tab, mm.
   TabbedWays(motion::Track whole, motion::PartBorder border, const TorchCut& cut, const Tabs& tabs,
-             const std::stop_token& stop)
+             std::vector<double> more, const std::stop_token& stop)
       : whole_(std::move(whole)),
         length_(motion::lengths_along(whole_)),
         border_(std::move(border)),
         least_(tabs.width + cut.kerf),
-        stop_(stop) {}
+        more_(std::move(more)),
+        stop_(stop) {
+    more_.resize(static_cast<std::size_t>(tabs.count), 0.0);
+  }
 
   /// With the lead halved, down to kShortestLead, until it leaves the tabs in which scrap holds on:
   /// in a small hole it reaches far across.
@@ -147,8 +138,8 @@ class TabbedWays {
     for (std::size_t k = 0; k < out.size(); ++k) {
       const double begin = k == 0 ? 0.0 : ends[k - 1];
       const bool last = k + 1 == out.size();
-      TRY(const auto gap,
-          gap_before({begin, ends[k]}, out[last ? 0 : k + 1], last ? kTwoPi * whole_.turns : 0.0));
+      TRY(const auto gap, gap_before({begin, ends[k]}, least_ + more_[k], out[last ? 0 : k + 1],
+                                     last ? kTwoPi * whole_.turns : 0.0));
       end_at({begin, ends[k] - gap}, out[k]);
     }
     return out;
@@ -167,23 +158,24 @@ class TabbedWays {
 
   /// How long before its end the tab begins, mm: first by the cut's end alone, which is the nearest
   /// mostly, then by all that lies near it.
-  Result<double> gap_before(const Stretch& s, const TorchWay& after, double turn) {
-    const double along = kNear * least_ + way_in(after, whole_.radius);
+  /// `least`: from axis to axis.
+  Result<double> gap_before(const Stretch& s, double least, const TorchWay& after, double turn) {
+    const double along = kNear * least + way_in(after, whole_.radius);
     const auto near =
         on_walls(border_, turned(near_end(after.points.points, whole_.radius, along, false), turn));
     const auto end_is_off = [&](double gap) {
       const auto end = on_walls(border_, {motion::at_length(whole_, length_, s.to - gap)});
-      return distance(end, near, stop_) >= least_;
+      return distance(end, near, stop_) >= least;
     };
     const auto all_is_off = [&](double gap) {
       const auto points = motion::stretch_of(whole_, length_, s.from, s.to - gap).points;
-      const auto end = near_end(points, whole_.radius, kNear * least_, true);
-      return apart(on_walls(border_, end), near, stop_) >= least_ - kExact;
+      const auto end = near_end(points, whole_.radius, kNear * least, true);
+      return apart(on_walls(border_, end), near, stop_) >= least - kExact;
     };
-    const double most = std::min(kWidest * least_, 0.5 * (s.to - s.from));
-    double gap = least_;
+    const double most = std::min(kWidest * least, 0.5 * (s.to - s.from));
+    double gap = least;
     while (gap <= most && !end_is_off(gap)) gap += kStep;
-    if (gap <= most) gap = least_gap(std::max(least_, gap - kStep), gap, end_is_off);
+    if (gap <= most) gap = least_gap(std::max(least, gap - kStep), gap, end_is_off);
     while (gap <= most && !stop_.stop_requested() && !all_is_off(gap)) gap += kStep;
     if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (gap > most)
@@ -218,6 +210,7 @@ class TabbedWays {
   std::vector<double> length_;  // mm along it, of its points
   motion::PartBorder border_;
   double least_;  // mm, from axis to axis of the torch
+  std::vector<double> more_;
   const std::stop_token& stop_;
 };
 
@@ -240,25 +233,49 @@ bool holds(const Tabs& tabs, const TorchCut& cut, bool last) {
 }
 
 Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut, const Approach& approach,
-                                                const Tabs& tabs, const std::stop_token& stop) {
+                                                const Tabs& tabs, const std::vector<double>& more,
+                                                const std::stop_token& stop) {
   const auto path = motion::without_repeats(cut.path);
   TRY(auto whole, motion::track(path));
   TRY(auto from, motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
   TRY(auto border, torch_border(cut, stop));
-  return TabbedWays(std::move(from), std::move(border), cut, tabs, stop)
+  return TabbedWays(std::move(from), std::move(border), cut, tabs, more, stop)
       .run(approach.lead, tabs.count);
+}
+
+BesideTab beside_tab(const TorchCut& cut, const Tabs& tabs, const TorchWay& before,
+                     const TorchWay& after) {
+  const double radius = cut.path.radius(), near = kNear * (tabs.width + cut.kerf);
+  const auto& ended = before.points.points;
+  const auto first = static_cast<std::ptrdiff_t>(before.points.cut_first);
+  const motion::Track track{.points = {ended.begin() + first, ended.end()}, .radius = radius};
+  return {std::min(near, motion::lengths_along(track).back()), near + way_in(after, radius)};
+}
+
+Points near_end(const Points& way, double radius, double length, bool end) {
+  Points out;
+  double gone = 0.0;
+  for (std::size_t k = 0; k < way.size() && gone <= length; ++k) {
+    const auto& p = way[end ? way.size() - 1 - k : k];
+    if (!out.empty())
+      gone += elementary::hypot(radius * (p.phi - out.back().phi), p.z - out.back().z);
+    out.push_back(p);
+  }
+  return out;
+}
+
+double metal_between(const motion::PartBorder& border, double kerf, const Points& end,
+                     const Points& start, const std::stop_token& stop) {
+  const double turn = kTwoPi * std::floor((end.front().phi - start.front().phi) / kTwoPi + 0.5);
+  return apart(on_walls(border, end), on_walls(border, turned(start, turn)), stop) - kerf;
 }
 
 double metal_between(const motion::PartBorder& border, const TorchCut& cut, const Tabs& tabs,
                      const TorchWay& before, const TorchWay& after, const std::stop_token& stop) {
-  const double radius = cut.path.radius(), near = kNear * (tabs.width + cut.kerf);
-  const auto& ended = before.points.points;
-  const auto first = static_cast<std::ptrdiff_t>(before.points.cut_first);
-  const auto end = near_end({ended.begin() + first, ended.end()}, radius, near, true);
-  const auto ahead = near_end(after.points.points, radius, near + way_in(after, radius), false);
-  const double turn = kTwoPi * std::floor((end.front().phi - ahead.front().phi) / kTwoPi + 0.5);
-  const auto next = turned(ahead, turn);
-  return apart(on_walls(border, end), on_walls(border, next), stop) - cut.kerf;
+  const auto beside = beside_tab(cut, tabs, before, after);
+  const double radius = cut.path.radius();
+  return metal_between(border, cut.kerf, near_end(before.points.points, radius, beside.end, true),
+                       near_end(after.points.points, radius, beside.start, false), stop);
 }
 
 }  // namespace tubecut::torch

@@ -19,6 +19,7 @@ Approach approach(const TorchCut& cut, const Setup& setup) {
 }
 
 Result<std::vector<ProgramCut>> program_cut(const TorchCut& cut, const Setup& setup, bool last,
+                                            const std::vector<double>& more,
                                             const std::stop_token& stop) {
   const auto from = approach(cut, setup);
   std::vector<ProgramCut> out;
@@ -27,7 +28,7 @@ Result<std::vector<ProgramCut>> program_cut(const TorchCut& cut, const Setup& se
     out.push_back({.cut = cut, .way = std::move(way), .start = from.start.at});
     return out;
   }
-  TRY(auto ways, ways_between_tabs(cut, from, *setup.tabs, stop));
+  TRY(auto ways, ways_between_tabs(cut, from, *setup.tabs, more, stop));
   for (auto& way : ways) {
     const auto i = out.size();
     out.push_back({.cut = cut,

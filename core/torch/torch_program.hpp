@@ -45,12 +45,14 @@ struct ProgramCut {
   [[nodiscard]] const motion::CutPoint& last() const { return way.points.points.back(); }
 };
 
-/// A cut that has tabs, in its stretches, each named by its number; `last`: of the program.
+/// A cut that has tabs, in its stretches, each named by its number; `last`: of the program. `more`:
+/// as of ways_between_tabs.
 ///
 /// Errors  as torch_way and ways_between_tabs; unsupported_combination (tabs of a cut in two
 ///         passes).
 [[nodiscard]] Result<std::vector<ProgramCut>> program_cut(const TorchCut& cut, const Setup& setup,
                                                           bool last,
+                                                          const std::vector<double>& more = {},
                                                           const std::stop_token& stop = {});
 
 /// Whole turns of the tube by which each cut's phi goes on from where the cut before left it, the
