@@ -1,10 +1,10 @@
 #include "api/post.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "api/file_name.hpp"
+#include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
 #include "api/limits.hpp"
 #include "api/stop.hpp"
@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t kLongestLine = 120;
 constexpr CountRange kSomeLines{.min = 0, .max = 20};
-constexpr double kTurn = 360.0;  // deg
-constexpr std::string_view kLetters = "ABCUVWXYZ";
 
 using Names = std::initializer_list<std::string_view>;
 
@@ -26,6 +24,14 @@ std::string feed_word(double feed) {
   int decimals = 3;
   for (double v = std::max(feed, kLeast); v < 1e3 && decimals < 9; v *= 10.0) ++decimals;
   return fixed(std::max(feed, kLeast), decimals);
+}
+
+/// So many decimals and no zeros behind them.
+std::string inches(double value, int decimals) {
+  auto out = fixed(value, decimals);
+  out.erase(out.find_last_not_of('0') + 1);
+  if (out.back() == '.') out.pop_back();
+  return out;
 }
 
 /// From a brace to the next that closes one.
@@ -148,71 +154,79 @@ std::optional<std::string> read_file_name(Reader& in) {
   return out;
 }
 
-/// `turns`: by degrees, `rolls`: round and round.
-PostAxis decode_axis(Reader& in, bool turns, bool rolls) {
-  PostAxis out;
-  const auto letter = in.ascii_text("letter", 1);
-  if (!letter.empty() && kLetters.find(letter) == std::string_view::npos)
-    in.issue({.code = ErrorCode::bad_choice,
-              .pointer = "letter",
-              .limit = Json{std::string(kLetters)},
-              .hint = "one of " + std::string(kLetters)},
-             in.find("letter"));
-  if (!letter.empty()) out.letter = letter.front();
-  out.reversed = in.flag("reversed", false);
-  out.offset = in.number(turns ? "offset_deg" : "offset_mm", kOffset, 0.0);
-  out.decimals = in.integer("decimals", 2, 9);
-  if (rolls) out.within_turn = in.flag("within_turn", false);
-  return out;
+/// Millimetres unless it is said; absent it is not echoed, and the document stays as it was sent.
+PostUnits read_units(Reader& in) {
+  in.note("units");
+  return in.has("units") ? in.choice("units", PostUnits::mm) : PostUnits::mm;
 }
 
-void decode_axes(Reader& in, Post& out) {
-  std::string taken;
-  for (std::size_t role = 0; role < kPostRoles.size(); ++role) {
-    const auto as = static_cast<PostRole>(role);
-    const std::string_view name = kPostRoles[role];
-    const bool turns = as >= PostRole::turn;
-    const auto decode = [&](Reader& r) {
-      auto axis = decode_axis(r, turns, as == PostRole::turn);
-      if (r.understood("letter") && taken.find(axis.letter) != std::string::npos)
-        r.issue({.code = ErrorCode::duplicate_id,
-                 .pointer = "letter",
-                 .hint = "another axis has this letter"},
-                r.find("letter"));
-      taken += axis.letter;
-      return axis;
-    };
-    const bool needed = as == PostRole::along || as == PostRole::turn;
-    out.axes[role] =
-        needed ? std::optional(in.object(name, decode)) : in.optional_object(name, decode);
-  }
+/// A word that makes the control count in other units than the numbers have.
+void check_units(Reader& in, const Post& post, const std::string& pointer,
+                 const std::string& line) {
+  const auto word = other_units(line, post.comment_begin, post.comment_end, post.units);
+  if (!word) return;
+  const std::string theirs(name_of(word->units)), ours(name_of(post.units));
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = pointer,
+            .got = Json{line},
+            .limit = Json{ours},
+            .hint = word->word + " makes the control count " + theirs +
+                    ", and the numbers of this post are " + ours + ": " +
+                    (in.has("units") ? "take the word out, or state units: " : "state units: ") +
+                    theirs});
+}
+
+void check_units(Reader& in, const Post& p) {
+  const std::pair<const char*, const Post::Lines*> all[] = {{"begin", &p.begin},
+                                                            {"speed", &p.speed},
+                                                            {"modes", &p.modes},
+                                                            {"tool", &p.tool},
+                                                            {"torch_on", &p.torch_on},
+                                                            {"torch_off", &p.torch_off},
+                                                            {"mark_on", &p.mark_on},
+                                                            {"mark_off", &p.mark_off},
+                                                            {"cut_begin", &p.cut_begin},
+                                                            {"cut_end", &p.cut_end},
+                                                            {"end", &p.end}};
+  for (const auto& [name, lines] : all)
+    for (std::size_t i = 0; i < lines->size(); ++i)
+      check_units(in, p, std::string(name) + "/" + std::to_string(i), (*lines)[i]);
+  const std::pair<const char*, const std::string*> single[] = {{"rapid", &p.rapid},
+                                                               {"dwell", &p.dwell},
+                                                               {"cut_move", &p.cut_move},
+                                                               {"timed_move", &p.timed_move}};
+  for (const auto& [name, line] : single) check_units(in, p, name, *line);
 }
 
 }  // namespace
 
-double PostAxis::written(double value) const {
-  const auto text = fixed((reversed ? -value : value) + offset, decimals);
-  double out = 0.0;
-  std::from_chars(text.data(), text.data() + text.size(), out);
-  return out;
+std::string Post::length_number(double mm) const {
+  return is_inch() ? inches(mm / kMmPerInch, 4) : number(mm, Unit::mm);
 }
 
-double PostAxis::counted(double value) const {
-  const double out = (reversed ? -value : value) + offset;
-  if (!within_turn) return out;
-  const double turned = out - kTurn * std::floor(out / kTurn);
-  return fixed(turned, decimals) == fixed(kTurn, decimals) ? 0.0 : turned;
+std::string Post::length(double mm) const {
+  return length_number(mm) + (is_inch() ? " in" : " mm");
 }
 
-std::string PostAxis::word(double value) const {
-  return std::string(1, letter) + fixed(counted(value), decimals);
+std::string Post::speed_text(double mm_min) const {
+  return is_inch() ? inches(mm_min / kMmPerInch, 2) + " in/min" : measure(mm_min, Unit::mm_min);
 }
 
-std::string PostAxis::zero() const {
-  auto out = fixed(offset, decimals);
-  out.erase(out.find_last_not_of('0') + 1);
-  if (out.back() == '.') out.pop_back();
-  return letter + out;
+std::string Post::bound(double mm) const {
+  const double steps = is_inch() ? 1e5 : 1e3;
+  return fixed(std::ceil(in_units(mm) * steps) / steps, is_inch() ? 5 : 3) +
+         (is_inch() ? " in" : " mm");
+}
+
+std::string Post::speed_word(double mm_min) const {
+  return fixed(in_units(mm_min), is_inch() ? 5 : 3);
+}
+
+std::string Post::length_word(double mm) const { return fixed(in_units(mm), is_inch() ? 8 : 6); }
+
+std::string Post::way_feed(double units_per_minute) const {
+  constexpr double kLeast = 1e-3;  // mm/min
+  return fixed(std::max(units_per_minute, in_units(kLeast)), is_inch() ? 5 : 3);
 }
 
 std::string Post::comment(std::string_view text) const {
@@ -289,13 +303,14 @@ Post decode_post(Reader& in) {
   in.text_column("checked_with", kSomeLines, kLongestLine);
   in.text_column("not_checked", kSomeLines, kLongestLine);
   if (out.is_point_pairs()) return out;
+  out.units = read_units(in);
   if (auto whose = in.optional_text("pierce_by_control", kLongestLine)) out.of_control = *whose;
   out.comment_begin = in.ascii_text("comment_begin", 4);
   out.comment_end = read_comment_end(in);
   out.comment_upper_case = in.flag("comment_upper_case", false);
   out.block_numbers = in.integer("block_numbers", 0, 1'000, 0);
   out.begin = read_lines(in, "begin");
-  out.speed = read_lines(in, "speed", {"speed_mm_min"});
+  out.speed = read_lines(in, "speed", {"speed_mm_min", "speed"});
   out.modes = read_lines(in, "modes");
   out.tool = read_lines(in, "tool");
   out.torch_on = read_lines(in, "torch_on");
@@ -312,20 +327,21 @@ Post decode_post(Reader& in) {
   out.end = read_lines(in, "end");
   out.rapid = read_line(in, "rapid", {"axes"}, {{"axes"}});
   out.dwell = read_line(in, "dwell", {"seconds"}, {{"seconds"}});
-  out.cut_move = read_line(
-      in, "cut_move",
-      {"axes", "length_mm", "per_minute", "units_per_minute", "linear_units_per_minute",
-       "axes_feeds"},
-      {{"axes"},
-       {"length_mm", "per_minute", "units_per_minute", "linear_units_per_minute", "axes_feeds"}});
+  out.cut_move = read_line(in, "cut_move",
+                           {"axes", "length_mm", "length", "per_minute", "units_per_minute",
+                            "linear_units_per_minute", "axes_feeds"},
+                           {{"axes"},
+                            {"length_mm", "length", "per_minute", "units_per_minute",
+                             "linear_units_per_minute", "axes_feeds"}});
   out.timed_move = read_line(
       in, "timed_move",
       {"axes", "per_minute", "units_per_minute", "linear_units_per_minute", "axes_feeds"},
       {{"axes"}, {"per_minute", "units_per_minute", "linear_units_per_minute", "axes_feeds"}});
   in.object("axes", [&](Reader& axes) {
-    decode_axes(axes, out);
+    out.axes = decode_post_axes(axes, out.units);
     return 0;
   });
+  check_units(in, out);
   return out;
 }
 

@@ -9,32 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "api/post_axis.hpp"
+#include "api/post_units.hpp"
 #include "api/reader.hpp"
 
 namespace tubecut::api {
-
-/// What a control's axis is called and how it counts: what is written is the program's value,
-/// turned round or not, and the offset.
-struct PostAxis {
-  char letter = 'X';
-  bool reversed = false;
-  double offset = 0.0;  // mm or deg
-  int decimals = 0;
-  bool within_turn = false;  // counts from 0 to below 360 deg
-
-  [[nodiscard]] double counted(double value) const;
-  /// "X-1.50000"
-  [[nodiscard]] std::string word(double value) const;
-  /// The same number without what `within_turn` takes off it: what ways are told from.
-  [[nodiscard]] double written(double value) const;
-  /// Where the program's zero is: "A0".
-  [[nodiscard]] std::string zero() const;
-};
-
-/// What an axis does. `along` and `out` are the tube's length and the way off it, `across` square
-/// to both; `turn` turns the tube, `swing` leans the torch along it, `tilt` across it.
-enum class PostRole { along, out, across, turn, swing, tilt };
-inline constexpr std::array kPostRoles{"along", "out", "across", "turn", "swing", "tilt"};
 
 /// What a program is: blocks in a control's words, or the places of both edges as JSON.
 enum class PostKind { blocks, point_pairs };
@@ -47,6 +26,7 @@ struct Post {
 
   std::string name;
   PostKind kind = PostKind::blocks;
+  PostUnits units = PostUnits::mm;
   std::optional<std::string> file_name;  // a line of file_name.hpp's values
   std::string comment_begin, comment_end;
   bool comment_upper_case = false;
@@ -61,6 +41,21 @@ struct Post {
     return axes[static_cast<std::size_t>(role)];
   }
   [[nodiscard]] bool is_point_pairs() const { return kind == PostKind::point_pairs; }
+  [[nodiscard]] bool is_inch() const { return units == PostUnits::inch; }
+
+  /// Millimetres in the units of the post.
+  [[nodiscard]] double in_units(double mm) const { return is_inch() ? mm / kMmPerInch : mm; }
+  /// The same for a person: "12.5" and "12.5 mm", or "0.4921" and "0.4921 in".
+  [[nodiscard]] std::string length_number(double mm) const;
+  [[nodiscard]] std::string length(double mm) const;
+  /// Of mm/min: "600 mm/min", "23.62 in/min".
+  [[nodiscard]] std::string speed_text(double mm_min) const;
+  /// An upper bound, mm: rounded up in the last decimal, "0.019 mm" or "0.00075 in".
+  [[nodiscard]] std::string bound(double mm) const;
+  /// Of values of a block, as a control reads them.
+  [[nodiscard]] std::string speed_word(double mm_min) const;
+  [[nodiscard]] std::string length_word(double mm) const;
+  [[nodiscard]] std::string way_feed(double units_per_minute) const;
   /// A comment line; what is a client's passes gcode_text, which leaves nothing that ends one.
   [[nodiscard]] std::string comment(std::string_view text) const;
   /// The blocks of a program numbered, where the post has that: all but comments and `begin`.

@@ -7,6 +7,7 @@
 #include "api/formats/development.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/formats/part_marks.hpp"
+#include "api/post.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
 #include "api/verdict.hpp"
@@ -230,7 +231,7 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       tables += comment(cut.name + " is " + dstv_text(cut.label)) + comment("cut " + cut.name);
       append(tables, sidecar(spec.target, hole, caption.stop), caption.stop);
     } else if (step.what == part::Step::What::mark) {
-      marks += comment(dstv_text(mark_by_hand(part.marks[step.index])));
+      marks += comment(dstv_text(mark_by_hand(part.marks[step.index], Post{})));
     } else {
       const bool at_start = step.what == part::Step::What::start;
       const auto& table = at_start ? part.start.table : part.finish.table;

@@ -94,8 +94,7 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
       .pivot = o.pivot_length ? *o.pivot_length + o.cut_height.value_or(0.0) : 0.0};
   std::vector<TorchCutPlaces> out;
   for (const auto& cut : job.cuts) {
-    const auto laid =
-        torch::program_cut(cut, setup_of(o), &cut == &job.cuts.back(), {}, caption.stop);
+    const auto laid = torch::program_cut(cut, setup_of(o), &cut == &job.cuts.back(), {}, caption.stop);
     ask(caption.stop);
     if (!laid) refuse(cut, o, laid.error());
     for (const auto& each : *laid) {
@@ -118,22 +117,25 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
 
 std::string modes(const Caption& caption) {
   const auto& post = post_of(caption.options);
-  return post_lines(post.speed, {{"speed_mm_min", fixed(*caption.options.speed, 3)}}) +
+  const auto speed = post.speed_word(*caption.options.speed);
+  return post_lines(post.speed, {{"speed_mm_min", speed}, {"speed", speed}}) +
          post_lines(post.modes) + post_lines(post.tool);
 }
 
 /// A move in the time that the tool needs along `length` of the outer wall; a mark's has its own
-/// speed. `distance`: of all axes together.
+/// speed. `distance`: of all axes together, as they are written.
 std::string timed(const std::string& words, double length, double distance,
                   const std::vector<AxisMove>& moves, bool mark, const FormatOptions& o) {
   const double speed = mark ? o.mark_speed.value_or(*o.speed) : *o.speed;
   const double rate = speed / std::max(length, kSlow);  // 1/min
   const auto& post = post_of(o);
+  const auto way = post.length_word(std::max(length, kSlow));
   return post_line(mark ? post.timed_move : post.cut_move,
                    {{"axes", words},
-                    {"length_mm", fixed(std::max(length, kSlow), 6)},
+                    {"length_mm", way},
+                    {"length", way},
                     {"per_minute", fixed(rate, 6)},
-                    {"units_per_minute", fixed(std::max(distance * rate, kSlow), 3)},
+                    {"units_per_minute", post.way_feed(distance * rate)},
                     {"linear_units_per_minute", linear_feed(moves, rate)},
                     {"axes_feeds", axes_feeds(moves, rate)}});
 }
@@ -209,9 +211,9 @@ void tell_tabs(TorchJob& job, const FormatOptions& o) {
                       "no cut of this program is one of its " + std::string(name_of(o.tabs->of))};
   if (std::ranges::any_of(job.cuts, &torch::TorchCut::of_land))
     throw UnfitOption{"tabs", "the pass of a land and the bevel's would each leave its own"};
-  job.process.push_back("tabs: " + std::to_string(o.tabs->count) + " of " + mm(o.tabs->width) +
-                        " and more on both walls in each of " + std::to_string(held) +
-                        (held == 1 ? " cut" : " cuts") +
+  job.process.push_back("tabs: " + std::to_string(o.tabs->count) + " of " +
+                        post_of(o).length(o.tabs->width) + " and more on both walls in each of " +
+                        std::to_string(held) + (held == 1 ? " cut" : " cuts") +
                         ", each come onto square and without overcut: break them off, then dress "
                         "the edge");
 }
@@ -222,7 +224,7 @@ void tell_marks(TorchJob& job, const FormatOptions& o) {
   if (strokes == 0) throw UnfitOption{"marks", "only a part has marks"};
   job.process.push_back("marks: " + std::to_string(strokes) +
                         (strokes == 1 ? " stroke" : " strokes") + " at the cutting height, feed " +
-                        measure(o.mark_speed.value_or(*o.speed), Unit::mm_min) +
+                        post_of(o).speed_text(o.mark_speed.value_or(*o.speed)) +
                         (o.torch ? "" : ", the tool stays off"));
 }
 
@@ -233,7 +235,7 @@ void add_marks(const part::PartSpec& spec, const part::Part& part, const FormatO
     if (step.what != part::Step::What::mark) continue;
     const auto& mark = part.marks[step.index];
     if (!o.marks || mark.kind == part::Mark::Kind::part_mark)
-      job.by_hand.push_back(mark_by_hand(mark));
+      job.by_hand.push_back(mark_by_hand(mark, post_of(o)));
   }
   if (!o.marks) return;
   const auto& post = post_of(o);
@@ -250,7 +252,7 @@ void tell_lands(TorchJob& job, const FormatOptions& o) {
     const auto of = cut.name.empty() ? std::string("the cut") : "cut " + cut.name;
     refuse_land(of, cut.land, o);
     if (o.passes == Passes::bevel)
-      job.process.push_back(of + ": THE BEVEL ALONE, its land of " + mm(cut.land) +
+      job.process.push_back(of + ": THE BEVEL ALONE, its land of " + post_of(o).length(cut.land) +
                             " is left to a pass before it");
   }
   if (std::ranges::any_of(job.cuts, &torch::TorchCut::of_land))
@@ -303,8 +305,9 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part, const Cap
                .onward = "from the start to the finish",
                .line = "the datum line, phi 0,",
                .seen_from = "the start"};
-  out.lengths.push_back("blank " + mm(part.lengths.blank) + ", finished part " +
-                        mm(part.lengths.longest) + " from tip to tip");
+  const auto& post = post_of(caption.options);
+  out.lengths.push_back("blank " + post.length(part.lengths.blank) + ", finished part " +
+                        post.length(part.lengths.longest) + " from tip to tip");
   add_marks(spec, part, caption.options, out);
   return out;
 }

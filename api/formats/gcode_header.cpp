@@ -26,20 +26,44 @@ std::string growing(const PostAxis& axis) {
   return (axis.reversed ? "falling " : "growing ") + letter(axis);
 }
 
+/// What a turn is counted in that is no angle.
+std::string turn_word(const PostAxis& turn) {
+  switch (turn.unit) {
+    case TurnUnit::deg:
+      return "deg";
+    case TurnUnit::mm_girth:
+      return "mm of circumference";
+    case TurnUnit::inch_girth:
+      return "inch of circumference";
+    case TurnUnit::revolution:
+      return "revolutions";
+  }
+  return "";
+}
+
+/// How far a turn of the tube is on such an axis.
+std::string turn_unit(const PostAxis& turn, double outer_radius, const Post& post) {
+  if (!turn.is_girth()) return letter(turn) + " counts revolutions of the tube";
+  const double diameter = turn.diameter.value_or(2.0 * outer_radius);
+  constexpr double kTurn = 360.0;  // deg
+  return letter(turn) + " counts " + turn_word(turn) + " of a diameter of " +
+         post.length(diameter) + ", a turn is " + fixed(kTurn * turn.scale, turn.decimals);
+}
+
 /// One for all cuts, or each in their order; a mark has none.
-std::string kerfs(const std::vector<TorchCutPlaces>& cuts) {
+std::string kerfs(const std::vector<TorchCutPlaces>& cuts, const Post& post) {
   std::vector<double> all;
   for (const auto& cut : cuts)
     if (!cut.mark) all.push_back(cut.kerf);
-  auto out = number(all.front(), Unit::mm);
-  if (std::ranges::count(all, all.front()) == std::ssize(all)) return out + " mm";
-  for (std::size_t i = 1; i < all.size(); ++i) out += ", " + number(all[i], Unit::mm);
-  return out + " mm in the order of the cuts";
+  if (std::ranges::count(all, all.front()) == std::ssize(all)) return post.length(all.front());
+  std::string out;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) out += post.length_number(all[i]) + ", ";
+  return out + post.length(all.back()) + " in the order of the cuts";
 }
 
 /// What is read of the places alone.
 struct Extent {
-  double least = 0.0, most = 0.0;  // of the axis along the tube
+  double least = 0.0, most = 0.0;  // of the axis along the tube, mm
   double length = 0.0;             // of all cuts with their leads, mm
   std::size_t pierces = 0;
 };
@@ -47,7 +71,7 @@ struct Extent {
 Extent extent(const TorchJob& job, const std::vector<TorchCutPlaces>& cuts,
               const TorchJoints& joints, double off) {
   const auto along = [&](const TorchPlace& at) {
-    return joints.along().counted(joints.along_at(at, off));
+    return joints.along().counted(joints.along_at(at, off)) / joints.along().scale;
   };
   Extent out;
   out.least = out.most = along(cuts.front().places.front());
@@ -65,8 +89,16 @@ Extent extent(const TorchJob& job, const std::vector<TorchCutPlaces>& cuts,
 
 using Lines = std::vector<std::string>;
 
+/// "units mm, deg, mm/min".
+std::string units_line(const Post& post, const PostAxis& turn) {
+  const std::string units(name_of(post.units));
+  return "units " + units + ", deg, " + units + "/min" +
+         (turn.unit == TurnUnit::deg ? "" : ", " + letter(turn) + " in " + turn_word(turn));
+}
+
 /// Where the axes' zeros are, and which way they go.
 void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOptions& o, Lines& out) {
+  const auto& post = post_of(o);
   const auto& turn = joints.turn();
   const auto x = letter(joints.along());
   out.push_back(joints.along().zero() + ": " + job.zero + ", " + towards(joints.along()) + ": " +
@@ -74,6 +106,7 @@ void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOption
   // The generator of phi lies under the torch at A = phi, so that the tube turns against phi.
   out.push_back(turn.zero() + ": " + job.line + " under the torch, " + growing(turn) +
                 " turns the tube counter-clockwise, seen from " + job.seen_from);
+  if (turn.unit != TurnUnit::deg) out.push_back(turn_unit(turn, job.outer_radius, post));
   if (joints.has_swing())
     out.push_back(joints.swing().zero() + ": the torch square to the tube, " +
                   growing(joints.swing()) + " leans its upper end towards " +
@@ -92,7 +125,7 @@ void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOption
   if (o.pivot_length)
     out.push_back(carried +
                   (*o.pivot_length > 0.0
-                       ? "pivot of the torch, " + mm(*o.pivot_length) + " from its tip, "
+                       ? "pivot of the torch, " + post.length(*o.pivot_length) + " from its tip, "
                        : std::string("tip of the torch, ")) +
                   joints.out().zero() + ": the axis of the tube");
   else
@@ -105,17 +138,19 @@ void add_starts(const TorchJoints& joints, const FormatOptions& o, Lines& out) {
   if (post.of_control)
     out.push_back("heights and delay of the pierce: " + *post.of_control);
   else if (o.pivot_length)
-    out.push_back("pierce " + mm(o.pierce_height.value_or(cut)) + " off the wall, delay " +
-                  measure(o.pierce_delay.value_or(0.0), Unit::s) + ", cut " + mm(cut) +
+    out.push_back("pierce " + post.length(o.pierce_height.value_or(cut)) + " off the wall, delay " +
+                  measure(o.pierce_delay.value_or(0.0), Unit::s) + ", cut " + post.length(cut) +
                   " off it along the torch");
   else
     out.emplace_back("heights and the lift between cuts are of the control");
   if (o.lead.value_or(0.0) > 0.0) {
-    out.push_back("leads: arcs of 60 deg on the scrap side, radius " + mm(*o.lead) + ", overcut " +
-                  mm(o.overcut.value_or(motion::Lead{}.overcut)) + ", clear of the part");
+    out.push_back("leads: arcs of 60 deg on the scrap side, radius " + post.length(*o.lead) +
+                  ", overcut " + post.length(o.overcut.value_or(motion::Lead{}.overcut)) +
+                  ", clear of the part");
     if (!o.start)
-      out.push_back("each cut starts at its least bevel that is " + mm(motion::kFromJunction) +
-                    " and more off its junctions and off " + joints.turn().zero());
+      out.push_back("each cut starts at its least bevel that is " +
+                    post.length(motion::kFromJunction) + " and more off its junctions and off " +
+                    joints.turn().zero());
   }
 }
 
@@ -171,30 +206,31 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
   const auto& post = post_of(o);
   const auto found = extent(job, cuts, joints, o.cut_height.value_or(0.0));
   const double pierces = o.pierce_delay.value_or(0.0) * static_cast<double>(found.pierces);
-  Lines lines{"tube " + number(2.0 * job.outer_radius, Unit::mm) + " x " + mm(job.wall)};
+  Lines lines{"tube " + post.length_number(2.0 * job.outer_radius) + " x " + post.length(job.wall)};
   lines.insert(lines.end(), job.lengths.begin(), job.lengths.end());
-  lines.push_back("units mm, deg, mm/min");
+  lines.push_back(units_line(post, joints.turn()));
   add_axes(job, joints, o, lines);
-  lines.push_back(letter(joints.along()) + " from " + number(found.least, Unit::mm) + " to " +
-                  mm(found.most) + " while cutting");
-  lines.push_back("tool: torch, kerf " + kerfs(cuts) + ", applied to the path");
-  lines.push_back("feed " + measure(*o.speed, Unit::mm_min) + " on the outer wall");
+  lines.push_back(letter(joints.along()) + " from " + post.length_number(found.least) + " to " +
+                  post.length(found.most) + " while cutting");
+  lines.push_back("tool: torch, kerf " + kerfs(cuts, post) + ", applied to the path");
+  lines.push_back("feed " + post.speed_text(*o.speed) + " on the outer wall");
   lines.insert(lines.end(), job.process.begin(), job.process.end());
   add_starts(joints, o, lines);
   if (joints.has_pivot())
-    lines.push_back("between cuts the torch is lifted " + mm(joints.clearance()) +
+    lines.push_back("between cuts the torch is lifted " + post.length(joints.clearance()) +
                     " clear of the tube");
   else if (cuts.size() > 1)
     lines.emplace_back(
         "between cuts the control must lift the torch: after each that ends, before the rapid to "
         "the next");
   lines.push_back(std::to_string(found.pierces) + (found.pierces == 1 ? " cut, " : " cuts, ") +
-                  mm(found.length) + " in " +
+                  post.length(found.length) + " in " +
                   measure(60.0 * found.length / *o.speed + pierces, Unit::s) +
                   " with the delays of the pierce, without rapids");
   add_order(cuts, lines);
-  lines.push_back("moves: tip and both edges within " + fixed(std::ceil(moves.sag * 1e3) / 1e3, 3) +
-                  " mm of straight lines between the rows, blocks inserted for it: " +
+  lines.push_back("moves: tip and both edges within " +
+                  post.bound(moves.sag + joints.rounding(job.wall)) +
+                  " of straight lines between the rows, blocks inserted for it: " +
                   std::to_string(moves.inserted));
   lines.insert(lines.end(), job.by_hand.begin(), job.by_hand.end());
   auto out = gcode_job(caption) + gcode_torch(o);
@@ -208,16 +244,13 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
   std::string out;
   if (cut.mark) return post.comment(cut.name);
   if (!cut.name.empty()) out += post.comment("cut: " + cut.name);
-  const auto at = [](const PostAxis& axis, double deg) {
-    return letter(axis) + " " + fixed(axis.counted(deg), 3);
-  };
   if (o.lead.value_or(0.0) > 0.0 || o.start)
     out += post.comment(
-        "starts at " + at(joints.turn(), cut.start().phi * kDegPerRad) + ", " +
-        (joints.has_swing() ? at(joints.swing(), cut.start().b * kDegPerRad) + ", " : "") +
-        mm(cut.start().z) + " from " + joints.along().zero());
+        "starts at " + joints.turn().shown(cut.start().phi * kDegPerRad) + ", " +
+        (joints.has_swing() ? joints.swing().shown(cut.start().b * kDegPerRad) + ", " : "") +
+        post.length(cut.start().z) + " from " + joints.along().zero());
   if (cut.radius < o.lead.value_or(0.0))
-    out += post.comment("leads of " + mm(cut.radius) + ": the scrap has no room for more");
+    out += post.comment("leads of " + post.length(cut.radius) + ": the scrap has no room for more");
   return out;
 }
 

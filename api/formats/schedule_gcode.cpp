@@ -81,24 +81,36 @@ class Cones {
   std::vector<Cone> all_;
 };
 
-std::string words(const motion::Machine& machine, const motion::Schedule& s,
+/// A machine's axis in the units of a post.
+double in_units(const Post& post, motion::AxisUnit unit, double value) {
+  return unit == motion::AxisUnit::mm ? post.in_units(value) : value;
+}
+
+std::string word(const Post& post, char letter, motion::AxisUnit unit, double value) {
+  const bool inch = unit == motion::AxisUnit::mm && post.is_inch();
+  return letter + fixed(in_units(post, unit, value), inch ? 8 : 6);
+}
+
+std::string words(const motion::Machine& machine, const motion::Schedule& s, const Post& post,
                   const std::vector<char>& letters, const std::vector<std::int64_t>& sums) {
   std::string out;
   for (std::size_t a = 0; a < sums.size(); ++a) {
     const double per_unit = machine.axes[a].pulses_per_axis_unit();
-    out += std::string(out.empty() ? "" : " ") + letters[a] +
-           fixed(s.axes[a].start + static_cast<double>(sums[a]) / per_unit, 6);
+    out +=
+        (out.empty() ? "" : " ") + word(post, letters[a], machine.axes[a].unit,
+                                        s.axes[a].start + static_cast<double>(sums[a]) / per_unit);
   }
   return out;
 }
 
-/// How far all axes go, one deg as one mm.
-double distance(const motion::Machine& machine, const std::vector<std::int64_t>& from,
-                const std::vector<std::int64_t>& to) {
+/// How far all axes go in the post's units, one deg as one unit of length.
+double distance(const motion::Machine& machine, const Post& post,
+                const std::vector<std::int64_t>& from, const std::vector<std::int64_t>& to) {
   double sum = 0.0;
   for (std::size_t a = 0; a < from.size(); ++a) {
     const double way =
-        static_cast<double>(to[a] - from[a]) / machine.axes[a].pulses_per_axis_unit();
+        in_units(post, machine.axes[a].unit,
+                 static_cast<double>(to[a] - from[a]) / machine.axes[a].pulses_per_axis_unit());
     sum += way * way;
   }
   return std::sqrt(sum);
@@ -111,9 +123,11 @@ std::string header(const motion::Machine& machine, const motion::Schedule& s,
   out += contour ? gcode_torch(caption.options) : post.comment("the tool is not switched here");
   out += post.comment("machine: " + (machine.name.empty() ? "of the request" : machine.name));
   for (std::size_t a = 0; a < letters.size(); ++a)
-    out += post.comment(std::string(1, letters[a]) + " = axis " + s.axes[a].name + ", " +
-                        std::string(name_of(s.axes[a].unit)));
-  return out + post.comment("units mm, deg") +
+    out +=
+        post.comment(std::string(1, letters[a]) + " = axis " + s.axes[a].name + ", " +
+                     std::string(s.axes[a].unit == motion::AxisUnit::mm ? name_of(post.units)
+                                                                        : name_of(s.axes[a].unit)));
+  return out + post.comment("units " + std::string(name_of(post.units)) + ", deg") +
          post.comment("time " + measure(s.report.time, Unit::s) +
                       " as planned, each move in its own") +
          gcode_hashes(caption);
@@ -127,19 +141,21 @@ std::string lifted(const motion::Machine& machine, const motion::Schedule& s,
       axis == machine.axes.end())
     return {};
   const auto a = static_cast<std::size_t>(axis - machine.axes.begin());
-  return post_line(post.rapid, {{"axes", letters[a] + fixed(s.axes[a].start, 6)}});
+  return post_line(post.rapid, {{"axes", word(post, letters[a], axis->unit, s.axes[a].start)}});
 }
 
 /// Each axis within a move.
-std::vector<AxisMove> axis_moves(const motion::Machine& machine, const std::vector<char>& letters,
+std::vector<AxisMove> axis_moves(const motion::Machine& machine, const Post& post,
+                                 const std::vector<char>& letters,
                                  const std::vector<std::int64_t>& from,
                                  const std::vector<std::int64_t>& to) {
   std::vector<AxisMove> out;
   for (std::size_t a = 0; a < from.size(); ++a)
-    out.push_back(
-        {.letter = letters[a],
-         .turns = machine.axes[a].unit == motion::AxisUnit::deg,
-         .way = static_cast<double>(to[a] - from[a]) / machine.axes[a].pulses_per_axis_unit()});
+    out.push_back({.letter = letters[a],
+                   .turns = machine.axes[a].unit == motion::AxisUnit::deg,
+                   .way = in_units(post, machine.axes[a].unit,
+                                   static_cast<double>(to[a] - from[a]) /
+                                       machine.axes[a].pulses_per_axis_unit())});
   return out;
 }
 
@@ -149,9 +165,19 @@ std::string timed(const Post& post, const std::string& axes, double way, double 
   const double rate = 60.0 / seconds;  // 1/min
   return post_line(post.timed_move, {{"axes", axes},
                                      {"per_minute", fixed(rate, 6)},
-                                     {"units_per_minute", fixed(std::max(way * rate, 1e-3), 3)},
+                                     {"units_per_minute", post.way_feed(way * rate)},
                                      {"linear_units_per_minute", linear_feed(moves, rate)},
                                      {"axes_feeds", axes_feeds(moves, rate)}});
+}
+
+/// A schedule has its machine's own axes: those that turn are in deg.
+void refuse_girth(const Post& post) {
+  const auto& turn = post.axis(PostRole::turn);
+  if (turn && turn->unit != TurnUnit::deg)
+    throw UnfitOption{"post", "post " + post.name + " counts the turn in " +
+                                  std::string(name_of(turn->unit)) +
+                                  ", and a schedule's axes turn in deg: take a post with unit deg, "
+                                  "or a program of the part"};
 }
 
 /// What an event switches or says.
@@ -226,6 +252,7 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
   if (post.is_point_pairs())
     throw UnfitOption{"post", "a schedule moves axes, and post " + post.name +
                                   " has none: ask for point pairs of the part or the table"};
+  refuse_girth(post);
   if (post.mark_on.empty() &&
       std::ranges::count(s.events, motion::EventKind::mark_on, &motion::Event::what) > 0)
     throw UnfitOption{"post", "post " + post.name + " has no mark_on, by which a tool marks"};
@@ -236,7 +263,7 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
   std::string out = post_lines(post.begin) + header(machine, s, letters, contour, caption) +
                     post_lines(post.modes) + (contour ? post_lines(post.tool) : "") +
                     (names.empty() ? "" : lifted(machine, s, letters, post)) +
-                    post_line(post.rapid, {{"axes", words(machine, s, letters, at.sums())}}) +
+                    post_line(post.rapid, {{"axes", words(machine, s, post, letters, at.sums())}}) +
                     post_lines(post.cut_begin);
   const auto add = [&](std::string_view lines) { append(out, lines, caption.stop); };
   std::int64_t from = 0;
@@ -248,10 +275,10 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
     if (end > from && dwells && before == at.sums())
       add(post_line(post.dwell, {{"seconds", fixed(seconds, 6)}}));
     else if (end > from)
-      add(timed(
-          post, words(machine, s, letters, at.sums()), distance(machine, before, at.sums()),
-          seconds,
-          by_axes ? axis_moves(machine, letters, before, at.sums()) : std::vector<AxisMove>{}));
+      add(timed(post, words(machine, s, post, letters, at.sums()),
+                distance(machine, post, before, at.sums()), seconds,
+                by_axes ? axis_moves(machine, post, letters, before, at.sums())
+                        : std::vector<AxisMove>{}));
     from = end;
     for (const auto& event : s.events)
       if (event.period == end && contour) add(told(event, names, caption));

@@ -45,6 +45,7 @@ TorchJoints::TorchJoints(double outer_radius, Leaning leaning, const FormatOptio
   across_ = get(PostRole::across, tilts_ && pivot_, "post",
                 "by which the pivot of a torch that leans across goes");
   if (options.axial_z) std::swap(along_.letter, out_.letter);
+  turn_ = turn_.on_tube(outer_radius);
 }
 
 std::string TorchJoints::words(const TorchPlace& at, double off) const {
@@ -78,6 +79,16 @@ double TorchJoints::distance(const TorchPlace& from, double from_off, const Torc
   return std::sqrt(sum);
 }
 
+double TorchJoints::rounding(double wall) const {
+  const double arm = pivot_.value_or(0.0) + wall;
+  double out = along_.rounding() + radius_ * turn_.rounding() * kRadPerDeg;
+  if (pivot_) out += out_.rounding();
+  if (has_swing_) out += arm * swing_.rounding() * kRadPerDeg;
+  if (tilts_) out += arm * tilt_.rounding() * kRadPerDeg + (pivot_ ? across_.rounding() : 0.0);
+  constexpr double kLeaning = 2.0;  // of an edge that the torch meets under 60 deg
+  return has_swing_ || tilts_ ? kLeaning * out : out;
+}
+
 std::vector<TorchJoints::Shown> TorchJoints::shown(const TorchPlace& at, double off) const {
   const auto reach = arm(at, off);
   std::vector<Shown> out{{&along_, false, at.z + reach.along}};
@@ -95,7 +106,7 @@ std::vector<AxisMove> TorchJoints::moves(const TorchPlace& from, double from_off
   std::vector<AxisMove> out;
   for (std::size_t i = 0; i < a.size(); ++i)
     out.push_back({.letter = a[i].axis->letter,
-                   .turns = a[i].turns,
+                   .turns = a[i].turns && !a[i].axis->is_straight(),
                    .way = b[i].axis->written(b[i].value) - a[i].axis->written(a[i].value)});
   return out;
 }
@@ -117,8 +128,9 @@ std::string TorchJoints::angles(const TorchPlace& at) const {
 
 std::vector<double> TorchJoints::all(const TorchPlace& at, double off) const {
   const auto reach = arm(at, off);
-  return {at.z + reach.along,  reach.out,         reach.round,
-          at.phi * kDegPerRad, at.b * kDegPerRad, at.a * kDegPerRad};
+  return {along_.scale * (at.z + reach.along), out_.scale * reach.out,
+          across_.scale * reach.round,         turn_.scale * at.phi * kDegPerRad,
+          swing_.scale * at.b * kDegPerRad,    tilt_.scale * at.a * kDegPerRad};
 }
 
 }  // namespace tubecut::api

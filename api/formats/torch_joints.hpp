@@ -31,9 +31,14 @@ class TorchJoints {
   [[nodiscard]] std::string clear_height() const;
   /// Where the axis along the tube is.
   [[nodiscard]] double along_at(const TorchPlace& at, double off) const;
-  /// How far all axes go, one deg as one mm: what a control counts that feeds them all.
+  /// How far all axes go as they are written, one deg as one unit of length: what a control counts
+  /// that feeds them all.
   [[nodiscard]] double distance(const TorchPlace& from, double from_off, const TorchPlace& to,
                                 double to_off) const;
+
+  /// How far the decimals of the words move the tip or an edge through a wall so thick, mm, at
+  /// most, with a torch that leans up to 60 deg.
+  [[nodiscard]] double rounding(double wall) const;
 
   /// What the words of a move tell of each axis, in their order.
   [[nodiscard]] std::vector<AxisMove> moves(const TorchPlace& from, double from_off,

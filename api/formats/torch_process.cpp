@@ -81,13 +81,14 @@ void take_process(TorchJob& job, FormatOptions& o, const std::stop_token& stop) 
   }
   if (process.clearance && o.pivot_length) taker.take(o.clearance, *process.clearance, "clearance");
   job.process.push_back("machine: " + process.machine + ", table " + process.sha256.substr(0, 16));
-  job.process.push_back("process: " + row.material + " up to " + mm(row.metal) +
-                        ", the beam goes through " + mm(metal) + " at most");
+  const auto& post = post_of(o);
+  job.process.push_back("process: " + row.material + " up to " + post.length(row.metal) +
+                        ", the beam goes through " + post.length(metal) + " at most");
   if (!taker.own().empty())
     job.process.push_back("of the request, not of the table: " + taker.own());
   if (std::ranges::any_of(job.cuts,
                           [&](const auto& cut) { return !cut.mark && cut.kerf != row.kerf; }))
-    job.process.push_back("kerf of the request, in the table it is " + mm(row.kerf));
+    job.process.push_back("kerf of the request, in the table it is " + post.length(row.kerf));
 }
 
 }  // namespace tubecut::api
