@@ -9,6 +9,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/beam.hpp"
+#include "core/bevel/hole_cause.hpp"
 #include "core/bevel/hole_end.hpp"
 #include "core/bevel/hole_fit.hpp"
 #include "core/bevel/hole_slice.hpp"
@@ -167,20 +168,6 @@ Intervals runs(const std::vector<Node>& nodes, F holds) {
   return out;
 }
 
-const char* beyond_hint(Tilt tilt) {
-  switch (tilt) {
-    case Tilt::axial:
-      return "a swing in the axial plane alone cannot keep the hole's wall off the branch here; "
-             "tilt free can";
-    case Tilt::free:
-      return "the surfaces are too nearly tangent here";
-    case Tilt::none:
-      return "a head that does not tilt cannot keep the hole's wall off the branch here, or its "
-             "range leaves out 0; tilt free can";
-  }
-  return "";
-}
-
 Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
   auto open = runs(nodes, [](const WallLine& w) { return w.misses_bore; });
   if (!open.empty())
@@ -192,12 +179,11 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
                  .hint = "the hole's wall does not reach the chord's bore here"});
   auto beyond = runs(nodes, [](const WallLine& w) { return w.beyond_torch; });
   if (beyond.empty()) return {};
-  return fail({.code = ErrorCode::torch_range,
-               .member = "torch/max",
-               .got = std::move(beyond),
-               .limit = spec.torch.max.deg(),
-               .unit = "deg",
-               .hint = beyond_hint(spec.tilt)});
+  double needs = 0.0;
+  for (const auto& node : nodes)
+    if (node.line.beyond_torch && std::abs(node.line.needs) > std::abs(needs))
+      needs = node.line.needs;
+  return fail(beyond_torch(spec, std::move(beyond), needs));
 }
 
 /// Where the wall's lines run together the other edge turns back over its own way: no cut leaves
@@ -244,17 +230,6 @@ void note_lost(const HoleSpec& spec, const std::vector<Node>& nodes, std::vector
                    shown(worst * kDegPerRad) +
                    (on ? " deg short of the branch's direction" : " deg of groove lost")});
   }
-}
-
-/// A set-on branch whose bore stands within the chord's sides, and whose wall does not.
-void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
-                   std::vector<Warning>& out) {
-  const double over = branch.radius + std::abs(branch.offset) - spec.chord.outer_radius - spec.gap;
-  if (spec.kind != JointKind::set_on || !(over > kShallow * branch.radius)) return;
-  out.push_back(
-      {.code = WarningCode::wall_overhangs,
-       .member = "branch",
-       .detail = "its outer surface passes up to " + brief(over) + " mm beside the chord"});
 }
 
 Hole tabulate(const HoleSpec& spec, const WallLines& walls, const std::vector<Node>& nodes,
@@ -366,6 +341,32 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   return out;
 }
 
+/// One hole, and of what makes its kerf too wide the first cause.
+Result<Hole> hole_or_cause(const HoleSpec& spec, const joint::TubeCutter& branch, bool far,
+                           std::vector<Warning>& warnings, const std::stop_token& stop) {
+  auto out = one_hole(spec, branch, far, warnings, stop);
+  const bool wide = !out && out.error().code() == ErrorCode::out_of_range &&
+                    out.error().issues.front().member == "kerf" &&
+                    0.5 * spec.kerf < branch.radius - spec.branch_wall;
+  if (!wide) return out;
+  auto narrow = spec;
+  narrow.kerf = 0.0;
+  std::vector<Warning> none;
+  const auto lines = one_hole(narrow, branch, far, none, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const double lean = lines ? furthest_lean(*lines) : 0.0;
+  if (!(lean > kSteepLean)) return out;
+  auto cause = first_cause(spec, lean, [&](const HoleSpec& changed) {
+    if (stop.stop_requested()) return false;
+    const auto cut = one_hole(changed, branch, far, none, stop);
+    if (!cut || changed.kind == JointKind::through) return cut.has_value();
+    return branch_end(changed, branch, cut->branch_phi, stop).has_value();
+  });
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (cause) return fail(*std::move(cause));
+  return out;
+}
+
 }  // namespace
 
 Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch) {
@@ -380,10 +381,10 @@ Result<HoleCut> hole(const HoleSpec& asked, const std::stop_token& stop) {
   HoleSpec spec = asked;
   spec.sampling.max_nodes = std::min(spec.sampling.max_nodes, most_rows(spec.kerf, branch.radius));
   HoleCut out;
-  TRY(auto near, one_hole(spec, branch, false, out.warnings, stop));
+  TRY(auto near, hole_or_cause(spec, branch, false, out.warnings, stop));
   out.holes.push_back(std::move(near));
   if (spec.kind == JointKind::through) {
-    TRY(auto far, one_hole(spec, reversed(branch), true, out.warnings, stop));
+    TRY(auto far, hole_or_cause(spec, reversed(branch), true, out.warnings, stop));
     out.holes.push_back(std::move(far));
   } else {
     TRY(auto end, branch_end(spec, branch, out.holes.front().branch_phi, stop));

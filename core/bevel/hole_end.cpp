@@ -10,6 +10,8 @@
 namespace tubecut::bevel {
 namespace {
 
+constexpr double kOver = 1e-9 * kRadPerDeg;  // of the branch's radius: rounding
+
 /// Errors about the joint's one curve are errors about the branch.
 Error about_branch(Error error) {
   for (auto& issue : error.issues)
@@ -78,6 +80,16 @@ Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& bran
   TRY(const auto inner, joint_curve(branch, radius, branch.radius - spec.branch_wall));
   TRY(stand_on(spec, inner, branch.radius, end, stop));
   return end;
+}
+
+void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
+                   std::vector<Warning>& out) {
+  const double over = branch.radius + std::abs(branch.offset) - spec.chord.outer_radius - spec.gap;
+  if (spec.kind != JointKind::set_on || !(over > kOver * branch.radius)) return;
+  out.push_back(
+      {.code = WarningCode::wall_overhangs,
+       .member = "branch",
+       .detail = "its outer surface passes up to " + brief(over) + " mm beside the chord"});
 }
 
 }  // namespace tubecut::bevel

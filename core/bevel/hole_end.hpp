@@ -21,4 +21,8 @@ namespace tubecut::bevel {
                                            const std::vector<double>& phases,
                                            const std::stop_token& stop);
 
+/// Warns of a set-on branch whose bore stands within the chord's sides, and whose wall does not.
+void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
+                   std::vector<Warning>& out);
+
 }  // namespace tubecut::bevel

@@ -116,7 +116,9 @@ WallLines::Direction WallLines::free_direction(const Corner& c) const {
   const double highest = c.dihedral - 0.5 * kPi + spec_.torch.max.rad();
   const double groove = std::clamp(asked, lowest, highest);
   const auto at = elementary::sincos(groove);
-  return {.unit = at.cos * c.rise + at.sin * c.branch, .beyond = groove < 0.0};
+  return {.unit = at.cos * c.rise + at.sin * c.branch,
+          .beyond = groove < 0.0,
+          .needs = c.dihedral - 0.5 * kPi};
 }
 
 // Where the curve runs along the chord, a swing in the axial plane leaves the bevel as it is: the
@@ -140,6 +142,7 @@ WallLines::Direction WallLines::axial_direction(const Corner& c, const Vector3d&
     const double out_of_branch = c.branch.dot(radial);
     if (up > 0.0) b = std::max(b, elementary::atan2(-out_of_branch, up));
     if (up < 0.0) b = std::min(b, -elementary::atan2(-out_of_branch, -up));
+    out.needs = up == 0.0 ? 0.5 * kPi : b;
     out.beyond = b > spec_.torch.max.rad() || b < spec_.torch.min.rad() ||
                  (up == 0.0 && out_of_branch < 0.0);
     b = std::clamp(b, spec_.torch.min.rad(), spec_.torch.max.rad());
@@ -227,6 +230,7 @@ WallLine WallLines::square_line(const Vector3d& root, const Corner& met, double 
   const bool reached = spec_.torch.min.rad() <= 0.0 && spec_.torch.max.rad() >= 0.0;
   out.beyond_torch =
       !reached || !(up > 0.0) || (!root_outside_ && beside && met.branch.dot(radial) < 0.0);
+  out.needs = !reached ? 0.0 : 0.5 * kPi;
   const bool measured = !root_outside_ && !std::holds_alternative<SquareCut>(spec_.groove);
   if (measured) out.lost = std::max(0.0, asked_groove(c.dihedral) - out.groove);
   return out;
@@ -264,6 +268,7 @@ WallLine WallLines::at(double phase, double off) const {
     if (settled || spec_.tilt == Tilt::free) break;
   }
   out.beyond_torch = d.beyond || !(d.unit.dot(c.rise) > 0.0);
+  out.needs = d.beyond ? d.needs : 0.5 * kPi;
   const bool measured = !root_outside_ && !std::holds_alternative<SquareCut>(spec_.groove);
   out.lost = measured ? std::max(0.0, asked_groove(c.dihedral) - out.groove) : d.held_back;
 

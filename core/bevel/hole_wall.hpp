@@ -25,6 +25,7 @@ struct WallLine {
   double dihedral = 0.0, groove = 0.0, b = 0.0, a = 0.0;
   double lost = 0.0;          // groove asked and not cut; set-on: short of the branch's direction
   bool beyond_torch = false;  // the torch cannot keep the wall off the branch here
+  double needs = 0.0;         // rad: the lean that could; a right angle: none
   bool misses_bore = false;   // the line does not reach the other surface
 };
 
@@ -48,6 +49,7 @@ class WallLines {
     double b = 0.0;
     double held_back = 0.0;  // set-on: how far the torch stays from the branch's direction, rad
     bool beyond = false;
+    double needs = 0.0;  // where beyond, as of a WallLine
   };
   [[nodiscard]] double asked_groove(double dihedral) const;
   [[nodiscard]] std::optional<double> height_over(const Eigen::Vector3d& point, double side) const;

@@ -88,7 +88,10 @@ std::vector<double> row_phases(const TableSetup& g, const std::stop_token& stop)
 
 /// What the smoother starts from.
 double input_of(const TableSpec& spec, const Point& p) {
-  if (spec.contact == Contact::inner) return std::max(p.raw, p.required);
+  // What is required beyond the range is refused, but for rounding: 60 deg of a plane that
+  // leans 30.
+  if (spec.contact == Contact::inner)
+    return std::min(std::max(p.raw, p.required), spec.torch.max.rad());
   const bool floored =
       spec.contact == Contact::automatic && !std::holds_alternative<SquareCut>(spec.groove);
   return floored ? std::min(std::max(p.raw, p.required), spec.torch.max.rad()) : p.raw;

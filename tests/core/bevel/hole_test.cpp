@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <string>
 
 #include "core/bevel/beam.hpp"
 #include "tests/support/line_distance.hpp"
@@ -139,7 +140,7 @@ void expect_proved(const HoleSpec& spec, const HoleCut& cut) {
 TEST(Hole, FiveHundredRandomPairsFitWithinAHundredth) {
   std::mt19937_64 random(kSeed);
   std::cout << "seed " << kSeed << '\n';
-  std::map<std::string_view, int> refused;
+  std::map<std::string, int> refused;
   int answered = 0, tried = 0;
   std::size_t nodes = 0;
   Real worst = 0, least = std::numeric_limits<Real>::infinity();
@@ -149,11 +150,16 @@ TEST(Hole, FiveHundredRandomPairsFitWithinAHundredth) {
     const auto cut = hole(spec);
     if (!cut) {
       const auto code = cut.error().code();
-      ++refused[info(code).code];
+      ++refused[std::string(info(code).code)];
+      // A beam too wide for a wall that bends, or whose torch leans too far: its first cause.
       const bool folds =
-          code == ErrorCode::out_of_range;  // a wall that bends tighter than the kerf
+          code == ErrorCode::out_of_range || code == ErrorCode::unsupported_combination;
       if (folds) {
-        EXPECT_EQ(cut.error().issues.front().member, "kerf");
+        const auto& member = cut.error().issues.front().member;
+        ++refused[member];
+        EXPECT_TRUE(member == "kerf" || member == "tilt" || member.starts_with("groove/") ||
+                    member.starts_with("torch/"))
+            << member;
         auto without = spec;
         without.kerf = 0.0;
         EXPECT_TRUE(hole(without));
