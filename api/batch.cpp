@@ -7,10 +7,12 @@
 
 #include "api/endpoint.hpp"
 #include "api/json.hpp"
+#include "api/json_number.hpp"
 #include "api/limits.hpp"
 #include "api/post.hpp"
 #include "api/problem.hpp"
 #include "api/reader.hpp"
+#include "api/shown_text.hpp"
 #include "api/text_encoding.hpp"
 #include "api/writer.hpp"
 
@@ -32,13 +34,13 @@ std::string read_id(Reader& in) {
   in.note("id");
   const Json* field = in.find("id");
   const auto* text = field != nullptr ? field->as<std::string>() : nullptr;
-  if (text != nullptr && !text->empty() && text->size() <= kLongestId) return *text;
+  if (text != nullptr && text->size() <= kLongestId && shows_something(*text)) return *text;
   in.issue({.code = field == nullptr  ? ErrorCode::missing_field
                     : text == nullptr ? ErrorCode::wrong_type
                                       : ErrorCode::bad_text,
             .pointer = "id",
             .limit = Json{static_cast<double>(kLongestId)},
-            .hint = "a text of 1 to that many bytes"},
+            .hint = "a text of 1 to that many bytes that shows something"},
            field);
   return {};
 }
@@ -131,6 +133,10 @@ void read_line(BatchLine& out, std::string_view text, std::string_view request_i
   const auto json = parse(
       text, {.depth = static_cast<std::size_t>(limit::nesting_max) + 1, .stop = context.stop});
   if (!json) {
+    if (auto issue = number_issue(text, context.stop)) {
+      refuse(out, field_problem({*std::move(issue)}), request_id, context);
+      return;
+    }
     refuse(out,
            {.code = ErrorCode::unreadable_json,
             .detail = json.error().reason + " at byte " + std::to_string(json.error().offset) +

@@ -10,6 +10,7 @@
 #include "api/endpoint.hpp"
 #include "api/file_name.hpp"
 #include "api/format_choice.hpp"
+#include "api/json_number.hpp"
 #include "api/limits.hpp"
 #include "api/query.hpp"
 
@@ -124,6 +125,9 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   auto body = parse(call_.body,
                     {.depth = static_cast<std::size_t>(limit::nesting_max), .stop = context_.stop});
   lap("parse");
+  if (!body)
+    if (auto issue = number_issue(call_.body, context_.stop))
+      return refuse(field_problem({*std::move(issue)}));
   if (!body)
     return refuse(ErrorCode::unreadable_json,
                   body.error().reason + " at byte " + std::to_string(body.error().offset));

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/json_number.hpp"
 #include "api/shortest.hpp"
 #include "api/stop.hpp"
 
@@ -114,11 +115,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     return put(Json{static_cast<double>(v)});
   }
   bool number_float(number_float_t v, const string_t& text) override {
-    if (!std::isfinite(v)) return refuse("number too large");
-    const auto mantissa = text.substr(0, text.find_first_of("eE"));
-    if (v == 0.0 && mantissa.find_first_of("123456789") != string_t::npos)
-      return refuse("number too small");
-    if (text.find_first_of(".eE") == string_t::npos) return refuse("integer beyond 2^53");
+    if (const auto fault = number_fault(v, text)) return refuse(fault->reason);
     return put(Json{v});
   }
   bool string(string_t& v) override { return put(Json{std::move(v)}); }
@@ -203,6 +200,85 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   ParseError error_;
 };
 
+std::string escaped(std::string_view name) {
+  std::string out;
+  for (const char c : name) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return out;
+}
+
+/// Follows where the parser is, up to the first number that is none.
+class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  explicit NumberFinder(const std::stop_token& stop) : pace_(stop) {}
+
+  [[nodiscard]] const std::optional<BadNumber>& found() const { return found_; }
+
+  bool null() override { return next(); }
+  bool boolean(bool /*unused*/) override { return next(); }
+  bool number_integer(number_integer_t v) override {
+    return seen(static_cast<double>(v), std::to_string(v));
+  }
+  bool number_unsigned(number_unsigned_t v) override {
+    return seen(static_cast<double>(v), std::to_string(v));
+  }
+  bool number_float(number_float_t v, const string_t& text) override { return seen(v, text); }
+  bool string(string_t& /*unused*/) override { return next(); }
+  bool binary(binary_t& /*unused*/) override { return false; }
+  bool start_object(std::size_t /*unused*/) override { return open(false); }
+  bool key(string_t& v) override {
+    places_.back().name = v;
+    return true;
+  }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t /*unused*/) override { return open(true); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t /*unused*/, const std::string& token,
+                   const nlohmann::detail::exception& error) override {
+    constexpr int kOverflow = 406;
+    if (error.id == kOverflow)
+      note(*number_fault(std::numeric_limits<double>::infinity(), token), token);
+    return false;
+  }
+
+ private:
+  /// An open container: the member, or the index of the element, that is read.
+  struct Place {
+    bool array = false;
+    std::size_t index = 0;
+    std::string name = {};
+  };
+
+  bool next() {
+    pace_.turn();
+    if (!places_.empty()) ++places_.back().index;
+    return true;
+  }
+  bool open(bool array) {
+    places_.push_back({.array = array});
+    return true;
+  }
+  bool close() {
+    places_.pop_back();
+    return next();
+  }
+  bool seen(double value, const std::string& text) {
+    const auto fault = number_fault(value, text);
+    if (!fault) return next();
+    note(*fault, text);
+    return false;
+  }
+  void note(const NumberFault& fault, const std::string& text) {
+    std::string pointer;
+    for (const auto& place : places_)
+      pointer += "/" + (place.array ? std::to_string(place.index) : escaped(place.name));
+    found_ = BadNumber{.pointer = std::move(pointer), .text = text, .fault = fault};
+  }
+
+  Pace pace_;
+  std::vector<Place> places_;
+  std::optional<BadNumber> found_;
+};
+
 }  // namespace
 
 void append_text(std::string& out, std::string_view text) {
@@ -232,6 +308,7 @@ void append_text(std::string& out, std::string_view text) {
 
 char* print_number(char* to, double value) {
   value += 0.0;  // -0 is printed as 0: CBOR's integers have no other
+  if (std::abs(value) < std::numeric_limits<double>::min()) value = 0.0;  // no reader takes less
   // Beyond 2^53 with an exponent: digits alone would be an integer that our own reader refuses.
   constexpr double kExact = 9007199254740992.0;
   return std::abs(value) > kExact
@@ -266,6 +343,12 @@ tl::expected<Json, ParseError> parse(std::string_view bytes, const ParseLimits& 
                                 CountingIterator(begin + bytes.size(), &progress), &builder);
   if (!ok) return tl::make_unexpected(builder.error());
   return builder.take();
+}
+
+std::optional<BadNumber> find_bad_number(std::string_view json, const std::stop_token& stop) {
+  NumberFinder finder(stop);
+  nlohmann::json::sax_parse(json.begin(), json.end(), &finder);
+  return finder.found();
 }
 
 }  // namespace tubecut::api

@@ -6,6 +6,7 @@
 
 #include "api/api.hpp"
 #include "api/catalogue.hpp"
+#include "api/json_number.hpp"
 #include "api/sha256.hpp"
 
 namespace tubecut::api {
@@ -71,6 +72,11 @@ std::shared_ptr<const Post> inline_post(std::string_view json, const std::string
                                         std::vector<FieldIssue>& issues) {
   const auto body = parse(json);
   if (!body) {
+    if (auto issue = number_issue(json)) {
+      issue->pointer = pointer + issue->pointer;
+      issues.push_back(*std::move(issue));
+      return nullptr;
+    }
     issues.push_back(
         {.code = ErrorCode::unreadable_json,
          .pointer = pointer,

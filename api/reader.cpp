@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/shown_text.hpp"
 #include "api/suspicion.hpp"
 #include "api/text_encoding.hpp"
 
@@ -253,10 +254,12 @@ std::string Reader::text(std::string_view name, std::size_t longest) {
         field);
     return {};
   }
-  if (!is_visible(*value, longest)) {
+  if (!is_visible(*value, longest) || !shows_something(*value)) {
     FieldIssue bad{.code = ErrorCode::bad_text, .pointer = std::string(name)};
     bad.limit = Json{static_cast<double>(longest)};
-    bad.hint = "1 to that many visible characters";
+    bad.hint = value->empty() || shows_something(*value)
+                   ? "1 to that many visible characters"
+                   : "it consists of blanks or of characters that are not seen";
     issue(std::move(bad), field);
     return {};
   }

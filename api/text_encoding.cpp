@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
+
+#include "api/shown_text.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -12,6 +15,19 @@ namespace {
 constexpr std::pair<char32_t, char32_t> kUnseen[] = {
     {0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},   {0x180E, 0x180E},
     {0x200B, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF}, {0xFFF9, 0xFFFF}};
+
+/// Characters that take room or none and show nothing: blanks (Zs), fillers, selectors and tags. As
+/// the contract's pattern of a text has those of plane 0.
+constexpr std::pair<char32_t, char32_t> kBlank[] = {
+    {0x20, 0x20},       {0xA0, 0xA0},       {0x34F, 0x34F},     {0x115F, 0x1160},  {0x1680, 0x1680},
+    {0x17B4, 0x17B5},   {0x180B, 0x180F},   {0x2000, 0x200A},   {0x202F, 0x202F},  {0x205F, 0x205F},
+    {0x2800, 0x2800},   {0x3000, 0x3000},   {0x3164, 0x3164},   {0xFE00, 0xFE0F},  {0xFFA0, 0xFFA0},
+    {0x1BCA0, 0x1BCA3}, {0x1D159, 0x1D159}, {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF}};
+
+bool is_in(std::span<const std::pair<char32_t, char32_t>> ranges, char32_t c) {
+  return std::ranges::any_of(
+      ranges, [c](const auto& range) { return c >= range.first && c <= range.second; });
+}
 
 /// U+00C0 to U+017F without their marks, one letter each.
 constexpr std::string_view kBase =
@@ -60,13 +76,19 @@ bool is_visible(std::string_view text, std::size_t longest) {
   std::size_t count = 0;
   while (!text.empty() && count <= longest) {
     const auto c = take_character(text);
-    const bool unseen = !c || std::ranges::any_of(kUnseen, [c](const auto& range) {
-      return *c >= range.first && *c <= range.second;
-    });
-    if (unseen) return false;
+    if (!c || is_in(kUnseen, *c)) return false;
     ++count;
   }
   return count >= 1 && count <= longest;
+}
+
+bool shows_something(std::string_view text) {
+  while (!text.empty()) {
+    const auto c = take_character(text);
+    if (c && !is_in(kUnseen, *c) && !is_in(kBlank, *c)) return true;
+    if (!c) return false;
+  }
+  return false;
 }
 
 std::optional<std::string> in_ascii(std::string_view text) {

@@ -384,7 +384,7 @@ TEST(JsonSuite, EveryNumberWePrintIsOneWeRead) {
                             1e22,
                             123456789012345680000.0,
                             1.7976931348623157e308,
-                            5e-324,
+                            2.2250738585072014e-308,
                             0.1,
                             4294967296.0};
   for (const double magnitude : numbers) {

@@ -8,7 +8,7 @@ const NESTED = 33;
 
 const malformed = (good) => [
   '', ' ', '{', '}', '{"target":', '{"a":1,}', '[1,]', "{'a':1}", '{a:1}', '{"a":01}', '{"a":+1}', '{"a":.5}', '{"a":1.}', '{"a":0x10}',
-  '{"a":NaN}', '{"a":Infinity}', '{"a":-Infinity}', '{"a":1e400}', '{"a":1e-400}', '{"a":9007199254740993}', '{"a":1,"a":2}',
+  '{"a":NaN}', '{"a":Infinity}', '{"a":-Infinity}', '{"a":1e}', '{"a":-}', '{"a":1,"a":2}',
   '{"a":"\u0001"}', '{"a":"\\ud800"}', '{"a":"\\x"}', '{"a":tru}', '/* c */ {}', '{} {}', `${good}x`, `${good}\0`, `\ufeff${good}`,
   Buffer.from([0x7b, 0x22, 0xff, 0x22, 0x3a, 0x31, 0x7d]), Buffer.from([0xc0, 0x80]), '['.repeat(200000),
   '['.repeat(NESTED) + ']'.repeat(NESTED),
