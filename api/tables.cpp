@@ -2,6 +2,7 @@
 
 #include "api/formats/bevel_table_formats.hpp"
 #include "core/base/angle.hpp"
+#include "core/bevel/zone_gaps.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -51,6 +52,9 @@ Columns bevel_columns(const bevel::TableSpec& spec, const bevel::Table& t) {
   if (spec.root_face > 0.0) out.column("z_face_mm", t.z_face).degrees("b_face_deg", t.b_face);
   if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
     out.texts("zone", each(t.zone, [&](std::size_t i) { return zoned->zones[i].id; }));
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove);
+      zoned != nullptr && zoned->has_root_gaps())
+    out.column("root_gap_mm", bevel::root_gaps(spec, t));
   if (spec.untilted)
     out.column("gap_inner_mm", t.gaps.square.inner)
         .column("gap_outer_mm", t.gaps.square.outer)
@@ -71,7 +75,9 @@ const std::vector<std::string>& bevel_column_names() {
   static const auto kNames = [] {
     bevel::TableSpec every;  // column
     every.root_face = 1.0;
-    every.groove = bevel::ZonedGroove{};
+    bevel::ZonedGroove zoned;
+    zoned.zones.push_back({.root_gap = 0.0});
+    every.groove = zoned;
     every.untilted = true;
     return bevel_column_names(every);
   }();

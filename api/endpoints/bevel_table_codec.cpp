@@ -39,6 +39,7 @@ bevel::ZonedGroove decode_zones(Reader& in) {
         decode_pair(z, "dihedral_deg", {.min = 0.0, .max = 180.0});
     std::tie(zone.groove_from, zone.groove_to) =
         decode_pair(z, "groove_deg", {.min = 0.0, .max = 90.0, .open_max = true});
+    zone.root_gap = z.optional_number("root_gap_mm", {.min = 0.0, .max = 50.0});
     return zone;
   });
   out.overlap = in.angle("overlap_deg", {.min = 0.0, .max = 90.0}, Angle{});

@@ -40,7 +40,7 @@ struct Smoothing {
 void encode_table(const bevel::TableSpec& spec, const bevel::Table& table,
                   const std::vector<std::string>& columns, Writer& w);
 
-inline constexpr std::array<CheckLimit, 15> kTableChecks{{
+inline constexpr std::array<CheckLimit, 16> kTableChecks{{
     {"dihedral", "1e-9", "deg"},
     {"bevel_plane", "1e-9", ""},
     {"above_required", "1e-9", "deg"},
@@ -50,6 +50,7 @@ inline constexpr std::array<CheckLimit, 15> kTableChecks{{
     {"torch_range", "1e-9", "deg"},
     {"penetration", "1e-6", "mm"},
     {"touch", "1e-6", "mm"},
+    {"zone_gap", "1e-6", "mm"},
     {"gap_map", "1e-6", "mm"},
     {"penetration_stated", "1e-3", "mm"},
     {"penetration_between", "sampling.tolerance_mm", "mm"},

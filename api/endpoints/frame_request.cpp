@@ -91,6 +91,19 @@ void check_hole_groove(Reader& in, const How& how, const bevel::GrooveRule& groo
              in.find("groove"));
 }
 
+/// Zones that name the root gap leave none to the joint.
+void check_zone_gaps(Reader& in, const How& how, const bevel::GrooveRule& groove) {
+  const auto* zoned = std::get_if<bevel::ZonedGroove>(&groove);
+  if (zoned != nullptr && zoned->has_root_gaps() && how.gap > 0.0)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "gap_mm",
+              .got = Json{how.gap},
+              .limit = Json{0.0},
+              .unit = "mm",
+              .hint = "the groove's zones name the root gap: leave gap_mm out"},
+             in.find("gap_mm"));
+}
+
 void check_root_face(Reader& in, const bevel::TableSpec& cut) {
   if (cut.root_face > 0.0 && cut.contact != bevel::Contact::inner)
     in.issue({.code = ErrorCode::unsupported_combination,
@@ -115,6 +128,7 @@ bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
                .hint = "a joint's gap_mm is the gap at its root"},
               d.find("root_gap_mm"));
     check_hole_groove(d, out.spec.found, cut.groove, "groove");
+    check_zone_gaps(d, out.spec.found, cut.groove);
     if (laser)
       (void)decode_no_tilt(d);
     else
@@ -165,6 +179,7 @@ OwnCut decode_own_cut(Reader& in, Preset preset, bevel::TableSpec& cut) {
 OwnCut decode_joint_cut(Reader& in, const How& how, Preset preset, bevel::TableSpec cut) {
   auto out = decode_own_cut(in, preset, cut);
   check_hole_groove(in, how, cut.groove, "groove");
+  check_zone_gaps(in, how, cut.groove);
   in.note("tilt");
   if (in.has("tilt"))
     (void)(preset == Preset::tube_laser ? decode_no_tilt(in)

@@ -110,6 +110,17 @@ Result<void> add(const TableSetup& g, const std::vector<double>& more, Draft& dr
   return surface(g, draft, stop);
 }
 
+/// Rows where the root goes from one zone's gap to another's.
+Result<void> follow_gaps(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
+  constexpr int kRounds = 12;  // of halving
+  for (int round = 0; round < kRounds; ++round) {
+    const auto more = detail::rows_where_gap_turns(g, draft.rows);
+    if (more.empty()) break;
+    TRY(smooth(g, more, draft, stop));
+  }
+  return {};
+}
+
 /// Rows where B turns: B alone tells.
 Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
   constexpr int kRounds = 6;  // of halving
@@ -169,6 +180,7 @@ Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
   TRY(const auto g, detail::set_up(spec, stop));
   Draft draft;
   TRY(smooth(g, g.row_phases, draft, stop));
+  TRY(follow_gaps(g, draft, stop));
   TRY(follow_swing(g, draft, stop));
   TRY(surface(g, draft, stop));
   TRY(auto line, follow_torch(g, draft, stop));

@@ -111,11 +111,11 @@ struct Table {
 /// joint::Tolerance on a bare grid, is the warning `enters_partner`.
 ///
 /// Partners count as grown by coating + root_gap, so the cut stays that far off their metal; gap is
-/// what opens beyond that. One whose joint is stated counts as that joint's seat (joint::seat): its
-/// own gap instead of root_gap, which must not differ; where the target is set into it, the cut
-/// lies flush at the depth, without groove. A root face of height f is a land from the inner edge
-/// to the radius r_in + f, square to the axis, or as steep as a partner makes it; the bevel begins
-/// at its outer edge, and `torch_*` is the bevel's line.
+/// what opens beyond that. One whose joint is stated counts as that joint's seat: its own gap, from
+/// which root_gap must not differ; where the target is set into it, the cut lies flush at the
+/// depth, without groove. Root gaps of zones: zone_gaps.hpp. A root face of height f is a land from
+/// the inner edge to the radius r_in + f, square to the axis, or as steep as a partner makes it;
+/// the bevel begins at its outer edge, and `torch_*` is the bevel's line.
 ///
 /// An `untilted` cut has B = 0 on every row, where an end is set in too; it goes with the square
 /// rule and any contact but inner. What that leaves open at both edges, and what a flush bevel of
@@ -141,7 +141,7 @@ struct Table {
 /// How partner i is joined, where somebody says.
 [[nodiscard]] const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size_t i);
 
-/// The partners as the cut must see them: grown by coating and root gap, or to their joint's seat.
+/// The partners as the cut must see them: grown by coating and (least) root gap, or to their seat.
 [[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
 
 /// The finished surface by its rows: inner edge, the land's, outer edge. Views of the table.

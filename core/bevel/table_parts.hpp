@@ -26,7 +26,8 @@ struct TableSetup {
   std::vector<joint::Solid> solids;  // the partners, grown
   Wall wall;
   Rule rule;
-  Rule flush;  // where the target is set into its partner
+  Rule flush;                 // where the target is set into its partner
+  std::optional<Zones> gaps;  // where each zone has a root gap of its own: of the one partner
 
   [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
 };
@@ -47,6 +48,8 @@ struct Point {
   double required = 0.0;  // least B with which no partner enters the wall
   double input = 0.0;     // of the smoother
   double face = 0.0;      // elevation of the land
+  double more = 0.0;      // by which the zone's root gap exceeds the least, mm
+  double raised = 0.0;    // z of the root over that of the least gap, mm
 };
 [[nodiscard]] Point point(const TableSetup& g, double phi, const joint::Hit& hit,
                           std::size_t cutter, double root_z);
@@ -64,6 +67,27 @@ struct Rows {
 /// Errors  too_many_nodes, cancelled.
 [[nodiscard]] Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
                                 const Rows& known, const std::stop_token& stop);
+
+/// The zones of a groove that have root gaps of their own; nullptr where there are none.
+[[nodiscard]] const ZonedGroove* zones_with_gaps(const TableSpec& spec);
+/// Zones that name the root gap go with one partner, the root inside, and no other gap.
+[[nodiscard]] Result<void> check_gaps(const TableSpec& spec);
+/// Where the root lies whose gap is its zone's at the dihedral there.
+struct Stood {
+  double more = 0.0;  // mm, beyond the least gap
+  joint::PreparedCutter partner;
+  joint::Hit hit;
+};
+/// `least`: where it lies with the least gap.
+[[nodiscard]] Stood stood_at(const TableSetup& g, const joint::Generator& line,
+                             const joint::Hit& least);
+/// Lengths along the raised root, straight between some places of each gap between rows.
+void measure_root(const TableSetup& g, Rows& rows);
+/// The partner grown for a root gap by so much more than the least.
+[[nodiscard]] joint::PreparedCutter grown_for(const TableSetup& g, double more);
+/// Phases of rows wanted where the root, straight between the rows, leaves its zones' gaps by more
+/// than the tolerance. None where zones have no gaps of their own, or with uniform rows alone.
+[[nodiscard]] std::vector<double> rows_where_gap_turns(const TableSetup& g, const Rows& rows);
 
 /// Runs of nodes (cyclic) that satisfy `holds`, as phi intervals; one that crosses 0 ends above 2
 /// pi.

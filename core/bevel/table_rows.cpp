@@ -72,6 +72,7 @@ Result<void> check(const TableSpec& spec) {
                  .hint = "a root face goes with contact inner"});
   if (auto ok = check_stated(spec); !ok) return ok;
   if (auto ok = check_untilted(spec); !ok) return ok;
+  if (auto ok = check_gaps(spec); !ok) return ok;
   return check_groove(spec.groove);
 }
 
@@ -98,14 +99,33 @@ double input_of(const TableSpec& spec, const Point& p) {
 }
 
 /// With a land: its elevation, and the least B from its outer edge.
-void stand_on_face(const TableSetup& g, double phi, double z, Point& out) {
+void stand_on_face(const TableSetup& g, std::span<const joint::PreparedCutter> partners, double phi,
+                   double z, Point& out) {
   const double edge = g.wall.inner + g.spec.root_face;
-  const double least = required_bevel(g.root.cutters, {g.wall.inner, edge},
-                                      joint::generator_at(g.wall.inner, phi), z);
+  const double least =
+      required_bevel(partners, {g.wall.inner, edge}, joint::generator_at(g.wall.inner, phi), z);
   out.face = std::max(0.0, least);
   const double slope = elementary::tan(std::min(out.face, g.spec.torch.max.rad()));
-  out.required = required_bevel(g.root.cutters, {edge, g.wall.outer},
-                                joint::generator_at(edge, phi), z + g.spec.root_face * slope);
+  out.required = required_bevel(partners, {edge, g.wall.outer}, joint::generator_at(edge, phi),
+                                z + g.spec.root_face * slope);
+}
+
+/// The angles where the root lies at `z` on the inner wall, and stands off these partners.
+void fill_point(const TableSetup& g, double phi, std::span<const joint::PreparedCutter> partners,
+                const joint::Hit& hit, double z, Point& out) {
+  const bool published = g.spec.dihedral == Dihedral::as_published;
+  const auto& rule = set_in(g.spec, out.cutter) && !g.spec.untilted ? g.flush : g.rule;
+  out.angles =
+      rule.angles(published ? joint::published_normal(g.root.cutters[out.cutter],
+                                                      joint::generator_at(g.root.radius, phi))
+                            : hit.normal);
+  const auto& torch = g.spec.torch;
+  out.raw = std::clamp(out.angles.b, torch.min.rad(), torch.max.rad());
+  if (g.spec.root_face > 0.0)
+    stand_on_face(g, partners, phi, z, out);
+  else
+    out.required = required_bevel(partners, g.wall, joint::generator_at(g.wall.inner, phi), z);
+  out.input = input_of(g.spec, out);
 }
 
 /// The side of an event with the larger input counts.
@@ -205,7 +225,9 @@ Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop) {
                  .solids = {},
                  .wall = wall,
                  .rule = Rule(spec.groove, spec.dihedral),
-                 .flush = Rule(NoGroove{}, spec.dihedral)};
+                 .flush = Rule(NoGroove{}, spec.dihedral),
+                 .gaps = {}};
+  if (const auto* zoned = zones_with_gaps(spec)) out.gaps = Zones(*zoned);
   out.other = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer, stop);
   out.row_phases = row_phases(out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -221,19 +243,15 @@ Point point(const TableSetup& g, double phi, const joint::Hit& hit, std::size_t 
             double root_z) {
   const auto line = joint::generator_at(g.root.radius, phi);
   Point out{.cutter = cutter};
-  const bool published = g.spec.dihedral == Dihedral::as_published;
-  const auto& rule = set_in(g.spec, cutter) && !g.spec.untilted ? g.flush : g.rule;
-  out.angles =
-      rule.angles(published ? joint::published_normal(g.root.cutters[cutter], line) : hit.normal);
-  const auto& torch = g.spec.torch;
-  out.raw = std::clamp(out.angles.b, torch.min.rad(), torch.max.rad());
-  const double z = g.inner ? joint::contact_at(*g.inner, phi).z : root_z;
-  if (g.spec.root_face > 0.0)
-    stand_on_face(g, phi, z, out);
-  else
-    out.required =
-        required_bevel(g.root.cutters, g.wall, joint::generator_at(g.wall.inner, phi), z);
-  out.input = input_of(g.spec, out);
+  if (g.gaps) {
+    const auto stood = stood_at(g, line, hit);
+    out.more = stood.more;
+    out.raised = stood.more > 0.0 ? stood.hit.z - root_z : 0.0;
+    fill_point(g, phi, {&stood.partner, 1}, stood.hit, root_z + out.raised, out);
+  } else {
+    fill_point(g, phi, g.root.cutters, hit, g.inner ? joint::contact_at(*g.inner, phi).z : root_z,
+               out);
+  }
   return out;
 }
 
@@ -271,6 +289,7 @@ Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Ro
     make_alike(g, block, out);
     left = left.subspan(block.size());
   }
+  if (g.gaps) measure_root(g, out);
   return out;
 }
 
@@ -299,9 +318,12 @@ const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size
 Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec) {
   auto cutters = joint::resolve(spec.partners);
   if (!cutters) return cutters;
+  const auto* zoned = detail::zones_with_gaps(spec);
   for (std::size_t i = 0; i < cutters->size(); ++i)
-    (*cutters)[i] = joint::grown((*cutters)[i],
-                                 joint::seat(stated_joint(spec, i), spec.coating, spec.root_gap));
+    (*cutters)[i] = joint::grown(
+        (*cutters)[i], zoned != nullptr
+                           ? spec.coating + Zones(*zoned).least_gap()
+                           : joint::seat(stated_joint(spec, i), spec.coating, spec.root_gap));
   return cutters;
 }
 

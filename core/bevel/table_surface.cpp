@@ -39,6 +39,10 @@ double lift_at(const TableSetup& g, const Rows& rows, std::size_t i, double slop
   const auto line = joint::generator_at(g.wall.inner, nodes[i].phi);
   const bool first = rows.jump_pair(i);
   const auto pair = first ? i + 1 : i - 1;
+  if (g.gaps) {
+    const auto partner = grown_for(g, rows.points[i].more);
+    return lift({&partner, 1}, g.wall, line, slope);
+  }
   const bool lower =
       nodes[i].kind == joint::NodeKind::jump && pair < nodes.size() && nodes[i].z < nodes[pair].z;
   if (!lower) return lift(g.root.cutters, g.wall, line, slope);
@@ -69,7 +73,8 @@ void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std:
   for (auto* column : {&out.z_inner, &out.z_outer, &out.gap, &out.beam}) column->reserve(n);
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
     const double slope = (out.inward ? -1.0 : 1.0) * slopes[i];
-    double z = nodes[i].z;  // of the root surface
+    const double root = nodes[i].z + rows.points[i].raised;
+    double z = root;  // of the root surface
     if (lifted) z = std::max(z, lift_at(g, rows, i, slope));
     double foot = outer ? z - t * slope : z;  // where the bevel's line meets the inner wall
     out.z_inner.push_back(foot);
@@ -79,7 +84,7 @@ void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std:
       foot = out.z_face[i] - f * slope;
     }
     out.z_outer.push_back(outer ? z : foot + t * slope);
-    out.gap.push_back(outer ? out.z_inner[i] - envelope[i] : lifted ? z - nodes[i].z : 0.0);
+    out.gap.push_back(outer ? out.z_inner[i] - envelope[i] : lifted ? z - root : 0.0);
     out.beam.push_back(t / cosines[i]);
   }
 }

@@ -239,6 +239,48 @@ bool tangent(const RowNormals& rows, std::size_t i) {
   return n.z[i] * n.z[i] + across * across < kTangent * kTangent;
 }
 
+/// Root gaps of zones, by what each next zone adds: of a row by its dihedral, deg.
+class GapRamps {
+ public:
+  explicit GapRamps(const ZonedGroove& zoned)
+      : zones_(zoned.zones), half_(zoned.overlap.deg() / 2) {
+    std::ranges::stable_sort(zones_, {}, [](const GrooveZone& z) { return z.dihedral_to.deg(); });
+  }
+  [[nodiscard]] double least() const {
+    double out = *zones_.front().root_gap;
+    for (const auto& zone : zones_) out = std::min(out, *zone.root_gap);
+    return out;
+  }
+  [[nodiscard]] double at(double deg) const {
+    double out = *zones_.front().root_gap;
+    for (std::size_t k = 1; k < zones_.size(); ++k) {
+      const double from = zones_[k].dihedral_from.deg() - half_;
+      const double to = zones_[k - 1].dihedral_to.deg() + half_;
+      const double share = deg >= to ? 1.0 : deg <= from ? 0.0 : (deg - from) / (to - from);
+      out += share * (*zones_[k].root_gap - *zones_[k - 1].root_gap);
+    }
+    return out;
+  }
+
+ private:
+  std::vector<GrooveZone> zones_;
+  double half_;
+};
+
+/// How far the root is off its zones' gaps: the distance from it to the one partner.
+double gaps_missed(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
+                   const GapRamps& ramps) {
+  double worst = solids.size() == 1 ? 0.0 : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < t.phi.size() && solids.size() == 1; ++i) {
+    const auto at = math::cylinder_point(spec.target.inner_radius(), t.phi[i], t.z_inner[i]);
+    const double there = solids.front().distance(at) + ramps.least();
+    const double off = there - ramps.at(t.dihedral[i] * kDegPerRad);
+    // Lifted, the root may open further.
+    worsen(worst, spec.contact == Contact::automatic ? -off : std::abs(off));
+  }
+  return worst;
+}
+
 /// How many entries of the columns are no finite number. With one of them no other line of the
 /// proof says anything.
 std::size_t not_numbers(const Table& t) {
@@ -274,6 +316,9 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   if (stop.stop_requested()) return {};
   const auto planes = plane_errors(rows, spec.dihedral, Directions(t.tau), Directions(t.b_raw));
   const auto input = smoother_input(spec, t);
+  const auto* zoned = std::get_if<ZonedGroove>(&spec.groove);
+  std::optional<GapRamps> ramps;
+  if (zoned != nullptr && zoned->has_root_gaps()) ramps.emplace(*zoned);
   for (std::size_t i = 0; i < t.b.size() && !stops(stop, i); ++i) {
     const bool steep = std::abs(rows.partner.z[i]) < kSilhouette;
     // Near a silhouette, at a corner, at the limit of the torch, and with the paper's own gamma
@@ -285,8 +330,9 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
     worsen(below, (input[i] - t.b[i]) * kDegPerRad);
     worsen(beyond, (t.b[i] - high) * kDegPerRad);
     worsen(beyond, (low - t.b[i]) * kDegPerRad);
-    worsen(deep, -clear_of[i]);
-    worsen(off, clear_of[i]);
+    const double more = ramps ? ramps->at(t.dihedral[i] * kDegPerRad) - ramps->least() : 0.0;
+    worsen(deep, more - clear_of[i]);
+    worsen(off, clear_of[i] - more);
   }
   std::vector<Check> out;
   out.push_back({"dihedral", dihedral, kAngle, "deg"});
@@ -299,6 +345,7 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   out.push_back({"torch_range", beyond, kAngle, "deg"});
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
   if (lifted) out.push_back({"touch", off, kPenetration, "mm"});
+  if (ramps) out.push_back({"zone_gap", gaps_missed(spec, t, solids, *ramps), kPenetration, "mm"});
   if (spec.untilted)
     out.push_back({"gap_map", gaps_off(spec, t, solids, stop), kPenetration, "mm"});
   penetration_checks(spec, t, solids, deep, out, stop);

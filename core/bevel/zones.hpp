@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,12 @@
 namespace tubecut::bevel {
 
 /// The groove angle over one interval of the dihedral, straight between its two ends; in a band
-/// shared with another zone only a part of what is cut.
+/// shared with another zone only a part of what is cut, as of the root gap.
 struct GrooveZone {
   std::string id;
-  Angle dihedral_from, dihedral_to;  // ascending, within 0..180 deg
-  Angle groove_from, groove_to;      // at those ends, >= 0
+  Angle dihedral_from, dihedral_to;     // ascending, within 0..180 deg
+  Angle groove_from, groove_to;         // at those ends, >= 0
+  std::optional<double> root_gap = {};  // mm, between root and partner; all zones have one, or none
 };
 
 /// A user's table of grooves, for example a welding procedure's. Where two zones meet or overlap
@@ -22,11 +24,17 @@ struct GrooveZone {
 /// dihedral to `overlap` / 2 above the lower zone's last. There the groove is the mean of both, the
 /// upper zone's weight running straight from 0 to 1 across the band, each zone's own groove held at
 /// its end beyond it: a straight line where both are constant in the band, else a parabola. Without
-/// any band the groove steps, and the border belongs to the upper zone.
+/// any band the groove steps, and the border belongs to the upper zone; a root gap never steps.
 struct ZonedGroove {
   std::vector<GrooveZone> zones;  // in any order
   Angle overlap = {};
+
+  /// Does each zone have a root gap of its own?
+  [[nodiscard]] bool has_root_gaps() const { return !zones.empty() && zones.front().root_gap; }
 };
+
+/// A root gap that changes from one zone to the next does so over a band no narrower than this.
+inline constexpr Angle kLeastGapBand = Angle::deg(0.5);
 
 /// The zones ready for use, ascending.
 class Zones {
@@ -35,22 +43,27 @@ class Zones {
   explicit Zones(const ZonedGroove& table);
 
   struct At {
-    double groove = 0.0;   // rad
-    std::size_t zone = 0;  // index in the table as given: in a band the nearer zone
-    bool inside = false;   // the table has this dihedral
+    double groove = 0.0;    // rad
+    double root_gap = 0.0;  // mm; without root gaps 0
+    std::size_t zone = 0;   // index in the table as given: in a band the nearer zone
+    bool inside = false;    // the table has this dihedral
   };
   [[nodiscard]] At at(double dihedral) const;
+  /// Of the root gaps.
+  [[nodiscard]] double least_gap() const;
+  [[nodiscard]] double greatest_gap() const;
 
  private:
   struct Row {
-    double from, to, groove_from, groove_to;
+    double from, to, groove_from, groove_to, root_gap;
     std::size_t index;
     double band_from, band_to;  // of the transition to the next row
   };
   std::vector<Row> rows_;
 };
 
-/// Errors    wrong_count, out_of_range (zones/i: not ascending, a gap before it, bands that meet).
+/// Errors    wrong_count, out_of_range (zones/i: not ascending, a gap before it, bands that meet, a
+///           root gap that steps), unsupported_combination (zones/i/root_gap: some have one).
 [[nodiscard]] Result<void> check_zones(const ZonedGroove& table);
 
 }  // namespace tubecut::bevel

@@ -190,7 +190,7 @@ std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by,
   if (!form || !other || !near(member, by)) return std::nullopt;
   const Side one{*form, member}, two{*other, by};
   if (!one.whole() || !two.whole()) return std::nullopt;
-  for (const double turn : detail::turns(one, two)) {
+  for (const double turn : detail::turns(one, two, within_)) {
     auto laid = detail::resembles(one, two, turn, within_);
     if (!laid) continue;
     const auto found = fit(one, two, *laid, stop);

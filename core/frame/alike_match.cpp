@@ -166,7 +166,8 @@ bool Side::whole() const {
 
 double near_zero(double angle) { return angle - kTwoPi * std::round(angle / kTwoPi); }
 
-std::vector<double> turns(const Side& member, const Side& by) {
+std::vector<double> turns(const Side& member, const Side& by, double within) {
+  const double same = std::max(kSameTurn, 0.1 * within / by.form.part->target.outer_radius);
   const auto handle = handle_of(by);
   if (handle.room < 0) return {0.0};
   std::vector<double> out;
@@ -174,7 +175,7 @@ std::vector<double> turns(const Side& member, const Side& by) {
     for (const double half : {0.0, kPi}) {
       const double turn = near_zero(handle.phi - phi + half);
       const bool there = std::ranges::any_of(
-          out, [&](double one) { return std::abs(near_zero(one - turn)) < kSameTurn; });
+          out, [&](double one) { return std::abs(near_zero(one - turn)) < same; });
       if (!there) out.push_back(turn);
     }
   return out;

@@ -24,8 +24,9 @@ struct Side {
 
 /// Turns about its axis, rad, that may lay a part onto another: the side of the other's first
 /// partner that has one, else of its first hole or mark, onto each of the part's own. An axis has
-/// no sense, so each also the other way round.
-[[nodiscard]] std::vector<double> turns(const Side& member, const Side& by);
+/// no sense, so each also the other way round. Of turns that differ by no more than a tenth of
+/// `within` on the surface, the first.
+[[nodiscard]] std::vector<double> turns(const Side& member, const Side& by, double within);
 
 /// Do two resemble each other, the member turned? By a few places of each partner, and by the
 /// places of holes and marks; `shift` is as near as these tell it.

@@ -68,7 +68,7 @@ export function validated<P extends PostPath>(client: TubecutClient, path: P, bo
 
 type Points = Schemas['BevelPoints'];
 /** Those that a table has by what it is asked for: a land, zones, a preset. */
-type ByOption = 'z_face_mm' | 'b_face_deg' | 'zone' | 'gap_inner_mm' | 'gap_outer_mm' | 'bevelled_gap_inner_mm' | 'bevelled_gap_outer_mm';
+type ByOption = 'z_face_mm' | 'b_face_deg' | 'zone' | 'root_gap_mm' | 'gap_inner_mm' | 'gap_outer_mm' | 'bevelled_gap_inner_mm' | 'bevelled_gap_outer_mm';
 type Whole<T> = Omit<T, 'result'> & {result: Omit<Schemas['BevelTable'], 'points'> & {points: Required<Omit<Points, ByOption>> & Pick<Points, ByOption>}};
 type Columns = Schemas['BevelColumns'];
 /** A table of which no columns are named has them all. */
