@@ -1,6 +1,7 @@
 #include "api/columns.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/angle.hpp"
 
@@ -9,6 +10,13 @@ namespace tubecut::api {
 Columns& Columns::degrees(std::string_view name, std::vector<double> radians) {
   for (auto& v : radians) v *= kDegPerRad;
   return column(name, std::move(radians));
+}
+
+Columns& Columns::where_any(std::string_view name, const std::vector<double>& values) {
+  std::vector<std::optional<double>> out;
+  out.reserve(values.size());
+  for (const double v : values) out.push_back(std::isnan(v) ? std::nullopt : std::optional(v));
+  return add(name, std::move(out));
 }
 
 Columns& Columns::append(std::string_view prefix, const Columns& other) {
@@ -32,6 +40,13 @@ void write_column(const Column& column, Writer& w) {
     w.column(name, *numbers);
   else if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&values))
     w.column(name, *integers);
+  else if (const auto* some = std::get_if<std::vector<std::optional<double>>>(&values))
+    w.array(name, *some, [](Writer& cell, const std::optional<double>& v) {
+      if (v)
+        cell.value(*v);
+      else
+        cell.json(Json{});
+    });
   else
     w.column(name, std::get<std::vector<std::string>>(values));
 }

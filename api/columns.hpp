@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@ namespace tubecut::api {
 /// One column of an answer's table, under the name the wire gives it.
 struct Column {
   using Values = Variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>,
-                         std::vector<bool>>;
+                         std::vector<bool>, std::vector<std::optional<double>>>;
   std::string name;
   Values values;
   bool seen = true;  // in what is printed; if not, still in what is hashed
@@ -36,6 +37,8 @@ class Columns {
   Columns& texts(std::string_view name, std::vector<std::string> values) {
     return add(name, std::move(values));
   }
+  /// Numbers that a row may lack: where they are no number, null, in CSV an empty cell.
+  Columns& where_any(std::string_view name, const std::vector<double>& values);
   Columns& flags(std::string_view name, std::vector<bool> values) {
     return add(name, std::move(values));
   }

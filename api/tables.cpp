@@ -41,6 +41,8 @@ Columns bevel_columns(const bevel::TableSpec& spec, const bevel::Table& t) {
       .degrees("tau_deg", t.tau)
       .degrees("gamma_deg", t.gamma)
       .degrees("flush_deg", t.flush)
+      .where_any("dz_per_branch_mm", t.dz_branch)
+      .where_any("dz_per_chord_mm", t.dz_chord)
       .degrees("b_raw_deg", t.b_raw)
       .degrees("b_required_deg", t.b_required)
       .degrees("b_deg", t.b)

@@ -35,7 +35,9 @@ void print_cell(const Column::Values& values, std::size_t i, std::string& out) {
     out += std::to_string((*integers)[i]);
   else if (const auto* flags = std::get_if<std::vector<bool>>(&values))
     out += (*flags)[i] ? "true" : "false";
-  else
+  else if (const auto* some = std::get_if<std::vector<std::optional<double>>>(&values)) {
+    if (const auto& number = (*some)[i]) append_number(out, *number);
+  } else
     out += csv_text(std::get<std::vector<std::string>>(values)[i]);
 }
 

@@ -38,6 +38,8 @@ void fill_angles(const TableSetup& g, const Rows& rows, Table& out) {
   out.tau = angle(&Angles::tau);
   out.gamma = angle(&Angles::gamma);
   out.flush = angle(&Angles::flush);
+  out.dz_branch = each(points, [](const Point& p) { return p.rates.branch; });
+  out.dz_chord = each(points, [](const Point& p) { return p.rates.chord; });
   out.b_raw = each(points, &Point::raw);
   out.b_required = each(points, &Point::required);
 }

@@ -50,8 +50,7 @@ struct TableSpec {
   TorchRange torch;
   bool untilted = false;  // the head stands square to the wall everywhere: see `table`
   Smoothing smoothing;
-  Angle mutation_limit =
-      Angle::deg(10);  // steps of the smoother's input above it are listed, with every method
+  Angle mutation_limit = Angle::deg(10);  // larger steps of the smoother's input are listed
 };
 
 /// The table, one entry per node, ascending phi; two nodes at a jump. Angles in rad, lengths in mm.
@@ -92,6 +91,7 @@ struct Table {
   Multipliers multipliers;  // of the smoothing, of every node of its path; empty unless refined
   Penetration penetration;  // of the finished surface, at rows and between them; solid: the partner
   std::vector<Warning> warnings;
+  std::vector<double> dz_branch, dz_chord;  // of the rows: RadiusRates of the root's z
 };
 
 /// The bevel table of one cut end: contour, angles, contact, smoothing, finished surface and torch

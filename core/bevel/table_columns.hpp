@@ -9,6 +9,7 @@ enum class ColumnKind {
   station,    // of the row round the cut: counted the other way
   height,     // z: counted from the other end
   elevation,  // an angle towards +z: of the other sign
+  rate,       // of a height by something else: of the other sign; kNoRate where there is none
   plain,      // the same
 };
 
@@ -29,6 +30,8 @@ void each_column(const F& see, T&... t) {
   see(elevation, t.tau...);
   see(plain, t.gamma...);
   see(elevation, t.flush...);
+  see(rate, t.dz_branch...);
+  see(rate, t.dz_chord...);
   see(elevation, t.b_raw...);
   see(elevation, t.b_required...);
   see(elevation, t.b...);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bevel/radius_rates.hpp"
 #include "core/bevel/required.hpp"
 #include "core/bevel/table.hpp"
 #include "core/joint/solid.hpp"
@@ -44,6 +45,7 @@ struct TableSetup {
 struct Point {
   std::size_t cutter = 0;
   Angles angles;
+  RadiusRates rates;
   double raw = 0.0;       // rule within the torch range
   double required = 0.0;  // least B with which no partner enters the wall
   double input = 0.0;     // of the smoother

@@ -119,6 +119,7 @@ void fill_point(const TableSetup& g, double phi, std::span<const joint::Prepared
       rule.angles(published ? joint::published_normal(g.root.cutters[out.cutter],
                                                       joint::generator_at(g.root.radius, phi))
                             : hit.normal);
+  out.rates = radius_rates(g.root.cutters[out.cutter], hit.normal);
   const auto& torch = g.spec.torch;
   out.raw = std::clamp(out.angles.b, torch.min.rad(), torch.max.rad());
   if (g.spec.root_face > 0.0)
@@ -160,7 +161,8 @@ void make_alike(const TableSetup& g, std::span<const std::size_t> at, Rows& rows
   }
   auto stations = joint::stations_at(g.root.radius, phi);
   std::vector<Angles> angles(n);
-  g.rule.angles(joint::normals_at(g.root.cutters, stations, cutter), angles);
+  const auto normals = joint::normals_at(g.root.cutters, stations, cutter);
+  g.rule.angles(normals, angles);
   stations.radius = g.wall.inner;
   if (g.inner) z = joint::contacts_at(*g.inner, stations, phi).z;
   const auto required = required_bevels(g.root.cutters, g.wall, stations, z);
@@ -169,6 +171,8 @@ void make_alike(const TableSetup& g, std::span<const std::size_t> at, Rows& rows
     auto& out = rows.points[at[i]];
     out = {.cutter = cutter[i],
            .angles = angles[i],
+           .rates = radius_rates(g.root.cutters[cutter[i]],
+                                 {normals.radial[i], normals.tangential[i], normals.axial[i]}),
            .raw = std::clamp(angles[i].b, least, most),
            .required = required[i]};
     out.input = input_of(g.spec, out);

@@ -97,7 +97,7 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
                           std::vector<double>& to) {
     using enum bevel::ColumnKind;
     if (kind == height) to = mirrored(from, order, length);
-    if (kind == elevation) to = mirrored(from, order);
+    if (kind == elevation || kind == rate) to = mirrored(from, order);
     if (kind == plain) to = picked(from, order);
   };
   bevel::each_column(mirror, in, out);

@@ -11,7 +11,7 @@ from service import FormatTest, examples, main
 # Arrays of the answers that are no columns of a table: coefficients, names, vectors, the points of a program's ways.
 NO_COLUMNS = re.compile(r"^(fit|comparison\[\d+\])\.(chebyshev|scaled|seconds|seconds_rounded)$|cutter_ids$|^(axes|idle)$|^frame\."
                         r"|^check_dimensions\[\d+\]\.changes_with$|\.box$|^segments\[\d+\]\.way\.")
-SCALARS = (int, float, str, bool)
+SCALARS = (int, float, str, bool, type(None))
 
 
 def columns(value, path=""):
@@ -47,6 +47,8 @@ def names_of(path, result):
 
 
 def cell(value):
+    if value is None:
+        return ""  # an empty cell
     return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else float(value)
 
 

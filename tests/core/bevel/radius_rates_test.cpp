@@ -1,0 +1,136 @@
+#include "core/bevel/radius_rates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/bevel/table.hpp"
+#include "core/joint/solid.hpp"
+#include "tests/support/random_cut.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+constexpr double kBy = 1e-5;  // mm, of a radius
+
+/// The partner with its radius larger; empty if it has none.
+std::optional<joint::Partner> wider(joint::Partner partner, double by) {
+  const bool has = std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.radius; }) kind.radius += by;
+        return requires { kind.radius; };
+      },
+      partner);
+  return has ? std::optional(partner) : std::nullopt;
+}
+
+/// How high the partner reaches at a place of the wall, from the solid in space.
+std::optional<double> top(const joint::Partner& partner, double rho, double phi) {
+  const auto cutters = joint::resolve(std::vector{partner});
+  if (!cutters) return std::nullopt;
+  return joint::Solid(cutters->front()).top(rho * std::cos(phi), rho * std::sin(phi));
+}
+
+/// By differences of the heights of solids on both sides; empty if they do not settle.
+std::optional<double> difference(const std::optional<double>& low,
+                                 const std::optional<double>& high, double by) {
+  if (!low || !high) return std::nullopt;
+  return (*high - *low) / (2.0 * by);
+}
+
+TableSpec spec_of(oracle::Random& random, std::size_t kind) {
+  const double rho = random.any(10.0, 150.0);
+  TableSpec spec{.target = {.outer_radius = rho, .wall = rho * random.any(0.03, 0.3)},
+                 .partners = {oracle::random_partner(random, rho, kind, true)}};
+  spec.sampling.uniform_points = 24;
+  spec.root_surface = random.chance(0.5) ? RootSurface::inner : RootSurface::outer;
+  spec.contact = Contact::none;
+  spec.groove = NoGroove{};
+  spec.smoothing = NoSmoothing{};
+  return spec;
+}
+
+/// What was compared, how often there was no rate, and the largest difference, of the rate.
+struct Seen {
+  int rows = 0, none = 0;
+  double worst = 0.0;
+};
+
+void compare(const TableSpec& spec, const Table& t, Seen& seen) {
+  const double rho = spec.root_surface == RootSurface::outer ? spec.target.outer_radius
+                                                             : spec.target.inner_radius();
+  const auto& partner = spec.partners.front();
+  const auto less = wider(partner, -kBy), more = wider(partner, kBy);
+  for (std::size_t i = 0; i < t.phi.size(); ++i) {
+    const double phi = t.phi[i];
+    EXPECT_EQ(std::isnan(t.dz_chord[i]), !more.has_value());
+    // A step of half the width tells how straight the surface is there.
+    const auto branch = difference(top(partner, rho - kBy, phi), top(partner, rho + kBy, phi), kBy);
+    const auto again =
+        difference(top(partner, rho - 4 * kBy, phi), top(partner, rho + 4 * kBy, phi), 4 * kBy);
+    if (!branch || !again || std::abs(*branch - *again) > 1e-4 * (1.0 + std::abs(*branch)))
+      continue;
+    const auto held = [&](double got, double wanted) {
+      seen.worst = std::max(seen.worst, std::abs(got - wanted) / (1.0 + std::abs(wanted)));
+      ++seen.rows;
+    };
+    held(t.dz_branch[i], *branch);
+    if (!more) {
+      ++seen.none;
+      continue;
+    }
+    if (const auto chord = difference(top(*less, rho, phi), top(*more, rho, phi), kBy))
+      held(t.dz_chord[i], *chord);
+  }
+}
+
+TEST(RadiusRates, AreTheDifferencesOfHeightsOfSolidsThatAreWider) {
+  oracle::Random random{std::mt19937_64{20261127}};
+  for (std::size_t kind = 0; kind < 6; ++kind) {
+    Seen seen;
+    int tables = 0;
+    for (int i = 0; i < 80; ++i) {
+      const auto spec = spec_of(random, kind);
+      const auto t = table(spec);
+      if (!t) continue;  // a partner that leaves a side open, or an elbow that hides itself
+      ++tables;
+      compare(spec, *t, seen);
+    }
+    std::printf("kind %zu: %d tables, %d rates, %d rows without one, off by %.2g\n", kind, tables,
+                seen.rows, seen.none, seen.worst);
+    EXPECT_GE(tables, 35) << kind;
+    EXPECT_GE(seen.rows, 24 * tables / 2) << kind;
+    EXPECT_LT(seen.worst, 1e-6) << kind;
+    EXPECT_EQ(seen.none > 0, kind == 2 || kind == 3) << kind;
+  }
+}
+
+TEST(RadiusRates, TheGapIsTheChordsChangeAndTheBranchsByTheCosineOfTheDihedral) {
+  oracle::Random random{std::mt19937_64{7}};
+  int rows = 0;
+  for (int i = 0; i < 60; ++i) {
+    auto spec = spec_of(random, 0);
+    spec.root_surface = RootSurface::inner;
+    const auto t = table(spec);
+    if (!t) continue;
+    for (std::size_t k = 0; k < t->phi.size(); ++k) {
+      const double axial = 1.0 / t->dz_chord[k];  // a gap is the height times this
+      EXPECT_NEAR(t->dz_branch[k] * axial, std::cos(t->dihedral[k]), 1e-9);
+      ++rows;
+    }
+  }
+  EXPECT_GT(rows, 800);
+}
+
+TEST(RadiusRates, ThereIsNoneAtASilhouette) {
+  const auto cutter = joint::prepare(
+      joint::Cutter{joint::TubeCutter{.radius = 40.0, .inclination = Angle::deg(60)}});
+  ASSERT_TRUE(cutter);
+  const auto rates = radius_rates(*cutter, {1.0, 0.0, 0.0});
+  EXPECT_TRUE(std::isnan(rates.branch));
+  EXPECT_TRUE(std::isnan(rates.chord));
+}
+
+}  // namespace
+}  // namespace tubecut::bevel
