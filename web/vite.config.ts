@@ -26,7 +26,7 @@ export default defineConfig({
   base: '/',
   plugins: [glossary, dictionary],
   // clients/import is the console's too, its parsers are those of this folder: `npm ci` here is all that a build needs.
-  resolve: {dedupe: ['dxf-parser', 'papaparse', 'web-ifc']},
+  resolve: {dedupe: ['papaparse', 'web-ifc']},
   worker: {format: 'es'}, // the reader of models loads that of IFC when the first such file comes
   // Three pages: the console, the API reference that shares little with it, the words of both.
   build: {

@@ -1,4 +1,4 @@
-import library, {type IDxf, type IEntity} from 'dxf-parser';
+import {type Drawing, drawingOf, type Drawn} from './drawing.js';
 import {exact, full, type Found, type FrameOptions, frameOf, type Imported, names, nothing, rounded, type Size} from './frame.js';
 import {limits} from './limits.js';
 import {distance, times, type Vector} from './geometry.js';
@@ -9,40 +9,20 @@ export interface DxfOptions extends FrameOptions {
   unit?: LengthUnit;
 }
 
-type Point = {x: number; y: number; z?: number};
-type Drawn = IEntity & {
-  vertices?: (Point & {bulge?: number})[];
-  center?: Point;
-  radius?: number;
-  startAngle?: number;
-  endAngle?: number;
-  shape?: boolean;
-  is3dPolygonMesh?: boolean;
-  isPolyfaceMesh?: boolean;
-  includesCurveFitVertices?: boolean;
-  includesSplineFitVertices?: boolean;
-  elevation?: number;
-  extrusionDirection?: Point;
-  extrusionDirectionX?: number;
-  extrusionDirectionY?: number;
-  extrusionDirectionZ?: number;
-};
-
 class Trouble extends Error {}
-
-// Its types tell of a module that exports the class by the name of default, which neither node nor a bundler sees.
-const Parser = library as unknown as new () => {parseSync(text: string): IDxf | null};
 
 // $INSUNITS, of those that a drawing of tubes is in.
 const units: Record<number, LengthUnit> = {1: 'in', 2: 'ft', 4: 'mm', 5: 'cm', 6: 'm'};
 
-const at = (p: Point): Vector => [p.x, p.y, p.z ?? 0];
-
 /** Flat entities are drawn in a plane of their own; only the world's is read. */
-function flat({extrusionDirection: d, extrusionDirectionX: x, extrusionDirectionY: y, extrusionDirectionZ: z}: Drawn): void {
-  const up = d ? [d.x, d.y, d.z ?? 1] : [x ?? 0, y ?? 0, z ?? 1];
-  if (up[0] !== 0 || up[1] !== 0 || up[2] !== 1) throw new Trouble('it is drawn in a plane of its own (extrusion direction)');
+function flat({extrusion: [x, y, z]}: Drawn): void {
+  if (x !== 0 || y !== 0 || z !== 1) throw new Trouble('it is drawn in a plane of its own (extrusion direction)');
 }
+
+const finite = (p: Vector): Vector => {
+  if (!p.every(Number.isFinite)) throw new Trouble('it has a coordinate that is no number');
+  return p;
+};
 
 interface Arc {
   centre: Vector;
@@ -52,10 +32,9 @@ interface Arc {
 }
 type Piece = {from: Vector; to: Vector} | Arc;
 
-function line({vertices = []}: Drawn): Piece[] {
-  const [from, to] = vertices;
-  if (!from || !to) throw new Trouble('it has no two points');
-  return [{from: at(from), to: at(to)}];
+function line({points: [from], end}: Drawn): Piece[] {
+  if (!from || !end) throw new Trouble('it has no two points');
+  return [{from: finite([from.x, from.y, from.z]), to: finite(end)}];
 }
 
 /** bulge: the tangent of a quarter of the arc's angle, positive anticlockwise. */
@@ -67,29 +46,38 @@ function bulged(from: Vector, to: Vector, bulge: number): Arc {
   return {centre, radius: distance(centre, from), from: Math.atan2(from[1] - centre[1], from[0] - centre[0]), angle};
 }
 
+const [closed, curveFit, splineFit, in3d, mesh, polyface] = [1, 2, 4, 8, 16, 64]; // bits of code 70
+
 function polyline(entity: Drawn): Piece[] {
-  const {vertices: points = [], is3dPolygonMesh, isPolyfaceMesh, includesCurveFitVertices, includesSplineFitVertices} = entity;
-  if (is3dPolygonMesh || isPolyfaceMesh) throw new Trouble('it is a mesh');
-  if (includesCurveFitVertices || includesSplineFitVertices) throw new Trouble('it is fitted by a curve');
+  const {points, flags, type} = entity;
+  const light = type === 'LWPOLYLINE';
+  if (!light && flags & (mesh | polyface)) throw new Trouble('it is a mesh');
+  if (!light && flags & (curveFit | splineFit)) throw new Trouble('it is fitted by a curve');
   if (points.length < 2) throw new Trouble('it has no two points');
   if (points.length > limits.points) throw new Trouble(`it has ${points.length} points, and at most ${limits.points} are read`);
-  const curved = points.some(({bulge}) => bulge);
-  if (entity.type === 'LWPOLYLINE' || curved) flat(entity);
-  const lift = (p: Point): Vector => (entity.type === 'LWPOLYLINE' ? [p.x, p.y, entity.elevation ?? 0] : at(p));
-  const next = entity.shape ? [...points.slice(1), points[0] as Point] : points.slice(1);
+  const spatial = !light && (flags & in3d) !== 0;
+  if (light || points.some(({bulge}) => bulge)) flat(entity);
+  const at = (p: Drawn['points'][0]): Vector => finite([p.x, p.y, light ? entity.elevation : spatial ? p.z : p.z || entity.elevation]);
+  const next = flags & closed ? [...points.slice(1), points[0] as Drawn['points'][0]] : points.slice(1);
   return next.map((p, i) => {
-    const one = points[i] as Point & {bulge?: number};
-    const [from, to] = [lift(one), lift(p)];
+    const one = points[i] as Drawn['points'][0];
+    const [from, to] = [at(one), at(p)];
+    if (!Number.isFinite(one.bulge)) throw new Trouble('it has a bulge that is no number');
     return one.bulge ? bulged(from, to, one.bulge) : {from, to};
   });
 }
 
 function arc(entity: Drawn): Piece[] {
   flat(entity);
-  const {center, radius, startAngle, endAngle} = entity;
-  if (!center || !radius || startAngle === undefined || endAngle === undefined) throw new Trouble('it has no centre, radius or angles');
+  const {
+    points: [centre],
+    radius,
+    angles,
+  } = entity;
+  if (!centre || !(radius > 0) || !angles.every(Number.isFinite)) throw new Trouble('it has no centre, radius or angles');
+  const [from, to] = angles.map((deg) => (deg * Math.PI) / 180) as [number, number];
   const whole = 2 * Math.PI;
-  return [{centre: at(center), radius, from: startAngle, angle: (((endAngle - startAngle) % whole) + whole) % whole}];
+  return [{centre: finite([centre.x, centre.y, centre.z]), radius, from, angle: (((to - from) % whole) + whole) % whole || whole}];
 }
 
 const kinds: Record<string, (entity: Drawn) => Piece[]> = {LINE: line, LWPOLYLINE: polyline, POLYLINE: polyline, ARC: arc};
@@ -121,14 +109,12 @@ function add(found: Found, piece: Piece, id: string, size: Size, mm: number): vo
   });
 }
 
-function parsed(text: string): IDxf {
+function parsed(text: string): Drawing {
   try {
-    const drawing = new Parser().parseSync(text);
-    if (Array.isArray(drawing?.entities)) return drawing as IDxf;
+    return drawingOf(text);
   } catch (failure) {
     throw new Trouble(`it cannot be read: ${failure instanceof Error ? failure.message : String(failure)}`);
   }
-  throw new Trouble('it cannot be read');
 }
 
 /** The layers that have something drawn on them: what sizes are asked for. */
@@ -143,15 +129,15 @@ export function layersOf(text: string): string[] {
 }
 
 /** $INSUNITS of a drawing; none where it tells none that is known. */
-export const unitOf = (text: string): LengthUnit | undefined => units[Number(parsed(text).header?.['$INSUNITS'])];
+export const unitOf = (text: string): LengthUnit | undefined => units[parsed(text).unit];
 
 function every(text: string, sizesByLayer: Record<string, Size>, found: Found, options: DxfOptions): void {
   const drawing = parsed(text);
-  const unit = options.unit ?? units[Number(drawing.header?.['$INSUNITS'])];
+  const unit = options.unit ?? units[drawing.unit];
   if (!unit) throw new Trouble('the drawing does not tell its unit ($INSUNITS), and none was given');
   const mm = lengths[unit];
   const name = names();
-  for (const entity of drawing.entities as Drawn[]) {
+  for (const entity of drawing.entities) {
     if (full(found)) return;
     const mark = `handle ${entity.handle}`;
     try {
