@@ -317,6 +317,36 @@ TEST_P(EveryJoint, IsOneThingToNodesPartsAndFrames) {
 
 INSTANTIATE_TEST_SUITE_P(EveryKind, EveryJoint, ::testing::ValuesIn(kKinds));
 
+// A camber drawn with rounded coordinates: its faces lie where the pieces end, not metres away
+// where their axes happen to cross.
+TEST(EveryJoint, CamberedPiecesMeetAtTheirEnds) {
+  Random random(20260915);
+  Real furthest = 0;
+  for (std::size_t n = 0; n < 245; ++n) {
+    auto model = pair(random, Kind::butt, random.upto(3));
+    const auto& said = model.joints.front();
+    auto& branch = model.tubes[said.branch];
+    const Point lean =
+        random.leaning(model.tubes[said.chord].into(said.chord_end), random.between(175, 179.95L));
+    (said.branch_end ? branch.start : branch.finish) =
+        branch.at(said.branch_end) + random.between(900, 2000) * lean;
+    write_down(model, kWritten[n % kWritten.size()], random);
+    auto request = members_of(model, random);
+    request.emplace_back("include", *api::parse(R"(["profiles"])"));
+    request.emplace_back("sampling", *api::parse(R"({"uniform_points": 12})"));
+    const auto answer = post("/v1/nodes", Json{std::move(request)});
+    ASSERT_FALSE(answer.outcome.error) << n << answer.outcome.body;
+    const Real apart = norm(model.tubes[1].at(said.branch_end) - model.tubes[0].at(said.chord_end));
+    for (const auto& end : *at(answer.body, "result/ends").as<Json::Array>())
+      for (const auto& curve : *at(end, "profiles").as<Json::Array>())
+        for (const Real z : numbers(curve, "points/z_mm"))
+          furthest = std::max(furthest, (std::abs(z) - apart - said.gap) / model.tubes[0].radius);
+  }
+  std::printf("faces at most %.3Lf radii further from the ends than these are apart\n", furthest);
+  EXPECT_GT(furthest, 0);
+  EXPECT_LT(furthest, 1.06L);
+}
+
 TEST(EveryJoint, MitreWhoseMembersBothStartThere) {
   const auto answer =
       post("/v1/nodes",

@@ -81,10 +81,9 @@ TEST(Partners, AnElbowCarriesALegAlongItsRun) {
     }
   }
   EXPECT_GE(seen, 720U);
-  const auto table = post(kPath, with(with(with(without(request, "sampling"), "sampling",
-                                                *api::parse(R"({"uniform_points": 60})")),
-                                           "groove", *api::parse(R"({"rule": "half_dihedral"})")),
-                                      "root_surface", "inner"));
+  const auto leg =
+      with(with(elbow(), "target", at(request, "target")), "cutters", at(request, "cutters"));
+  const auto table = post(kPath, with(leg, "smoothing", *api::parse(R"({"method": "none"})")));
   ASSERT_FALSE(table.outcome.error) << table.outcome.body.substr(0, 1500);
   EXPECT_EQ(at(table.body, "verification/passed"), api::Json{true});
 }
