@@ -196,7 +196,7 @@ class PartWriter {
           cutter.emplace_back("id", Json{name});
       std::ranges::move(joint::by_kind(all[i].partner, Fields{}), std::back_inserter(cutter));
       cutters.emplace_back(std::move(cutter));
-      if (all[i].stated) joints.push_back(joint(i, *all[i].stated));
+      if (all[i].stated) joints.push_back(joint(i, *all[i].stated, all[i].missing));
     }
     Json::Object out{{"cutters", Json{std::move(cutters)}}, {"joints", Json{std::move(joints)}}};
     TRY(auto how, cut(member, which));
@@ -212,12 +212,13 @@ class PartWriter {
     return names.of_members[joint.chord];
   }
 
-  static Json joint(std::size_t cutter, const joint::Joint& joint) {
+  static Json joint(std::size_t cutter, const joint::Joint& joint, double missing) {
     Json::Object out{{"cutter", Json{static_cast<double>(cutter)}},
                      {"kind", Json{std::string(name_of(joint.kind))}},
                      {"gap_mm", Json{joint.gap}}};
     if (joint.kind == joint::JointKind::set_in && joint.depth)
       out.emplace_back("depth_mm", Json{*joint.depth});
+    if (missing > 0.0) out.emplace_back("missing_mm", tidy(missing, 1e3));
     return Json{std::move(out)};
   }
 

@@ -107,6 +107,7 @@ void encode_cut(const joint::NodeSpec& spec, const joint::CutBy& cut, Writer& w)
   w.field("gap_mm", cut.gap);
   w.field("eccentricity_mm", cut.eccentricity);
   w.field("ghost", cut.ghost);
+  if (cut.ghost) w.field("missing_mm", cut.missing);
 }
 
 struct Nodes {

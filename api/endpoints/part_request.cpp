@@ -149,7 +149,8 @@ joint::Joint decode_end_joint(Reader& in, const joint::Partner* partner) {
 }
 
 /// How the cutters of an end are joined, where that is said; by their index.
-void decode_end_joints(Reader& in, bevel::TableSpec& out) {
+void decode_end_joints(Reader& in, const std::string& end, bevel::TableSpec& out,
+                       std::vector<Warning>& warnings) {
   in.note("joints");
   if (!in.has("joints")) return;
   const auto n = out.partners.size();
@@ -160,7 +161,12 @@ void decode_end_joints(Reader& in, bevel::TableSpec& out) {
     const auto index = static_cast<std::size_t>(j.integer("cutter", 0, last));
     const bool there = known && j.understood("cutter");
     const auto joint = decode_end_joint(j, there ? &out.partners[index] : nullptr);
+    const auto missing = j.optional_number("missing_mm", {.min = 0.0, .max = limit::offset_max_mm});
     if (!there) return 0;
+    if (missing.value_or(0.0) > 0.0)
+      warnings.push_back({.code = WarningCode::ghost_contact,
+                          .member = "ends/" + end + "/cutters/" + std::to_string(index),
+                          .detail = "it is missing over " + brief(*missing) + " mm of this cut"});
     if (out.stated[index])
       j.issue({.code = ErrorCode::duplicate_id,
                .pointer = "cutter",
@@ -171,7 +177,8 @@ void decode_end_joints(Reader& in, bevel::TableSpec& out) {
   });
 }
 
-part::EndSpec decode_end(Reader& in, Preset preset, const bevel::TableSpec& once) {
+part::EndSpec decode_end(Reader& in, const std::string& end, const bevel::TableSpec& once,
+                         PartRequest& request) {
   const auto which = in.exactly_one({"cutters", "square_at_mm"});
   if (!which) {
     in.silence();
@@ -181,19 +188,21 @@ part::EndSpec decode_end(Reader& in, Preset preset, const bevel::TableSpec& once
   if (const auto own = in.optional_number("kerf_mm", kKerf)) out.cut.kerf = *own;
   if (which == 1) return part::square_end(out.cut, in.number("square_at_mm", kOffset));
   out.cut.partners = decode_cutters(in);
-  decode_end_joints(in, out.cut);
-  decode_cut(in, false, preset, out.cut);
+  decode_end_joints(in, end, out.cut, request.warnings);
+  decode_cut(in, false, request.preset, out.cut);
   return out;
 }
 
 void decode_ends(Reader& in, const bevel::TableSpec& once, PartRequest& out) {
   in.object("ends", [&](Reader& ends) {
-    const auto end = [&](Reader& e, bool& own_kerf) {
+    const auto end = [&](Reader& e, const char* name, bool& own_kerf) {
       own_kerf = e.has("kerf_mm");
-      return decode_end(e, out.preset, once);
+      return decode_end(e, name, once, out);
     };
-    out.part.start = ends.object("start", [&](Reader& e) { return end(e, out.start_kerf); });
-    out.part.finish = ends.object("finish", [&](Reader& e) { return end(e, out.finish_kerf); });
+    out.part.start =
+        ends.object("start", [&](Reader& e) { return end(e, "start", out.start_kerf); });
+    out.part.finish =
+        ends.object("finish", [&](Reader& e) { return end(e, "finish", out.finish_kerf); });
     return 0;
   });
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
+#include "core/joint/in_line.hpp"
 #include "core/joint/nearness.hpp"
 #include "core/joint/node_parts.hpp"
 #include "core/joint/overlap.hpp"
@@ -18,8 +19,7 @@ using detail::Joined;
 using Eigen::Vector3d;
 using joint::End;
 
-constexpr double kInLine = 0.5 * kRadPerDeg;  // two ends face each other
-constexpr double kEquallyNear = 1e-6;         // mm
+constexpr double kEquallyNear = 1e-6;  // mm
 
 std::string at_joint(std::size_t i) { return "joints/" + std::to_string(i); }
 std::string at_other(std::size_t i) { return "others/" + std::to_string(i); }
@@ -88,20 +88,6 @@ struct Off {
   }
 };
 
-/// The end that a stated joint with one of the others is of.
-Result<End> end_at(const FrameSpec& spec, std::size_t index) {
-  const auto& said = spec.joints[index];
-  if (said.end) return *said.end;
-  const auto& m = spec.members[said.member];
-  const auto& partner = spec.others[said.with].partner;
-  const double start = joint::by_kind(partner, Off{m.start});
-  const double finish = joint::by_kind(partner, Off{m.finish});
-  if (std::abs(start - finish) > kEquallyNear) return start < finish ? End::start : End::finish;
-  return fail({.code = ErrorCode::ambiguous_connection,
-               .member = at_joint(index),
-               .hint = "both ends are equally near; say which with end"});
-}
-
 /// Of two members that join by what is stated alone: the branch's end at the chord.
 joint::Link link(const FrameSpec& spec, const joint::NodeSpec& node, const StatedJoint& said) {
   const bool first = joint::detail::goes_before(node, said.member, said.with);
@@ -126,7 +112,7 @@ Result<Joined> stated(const FrameSpec& spec) {
     const auto& said = spec.joints[i];
     out.joints.push_back({said.member, said.with, said.other, said.how, i});
     if (said.other) {
-      TRY(const auto end, end_at(spec, i));
+      TRY(const auto end, detail::end_at(spec, i));
       const auto index = 2 * said.member + (end == End::finish ? 1 : 0);
       if (!at_others.emplace(index, said.with).second)
         return contradicts(i, {}, "this end's joint with it is stated already");
@@ -145,23 +131,36 @@ Result<Joined> stated(const FrameSpec& spec) {
   return out;
 }
 
+/// Sine of half of what two ends at a plane lie out of line, twice: as good as the angle.
+double out_of_line(const joint::CutBy& cut) {
+  return 2.0 * Vector3d::UnitZ().cross(cut.plane->normal.normalized()).norm();
+}
+
+/// As the defaults say; in line a butt joint or a mitre with their gap.
+How found_as(const FrameSpec& spec, const joint::CutBy& cut) {
+  if (!cut.plane) return spec.found;
+  const bool square = out_of_line(cut) <= joint::kButtMost;
+  return {.kind = square ? How::Kind::butt : How::Kind::mitre, .gap = spec.found.gap};
+}
+
 /// Pairs that meet and of which nobody says how, each by its branch.
 void add_found(const FrameSpec& spec, Joined& joined) {
   for (const auto& end : joined.nodes.ends)
     for (const auto& cut : end.cut_by) {
       const auto pair = std::minmax(end.member, cut.member);
       if (!joined.of_members.emplace(pair, joined.joints.size()).second) continue;
-      joined.joints.push_back({end.member, cut.member, false, spec.found, std::nullopt});
-      joined.node.joints.push_back({end.member, cut.member, of_node(spec.found), "defaults"});
+      const auto how = found_as(spec, cut);
+      joined.joints.push_back({end.member, cut.member, false, how, std::nullopt});
+      joined.node.joints.push_back({end.member, cut.member, of_node(how), "defaults"});
+      ++joined.node.found;
     }
 }
 
 /// Two ends in line, or a joint that is none.
 Result<void> check_butt(const joint::CutBy& cut, const Joint& one) {
-  if (one.how.kind != How::Kind::butt) return {};
-  const Vector3d z = Vector3d::UnitZ();
-  const double off = 2.0 * z.cross(cut.plane->normal.normalized()).norm();
-  if (off <= kInLine) return {};
+  if (one.how.kind != How::Kind::butt || !one.stated) return {};
+  const double off = out_of_line(cut);
+  if (off <= joint::kButtMost) return {};
   return contradicts(*one.stated, "kind",
                      "the two lie " + brief(off * kDegPerRad) + " deg out of line; mitre them");
 }
@@ -230,6 +229,19 @@ std::vector<Warning> warnings(const Joined& joined) {
 }
 
 }  // namespace
+
+Result<End> detail::end_at(const FrameSpec& spec, std::size_t index) {
+  const auto& said = spec.joints[index];
+  if (said.end) return *said.end;
+  const auto& m = spec.members[said.member];
+  const auto& partner = spec.others[said.with].partner;
+  const double start = joint::by_kind(partner, Off{m.start});
+  const double finish = joint::by_kind(partner, Off{m.finish});
+  if (std::abs(start - finish) > kEquallyNear) return start < finish ? End::start : End::finish;
+  return fail({.code = ErrorCode::ambiguous_connection,
+               .member = at_joint(index),
+               .hint = "both ends are equally near; say which with end"});
+}
 
 Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
   TRY(check_others(spec));

@@ -25,6 +25,7 @@ struct How {
   std::optional<double> depth = {};
   joint::MitrePlane plane = joint::MitrePlane::bisecting;
   bool hole = false;  // is the chord's hole cut? Set-on: the branch's bore
+  friend bool operator==(const How&, const How&) = default;
 };
 
 /// What cuts ends and is not cut itself, placed in the world.
@@ -42,7 +43,8 @@ struct StatedJoint {
 };
 
 /// Members of one structure with their joints. Of two members which is the branch follows from
-/// priority, diameter and place, as in joint::NodeSpec; through: the thinner one.
+/// priority, diameter and place, as in joint::NodeSpec; through: the thinner one. What is found in
+/// line is a butt joint or a mitre with the gap of `found`.
 struct FrameSpec {
   std::vector<joint::Member> members;
   std::vector<Other> others;
@@ -64,6 +66,7 @@ struct Cutter {
   joint::Partner partner;
   std::optional<joint::Joint> stated;
   std::size_t joint = 0;
+  double missing = 0.0;  // so far the cut follows it where it is not, mm
 };
 /// A hole for a branch, which stands in the start's frame and points out of the chord.
 struct Hole {

@@ -32,6 +32,10 @@ struct Joined {
 /// The surfaces of the others that cut each end, in that end's frame.
 [[nodiscard]] joint::Beside seats_of_others(const FrameSpec& spec, const Joined& joined);
 
+/// The end that a stated joint with one of the others is of.
+/// Errors  ambiguous_connection (joints/i: both are equally near).
+[[nodiscard]] Result<joint::End> end_at(const FrameSpec& spec, std::size_t index);
+
 /// Errors  as `solve`.
 [[nodiscard]] Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
                                                 const std::stop_token& stop);

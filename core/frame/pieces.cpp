@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
+#include "core/joint/in_line.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::frame::detail {
@@ -80,6 +81,7 @@ struct InWorld {
   std::optional<joint::Joint> stated;
   std::size_t joint = 0;
   std::string at;  // for errors
+  double missing = 0.0;
 };
 
 std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std::size_t index) {
@@ -90,7 +92,8 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
     InWorld one{.partner = AxisTube{m.outer_radius, {m.start, m.finish - m.start}},
                 .stated = cut.stated,
                 .joint = joined.joint_of(end.member, cut.member),
-                .at = "members/" + std::to_string(cut.member)};
+                .at = "members/" + std::to_string(cut.member),
+                .missing = cut.missing};
     if (cut.plane)
       one.partner =
           joint::PlaneCutter{end.frame.origin + end.frame.rows.transpose() * cut.plane->point,
@@ -110,14 +113,24 @@ Result<std::vector<Cutter>> placed(const std::vector<InWorld>& all, const Member
   std::vector<Cutter> out;
   for (const auto& one : all) {
     TRY(auto partner, under(one.at, joint::by_kind(one.partner, In{frame})));
-    out.push_back({std::move(partner), one.stated, one.joint});
+    out.push_back({std::move(partner), one.stated, one.joint, one.missing});
   }
   return out;
 }
 
+/// A plane as good as square: it leans by no more than the rounding of coordinates may make it.
+bool is_square(const Partner& partner) {
+  const auto* plane = std::get_if<joint::PlaneCutter>(&partner);
+  if (plane == nullptr) return false;
+  const Vector3d n = plane->normal.normalized();
+  return elementary::hypot(n.x(), n.y()) <= 0.5 * joint::kButtMost;
+}
+
+/// Those that have a side.
 std::vector<Partner> partners(const std::vector<Cutter>& cutters) {
   std::vector<Partner> out;
-  for (const auto& one : cutters) out.push_back(one.partner);
+  for (const auto& one : cutters)
+    if (!is_square(one.partner)) out.push_back(one.partner);
   return out;
 }
 
@@ -160,7 +173,8 @@ struct Side {
 
 bool is_level(const std::vector<Cutter>& cutters) {
   for (const auto& one : cutters)
-    if (const auto to = joint::bearing(one.partner)) return !to->lean.has_value();
+    if (const auto to = joint::bearing(one.partner); to && !is_square(one.partner))
+      return !to->lean.has_value();
   return false;
 }
 
@@ -228,9 +242,10 @@ Result<void> add_branches(const FrameSpec& spec, const Joined& joined,
   for (const auto& one : on_it) {
     const auto& branch = spec.members[one.member];
     const auto& how = joined.joints[one.joint].how;
-    if (!one.passes)
-      out.stands.push_back(
-          {part::mark_of(branch, one.end, out.frame, out.target.outer_radius), one.member});
+    const auto mark = part::mark_of(branch, one.end, out.frame, out.target.outer_radius);
+    const double reach = 2.0 * (out.target.outer_radius + branch.outer_radius);
+    const bool on_tube = mark.z_from > -reach && mark.z_from < *out.target.length + reach;
+    if (!one.passes && on_tube) out.stands.push_back({mark, one.member});
     if (!how.hole) continue;
     const AxisLine axis{branch.at(one.end), branch.into(one.end)};
     TRY(const auto at, under("members/" + std::to_string(one.member),

@@ -7,6 +7,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/joint/in_line.hpp"
 #include "core/joint/nearness.hpp"
 #include "core/joint/node_parts.hpp"
 
@@ -17,83 +18,19 @@ using Eigen::Vector3d;
 
 constexpr double kEquallyNear = 1e-6;                  // mm: two chords at the same distance
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
-constexpr double kStep = 0.01;  // mm between two mitred edges: as good as none
+constexpr double kStep = 0.01;      // mm between two mitred edges: as good as none
+constexpr double kFoundStep = 0.5;  // in line as found: coordinates are rounded
 
 using detail::Applied;
 using detail::called;
-using detail::goes_before;
 using detail::Joined;
+using detail::Lines;
+using detail::Presence;
 using detail::sine_between;
 
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
 bool alike(const Member& a, const Member& b) {
   return a.priority == b.priority && a.outer_radius == b.outer_radius;
-}
-
-Stretch stretch(const Member& m, double reach) { return {m.start, m.finish, reach}; }
-
-Result<void> check(const NodeSpec& spec) {
-  for (std::size_t i = 0; i < spec.members.size(); ++i)
-    if (!((spec.members[i].finish - spec.members[i].start).norm() > 0.0))
-      return zero_length(place_of(i));
-  const auto* links = std::get_if<std::vector<Link>>(&spec.connect);
-  if (links == nullptr) return {};
-  const auto n = spec.members.size();
-  for (std::size_t k = 0; k < links->size(); ++k) {
-    const auto& link = (*links)[k];
-    const bool known = link.member < n && std::ranges::all_of(link.to, [&](std::size_t to) {
-                         return to < n && to != link.member;
-                       });
-    if (!known)
-      return fail({.code = ErrorCode::out_of_range, .member = "connect/" + std::to_string(k)});
-  }
-  return {};
-}
-
-Result<Joined> joined_within(const NodeSpec& spec, double distance, const std::stop_token& stop) {
-  std::vector<Stretch> stretches;
-  for (const auto& m : spec.members) stretches.push_back(stretch(m, distance + m.outer_radius));
-  TRY(const auto found, touches(stretches, kMostCutters, stop));
-  Joined out(2 * spec.members.size());
-  for (const auto& touch : found) out[touch.end].push_back(touch);
-  return out;
-}
-
-/// What each end that joins nothing may have been meant to join: the nearest member within three
-/// times the reach, unless the member's other end joins that one already: a short branch is near.
-using Missed = std::vector<std::optional<Touch>>;
-
-Result<Missed> missed(const NodeSpec& spec, const Joined& joined, double distance,
-                      const std::stop_token& stop) {
-  constexpr double kTimes = 3.0;
-  std::vector<Stretch> stretches;
-  for (const auto& m : spec.members)
-    stretches.push_back(stretch(m, kTimes * (distance + m.outer_radius)));
-  std::vector<bool> free;
-  for (const auto& touches : joined) free.push_back(touches.empty());
-  TRY(auto out, nearest_touches(stretches, free, stop));
-  for (std::size_t end = 0; end < out.size(); ++end)
-    if (out[end] && std::ranges::count(joined[end ^ 1U], out[end]->other, &Touch::other) > 0)
-      out[end].reset();
-  return out;
-}
-
-Result<Joined> joined_by(const NodeSpec& spec, const std::vector<Link>& links) {
-  Joined out(2 * spec.members.size());
-  for (const auto& link : links) {
-    const auto end = 2 * link.member + (link.end == End::finish ? 1 : 0);
-    for (const auto to : link.to)
-      if (std::ranges::find(out[end], to, &Touch::other) == out[end].end())
-        out[end].push_back(
-            {end, to,
-             nearness(spec.members[link.member].at(link.end), stretch(spec.members[to], 0.0))});
-    if (out[end].size() > kMostCutters)
-      return fail({.code = ErrorCode::wrong_count,
-                   .member = place_of(link.member, link.end),
-                   .got = static_cast<double>(out[end].size()),
-                   .limit = static_cast<double>(kMostCutters)});
-  }
-  return out;
 }
 
 /// One member that cuts an end: its tube, or a mitre's plane.
@@ -151,45 +88,62 @@ Result<MemberFrame> frame_of(const NodeSpec& spec, std::size_t member, End end,
   return frame;
 }
 
-/// The cutters of one end, the chord first; parallel members are noted and do not cut.
-std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const Applied& applied,
-                                const std::vector<Touch>& joined, std::vector<Warning>& warnings) {
+/// What stands around an end, and what is known of the joints.
+struct Around {
+  const Applied& applied;
+  const Lines& lines;
+  const std::vector<Touch>& joined;
+  const std::optional<Touch>& missed;
+};
+
+/// "X is within 0.012 deg of parallel"
+std::string parallel_to(const NodeSpec& spec, std::size_t member, std::size_t other) {
+  const double off = elementary::asin(sine_between(spec.members[member], spec.members[other]));
+  const auto name = called(spec, other);
+  if (off < 2.0 * kParallel) return name + " is parallel";
+  return name + " is within " + brief(off * kDegPerRad) + " deg of parallel";
+}
+
+/// The cutters of one end, the chord first; parallel members are noted and do not cut, those of
+/// the end's own line cut it at a mitre's plane alone.
+std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const Around& around,
+                                std::vector<Warning>& warnings) {
   const auto member = index / 2;
-  const auto at = place_of(member, index % 2 == 0 ? End::start : End::finish);
+  const auto& lines = around.lines;
   std::vector<Cutting> out;
-  for (const auto& touch : joined) {
-    if (const auto mitre = applied.mitres.find({index, touch.other});
-        mitre != applied.mitres.end()) {
+  for (const auto& touch : around.joined) {
+    if (const auto mitre = around.applied.mitres.find({index, touch.other});
+        mitre != around.applied.mitres.end()) {
       out.push_back({touch, &mitre->second});
       continue;
     }
     const double sine = sine_between(spec.members[member], spec.members[touch.other]);
-    if (!goes_before(spec, touch.other, member)) continue;
+    const bool same = lines.line[member] == lines.line[touch.other];
+    if (same && sine < elementary::sin(kInLineMost)) continue;
+    if (!lines.goes_before(spec, touch.other, member)) continue;
     if (sine < 2.0 * kParallel) {
       warnings.push_back(
           {.code = WarningCode::parallel_members,
-           .member = at,
-           .detail = called(spec, touch.other) + " is parallel and does not cut it"});
+           .member = place_of(member, end_of(index)),
+           .detail = parallel_to(spec, member, touch.other) + " and does not cut it"});
       continue;
     }
-    if (sine < kNearParallel)
-      warnings.push_back({.code = WarningCode::near_parallel,
-                          .member = at,
-                          .detail = called(spec, touch.other) + " is within 5 deg of parallel"});
     out.push_back({touch});
   }
   std::ranges::sort(out, [&](const Cutting& a, const Cutting& b) {
-    return goes_before(spec, a.touch.other, b.touch.other);
+    return lines.listed_before(spec, a.touch.other, b.touch.other);
   });
   return out;
 }
 
-/// The first cutter that points somewhere: with it phase zero is found.
+/// The first cutter that points somewhere: with it phase zero is found. A face as good as square
+/// points nowhere.
 const Cutting* chord_of(const NodeSpec& spec, std::size_t member,
                         const std::vector<Cutting>& cutters) {
-  for (const auto& one : cutters)
-    if (sine_between(spec.members[member], spec.members[one.touch.other]) >= 2.0 * kParallel)
-      return &one;
+  for (const auto& one : cutters) {
+    const double least = one.mitre != nullptr ? elementary::sin(kButtMost) : 2.0 * kParallel;
+    if (sine_between(spec.members[member], spec.members[one.touch.other]) >= least) return &one;
+  }
   return nullptr;
 }
 
@@ -242,10 +196,21 @@ double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) 
          cut.eccentricity;
 }
 
-void warn(const NodeSpec& spec, const MemberEnd& end, const std::optional<Touch>& missed,
+std::string ghost(const NodeSpec& spec, const CutBy& cut) {
+  const auto far = brief(cut.missing) + " mm";
+  const auto by = "cut by " + called(spec, cut.member);
+  if (!cut.instead) return by + " up to " + far + " beyond that member's end";
+  return by + " beyond that member's end, where " + called(spec, *cut.instead) +
+         ", which continues it, lies up to " + far + " lower";
+}
+
+void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
           std::vector<Warning>& out) {
   const auto at = place_of(end.member, end.end);
-  if (missed) {
+  const auto least = [&](const CutBy& cut) {
+    return around.applied.found.contains(std::minmax(end.member, cut.member)) ? kFoundStep : kStep;
+  };
+  if (const auto& missed = around.missed) {
     const double off = missed->near.distance - spec.members[missed->other].outer_radius;
     out.push_back({.code = WarningCode::free_end,
                    .member = at,
@@ -254,11 +219,9 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const std::optional<Touch>
   }
   for (const auto& cut : end.cut_by)
     if (cut.ghost)
-      out.push_back({.code = WarningCode::ghost_contact,
-                     .member = at,
-                     .detail = "cut by " + called(spec, cut.member) + " beyond that member's end"});
+      out.push_back({.code = WarningCode::ghost_contact, .member = at, .detail = ghost(spec, cut)});
   for (const auto& cut : end.cut_by)
-    if (const double step = mitre_step(spec, end, cut); step > kStep)
+    if (const double step = mitre_step(spec, end, cut); step > least(cut))
       out.push_back({.code = WarningCode::mitre_steps,
                      .member = at,
                      .detail = "its edge and that of " + called(spec, cut.member) +
@@ -267,14 +230,10 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const std::optional<Touch>
   if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
 }
 
-Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Applied& applied,
-                            const std::vector<Touch>& joined, const std::optional<Touch>& missed,
-                            std::vector<Warning>& warnings) {
-  MemberEnd out{.member = index / 2, .end = index % 2 == 0 ? End::start : End::finish};
-  out.free = joined.empty();
-  const auto* within = std::get_if<Within>(&spec.connect);
-  const auto cutters = cutters_of(spec, index, applied, joined, warnings);
-  if (within != nullptr && !cutters.empty()) TRY(check_ambiguous(spec, cutters, within->distance));
+Result<MemberEnd> place_end(const NodeSpec& spec, std::size_t index, const Around& around,
+                            const std::vector<Cutting>& cutters) {
+  MemberEnd out{.member = index / 2, .end = end_of(index)};
+  out.free = around.joined.empty();
   const auto* first = chord_of(spec, out.member, cutters);
   std::optional<Vector3d> chord;
   if (first != nullptr) {
@@ -283,30 +242,84 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Appli
   }
   TRY(const auto frame, frame_of(spec, out.member, out.end, chord));
   out.frame = frame;
-  TRY(auto placed, place_cutters(spec, applied, out.member, out.frame, first, cutters));
+  TRY(auto placed, place_cutters(spec, around.applied, out.member, out.frame, first, cutters));
   out.cut_by = std::move(placed);
-  if (!out.cut_by.empty()) detail::inspect(spec, out);
-  warn(spec, out, missed, warnings);
   return out;
+}
+
+/// Why one of the cutters of an end is none; empty where it is one.
+std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, const Around& around,
+                                 std::size_t index, const Presence& seen) {
+  const auto& cut = end.cut_by[index];
+  if (cut.plane || !seen.anywhere) return std::nullopt;
+  const auto at = place_of(end.member, end.end);
+  const double sine = sine_between(spec.members[end.member], spec.members[cut.member]);
+  if (seen.consumes && sine < kNearParallel)
+    return Warning{WarningCode::parallel_members, at,
+                   parallel_to(spec, end.member, cut.member) + " and does not cut it: the cut " +
+                       "would begin " + brief(seen.highest) + " mm from the end"};
+  const auto pair = std::minmax(end.member, cut.member);
+  const bool stated = around.applied.joints.contains(pair) && !around.applied.found.contains(pair);
+  if (stated || seen.there || !std::holds_alternative<Within>(spec.connect)) return std::nullopt;
+  return Warning{WarningCode::free_end, at,
+                 called(spec, end.member) + " meets no member here: " + called(spec, cut.member) +
+                     " ends " + brief(seen.nearest) + " mm before it would cut it"};
+}
+
+/// Of cutters that are none the first is left out, and all is seen again without it: what stays is
+/// where it cuts.
+Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Around& around,
+                            std::vector<Warning>& warnings) {
+  auto cutters = cutters_of(spec, index, around, warnings);
+  const auto* within = std::get_if<Within>(&spec.connect);
+  if (within != nullptr && !cutters.empty()) TRY(check_ambiguous(spec, cutters, within->distance));
+  std::vector<Warning> left_out;
+  for (;;) {
+    TRY(auto out, place_end(spec, index, around, cutters));
+    std::optional<std::size_t> none;
+    if (!cutters.empty()) {
+      const auto seen = detail::inspect(spec, around.lines, around.applied, out);
+      for (std::size_t i = 0; i < seen.size() && !none; ++i)
+        if (auto why = no_cutter(spec, out, around, i, seen[i])) {
+          none = i;
+          left_out.push_back(*std::move(why));
+        }
+    }
+    if (none) {
+      cutters.erase(cutters.begin() + static_cast<std::ptrdiff_t>(*none));
+      continue;
+    }
+    for (auto& one : left_out)
+      if (one.code != WarningCode::free_end || cutters.empty()) {
+        out.free = out.free || one.code == WarningCode::free_end;
+        warnings.push_back(std::move(one));
+      }
+    for (const auto& one : cutters)
+      if (one.mitre == nullptr &&
+          sine_between(spec.members[out.member], spec.members[one.touch.other]) < kNearParallel)
+        warnings.push_back(
+            {.code = WarningCode::near_parallel,
+             .member = place_of(out.member, out.end),
+             .detail = called(spec, one.touch.other) + " is within 5 deg of parallel"});
+    warn(spec, out, around, warnings);
+    return out;
+  }
 }
 
 }  // namespace
 
 Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
-  TRY(check(spec));
-  const auto* within = std::get_if<Within>(&spec.connect);
-  TRY(auto joined, within != nullptr ? joined_within(spec, within->distance, stop)
-                                     : joined_by(spec, std::get<std::vector<Link>>(spec.connect)));
-  Missed near(joined.size());
-  if (within != nullptr) {
-    TRY(near, missed(spec, joined, within->distance, stop));
-  }
-  TRY(const auto applied, detail::apply_joints(spec, joined));
+  TRY(auto joined, detail::connected(spec, stop));
+  TRY(const auto near, detail::missed(spec, joined, stop));
+  const auto lines = detail::lines_of(spec, joined);
+  TRY(auto applied, detail::apply_joints(spec, lines, joined));
+  detail::join_lines(spec, lines, joined, applied);
   Nodes out;
   out.ends.reserve(joined.size());
   for (std::size_t i = 0; i < joined.size(); ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    TRY(auto end, solve_end(spec, i, applied, joined[i], near[i], out.warnings));
+    const Around around{applied, lines, joined[i], near[i]};
+    TRY(auto end, solve_end(spec, i, around, out.warnings));
     out.ends.push_back(std::move(end));
   }
   return out;

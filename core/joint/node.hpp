@@ -50,12 +50,15 @@ struct Link {
 };
 
 /// Members that meet at one or more nodes. Of two that join, the one with the lower priority
-/// number, then the larger diameter, then the earlier place in the list cuts the other: two never
-/// cut each other. Two whose joint nobody states are set on without a gap.
+/// number, then the larger diameter cuts the other; of two alike (found by `Within`) the one that
+/// goes on where the other ends, then the earlier place in the list, of pieces in line that of the
+/// earliest: two never cut each other. Two whose joint nobody states are set on without a gap; in
+/// line (in_line.hpp) and with nothing between them that cuts both all round, they are mitred.
 struct NodeSpec {
   std::vector<Member> members;
   Variant<Within, std::vector<Link>> connect;
   std::vector<StatedJoint> joints = {};  // said by either of the two, or alike by both
+  std::size_t found = 0;                 // the last so many of them: nobody has said them
 };
 
 /// What members state of their joint; nullptr where neither does. Of two that differ, the first.
@@ -70,6 +73,8 @@ struct CutBy {
   double gap = 0.0;                       // from the end to the member's axis between its ends
   double eccentricity = 0.0;              // distance of the axes; of a mitre at its plane
   bool ghost = false;                     // the cut follows it beyond one of its own ends
+  double missing = 0.0;                   // so far, mm; or where another continues it, by how much
+  std::optional<std::size_t> instead = {};  // that one lies lower
 };
 
 /// One end of one member, and what is cut there.
@@ -94,6 +99,10 @@ struct Nodes {
 /// Finds at every end who joins, who cuts whom, and where. Phase zero of an end: `up`; else source
 /// 000's, with which its chord has clocking 0; an end without cutters takes the world axis
 /// furthest from its own (the first of equals).
+///
+/// A member that is found cuts an end only if it is there: one whose contacts all lie beyond its
+/// own ends does not. Neither does one within 5 deg of parallel whose cut would reach beyond the
+/// other end (parallel_members).
 ///
 /// A joint that is stated changes who cuts: through, neither the other; mitre, a plane both. The
 /// plane passes where the axes are nearest to each other (in line, and that far from the ends:

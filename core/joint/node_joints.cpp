@@ -136,6 +136,24 @@ Vector3d mitre_normal(MitrePlane plane, const Vector3d& u, double r, const Vecto
   return ((r + s * c) * u - (s + r * c) * v) / (r + s);
 }
 
+/// The two ends join each other, and nothing else of each other, at the plane of this normal.
+void face(const NodeSpec& spec, std::size_t p, std::size_t q, const Vector3d& normal,
+          Joined& joined, Applied& out) {
+  const auto a = p / 2, b = q / 2;
+  const Vector3d u = into(spec, p), v = into(spec, q);
+  part(joined, a, b);
+  part(joined, b, a);
+  join(joined, spec, p, b);
+  join(joined, spec, q, a);
+  const auto [s, t] = meeting(spec, p, q);
+  const Vector3d w = point_of(spec, q) - point_of(spec, p);
+  const double eccentricity = (w + t * v - s * u).cross(u).norm();
+  out.mitres.emplace(std::pair{p, b},
+                     Mitre{0.5 * (w + t * v + s * u), normal.normalized(), eccentricity});
+  out.mitres.emplace(std::pair{q, a},
+                     Mitre{0.5 * (t * v + s * u - w), -normal.normalized(), eccentricity});
+}
+
 Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
   const auto a = spec.joints[index].member, b = spec.joints[index].with;
   const auto [p, q] = facing_ends(spec, a, b);
@@ -151,17 +169,7 @@ Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Appl
                      ? "the two members lie along each other; no plane between them cuts both"
                      : "the two lie in line and their outlines have no corners; a bisecting "
                        "plane cuts both square"});
-  part(joined, a, b);
-  part(joined, b, a);
-  join(joined, spec, p, b);
-  join(joined, spec, q, a);
-  const auto [s, t] = meeting(spec, p, q);
-  const Vector3d w = point_of(spec, q) - point_of(spec, p);
-  const double eccentricity = (w + t * v - s * u).cross(u).norm();
-  out.mitres.emplace(std::pair{p, b},
-                     Mitre{0.5 * (w + t * v + s * u), normal.normalized(), eccentricity});
-  out.mitres.emplace(std::pair{q, a},
-                     Mitre{0.5 * (t * v + s * u - w), -normal.normalized(), eccentricity});
+  face(spec, p, q, normal, joined, out);
   return {};
 }
 
@@ -169,7 +177,8 @@ tl::unexpected<Error> apart(const NodeSpec& spec, std::size_t index, const std::
   return fail({.code = ErrorCode::no_contact, .member = place_of(spec, index), .hint = hint});
 }
 
-Result<void> apply(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
+Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, Joined& joined,
+                   Applied& out) {
   const auto a = spec.joints[index].member, b = spec.joints[index].with;
   const auto& joint = spec.joints[index].joint;
   const auto& p = spec.members[a];
@@ -187,7 +196,7 @@ Result<void> apply(const NodeSpec& spec, std::size_t index, Joined& joined, Appl
       return apart(spec, index, "no end of either joins the other");
     return mitre(spec, index, joined, out);
   }
-  const bool first = goes_before(spec, a, b);
+  const bool first = lines.goes_before(spec, a, b);
   const auto chord = first ? a : b, branch = first ? b : a;
   if (!joins(joined, branch, chord))
     return apart(spec, index,
@@ -223,15 +232,28 @@ double sine_between(const Member& a, const Member& b) {
   return (a.finish - a.start).normalized().cross((b.finish - b.start).normalized()).norm();
 }
 
-Result<Applied> apply_joints(const NodeSpec& spec, Joined& joined) {
+Result<Applied> apply_joints(const NodeSpec& spec, const Lines& lines, Joined& joined) {
   TRY(check_sides(spec));
   Applied out;
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {
     const auto pair = std::minmax(spec.joints[i].member, spec.joints[i].with);
     if (!out.joints.emplace(pair, spec.joints[i].joint).second) continue;
-    TRY(apply(spec, i, joined, out));
+    if (i + spec.found >= spec.joints.size()) out.found.insert(pair);
+    TRY(apply(spec, lines, i, joined, out));
   }
   return out;
+}
+
+void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out) {
+  for (std::size_t p = 0; p < lines.mates.size(); ++p) {
+    if (!lines.mates[p] || lines.mates[p]->end < p) continue;
+    const auto q = lines.mates[p]->end;
+    const auto pair = std::minmax(p / 2, q / 2);
+    if (out.joints.contains(pair) || separated(spec, joined, lines, p, q)) continue;
+    out.joints.emplace(pair, Joint{.kind = JointKind::mitre});
+    out.found.insert(pair);
+    face(spec, p, q, into(spec, p) - into(spec, q), joined, out);
+  }
 }
 
 }  // namespace detail

@@ -265,11 +265,18 @@ TEST(Nodes, MembersThatShareMetalAreSaidWithHowDeepAndWhere) {
 }
 
 TEST(Nodes, GhostConsumedOpenAndParallel) {
-  // The brace is cut by a stub that ends before the contact.
-  const auto ghost = post(kNodes, node({member("stub", point(0, 0, 0), point(5, 0, 0), 120),
-                                        member("B", point(0, 0, 0), point(600, 0, 600), 60)}));
+  // The brace is cut by a stub that ends within the contact, from x 18 to 102; or before it.
+  const auto stub = [](double to) {
+    return post(kNodes, node({member("stub", point(0, 0, 0), point(to, 0, 0), 120),
+                              member("B", point(0, 0, 0), point(600, 0, 600), 60)}));
+  };
+  const auto ghost = stub(40);
   ASSERT_EQ(code(ghost), "") << ghost.outcome.body;
   EXPECT_TRUE(warned(ghost, "ghost_contact", "/members/1/start_mm"));
+  EXPECT_NEAR(number(end_of(ghost, 2), "cut_by/0/missing_mm"), 60 + 30 * std::sqrt(2.0) - 40, 0.01);
+  const auto absent = stub(5);
+  EXPECT_TRUE(warned(absent, "free_end", "/members/1/start_mm"));
+  EXPECT_EQ(cuts(absent, 2), 0U);
   const auto consumed = post(kNodes, node({member("C", point(-900, 0, 0), point(900, 0, 0), 300),
                                            member("B", point(0, 0, 0), point(0, 0, 140), 60)}));
   EXPECT_TRUE(warned(consumed, "end_consumed", "/members/1/start_mm"));
@@ -278,7 +285,7 @@ TEST(Nodes, GhostConsumedOpenAndParallel) {
                                        member("B", point(0, 45, 0), point(0, 45, 900), 59)}));
   EXPECT_TRUE(warned(open, "end_open", "/members/1/start_mm"));
   const auto parallel = post(kNodes, node({member("C1", point(-900, 0, 0), point(0, 0, 0), 60),
-                                           member("C2", point(0, 0, 0), point(900, 0, 0), 60)}));
+                                           member("C2", point(-90, 0, 0), point(900, 0, 0), 60)}));
   EXPECT_TRUE(warned(parallel, "parallel_members", "/members/1/start_mm"));
   EXPECT_EQ(text(parallel.body, "verdict/status"), "review");
 }
