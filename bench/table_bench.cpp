@@ -124,6 +124,13 @@ void whole_table(benchmark::State& state) {
 }
 BENCHMARK(whole_table)->ArgName("refine")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
+void whole_table_with_kerf(benchmark::State& state) {
+  auto request = table_1_spec(false);
+  request.kerf = 1.5;
+  for (auto _ : state) benchmark::DoNotOptimize(bevel::table(request));
+}
+BENCHMARK(whole_table_with_kerf)->Unit(benchmark::kMicrosecond);
+
 void verify_table(benchmark::State& state) {
   const auto request = table_1_spec(true);
   const auto table = bevel::table(request).value();

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
@@ -18,21 +19,65 @@ constexpr double kSwing =
 constexpr double kArc = 1.01;        // no longer than that is an arc over its chord
 constexpr double kMostParts = 64.0;  // of the way from row to row, each no longer than four kerfs
 constexpr double kTiny = 1e-300;
-constexpr int kParabolas = 4;
-constexpr double kStill = 1e-4;  // of a stretch
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool axial(const AcrossWall& at) { return at.phi_outer == at.phi_inner; }  // as every end's are
+
+double apart(double a, double b) { return std::abs(b - a); }
+
+AxisAt axis_at(const Vector3d& p, const Vector3d& d) {
+  return {{p.x(), p.y(), p.z()}, {d.x(), d.y(), d.z()}, 1.0 / d.squaredNorm()};
+}
+
+std::array<double, 3> numbers(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The parabola through three places, by the power of the share of the way.
+std::array<std::array<double, 3>, 3> parabola(const Vector3d& a, const Vector3d& b,
+                                              const Vector3d& c) {
+  return {numbers(a), numbers(4.0 * b - 3.0 * a - c), numbers(2.0 * (a - 2.0 * b + c))};
+}
+
+Vector3d at_share(const std::array<std::array<double, 3>, 3>& by, double x) {
+  const auto value = [&](std::size_t k) { return by[0][k] + x * (by[1][k] + x * by[2][k]); };
+  return {value(0), value(1), value(2)};
+}
 
 }  // namespace
 
 Line placed(const BeamCut& cut, const AcrossWall& at) {
   const auto inner = elementary::sincos(at.phi_inner);
-  const bool axial = at.phi_outer == at.phi_inner;  // as every end's are
-  const auto outer = axial ? inner : elementary::sincos(at.phi_outer);
+  const auto outer = axial(at) ? inner : elementary::sincos(at.phi_outer);
   return {{cut.inner * inner.cos, cut.inner * inner.sin, at.z_inner},
           {cut.outer * outer.cos, cut.outer * outer.sin, at.z_outer}};
 }
 
+void placed(const BeamCut& cut, std::span<const AcrossWall> at, std::span<Line> out) {
+  Eight phases, sine, cosine;
+  for (std::size_t first = 0; first < at.size(); first += kLanes) {
+    const auto some = at.subspan(first, std::min(kLanes, at.size() - first));
+    const auto n = some.size();
+    const auto of = [&](double AcrossWall::*phase) {
+      std::ranges::transform(some, phases.begin(), phase);
+      elementary::sincos(std::span(phases).first(n), std::span(sine).first(n),
+                         std::span(cosine).first(n));
+    };
+    of(&AcrossWall::phi_inner);
+    for (std::size_t k = 0; k < n; ++k)
+      out[first + k].from = {cut.inner * cosine[k], cut.inner * sine[k], some[k].z_inner};
+    if (!std::ranges::all_of(some, axial)) of(&AcrossWall::phi_outer);
+    for (std::size_t k = 0; k < n; ++k)
+      out[first + k].to = {cut.outer * cosine[k], cut.outer * sine[k], some[k].z_outer};
+  }
+}
+
+std::vector<Line> placed(const BeamCut& cut, std::span<const AcrossWall> at) {
+  std::vector<Line> out(at.size());
+  placed(cut, at, out);
+  return out;
+}
+
 AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t i, double u) {
-  auto b = rows[(i + 1) % rows.size()];
+  auto b = rows[i + 1 < rows.size() ? i + 1 : 0];
   if (i + 1 == rows.size()) {
     b.phi_inner += turn;
     b.phi_outer += turn;
@@ -44,163 +89,162 @@ AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t
 
 Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
   const auto n = cut.torch.size();
-  stretches_.reserve(2 * n);
-  first_.reserve(n + 1);
   if (n == 0) return;
-  Line here = placed(cut, torch(0, 0.0));
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-    first_.push_back(stretches_.size());
-    const auto a = torch(i, 0.0), b = torch(i, 1.0);
-    const double wide =
-        std::max(std::abs(b.phi_inner - a.phi_inner), std::abs(b.phi_outer - a.phi_outer));
-    const double rise = std::max(std::abs(b.z_inner - a.z_inner), std::abs(b.z_outer - a.z_outer));
-    const double way = std::min(rise + cut.outer * wide, 4.0 * kMostParts * cut.kerf);
-    const Line next = placed(cut, b);
-    const Vector3d from = here.to - here.from, to = next.to - next.from;
-    const double swing = elementary::atan2(from.cross(to).norm(), from.dot(to));
+  auto rows = placed(cut, cut.torch);
+  rows.push_back(placed(cut, between(cut.torch, cut.turn, n - 1, 1.0)));
+  divide(rows);
+  add_ways(rows, stop);
+  travelled_.push_back(0.0);
+  for (std::size_t k = 0; k < 2 * ways_.size(); ++k)
+    travelled_.push_back(travelled_.back() + way(k).travel);
+  meridian_ = cut.inner > 0.0 && cut.turn > 0.0;
+  for (std::size_t i = 0; i < n && meridian_; ++i) {
+    const auto &a = cut.torch[i], &b = cut.torch[i + 1 < n ? i + 1 : 0];
+    meridian_ = axial(a) && a.phi_inner <= b.phi_inner + (i + 1 < n ? 0.0 : cut.turn);
+  }
+}
+
+/// Into stretches.
+void Axes::divide(const std::vector<Line>& rows) {
+  const auto n = cut_.torch.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    first_.push_back(parts_.size());
+    const auto &a = cut_.torch[i], b = between(cut_.torch, cut_.turn, i, 1.0);
+    const double wide = std::max(apart(a.phi_inner, b.phi_inner), apart(a.phi_outer, b.phi_outer));
+    const double rise = std::max(apart(a.z_inner, b.z_inner), apart(a.z_outer, b.z_outer));
+    const double way = std::min(rise + cut_.outer * wide, 4.0 * kMostParts * cut_.kerf);
+    const Vector3d from = rows[i].to - rows[i].from, to = rows[i + 1].to - rows[i + 1].from;
+    const double cross = from.cross(to).norm(), dot = from.dot(to);
+    // No angle below half of it makes another part.
+    const double swing = cross < 0.5 * kSwing * dot ? 0.0 : elementary::atan2(cross, dot);
     const int parts =
         1 +
-        static_cast<int>(std::max({wide / kTurn, way / (4.0 * cut.kerf + kTiny), swing / kSwing}));
-    for (int k = 0; k < parts; ++k) {
-      const double begin = static_cast<double>(k) / parts, end = static_cast<double>(k + 1) / parts;
-      const Line last = k + 1 < parts ? placed(cut, torch(i, end)) : next;
-      add(i, begin, end, here, last);
+        static_cast<int>(std::max({wide / kTurn, way / (4.0 * cut_.kerf + kTiny), swing / kSwing}));
+    for (int k = 0; k < parts; ++k)
+      parts_.push_back({i, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts});
+  }
+  first_.push_back(parts_.size());
+}
+
+void Axes::add_ways(const std::vector<Line>& rows, const std::stop_token& stop) {
+  constexpr std::size_t kTogether = 256;
+  std::vector<AcrossWall> at;
+  ways_.reserve(parts_.size());
+  Line here = rows.front();
+  for (std::size_t k = 0; k < parts_.size(); k += kTogether) {
+    if (stop.stop_requested()) break;
+    const auto end = std::min(parts_.size(), k + kTogether);
+    at.clear();
+    for (auto j = k; j < end; ++j) {
+      const auto& [row, from, to] = parts_[j];
+      at.push_back(between(cut_.torch, cut_.turn, row, mixed(from, to, 0.5)));
+      if (to < 1.0) at.push_back(between(cut_.torch, cut_.turn, row, to));
+    }
+    const auto lines = placed(cut_, at);
+    auto line = lines.begin();
+    for (auto j = k; j < end; ++j) {
+      const Line& middle = *line++;
+      const Line last = parts_[j].to < 1.0 ? *line++ : rows[parts_[j].row + 1];
+      ways_.push_back(way(here, middle, last));
       here = last;
     }
   }
-  first_.push_back(stretches_.size());
-  travelled_.push_back(0.0);
-  for (std::size_t k = 0; k < 2 * stretches_.size(); ++k)
-    travelled_.push_back(travelled_.back() + stretches_[k % stretches_.size()].travel);
-  meridian_ = cut.inner > 0.0 && cut.turn > 0.0;
-  for (std::size_t i = 0; i < n && meridian_; ++i) {
-    const auto a = torch(i, 0.0), b = torch(i, 1.0);
-    meridian_ =
-        a.phi_inner == a.phi_outer && b.phi_inner == b.phi_outer && a.phi_inner <= b.phi_inner;
-  }
+  if (ways_.size() < parts_.size()) ways_.resize(parts_.size(), Way{});  // stopped: not read
 }
 
-Nearest Axes::nearest(std::size_t row, double u, const Vector3d& q) const {
-  const auto n = stretches_.size();
-  std::size_t start = first_[row];
-  while (start + 1 < first_[row + 1] && stretches_[start + 1].from <= u) ++start;
-  const auto& own = stretches_[start];
-  Best best{start, std::clamp((u - own.from) / (own.to - own.from), 0.0, 1.0)};
-  best.square = own.square(best.x, q);
-  best.distance = std::sqrt(best.square);
-  // Half a lap of stretches is no half turn: where the turn decides they may run all round.
-  const auto lap = meridian_ ? n - 1 : n / 2;
-  walk(start, start + lap, q, best);
-  walk_back(start + n, start + n - lap, q, best);
-  const auto& s = stretches_[best.stretch];
-  return {best.square, s.at(best.x, q), s.row, mixed(s.from, s.to, best.x)};
-}
-
-AcrossWall Axes::torch(std::size_t row, double u) const {
-  return between(cut_.torch, cut_.turn, row, u);
-}
-
-void Axes::add(std::size_t row, double from, double to, const Line& first, const Line& last) {
-  Stretch out{.row = row, .from = from, .to = to};
-  const Line middle = placed(cut_, torch(row, mixed(from, to, 0.5)));
-  const std::array<Vector3d, 3> in{first.from, middle.from, last.from};
+Way Axes::way(const Line& first, const Line& middle, const Line& last) const {
   const std::array<Vector3d, 3> over{first.to - first.from, middle.to - middle.from,
                                      last.to - last.from};
-  out.inner = {in[0], 4.0 * in[1] - 3.0 * in[0] - in[2], 2.0 * (in[0] - 2.0 * in[1] + in[2])};
-  out.across = {over[0], 4.0 * over[1] - 3.0 * over[0] - over[2],
-                2.0 * (over[0] - 2.0 * over[1] + over[2])};
-  for (std::size_t end = 0; end < 2; ++end)
-    out.ends[end] = {in[2 * end], over[2 * end], 1.0 / over[2 * end].squaredNorm()};
-  out.middle = -cut_.inner / (cut_.outer - cut_.inner);
-  const double inner = (in[2] - in[0]).norm(), outer = (in[2] + over[2] - in[0] - over[0]).norm();
+  const double inner = (last.from - first.from).norm(), outer = (last.to - first.to).norm();
   const double beyond = cut_.kerf / over[0].norm() * (over[2] - over[0]).norm();
-  out.travel = kArc * (std::max(inner, outer) + beyond);
-  stretches_.push_back(out);
+  return {.first = axis_at(first.from, over[0]),
+          .middle = axis_at(middle.from, over[1]),
+          .last = axis_at(last.from, over[2]),
+          .inner = parabola(first.from, middle.from, last.from),
+          .across = parabola(over[0], over[1], over[2]),
+          .floor = -cut_.inner / (cut_.outer - cut_.inner),
+          .travel = kArc * (std::max(inner, outer) + beyond)};
 }
 
-void Axes::Best::see(std::size_t k, double at, double value) {
-  if (value >= square) return;
-  *this = {k, at, value, std::sqrt(value)};
+std::size_t Axes::stretch_of(const OnWay& at) const {
+  auto k = first_[at.row];
+  while (k + 1 < first_[at.row + 1] && parts_[k + 1].from <= at.u) ++k;
+  return k;
 }
 
-/// How far q is from the half plane through the tube's axis in which an axis stands, up to a
-/// quarter turn ahead of q, negative behind it; no axis further ahead is nearer than that, up to
-/// half a turn.
-double Axes::ahead(const Stretch::End& end, const Vector3d& q) const {
-  return (q.x() * end.inner.y() - q.y() * end.inner.x()) / cut_.inner;
-}
-
-/// Stretches ahead. Where the axes are further away than the best one, none nearer comes before
-/// they have travelled as much.
-void Axes::walk(std::size_t k, std::size_t last, const Vector3d& q, Best& best) const {
-  double low = stretch(k).square_first(q);
-  while (k <= last) {
-    const double high = stretch(k).square_last(q), far = std::sqrt(high);
-    look(k, low, high, std::sqrt(low) + far, q, best);
-    if (meridian_ && ahead(stretch(k).ends[1], q) >= best.distance) return;
-    const double clear = travelled_[k + 1] + std::max(0.0, far - best.distance);
-    if (travelled_[k + 2] > clear) {
+/// From the axes that are the points' own, ahead and back. Where the axes are further away than the
+/// best ones, none nearer comes before they have travelled as much; and of a cut round the tube
+/// none comes once their half planes, up to half a turn ahead of the points, are.
+void Axes::nearest(std::span<const OnWay> own, const EightPoints& points,
+                   std::span<Nearest> out) const {
+  const auto n = ways_.size();
+  const auto lap = static_cast<std::ptrdiff_t>(n);
+  const auto start = static_cast<std::ptrdiff_t>(stretch_of(own.front()));
+  std::ptrdiff_t before = 0, after = 0;  // of the others' own stretches
+  for (const auto& at : own) {
+    auto off = static_cast<std::ptrdiff_t>(stretch_of(at)) - start;
+    if (2 * off > lap) off -= lap;
+    if (2 * off < -lap) off += lap;
+    before = std::min(before, off);
+    after = std::max(after, off);
+  }
+  const auto low = static_cast<std::size_t>(start + before + (start + before < 0 ? lap : 0));
+  const auto high = low + static_cast<std::size_t>(after - before);
+  EightNearest best;
+  best.square.fill(kInfinity);
+  best.distance.fill(kInfinity);
+  best.stretch.fill(0.0);
+  best.share.fill(0.0);
+  const double floor = ways_.front().floor, inner = cut_.inner > 0.0 ? cut_.inner : 1.0;
+  Eight first, square;
+  squares(way(low).first, floor, points, first);
+  see(static_cast<double>(low % n), 0.0, first, best);
+  for (auto k = low; k <= high; ++k) {
+    squares(way(k).last, floor, points, square);
+    see(static_cast<double>(k % n), 1.0, square, best);
+  }
+  // Half a lap of stretches is no half turn: where the turn decides they may run all round.
+  const auto last = high + (meridian_ ? n - 1 : n / 2);
+  square = first;
+  for (auto k = low; k <= last;) {
+    const auto walked = walk(way(k), static_cast<double>(k % n), true, inner, points, square, best);
+    if (meridian_ && walked.beside >= 0.0) break;
+    const auto base = k - k % n;  // what was travelled is known of two laps
+    const double clear = travelled_[k - base + 1] + walked.clear;
+    if (travelled_[k - base + 2] > clear) {
       ++k;
-      low = high;
       continue;
     }
     const auto past = std::ranges::upper_bound(travelled_, clear) - travelled_.begin();
-    k = static_cast<std::size_t>(past) - 1;
-    low = stretch(k).square_first(q);
+    k = static_cast<std::size_t>(past) - 1 + base;
+    squares(way(k).first, floor, points, square);
+    see(static_cast<double>(k % n), 0.0, square, best);
   }
-}
-
-/// Stretches behind `end`, likewise.
-void Axes::walk_back(std::size_t end, std::size_t first, const Vector3d& q, Best& best) const {
-  double high = stretch(end).square_first(q);
-  while (end > first) {
-    const auto k = end - 1;
-    const double low = stretch(k).square_first(q), far = std::sqrt(low);
-    look(k, low, high, far + std::sqrt(high), q, best);
-    if (meridian_ && -ahead(stretch(k).ends[0], q) >= best.distance) return;
-    const double clear = travelled_[k] - std::max(0.0, far - best.distance);
-    if (k == 0 || travelled_[k - 1] < clear) {
-      end = k;
-      high = low;
-      continue;
-    }
+  square = first;
+  const auto end = low + n, back = end - (meridian_ ? n - 1 : n / 2);
+  for (auto k = end; k > back;) {
+    --k;
+    const auto walked =
+        walk(way(k), static_cast<double>(k % n), false, inner, points, square, best);
+    if (meridian_ && walked.beside >= 0.0) break;
+    const double clear = travelled_[k] - walked.clear;
+    if (k == 0 || travelled_[k - 1] < clear) continue;
     const auto from = std::ranges::lower_bound(travelled_, clear) - travelled_.begin();
-    end = static_cast<std::size_t>(from);
-    high = stretch(end).square_first(q);
+    k = static_cast<std::size_t>(from);
+    squares(way(k).first, floor, points, square);
+    see(static_cast<double>(k % n), 0.0, square, best);
+  }
+  for (std::size_t l = 0; l < out.size(); ++l) {
+    const auto k = static_cast<std::size_t>(best.stretch[l]);
+    const auto& [row, from, to] = parts_[k];
+    out[l] = {best.square[l], {row, mixed(from, to, best.share[l])}, k, best.share[l]};
   }
 }
 
-/// Along one stretch, if a nearer axis could be in it: the squared distance is all but a parabola.
-/// `both` is the sum of the distances at its ends.
-void Axes::look(std::size_t index, double low, double high, double both, const Vector3d& q,
-                Best& best) const {
-  const auto k = index % stretches_.size();
-  const auto& s = stretches_[k];
-  best.see(k, 0.0, low);
-  best.see(k, 1.0, high);
-  if (0.5 * (both - s.travel) >= best.distance) return;
-  const double middle = s.square(0.5, q);
-  const double bend = low - 2.0 * middle + high;
-  const double x = 0.25 * (3.0 * low - 4.0 * middle + high) / bend;
-  if (!(bend > 0.0 && x > 0.0 && x < 1.0)) return best.see(k, 0.5, middle);
-  descend(k, x, q, best);
-}
-
-/// From near the least squared distance of a stretch to it, by parabolas through three places.
-void Axes::descend(std::size_t k, double x, const Vector3d& q, Best& best) const {
-  const auto& s = stretches_[k];
-  double beside = 0.05;  // of the stretch
-  for (int round = 0; round < kParabolas; ++round, beside *= 0.2) {
-    const double here = s.square(x, q);
-    best.see(k, x, here);
-    const double before = s.square(x - beside, q), after = s.square(x + beside, q);
-    const double bend = before - 2.0 * here + after;
-    if (!(bend > 0.0)) return;
-    const double step = 0.5 * beside * (before - after) / bend;
-    x = std::clamp(x + step, 0.0, 1.0);
-    if (std::abs(step) < kStill) break;
-  }
-  best.see(k, x, s.square(x, q));
+Eigen::Vector3d Axes::point(const Nearest& axis, const Vector3d& q) const {
+  const auto& w = ways_[axis.stretch];
+  const Vector3d p = at_share(w.inner, axis.share), d = at_share(w.across, axis.share);
+  return p + std::max((q - p).dot(d) / d.squaredNorm(), w.floor) * d;
 }
 
 }  // namespace tubecut::bevel::beam

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
+#include <span>
 #include <stop_token>
 #include <vector>
 
 #include "core/bevel/beam.hpp"
+#include "core/bevel/beam_lanes.hpp"
 #include "core/math/mixed.hpp"
 
 namespace tubecut::bevel::beam {
@@ -18,51 +19,25 @@ struct Line {
   Eigen::Vector3d from, to;
 };
 [[nodiscard]] Line placed(const BeamCut& cut, const AcrossWall& at);
+/// Many at once.
+void placed(const BeamCut& cut, std::span<const AcrossWall> at, std::span<Line> out);
+[[nodiscard]] std::vector<Line> placed(const BeamCut& cut, std::span<const AcrossWall> at);
 /// The share u of the way from row i to the next; rows are joined the last to the first.
 [[nodiscard]] AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t i,
                                  double u);
 
-/// The nearest axis: its squared distance, and the share of the way after `row` where it stands.
-struct Nearest {
-  double square;
-  Eigen::Vector3d point;  // of the axis, nearest
+/// A share u of the way after a row.
+struct OnWay {
   std::size_t row;
   double u;
 };
 
-/// A straight stretch of the torch's way in phase and height, short enough to be a parabola in
-/// space: the axis at the share x of it is inner(x) + s across(x). It comes from outside and is
-/// looked at no further than the middle of the tube.
-struct Stretch {
-  /// The axis at one end of it.
-  struct End {
-    Eigen::Vector3d inner, across;
-    double inverse;  // of its squared length
-  };
-  std::size_t row;
-  double from, to;  // shares of the way from this row to the next
-  std::array<Eigen::Vector3d, 3> inner, across;
-  std::array<End, 2> ends;
-  double middle;  // s where the tube's middle is
-  double travel;  // no point of the axis moves further, as far beyond the walls as the kerf is wide
-
-  [[nodiscard]] Eigen::Vector3d at(double x, const Eigen::Vector3d& q) const {
-    const Eigen::Vector3d p = inner[0] + x * (inner[1] + x * inner[2]);
-    const Eigen::Vector3d d = across[0] + x * (across[1] + x * across[2]);
-    return p + std::max((q - p).dot(d) / d.squaredNorm(), middle) * d;
-  }
-  [[nodiscard]] double square(double x, const Eigen::Vector3d& q) const {
-    return (q - at(x, q)).squaredNorm();
-  }
-  [[nodiscard]] double square_at(const End& end, const Eigen::Vector3d& q) const {
-    const Eigen::Vector3d off = q - end.inner;
-    const double s = std::max(off.dot(end.across) * end.inverse, middle);
-    return (off - s * end.across).squaredNorm();
-  }
-  [[nodiscard]] double square_first(const Eigen::Vector3d& q) const {
-    return square_at(ends[0], q);
-  }
-  [[nodiscard]] double square_last(const Eigen::Vector3d& q) const { return square_at(ends[1], q); }
+/// The nearest axis: its squared distance, and the share of the way after `row` where it stands.
+struct Nearest {
+  double square;
+  OnWay at;
+  std::size_t stretch;
+  double share;  // of the stretch
 };
 
 /// The axes along the torch's way; indices over two laps, so that half a lap either way is a run.
@@ -70,31 +45,27 @@ class Axes {
  public:
   Axes(const BeamCut& cut, const std::stop_token& stop);
 
-  /// To q, from the axes less than half a lap from the share u of the way after `row`.
-  [[nodiscard]] Nearest nearest(std::size_t row, double u, const Eigen::Vector3d& q) const;
+  /// To each point, from the axes less than half a lap from its own place on the way; of up to
+  /// kLanes points near one another.
+  void nearest(std::span<const OnWay> own, const EightPoints& points, std::span<Nearest> out) const;
+  /// The place of that axis that is nearest to q.
+  [[nodiscard]] Eigen::Vector3d point(const Nearest& axis, const Eigen::Vector3d& q) const;
 
  private:
-  struct Best {
-    std::size_t stretch;
-    double x;
-    double square = 0.0, distance = 0.0;
-
-    void see(std::size_t k, double at, double value);
+  /// A stretch's shares of the way from its row to the next.
+  struct Part {
+    std::size_t row;
+    double from, to;
   };
-  [[nodiscard]] AcrossWall torch(std::size_t row, double u) const;
-  void add(std::size_t row, double from, double to, const Line& first, const Line& last);
-  [[nodiscard]] const Stretch& stretch(std::size_t k) const {
-    return stretches_[k % stretches_.size()];
-  }
-  void walk(std::size_t k, std::size_t last, const Eigen::Vector3d& q, Best& best) const;
-  void walk_back(std::size_t end, std::size_t first, const Eigen::Vector3d& q, Best& best) const;
-  void look(std::size_t index, double low, double high, double both, const Eigen::Vector3d& q,
-            Best& best) const;
-  [[nodiscard]] double ahead(const Stretch::End& end, const Eigen::Vector3d& q) const;
-  void descend(std::size_t k, double x, const Eigen::Vector3d& q, Best& best) const;
+  void divide(const std::vector<Line>& rows);
+  void add_ways(const std::vector<Line>& rows, const std::stop_token& stop);
+  [[nodiscard]] Way way(const Line& first, const Line& middle, const Line& last) const;
+  [[nodiscard]] std::size_t stretch_of(const OnWay& at) const;
+  [[nodiscard]] const Way& way(std::size_t k) const { return ways_[k % ways_.size()]; }
 
   const BeamCut& cut_;
-  std::vector<Stretch> stretches_;
+  std::vector<Part> parts_;
+  std::vector<Way> ways_;
   std::vector<std::size_t> first_;  // stretch of each row
   std::vector<double> travelled_;   // to the start of the stretch, of all before it
   bool meridian_ = false;  // each axis in a half plane through the tube's axis, as an end's are

@@ -42,11 +42,14 @@ std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut,
   for (std::size_t i = 0; i < n; ++i) {
     const auto &a = cut.torch[i], &b = cut.torch[(i + 1) % n];
     const double turn = i + 1 == n ? cut.turn : 0.0;
-    along_tube.push_back(elementary::atan2(a.z_outer - a.z_inner, wall));
-    round_tube.push_back(elementary::atan2(cut.outer * (a.phi_outer - a.phi_inner), wall));
+    along_tube.push_back(a.z_outer - a.z_inner);
+    round_tube.push_back(cut.outer * (a.phi_outer - a.phi_inner));
     const double round = cut.inner * (b.phi_inner + turn - a.phi_inner);
     steps.push_back(hole ? elementary::hypot(round, b.z_inner - a.z_inner) : std::abs(round));
   }
+  const std::vector<double> walls(n, wall);
+  elementary::atan2(along_tube, walls, along_tube);
+  if (hole) elementary::atan2(round_tube, walls, round_tube);
   std::vector<bool> near(n, false);
   mark_swings(along_tube, steps, 0.5 * cut.kerf, near, stop);
   if (hole) mark_swings(round_tube, steps, 0.5 * cut.kerf, near, stop);

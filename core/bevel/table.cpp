@@ -134,14 +134,17 @@ Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_tok
   return {};
 }
 
-/// Rows where the torch's line bends; the line, where it is that of the draft.
+/// Rows where the torch's line bends; the line, where it is that of the draft. After the first round
+/// it can bend anew only near rows that the last one added: elsewhere B alone moves, by little.
 Result<std::optional<TorchLine>> follow_torch(const TableSetup& g, Draft& draft,
                                               const std::stop_token& stop) {
   constexpr int kRounds = 3;  // the second sees what the first's own rows changed
-  for (int round = 0; round < kRounds; ++round) {
-    auto line = torch_line(g.spec, draft.table, stop);
-    if (line.rows.empty()) return line;
+  auto line = torch_line(g.spec, draft.table, stop);
+  if (line.rows.empty()) return line;
+  for (int round = 0; round < kRounds && !line.rows.empty(); ++round) {
     TRY(add(g, line.rows, draft, stop));
+    if (round + 1 == kRounds) break;
+    line = torch_line(g.spec, draft.table, ways_near(g.spec, draft.table, line.rows), stop);
   }
   return std::nullopt;
 }

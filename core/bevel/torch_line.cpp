@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
+#include "core/bevel/drop_lanes.hpp"
 #include "core/bevel/polyline.hpp"
 #include "core/math/mixed.hpp"
 
@@ -16,393 +18,380 @@ constexpr double kFlat = 5e-4;  // of kerf and a tenth of the wall, normal to th
 constexpr double kFlattest = 1.5e-5;  // and of the radius
 constexpr double kHollow = 4.0;       // times that: a stretch hollow by less
 constexpr double kWidest = 0.0125;    // of the radius, between places that are looked at
-constexpr int kNewton = 30;           // at most: halvings, where Newton leaves the range
-constexpr double kStill = 1e-6;       // of half the kerf: a step that raises what is needed by less
 constexpr double kLines = 0.25;       // of half a kerf: between finished lines across the wall,
 constexpr double kMostLines = 16.0;   // and no more from row to row
-constexpr std::size_t kNodes = 4;     // looked at singly; more are searched by halves
 constexpr int kDeepest = 12;          // halvings of the stretch between two rows
+constexpr int kMostRounds = 12;       // of a search,
+constexpr double kStill = 1e-5;       // of half the kerf: until what is needed is so near
+constexpr std::size_t kRows = 64;     // whose places are looked at together
 
-/// One circle of the finished surface, straight from row to row, and the least z of its stretches,
-/// of pairs of them, of fours and so on.
-struct Circle {
-  double rho;
-  double reach;  // rad: how far to the side the beam reaches
-  double ahead;  // of the axis's own distance, there
-  std::vector<double> z;
-  std::vector<std::vector<double>> least;
-
-  Circle(double radius, double half, std::vector<double> heights)
-      : rho(radius),
-        reach(half < radius ? elementary::asin(half / radius) : 0.5 * kPi),
-        ahead(half < radius ? std::sqrt((radius - half) * (radius + half)) : 0.0),
-        z(std::move(heights)) {
-    const auto n = z.size();
-    least.emplace_back(n);
-    for (std::size_t i = 0; i < n; ++i) least[0][i] = std::min(z[i], z[(i + 1) % n]);
-    while (least.back().size() > 1) {
-      const auto& below = least.back();
-      std::vector<double> level((below.size() + 1) / 2);
-      for (std::size_t i = 0; i < level.size(); ++i)
-        level[i] = std::min(below[2 * i], below[std::min(2 * i + 1, below.size() - 1)]);
-      least.push_back(std::move(level));
-    }
-  }
-};
-
-/// Places across the wall, its edges first. Between them what is needed bends by
+/// Places between an edge and the middle of the wall. Between them what is needed bends by
 /// w^2 k / (10 rho^2) where they are w apart: less than 1e-3 of the kerf, and than 1e-5 of the
 /// radius.
-std::vector<double> shares(double inner, double outer, double kerf) {
+std::vector<double> shares_between(double inner, double outer, double kerf) {
   const double wide = std::sqrt(std::max(1.0, 100.0 * kerf / outer));
-  const double parts = 14.0 * wide * (outer - inner) / inner;
-  const int n = static_cast<int>(std::clamp(std::ceil(parts), 2.0, 24.0));
-  std::vector<double> out{0.0, 1.0};
-  for (int k = 1; k < n; ++k) out.push_back(static_cast<double>(k) / n);
+  const double parts = 7.0 * wide * (outer - inner) / inner;
+  const int n = static_cast<int>(std::clamp(std::ceil(parts), 1.0, 12.0));
+  std::vector<double> out;
+  for (int k = 1; k < 2 * n; ++k)
+    if (k != n) out.push_back(static_cast<double>(k) / (2 * n));
   return out;
 }
 
-/// The axis before it is lowered: its phase and its line in that half plane.
-struct Axis {
-  double phi;
-  elementary::SinCos turn;  // of phi
-  double foot;              // on the inner wall
-  double slope;
-  double secant;  // 1 / cos B
+/// How often the search for the place at which most is needed looks again: `lean` is the largest
+/// sine of an axis's lean. 0 where that would not end.
+int rounds_of(double half, double rho, double lean) {
+  const double share = half / rho;
+  if (!(share < 1.0)) return 0;
+  const double ahead = std::sqrt((1.0 - share) * (1.0 + share));
+  // Each look is nearer by so much; what is needed, by its square.
+  const double nearer = lean * share / ahead + 0.385 * share * share / (ahead * ahead * ahead);
+  double left = 0.5 * nearer * nearer;
+  for (int k = 1; k <= kMostRounds; ++k) {
+    left *= nearer * nearer;
+    if (left < kStill) return k;
+  }
+  return 0;
+}
+
+/// Of an angle, until a series has its sine.
+int halvings_of(double limit, double rho) {
+  double cosine = std::sqrt(std::max(0.0, (rho - limit) * (rho + limit))) / rho;
+  int times = 0;
+  for (double sine = limit / rho; sine > drop::kSeries; ++times) {
+    const double twice = 2.0 * (1.0 + cosine);
+    sine /= std::sqrt(twice);
+    cosine = 0.5 * std::sqrt(twice);
+  }
+  return times;
+}
+
+/// A place between rows: the share u of the way from one to the next, and what an axis there needs.
+struct Place {
+  std::size_t row;
+  double u;
+  double drop = 0.0;
+};
+
+/// Rows straight from one to the next, the last joined to the first.
+struct Columns {
+  const std::vector<double>& phi;
+  std::vector<double> foot, slope;  // of the line across the wall, on the inner one
+
+  [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < phi.size() ? i + 1 : 0; }
+  [[nodiscard]] double phase(std::size_t i) const {
+    return i < phi.size() ? phi[i] : phi[i - phi.size()] + kTwoPi;
+  }
+  [[nodiscard]] double width(std::size_t i) const { return phase(i + 1) - phi[i]; }
 };
 
 class LeastDrop {
  public:
   LeastDrop(const TableSpec& spec, const Table& t, const std::stop_token& stop)
       : stop_(stop),
-        half_(0.5 * spec.kerf),
-        inner_(spec.target.inner_radius()),
+        kerf_(spec.kerf),
         flat_(std::min(kFlattest * spec.target.outer_radius,
                        kFlat * (spec.kerf + 0.1 * spec.target.wall))),
         widest_(kWidest * spec.target.outer_radius),
-        phi_(t.phi) {
-    const double outer = spec.target.outer_radius;
+        lines_{.phi = t.phi, .foot = {}, .slope = {}},
+        finished_{.half = 0.5 * spec.kerf, .inner = spec.target.inner_radius()} {
+    const double inner = finished_.inner, outer = spec.target.outer_radius;
     const bool land = !t.z_face.empty();
-    const double edge = land ? inner_ + spec.root_face : inner_;
+    const double edge = land ? inner + spec.root_face : inner;
     const auto& from = land ? t.z_face : t.z_inner;
-    if (land) circles_.emplace_back(inner_, half_, t.z_inner);
-    for (const double u : shares(inner_, outer, spec.kerf)) {
+    const auto n = t.phi.size();
+    finished_.phi = t.phi;
+    finished_.sine.resize(n);
+    finished_.cosine.resize(n);
+    elementary::sincos(t.phi, finished_.sine, finished_.cosine);
+    set_lines(lines_, from, t.z_outer, outer - edge, edge - inner);
+    for (const double slope : lines_.slope) lean_ = std::max(lean_, std::abs(slope));
+    lean_ /= elementary::hypot(1.0, lean_);
+    if (land) finished_.circles.push_back(circle(inner, t.z_inner));
+    const auto across = [&](double u) {
+      std::vector<double> z(n);
+      for (std::size_t i = 0; i < n; ++i) z[i] = math::mixed(from[i], t.z_outer[i], u);
+      return circle(math::mixed(edge, outer, u), std::move(z));
+    };
+    for (const double u : {0.0, 1.0, 0.5}) finished_.circles.push_back(across(u));
+    for (const double u : shares_between(inner, outer, spec.kerf)) {
       if (stop.stop_requested()) return;  // and nothing is asked of what there is
-      std::vector<double> z(from.size());
-      for (std::size_t i = 0; i < z.size(); ++i) z[i] = math::mixed(from[i], t.z_outer[i], u);
-      circles_.emplace_back(math::mixed(edge, outer, u), half_, std::move(z));
+      finished_.between.push_back(across(u));
     }
-    for (auto* column : {&slope_, &foot_}) column->reserve(phi_.size());
-    for (std::size_t i = 0; i < phi_.size() && !stops(stop, i); ++i) {
-      slope_.push_back((t.z_outer[i] - from[i]) / (outer - edge));
-      foot_.push_back(from[i] - (edge - inner_) * slope_[i]);
-      turns_.push_back(elementary::sincos(phi_[i]));
-    }
-    bands_.push_back(band(edge, outer, foot_, slope_));
+    set_swing(edge, outer);
+    if (finished_.half == 0.0) return;
+    add_band(edge, outer, lines_);
     if (!land) return;
-    std::vector<double> slope;
-    for (std::size_t i = 0; i < phi_.size(); ++i)
-      slope.push_back((t.z_face[i] - t.z_inner[i]) / spec.root_face);
-    bands_.push_back(band(inner_, edge, t.z_inner, slope));
+    Columns on_land{.phi = t.phi, .foot = {}, .slope = {}};
+    set_lines(on_land, t.z_inner, t.z_face, spec.root_face, 0.0);
+    add_band(inner, edge, on_land);
   }
 
-  /// What an axis needs, and which stretch of which circle asks for it.
-  struct Need {
-    double drop;
-    std::size_t circle = 0, stretch = 0;
-  };
-  /// Of row i's line; a place that asked most nearby is looked at first.
-  [[nodiscard]] Need at(std::size_t i, const Need& nearby) const {
-    return at(axis_at(i, 0.0), nearby);
-  }
-  [[nodiscard]] Need at(const Axis& axis, const Need& nearby) const {
-    Need best{half_ * axis.secant, nearby.circle, nearby.stretch};  // to its own line
-    search(axis, nearby.circle, 0.0, 0, nearby.stretch, best);
-    for (const double turn : {0.0, -kTwoPi, kTwoPi}) {
-      const auto run = within(axis.phi - turn);
-      for (std::size_t circle = 0; circle < circles_.size(); ++circle)
-        for (auto node = run.first; node < run.end; ++node)
-          search(axis, circle, turn, run.level, node, best);
+  /// Of the rows from `first` to before `end`: places between which the least drop is all but
+  /// straight, ascending, each row's own first; then row `end` alone.
+  [[nodiscard]] std::vector<Place> places(std::size_t first, std::size_t end) const {
+    std::vector<Place> out;
+    for (auto i = first; i < end; ++i) {
+      const auto parts = std::size_t{1} << least_halvings(i);
+      for (std::size_t k = 0; k < parts; ++k)
+        out.push_back({i, static_cast<double>(k) / static_cast<double>(parts)});
     }
-    for (const auto& band : bands_) best.drop = past_lines(axis, band, best.drop);
-    return best;
+    out.push_back({end, 0.0});
+    const auto secants = look(out);
+    auto gaps = bulging(out, secants);
+    const auto before = [](const Place& a, const Place& b) {
+      return a.row != b.row ? a.row < b.row : a.u < b.u;
+    };
+    std::vector<Place> both;
+    while (!gaps.empty() && !stop_.stop_requested()) {
+      std::vector<Place> middles;
+      gaps = halved(gaps, middles);
+      both.resize(out.size() + middles.size());
+      std::ranges::merge(out, middles, both.begin(), before);
+      out.swap(both);
+    }
+    return out;
   }
 
-  /// Places between row i and the next, ascending, both ends included, between which the least drop
-  /// is all but straight.
-  struct Place {
-    double u;
-    Need need;
+  /// Along the inner wall, and where the finished line meets it.
+  [[nodiscard]] Points::value_type on_line(const Place& at) const {
+    const double foot = math::mixed(lines_.foot[at.row], lines_.foot[lines_.next(at.row)], at.u);
+    return {finished_.inner * at.u * width(at.row), foot - at.drop};
+  }
+  [[nodiscard]] double width(std::size_t i) const { return lines_.width(i); }
+
+ private:
+  /// A part of the way from a row to the next that is yet to be halved.
+  struct Gap {
+    std::size_t row;
+    double from, to;
+    double drop_from, drop_to;
+    int halvings;
   };
-  [[nodiscard]] std::vector<Place> stretch(std::size_t i, const Need& from, const Need& to) const {
-    int least = 0;
-    double wide = way(i);
-    for (; least < kDeepest && half_ > 0.0 && wide > std::min(half_, widest_); ++least) wide *= 0.5;
-    std::vector<Place> out{{0.0, from}};
-    halve(i, {0.0, from}, {1.0, to}, {least, kDeepest}, out);
-    out.push_back({1.0, to});
+
+  static void set_lines(Columns& out, const std::vector<double>& from,
+                        const std::vector<double>& to, double across, double beyond) {
+    const auto n = from.size();
+    out.foot.resize(n);
+    out.slope.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      out.slope[i] = (to[i] - from[i]) / across;
+      out.foot[i] = from[i] - beyond * out.slope[i];
+    }
+  }
+
+  /// A line that leans otherwise than the axis's own lines go on to, by `a`, asks for most across
+  /// the wall, no more than a w^2 / (4 rho) above what it asks for at two places w apart.
+  void set_swing(double low, double high) {
+    const double wide = 0.5 * (high - low), reach = finished_.circles.front().reach;
+    const auto n = lines_.phi.size();
+    const auto turns = [&](std::size_t i) {  // of the slope, by the phase
+      const double rise = lines_.slope[lines_.next(i)] - lines_.slope[i];
+      return rise == 0.0 ? 0.0 : rise / lines_.width(i);
+    };
+    finished_.swing.resize(n);
+    double before = turns(n - 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double after = turns(i);
+      finished_.swing[i] = std::abs(after - before) * reach * wide * wide / (4.0 * low);
+      before = after;
+    }
+  }
+
+  [[nodiscard]] drop::Circle circle(double rho, std::vector<double> z) const {
+    const double half = finished_.half, limit = std::min(half, rho);
+    drop::Circle out{.rho = rho,
+                     .reach = half < rho ? elementary::asin(half / rho) : 0.5 * kPi,
+                     .limit = limit,
+                     .rounds = rounds_of(half, rho, lean_),
+                     .halvings = halvings_of(limit, rho),
+                     .z = std::move(z),
+                     .rate = std::vector<double>(lines_.phi.size())};
+    for (std::size_t i = 0; i < out.rate.size(); ++i) {
+      const double width = lines_.width(i);
+      out.rate[i] = width > 0.0 ? (out.z[lines_.next(i)] - out.z[i]) / width : 0.0;
+    }
     return out;
+  }
+
+  void add_band(double low, double high, const Columns& lines) {
+    drop::Lines out{
+        .low = low, .high = high, .phi = {}, .sine = {}, .cosine = {}, .foot = {}, .slope = {}};
+    const double apart = kLines * finished_.half;
+    for (auto* column : {&out.phi, &out.foot, &out.slope}) column->reserve(4 * lines.phi.size());
+    for (std::size_t i = 0; i < lines.phi.size() && !stops(stop_, i); ++i) {
+      const double width = lines.width(i), parts = std::ceil(high * width / apart);
+      const auto j = lines.next(i);
+      const int n = static_cast<int>(std::clamp(parts, 1.0, kMostLines));
+      for (int k = 0; k < n; ++k) {
+        const double u = static_cast<double>(k) / n;
+        out.phi.push_back(math::mixed(lines.phi[i], lines.phase(i + 1), u));
+        out.foot.push_back(math::mixed(lines.foot[i], lines.foot[j], u));
+        out.slope.push_back(math::mixed(lines.slope[i], lines.slope[j], u));
+      }
+    }
+    out.sine.resize(out.phi.size());
+    out.cosine.resize(out.phi.size());
+    elementary::sincos(out.phi, out.sine, out.cosine);
+    finished_.bands.push_back(std::move(out));
   }
 
   /// Length of the finished edges' way from row i to the next, the longer one's.
   [[nodiscard]] double way(std::size_t i) const {
     double rise = 0.0;
-    for (const auto& circle : circles_)
-      rise = std::max(rise, std::abs(circle.z[(i + 1) % circle.z.size()] - circle.z[i]));
-    return elementary::hypot(inner_ * width(i), rise);
-  }
-  [[nodiscard]] double inner() const { return inner_; }
-  [[nodiscard]] double width(std::size_t i) const { return phase(i + 1) - phi_[i]; }
-  [[nodiscard]] double foot(std::size_t i, double u) const {
-    return math::mixed(foot_[i], foot_[(i + 1) % foot_.size()], u);
+    for (const auto& circle : finished_.circles)
+      rise = std::max(rise, std::abs(circle.z[lines_.next(i)] - circle.z[i]));
+    return elementary::hypot(finished_.inner * width(i), rise);
   }
 
- private:
-  [[nodiscard]] double phase(std::size_t i) const {
-    return i < phi_.size() ? phi_[i] : phi_[i - phi_.size()] + kTwoPi;
+  /// Once at least.
+  [[nodiscard]] int least_halvings(std::size_t i) const {
+    if (!(width(i) > 0.0 && kerf_ > 0.0)) return 1;
+    int out = 1;
+    for (double wide = 0.5 * way(i); out < kDeepest && wide > std::min(0.5 * kerf_, widest_); ++out)
+      wide *= 0.5;
+    return out;
   }
 
-  [[nodiscard]] Axis axis_at(std::size_t i, double u) const {
-    return mixed_line(i, u, foot_, slope_);
+  /// Sets what each place needs. The secants of their axes.
+  std::vector<double> look(std::vector<Place>& at) const {
+    const auto n = at.size();
+    drop::Axes axes;
+    axes.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto i = at[k].row < lines_.phi.size() ? at[k].row : 0, j = lines_.next(i);
+      const double u = at[k].u, slope = math::mixed(lines_.slope[i], lines_.slope[j], u);
+      axes.row[k] = i;
+      axes.phi[k] = math::mixed(lines_.phi[i], lines_.phase(i + 1), u);
+      axes.foot[k] = math::mixed(lines_.foot[i], lines_.foot[j], u);
+      axes.slope[k] = slope;
+      axes.secant[k] = elementary::hypot(1.0, slope);
+    }
+    elementary::sincos(axes.phi, axes.sine, axes.cosine);
+    std::vector<double> drops(n);
+    drop::least(finished_, axes, drops, stop_);
+    for (std::size_t k = 0; k < n; ++k) at[k].drop = drops[k];
+    return std::move(axes.secant);
   }
 
-  /// The finished lines of one part of the wall, at rows and between them.
-  struct Band {
-    double low, high;  // radii
-    std::vector<Axis> lines;
-  };
-  [[nodiscard]] Band band(double low, double high, const std::vector<double>& foot,
-                          const std::vector<double>& slope) const {
-    Band out{low, high, {}};
-    if (half_ == 0.0) return out;
-    out.lines.reserve(phi_.size());
-    for (std::size_t i = 0; i < phi_.size() && !stops(stop_, i); ++i) {
-      const double parts = std::ceil(high * width(i) / (kLines * half_));
-      const int n = static_cast<int>(std::clamp(parts, 1.0, kMostLines));
-      for (int k = 0; k < n; ++k)
-        out.lines.push_back(mixed_line(i, static_cast<double>(k) / n, foot, slope));
+  /// Is the drop off the straight line by more than nothing? What lies above it is a gouge, what
+  /// lies below it metal that stays.
+  [[nodiscard]] bool bends(double from, double middle, double to, double secant) const {
+    const double bulge = middle - 0.5 * (from + to), flat = flat_ * secant;
+    return bulge > flat || bulge < -kHollow * flat;
+  }
+
+  /// Both halves of the parts that bend at their middle, of places that stand in pairs.
+  [[nodiscard]] std::vector<Gap> bulging(const std::vector<Place>& at,
+                                         const std::vector<double>& secants) const {
+    std::vector<Gap> out;
+    for (std::size_t k = 1; k + 1 < at.size(); k += 2) {
+      const auto &a = at[k - 1], &b = at[k], &c = at[k + 1];
+      if (!(width(b.row) > 0.0) || !bends(a.drop, b.drop, c.drop, secants[k])) continue;
+      const double to = c.row == b.row ? c.u : 1.0;
+      const int halvings = kDeepest - least_halvings(b.row);
+      if (halvings == 0) continue;
+      out.push_back({b.row, a.u, b.u, a.drop, b.drop, halvings - 1});
+      out.push_back({b.row, b.u, to, b.drop, c.drop, halvings - 1});
     }
     return out;
   }
 
-  [[nodiscard]] Axis mixed_line(std::size_t i, double u, const std::vector<double>& foot,
-                                const std::vector<double>& slopes) const {
-    const auto j = (i + 1) % phi_.size();
-    const double slope = math::mixed(slopes[i], slopes[j], u);
-    const double phi = math::mixed(phi_[i], phase(i + 1), u);
-    return {.phi = phi,
-            .turn = u == 0.0 ? turns_[i] : elementary::sincos(phi),
-            .foot = math::mixed(foot[i], foot[j], u),
-            .slope = slope,
-            .secant = elementary::hypot(1.0, slope)};
-  }
-
-  /// The larger of `best` and what the finished lines across the wall ask for within it. Where the
-  /// axis leans more than a line, most is needed where that all but leaves the beam: the sum of a
-  /// rising line and the beam's round, which has a closed form.
-  [[nodiscard]] double past_lines(const Axis& axis, const Band& band, double best) const {
-    const double reach = half_ < band.low ? elementary::asin(half_ / band.low) : 0.5 * kPi;
-    for (const double turn : {0.0, -kTwoPi, kTwoPi}) {
-      const double from = axis.phi - reach - turn, to = axis.phi + reach - turn;
-      auto line = std::ranges::lower_bound(band.lines, from, {}, &Axis::phi);
-      for (; line != band.lines.end() && line->phi <= to; ++line) {
-        const double sin = line->turn.sin * axis.turn.cos - line->turn.cos * axis.turn.sin;
-        const double cos = line->turn.cos * axis.turn.cos + line->turn.sin * axis.turn.sin;
-        const double leans = axis.slope * cos - line->slope, falls = axis.secant * std::abs(sin);
-        if (!(leans > 0.0 && falls > 0.0)) continue;
-        const double beside = half_ * leans / elementary::hypot(leans, falls);
-        const double rho = beside / std::abs(sin);
-        if (!(rho > band.low && rho < band.high)) continue;
-        best = std::max(best, axis.foot + (rho * cos - inner_) * axis.slope - line->foot -
-                                  (rho - inner_) * line->slope + round(axis, beside));
-      }
+  /// The middles of gaps, in their order; both halves of those that bend there.
+  std::vector<Gap> halved(const std::vector<Gap>& gaps, std::vector<Place>& middles) const {
+    for (const auto& gap : gaps) middles.push_back({gap.row, 0.5 * (gap.from + gap.to)});
+    const auto secants = look(middles);
+    std::vector<Gap> out;
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      const auto& [row, from, to, drop_from, drop_to, halvings] = gaps[k];
+      const auto& middle = middles[k];
+      if (halvings == 0 || !bends(drop_from, middle.drop, drop_to, secants[k])) continue;
+      out.push_back({row, from, middle.u, drop_from, middle.drop, halvings - 1});
+      out.push_back({row, middle.u, to, middle.drop, drop_to, halvings - 1});
     }
-    return best;
-  }
-
-  /// Few nodes of the least z, of one level, over all stretches in reach of an axis at this phase.
-  struct Run {
-    std::size_t level, first, end;
-  };
-  [[nodiscard]] Run within(double phi) const {
-    const double reach = circles_.front().reach;  // the innermost circle's
-    const double from = phi - reach, to = phi + reach;
-    if (from > phi_.front() + kTwoPi || to < phi_.front()) return {0, 0, 0};
-    const auto first = std::ranges::lower_bound(phi_, from) - phi_.begin();
-    const auto end = std::ranges::upper_bound(phi_, to) - phi_.begin();
-    auto low = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - 1, 0));
-    auto high = static_cast<std::size_t>(end);  // > 0
-    std::size_t level = 0;
-    for (; high - low > kNodes; ++level) {
-      low /= 2;
-      high = (high + 1) / 2;
-    }
-    return {level, low, high};
-  }
-
-  /// Row i seen from the axis: its distance to the side and ahead on the circle.
-  struct Side {
-    double beside, ahead;
-  };
-  [[nodiscard]] Side side(const Axis& axis, double rho, std::size_t i) const {
-    const auto& row = turns_[i % phi_.size()];
-    return {rho * (row.sin * axis.turn.cos - row.cos * axis.turn.sin),
-            rho * (row.cos * axis.turn.cos + row.sin * axis.turn.sin)};
-  }
-  /// Height of the round of the beam above its axis, along z, this far to the side.
-  [[nodiscard]] double round(const Axis& axis, double beside) const {
-    return axis.secant * std::sqrt(std::max(0.0, (half_ - beside) * (half_ + beside)));
-  }
-
-  /// The larger of `best` and what the run of rows `index` of this level asks for; a run whose
-  /// lowest point could not ask for more is passed by.
-  void search(const Axis& axis, std::size_t of, double turn, std::size_t level, std::size_t index,
-              Need& best) const {
-    const auto& circle = circles_[of];
-    const auto first_row = index << level;
-    const auto end_row = std::min(phi_.size(), (index + 1) << level);
-    const double from = phi_[first_row] + turn - axis.phi;
-    const double to = phase(end_row) + turn - axis.phi;
-    if (!(from <= circle.reach && to >= -circle.reach)) return;
-    double above = half_ * axis.secant;  // of the round of the beam, at most
-    if (from > 0.0) above = round(axis, side(axis, circle.rho, first_row).beside);
-    if (to < 0.0) above = round(axis, side(axis, circle.rho, end_row).beside);
-    const double ahead = axis.slope < 0.0 ? circle.ahead : circle.rho;
-    const double bound =
-        axis.foot + (ahead - inner_) * axis.slope - circle.least[level][index] + above;
-    if (!(bound > best.drop)) return;
-    if (level == 0) {
-      const double asked = of_stretch(axis, circle, index, from, to);
-      if (asked > best.drop) best = {asked, of, index};
-      return;
-    }
-    const auto first = 2 * index, second = first + 1;
-    const bool nearer = from + to < 0.0;  // the second
-    for (const auto half : {nearer ? second : first, nearer ? first : second})
-      if (half < circle.least[level - 1].size()) search(axis, of, turn, level - 1, half, best);
-  }
-
-  /// What the straight stretch after row i asks for; `from` and `to` are its phases from the axis.
-  /// A concave function: at an end, or by Newton from where it would be largest on a plane.
-  [[nodiscard]] double of_stretch(const Axis& axis, const Circle& circle, std::size_t i,
-                                  double from, double to) const {
-    const double low = circle.z[i], high = circle.z[(i + 1) % phi_.size()];
-    const double rate = to > from ? (high - low) / (to - from) : 0.0;
-    const auto needed = [&](const Side& at, double z) {
-      return axis.foot + (at.ahead - inner_) * axis.slope - z + round(axis, at.beside);
-    };
-    const auto grows = [&](const Side& at) {
-      const double root = std::sqrt((half_ - at.beside) * (half_ + at.beside));
-      return -rate - at.beside * axis.slope - axis.secant * at.beside * at.ahead / root;
-    };
-    const auto a = side(axis, circle.rho, i), b = side(axis, circle.rho, i + 1);
-    const bool a_in = from > -circle.reach, b_in = to < circle.reach;
-    if (a_in && !(grows(a) > 0.0)) return needed(a, low);
-    if (b_in && !(grows(b) < 0.0)) return needed(b, high);
-    const double x = highest(axis, circle.rho, rate, a_in ? a.beside / half_ : -1.0,
-                             b_in ? b.beside / half_ : 1.0);
-    const Side at{x, std::sqrt((circle.rho - x) * (circle.rho + x))};
-    return needed(at, low + rate * (elementary::asin(x / circle.rho) - from));
-  }
-
-  /// The tangent of half an angle by its sine, within a quarter turn.
-  static double half_tangent(double sine) {
-    const double s = std::clamp(sine, -1.0, 1.0);
-    return s / (1.0 + std::sqrt((1.0 - s) * (1.0 + s)));
-  }
-
-  /// Distance to the side at which most is needed, between two sines of the angle round the beam:
-  /// by Newton from the plane's own answer. Over the angle nothing is steep where the beam ends; it
-  /// goes by the tangent of its half, so that no sine is asked for.
-  [[nodiscard]] double highest(const Axis& axis, double rho, double rate, double first,
-                               double last) const {
-    const double slope = rate / rho;
-    double low = half_tangent(first), high = half_tangent(last);
-    double t = std::clamp(half_tangent(-slope / elementary::hypot(axis.secant, slope)), low, high);
-    for (int k = 0;; ++k) {
-      const double per_angle = 0.5 * (1.0 + t * t);  // of t
-      const double x = half_ * t / per_angle, root = half_ * (1.0 - per_angle) / per_angle;
-      const double ahead = std::sqrt((rho - x) * (rho + x));
-      const double pull = (rate + x * axis.slope) / ahead;
-      const double grows = -pull * root - axis.secant * x;
-      const double bend = pull * x - axis.slope * root * root / ahead - axis.secant * root;
-      (grows > 0.0 ? low : high) = t;
-      const double newton = t - grows / bend * per_angle;
-      const bool inside = bend < 0.0 && newton > low && newton < high;
-      const double next = inside ? newton : 0.5 * (low + high);
-      if (k == kNewton || !(std::abs(grows * (next - t)) > kStill * half_ * per_angle)) return x;
-      t = next;
-    }
-  }
-
-  struct Halvings {
-    int least, most;
-  };
-  void halve(std::size_t i, Place from, Place to, Halvings left, std::vector<Place>& out) const {
-    if (stop_.stop_requested()) return;
-    const double u = 0.5 * (from.u + to.u);
-    const auto axis = axis_at(i, u);
-    const Place middle{u, at(axis, from.need)};
-    const double bulge = middle.need.drop - 0.5 * (from.need.drop + to.need.drop);
-    const double flat = flat_ * axis.secant;
-    const bool on = left.least > 0 || bulge > flat || bulge < -kHollow * flat;
-    const Halvings next{left.least - 1, left.most - 1};
-    const bool deeper = on && left.most > 0 && width(i) > 0.0;
-    if (deeper) halve(i, from, middle, next, out);
-    out.push_back(middle);
-    if (deeper) halve(i, middle, to, next, out);
+    return out;
   }
 
   const std::stop_token& stop_;
-  double half_, inner_, flat_, widest_;
-  const std::vector<double>& phi_;
-  std::vector<double> foot_, slope_;
-  std::vector<elementary::SinCos> turns_;  // of the rows' phases
-  std::vector<Circle> circles_;
-  std::vector<Band> bands_;
+  double kerf_, flat_, widest_;
+  double lean_ = 0.0;  // the largest sine of B
+  Columns lines_;
+  drop::Finished finished_;
 };
 
-std::vector<LeastDrop::Need> at_rows(const LeastDrop& drop, std::size_t n,
-                                     const std::stop_token& stop) {
-  std::vector<LeastDrop::Need> out(n, {0.0});
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i)
-    out[i] = drop.at(i, out[i > 0 ? i - 1 : 0]);
-  return out;
-}
-
 /// Phases between row i and the next at which the line of the least drop bends.
-void append_bends(const LeastDrop& drop, std::size_t i, double phi, double tolerance,
-                  const std::vector<LeastDrop::Place>& places, std::vector<double>& out) {
+void append_bends(const LeastDrop& drop, double phi, double tolerance,
+                  std::span<const Place> places, std::vector<double>& out) {
   constexpr double kNarrow = 2e-6;  // rad: no finer
-  const double width = drop.width(i);
+  const auto row = places.front().row;
+  const double width = drop.width(row);
   if (width < kNarrow) return;
+  // No point is further from a line than along z.
+  const auto off = [&](const Place& at) {
+    const double u = at.row == row ? at.u : 1.0;
+    return std::abs(at.drop - math::mixed(places.front().drop, places.back().drop, u));
+  };
+  if (std::ranges::all_of(places, [&](const Place& at) { return off(at) <= tolerance; })) return;
   Points line;
-  for (const auto& [u, need] : places)
-    line.emplace_back(drop.inner() * u * width, drop.foot(i, u) - need.drop);
+  for (const auto& at : places)
+    line.push_back(drop.on_line(at.row == row ? at : Place{row, 1.0, at.drop}));
   std::vector<std::size_t> at;
   bends(line, 0, line.size() - 1, tolerance, at);
   for (const auto k : at) {
-    const double row = phi + places[k].u * width;
-    out.push_back(row < kTwoPi ? row : row - kTwoPi);
+    const double there = phi + places[k].u * width;
+    out.push_back(there < kTwoPi ? there : there - kTwoPi);
   }
 }
 
 }  // namespace
 
 TorchLine torch_line(const TableSpec& spec, const Table& table, const std::stop_token& stop) {
+  return torch_line(spec, table, std::vector<bool>(table.phi.size(), true), stop);
+}
+
+TorchLine torch_line(const TableSpec& spec, const Table& table, const std::vector<bool>& wanted,
+                     const std::stop_token& stop) {
   const auto n = table.phi.size();
   TorchLine out{std::vector<double>(n, 0.0), {}};
   if (spec.kerf == 0.0 && table.z_face.empty()) return out;
   const LeastDrop drop(spec, table, stop);
-  const auto least = at_rows(drop, n, stop);
-  for (std::size_t i = 0; i < n; ++i) out.drops[i] = least[i].drop;
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-    const auto j = (i + 1) % n;
-    const auto places = drop.stretch(i, least[i], least[j]);
-    for (const auto& [u, need] : places) raise(out.drops[i], out.drops[j], u, need.drop);
-    if (spec.sampling.tolerance)
-      append_bends(drop, i, table.phi[i], spec.sampling.tolerance->value, places, out.rows);
+  std::size_t known = 0;  // rows before have their drops
+  for (std::size_t first = 0, end = 0; first < n && !stop.stop_requested(); first = end) {
+    for (end = first; end < n && end - first < kRows && wanted[end] == wanted[first];) ++end;
+    if (!wanted[first]) continue;
+    const auto places = drop.places(first, end);
+    for (const auto& at : places)  // the first row of a run may be the last of the one before
+      if (at.u == 0.0 && at.row < n && at.row >= known) out.drops[at.row] = at.drop;
+    known = end + 1;
+    for (std::size_t from = 0, to = 1; to < places.size(); ++to) {
+      if (places[to].u != 0.0) continue;
+      const std::span way(&places[from], to + 1 - from);
+      const auto i = places[from].row, j = (i + 1) % n;
+      for (const auto& at : way)
+        raise(out.drops[i], out.drops[j], at.row == i ? at.u : 1.0, at.drop);
+      if (spec.sampling.tolerance)
+        append_bends(drop, table.phi[i], spec.sampling.tolerance->value, way, out.rows);
+      from = to;
+    }
   }
+  return out;
+}
+
+std::vector<bool> ways_near(const TableSpec& spec, const Table& table,
+                            std::span<const double> phases) {
+  const auto n = table.phi.size();
+  std::vector<bool> out(n, false);
+  const double half = 0.5 * spec.kerf, inner = spec.target.inner_radius();
+  const double reach = half < inner ? elementary::asin(half / inner) : 0.5 * kPi;
+  const auto mark = [&](double from, double to) {  // rad, ascending
+    auto i = std::ranges::upper_bound(table.phi, from) - table.phi.begin();
+    for (i = std::max<std::ptrdiff_t>(i - 1, 0); i < std::ssize(table.phi); ++i) {
+      if (table.phi[static_cast<std::size_t>(i)] > to) return;
+      out[static_cast<std::size_t>(i)] = true;
+    }
+  };
+  for (const double phi : phases)
+    for (const double turn : {0.0, -kTwoPi, kTwoPi}) mark(phi - reach + turn, phi + reach + turn);
   return out;
 }
 
