@@ -53,10 +53,14 @@ Json::Object cut(Draw& draw) {
   const auto* rule = draw.of(std::array{"half_dihedral", "none", "fixed", "square"});
   Json::Object groove{{"rule", rule}};
   if (std::string_view(rule) == "fixed") groove.emplace_back("angle_deg", 30.0);
+  Json::Object smoothing{{"method", draw.of(std::array{"none", "envelope"})}};
+  if (text(Json{smoothing}, "method") == "envelope")
+    smoothing.emplace_back("limits", Json{Json::Object{{"max_slope_deg_per_mm", 2.0},
+                                                       {"max_curvature_deg_per_mm2", 0.5}}});
   return {{"root_surface", inner ? "inner" : "outer"},
           {"contact", inner ? draw.of(std::array{"none", "inner", "auto"}) : "none"},
           {"groove", Json{std::move(groove)}},
-          {"smoothing", Json{Json::Object{{"method", "none"}}}}};
+          {"smoothing", Json{std::move(smoothing)}}};
 }
 
 Json table(const Json& target, const Json::Array& cutters, Json::Object how) {
@@ -215,8 +219,8 @@ TEST(ThickWall, AndThinPlatesGoThroughCurvesTablesAndParts) {
   Draw draw(50);
   Answers answers;
   int good = 0;
-  for (int round = 0; round < 70; ++round) {
-    const double diameter = draw.of(std::array{5.0, 10.0, 21.3, 60.3, 168.3});
+  for (int round = 0; round < 200; ++round) {
+    const double diameter = draw.of(std::array{5.0, 10.0, 21.3, 60.3});
     const double wall = draw.of(std::array{0.5 * diameter - 0.1, 0.5, 0.3 * diameter});
     const auto tube = target(diameter, std::max(0.5, wall));
     const double x = draw.any(-0.7, 0.7), y = draw.any(-0.7, 0.7), thin = draw.any(0.5, 3.0);
@@ -233,7 +237,9 @@ TEST(ThickWall, AndThinPlatesGoThroughCurvesTablesAndParts) {
     const Json::Array cutters{plane(-0.5 * diameter, x, y), plate};
     const auto how = cut(draw);
     good += answers.good("/v1/intersections", curves(tube, cutters)) ? 1 : 0;
+    if (round % 10 != 0) continue;  // what is bevelled through solid bars takes time
     good += answers.good("/v1/bevel-tables", table(tube, cutters, how)) ? 1 : 0;
+    if (round % 20 != 0) continue;
     auto start = how, finish = how;
     start.emplace_back("cutters", Json{cutters});
     finish.emplace_back("cutters", Json{Json::Array{plane(0, y, x)}});
@@ -244,7 +250,7 @@ TEST(ThickWall, AndThinPlatesGoThroughCurvesTablesAndParts) {
                      {"sampling", Json{Json::Object{{"uniform_points", 72.0}}}}}};
     good += answers.good("/v1/parts", part) ? 1 : 0;
   }
-  EXPECT_GT(good, 100);
+  EXPECT_GT(good, 200);
 }
 
 }  // namespace
