@@ -12,10 +12,10 @@
 namespace tubecut::bevel {
 namespace {
 
-constexpr double kBy = 1e-5;  // mm, of a radius
+constexpr double kRateStep = 1e-5;  // mm, of a radius
 
 /// The partner with its radius larger; empty if it has none.
-std::optional<joint::Partner> wider(joint::Partner partner, double by) {
+std::optional<joint::Partner> with_wider_radius(joint::Partner partner, double by) {
   const bool has = std::visit(
       [&](auto& kind) {
         if constexpr (requires { kind.radius; }) kind.radius += by;
@@ -26,20 +26,20 @@ std::optional<joint::Partner> wider(joint::Partner partner, double by) {
 }
 
 /// How high the partner reaches at a place of the wall, from the solid in space.
-std::optional<double> top(const joint::Partner& partner, double rho, double phi) {
+std::optional<double> top_of(const joint::Partner& partner, double rho, double phi) {
   const auto cutters = joint::resolve(std::vector{partner});
   if (!cutters) return std::nullopt;
   return joint::Solid(cutters->front()).top(rho * std::cos(phi), rho * std::sin(phi));
 }
 
 /// By differences of the heights of solids on both sides; empty if they do not settle.
-std::optional<double> difference(const std::optional<double>& low,
-                                 const std::optional<double>& high, double by) {
+std::optional<double> central_difference(const std::optional<double>& low,
+                                         const std::optional<double>& high, double by) {
   if (!low || !high) return std::nullopt;
   return (*high - *low) / (2.0 * by);
 }
 
-TableSpec spec_of(oracle::Random& random, std::size_t kind) {
+TableSpec cut_by_kind(oracle::Random& random, std::size_t kind) {
   const double rho = random.any(10.0, 150.0);
   TableSpec spec{.target = {.outer_radius = rho, .wall = rho * random.any(0.03, 0.3)},
                  .partners = {oracle::random_partner(random, rho, kind, true)}};
@@ -52,23 +52,25 @@ TableSpec spec_of(oracle::Random& random, std::size_t kind) {
 }
 
 /// What was compared, how often there was no rate, and the largest difference, of the rate.
-struct Seen {
+struct ComparedRates {
   int rows = 0, none = 0;
   double worst = 0.0;
 };
 
-void compare(const TableSpec& spec, const Table& t, Seen& seen) {
+void compare_rates(const TableSpec& spec, const Table& t, ComparedRates& seen) {
   const double rho = spec.root_surface == RootSurface::outer ? spec.target.outer_radius
                                                              : spec.target.inner_radius();
   const auto& partner = spec.partners.front();
-  const auto less = wider(partner, -kBy), more = wider(partner, kBy);
+  const auto less = with_wider_radius(partner, -kRateStep),
+             more = with_wider_radius(partner, kRateStep);
   for (std::size_t i = 0; i < t.phi.size(); ++i) {
     const double phi = t.phi[i];
     EXPECT_EQ(std::isnan(t.dz_chord[i]), !more.has_value());
     // A step of half the width tells how straight the surface is there.
-    const auto branch = difference(top(partner, rho - kBy, phi), top(partner, rho + kBy, phi), kBy);
-    const auto again =
-        difference(top(partner, rho - 4 * kBy, phi), top(partner, rho + 4 * kBy, phi), 4 * kBy);
+    const auto branch = central_difference(top_of(partner, rho - kRateStep, phi),
+                                           top_of(partner, rho + kRateStep, phi), kRateStep);
+    const auto again = central_difference(top_of(partner, rho - 4 * kRateStep, phi),
+                                          top_of(partner, rho + 4 * kRateStep, phi), 4 * kRateStep);
     if (!branch || !again || std::abs(*branch - *again) > 1e-4 * (1.0 + std::abs(*branch)))
       continue;
     const auto held = [&](double got, double wanted) {
@@ -80,7 +82,8 @@ void compare(const TableSpec& spec, const Table& t, Seen& seen) {
       ++seen.none;
       continue;
     }
-    if (const auto chord = difference(top(*less, rho, phi), top(*more, rho, phi), kBy))
+    if (const auto chord =
+            central_difference(top_of(*less, rho, phi), top_of(*more, rho, phi), kRateStep))
       held(t.dz_chord[i], *chord);
   }
 }
@@ -88,14 +91,14 @@ void compare(const TableSpec& spec, const Table& t, Seen& seen) {
 TEST(RadiusRates, AreTheDifferencesOfHeightsOfSolidsThatAreWider) {
   oracle::Random random{std::mt19937_64{20261127}};
   for (std::size_t kind = 0; kind < 6; ++kind) {
-    Seen seen;
+    ComparedRates seen;
     int tables = 0;
     for (int i = 0; i < 80; ++i) {
-      const auto spec = spec_of(random, kind);
+      const auto spec = cut_by_kind(random, kind);
       const auto t = table(spec);
       if (!t) continue;  // a partner that leaves a side open, or an elbow that hides itself
       ++tables;
-      compare(spec, *t, seen);
+      compare_rates(spec, *t, seen);
     }
     std::printf("kind %zu: %d tables, %d rates, %d rows without one, off by %.2g\n", kind, tables,
                 seen.rows, seen.none, seen.worst);
@@ -110,7 +113,7 @@ TEST(RadiusRates, TheGapIsTheChordsChangeAndTheBranchsByTheCosineOfTheDihedral) 
   oracle::Random random{std::mt19937_64{7}};
   int rows = 0;
   for (int i = 0; i < 60; ++i) {
-    auto spec = spec_of(random, 0);
+    auto spec = cut_by_kind(random, 0);
     spec.root_surface = RootSurface::inner;
     const auto t = table(spec);
     if (!t) continue;
