@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
@@ -172,15 +173,12 @@ std::size_t Axes::stretch_of(const OnWay& at) const {
   return k;
 }
 
-/// From the axes that are the points' own, ahead and back. Where the axes are further away than the
-/// best ones, none nearer comes before they have travelled as much; and of a cut round the tube
-/// none comes once their half planes, up to half a turn ahead of the points, are.
-void Axes::nearest(std::span<const OnWay> own, const EightPoints& points,
-                   std::span<Nearest> out) const {
-  const auto n = ways_.size();
-  const auto lap = static_cast<std::ptrdiff_t>(n);
+/// The points' own stretches, from the first to the last: on a ring, so that the last may be in the
+/// second lap.
+std::pair<std::size_t, std::size_t> Axes::stretches(std::span<const OnWay> own) const {
+  const auto lap = static_cast<std::ptrdiff_t>(ways_.size());
   const auto start = static_cast<std::ptrdiff_t>(stretch_of(own.front()));
-  std::ptrdiff_t before = 0, after = 0;  // of the others' own stretches
+  std::ptrdiff_t before = 0, after = 0;
   for (const auto& at : own) {
     auto off = static_cast<std::ptrdiff_t>(stretch_of(at)) - start;
     if (2 * off > lap) off -= lap;
@@ -189,26 +187,30 @@ void Axes::nearest(std::span<const OnWay> own, const EightPoints& points,
     after = std::max(after, off);
   }
   const auto low = static_cast<std::size_t>(start + before + (start + before < 0 ? lap : 0));
-  const auto high = low + static_cast<std::size_t>(after - before);
-  EightNearest best;
-  best.square.fill(kInfinity);
-  best.distance.fill(kInfinity);
-  best.stretch.fill(0.0);
-  best.share.fill(0.0);
-  const double floor = ways_.front().floor, inner = cut_.inner > 0.0 ? cut_.inner : 1.0;
-  Eight first, square;
-  squares(way(low).first, floor, points, first);
-  see(static_cast<double>(low % n), 0.0, first, best);
-  for (auto k = low; k <= high; ++k) {
-    squares(way(k).last, floor, points, square);
-    see(static_cast<double>(k % n), 1.0, square, best);
-  }
-  // Half a lap of stretches is no half turn: where the turn decides they may run all round.
-  const auto last = high + (meridian_ ? n - 1 : n / 2);
-  square = first;
-  for (auto k = low; k <= last;) {
-    const auto walked = walk(way(k), static_cast<double>(k % n), true, inner, points, square, best);
-    if (meridian_ && walked.beside >= 0.0) break;
+  return {low, low + static_cast<std::size_t>(after - before)};
+}
+
+void Axes::see_first(std::size_t k, const EightPoints& points, Eight& square,
+                     EightNearest& best) const {
+  squares(way(k).first, way(k).floor, points, square);
+  see(static_cast<double>(k % ways_.size()), 0.0, square, best);
+}
+
+/// Where the axes are further away than the best ones, none nearer comes before they have travelled
+/// as much; and of a cut round the tube none comes once their half planes, up to half a turn ahead
+/// of the points, are.
+Walked Axes::walk_on(std::size_t k, bool on, const EightPoints& points, Eight& square,
+                     EightNearest& best) const {
+  const double inner = cut_.inner > 0.0 ? cut_.inner : 1.0;
+  return walk(way(k), static_cast<double>(k % ways_.size()), on, inner, points, square, best);
+}
+
+void Axes::walk_ahead(std::size_t k, std::size_t last, const EightPoints& points, Eight square,
+                      EightNearest& best) const {
+  const auto n = ways_.size();
+  while (k <= last) {
+    const auto walked = walk_on(k, true, points, square, best);
+    if (meridian_ && walked.beside >= 0.0) return;
     const auto base = k - k % n;  // what was travelled is known of two laps
     const double clear = travelled_[k - base + 1] + walked.clear;
     if (travelled_[k - base + 2] > clear) {
@@ -217,23 +219,44 @@ void Axes::nearest(std::span<const OnWay> own, const EightPoints& points,
     }
     const auto past = std::ranges::upper_bound(travelled_, clear) - travelled_.begin();
     k = static_cast<std::size_t>(past) - 1 + base;
-    squares(way(k).first, floor, points, square);
-    see(static_cast<double>(k % n), 0.0, square, best);
+    see_first(k, points, square, best);
   }
-  square = first;
-  const auto end = low + n, back = end - (meridian_ ? n - 1 : n / 2);
-  for (auto k = end; k > back;) {
+}
+
+void Axes::walk_back(std::size_t end, std::size_t first, const EightPoints& points, Eight square,
+                     EightNearest& best) const {
+  for (auto k = end; k > first;) {
     --k;
-    const auto walked =
-        walk(way(k), static_cast<double>(k % n), false, inner, points, square, best);
-    if (meridian_ && walked.beside >= 0.0) break;
+    const auto walked = walk_on(k, false, points, square, best);
+    if (meridian_ && walked.beside >= 0.0) return;
     const double clear = travelled_[k] - walked.clear;
     if (k == 0 || travelled_[k - 1] < clear) continue;
     const auto from = std::ranges::lower_bound(travelled_, clear) - travelled_.begin();
     k = static_cast<std::size_t>(from);
-    squares(way(k).first, floor, points, square);
-    see(static_cast<double>(k % n), 0.0, square, best);
+    see_first(k, points, square, best);
   }
+}
+
+/// From the axes that are the points' own, ahead and back.
+void Axes::nearest(std::span<const OnWay> own, const EightPoints& points,
+                   std::span<Nearest> out) const {
+  const auto n = ways_.size();
+  const auto [low, high] = stretches(own);
+  EightNearest best;
+  best.square.fill(kInfinity);
+  best.distance.fill(kInfinity);
+  best.stretch.fill(0.0);
+  best.share.fill(0.0);
+  Eight first, square;
+  see_first(low, points, first, best);
+  for (auto k = low; k <= high; ++k) {
+    squares(way(k).last, way(k).floor, points, square);
+    see(static_cast<double>(k % n), 1.0, square, best);
+  }
+  // Half a lap of stretches is no half turn: where the turn decides they may run all round.
+  const auto run = meridian_ ? n - 1 : n / 2;
+  walk_ahead(low, high + run, points, first, best);
+  walk_back(low + n, low + n - run, points, first, best);
   for (std::size_t l = 0; l < out.size(); ++l) {
     const auto k = static_cast<std::size_t>(best.stretch[l]);
     const auto& [row, from, to] = parts_[k];

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "core/bevel/beam.hpp"
@@ -61,6 +62,14 @@ class Axes {
   void add_ways(const std::vector<Line>& rows, const std::stop_token& stop);
   [[nodiscard]] Way way(const Line& first, const Line& middle, const Line& last) const;
   [[nodiscard]] std::size_t stretch_of(const OnWay& at) const;
+  [[nodiscard]] std::pair<std::size_t, std::size_t> stretches(std::span<const OnWay> own) const;
+  void see_first(std::size_t k, const EightPoints& points, Eight& square, EightNearest& best) const;
+  [[nodiscard]] Walked walk_on(std::size_t k, bool on, const EightPoints& points, Eight& square,
+                               EightNearest& best) const;
+  void walk_ahead(std::size_t k, std::size_t last, const EightPoints& points, Eight square,
+                  EightNearest& best) const;
+  void walk_back(std::size_t end, std::size_t first, const EightPoints& points, Eight square,
+                 EightNearest& best) const;
   [[nodiscard]] const Way& way(std::size_t k) const { return ways_[k % ways_.size()]; }
 
   const BeamCut& cut_;
