@@ -237,7 +237,7 @@ TEST(ZoneGaps, FramesTakeThem) {
   Json request = *api::parse(R"({
     "members": [
       {"id": "C", "start_mm": [-600, 0, 0], "end_mm": [600, 0, 0], "outer_diameter_mm": 219.1, "wall_mm": 8},
-      {"id": "B", "start_mm": [0, 0, 0], "end_mm": [500, 0, 700], "outer_diameter_mm": 114.3, "wall_mm": 6}],
+      {"id": "B", "start_mm": [0, 0, 0], "end_mm": [700, 0, 500], "outer_diameter_mm": 114.3, "wall_mm": 6}],
     "joints": [{"between": ["B", "C"], "kind": "set_on"}],
     "defaults": {"root_surface": "inner", "groove": {}, "smoothing": {"method": "none"}},
     "kerf_mm": 1})");
