@@ -74,13 +74,12 @@ struct Rows {
 [[nodiscard]] const ZonedGroove* zones_with_gaps(const TableSpec& spec);
 /// Zones that name the root gap go with one partner, the root inside, and no other gap.
 [[nodiscard]] Result<void> check_gaps(const TableSpec& spec);
-/// Where the root lies whose gap is its zone's at the dihedral there.
+/// Where the root lies whose gap is its zone's at the dihedral there; `least`: with the least gap.
 struct Stood {
   double more = 0.0;  // mm, beyond the least gap
   joint::PreparedCutter partner;
   joint::Hit hit;
 };
-/// `least`: where it lies with the least gap.
 [[nodiscard]] Stood stood_at(const TableSetup& g, const joint::Generator& line,
                              const joint::Hit& least);
 /// Lengths along the raised root, straight between some places of each gap between rows.
