@@ -24,6 +24,7 @@ const conventions: {told: string; unit: 'INCH' | 'MM'; fits(value: number, each:
   {told: 'NPS x 25.4', unit: 'MM', fits: (value, {inches}) => Math.abs(value - inches * 25.4) <= 0.06},
   {told: 'its outside diameter in mm', unit: 'MM', fits: (value, {outer_diameter_mm: outer}) => Math.abs(value - outer) <= 0.003 * outer},
   {told: 'NPS in inches', unit: 'MM', fits: (value, {inches}) => close(value, inches)},
+  {told: 'DN', unit: 'MM', fits: (value, {dn}) => close(value, dn)},
   {told: 'its outside diameter in inches', unit: 'INCH', fits: (value, {outer_diameter_mm: outer}) => Math.abs(value * 25.4 - outer) <= 0.003 * outer},
   {told: 'DN', unit: 'INCH', fits: (value, {dn}) => close(value, dn)},
 ];
@@ -44,7 +45,9 @@ export function unrecognised(counts: Map<number, number>, unit: 'INCH' | 'MM'): 
     .map((way) => ({...way, explains: values.filter((value) => nominals.some((each) => way.fits(value, each))).length}))
     .sort((a, b) => b.explains - a.explains);
   // If one other way explains every bore, those that look nominal may be meant so as well: 6 and 4 of a file in mm.
-  const all = odd.length > 0 && ways[0]?.explains === values.length ? values : odd;
+  // And if every bore is a DN and an NPS, and one is below DN 15: 6 is more often 6 in than DN 6.
+  const small = unit === 'MM' && values.some((value) => value < 15) && values.every((value) => boreOf(value, 'INCH'));
+  const all = small || (odd.length > 0 && ways[0]?.explains === values.length) ? values : odd;
   return all.map((value) => {
     const sizes = ways.flatMap(({told, fits}) => nominals.filter((each) => fits(value, each)).map(({nps}) => ({size: `NPS ${nps}`, because: told})));
     const likely = sizes.filter(({size}, i) => sizes.findIndex((each) => each.size === size) === i);

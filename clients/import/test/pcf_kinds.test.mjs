@@ -85,4 +85,6 @@ test('bores of a file in mm that are all inches are requested, also those that w
   assert.ok(text.length > 0);
   assert.equal(frame, null);
   assert.deepEqual(asks.map(({key, likely}) => [key, likely[0]]), [['6', 'NPS 6'], ['4', 'NPS 4'], ['8', 'NPS 8']]);
+  const alone = fromPcf(`UNITS-BORE MM\nUNITS-CO-ORDS MM\n${pipes.split('PIPE').slice(0, 2).join('PIPE')}`);
+  assert.deepEqual(alone.asks.map(({key, likely}) => [key, likely]), [['6', ['NPS 6', 'NPS 1/8']]], 'DN 6 is not assumed');
 });

@@ -21,9 +21,9 @@ const plus = (p, d, k) => p.map((v, i) => v + k * d[i]);
 export function spool(seed) {
   const next = random(seed);
   const way = conventions[seed % conventions.length];
-  // The outside diameter of NPS 16 in inches is 16: nothing is to be asked.
+  // The outside diameters of NPS 3, 16 and 30 in inches are nominal sizes themselves: nothing is to be asked. DN 6 may be 6 in: it is.
   const [unit, perUnit, digits] = pick(next, [['MM', 1, 4], ['MM', 1, 1], ['MM-HUNDREDTH', 0.01, 2], ['INCH', 25.4, 6]]);
-  const inches = Number(pick(next, Object.keys(sizes).filter((n) => !(way.unit === 'INCH' && way.outside && n === '16'))));
+  const inches = Number(pick(next, Object.keys(sizes).filter((n) => !(way.unit === 'INCH' && way.outside && ['3', '16', '30'].includes(n)) && !(way === conventions[2] && n === '0.125'))));
   const [, outer, nps] = sizes[inches];
   const wall = Math.round(outer * between(next, 0.04, 0.12) * 100) / 100;
   const lines = [pick(next, ['ISOGEN-FILES ISOGEN.FLS', 'PIPELINE-REFERENCE A']), `UNITS-BORE ${way.unit}`, `UNITS-CO-ORDS ${unit}`];
