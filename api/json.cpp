@@ -216,10 +216,12 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
   bool null() override { return next(); }
   bool boolean(bool /*unused*/) override { return next(); }
   bool number_integer(number_integer_t v) override {
-    return seen(static_cast<double>(v), std::to_string(v));
+    constexpr std::int64_t kExact = std::int64_t{1} << 53;
+    return seen(v < -kExact || v > kExact ? kBeyond : static_cast<double>(v), std::to_string(v));
   }
   bool number_unsigned(number_unsigned_t v) override {
-    return seen(static_cast<double>(v), std::to_string(v));
+    constexpr std::uint64_t kExact = std::uint64_t{1} << 53;
+    return seen(v > kExact ? kBeyond : static_cast<double>(v), std::to_string(v));
   }
   bool number_float(number_float_t v, const string_t& text) override { return seen(v, text); }
   bool string(string_t& /*unused*/) override { return next(); }
@@ -241,6 +243,8 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
+  static constexpr double kBeyond = 0x1p54;  // of what is rounded to 2^53
+
   /// An open container: the member, or the index of the element, that is read.
   struct Place {
     bool array = false;
