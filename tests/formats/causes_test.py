@@ -114,7 +114,7 @@ class Causes(FormatTest):
             self.check("bevel-tables", body, told)
         print(dict(told))
         self.assertGreater(told["answered"], CASES // 2)
-        self.assertGreater(told["/torch/max_deg", "torch_range"], 5)
+        self.assertGreater(told["/torch/max_deg", "torch_range"], CASES // 60)
 
 
 if __name__ == "__main__":

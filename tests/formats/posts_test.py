@@ -397,7 +397,7 @@ class Own(FormatTest):
             (self.document | {"name": "a", "begin": ["%", "Träger"]}, "/begin/1: "),
             (self.document | {"name": "a", "comment_end": "."}, "/comment_end: "),
             (self.document | {"name": "a", "file_name": "{piece}.ngc"}, "/file_name: "),
-            (self.document | {"name": "a", "kind": "point_pairs"}, "/comment_begin: "),
+            (self.document | {"name": "a", "kind": "point_pairs"}, "/units: "),
             (self.document | {"name": "a", "cut_move": "G1 {axes} F{axis_feeds}"}, "/cut_move: "),
             (self.document | {"name": "a", "block_numbers": -1}, "/block_numbers: "),
             (self.document | {"name": "a", "axes": axes | {"swing": {"letter": "A", "decimals": 4}}}, "/axes/swing/letter: "),
