@@ -248,7 +248,7 @@ void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applie
   for (std::size_t p = 0; p < lines.mates.size(); ++p) {
     if (!lines.mates[p] || lines.mates[p]->end < p) continue;
     const auto q = lines.mates[p]->end;
-    const auto pair = std::minmax(p / 2, q / 2);
+    const Applied::Pair pair{std::min(p / 2, q / 2), std::max(p / 2, q / 2)};
     if (out.joints.contains(pair) || separated(spec, joined, lines, p, q)) continue;
     out.joints.emplace(pair, Joint{.kind = JointKind::mitre});
     out.found.insert(pair);
