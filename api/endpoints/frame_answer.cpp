@@ -211,6 +211,22 @@ void write_not_cut(const FrameJob& frame, Writer& w) {
   });
 }
 
+void write_merged(const FrameJob& frame, Writer& w) {
+  if (!frame.merged) return;
+  std::vector<std::size_t> several;
+  for (std::size_t i = 0; i < frame.merged->pieces.size(); ++i)
+    if (frame.merged->pieces[i].size() > 1) several.push_back(i);
+  w.array("merged", several, [&](Writer& each, std::size_t i) {
+    each.object([&](Writer& o) {
+      std::vector<std::string> ids;
+      for (const auto piece : frame.merged->pieces[i]) ids.push_back(frame.merged->ids[piece]);
+      o.field("id", frame.spec.members[i].name);
+      o.column("members", ids);
+      o.field("off_line_mm", frame.merged->off[i]);
+    });
+  });
+}
+
 void write_parts(const FrameJob& frame, const MadeParts& made, Writer& w) {
   w.array("parts", indices(made), [&](Writer& each, std::size_t i) {
     each.object([&](Writer& o) { write_part(frame, i, made[i], o); });

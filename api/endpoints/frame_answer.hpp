@@ -11,8 +11,18 @@
 #include "api/problem.hpp"
 #include "api/worked.hpp"
 #include "api/writer.hpp"
+#include "core/frame/merge.hpp"
 
 namespace tubecut::api {
+
+/// How members and joints stand in the request where pieces in line are made one.
+struct Merges {
+  std::vector<std::string> ids;                  // of the request's members
+  std::vector<frame::PieceOf> of;                // of each of them
+  std::vector<std::vector<std::size_t>> pieces;  // of each member of the frame, from its start on
+  std::vector<double> off;                       // how far their ends lie beside its axis, mm
+  std::vector<std::size_t> joints;               // of each of the frame's: which it is
+};
 
 /// A frame whose joints are found, and its parts as requests.
 struct FrameJob : FrameRequest, FrameParts {
@@ -27,6 +37,7 @@ struct FrameJob : FrameRequest, FrameParts {
   [[nodiscard]] joint::MemberFrame start_of(std::size_t member) const {
     return laid[member].stand(frame.pieces[member].frame);
   }
+  std::optional<Merges> merged = {};
 };
 
 /// A part as /v1/parts answers, or why there is none.
@@ -46,6 +57,8 @@ void write_joints(const FrameJob& frame, const MadeParts& made, Writer& w);
 void write_cut_list(const FrameJob& frame, const MadeParts& made, Writer& w);
 void write_totals(const FrameJob& frame, const MadeParts& made, Writer& w);
 void write_not_cut(const FrameJob& frame, Writer& w);
+/// Members of more pieces than one; nothing where none were to be merged.
+void write_merged(const FrameJob& frame, Writer& w);
 /// A part's answer is that of its own request to /v1/parts, byte by byte.
 void write_parts(const FrameJob& frame, const MadeParts& made, Writer& w);
 
@@ -71,7 +84,7 @@ void cut_list_row(const FrameJob& frame, std::size_t i, const MadePart& part, Ro
   row.field("made_by", frame.spec.members[frame.parts[i].by].name);
   row.field("differs_at_most_mm", frame.parts[i].differs);
   row.field("outer_diameter_mm", 2.0 * m.outer_radius);
-  row.field("wall_mm", m.wall);
+  row.field("wall_mm", frame.walls[frame.parts[i].members.front()]);
   if (!part.is_open()) row.field("verdict", part.made ? part.made->answer.verdict.status : "none");
   if (!part.made) return;
   const auto& lengths = part.made->out.lengths;

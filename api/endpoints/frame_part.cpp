@@ -93,7 +93,7 @@ class PartWriter {
   [[nodiscard]] Result<Json> part(std::size_t member, const Names& names) const {
     const auto& piece = frame_.pieces[member];
     Json::Object target{{"outer_diameter_mm", mm(2.0 * piece.target.outer_radius)},
-                        {"wall_mm", Json{piece.target.wall}},
+                        {"wall_mm", Json{request_.walls[member]}},
                         {"length_mm", mm(*piece.target.length)}};
     if (names.ids) target.emplace(target.begin(), "id", Json{names.of_members[member]});
     TRY(auto start, end(member, joint::End::start, names));
@@ -237,7 +237,7 @@ class PartWriter {
       const auto& how = frame_.joints[hole.joint].how;
       auto branch = Fields{}(hole.branch);
       branch.emplace(branch.begin(), "id", Json{names.of_members[hole.member]});
-      branch.insert(branch.begin() + 2, {"wall_mm", Json{hole.wall}});
+      branch.insert(branch.begin() + 2, {"wall_mm", Json{request_.walls[hole.member]}});
       Json::Object joint{{"kind", Json{std::string(name_of(how.kind))}}, {"gap_mm", Json{how.gap}}};
       if (how.kind == frame::How::Kind::set_in && how.depth)
         joint.emplace_back("depth_mm", Json{*how.depth});

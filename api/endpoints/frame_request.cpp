@@ -24,7 +24,8 @@ constexpr Range kAlike{.min = 0.0, .max = 5.0};
 constexpr double kAlikeByDefault = 0.02;  // mm: coordinates of three decimals make 0.005 of it
 constexpr Range kAllowance{.min = 0.0, .max = 1e5};
 constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
-constexpr std::size_t kMostOthers = 1'000;
+constexpr std::size_t kMostOthers = 1'000;                // that joints name
+constexpr std::size_t kMostOthersGiven = 100'000;
 constexpr auto kMostJoints = 2 * static_cast<std::size_t>(limit::members_max);
 
 /// A member or one of the others.
@@ -277,6 +278,32 @@ void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
   out.spec.joints.push_back(joint);
 }
 
+/// Of more others than may be named, those that no joint names cut nothing: they do not count.
+void leave_out_others(Reader& in, FrameRequest& out) {
+  const auto given = out.spec.others.size();
+  std::vector<bool> named(given, given <= kMostOthers);
+  for (const auto& joint : out.spec.joints)
+    if (joint.other) named[joint.with] = true;
+  std::vector<std::size_t> place(given);
+  std::vector<frame::Other> kept;
+  for (std::size_t i = 0; i < given; ++i) {
+    if (!named[i]) continue;
+    place[i] = kept.size();
+    kept.push_back(std::move(out.spec.others[i]));
+    out.others.push_back(i);
+  }
+  if (kept.size() > kMostOthers)
+    in.issue({.code = ErrorCode::wrong_count,
+              .pointer = "others",
+              .got = Json{static_cast<double>(kept.size())},
+              .limit = Json{static_cast<double>(kMostOthers)},
+              .hint = "at most 1000 of the others may have a joint"});
+  for (auto& joint : out.spec.joints)
+    if (joint.other) joint.with = place[joint.with];
+  out.others_left_out = given - kept.size();
+  out.spec.others = std::move(kept);
+}
+
 void decode_once(Reader& in, FrameRequest& out) {
   bevel::TableSpec unused;
   decode_torch_and_kerf(in, out.preset, unused);
@@ -303,9 +330,10 @@ FrameRequest decode_frame_request(Reader& in) {
   std::vector<WorldCutter> others;
   in.note("others");
   if (in.has("others"))
-    others = in.array("others", {.min = 0, .max = kMostOthers}, decode_world_cutter);
+    others = in.array("others", {.min = 0, .max = kMostOthersGiven}, decode_world_cutter);
   const auto places = places_of(in, members, others);
   out.spec.members = members.members;
+  out.walls = members.walls;
   for (auto& one : others) out.spec.others.push_back({std::move(one.partner), std::move(one.name)});
   if (const auto within =
           in.optional_object("connect", [](Reader& c) { return c.number("within_mm", kDistance); }))
@@ -317,8 +345,11 @@ FrameRequest decode_frame_request(Reader& in) {
       decode_joint(j, places, cut, out);
       return 0;
     });
+  leave_out_others(in, out);
   decode_own_ends(in, members, cut, out);
   out.alike_within = in.number("alike_within_mm", kAlike, kAlikeByDefault);
+  in.note("merge_in_line");
+  if (in.has("merge_in_line")) out.merge = in.flag("merge_in_line");
   decode_once(in, out);
   return out;
 }

@@ -8,6 +8,7 @@
 #include "api/endpoints/frame_answer.hpp"
 #include "api/endpoints/frame_bundle.hpp"
 #include "api/endpoints/frame_formats.hpp"
+#include "api/endpoints/frame_pointers.hpp"
 #include "api/endpoints/parts.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
@@ -71,9 +72,41 @@ struct FrameBase {
     return out;
   }
 
+  /// Pieces in line made one, if asked for.
+  static Result<void> merge(Spec& spec, const std::stop_token& stop) {
+    if (!spec.merge) return {};
+    frame::MergeSpec besides;
+    for (const auto& one : spec.ends) besides.kept.emplace_back(one.member, one.end);
+    besides.alike = [&](std::size_t a, std::size_t b) { return spec.cuts[a] == spec.cuts[b]; };
+    TRY(auto merged, frame::merge_in_line(spec.spec, besides, stop));
+    auto& out = spec.merged.emplace();
+    for (const auto& m : spec.spec.members) out.ids.push_back(m.name);
+    std::vector<double> walls;
+    for (const auto& pieces : merged.pieces) walls.push_back(spec.walls[std::ranges::min(pieces)]);
+    spec.walls = std::move(walls);
+    std::vector<OwnCut> cuts;
+    for (const auto joint : merged.joints) cuts.push_back(spec.cuts[joint]);
+    for (auto& one : spec.ends) {
+      const auto place = merged.of[one.member];
+      one.member = place.member;
+      if (place.turned)
+        one.end = one.end == joint::End::start ? joint::End::finish : joint::End::start;
+    }
+    spec.cuts = std::move(cuts);
+    spec.spec = std::move(merged.spec);
+    out.of = std::move(merged.of);
+    out.pieces = std::move(merged.pieces);
+    out.off = std::move(merged.off);
+    out.joints = std::move(merged.joints);
+    return {};
+  }
+
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    TRY(spec.frame, frame::solve(spec.spec, stop));
-    TRY(auto parts, parts_of(spec, spec.frame, stop));
+    TRY(merge(spec, stop));
+    const auto as_asked = [&](Error error) { return in_request(spec, std::move(error)); };
+    TRY(spec.frame, frame::solve(spec.spec, stop).map_error(as_asked));
+    for (auto& warning : spec.frame.warnings) warning.member = in_request(spec, warning.member);
+    TRY(auto parts, parts_of(spec, spec.frame, stop).map_error(as_asked));
     static_cast<FrameParts&>(spec) = std::move(parts);
     spec.part_of.resize(spec.spec.members.size());
     for (std::size_t i = 0; i < spec.parts.size(); ++i)
@@ -121,6 +154,7 @@ struct Frames : FrameBase {
     out.reserve(made.size());
     for (auto& part : made) {
       TRY(auto one, *std::move(part));
+      if (one.problem) one.problem = in_frame(spec, out.size(), *std::move(one.problem));
       out.push_back(std::move(one));
     }
     return out;
@@ -132,21 +166,22 @@ struct Frames : FrameBase {
     auto all = spec.frame.warnings;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const auto first = spec.parts[i].members.front();
-      const auto at = "members/" + std::to_string(first);
+      const auto at = in_request(spec, "members/" + std::to_string(first));
       const auto& name = spec.spec.members[first].name;
       if (const auto& why = out[i].problem) {
         all.push_back({.code = WarningCode::no_part, .member = at, .detail = told(name, *why)});
         continue;
       }
-      std::vector<WarningCode> said{WarningCode::unit_suspicion};
+      // What the frame says itself.
+      std::vector<WarningCode> said{WarningCode::unit_suspicion, WarningCode::ghost_contact};
       for (const auto& w : out[i].made->answer.warnings) {
         if (info(w.code).severity != Severity::cut || std::ranges::count(said, w.code) > 0)
           continue;
         said.push_back(w.code);
-        const auto pointer = pointer_of(w.member, out[i].made->answer.request);
+        const auto pointer = in_frame(spec, i, pointer_of(w.member, out[i].made->answer.request));
         all.push_back({.code = w.code,
                        .member = at,
-                       .detail = "part " + name + " at " + (pointer.empty() ? "/" : pointer) +
+                       .detail = "part " + name + " at " + pointer +
                                  (w.detail.empty() ? "" : ": " + w.detail)});
       }
     }
@@ -173,6 +208,8 @@ struct Frames : FrameBase {
     write_cut_list(spec, out, w);
     write_totals(spec, out, w);
     write_not_cut(spec, w);
+    write_merged(spec, w);
+    if (spec.others_left_out > 0) w.field("others_left_out", spec.others_left_out);
   }
   /// Whole answers say which engine made them, so they stand beside the result: its hash is of
   /// numbers, and holds each part's.
@@ -194,6 +231,8 @@ struct FrameLines : FrameBase {
     write_joints(spec, out, w);
     write_cut_list(spec, out, w);
     write_not_cut(spec, w);
+    write_merged(spec, w);
+    if (spec.others_left_out > 0) w.field("others_left_out", spec.others_left_out);
   }
   static std::string lines(const Spec& spec, const std::stop_token& stop) {
     std::string all;

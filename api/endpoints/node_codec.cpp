@@ -1,5 +1,7 @@
 #include "api/endpoints/node_codec.hpp"
 
+#include <algorithm>
+
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/renaming.hpp"
@@ -22,13 +24,26 @@ struct NamedMember {
   std::vector<std::pair<std::string, joint::Joint>> joints;
 };
 
-NamedMember decode_member(Reader& in, bool with_joints) {
+/// What a member may be beside what the service cuts: only to know where it is.
+constexpr Range kSomewhere{.min = -1e8, .max = 1e8};
+constexpr Range kSomeSize{.min = 0.0, .max = 1e5, .open_min = true};
+
+/// Diameter and wall, whatever they are.
+TubeSection decode_any_section(Reader& in) {
+  if (in.has("size")) return decode_tube_section(in, true);
+  TubeSection out;
+  out.outer_radius = in.number("outer_diameter_mm", kSomeSize) / 2.0;
+  out.wall = in.number("wall_mm", kSomeSize);
+  return out;
+}
+
+NamedMember decode_member(Reader& in, bool with_joints, bool any_size = false) {
   NamedMember named;
   auto& out = named.member;
   out.name = in.text("id");
-  out.start = in.vector3("start_mm", kOffset);
-  out.finish = in.vector3("end_mm", kOffset);
-  const auto section = decode_tube_section(in, true);
+  out.start = in.vector3("start_mm", any_size ? kSomewhere : kOffset);
+  out.finish = in.vector3("end_mm", any_size ? kSomewhere : kOffset);
+  const auto section = any_size ? decode_any_section(in) : decode_tube_section(in, true);
   out.outer_radius = section.outer_radius;
   out.wall = section.wall;
   out.priority = in.integer("priority", 0, kPriorities, 0);
@@ -151,11 +166,45 @@ NamedNode decode_named_node(Reader& in) {
   return out;
 }
 
+namespace {
+
+/// Which members are out of range and nothing else, where another one is not: those have no part,
+/// and the others stand.
+std::vector<bool> out_of_range(Reader& in) {
+  const auto* field = in.find("members");
+  const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
+  std::vector<bool> out;
+  bool any = false;
+  for (std::size_t i = 0; items != nullptr && i < items->size(); ++i) {
+    Reader alone((*items)[i]);
+    alone.set_stop(in.stop());
+    if ((*items)[i].as<Json::Object>() != nullptr) (void)decode_member(alone, false);
+    const auto issues = alone.finish_root();
+    any = any || issues.empty();
+    out.push_back(!issues.empty() && std::ranges::all_of(issues, [](const FieldIssue& issue) {
+      return issue.code == ErrorCode::out_of_range;
+    }));
+  }
+  if (!any) out.assign(out.size(), false);
+  return out;
+}
+
+}  // namespace
+
 NamedMembers decode_named_members(Reader& in) {
+  constexpr double kThickest = 0.9;  // of a radius: what a wall is drawn as that is beyond it
   NamedMembers out;
-  for (auto& one : in.array("members", {.min = 1, .max = kMembers},
-                            [](Reader& m) { return decode_member(m, false); }))
-    out.members.push_back(std::move(one.member));
+  const auto any_size = out_of_range(in);
+  for (auto& one : in.array("members", {.min = 1, .max = kMembers}, [&](Reader& m) {
+         const auto i = out.walls.size();
+         auto member = decode_member(m, false, i < any_size.size() && any_size[i]);
+         out.walls.push_back(member.member.wall);
+         return member;
+       })) {
+    auto& m = one.member;
+    if (!(m.wall < m.outer_radius)) m.wall = kThickest * m.outer_radius;
+    out.members.push_back(std::move(m));
+  }
   out.ids = decode_ids(in, out.members);
   return out;
 }

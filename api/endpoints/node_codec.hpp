@@ -22,8 +22,10 @@ std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id
 /// `members` of a frame, whose joints are said elsewhere.
 struct NamedMembers {
   std::vector<joint::Member> members;
+  std::vector<double> walls;  // as they are given: of one out of range its member has another
   MemberIds ids;
 };
+/// One out of range has no issue, unless all are: its part will tell.
 [[nodiscard]] NamedMembers decode_named_members(Reader& in);
 
 struct NamedNode {
