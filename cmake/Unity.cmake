@@ -6,10 +6,10 @@ function(tubecut_alone target folder)
 endfunction()
 
 tubecut_alone(tubecut_core core/bevel beam.cpp beam_axes.cpp beam_lanes.cpp drop_lanes.cpp programme.cpp torch_line.cpp)
-tubecut_alone(tubecut_core core/frame alike.cpp)
+tubecut_alone(tubecut_core core/frame alike.cpp alike_form.cpp)
 tubecut_alone(tubecut_core core/joint contour.cpp event_phases.cpp intersection.cpp length.cpp node.cpp node_connect.cpp overlap.cpp
               shared_metal.cpp)
-tubecut_alone(tubecut_core core/joint/cutters elbow_solid.cpp tube.cpp)
+tubecut_alone(tubecut_core core/joint/cutters elbow.cpp elbow_solid.cpp rectangular_tube.cpp tube.cpp)
 tubecut_alone(tubecut_core core/part member.cpp)
 tubecut_alone(tubecut_api api batch.cpp cbor.cpp json.cpp post_units.cpp tube_sizes.cpp)
 tubecut_alone(tubecut_api api/endpoints feed_curves.cpp frame_request.cpp holes.cpp joint_codec.cpp node_codec.cpp part_request.cpp)

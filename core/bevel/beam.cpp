@@ -148,12 +148,12 @@ int lines(const BeamCut& cut) {
   return static_cast<int>(std::clamp(parts, 1.0 * kFewest, 1.0 * kMost));
 }
 
-BeamFound found_at(const BeamCut& cut, const Surface& surface, Places places,
+BeamFound found_at(const BeamCut& cut, const Surface& surface, SampleDensity density,
                    const std::stop_token& stop) {
   BeamFound out{.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
   if (stop.stop_requested()) return out;
   const double half = 0.5 * cut.kerf;
-  const bool rows_only = places == Places::rows;
+  const bool rows_only = density == SampleDensity::rows;
   double length = 0.0;
   for (std::size_t i = 0; i < surface.rows(); ++i) length += surface.step(i);
   const Figure short_of{surface, half, -1.0, &out.gouged_from}, beyond{surface, half, 1.0};
@@ -162,7 +162,7 @@ BeamFound found_at(const BeamCut& cut, const Surface& surface, Places places,
     gouges.see(cell, 1.0);
     if (!cell.from.land) lefts.see(cell, -1.0);
   };
-  const int finer = places == Places::finely ? kFiner : 1;
+  const int finer = density == SampleDensity::finely ? kFiner : 1;
   Grid grid{.apart = rows_only || half == 0.0
                          ? length
                          : std::max((cut.turn > 0.0 ? 1.0 : 0.5) * half, length / kPlaces) / finer,
@@ -193,11 +193,11 @@ BeamFound found_at(const BeamCut& cut, const Surface& surface, Places places,
 
 }  // namespace
 
-BeamFound beam_found(const BeamCut& cut, Places places, const std::stop_token& stop) {
+BeamFound beam_found(const BeamCut& cut, SampleDensity density, const std::stop_token& stop) {
   if (cut.kerf == 0.0 && cut.land.empty() && cut.torch == cut.finished)
     return {.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
   const Surface surface(cut, stop);
-  return found_at(cut, surface, places, stop);
+  return found_at(cut, surface, density, stop);
 }
 
 BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,
@@ -209,7 +209,8 @@ BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Furthe
   for (int round = 0;; ++round) {
     const auto moved = cut(further);
     const bool bends = round > 0 && moved.turn == 0.0;  // an end's drop is the least already
-    const auto found = beam_found(moved, bends ? Places::finely : Places::everywhere, stop);
+    const auto found =
+        beam_found(moved, bends ? SampleDensity::finely : SampleDensity::everywhere, stop);
     if (!(found.proof.gouge > kAimed) || round == kRounds || stop.stop_requested())
       return found.proof;
     for (std::size_t i = 0; i < rows; ++i) further[i] += kMore * found.gouged_from[i];

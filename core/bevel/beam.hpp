@@ -37,7 +37,7 @@ struct BeamProof {
 /// Which places of the finished surface are looked at: every half kerf along the cut of an end and
 /// every quarter along that of a hole, or its rows alone, or three times as many each way. Always
 /// against the axes at rows and between them.
-enum class Places { everywhere, rows, finely };
+enum class SampleDensity { everywhere, rows, finely };
 
 /// The proof, and by torch row the most that the beam takes on its way from it or to it, mm: rows
 /// that stand off by as much more take nothing.
@@ -53,9 +53,9 @@ struct BeamFound {
 /// Accuracy  everywhere: gouge 1e-3 mm, left 5e-3 mm or 2 %. Rows: what is there, not all of it.
 /// Cost      about 1 us a row, at least 0.3 ms; rows alone 0.5 us a row.
 /// Source    docs/theory/intersections-and-bevels.md, section 5.6.
-[[nodiscard]] BeamFound beam_found(const BeamCut& cut, Places places,
+[[nodiscard]] BeamFound beam_found(const BeamCut& cut, SampleDensity density,
                                    const std::stop_token& stop = {});
-[[nodiscard]] BeamProof beam_proof(const BeamCut& cut, Places places,
+[[nodiscard]] BeamProof beam_proof(const BeamCut& cut, SampleDensity density,
                                    const std::stop_token& stop = {});
 
 inline constexpr double kGougeLimit = 0.01;  // mm

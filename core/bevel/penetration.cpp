@@ -14,7 +14,7 @@ namespace tubecut::bevel {
 namespace {
 
 using Eigen::Vector3d;
-using joint::Places;
+using joint::PointArrays;
 using joint::Solid;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -90,17 +90,17 @@ struct WallCell {
 
 /// The wall between two neighbouring edges, all the way round.
 struct RowRing {
-  std::vector<Piece> pieces;    // of each gap
-  std::vector<double> ways;     // of each piece, whole: apart, since most are asked nothing else
-  std::array<Places, 2> edges;  // both ends of the line across, where each begins
-  bool axial = false;           // both edges run through the same phases
+  std::vector<Piece> pieces;  // of each gap
+  std::vector<double> ways;   // of each piece, whole: apart, since most are asked nothing else
+  std::array<PointArrays, 2> edges;  // both ends of the line across, where each begins
+  bool axial = false;                // both edges run through the same phases
 };
 
 /// Places with the cosines and sines of both edges' phases for x and y. An end's are the same for
 /// both: `axial`.
-std::array<Places, 2> turned(std::span<const double> low, std::span<const double> high,
-                             bool axial) {
-  std::array<Places, 2> out{Places(low.size()), Places(low.size())};
+std::array<PointArrays, 2> turned(std::span<const double> low, std::span<const double> high,
+                                  bool axial) {
+  std::array<PointArrays, 2> out{PointArrays(low.size()), PointArrays(low.size())};
   elementary::sincos(low, out[0].y, out[0].x);
   if (axial)
     out[1] = out[0];
@@ -110,7 +110,7 @@ std::array<Places, 2> turned(std::span<const double> low, std::span<const double
 }
 
 /// The places of both edges' rows.
-std::array<Places, 2> rows_of(const WallEdge& low, const WallEdge& high, bool axial) {
+std::array<PointArrays, 2> rows_of(const WallEdge& low, const WallEdge& high, bool axial) {
   const auto n = low.phi.size();
   auto out = turned(low.phi, high.phi, axial);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -171,8 +171,8 @@ class Search {
     return distance;
   }
   /// The nearest place of the line across from `a` to `b`.
-  void see(std::size_t gap, double distance, double share, const Places& a, const Places& b,
-           std::size_t i) {
+  void see(std::size_t gap, double distance, double share, const PointArrays& a,
+           const PointArrays& b, std::size_t i) {
     aim_.see(gap, -distance, [&] {
       return Found{-distance, a.at(i) + share * (b.at(i) - a.at(i)), index_};
     });
@@ -239,7 +239,7 @@ class Search {
   }
 
   /// Both ends of the line across in the middle of each strip.
-  [[nodiscard]] std::array<Places, 2> middles(const std::vector<Strip>& strips) const {
+  [[nodiscard]] std::array<PointArrays, 2> middles(const std::vector<Strip>& strips) const {
     const auto n = strips.size();
     const auto run_of = [&](std::size_t i, std::size_t k) -> const Run& {
       return ring_.pieces[strips[i].gap].runs[k];

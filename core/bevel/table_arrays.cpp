@@ -14,7 +14,7 @@ namespace {
 struct Vectors {
   const double *x, *y, *z;
 };
-Vectors of(const joint::Places& p) { return {p.x.data(), p.y.data(), p.z.data()}; }
+Vectors of(const joint::PointArrays& p) { return {p.x.data(), p.y.data(), p.z.data()}; }
 
 struct WallCircle {
   const double *sine, *cosine;
@@ -105,8 +105,8 @@ RowNormals row_normals(const TableSpec& spec, const Table& t,
   const auto n = t.phi.size();
   const bool outer = spec.root_surface == RootSurface::outer;
   const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
-  RowNormals out{.phi = phi, .partner = joint::Places(n), .noise = std::vector<double>(n)};
-  joint::Places root(n);
+  RowNormals out{.phi = phi, .partner = joint::PointArrays(n), .noise = std::vector<double>(n)};
+  joint::PointArrays root(n);
   for (std::size_t i = 0; i < n; ++i) {
     root.x[i] = rho * phi.cosine[i];
     root.y[i] = rho * phi.sine[i];
@@ -158,10 +158,10 @@ std::vector<double> BetweenRows::phases(std::span<const double> share) const {
   return out;
 }
 
-joint::Places BetweenRows::places(std::span<const double> share, const Directions& phi,
-                                  std::span<const double> radius) const {
+joint::PointArrays BetweenRows::places(std::span<const double> share, const Directions& phi,
+                                       std::span<const double> radius) const {
   const auto n = share.size();
-  joint::Places out(n);
+  joint::PointArrays out(n);
   std::vector<double> low(n), edge(n), high(n);
   mix(share.data(), z_inner_.data(), low.data(), n);
   mix(share.data(), z_edge_.data(), edge.data(), n);

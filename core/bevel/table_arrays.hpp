@@ -23,8 +23,8 @@ struct Directions {
 /// The rows in space. The tube's outward normal is (phi.cosine, phi.sine, 0).
 struct RowNormals {
   const Directions& phi;
-  joint::Places partner;      // its outward normals at the root points
-  std::vector<double> noise;  // of those, from the rounding of z
+  joint::PointArrays partner;  // its outward normals at the root points
+  std::vector<double> noise;   // of those, from the rounding of z
 };
 /// By the table's own z and the partners as solids.
 [[nodiscard]] RowNormals row_normals(const TableSpec& spec, const Table& t,
@@ -52,8 +52,8 @@ class BetweenRows {
   /// Phases at such shares of the ways from each row to the next, rad.
   [[nodiscard]] std::vector<double> phases(std::span<const double> share) const;
   /// Places there, at such radii, mm.
-  [[nodiscard]] joint::Places places(std::span<const double> share, const Directions& phi,
-                                     std::span<const double> radius) const;
+  [[nodiscard]] joint::PointArrays places(std::span<const double> share, const Directions& phi,
+                                          std::span<const double> radius) const;
 
  private:
   double inner_, edge_, outer_;                           // radii; the land ends at edge_

@@ -116,7 +116,7 @@ std::vector<double> clearances(const TableSpec& spec, const Table& t,
   const bool face = !t.z_face.empty();
   std::vector<double> least(n, std::numeric_limits<double>::infinity()), one(n);
   const auto edge = [&](double radius, const std::vector<double>& z) {
-    joint::Places out(n);
+    joint::PointArrays out(n);
     for (std::size_t i = 0; i < n; ++i)
       out.set(i, {radius * phi.cosine[i], radius * phi.sine[i], z[i]});
     return out;
@@ -124,7 +124,7 @@ std::vector<double> clearances(const TableSpec& spec, const Table& t,
   const double inner = spec.target.inner_radius();
   const auto from = edge(inner, t.z_inner), to = edge(spec.target.outer_radius, t.z_outer);
   const auto corner = face ? edge(inner + spec.root_face, t.z_face) : from;
-  const auto see = [&](const joint::Places& a, const joint::Places& b) {
+  const auto see = [&](const joint::PointArrays& a, const joint::PointArrays& b) {
     for (const auto& solid : solids) {
       if (stop.stop_requested()) return;
       joint::least_distances(solid, a, b, one);

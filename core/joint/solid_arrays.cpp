@@ -32,7 +32,7 @@ struct From {
   const double *x, *y, *z;
   std::size_t n;
 };
-From from_all(const Places& p) { return {p.x.data(), p.y.data(), p.z.data(), p.size()}; }
+From from_all(const PointArrays& p) { return {p.x.data(), p.y.data(), p.z.data(), p.size()}; }
 
 struct To {
   double *x, *y, *z;
@@ -98,21 +98,21 @@ TUBECUT_WIDE void tube_nearest(const Tube& tube, From a, From b, double* share, 
 
 }  // namespace
 
-void distances(const Solid& solid, const Places& places, std::span<double> out) {
+void distances(const Solid& solid, const PointArrays& places, std::span<double> out) {
   if (const auto* tube = std::get_if<TubeSolid>(&solid.kind()))
     return tube_distances(Tube(*tube), from_all(places), out.data());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = solid.distance(places.at(i));
 }
 
-void least_distances(const Solid& solid, const Places& from, const Places& to,
+void least_distances(const Solid& solid, const PointArrays& from, const PointArrays& to,
                      std::span<double> out) {
   if (const auto* tube = std::get_if<TubeSolid>(&solid.kind()))
     return tube_least(Tube(*tube), from_all(from), from_all(to), out.data());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = solid.least_distance(from.at(i), to.at(i));
 }
 
-void normals(const Solid& solid, const Places& places, std::size_t from, std::size_t to,
-             Places& out) {
+void normals(const Solid& solid, const PointArrays& places, std::size_t from, std::size_t to,
+             PointArrays& out) {
   if (const auto* tube = std::get_if<TubeSolid>(&solid.kind()))
     return tube_normals(
         Tube(*tube),
@@ -125,7 +125,7 @@ void lower(std::span<double> least, std::span<const double> other) {
   lower_all(least.data(), other.data(), least.size());
 }
 
-void nearest_on_ways(const TubeSolid& solid, const Places& from, const Places& to,
+void nearest_on_ways(const TubeSolid& solid, const PointArrays& from, const PointArrays& to,
                      std::span<double> share, std::span<double> distance) {
   tube_nearest(Tube(solid), from_all(from), from_all(to), share.data(), distance.data());
 }

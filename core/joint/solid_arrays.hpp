@@ -12,10 +12,10 @@
 namespace tubecut::joint {
 
 /// Points in space.
-struct Places {
+struct PointArrays {
   std::vector<double> x, y, z;
 
-  explicit Places(std::size_t n = 0) : x(n), y(n), z(n) {}
+  explicit PointArrays(std::size_t n = 0) : x(n), y(n), z(n) {}
   [[nodiscard]] std::size_t size() const { return x.size(); }
   [[nodiscard]] Eigen::Vector3d at(std::size_t i) const { return {x[i], y[i], z[i]}; }
   void set(std::size_t i, const Eigen::Vector3d& p) {
@@ -26,13 +26,13 @@ struct Places {
 };
 
 /// As Solid::distance and Solid::least_distance.
-void distances(const Solid& solid, const Places& places, std::span<double> out);
-void least_distances(const Solid& solid, const Places& from, const Places& to,
+void distances(const Solid& solid, const PointArrays& places, std::span<double> out);
+void least_distances(const Solid& solid, const PointArrays& from, const PointArrays& to,
                      std::span<double> out);
 
 /// As Solid::normal, of the places from `from` to before `to`, to where they stand in `out`.
-void normals(const Solid& solid, const Places& places, std::size_t from, std::size_t to,
-             Places& out);
+void normals(const Solid& solid, const PointArrays& places, std::size_t from, std::size_t to,
+             PointArrays& out);
 
 /// Each of `least` becomes the lesser of itself and its neighbour in `other`; what is no number
 /// stays.
@@ -40,7 +40,7 @@ void lower(std::span<double> least, std::span<const double> other);
 
 /// How near each way from `from` to `to` comes to a plain solid, and at which share of it.
 template <PlainSolid Kind>
-void nearest_on_ways(const Kind& solid, const Places& from, const Places& to,
+void nearest_on_ways(const Kind& solid, const PointArrays& from, const PointArrays& to,
                      std::span<double> share, std::span<double> distance) {
   for (std::size_t i = 0; i < share.size(); ++i) {
     const Eigen::Vector3d a = from.at(i), b = to.at(i);
@@ -48,7 +48,7 @@ void nearest_on_ways(const Kind& solid, const Places& from, const Places& to,
     distance[i] = solid.distance(a + share[i] * (b - a));
   }
 }
-void nearest_on_ways(const TubeSolid& solid, const Places& from, const Places& to,
+void nearest_on_ways(const TubeSolid& solid, const PointArrays& from, const PointArrays& to,
                      std::span<double> share, std::span<double> distance);
 
 }  // namespace tubecut::joint

@@ -92,7 +92,7 @@ TEST(TableArrays, ATubesNormalOnAndOffItsAxis) {
   const std::vector<joint::Partner> along_x{
       joint::AxisTube{.radius = 3.0, .axis = {.point = {0, 0, 0}, .direction = {1.0, 0.0, 0.0}}}};
   const joint::Solid tube(joint::resolve(along_x).value().front());
-  joint::Places at(3), normal(3);
+  joint::PointArrays at(3), normal(3);
   at.set(0, {7.0, 5.0, 0.0});
   at.set(1, {-2.0, 0.0, -1e-3});
   at.set(2, {4.0, 0.0, 0.0});

@@ -81,6 +81,7 @@ TEST(Node, WorldToParametersToWorld) {
       continue;
     }
     ASSERT_EQ(end.cut_by.size(), 1U);
+    if (end.cut_by[0].plane) continue;  // in line by chance
     const auto& tube = end.cut_by[0].placement.tube;
     const auto& chord = spec.members[0];
     const double scale = (chord.start - end.frame.origin).norm() +

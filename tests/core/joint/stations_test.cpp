@@ -74,7 +74,7 @@ TEST(SolidArrays, TellWhatTheSolidTellsOneByOne) {
     const auto node = random_node(random, true, false, false);
     for (const auto& cutter : node.cutters) {
       const Solid solid(cutter);
-      Places from(37), to(37);
+      PointArrays from(37), to(37);
       for (std::size_t i = 0; i < from.size(); ++i) {
         from.set(i, point());
         to.set(i, i % 9 == 4 ? from.at(i) : point());
