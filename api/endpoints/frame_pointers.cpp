@@ -68,9 +68,7 @@ std::string other_at(const FrameJob& frame, std::size_t other) {
 class Sources {
  public:
   Sources(const FrameJob& frame, std::size_t part)
-      : frame_(frame),
-        member_(frame.parts[part].by),
-        piece_(frame.frame.pieces[member_]) {}
+      : frame_(frame), member_(frame.parts[part].by), piece_(frame.frame.pieces[member_]) {}
 
   [[nodiscard]] std::string of(const Steps& steps) const {
     if (steps.empty()) return member_at(frame_, member_);

@@ -94,7 +94,8 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
       .pivot = o.pivot_length ? *o.pivot_length + o.cut_height.value_or(0.0) : 0.0};
   std::vector<TorchCutPlaces> out;
   for (const auto& cut : job.cuts) {
-    const auto laid = torch::program_cut(cut, setup_of(o), &cut == &job.cuts.back(), {}, caption.stop);
+    const auto laid =
+        torch::program_cut(cut, setup_of(o), &cut == &job.cuts.back(), {}, caption.stop);
     ask(caption.stop);
     if (!laid) refuse(cut, o, laid.error());
     for (const auto& each : *laid) {

@@ -105,8 +105,7 @@
   X(not_acknowledged, no_solution,                                                                 \
     "The verdict is review, and its warnings are not all acknowledged.",                           \
     "Review each warning, then list exactly their codes in acknowledge.")                          \
-  X(comparison_only, no_solution,                                                                  \
-    "This answer only reproduces published figures; do not cut it.",                               \
+  X(comparison_only, no_solution, "This answer only reproduces published figures; do not cut it.", \
     "To cut, use dihedral weld_side.")                                                             \
   X(hole_off_part, no_solution, "The hole lies wholly outside the finished part.",                 \
     "Check the position of the branch, or omit the hole.")                                         \
@@ -131,8 +130,7 @@
   X(approach_too_short, no_solution, "The approach is too short for the limits given.",            \
     "Raise the clearance or the limits.")                                                          \
   X(work_speed_above_limit, no_solution,                                                           \
-    "The work feed requires more cylinder speed than allowed.",                                    \
-    "Lower feed_mm_s.")                                                                            \
+    "The work feed requires more cylinder speed than allowed.", "Lower feed_mm_s.")                \
   X(work_accel_above_limit, no_solution,                                                           \
     "The work feed requires more cylinder acceleration than allowed.", "Lower feed_mm_s.")         \
   X(max_feed_exceeded, no_solution, "The tool travels beyond its largest feed.",                   \

@@ -35,17 +35,13 @@
     "Fix the reported cause, or cut this end another way.")                                       \
   X(no_part, cut, "This member has no part, because it cannot be cut as requested.",              \
     "Fix the reported cause. The other parts of the frame are valid.")                            \
-  X(joint_not_stated, cut,                                                                        \
-    "A hole is requested for a joint that the members do not define.",                            \
+  X(joint_not_stated, cut, "A hole is requested for a joint that the members do not define.",     \
     "State the joint of the two members.")                                                        \
-  X(hole_missing, cut,                                                                            \
-    "A member enters this part, but no hole is requested for it.",                                \
+  X(hole_missing, cut, "A member enters this part, but no hole is requested for it.",             \
     "Request the hole, or state another joint.")                                                  \
-  X(members_overlap, cut,                                                                         \
-    "Two finished members overlap; neither is cut to clear the other.",                           \
+  X(members_overlap, cut, "Two finished members overlap; neither is cut to clear the other.",     \
     "State which of the two is cut, or move one.")                                                \
-  X(wall_overhangs, cut,                                                                          \
-    "Part of the wall extends past its partners and is unsupported.",                             \
+  X(wall_overhangs, cut, "Part of the wall extends past its partners and is unsupported.",        \
     "Check offset and diameters; trim or cap the overhang.")                                      \
   X(mitre_steps, cut, "Two mitred members differ in diameter or miss each other: edges step.",    \
     "Use equal tubes whose axes meet, or another joint.")                                         \

@@ -207,13 +207,12 @@ Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, c
     else
       back.emplace_back(from, to);
   }
-  return fail(
-      {.code = ErrorCode::edge_crosses,
-       .member = "branch",
-       .got = std::move(back),
-       .limit = "an edge that does not cross itself",
-       .unit = "deg",
-       .hint = "the cut lines cross inside the wall here the chord's wall"});
+  return fail({.code = ErrorCode::edge_crosses,
+               .member = "branch",
+               .got = std::move(back),
+               .limit = "an edge that does not cross itself",
+               .unit = "deg",
+               .hint = "the cut lines cross inside the wall here the chord's wall"});
 }
 
 void note_lost(const HoleSpec& spec, const std::vector<Node>& nodes, std::vector<Warning>& out) {

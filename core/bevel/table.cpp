@@ -134,8 +134,9 @@ Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_tok
   return {};
 }
 
-/// Rows where the torch's line bends; the line, where it is that of the draft. After the first round
-/// it can bend anew only near rows that the last one added: elsewhere B alone moves, by little.
+/// Rows where the torch's line bends; the line, where it is that of the draft. After the first
+/// round it can bend anew only near rows that the last one added: elsewhere B alone moves, by
+/// little.
 Result<std::optional<TorchLine>> follow_torch(const TableSetup& g, Draft& draft,
                                               const std::stop_token& stop) {
   constexpr int kRounds = 3;  // the second sees what the first's own rows changed

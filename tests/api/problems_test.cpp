@@ -315,9 +315,13 @@ TEST(Problems, NoMoreThan32AreNamed) {
 // ---- bytes and words
 
 TEST(Problems, BytesThatAreNoJson) {
-  const std::pair<std::string, int> kCases[] = {
-      {std::string(200'000, '['), 32}, {R"({"a":1,"a":2})", 10}, {R"({"a":NaN})", 5},  {"", 0},
-      {R"({"a":1e})", 5},              {R"({"a":1}x)", 7},       {"\xef\xbb\xbf{}", 0}};
+  const std::pair<std::string, int> kCases[] = {{std::string(200'000, '['), 32},
+                                                {R"({"a":1,"a":2})", 10},
+                                                {R"({"a":NaN})", 5},
+                                                {"", 0},
+                                                {R"({"a":1e})", 5},
+                                                {R"({"a":1}x)", 7},
+                                                {"\xef\xbb\xbf{}", 0}};
   for (const auto& [body, offset] : kCases) {
     SCOPED_TRACE(body.substr(0, 20));
     const auto answer = post(kBevel, std::string_view(body));
