@@ -23,9 +23,7 @@ if(TUBECUT_TESTS)
   tubecut_alone(core_bevel_test tests/core/bevel between_rows_test.cpp elbow_table_test.cpp envelope_test.cpp hole_test.cpp
                 radius_rates_test.cpp)
   tubecut_alone(core_groove_test tests/core/groove groove_test.cpp)
-  tubecut_alone(core_motion_test tests/core/motion lead_on_tables_test.cpp lower_bound_test.cpp)
   tubecut_alone(core_part_test tests/core/part dimensions_test.cpp)
   tubecut_alone(core_part_test tests/core/torch program_schedule_test.cpp)
-  tubecut_alone(server_app_test tests/server app_test.cpp)
-  set_target_properties(api_endpoints_test api_formats_test api_members_test PROPERTIES UNITY_BUILD OFF)  # nearly all of them
+  set_target_properties(core_motion_test api_endpoints_test api_formats_test api_members_test server_app_test PROPERTIES UNITY_BUILD OFF)
 endif()

@@ -188,11 +188,14 @@ TEST(Formats, DrawingsEndWhereTheyAreTo) {
   const auto stop = over.get_token();
   api::Canvas sheet(500.0, 500.0), other(500.0, 500.0);
   sheet.line({0.0, 0.0}, {400.0, 400.0});
-  EXPECT_THROW(other.place(sheet, {0.0, 0.0}, {}, stop), api::Stopped);
-  EXPECT_THROW((void)api::tiles(sheet, sheet, api::Paper::a4, {}, stop), api::Stopped);
+  const api::DrawingBox window{{0.0, 0.0}, {500.0, 500.0}};
+  EXPECT_THROW(other.place(sheet, {0.0, 0.0}, {}, window, stop), api::Stopped);
+  const api::TemplateDrawing drawing{sheet, sheet};
+  const api::TemplateLabels labels({}, {}, {}, "");
+  EXPECT_THROW((void)api::tiles(drawing, labels, api::Paper::a4, {}, stop), api::Stopped);
   EXPECT_THROW((void)api::print_svg({sheet}, "a", stop), api::Stopped);
   EXPECT_THROW((void)api::print_pdf({sheet}, "a", stop), api::Stopped);
-  EXPECT_GT(api::tiles(sheet, sheet, api::Paper::a4, {}, {}).size(), 1U);
+  EXPECT_GT(api::tiles(drawing, labels, api::Paper::a4, {}, {}).size(), 1U);
 }
 
 /// What is drawn on a sheet of a job that is over is drawn no more: a work order of 20 000 points
