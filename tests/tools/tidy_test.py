@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What clang-tidy found clean is known again in every clone, and only as long as nothing changes that the source depends on."""
+"""A source that clang-tidy found clean is known again, and only as long as nothing changes that the source depends on."""
 
 import importlib.machinery
 import importlib.util
@@ -33,7 +33,7 @@ class Fingerprint(unittest.TestCase):
             (root / path).write_text(text)
         return root
 
-    def of(self, root, options="-O1", tool=b"16"):
+    def of(self, root, options="-DA", tool=b"16"):
         with unittest.mock.patch.object(tidy.sources, "ROOT", root):
             return tidy.fingerprint({"command": f"c++ -I{root} {options} -c {root}/core/a.cpp"}, root / "core/a.cpp", tool, {})
 
@@ -43,8 +43,9 @@ class Fingerprint(unittest.TestCase):
     def test_changes_with_all_that_the_source_depends_on(self):
         root = self.clone("one")
         before = self.of(root)
-        self.assertNotEqual(before, self.of(root, options="-O2"))
+        self.assertNotEqual(before, self.of(root, options="-DB"))
         self.assertNotEqual(before, self.of(root, tool=b"17"))
+        self.assertEqual(self.of(root, options="-DA -O1"), self.of(root, options="-DA -O2"))  # which clang-tidy does not read
         for path in FILES:
             with self.subTest(path):
                 (root / path).write_text(FILES[path] + "// more\n")
