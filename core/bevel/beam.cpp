@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "core/base/elementary.hpp"
@@ -148,6 +149,17 @@ int lines(const BeamCut& cut) {
   return static_cast<int>(std::clamp(parts, 1.0 * kFewest, 1.0 * kMost));
 }
 
+/// Raises what is found everywhere to what the rows show, because the verification reads the rows.
+void raise_to_rows(const BeamFound& rows, BeamFound& all) {
+  auto& [proof, gouged_from] = all;
+  if (rows.proof.gouge > proof.gouge)
+    std::tie(proof.gouge, proof.gouge_phi) = std::tie(rows.proof.gouge, rows.proof.gouge_phi);
+  if (rows.proof.left > proof.left)
+    std::tie(proof.left, proof.left_phi) = std::tie(rows.proof.left, rows.proof.left_phi);
+  std::ranges::transform(gouged_from, rows.gouged_from, gouged_from.begin(),
+                         [](double a, double b) { return std::max(a, b); });
+}
+
 BeamFound found_at(const BeamCut& cut, const Surface& surface, SampleDensity density,
                    const std::stop_token& stop) {
   BeamFound out{.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
@@ -163,12 +175,11 @@ BeamFound found_at(const BeamCut& cut, const Surface& surface, SampleDensity den
     if (!cell.from.land) lefts.see(cell, -1.0);
   };
   const int finer = density == SampleDensity::finely ? kFiner : 1;
-  Grid grid{.apart = rows_only || half == 0.0
-                         ? length
-                         : std::max((cut.turn > 0.0 ? 1.0 : 0.5) * half, length / kPlaces) / finer,
-            .lines = rows_only ? 1 : finer * lines(cut),
-            .first = 0,
-            .end = surface.rows()};
+  Grid grid{
+      .apart = rows_only || half == 0.0 ? length : std::max(0.5 * half, length / kPlaces) / finer,
+      .lines = rows_only ? 1 : finer * lines(cut),
+      .first = 0,
+      .end = surface.rows()};
   see_cells(short_of, grid, stop, see);
   grid.land = true;
   if (!cut.land.empty()) see_cells(short_of, grid, stop, see);
@@ -197,7 +208,10 @@ BeamFound beam_found(const BeamCut& cut, SampleDensity density, const std::stop_
   if (cut.kerf == 0.0 && cut.land.empty() && cut.torch == cut.finished)
     return {.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
   const Surface surface(cut, stop);
-  return found_at(cut, surface, density, stop);
+  auto out = found_at(cut, surface, density, stop);
+  if (density != SampleDensity::rows)
+    raise_to_rows(found_at(cut, surface, SampleDensity::rows, stop), out);
+  return out;
 }
 
 BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,

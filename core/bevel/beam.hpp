@@ -34,9 +34,9 @@ struct BeamProof {
   double left = 0.0, left_phi = 0.0;
 };
 
-/// Which places of the finished surface are looked at: every half kerf along the cut of an end and
-/// every quarter along that of a hole, or its rows alone, or three times as many each way. Always
-/// against the axes at rows and between them.
+/// How densely the finished surface is sampled: every quarter of a kerf along the cut and its rows,
+/// or only its rows, or three times as densely each way. Always against the axes at rows and
+/// between them.
 enum class SampleDensity { everywhere, rows, finely };
 
 /// The proof, and by torch row the most that the beam takes on its way from it or to it, mm: rows

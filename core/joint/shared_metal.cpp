@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHalf = 0.5 * kLeastShared;  // of the ball that must fit into both
 constexpr double kSmall = 0.5 * kHalf;        // mm: a cell that is not divided
 constexpr double kFar = 1e7;                  // mm: beyond every member
