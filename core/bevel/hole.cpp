@@ -212,7 +212,7 @@ Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, c
                .got = std::move(back),
                .limit = "an edge that does not cross itself",
                .unit = "deg",
-               .hint = "the cut lines cross inside the wall here the chord's wall"});
+               .hint = "the cut lines cross inside the chord's wall here"});
 }
 
 void note_lost(const HoleSpec& spec, const std::vector<Node>& nodes, std::vector<Warning>& out) {

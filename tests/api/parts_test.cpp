@@ -387,7 +387,7 @@ TEST(Parts, AnEdgeThatCrossesItselfIsRefusedAtItsBranchAndLeavesAFramesOtherPart
                  "smoothing": {"method": "none"}, "tilt": "free"},
     "kerf_mm": 0, "torch": {"min_deg": -85, "max_deg": 85}, "sampling": {"uniform_points": 90}})"));
   EXPECT_EQ(text(frame.body, "warnings/0/code"), "no_part") << frame.outcome.body.substr(0, 300);
-  EXPECT_NE(text(frame.body, "warnings/0/detail").find("edge_crosses at /holes/0/branch"),
+  EXPECT_NE(text(frame.body, "warnings/0/detail").find("edge_crosses at /members/1:"),
             std::string::npos);
   EXPECT_EQ(text(frame.body, "result/cut_list/0/verdict"), "none");
 }

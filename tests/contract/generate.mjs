@@ -1,7 +1,9 @@
 // Requests from the schemas, and requests of joints that can be made.
+import {readFileSync} from 'node:fs';
 import fc from 'fast-check';
 import {branchOf, groups} from './edits.mjs';
 
+const NUMERICS = Number(/numerics\(\) { return (\d+)/.exec(readFileSync(new URL('../../api/version.cpp', import.meta.url), 'utf8'))[1]);
 const MANY = 6;  // elements more than the fewest; long lists belong to the tests of limits
 
 function number({minimum, maximum, exclusiveMinimum, exclusiveMaximum}) {
@@ -27,7 +29,7 @@ const ASCII = '^[ -~]+$';
 const HASH = '^[0-9a-f]{64}$';
 const ascii = fc.integer({min: 32, max: 126}).map((code) => String.fromCharCode(code));
 const letter = fc.oneof({weight: 9, arbitrary: ascii}, {weight: 1, arbitrary: fc.constantFrom(...'äØß÷ſĲж注字𠮷⌀–')});
-const text = (pattern, min, max) => pattern === HASH ? fc.hexaString({minLength: 64, maxLength: 64}) : fc.array(pattern === ASCII ? ascii : letter, {minLength: min, maxLength: max}).map((all) => all.join(''));
+const text = (pattern, min, max) => pattern === HASH ? fc.hexaString({minLength: 64, maxLength: 64}) : fc.array(pattern === ASCII ? ascii : letter, {minLength: min, maxLength: max}).map((all) => all.join('')).filter((made) => made === '' || /[\p{L}\p{N}\p{P}\p{S}]/u.test(made));  // something to see in it
 
 // Of each group of which an object has exactly one member, one is kept.
 function object(contract, schema) {
@@ -103,7 +105,7 @@ const sampling = fc.oneof(
 const common = joined(
   maybe('reference', fc.record({part: text('', 1, 12), heat: text('', 1, 64)})),
   maybe('log', fc.constant('inline')),
-  maybe('numerics', fc.constant(6)));
+  maybe('numerics', fc.constant(NUMERICS)));
 
 const limits = fc.oneof(
   fc.record({max_slope_deg_per_mm: between(0.5, 10), max_curvature_deg_per_mm2: between(0.1, 3)}),
