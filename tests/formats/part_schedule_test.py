@@ -150,6 +150,8 @@ class PartSchedule(FormatTest):
             self.assertEqual([cut.name for cut in program], [cut["name"] for cut in cuts])
             for printed, cut in zip(program, cuts):
                 way = list(zip(*(cut["way"][name] for name in ("phi_deg", "z_mm", "b_deg"))))
+                if re.search(r", \d+ of \d+$", cut["name"]):
+                    del way[-1]  # before a tab the pulses end earlier, so that the tab on the counts is not too narrow
                 off, places = [], iter(printed.places[1:])  # the first is the pierce, over the wall
                 for phi, z, b in way:  # more are inserted between
                     place = next(p for p in places if abs(p.phi - phi) < 2e-7 and abs(p.z - z) < 3e-5 and abs(p.b - b) < 2e-6)

@@ -121,7 +121,7 @@ def hung_up(service):
     """Slots of a frame of 100 trusses whose client leaves after its first part."""
     connection, reply = begin(service, trusses(100))
     frame, part = json.loads(reply.readline()), json.loads(reply.readline())
-    assert len(frame["result"]["cut_list"]) > 1000 and part["status"] == 200
+    assert len(frame["result"]["cut_list"]) > 300 and part["status"] == 200
     connection.sock.close()
     reply.close()
     idle(service)
@@ -161,7 +161,7 @@ def main():
         hung_up(service)
         helped(service)
         frame, parts, summary = streamed(service, trusses(20))
-        assert summary["answered"] == len(parts) == len(frame["result"]["cut_list"]) > 200, summary
+        assert summary["answered"] == len(parts) == len(frame["result"]["cut_list"]) > 50, summary
         print(f"{count} frames alike in lines and at once; {len(parts)} different parts in lines")
 
 
