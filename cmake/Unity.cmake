@@ -11,8 +11,8 @@ tubecut_alone(tubecut_core core/joint contour.cpp event_phases.cpp intersection.
               shared_metal.cpp)
 tubecut_alone(tubecut_core core/joint/cutters elbow.cpp elbow_solid.cpp rectangular_tube.cpp tube.cpp)
 tubecut_alone(tubecut_core core/part member.cpp)
-tubecut_alone(tubecut_api api batch.cpp cbor.cpp json.cpp post_units.cpp suspicion.cpp tube_sizes.cpp
-              version.cpp)  # which a server of the tests replaces
+tubecut_alone(tubecut_api api batch.cpp cbor.cpp json.cpp post_units.cpp reader.cpp suspicion.cpp tube_sizes.cpp
+              version.cpp)  # json, cbor and reader are fuzzed, version is replaced by a server of the tests
 tubecut_alone(tubecut_api api/endpoints bevel_tables.cpp feed_curves.cpp frame_request.cpp holes.cpp joint_codec.cpp node_codec.cpp part_request.cpp)
 file(GLOB FORMATS RELATIVE ${PROJECT_SOURCE_DIR}/api/formats CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/api/formats/*.cpp)
 tubecut_alone(tubecut_api api/formats ${FORMATS})

@@ -182,8 +182,12 @@ export const checks = {
     await page.locator('[data-question="bore 152.4"]').waitFor();
     assert.match((await missed(page)).join('; '), /152\.4 MM is the bore of 3 components, probably NPS 6/);
     await page.locator('[data-question=schedule]').selectOption('SCH 40');
-    for (const [bore, size] of [['152.4', 'NPS 6'], ['101.6', 'NPS 4']]) await page.locator(`[data-question="bore ${bore}"]`).fill(size);
-    await then(page, () => page.locator('[data-question="bore 101.6"]').press('Enter'));
+    for (const [bore, size] of [['152.4', 'NPS 6'], ['101.6', 'NPS 4']]) {  // each is answered before the next is given
+      await then(page, async () => {
+        await page.locator(`[data-question="bore ${bore}"]`).fill(size);
+        await page.locator(`[data-question="bore ${bore}"]`).press('Enter');
+      });
+    }
     assert.deepEqual((await request(page)).members.map(({size}) => size), ['NPS 6 SCH 40', 'NPS 6 SCH 40', 'NPS 4 SCH 40']);
     assert.deepEqual(await missed(page), []);
     clean(page);
