@@ -142,7 +142,7 @@ export const checks = {
       assert.equal(await wall.getAttribute('aria-invalid'), 'true');
       assert.equal(await diameter.getAttribute('aria-invalid'), null);
       const note = page.locator(`#${await wall.getAttribute('aria-describedby')}`);
-      assert.equal(await note.innerText(), `Out of range: must be less than ${radius} mm`);
+      assert.equal(await note.innerText(), `Out of range: must be at most ${radius - 0.1} mm`);
       const [said, under, beside] = await Promise.all([note, wall, diameter].map((each) => each.boundingBox()));
       assert.ok(said.x <= under.x && said.x + said.width > under.x, 'in the column of the wall');
       assert.ok(said.y >= under.y + under.height && said.y < under.y + under.height + 20, 'right under the wall');
