@@ -60,6 +60,7 @@ class Pages(unittest.TestCase):
         text = (ROOT / "README.md").read_text()
         self.assertLessEqual(len(text.splitlines()), README_LINES)
         for page in [ROOT / "README.md", ROOT / "docs/tour.md", *START]:
+            self.assertNotIn("@@", page.read_text(), f"{page}: a placeholder")
             links = re.findall(r"\]\((?!http)([^)#]+)", page.read_text())
             self.assertGreater(len(links), 0, page)
             for link in links:
