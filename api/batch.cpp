@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/catalog/post.hpp"
 #include "api/endpoint.hpp"
-#include "api/json.hpp"
-#include "api/json_number.hpp"
 #include "api/limits.hpp"
-#include "api/post.hpp"
-#include "api/problem.hpp"
-#include "api/reader.hpp"
-#include "api/shown_text.hpp"
-#include "api/text_encoding.hpp"
-#include "api/writer.hpp"
+#include "api/wire/json.hpp"
+#include "api/wire/json_number.hpp"
+#include "api/wire/problem.hpp"
+#include "api/wire/reader.hpp"
+#include "api/wire/shown_text.hpp"
+#include "api/wire/text_encoding.hpp"
+#include "api/wire/writer.hpp"
 
 namespace tubecut::api {
 namespace {

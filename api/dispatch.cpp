@@ -2,17 +2,17 @@
 #include <cmath>
 #include <functional>
 
-#include "api/answer_text.hpp"
 #include "api/api.hpp"
 #include "api/batch.hpp"
-#include "api/catalogue.hpp"
-#include "api/common_fields.hpp"
+#include "api/catalog/catalogue.hpp"
 #include "api/endpoint.hpp"
-#include "api/file_name.hpp"
-#include "api/format_choice.hpp"
-#include "api/json_number.hpp"
 #include "api/limits.hpp"
-#include "api/query.hpp"
+#include "api/wire/answer_text.hpp"
+#include "api/wire/common_fields.hpp"
+#include "api/wire/file_name.hpp"
+#include "api/wire/format_choice.hpp"
+#include "api/wire/json_number.hpp"
+#include "api/wire/query.hpp"
 
 namespace tubecut::api {
 namespace {

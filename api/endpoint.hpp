@@ -3,10 +3,10 @@
 #include <span>
 #include <string_view>
 
-#include "api/check_limit.hpp"
-#include "api/format.hpp"
-#include "api/reader.hpp"
 #include "api/run.hpp"
+#include "api/wire/check_limit.hpp"
+#include "api/wire/format.hpp"
+#include "api/wire/reader.hpp"
 
 namespace tubecut::api {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "api/reader.hpp"
+#include "api/wire/reader.hpp"
 
 namespace tubecut::api {
 

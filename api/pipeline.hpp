@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "api/endpoint.hpp"
-#include "api/problem.hpp"
-#include "api/sha256.hpp"
-#include "api/text_encoding.hpp"
 #include "api/verdict.hpp"
+#include "api/wire/problem.hpp"
+#include "api/wire/sha256.hpp"
+#include "api/wire/text_encoding.hpp"
+#include "api/wire/writer.hpp"
 #include "api/worked.hpp"
-#include "api/writer.hpp"
 
 namespace tubecut::api {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "api/cost.hpp"
-#include "api/format.hpp"
-#include "api/problem.hpp"
 #include "api/verdict.hpp"
-#include "api/writer.hpp"
+#include "api/wire/format.hpp"
+#include "api/wire/problem.hpp"
+#include "api/wire/writer.hpp"
 #include "core/base/error.hpp"
 #include "core/base/turns.hpp"
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "api/catalog/tube_sizes.hpp"
 #include "api/stop.hpp"
-#include "api/tube_sizes.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json.hpp"
+#include "api/wire/json.hpp"
 #include "core/base/error.hpp"
 
 namespace tubecut::api {

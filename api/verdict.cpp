@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/field_names.hpp"
-#include "api/format.hpp"
-#include "api/problem.hpp"
-#include "api/words.hpp"
+#include "api/wire/field_names.hpp"
+#include "api/wire/format.hpp"
+#include "api/wire/problem.hpp"
+#include "api/wire/words.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "api/problem.hpp"
 #include "api/run.hpp"
-#include "api/sha256.hpp"
 #include "api/stop.hpp"
 #include "api/suspicion.hpp"
 #include "api/verdict.hpp"
-#include "api/writer.hpp"
+#include "api/wire/problem.hpp"
+#include "api/wire/sha256.hpp"
+#include "api/wire/writer.hpp"
 #include "core/base/error.hpp"
 
 namespace tubecut::api {

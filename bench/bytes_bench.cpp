@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "api/endpoints/bevel_table_codec.hpp"
-#include "api/sha256.hpp"
-#include "api/shortest.hpp"
-#include "api/writer.hpp"
-#include "core/bevel/table.hpp"
+#include "api/wire/sha256.hpp"
+#include "api/wire/shortest.hpp"
+#include "api/wire/writer.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut {
 namespace {

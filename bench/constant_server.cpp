@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "server/transport.hpp"
+#include "server/http/transport.hpp"
 
 int main(int argc, char** argv) {
   namespace server = tubecut::server;

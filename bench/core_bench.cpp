@@ -6,7 +6,7 @@
 #include "core/cutoff/verify.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/mill_path.hpp"
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
 
 namespace tubecut {
 namespace {

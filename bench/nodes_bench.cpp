@@ -9,7 +9,7 @@
 #include <string>
 
 #include "api/api.hpp"
-#include "core/joint/node.hpp"
+#include "core/joint/node/node.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include "api/api.hpp"
 #include "core/base/elementary.hpp"
-#include "core/motion/plan.hpp"
-#include "core/motion/schedule.hpp"
+#include "core/motion/schedule/schedule.hpp"
+#include "core/motion/timing/plan.hpp"
 
 namespace tubecut {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut {
 

@@ -6,7 +6,7 @@
 
 #include "bench/baseline.hpp"
 #include "bench/table_1.hpp"
-#include "core/bevel/angles.hpp"
+#include "core/bevel/table/angles.hpp"
 #include "core/joint/stations.hpp"
 
 namespace tubecut {

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "api/header_list.hpp"
+#include "api/wire/header_list.hpp"
 #include "server/identity.hpp"
 
 namespace tubecut::server {

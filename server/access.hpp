@@ -10,7 +10,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "server/http.hpp"
+#include "server/http/http.hpp"
 
 namespace tubecut::server {
 

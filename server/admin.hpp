@@ -4,7 +4,7 @@
 #include <string>
 
 #include "server/hosts.hpp"
-#include "server/http.hpp"
+#include "server/http/http.hpp"
 
 namespace tubecut::server {
 

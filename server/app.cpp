@@ -8,9 +8,9 @@
 #include <cmath>
 #include <exception>
 
+#include "server/http/static_files.hpp"
 #include "server/identity.hpp"
-#include "server/job_memory.hpp"
-#include "server/static_files.hpp"
+#include "server/jobs/job_memory.hpp"
 #include "server/status.hpp"
 
 namespace tubecut::server {

@@ -12,7 +12,7 @@
 #include "api/api.hpp"
 #include "server/access.hpp"
 #include "server/hosts.hpp"
-#include "server/http.hpp"
+#include "server/http/http.hpp"
 #include "server/identity.hpp"
 
 namespace tubecut::server {

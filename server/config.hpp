@@ -5,7 +5,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "server/job_files.hpp"
+#include "server/observe/job_files.hpp"
 
 namespace tubecut::server {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "server/access.hpp"
-#include "server/http.hpp"
+#include "server/http/http.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "server/http.hpp"
+#include "server/http/http.hpp"
 
 namespace tubecut::server {
 

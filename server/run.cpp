@@ -18,8 +18,8 @@
 #include "api/api.hpp"
 #include "api/batch.hpp"
 #include "server/app.hpp"
-#include "server/capacity.hpp"
 #include "server/identity.hpp"
+#include "server/jobs/capacity.hpp"
 #include "server/serve.hpp"
 #include "server/status.hpp"
 

@@ -23,15 +23,15 @@
 #include "server/admin.hpp"
 #include "server/admin_port.hpp"
 #include "server/app.hpp"
-#include "server/capacity.hpp"
-#include "server/job_files.hpp"
-#include "server/job_log.hpp"
-#include "server/json_line.hpp"
+#include "server/http/transport.hpp"
+#include "server/jobs/capacity.hpp"
 #include "server/machine_files.hpp"
-#include "server/metrics.hpp"
+#include "server/observe/job_files.hpp"
+#include "server/observe/job_log.hpp"
+#include "server/observe/json_line.hpp"
+#include "server/observe/metrics.hpp"
 #include "server/selftest.hpp"
 #include "server/signals.hpp"
-#include "server/transport.hpp"
 
 namespace tubecut::server {
 namespace {

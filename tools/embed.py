@@ -31,7 +31,7 @@ def main() -> None:
             entries.append(("openapi.json", json.dumps(yaml.safe_load(text), separators=(",", ":"))))
     rows = "\n".join(f'    {{"{name}", {literal(text)}}},' for name, text in entries)
     pathlib.Path(out).write_text(
-        '#include "api/catalogue.hpp"\n\nnamespace tubecut::api {\n\n'
+        '#include "api/catalog/catalogue.hpp"\n\nnamespace tubecut::api {\n\n'
         "std::span<const Embedded> embedded_files() {\n  using namespace std::string_view_literals;\n  static constexpr Embedded kFiles[] = {\n"
         f"{rows}\n  }};\n  return kFiles;\n}}\n\n}}  // namespace tubecut::api\n", encoding="utf-8")
 

@@ -38,7 +38,7 @@ def main() -> None:
     rows = [row(pathlib.Path(file).relative_to(root).as_posix(), pathlib.Path(file).read_bytes()) for file in sorted(files)]
     table = "  static constexpr StaticFile kFiles[] = {\n" + "\n".join(rows) + "\n  };\n  return kFiles;\n" if rows else "  return {};\n"
     pathlib.Path(out).write_text(
-        '#include "server/static_files.hpp"\n\nnamespace tubecut::server {\n\n'
+        '#include "server/http/static_files.hpp"\n\nnamespace tubecut::server {\n\n'
         f"std::span<const StaticFile> static_files() {{\n{table}}}\n\n}}  // namespace tubecut::server\n", encoding="ascii")
 
 

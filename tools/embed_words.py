@@ -30,7 +30,7 @@ def main():
     if len(rows) < 500:
         sys.exit(f"{glossary}: {len(rows)} names only")
     pathlib.Path(out).write_text(
-        '#include "api/words.hpp"\n\nnamespace tubecut::api {\n\nstd::span<const Word> glossary() {\n'
+        '#include "api/wire/words.hpp"\n\nnamespace tubecut::api {\n\nstd::span<const Word> glossary() {\n'
         "  static constexpr Word kWords[] = {\n" + "\n".join(rows) + "\n  };\n  return kWords;\n}\n\n}  // namespace tubecut::api\n",
         encoding="utf-8")
 

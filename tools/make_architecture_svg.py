@@ -11,9 +11,13 @@ import sys
 import sources
 
 HOLDS = {
-    "server": ("process, App, slots,", "metrics, logs, admin port"),
-    "server/http": ("listener, session, batch,", "framing, queue, memory"),
-    "api": ("dispatch, endpoint table,", "reader, writer, JSON, CBOR"),
+    "server": ("process, App, config,", "access, admin port"),
+    "server/http/http": ("listener, session, batch,", "framing, queue, memory"),
+    "server/jobs": ("slots, capacity, helpers,", "memory of a job"),
+    "server/observe": ("metrics, job log,", "job files"),
+    "api": ("dispatch, pipeline,", "endpoint table"),
+    "api/wire": ("reader, writer, JSON, CBOR,", "query, problems, columns"),
+    "api/catalog": ("machines, posts, sizes,", "files of the catalogue"),
     "api/endpoints": ("a file an endpoint:", "decode and encode"),
     "api/formats": ("a writer a format: DXF, SVG,", "G-code, STEP, glTF, DSTV, ..."),
     "core/base": ("errors, angles,", "elementary functions"),

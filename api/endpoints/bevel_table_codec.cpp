@@ -4,12 +4,12 @@
 #include <tuple>
 #include <utility>
 
-#include "api/bevel_names.hpp"
-#include "api/column_choice.hpp"
+#include "api/catalog/machines.hpp"
 #include "api/limits.hpp"
-#include "api/machines.hpp"
-#include "api/tables.hpp"
-#include "core/bevel/smoothed_area.hpp"
+#include "api/wire/bevel_names.hpp"
+#include "api/wire/column_choice.hpp"
+#include "api/wire/tables.hpp"
+#include "core/bevel/smoothing/smoothed_area.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -3,15 +3,15 @@
 #include <array>
 #include <stop_token>
 
-#include "api/check_limit.hpp"
+#include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
-#include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/tube_laser.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/limits.hpp"
-#include "api/reader.hpp"
-#include "api/writer.hpp"
-#include "core/bevel/table.hpp"
+#include "api/wire/check_limit.hpp"
+#include "api/wire/reader.hpp"
+#include "api/wire/writer.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut::api {
 

@@ -4,18 +4,18 @@
 
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
-#include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
-#include "api/formats/gcode.hpp"
-#include "api/formats/partner_names.hpp"
-#include "api/formats/step.hpp"
+#include "api/formats/drawing/partner_names.hpp"
+#include "api/formats/gcode/gcode.hpp"
+#include "api/formats/step/step.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
-#include "core/bevel/beam.hpp"
-#include "core/bevel/table.hpp"
+#include "core/bevel/beam/beam.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "api/columns.hpp"
 #include "api/formats/csv.hpp"
-#include "api/formats/step.hpp"
+#include "api/formats/step/step.hpp"
 #include "api/stop.hpp"
+#include "api/wire/columns.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "api/endpoints/frame_answer.hpp"
-#include "api/format.hpp"
+#include "api/endpoints/frames/frame_answer.hpp"
+#include "api/wire/format.hpp"
 
 namespace tubecut::api {
 

@@ -1,8 +1,8 @@
 #include "api/endpoints/groove_codec.hpp"
 
-#include "api/common_fields.hpp"
-#include "api/groove_names.hpp"
 #include "api/limits.hpp"
+#include "api/wire/common_fields.hpp"
+#include "api/wire/groove_names.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "api/reader.hpp"
+#include "api/wire/reader.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/mill_path.hpp"
 

@@ -4,7 +4,7 @@
 #include "api/formats/groove_formats.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
-#include "api/tables.hpp"
+#include "api/wire/tables.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "api/endpoints/tube_laser.hpp"
-#include "api/reader.hpp"
-#include "api/writer.hpp"
-#include "core/bevel/hole.hpp"
+#include "api/wire/reader.hpp"
+#include "api/wire/writer.hpp"
+#include "core/bevel/hole/hole.hpp"
 
 namespace tubecut::api {
 

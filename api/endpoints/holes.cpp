@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/bevel_names.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
@@ -9,12 +8,13 @@
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/hole_formats.hpp"
-#include "api/formats/step.hpp"
-#include "api/joint_names.hpp"
+#include "api/formats/step/step.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
-#include "api/tables.hpp"
-#include "core/bevel/hole.hpp"
+#include "api/wire/bevel_names.hpp"
+#include "api/wire/joint_names.hpp"
+#include "api/wire/tables.hpp"
+#include "core/bevel/hole/hole.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "api/joint_names.hpp"
+#include "api/catalog/tube_sizes.hpp"
 #include "api/limits.hpp"
-#include "api/tables.hpp"
-#include "api/tube_sizes.hpp"
+#include "api/wire/joint_names.hpp"
+#include "api/wire/tables.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "api/check_limit.hpp"
 #include "api/limits.hpp"
-#include "api/reader.hpp"
-#include "api/writer.hpp"
+#include "api/wire/check_limit.hpp"
+#include "api/wire/reader.hpp"
+#include "api/wire/writer.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::api {

@@ -8,7 +8,7 @@
 #include "api/formats/groove_formats.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
-#include "api/tables.hpp"
+#include "api/wire/tables.hpp"
 #include "core/base/try.hpp"
 #include "core/groove/probe.hpp"
 

@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/frames/node_codec.hpp"
+#include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
-#include "api/endpoints/node_codec.hpp"
-#include "api/endpoints/renaming.hpp"
 #include "api/limits.hpp"
-#include "api/part_names.hpp"
+#include "api/wire/part_names.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::api {

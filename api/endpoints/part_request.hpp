@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "api/endpoints/tube_laser.hpp"
-#include "api/reader.hpp"
+#include "api/wire/reader.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::api {

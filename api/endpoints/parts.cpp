@@ -4,24 +4,24 @@
 #include <cmath>
 #include <utility>
 
-#include "api/bevel_names.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
-#include "api/endpoints/node_codec.hpp"
 #include "api/endpoints/part_request.hpp"
 #include "api/endpoints/place_text.hpp"
 #include "api/endpoints/work.hpp"
-#include "api/formats/gcode.hpp"
+#include "api/formats/drawing/partner_names.hpp"
+#include "api/formats/gcode/gcode.hpp"
 #include "api/formats/part_formats.hpp"
-#include "api/formats/partner_names.hpp"
-#include "api/formats/step.hpp"
+#include "api/formats/step/step.hpp"
 #include "api/limits.hpp"
-#include "api/motion_names.hpp"
-#include "api/part_names.hpp"
 #include "api/pipeline.hpp"
-#include "api/tables.hpp"
+#include "api/wire/bevel_names.hpp"
+#include "api/wire/motion_names.hpp"
+#include "api/wire/part_names.hpp"
+#include "api/wire/tables.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::api {

@@ -6,15 +6,15 @@
 #include <string_view>
 #include <vector>
 
-#include "api/check_limit.hpp"
 #include "api/cost.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/part_request.hpp"
 #include "api/endpoints/tube_laser.hpp"
-#include "api/format.hpp"
 #include "api/limits.hpp"
 #include "api/verdict.hpp"
-#include "api/writer.hpp"
+#include "api/wire/check_limit.hpp"
+#include "api/wire/format.hpp"
+#include "api/wire/writer.hpp"
 
 namespace tubecut::api {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "api/writer.hpp"
+#include "api/wire/writer.hpp"
 
 namespace tubecut::api {
 

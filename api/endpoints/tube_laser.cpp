@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "api/bevel_names.hpp"
-#include "api/joint_names.hpp"
-#include "api/part_names.hpp"
+#include "api/wire/bevel_names.hpp"
+#include "api/wire/joint_names.hpp"
+#include "api/wire/part_names.hpp"
 
 namespace tubecut::api {
 namespace {

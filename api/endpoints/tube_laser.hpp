@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "api/reader.hpp"
 #include "api/verdict.hpp"
-#include "api/writer.hpp"
-#include "core/bevel/table.hpp"
-#include "core/bevel/tongue.hpp"
+#include "api/wire/reader.hpp"
+#include "api/wire/writer.hpp"
+#include "core/bevel/beam/tongue.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/part/webs.hpp"
 
 namespace tubecut::api {

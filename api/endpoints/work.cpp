@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "core/base/angle.hpp"
-#include "core/bevel/beam.hpp"
+#include "core/bevel/beam/beam.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "api/cost.hpp"
-#include "api/endpoints/motion_codec.hpp"
+#include "api/endpoints/motion/motion_codec.hpp"
 #include "api/endpoints/part_request.hpp"
-#include "core/bevel/hole.hpp"
-#include "core/bevel/table.hpp"
+#include "core/bevel/hole/hole.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/cutoff/feed_curve.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/mill_path.hpp"
 #include "core/joint/intersection.hpp"
-#include "core/joint/node.hpp"
+#include "core/joint/node/node.hpp"
 
 namespace tubecut::api {
 

@@ -2,20 +2,20 @@
 
 #include <algorithm>
 
-#include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
-#include "api/formats/cut_sheets.hpp"
-#include "api/formats/cut_solid.hpp"
-#include "api/formats/development.hpp"
-#include "api/formats/dstv.hpp"
-#include "api/formats/dxf.hpp"
-#include "api/formats/gcode.hpp"
+#include "api/formats/drawing/chart.hpp"
+#include "api/formats/drawing/cut_sheets.hpp"
+#include "api/formats/drawing/development.hpp"
+#include "api/formats/drawing/part_edges.hpp"
+#include "api/formats/drawing/partner_names.hpp"
+#include "api/formats/dxf/dstv.hpp"
+#include "api/formats/dxf/dxf.hpp"
+#include "api/formats/gcode/gcode.hpp"
+#include "api/formats/mesh/cut_solid.hpp"
 #include "api/formats/numbers.hpp"
-#include "api/formats/part_edges.hpp"
-#include "api/formats/partner_names.hpp"
-#include "api/motion_names.hpp"
-#include "api/tables.hpp"
-#include "api/words.hpp"
+#include "api/wire/motion_names.hpp"
+#include "api/wire/tables.hpp"
+#include "api/wire/words.hpp"
 
 namespace tubecut::api {
 namespace {

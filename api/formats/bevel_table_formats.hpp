@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "api/format.hpp"
-#include "core/bevel/table.hpp"
+#include "api/wire/format.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut::api {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "api/formats/text.hpp"
-#include "api/json.hpp"
 #include "api/stop.hpp"
+#include "api/wire/json.hpp"
 
 namespace tubecut::api {
 namespace {

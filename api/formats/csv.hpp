@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "api/columns.hpp"
-#include "api/format.hpp"
 #include "api/verdict.hpp"
+#include "api/wire/columns.hpp"
+#include "api/wire/format.hpp"
 
 namespace tubecut::api {
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/drawing/chart.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
-#include "api/tables.hpp"
+#include "api/wire/tables.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
-#include "api/formats/gltf.hpp"
-#include "api/formats/groove_section_sheet.hpp"
-#include "api/formats/svg_sheets.hpp"
+#include "api/formats/drawing/chart.hpp"
+#include "api/formats/drawing/groove_section_sheet.hpp"
+#include "api/formats/drawing/svg_sheets.hpp"
+#include "api/formats/mesh/gltf.hpp"
 #include "api/stop.hpp"
-#include "api/tables.hpp"
+#include "api/wire/tables.hpp"
 
 namespace tubecut::api {
 namespace {

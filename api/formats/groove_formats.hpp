@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/format.hpp"
+#include "api/wire/format.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/mill_path.hpp"
 

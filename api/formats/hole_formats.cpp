@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "api/formats/bevel_table_formats.hpp"
-#include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
-#include "api/formats/cut_sheets.hpp"
-#include "api/formats/dxf.hpp"
-#include "api/tables.hpp"
+#include "api/formats/drawing/chart.hpp"
+#include "api/formats/drawing/cut_sheets.hpp"
+#include "api/formats/dxf/dxf.hpp"
+#include "api/wire/tables.hpp"
 
 namespace tubecut::api {
 namespace {

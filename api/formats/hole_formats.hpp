@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "api/format.hpp"
-#include "api/formats/development.hpp"
+#include "api/formats/drawing/development.hpp"
+#include "api/wire/format.hpp"
 
 namespace tubecut::api {
 

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
-#include "api/formats/cut_sheets.hpp"
-#include "api/formats/development.hpp"
-#include "api/formats/dxf.hpp"
-#include "api/formats/partner_names.hpp"
-#include "api/joint_names.hpp"
-#include "api/tables.hpp"
+#include "api/formats/drawing/chart.hpp"
+#include "api/formats/drawing/cut_sheets.hpp"
+#include "api/formats/drawing/development.hpp"
+#include "api/formats/drawing/partner_names.hpp"
+#include "api/formats/dxf/dxf.hpp"
+#include "api/wire/joint_names.hpp"
+#include "api/wire/tables.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "api/field_names.hpp"
 #include "api/formats/text.hpp"
+#include "api/wire/field_names.hpp"
 #include "core/base/angle.hpp"
 
 namespace tubecut::api {

@@ -2,17 +2,17 @@
 
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/csv.hpp"
-#include "api/formats/development.hpp"
-#include "api/formats/dstv.hpp"
-#include "api/formats/dxf.hpp"
-#include "api/formats/gcode.hpp"
-#include "api/formats/pdf_sheets.hpp"
-#include "api/formats/svg_sheets.hpp"
-#include "api/formats/work_order.hpp"
-#include "api/formats/wrap_template.hpp"
-#include "api/part_names.hpp"
+#include "api/formats/drawing/development.hpp"
+#include "api/formats/drawing/pdf_sheets.hpp"
+#include "api/formats/drawing/svg_sheets.hpp"
+#include "api/formats/drawing/work_order.hpp"
+#include "api/formats/drawing/wrap_template.hpp"
+#include "api/formats/dxf/dstv.hpp"
+#include "api/formats/dxf/dxf.hpp"
+#include "api/formats/gcode/gcode.hpp"
 #include "api/stop.hpp"
-#include "api/tables.hpp"
+#include "api/wire/part_names.hpp"
+#include "api/wire/tables.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/format.hpp"
+#include "api/wire/format.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::api {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "api/api.hpp"
-#include "api/format.hpp"
-#include "api/writer.hpp"
+#include "api/wire/format.hpp"
+#include "api/wire/writer.hpp"
 
 namespace tubecut::api {
 

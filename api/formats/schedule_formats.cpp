@@ -5,14 +5,14 @@
 #include <iterator>
 #include <set>
 
-#include "api/formats/chart.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/drawing/chart.hpp"
 #include "api/formats/numbers.hpp"
-#include "api/motion_names.hpp"
 #include "api/stop.hpp"
-#include "api/words.hpp"
+#include "api/wire/motion_names.hpp"
+#include "api/wire/words.hpp"
 #include "core/base/elementary.hpp"
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
 
 namespace tubecut::api {
 namespace {

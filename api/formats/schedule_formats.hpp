@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "api/format.hpp"
-#include "core/motion/schedule.hpp"
+#include "api/wire/format.hpp"
+#include "core/motion/schedule/schedule.hpp"
 
 namespace tubecut::api {
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "api/text_encoding.hpp"
+#include "api/wire/text_encoding.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -16,7 +16,8 @@ struct Option {
 
 /// The names of all values of an enumeration, once, in the order in which they are offered: read
 /// by the api's `Reader::choice`, written by `name_of`. Given in the api's header of its room, such
-/// as api/joint_names.hpp, or beside the enumeration where core's paths and messages name it too.
+/// as api/wire/joint_names.hpp, or beside the enumeration where core's paths and messages name it
+/// too.
 template <class E>
 inline constexpr auto kNames = nullptr;
 

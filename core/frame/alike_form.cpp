@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
-#include "core/bevel/hole.hpp"
-#include "core/bevel/table.hpp"
+#include "core/bevel/hole/hole.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::frame::detail {

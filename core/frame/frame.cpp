@@ -7,10 +7,10 @@
 
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
-#include "core/joint/in_line.hpp"
 #include "core/joint/nearness.hpp"
-#include "core/joint/node_parts.hpp"
-#include "core/joint/overlap.hpp"
+#include "core/joint/node/in_line.hpp"
+#include "core/joint/node/node_parts.hpp"
+#include "core/joint/node/overlap.hpp"
 
 namespace tubecut::frame {
 namespace {

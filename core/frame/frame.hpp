@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/joint/node.hpp"
+#include "core/joint/node/node.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::frame {

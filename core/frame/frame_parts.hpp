@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/frame/frame.hpp"
-#include "core/joint/overlap.hpp"
+#include "core/joint/node/overlap.hpp"
 
 /// For `solve` only.
 namespace tubecut::frame::detail {

@@ -8,7 +8,7 @@
 
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
-#include "core/joint/in_line.hpp"
+#include "core/joint/node/in_line.hpp"
 
 namespace tubecut::frame {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
-#include "core/joint/in_line.hpp"
+#include "core/joint/node/in_line.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::frame::detail {

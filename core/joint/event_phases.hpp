@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/joint/cutters/cutter.hpp"
-#include "core/joint/sheets.hpp"
+#include "core/joint/node/sheets.hpp"
 
 /// For `divide` only: the phases where its profile may have an event.
 namespace tubecut::joint::detail {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/joint/node_parts.hpp"
-#include "core/joint/overlap.hpp"
+#include "core/joint/node/node_parts.hpp"
+#include "core/joint/node/overlap.hpp"
 
 /// For `overlaps` only: members as they are once cut.
 namespace tubecut::joint::detail {

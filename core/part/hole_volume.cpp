@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/stop.hpp"
-#include "core/bevel/hole_slice.hpp"
+#include "core/bevel/hole/hole_slice.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/quadrature.hpp"
 #include "core/part/place.hpp"

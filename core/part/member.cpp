@@ -8,7 +8,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
-#include "core/joint/overlap.hpp"
+#include "core/joint/node/overlap.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/edge.hpp"
 #include "core/part/place.hpp"

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/joint/node.hpp"
+#include "core/joint/node/node.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::part {

@@ -7,8 +7,8 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
-#include "core/bevel/hole.hpp"
-#include "core/bevel/table.hpp"
+#include "core/bevel/hole/hole.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/joint/placement.hpp"
 #include "core/part/dimensions.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/bevel/table_columns.hpp"
+#include "core/bevel/table/table_columns.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/edge.hpp"
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "core/base/angle.hpp"
-#include "core/bevel/hole.hpp"
-#include "core/bevel/table.hpp"
+#include "core/bevel/hole/hole.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::part {

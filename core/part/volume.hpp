@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut::part {
 

@@ -10,8 +10,8 @@
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
-#include "core/motion/invariants.hpp"
-#include "core/motion/reconstruction.hpp"
+#include "core/motion/replay/invariants.hpp"
+#include "core/motion/replay/reconstruction.hpp"
 #include "core/torch/stretches.hpp"
 #include "core/torch/tab_width.hpp"
 

@@ -3,7 +3,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
 #include "core/torch/program_schedule.hpp"
 
 namespace tubecut::torch {

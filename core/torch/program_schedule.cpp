@@ -7,8 +7,8 @@
 
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
-#include "core/motion/places.hpp"
-#include "core/motion/straight_move.hpp"
+#include "core/motion/path/places.hpp"
+#include "core/motion/timing/straight_move.hpp"
 #include "core/torch/tab_width.hpp"
 #include "core/torch/torch_stand.hpp"
 

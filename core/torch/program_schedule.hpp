@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/motion/pulse_counter.hpp"
-#include "core/motion/schedule.hpp"
+#include "core/motion/schedule/pulse_counter.hpp"
+#include "core/motion/schedule/schedule.hpp"
 #include "core/torch/torch_program.hpp"
 
 namespace tubecut::torch {

@@ -8,8 +8,8 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
-#include "core/motion/chords.hpp"
-#include "core/motion/stretch.hpp"
+#include "core/motion/path/chords.hpp"
+#include "core/motion/path/stretch.hpp"
 
 namespace tubecut::torch {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
-#include "core/motion/path.hpp"
+#include "core/motion/path/path.hpp"
 
 namespace tubecut::torch {
 namespace {

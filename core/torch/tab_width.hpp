@@ -5,7 +5,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/motion/reconstruction.hpp"
+#include "core/motion/replay/reconstruction.hpp"
 #include "core/torch/program_schedule.hpp"
 #include "core/torch/stretches.hpp"
 

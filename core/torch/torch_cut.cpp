@@ -6,7 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
-#include "core/bevel/land_pass.hpp"
+#include "core/bevel/table/land_pass.hpp"
 #include "core/part/place.hpp"
 
 namespace tubecut::torch {

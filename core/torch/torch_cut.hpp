@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/bevel/table.hpp"
-#include "core/motion/border.hpp"
-#include "core/motion/lead.hpp"
+#include "core/bevel/table/table.hpp"
+#include "core/motion/path/border.hpp"
+#include "core/motion/path/lead.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::torch {

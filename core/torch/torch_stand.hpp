@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/motion/kinematics.hpp"
+#include "core/motion/machine/kinematics.hpp"
 #include "core/torch/torch_program.hpp"
 
 namespace tubecut::torch {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "server/slots.hpp"
+#include "server/jobs/slots.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-#include "api/header_list.hpp"
+#include "api/wire/header_list.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -8,7 +8,7 @@
 #include <future>
 
 #include "server/http/port.hpp"
-#include "server/transport.hpp"
+#include "server/http/transport.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -15,9 +15,9 @@
 #include "server/http/places.hpp"
 #include "server/http/printer.hpp"
 #include "server/http/request_reader.hpp"
-#include "server/job_memory.hpp"
-#include "server/slots.hpp"
-#include "server/transport.hpp"
+#include "server/http/transport.hpp"
+#include "server/jobs/job_memory.hpp"
+#include "server/jobs/slots.hpp"
 
 namespace tubecut::server {
 

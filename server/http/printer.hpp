@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/http.hpp"
+#include "server/http/http.hpp"
 
 namespace tubecut::server {
 

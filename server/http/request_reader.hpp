@@ -4,7 +4,7 @@
 #include <memory>
 #include <string_view>
 
-#include "server/http.hpp"
+#include "server/http/http.hpp"
 
 namespace tubecut::server {
 

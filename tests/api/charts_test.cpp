@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "api/formats/chart.hpp"
+#include "api/formats/drawing/chart.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {

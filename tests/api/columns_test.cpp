@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "api/sha256.hpp"
+#include "api/wire/sha256.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "api/sha256.hpp"
+#include "api/wire/sha256.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "api/json.hpp"
-#include "api/writer.hpp"
+#include "api/wire/json.hpp"
+#include "api/wire/writer.hpp"
 
 namespace tubecut::api {
 namespace {

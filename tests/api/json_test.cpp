@@ -1,4 +1,4 @@
-#include "api/json.hpp"
+#include "api/wire/json.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -7,8 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "api/header_list.hpp"
-#include "api/writer.hpp"
+#include "api/wire/header_list.hpp"
+#include "api/wire/writer.hpp"
 
 namespace tubecut::api {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "api/tube_sizes.hpp"
+#include "api/catalog/tube_sizes.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {

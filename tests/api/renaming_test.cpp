@@ -1,4 +1,4 @@
-#include "api/endpoints/renaming.hpp"
+#include "api/endpoints/frames/renaming.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "api/shortest.hpp"
+#include "api/wire/shortest.hpp"
 
 #include <gtest/gtest.h>
 

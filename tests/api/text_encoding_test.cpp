@@ -1,6 +1,6 @@
 // What a text may hold, and how formats of ASCII spell it.
 
-#include "api/text_encoding.hpp"
+#include "api/wire/text_encoding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include "core/bevel/smoothed_area.hpp"
-#include "core/bevel/table.hpp"
+#include "core/bevel/smoothing/smoothed_area.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/joint/intersection.hpp"
 #include "tests/support/drawing_seed.hpp"
 

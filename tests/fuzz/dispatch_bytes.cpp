@@ -11,7 +11,7 @@
 #include "api/api.hpp"
 #include "api/batch.hpp"
 #include "api/endpoint.hpp"
-#include "api/json.hpp"
+#include "api/wire/json.hpp"
 
 namespace tubecut::fuzz {
 namespace {

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "server/app.hpp"
-#include "server/capacity.hpp"
-#include "server/job_files.hpp"
+#include "server/jobs/capacity.hpp"
+#include "server/observe/job_files.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "api/api.hpp"
-#include "server/metrics.hpp"
+#include "server/observe/metrics.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -9,7 +9,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "api/json.hpp"
+#include "api/wire/json.hpp"
 #include "server/identity.hpp"
 #include "server/status.hpp"
 

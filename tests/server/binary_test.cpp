@@ -11,7 +11,7 @@
 #include <memory>
 #include <thread>
 
-#include "api/json.hpp"
+#include "api/wire/json.hpp"
 #include "tests/server/client.hpp"
 #include "tests/support/golden.hpp"
 

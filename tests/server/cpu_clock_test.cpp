@@ -1,4 +1,4 @@
-#include "server/cpu_clock.hpp"
+#include "server/jobs/cpu_clock.hpp"
 
 #include <gtest/gtest.h>
 

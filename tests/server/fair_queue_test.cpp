@@ -7,7 +7,7 @@
 #include <random>
 
 #include "server/http/places.hpp"
-#include "server/slots.hpp"
+#include "server/jobs/slots.hpp"
 
 namespace tubecut::server {
 namespace {

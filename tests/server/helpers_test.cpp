@@ -1,4 +1,4 @@
-#include "server/helpers.hpp"
+#include "server/jobs/helpers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/job_log.hpp"
+#include "server/observe/job_log.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,8 +6,8 @@
 #include <array>
 
 #include "api/api.hpp"
-#include "api/json.hpp"
-#include "server/json_line.hpp"
+#include "api/wire/json.hpp"
+#include "server/observe/json_line.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -2,7 +2,7 @@
 // api/memory.cpp states, for the costliest valid requests of every endpoint in every format and
 // view; and no more than they are given.
 
-#include "server/job_memory.hpp"
+#include "server/jobs/job_memory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 #include "api/endpoint.hpp"
 #include "api/memory.hpp"
 #include "server/app.hpp"
-#include "server/static_files.hpp"
+#include "server/http/static_files.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {

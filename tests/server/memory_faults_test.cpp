@@ -9,7 +9,7 @@
 #include <new>
 #include <thread>
 
-#include "server/transport.hpp"
+#include "server/http/transport.hpp"
 #include "tests/server/client.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "server/slots.hpp"
+#include "server/jobs/slots.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/static_files.hpp"
+#include "server/http/static_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/transport.hpp"
+#include "server/http/transport.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <latch>
 
 #include "server/admin_port.hpp"
-#include "server/job_memory.hpp"
+#include "server/jobs/job_memory.hpp"
 #include "tests/server/client.hpp"
 
 namespace tubecut::server {

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "api/api.hpp"
-#include "api/json.hpp"
-#include "api/writer.hpp"
+#include "api/wire/json.hpp"
+#include "api/wire/writer.hpp"
 #include "tests/support/golden.hpp"
 
 namespace tubecut::testing {

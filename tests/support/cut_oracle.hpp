@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut::oracle {
 

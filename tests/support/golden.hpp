@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json.hpp"
+#include "api/wire/json.hpp"
 
 namespace tubecut::testing {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 
 namespace tubecut::oracle {
 

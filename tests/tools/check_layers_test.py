@@ -9,11 +9,11 @@ SOUND = {
     "core/base/elementary.cpp": '#include <sleef.h>\n#include "core/base/angle.hpp"\n',
     "core/base/error_codes.hpp": "#pragma once\n#include <cstdint>\n",
     "api/api.hpp": '#pragma once\n#include "core/base/error_codes.hpp"\n',
-    "api/json.cpp": '#include <nlohmann/json.hpp>\n#include "api/api.hpp"\n',
+    "api/wire/json.cpp": '#include <nlohmann/json.hpp>\n#include "api/api.hpp"\n',
     "server/app.hpp": "#pragma once\n#include <thread>\n",
     "server/admin_port.cpp": '#include <httplib.h>\n#include "api/api.hpp"\n#include "server/app.hpp"\n',
     "server/http/loop.hpp": "#pragma once\n#include <boost/asio/io_context.hpp>\n",
-    "server/metrics.cpp": "#include <prometheus/counter.h>\n",
+    "server/observe/metrics.cpp": "#include <prometheus/counter.h>\n",
     "tests/x_test.cpp": '#include "core/base/angle.hpp"\n#include "server/app.hpp"\n',
 }
 
@@ -33,7 +33,7 @@ BAD = {
     "nlohmann twice": ({"api/x.cpp": "#include <nlohmann/json.hpp>\n"}, "more than one file"),
     "nlohmann in a test": ({"tests/x.cpp": "#include <nlohmann/json.hpp>\n"}, "more than one file"),
     "server reaches into api": (
-        {"server/x.cpp": '#include "api/json.hpp"\n', "api/json.hpp": "#pragma once\n"}, "server may not look there"),
+        {"server/x.cpp": '#include "api/wire/json.hpp"\n', "api/wire/json.hpp": "#pragma once\n"}, "server may not look there"),
     "server reaches into core": ({"server/x.cpp": '#include "core/base/angle.hpp"\n'}, "server may not look there"),
     "httplib elsewhere": ({"server/x.cpp": "#include <httplib.h>\n"}, "belongs in server/admin_port.cpp"),
     "boost beside its room": ({"server/x.hpp": "#pragma once\n#include <boost/asio.hpp>\n"}, "belongs in server/http/"),

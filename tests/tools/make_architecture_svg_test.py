@@ -13,9 +13,9 @@ import make_architecture_svg as picture
 TREE = {
     "core/base/error.hpp": "",
     "core/math/root.hpp": '#include "core/base/error.hpp"\n',
-    "core/joint/node.cpp": '#include "core/base/error.hpp"\n#include "core/math/root.hpp"\n',
+    "core/joint/node/node.cpp": '#include "core/base/error.hpp"\n#include "core/math/root.hpp"\n',
     "api/dispatch.cpp": '#include "api/endpoints/all.hpp"\n#include "core/base/error.hpp"\n',
-    "api/endpoints/all.hpp": '#include "core/joint/node.hpp"\n',
+    "api/endpoints/all.hpp": '#include "core/joint/node/node.hpp"\n',
     "server/app.cpp": '#include "api/dispatch.hpp"\n',
 }
 
@@ -39,7 +39,7 @@ class Architecture(unittest.TestCase):
         self.assertEqual(picture.level("core/joint", edges), 2)
 
     def test_a_circle_of_rooms_is_refused(self):
-        circle = {**TREE, "core/base/error.hpp": '#include "core/joint/node.hpp"\n'}
+        circle = {**TREE, "core/base/error.hpp": '#include "core/joint/node/node.hpp"\n'}
         with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(SystemExit, "include each other"):
             picture.svg(tree(folder, circle))
 

@@ -22,7 +22,7 @@ import costly
 import heaviest
 from service import ROOT, Service, connect, exchange, head, post
 
-SHARE = 0.6  # of the container, see server/capacity.cpp
+SHARE = 0.6  # of the container, see server/jobs/capacity.cpp
 KEPT_MIB = 48  # resident once all is over: the program, its threads' heaps
 SLOW_READERS = 17
 AT_ONCE = 4

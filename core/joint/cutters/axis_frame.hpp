@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/joint/generator.hpp"
-#include "core/joint/sheets.hpp"
+#include "core/joint/node/sheets.hpp"
 
 /// For the kinds of this folder that stand on a straight axis of any direction.
 namespace tubecut::joint {

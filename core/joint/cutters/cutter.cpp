@@ -1,6 +1,6 @@
 #include "core/joint/cutters/cutter.hpp"
 
-#include "core/joint/sheets.hpp"
+#include "core/joint/node/sheets.hpp"
 #include "core/math/rotation.hpp"
 
 namespace tubecut::joint {

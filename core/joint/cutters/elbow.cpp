@@ -9,7 +9,7 @@
 #include "core/base/elementary.hpp"
 #include "core/joint/cutters/convex.hpp"
 #include "core/joint/cutters/elbow_leg.hpp"
-#include "core/joint/sheets.hpp"
+#include "core/joint/node/sheets.hpp"
 #include "core/math/search.hpp"
 
 namespace tubecut::joint {

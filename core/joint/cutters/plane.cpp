@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/elementary.hpp"
-#include "core/joint/sheets.hpp"
+#include "core/joint/node/sheets.hpp"
 #include "core/math/rotation.hpp"
 
 namespace tubecut::joint {

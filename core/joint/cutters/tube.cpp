@@ -7,7 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/cutters/tube_local.hpp"
-#include "core/joint/sheets.hpp"
+#include "core/joint/node/sheets.hpp"
 #include "core/math/rotation.hpp"
 
 namespace tubecut::joint {

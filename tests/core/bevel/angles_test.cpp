@@ -1,4 +1,4 @@
-#include "core/bevel/angles.hpp"
+#include "core/bevel/table/angles.hpp"
 
 #include <gtest/gtest.h>
 

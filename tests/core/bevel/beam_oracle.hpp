@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 
 /// What a round beam takes and leaves, by brute force: every place of the finished surface against
 /// a dense row of torch positions, each in the half plane the torch stands in. No tree, no bound,

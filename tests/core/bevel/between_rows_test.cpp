@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/joint/placement.hpp"
 #include "tests/support/cut_oracle.hpp"
 #include "tests/support/random_cut.hpp"

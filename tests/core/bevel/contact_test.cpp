@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "core/bevel/required.hpp"
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/required.hpp"
+#include "core/bevel/table/table.hpp"
 #include "tests/core/joint/degenerate_cases.hpp"
 #include "tests/core/joint/published.hpp"
 #include "tests/core/joint/random_nodes.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 #include <random>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 
 // An elbow is not convex, so its required bevel is searched for across the wall, not proved: here
 // random tables go through their own proof, and one corrupted number fails it.

@@ -1,4 +1,4 @@
-#include "core/bevel/end_tables.hpp"
+#include "core/bevel/table/end_tables.hpp"
 
 #include <gtest/gtest.h>
 

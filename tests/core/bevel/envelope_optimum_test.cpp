@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/angle.hpp"
-#include "core/bevel/least_area.hpp"
+#include "core/bevel/smoothing/least_area.hpp"
 #include "tests/core/bevel/real_nodes.hpp"
 
 /// The envelope's area against the linear programme it approximates, solved by GLPK.

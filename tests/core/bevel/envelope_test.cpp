@@ -6,8 +6,8 @@
 #include <random>
 
 #include "core/base/angle.hpp"
-#include "core/bevel/least_area.hpp"
-#include "core/bevel/smoothing.hpp"
+#include "core/bevel/smoothing/least_area.hpp"
+#include "core/bevel/smoothing/smoothing.hpp"
 #include "tests/core/bevel/plain_envelope.hpp"
 #include "tests/core/bevel/real_nodes.hpp"
 

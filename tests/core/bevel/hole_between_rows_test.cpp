@@ -8,8 +8,8 @@
 #include <map>
 #include <string_view>
 
-#include "core/bevel/beam.hpp"
-#include "core/bevel/hole.hpp"
+#include "core/bevel/beam/beam.hpp"
+#include "core/bevel/hole/hole.hpp"
 #include "tests/support/cut_oracle.hpp"
 #include "tests/support/random_cut.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/bevel/hole.hpp"
+#include "core/bevel/hole/hole.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-#include "core/bevel/beam.hpp"
+#include "core/bevel/beam/beam.hpp"
 #include "tests/support/line_distance.hpp"
 
 namespace tubecut::bevel {

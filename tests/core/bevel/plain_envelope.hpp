@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/bevel/smoothing.hpp"
+#include "core/bevel/smoothing/smoothing.hpp"
 
 /// The envelope written down again as the theory note has it, whole at every evaluation: sweeps
 /// stepped by slope at both ends, the upper hull over three periods in (s, e - A s^2/2). Slow; for

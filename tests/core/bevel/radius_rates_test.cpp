@@ -1,11 +1,11 @@
-#include "core/bevel/radius_rates.hpp"
+#include "core/bevel/table/radius_rates.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/joint/solid.hpp"
 #include "tests/support/random_cut.hpp"
 

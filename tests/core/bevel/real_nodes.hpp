@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/bevel/smoothing.hpp"
+#include "core/bevel/smoothing/smoothing.hpp"
 
 /// Bevel angles of random sound nodes, straight from the closed forms, for tests of the smoothing
 /// only.

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <random>
 
-#include "core/bevel/required.hpp"
+#include "core/bevel/table/required.hpp"
 #include "core/joint/contour.hpp"
 #include "core/joint/solid.hpp"
 

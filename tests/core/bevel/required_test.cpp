@@ -1,11 +1,11 @@
-#include "core/bevel/required.hpp"
+#include "core/bevel/table/required.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "core/bevel/angles.hpp"
+#include "core/bevel/table/angles.hpp"
 #include "core/joint/contour.hpp"
 #include "tests/core/joint/published.hpp"
 #include "tests/core/joint/random_nodes.hpp"

@@ -1,4 +1,4 @@
-#include "core/bevel/ring_newton.hpp"
+#include "core/bevel/smoothing/ring_newton.hpp"
 
 #include <gtest/gtest.h>
 

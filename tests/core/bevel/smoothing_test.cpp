@@ -1,4 +1,4 @@
-#include "core/bevel/smoothing.hpp"
+#include "core/bevel/smoothing/smoothing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/bevel/table_arrays.hpp"
+#include "core/bevel/table/table_arrays.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/bevel/torch_line.hpp"
+#include "core/bevel/beam/torch_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "core/base/elementary.hpp"
-#include "core/bevel/beam.hpp"
+#include "core/bevel/beam/beam.hpp"
 #include "tests/core/bevel/beam_oracle.hpp"
 #include "tests/core/joint/random_nodes.hpp"
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <random>
 
-#include "core/bevel/hole.hpp"
-#include "core/bevel/table.hpp"
-#include "core/bevel/tongue.hpp"
+#include "core/bevel/beam/tongue.hpp"
+#include "core/bevel/hole/hole.hpp"
+#include "core/bevel/table/table.hpp"
 #include "tests/support/line_distance.hpp"
 
 namespace tubecut::bevel {

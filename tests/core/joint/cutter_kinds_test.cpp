@@ -7,7 +7,7 @@
 
 #include "core/joint/cutters/cutter.hpp"
 #include "core/joint/intersection.hpp"
-#include "core/joint/sheets.hpp"
+#include "core/joint/node/sheets.hpp"
 #include "core/joint/solid.hpp"
 #include "core/math/rotation.hpp"
 #include "tests/support/cut_oracle.hpp"

@@ -10,7 +10,7 @@
 #include <optional>
 #include <random>
 
-#include "core/bevel/table.hpp"
+#include "core/bevel/table/table.hpp"
 #include "core/joint/intersection.hpp"
 
 namespace tubecut::joint {

@@ -1,4 +1,4 @@
-#include "core/joint/node.hpp"
+#include "core/joint/node/node.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/joint/overlap.hpp"
+#include "core/joint/node/overlap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is found through boxes of chords is what all chords together tell.
-#include "core/motion/chords.hpp"
+#include "core/motion/path/chords.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/motion/border.hpp"
-#include "core/motion/stretch.hpp"
+#include "core/motion/path/border.hpp"
+#include "core/motion/path/stretch.hpp"
 
 namespace tubecut::motion {
 namespace {

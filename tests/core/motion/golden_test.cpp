@@ -7,9 +7,9 @@
 #include <cmath>
 #include <ostream>
 
-#include "core/motion/course.hpp"
-#include "core/motion/reconstruction.hpp"
-#include "core/motion/schedule.hpp"
+#include "core/motion/path/course.hpp"
+#include "core/motion/replay/reconstruction.hpp"
+#include "core/motion/schedule/schedule.hpp"
 #include "tests/core/motion/jobs.hpp"
 
 namespace tubecut::motion::testing {

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json.hpp"
-#include "core/motion/schedule.hpp"
+#include "api/wire/json.hpp"
+#include "core/motion/schedule/schedule.hpp"
 
 namespace tubecut::motion::testing {
 

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
 

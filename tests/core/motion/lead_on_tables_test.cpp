@@ -8,9 +8,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "core/bevel/table.hpp"
-#include "core/motion/lead.hpp"
-#include "core/motion/program.hpp"
+#include "core/bevel/table/table.hpp"
+#include "core/motion/path/lead.hpp"
+#include "core/motion/path/program.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
 

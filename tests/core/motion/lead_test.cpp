@@ -8,8 +8,8 @@
 #include <cmath>
 #include <complex>
 
-#include "core/motion/program.hpp"
-#include "core/motion/replay.hpp"
+#include "core/motion/path/program.hpp"
+#include "core/motion/replay/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
 

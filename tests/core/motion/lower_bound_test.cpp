@@ -10,8 +10,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/motion/plan.hpp"
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
+#include "core/motion/timing/plan.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
 
 namespace tubecut::motion::testing {

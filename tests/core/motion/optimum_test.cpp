@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/motion/course.hpp"
+#include "core/motion/path/course.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-#include "core/motion/spec.hpp"
+#include "core/motion/schedule/spec.hpp"
 
 namespace tubecut::motion::testing {
 

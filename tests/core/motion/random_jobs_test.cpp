@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/motion/course.hpp"
-#include "core/motion/reconstruction.hpp"
-#include "core/motion/replay.hpp"
+#include "core/motion/path/course.hpp"
+#include "core/motion/replay/reconstruction.hpp"
+#include "core/motion/replay/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
 
 namespace tubecut::motion::testing {

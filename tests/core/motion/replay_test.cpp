@@ -1,6 +1,6 @@
 // Damaged schedules are refused, each by the invariant that section 9 of the spec names; and
 // metamorphic laws.
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
 
 #include <gtest/gtest.h>
 

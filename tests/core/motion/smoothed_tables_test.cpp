@@ -8,8 +8,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/bevel/table.hpp"
-#include "core/motion/schedule.hpp"
+#include "core/bevel/table/table.hpp"
+#include "core/motion/schedule/schedule.hpp"
 #include "tests/core/joint/random_nodes.hpp"
 
 namespace tubecut::motion::testing {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/plan.hpp"
-#include "core/motion/replay.hpp"
+#include "core/motion/replay/replay.hpp"
+#include "core/motion/timing/plan.hpp"
 #include "tests/core/motion/jobs.hpp"
 
 namespace tubecut::motion::testing {

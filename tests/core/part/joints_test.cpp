@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/bevel/end_tables.hpp"
+#include "core/bevel/table/end_tables.hpp"
 #include "tests/core/part/random_member.hpp"
 
 namespace tubecut::testing {

@@ -1,4 +1,4 @@
-#include "core/motion/straight_move.hpp"
+#include "core/motion/timing/straight_move.hpp"
 
 #include <gtest/gtest.h>
 

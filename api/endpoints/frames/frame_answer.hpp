@@ -1,0 +1,99 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/endpoints/frames/frame_part.hpp"
+#include "api/endpoints/frames/frame_request.hpp"
+#include "api/endpoints/parts.hpp"
+#include "api/wire/problem.hpp"
+#include "api/wire/writer.hpp"
+#include "api/worked.hpp"
+#include "core/frame/merge.hpp"
+
+namespace tubecut::api {
+
+/// How members and joints stand in the request where pieces in line are made one.
+struct Merges {
+  std::vector<std::string> ids;                  // of the request's members
+  std::vector<frame::PieceOf> of;                // of each of them
+  std::vector<std::vector<std::size_t>> pieces;  // of each member of the frame, from its start on
+  std::vector<double> off;                       // how far their ends lie beside its axis, mm
+  std::vector<std::size_t> joints;               // of each of the frame's: which it is
+};
+
+/// A frame whose joints are found, and its parts as requests.
+struct FrameJob : FrameRequest, FrameParts {
+  frame::Frame frame = {};
+  std::vector<std::size_t> part_of = {};  // of each member
+
+  /// What a member asks for itself, without names; nullptr where it cannot be read.
+  [[nodiscard]] const Parts::Spec* own(std::size_t member) const {
+    return forms[form_of[member]].get();
+  }
+  /// Where its part's start stands in the world.
+  [[nodiscard]] joint::MemberFrame start_of(std::size_t member) const {
+    return laid[member].stand(frame.pieces[member].frame);
+  }
+  std::optional<Merges> merged = {};
+};
+
+/// A part as /v1/parts answers, or why there is none.
+struct MadePart {
+  std::unique_ptr<const Worked<Parts>> made;
+  std::optional<Problem> problem;
+
+  [[nodiscard]] bool is_open() const { return !made && !problem; }  // still to be made
+};
+using MadeParts = std::vector<MadePart>;  // in the order of the frame's; none yet, or all
+
+// Members of the answer, each written from its name on. Where no part is made yet, what only a
+// part tells is left out.
+
+void write_members(const FrameJob& frame, const MadeParts& made, Writer& w);
+void write_joints(const FrameJob& frame, const MadeParts& made, Writer& w);
+void write_cut_list(const FrameJob& frame, const MadeParts& made, Writer& w);
+void write_totals(const FrameJob& frame, const MadeParts& made, Writer& w);
+void write_not_cut(const FrameJob& frame, Writer& w);
+/// Members of more pieces than one; nothing where none were to be merged.
+void write_merged(const FrameJob& frame, Writer& w);
+/// A part's answer is that of its own request to /v1/parts, byte by byte.
+void write_parts(const FrameJob& frame, const MadeParts& made, Writer& w);
+
+[[nodiscard]] const std::string& name_of_part(const FrameJob& frame, std::size_t part);
+[[nodiscard]] std::vector<std::string> members_of_part(const FrameJob& frame, std::size_t part);
+
+/// Where a finished part lies in the world as one of its members; rows are its x, y and z there.
+struct FramePlace {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d rows;
+};
+[[nodiscard]] FramePlace place_of(const FrameJob& frame, const Worked<Parts>& part,
+                                  std::size_t member);
+
+/// What stands in the cut list of one part behind its name, given to `row.field(name, value)` and
+/// `row.column(name, texts)`.
+template <class Row>
+void cut_list_row(const FrameJob& frame, std::size_t i, const MadePart& part, Row& row) {
+  const auto& m = frame.spec.members[frame.parts[i].members.front()];
+  const auto members = members_of_part(frame, i);
+  row.field("count", members.size());
+  row.column("members", members);
+  row.field("made_by", frame.spec.members[frame.parts[i].by].name);
+  row.field("differs_at_most_mm", frame.parts[i].differs);
+  row.field("outer_diameter_mm", 2.0 * m.outer_radius);
+  row.field("wall_mm", frame.walls[frame.parts[i].members.front()]);
+  if (!part.is_open()) row.field("verdict", part.made ? part.made->answer.verdict.status : "none");
+  if (!part.made) return;
+  const auto& lengths = part.made->out.lengths;
+  row.field("long_mm", lengths.longest);
+  row.field("blank_mm", lengths.blank);
+  row.field("girth_mm", kTwoPi * m.outer_radius);
+  row.field("weld_mm", lengths.weld);
+  row.field("mass_kg", lengths.mass);
+  row.field("result_sha256", part.made->answer.result_sha256);
+}
+
+}  // namespace tubecut::api

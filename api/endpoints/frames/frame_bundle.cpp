@@ -1,0 +1,255 @@
+#include "api/endpoints/frames/frame_bundle.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/api.hpp"
+#include "api/endpoints/frame_formats.hpp"
+#include "api/formats/gcode/gcode.hpp"
+#include "api/formats/provenance.hpp"
+#include "api/formats/zip_archive.hpp"
+#include "api/pipeline.hpp"
+#include "api/wire/file_name.hpp"
+#include "api/wire/format_choice.hpp"
+#include "api/wire/sha256.hpp"
+#include "api/wire/writer.hpp"
+
+namespace tubecut::api {
+namespace {
+
+/// A file of the archive.
+struct Bundled {
+  std::string name, format, media, sha256;
+  std::size_t bytes = 0;
+};
+/// A file that is asked for and not there.
+struct LeftOut {
+  std::string_view file;
+  Problem why;
+};
+struct Folder {
+  std::vector<Bundled> files;
+  std::vector<LeftOut> left_out;
+};
+
+class Bundle {
+ public:
+  explicit Bundle(const std::stop_token& stop) : stop_(stop) {}
+
+  Bundled add(std::string name, std::string_view format, std::string_view media,
+              std::string_view content) {
+    zip_.add(name, content, stop_);
+    return {std::move(name), std::string(format), std::string(media), sha256(content, stop_),
+            content.size()};
+  }
+  /// The name, or with a number behind it where another has it, whatever the case of its letters.
+  std::string own(const std::string& name) {
+    for (int i = 1;; ++i) {
+      auto one = i == 1 ? name : name + "-" + std::to_string(i);
+      auto folded = one;
+      for (auto& c : folded)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+      if (taken_.insert(std::move(folded)).second) return one;
+    }
+  }
+  std::string take() { return zip_.take(); }
+
+ private:
+  ZipArchive zip_;
+  std::set<std::string> taken_;
+  std::stop_token stop_;
+};
+
+/// What every file system takes in a name; the hash behind it makes it differ from a device's.
+std::string file_name(std::string_view text, std::string_view sha256) {
+  constexpr std::size_t kLongest = 120;  // bytes; with hash, number and ending less than 255
+  std::string out;
+  while (!text.empty()) {
+    auto rest = text;
+    (void)take_character(rest);
+    const auto one = text.substr(0, text.size() - rest.size());
+    if (out.size() + one.size() > kLongest) break;
+    out += std::string_view(" /\\:*?\"<>|%~").find(one) == std::string_view::npos ? one : "_";
+    text = rest;
+  }
+  if (out.starts_with('.') || out.starts_with('-')) out.front() = '_';
+  return out + "_" + std::string(sha256.substr(0, 8));
+}
+
+using References = std::vector<std::pair<std::string, std::string>>;
+
+References::iterator entry(References& all, std::string_view name) {
+  return std::ranges::find(all, name, &References::value_type::first);
+}
+
+/// How many of a part are to be made: one a member, of each of the frames that the job asks for.
+std::uint64_t quantity_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
+  auto all = caption.reference;
+  const auto frames = entry(all, "quantity");
+  return frame.parts[i].members.size() * (frames == all.end() ? 1 : std::stoull(frames->second));
+}
+
+/// The job's reference, its part with the member's id behind it, its quantity that of the part.
+References reference_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
+  auto out = caption.reference;
+  const auto& id = name_of_part(frame, i);
+  if (const auto part = entry(out, "part"); part != out.end())
+    part->second += " " + id;
+  else
+    out.emplace(out.begin(), "part", id);
+  const auto pieces = std::to_string(quantity_of(frame, i, caption));
+  if (const auto quantity = entry(out, "quantity"); quantity != out.end())
+    quantity->second = pieces;
+  else
+    out.emplace_back("quantity", pieces);
+  return out;
+}
+
+const FormatName& format_of(const BundleFile& file) {
+  return *std::ranges::find(format_names<Parts>(), file.format, &FormatName::name);
+}
+
+/// Of the codes acknowledged those that this part warns of.
+std::vector<std::string> acknowledged_of(const Answer& answer,
+                                         const std::vector<std::string>& all) {
+  std::vector<std::string> out;
+  for (const auto& code : all)
+    if (std::ranges::count(answer.verdict.codes, code) > 0) out.push_back(code);
+  return out;
+}
+
+/// Tabs of holes are of the parts that have any.
+bool has_tabs(const Worked<Parts>& part, const torch::Tabs& tabs) {
+  return tabs.of != torch::Tabs::Of::holes || !part.out.holes.empty();
+}
+
+void refuse_unmet(const MadeParts& made, const Caption& caption) {
+  if (const auto& tabs = caption.options.tabs;
+      tabs && std::ranges::none_of(made, [&](const MadePart& part) {
+        return part.made && has_tabs(*part.made, *tabs);
+      }))
+    throw UnfitOption{"tabs_of", "no part has a hole"};
+  for (const auto& code : caption.options.acknowledged)
+    if (std::ranges::none_of(made, [&](const MadePart& part) {
+          return part.made && std::ranges::count(part.made->answer.verdict.codes, code) > 0;
+        }))
+      throw UnfitOption{"acknowledge", "no part warns of " + code};
+}
+
+Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& part,
+                    const Caption& of_frame, Bundle& bundle) {
+  Folder out;
+  auto caption = of_frame;
+  caption.options = {};
+  caption.reference = reference_of(frame, i, of_frame);
+  caption.members = members_of_part(frame, i);
+  auto program = caption;  // what else the query says is of those alone
+  program.options = of_frame.options;
+  program.options.acknowledged = acknowledged_of(part.answer, of_frame.options.acknowledged);
+  if (const auto& tabs = of_frame.options.tabs; tabs && !has_tabs(part, *tabs))
+    program.options.tabs.reset();
+  const auto stem =
+      bundle.own(file_name(caption.reference.front().second, part.answer.result_sha256));
+  const auto request = dump(part.answer.request, of_frame.stop);
+  out.files.push_back(
+      bundle.add(stem + "/" + stem + ".request.json", "request", kJsonMedia, request));
+  for (const auto& file : of_frame.options.files) {
+    ask(of_frame.stop);
+    const auto& format = format_of(file);
+    auto text = print_document<Parts>(part.spec, part.out, format,
+                                      file.needs_speed ? program : caption, part.answer);
+    if (text) {
+      const auto as = file.needs_speed
+                          ? program_file(format, program.options, Parts::kId, {}, "")
+                          : ProgramFile{std::string(format.media), std::string(file.ending), ""};
+      out.files.push_back(bundle.add(stem + "/" + stem + as.ending, file.name, as.media, *text));
+    } else
+      out.left_out.push_back({file.name, std::move(text).error()});
+  }
+  return out;
+}
+
+void write_file(Writer& w, const Bundled& file) {
+  w.object([&](Writer& o) {
+    o.field("name", file.name);
+    o.field("format", file.format);
+    o.field("media", file.media);
+    o.field("bytes", file.bytes);
+    o.field("sha256", file.sha256);
+  });
+}
+
+void write_problem(const Problem& why, Writer& o) {
+  o.field("code", info(why.code).code);
+  if (!why.detail.empty()) o.field("detail", why.detail);
+  write_issues(o, why.issues);
+}
+
+void write_folder_row(const FrameJob& frame, std::size_t i, const MadePart& part,
+                      const Folder& folder, const Caption& caption, Writer& o) {
+  o.field("part", name_of_part(frame, i));
+  o.field("quantity", quantity_of(frame, i, caption));
+  o.column("members", members_of_part(frame, i));
+  if (part.problem) return o.object("problem", [&](Writer& p) { write_problem(*part.problem, p); });
+  const auto& answer = part.made->answer;
+  o.field("verdict", answer.verdict.status);
+  o.column("reasons", answer.verdict.reasons);
+  o.field("input_sha256", answer.input_sha256);
+  o.field("result_sha256", answer.result_sha256);
+  o.array("files", folder.files, write_file);
+  o.array("left_out", folder.left_out, [](Writer& each, const LeftOut& one) {
+    each.object([&](Writer& l) {
+      l.field("format", one.file);
+      write_problem(one.why, l);
+    });
+  });
+}
+
+std::string manifest(const FrameJob& frame, const MadeParts& made,
+                     const std::vector<Folder>& folders, const std::vector<Bundled>& files,
+                     const Caption& caption) {
+  Writer out(1 << 12, caption.stop);
+  out.object([&](Writer& w) {
+    write_provenance(caption, w);
+    w.array("files", files, write_file);
+    std::vector<std::size_t> parts(made.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = i;
+    w.array("parts", parts, [&](Writer& each, std::size_t i) {
+      each.object([&](Writer& o) { write_folder_row(frame, i, made[i], folders[i], caption, o); });
+    });
+    write_not_cut(frame, w);
+  });
+  return out.take() + "\n";
+}
+
+}  // namespace
+
+std::string frame_bundle(const FrameJob& frame, const MadeParts& made, const Caption& caption) {
+  refuse_unmet(made, caption);
+  Bundle bundle(caption.stop);
+  std::vector<Folder> folders(made.size());
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (const auto& part = made[i].made)
+      folders[i] = write_folder(frame, i, *part, caption, bundle);
+  const std::vector files{
+      bundle.add("cut-list.csv", "cut-list", "text/csv", cut_list_csv(frame, made, caption)),
+      bundle.add("request.json", "request", kJsonMedia, dump(*caption.request, caption.stop))};
+  bundle.add("manifest.json", "manifest", kJsonMedia,
+             manifest(frame, made, folders, files, caption));
+  return bundle.take();
+}
+
+const std::vector<std::string_view>& bundle_options() {
+  static const auto kOptions = [] {
+    std::vector<std::string_view> all{kFilesOption};
+    all.insert(all.end(), gcode_options().begin(), gcode_options().end());
+    return all;
+  }();
+  return kOptions;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,368 @@
+#include "api/endpoints/frames/frame_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "api/endpoints/frames/frame_shape.hpp"
+#include "api/wire/common_fields.hpp"
+#include "api/wire/frame_names.hpp"
+#include "api/wire/sha256.hpp"
+#include "api/wire/writer.hpp"
+#include "core/base/try.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Numbers are written as far as they matter, so that what is alike is written alike: lengths to
+/// 1e-6 mm, angles to 1e-11 deg, directions to 1e-12: an axis may be given by a far foot.
+Json tidy(double value, double to) {
+  const double out = std::round(value * to) / to;
+  return Json{out == 0.0 ? 0.0 : out};
+}
+Json mm(double value) { return tidy(value, 1e6); }
+Json deg(Angle angle) {
+  const auto out = tidy(angle.deg(), 1e11);
+  return out == Json{360.0} ? Json{0.0} : out;
+}
+Json vector(const Vector3d& v, double to) {
+  return Json{Json::Array{tidy(v.x(), to), tidy(v.y(), to), tidy(v.z(), to)}};
+}
+Json point(const Vector3d& v) { return vector(v, 1e6); }
+Json direction(const Vector3d& v) { return vector(v, 1e12); }
+Json axis(const Vector3d& at, const Vector3d& along) {
+  return Json{Json::Object{{"point_mm", point(at)}, {"direction", direction(along)}}};
+}
+
+/// A cutter's own members but `kind`: one case for every kind.
+struct Fields {
+  using All = Json::Object;
+  All operator()(const joint::TubeCutter& t) const {
+    return {{"outer_diameter_mm", mm(2.0 * t.radius)},
+            {"inclination_deg", deg(t.inclination)},
+            {"clocking_deg", deg(t.clocking)},
+            {"offset_mm", mm(t.offset)},
+            {"height_mm", mm(t.height)}};
+  }
+  All operator()(const joint::AxisTube& t) const {
+    return {{"outer_diameter_mm", mm(2.0 * t.radius)},
+            {"axis", axis(t.axis.point, t.axis.direction)}};
+  }
+  All operator()(const joint::PlaneCutter& p) const {
+    return {{"point_mm", point(p.point)}, {"normal", direction(p.normal)}};
+  }
+  All operator()(const joint::RectangularTubeCutter& t) const {
+    return {{"width_mm", Json{t.width}},
+            {"height_mm", Json{t.height}},
+            {"corner_radius_mm", Json{t.corner}},
+            {"axis", axis(t.point, t.direction)},
+            {"up", direction(t.up)}};
+  }
+  All operator()(const joint::ConeCutter& c) const {
+    return {{"outer_diameter_mm", mm(2.0 * c.radius)},
+            {"half_angle_deg", deg(c.half_angle)},
+            {"axis", axis(c.point, c.direction)}};
+  }
+  All operator()(const joint::ElbowCutter& e) const {
+    return {{"outer_diameter_mm", mm(2.0 * e.radius)},
+            {"bend_radius_mm", Json{e.bend_radius}},
+            {"bend_deg", deg(e.bend)},
+            {"axis", axis(e.point, e.direction)},
+            {"inwards", direction(e.inwards)}};
+  }
+};
+
+/// What the parts are called. Without ids nothing is named but what stands on a part.
+struct Names {
+  bool ids = false;
+  std::vector<std::string> of_members;  // of the part that each is
+};
+
+class PartWriter {
+ public:
+  PartWriter(const FrameRequest& request, const frame::Frame& frame)
+      : request_(request), frame_(frame) {
+    for (std::size_t i = 0; i < request.ends.size(); ++i)
+      own_ends_.emplace(std::pair{request.ends[i].member, request.ends[i].end}, i);
+  }
+
+  [[nodiscard]] Result<Json> part(std::size_t member, const Names& names) const {
+    const auto& piece = frame_.pieces[member];
+    Json::Object target{{"outer_diameter_mm", mm(2.0 * piece.target.outer_radius)},
+                        {"wall_mm", Json{request_.walls[member]}},
+                        {"length_mm", mm(*piece.target.length)}};
+    if (names.ids) target.emplace(target.begin(), "id", Json{names.of_members[member]});
+    TRY(auto start, end(member, joint::End::start, names));
+    TRY(auto finish, end(member, joint::End::finish, names));
+    Json::Object out{
+        {"target", Json{std::move(target)}},
+        {"ends", Json{Json::Object{{"start", std::move(start)}, {"finish", std::move(finish)}}}}};
+    if (!piece.stands.empty()) out.emplace_back("marks", marks(piece, names));
+    if (!piece.holes.empty()) {
+      TRY(auto all, holes(piece, names));
+      out.emplace_back("holes", std::move(all));
+    }
+    for (const auto& one : request_.once) out.push_back(one);
+    return Json{std::move(out)};
+  }
+
+ private:
+  [[nodiscard]] const OwnCut* said(std::size_t joint) const {
+    const auto& stated = frame_.joints[joint].stated;
+    return stated ? &request_.cuts[*stated] : nullptr;
+  }
+
+  [[nodiscard]] const std::vector<frame::Cutter>& cutters(std::size_t member,
+                                                          joint::End end) const {
+    const auto& piece = frame_.pieces[member];
+    return end == joint::End::start ? piece.start : piece.finish;
+  }
+
+  /// What the joints of an end say of a field; null where none does.
+  [[nodiscard]] Result<Json> said_of(const std::vector<frame::Cutter>& cutters, const char* field,
+                                     Json OwnCut::*of) const {
+    const Json* first = nullptr;
+    for (const auto& one : cutters) {
+      const auto* own = said(one.joint);
+      const bool on_hole =
+          of == &OwnCut::groove && frame_.joints[one.joint].how.kind == frame::How::Kind::set_in;
+      if (own == nullptr || own->*of == Json{} || on_hole) continue;
+      if (first != nullptr && !(*first == own->*of))
+        return fail(
+            {.code = ErrorCode::joint_contradicts,
+             .member = "joints/" + std::to_string(*frame_.joints[one.joint].stated) + "/" + field,
+             .hint = "another joint of this end states it otherwise"});
+      first = &(own->*of);
+    }
+    return first == nullptr ? Json{} : *first;
+  }
+
+  /// How an end is cut: what it says itself, else what its joints say, else the defaults.
+  [[nodiscard]] Result<Json::Object> cut(std::size_t member, joint::End end) const {
+    auto out = request_.end;
+    const auto own = own_ends_.find({member, end});
+    for (const auto& [field, of] : {std::pair{"groove", &OwnCut::groove},
+                                    {"contact", &OwnCut::contact},
+                                    {"root_face_mm", &OwnCut::root_face},
+                                    {"smoothing", &OwnCut::smoothing}}) {
+      auto value = own == own_ends_.end() ? Json{} : request_.ends[own->second].cut.*of;
+      if (value == Json{}) {
+        TRY(value, said_of(cutters(member, end), field, of));
+      }
+      if (value == Json{}) continue;
+      std::ranges::find(out, field, &Json::Member::first)->second = std::move(value);
+    }
+    if (const auto kerf = own_kerf(own); !(kerf == Json{})) out.emplace_back("kerf_mm", kerf);
+    return out;
+  }
+
+  using OwnEnds = std::map<std::pair<std::size_t, joint::End>, std::size_t>;
+  [[nodiscard]] Json own_kerf(OwnEnds::const_iterator own) const {
+    return own == own_ends_.end() ? Json{} : request_.ends[own->second].cut.kerf;
+  }
+
+  /// Left square: its kerf is all there is to say.
+  [[nodiscard]] Result<Json> square_end(std::size_t member, joint::End end) const {
+    Json::Object out{{"square_at_mm", Json{0.0}}};
+    const auto own = own_ends_.find({member, end});
+    if (own == own_ends_.end()) return Json{std::move(out)};
+    const auto& cut = request_.ends[own->second].cut;
+    for (const auto& [field, value] : {std::pair{"groove", &cut.groove},
+                                       {"contact", &cut.contact},
+                                       {"root_face_mm", &cut.root_face},
+                                       {"smoothing", &cut.smoothing}})
+      if (!(*value == Json{}))
+        return fail({.code = ErrorCode::unsupported_combination,
+                     .member = "ends/" + std::to_string(own->second) + "/" + field,
+                     .hint = "nothing is joined to this end: it is left square"});
+    if (!(cut.kerf == Json{})) out.emplace_back("kerf_mm", cut.kerf);
+    return Json{std::move(out)};
+  }
+
+  [[nodiscard]] Result<Json> end(std::size_t member, joint::End which, const Names& names) const {
+    const auto& all = cutters(member, which);
+    if (all.empty()) return square_end(member, which);
+    Json::Array cutters, joints;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto kind =
+          joint::by_kind(all[i].partner, []<class Kind>(const Kind&) { return Kind::kName; });
+      Json::Object cutter{{"kind", Json{std::string(kind)}}};
+      if (names.ids)
+        if (const auto name = cutter_name(all[i], names); !name.empty())
+          cutter.emplace_back("id", Json{name});
+      std::ranges::move(joint::by_kind(all[i].partner, Fields{}), std::back_inserter(cutter));
+      cutters.emplace_back(std::move(cutter));
+      if (all[i].stated) joints.push_back(joint(i, *all[i].stated, all[i].missing));
+    }
+    Json::Object out{{"cutters", Json{std::move(cutters)}}, {"joints", Json{std::move(joints)}}};
+    TRY(auto how, cut(member, which));
+    for (auto& one : how) out.push_back(std::move(one));
+    return Json{std::move(out)};
+  }
+
+  /// A mitre's plane is nobody's.
+  [[nodiscard]] std::string cutter_name(const frame::Cutter& one, const Names& names) const {
+    const auto& joint = frame_.joints[one.joint];
+    if (joint.other) return request_.spec.others[joint.chord].name;
+    if (std::holds_alternative<joint::PlaneCutter>(one.partner)) return {};
+    return names.of_members[joint.chord];
+  }
+
+  static Json joint(std::size_t cutter, const joint::Joint& joint, double missing) {
+    Json::Object out{{"cutter", Json{static_cast<double>(cutter)}},
+                     {"kind", Json{std::string(name_of(joint.kind))}},
+                     {"gap_mm", Json{joint.gap}}};
+    if (joint.kind == joint::JointKind::set_in && joint.depth)
+      out.emplace_back("depth_mm", Json{*joint.depth});
+    if (missing > 0.0) out.emplace_back("missing_mm", tidy(missing, 1e3));
+    return Json{std::move(out)};
+  }
+
+  static Json marks(const frame::Piece& piece, const Names& names) {
+    Json::Array out;
+    for (const auto& [mark, member] : piece.stands)
+      out.emplace_back(Json::Object{{"text", Json{names.of_members[member]}},
+                                    {"phi_deg", deg(Angle::rad(mark.phi))},
+                                    {"z_mm", mm(mark.z_from)}});
+    return Json{std::move(out)};
+  }
+
+  [[nodiscard]] Result<Json> holes(const frame::Piece& piece, const Names& names) const {
+    Json::Array out;
+    for (const auto& hole : piece.holes) {
+      const auto& how = frame_.joints[hole.joint].how;
+      auto branch = Fields{}(hole.branch);
+      branch.emplace(branch.begin(), "id", Json{names.of_members[hole.member]});
+      branch.insert(branch.begin() + 2, {"wall_mm", Json{request_.walls[hole.member]}});
+      Json::Object joint{{"kind", Json{std::string(name_of(how.kind))}}, {"gap_mm", Json{how.gap}}};
+      if (how.kind == frame::How::Kind::set_in && how.depth)
+        joint.emplace_back("depth_mm", Json{*how.depth});
+      TRY(auto groove, hole_groove(hole));
+      const auto* own = said(hole.joint);
+      const auto& tilt = own != nullptr && !(own->tilt == Json{}) ? own->tilt : request_.tilt;
+      out.emplace_back(Json::Object{{"branch", Json{std::move(branch)}},
+                                    {"joint", Json{std::move(joint)}},
+                                    {"groove", std::move(groove)},
+                                    {"tilt", tilt}});
+    }
+    return Json{std::move(out)};
+  }
+
+  /// Set on: that of the branch's end.
+  [[nodiscard]] Result<Json> hole_groove(const frame::Hole& hole) const {
+    const auto* own = said(hole.joint);
+    if (frame_.joints[hole.joint].how.kind == frame::How::Kind::set_on) {
+      TRY(const auto end, cut(hole.member, hole.end));
+      for (const auto& [name, value] : end)
+        if (name == "groove") return value;
+    }
+    if (own != nullptr && !(own->groove == Json{})) return own->groove;
+    for (const auto& [name, value] : request_.end)
+      if (name == "groove") return value;
+    return Json{};
+  }
+
+  const FrameRequest& request_;
+  const frame::Frame& frame_;
+  OwnEnds own_ends_;
+};
+
+/// Members by the text of their requests without ids.
+struct Forms {
+  std::vector<std::string> texts;
+  std::vector<std::size_t> of_members;
+  std::vector<std::unique_ptr<const Parts::Spec>> read;
+};
+
+std::unique_ptr<const Parts::Spec> read(const Json& part) {
+  Reader in(part);
+  (void)read_common_fields(in, Parts::kAccepts);
+  auto spec = Parts::decode(in);
+  if (!in.finish_root().empty()) return nullptr;
+  return std::make_unique<const Parts::Spec>(std::move(spec));
+}
+
+Result<Forms> forms(const PartWriter& writer, const Names& names, const std::stop_token& stop) {
+  Forms out;
+  std::map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < names.of_members.size(); ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    TRY(const auto part, writer.part(i, names));
+    auto text = dump(part);
+    const auto [at, fresh] = known.emplace(text, out.texts.size());
+    out.of_members.push_back(at->second);
+    if (!fresh) continue;
+    out.texts.push_back(std::move(text));
+    out.read.push_back(read(part));
+  }
+  return out;
+}
+
+/// Members as shapes, with the names of the parts that they are so far.
+Result<std::vector<frame::Shape>> shapes(const PartWriter& writer, const Forms& forms,
+                                         const Names& names) {
+  std::vector<frame::Shape> out;
+  for (std::size_t i = 0; i < names.of_members.size(); ++i) {
+    TRY(const auto part, writer.part(i, names));
+    out.push_back(shape_of(part));
+    out.back().form = forms.of_members[i];
+    out.back().key += names.of_members[i];
+  }
+  return out;
+}
+
+/// At first nothing tells parts apart but their shape; then what stands on them does too, by the
+/// part that it is: until no group falls apart any more.
+Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const Forms& known,
+                                                const FrameRequest& request, Names& names,
+                                                const std::stop_token& stop) {
+  std::vector<const part::PartSpec*> parts;
+  for (const auto& one : known.read) parts.push_back(one ? &one->part : nullptr);
+  frame::Gatherer gatherer(parts, known.texts, request.alike_within);
+  for (std::size_t before = 0;;) {
+    TRY(const auto all, shapes(writer, known, names));
+    TRY(auto groups, gatherer.groups(all, stop));
+    for (const auto& group : groups)
+      for (const auto& [i, laid] : group.shapes)
+        names.of_members[i] = request.spec.members[group.shapes.front().first].name;
+    if (groups.size() == before) return groups;
+    before = groups.size();
+  }
+}
+
+}  // namespace
+
+Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
+                            const std::stop_token& stop) {
+  const auto members = request.spec.members.size();
+  const PartWriter writer(request, frame);
+  Names names{.ids = false, .of_members = std::vector<std::string>(members, "-")};
+  TRY(auto known, forms(writer, names, stop));
+  TRY(auto groups, gathered(writer, known, request, names, stop));
+  FrameParts out{.parts = {},
+                 .laid = std::vector<frame::Laid>(members),
+                 .forms = std::move(known.read),
+                 .form_of = std::move(known.of_members)};
+  auto named = names;
+  named.ids = true;
+  for (auto& group : groups) {
+    FramePart part{.members = {}, .by = group.by};
+    for (auto& [i, laid] : group.shapes) {
+      part.members.push_back(i);
+      part.differs = std::max(part.differs, laid.differs);
+      out.laid[i] = std::move(laid);
+    }
+    TRY(const auto unnamed, writer.part(group.by, names));
+    part.sha256 = sha256(dump(unnamed), stop);
+    TRY(part.request, writer.part(group.by, named));
+    out.parts.push_back(std::move(part));
+  }
+  std::ranges::sort(out.parts, {}, [](const FramePart& p) { return p.members.front(); });
+  return out;
+}
+
+}  // namespace tubecut::api

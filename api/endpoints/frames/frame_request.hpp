@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "api/endpoints/tube_laser.hpp"
+#include "api/wire/json.hpp"
+#include "api/wire/reader.hpp"
+#include "core/frame/frame.hpp"
+
+namespace tubecut::api {
+
+/// What a stated joint or an end says of its cuts beside `defaults`; null where it says nothing.
+struct OwnCut {
+  Json groove = {}, contact = {}, root_face = {};
+  Json tilt = {};                  // of a joint
+  Json smoothing = {}, kerf = {};  // of an end
+  friend bool operator==(const OwnCut&, const OwnCut&) = default;
+};
+
+/// How one end is cut, whatever its joints and the defaults say.
+struct OwnEnd {
+  std::size_t member = 0;
+  joint::End end = joint::End::start;
+  OwnCut cut = {};
+};
+
+/// A /v1/frames request.
+struct FrameRequest {
+  Preset preset = Preset::none;
+  frame::FrameSpec spec;
+  std::vector<double> walls;        // of each member as it is given, perhaps out of range
+  std::vector<std::size_t> others;  // of each of the others: which of the request's it is
+  std::size_t others_left_out = 0;  // of too many, those that no joint names
+  Json::Object end;                 // how an end is cut by default, as a part's end says it
+  Json tilt;                        // of a hole by default
+  double alike_within = 0.0;        // mm: parts whose finished surfaces differ by no more are one
+  std::vector<OwnCut> cuts;         // of each stated joint
+  std::vector<OwnEnd> ends;         // each end once
+  bool merge = false;               // pieces in line are one member
+  Json::Object once;                // what every part has once: preset, kerf, torch and the like
+};
+
+[[nodiscard]] FrameRequest decode_frame_request(Reader& in);
+
+}  // namespace tubecut::api

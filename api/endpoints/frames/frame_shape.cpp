@@ -1,0 +1,75 @@
+#include "api/endpoints/frames/frame_shape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/wire/writer.hpp"
+
+namespace tubecut::api {
+namespace {
+
+/// Without some of its members.
+template <std::size_t N>
+Json without(const Json& of, const std::array<std::string_view, N>& names) {
+  Json::Object out;
+  for (const auto& member : *of.as<Json::Object>())
+    if (std::ranges::find(names, member.first) == names.end()) out.push_back(member);
+  return Json{std::move(out)};
+}
+
+std::string text(const Json& value) {
+  const auto* found = value.as<std::string>();
+  return found == nullptr ? std::string() : *found;
+}
+
+/// Without where it stands; what a round one calls its height is a size of a rectangular one.
+std::string partner_key(const Json& partner) {
+  static constexpr std::array<std::string_view, 9> kRound{
+      "axis",         "up",        "inwards",  "point_mm", "normal", "inclination_deg",
+      "clocking_deg", "offset_mm", "height_mm"};
+  static constexpr std::array<std::string_view, 5> kOther{"axis", "up", "inwards", "point_mm",
+                                                          "normal"};
+  const auto* kind = partner.find("kind");
+  const bool round = kind == nullptr || text(*kind) == "tube";  // a hole's branch has no kind
+  return dump(round ? without(partner, kRound) : without(partner, kOther));
+}
+
+/// How the end is cut; and of each partner what it is and how it is joined.
+std::string end_key(const Json& end, std::vector<std::string>& partners) {
+  static constexpr std::array<std::string_view, 2> kPlaced{"cutters", "joints"};
+  static constexpr std::array<std::string_view, 1> kIndex{"cutter"};
+  const auto* cutters = end.find("cutters");
+  const auto* joints = end.find("joints");
+  if (cutters == nullptr) {
+    partners.emplace_back();  // square
+    return dump(end);
+  }
+  for (const auto& one : *cutters->as<Json::Array>()) partners.push_back(partner_key(one));
+  for (const auto& one : *joints->as<Json::Array>())
+    partners[static_cast<std::size_t>(*one.find("cutter")->as<double>())] +=
+        dump(without(one, kIndex));
+  return dump(without(end, kPlaced));
+}
+
+}  // namespace
+
+frame::Shape shape_of(const Json& part) {
+  static constexpr std::array<std::string_view, 1> kLength{"length_mm"};
+  static constexpr std::array<std::string_view, 1> kBranch{"branch"};
+  frame::Shape out;
+  out.key = dump(without(*part.find("target"), kLength));
+  const auto& ends = *part.find("ends");
+  out.key += end_key(*ends.find("start"), out.start);
+  out.key += end_key(*ends.find("finish"), out.finish);
+  if (const auto* marks = part.find("marks"))
+    for (const auto& one : *marks->as<Json::Array>()) out.marks.push_back(text(*one.find("text")));
+  if (const auto* holes = part.find("holes"))
+    for (const auto& one : *holes->as<Json::Array>())
+      out.holes.push_back(partner_key(*one.find("branch")) + dump(without(one, kBranch)));
+  return out;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,261 @@
+#include "api/endpoints/frames/node_codec.hpp"
+
+#include <algorithm>
+
+#include "api/endpoints/frames/renaming.hpp"
+#include "api/endpoints/hole_codec.hpp"
+#include "api/endpoints/joint_codec.hpp"
+#include "api/limits.hpp"
+#include "core/base/try.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr Range kDistance{.min = 0.0, .max = limit::offset_max_mm};
+constexpr Range kComponent{.min = -1e6, .max = 1e6};
+constexpr int kPriorities = 1'000;
+constexpr auto kMembers = static_cast<std::size_t>(limit::members_max);
+
+constexpr std::size_t kMostJoints = 1'000;  // of one member, with others
+
+/// A member, and what it says of its joints, the others still by name.
+struct NamedMember {
+  joint::Member member;
+  std::vector<std::pair<std::string, joint::Joint>> joints;
+};
+
+/// What a member may be beside what the service cuts: only to know where it is.
+constexpr Range kSomewhere{.min = -1e8, .max = 1e8};
+constexpr Range kSomeSize{.min = 0.0, .max = 1e5, .open_min = true};
+
+/// Diameter and wall, whatever they are.
+TubeSection decode_any_section(Reader& in) {
+  if (in.has("size")) return decode_tube_section(in, true);
+  TubeSection out;
+  out.outer_radius = in.number("outer_diameter_mm", kSomeSize) / 2.0;
+  out.wall = in.number("wall_mm", kSomeSize);
+  return out;
+}
+
+NamedMember decode_member(Reader& in, bool with_joints, bool any_size = false) {
+  NamedMember named;
+  auto& out = named.member;
+  out.name = in.text("id");
+  out.start = in.vector3("start_mm", any_size ? kSomewhere : kOffset);
+  out.finish = in.vector3("end_mm", any_size ? kSomewhere : kOffset);
+  const auto section = any_size ? decode_any_section(in) : decode_tube_section(in, true);
+  out.outer_radius = section.outer_radius;
+  out.wall = section.wall;
+  out.priority = in.integer("priority", 0, kPriorities, 0);
+  in.note("up");
+  if (in.has("up")) out.up = in.vector3("up", kComponent);
+  if (with_joints) in.note("joints");
+  if (with_joints && in.has("joints"))
+    named.joints = in.array("joints", {.min = 0, .max = kMostJoints}, [](Reader& j) {
+      auto with = j.text("member");
+      return std::pair{std::move(with), decode_joint_kind(j, kDiameter.max / 2.0, true)};
+    });
+  return named;
+}
+
+MemberIds decode_ids(Reader& in, const std::vector<joint::Member>& members) {
+  MemberIds out;
+  const auto* field = in.find("members");
+  const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
+  out.complete = items != nullptr && !items->empty() && items->size() == members.size();
+  for (const auto& member : members) out.complete = out.complete && !member.name.empty();
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (!members[i].name.empty() && !out.places.emplace(members[i].name, i).second) {
+      out.complete = false;  // which member had the id that is missing now, nobody knows
+      in.issue({.code = ErrorCode::duplicate_id,
+                .pointer = "members/" + std::to_string(i) + "/id",
+                .got = Json{members[i].name},
+                .hint = "duplicate: another member has this id"});
+    }
+  return out;
+}
+
+/// The joints that members state, in the order of the members.
+std::vector<joint::StatedJoint> stated_joints(Reader& in, const MemberIds& ids,
+                                              const std::vector<NamedMember>& members) {
+  std::vector<joint::StatedJoint> out;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    for (std::size_t j = 0; j < members[i].joints.size(); ++j) {
+      const auto& [with, joint] = members[i].joints[j];
+      const auto pointer =
+          "members/" + std::to_string(i) + "/joints/" + std::to_string(j) + "/member";
+      const auto other = known_member(in, ids, with, pointer);
+      if (!with.empty() && with == members[i].member.name)
+        in.issue({.code = ErrorCode::bad_choice,
+                  .pointer = pointer,
+                  .got = Json{with},
+                  .hint = "a member cannot join itself"});
+      out.push_back({.member = i, .with = other, .joint = joint});
+    }
+  return out;
+}
+
+joint::Link decode_link(Reader& in, const MemberIds& ids) {
+  joint::Link out;
+  const auto own = in.text("member");
+  out.member = known_member(in, ids, own, "member");
+  out.end = in.choice("end", kNames<joint::End>);
+  const auto to = in.text_column("to", {.min = 1, .max = joint::kMostCutters});
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const auto pointer = "to/" + std::to_string(i);
+    const auto other = known_member(in, ids, to[i], pointer);
+    if (!own.empty() && to[i] == own)
+      in.issue({.code = ErrorCode::bad_choice,
+                .pointer = pointer,
+                .got = Json{to[i]},
+                .hint = "a member cannot join itself"});
+    out.to.push_back(other);
+  }
+  return out;
+}
+
+NodeEnd decode_end(Reader& in) {
+  auto node = decode_named_node(in);
+  NodeEnd out{.node = std::move(node.spec)};
+  out.member = known_member(in, node.ids, in.text("member"), "member");
+  out.end = in.choice("end", kNames<joint::End>);
+  return out;
+}
+
+/// Target and cutters as the members that they are.
+Renamings renamings(const JointSource& source) {
+  const auto of = [](std::size_t i) { return "node/members/" + std::to_string(i); };
+  const auto& found = source.found;
+  Renamings out;
+  for (std::size_t i = 0; i < found.cutters.size(); ++i)
+    out.push_back({"cutters/" + std::to_string(i), of(found.cutters[i]), false});
+  for (const auto* one : {"cutters", "target"}) out.push_back({one, of(found.member), false});
+  return out;
+}
+
+}  // namespace
+
+std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id,
+                         const std::string& pointer) {
+  const auto found = ids.places.find(id);
+  if (found != ids.places.end()) return found->second;
+  if (id.empty() || !ids.complete) return 0;  // has its issue already
+  std::vector<std::string> names;
+  for (const auto& [name, place] : ids.places) names.push_back(name);
+  const auto near = nearest_name(id, names);
+  in.issue({.code = ErrorCode::bad_choice,
+            .pointer = pointer,
+            .got = Json{id},
+            .hint = near.empty() ? "no member has this id" : "did you mean " + near + "?"});
+  return 0;
+}
+
+NamedNode decode_named_node(Reader& in) {
+  NamedNode out;
+  const auto members = in.array("members", {.min = 1, .max = kMembers},
+                                [](Reader& m) { return decode_member(m, true); });
+  for (const auto& one : members) out.spec.members.push_back(one.member);
+  out.ids = decode_ids(in, out.spec.members);
+  out.spec.joints = stated_joints(in, out.ids, members);
+  if (in.is<Json::Array>("connect"))
+    out.spec.connect = in.array("connect", {.min = 1, .max = 2 * kMembers},
+                                [&](Reader& link) { return decode_link(link, out.ids); });
+  else
+    out.spec.connect = in.object(
+        "connect", [](Reader& c) { return joint::Within{c.number("within_mm", kDistance)}; });
+  return out;
+}
+
+namespace {
+
+/// Which members are out of range and nothing else, where another one is not: those have no part,
+/// and the others stand.
+std::vector<bool> out_of_range(Reader& in) {
+  const auto* field = in.find("members");
+  const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
+  std::vector<bool> out;
+  bool any = false;
+  for (std::size_t i = 0; items != nullptr && i < items->size(); ++i) {
+    Reader alone((*items)[i]);
+    alone.set_stop(in.stop());
+    if ((*items)[i].as<Json::Object>() != nullptr) (void)decode_member(alone, false);
+    const auto issues = alone.finish_root();
+    any = any || issues.empty();
+    out.push_back(!issues.empty() && std::ranges::all_of(issues, [](const FieldIssue& issue) {
+      return issue.code == ErrorCode::out_of_range;
+    }));
+  }
+  if (!any) out.assign(out.size(), false);
+  return out;
+}
+
+}  // namespace
+
+NamedMembers decode_named_members(Reader& in) {
+  constexpr double kThickest = 0.9;  // of a radius: what a wall is drawn as that is beyond it
+  NamedMembers out;
+  const auto any_size = out_of_range(in);
+  for (auto& one : in.array("members", {.min = 1, .max = kMembers}, [&](Reader& m) {
+         const auto i = out.walls.size();
+         auto member = decode_member(m, false, i < any_size.size() && any_size[i]);
+         out.walls.push_back(member.member.wall);
+         return member;
+       })) {
+    auto& m = one.member;
+    if (!(m.wall < m.outer_radius)) m.wall = kThickest * m.outer_radius;
+    out.members.push_back(std::move(m));
+  }
+  out.ids = decode_ids(in, out.members);
+  return out;
+}
+
+joint::NodeSpec decode_node(Reader& in) { return decode_named_node(in).spec; }
+
+JointSource decode_joint(Reader& in) {
+  JointSource out;
+  const auto which = in.exactly_one({"target", "node"});
+  in.note("cutters");
+  if (which == 1) {
+    out.node = in.object("node", decode_end);
+    if (in.has("cutters"))
+      in.issue({.code = ErrorCode::exclusive_fields,
+                .pointer = "cutters",
+                .hint = "the node's members are the cutters"},
+               in.find("cutters"));
+  } else if (which == 0) {
+    out.target = decode_target(in);
+    out.partners = decode_cutters(in);
+  }
+  return out;
+}
+
+Result<JointSource> resolve(JointSource source, const std::stop_token& stop) {
+  if (!source.node) return source;
+  const auto& asked = *source.node;
+  TRY(source.found, under("node", joint::joint_at(asked.node, asked.member, asked.end, stop)));
+  source.target = source.found.target;
+  source.partners = source.found.partners;
+  source.stated = source.found.stated;
+  return source;
+}
+
+Error on_node(const JointSource& source, Error error) {
+  if (!source.node) return error;
+  return renamed(std::move(error), renamings(source));
+}
+
+std::vector<Warning> on_node(const JointSource& source, std::vector<Warning> warnings) {
+  if (!source.node) return warnings;
+  warnings = renamed(std::move(warnings), renamings(source));
+  for (auto& warning : under("node", source.found.warnings)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+std::vector<std::string> cutter_ids(const JointSource& source) {
+  std::vector<std::string> out;
+  if (source.node)
+    for (const auto i : source.found.cutters) out.push_back(source.node->node.members[i].name);
+  return out;
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "api/wire/reader.hpp"
+#include "core/joint/node/node.hpp"
+
+namespace tubecut::api {
+
+/// Places of a node's members by id.
+struct MemberIds {
+  std::map<std::string, std::size_t, std::less<>> places;
+  bool complete = true;  // every member has told its id: an unknown one is wrong
+};
+/// The member whose id is `id`; `pointer` names the field for an issue.
+std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id,
+                         const std::string& pointer);
+/// `members` of a frame, whose joints are said elsewhere.
+struct NamedMembers {
+  std::vector<joint::Member> members;
+  std::vector<double> walls;  // as they are given: of one out of range its member has another
+  MemberIds ids;
+};
+/// One out of range has no issue, unless all are: its part will tell.
+[[nodiscard]] NamedMembers decode_named_members(Reader& in);
+
+struct NamedNode {
+  joint::NodeSpec spec;
+  MemberIds ids;
+};
+[[nodiscard]] NamedNode decode_named_node(Reader& in);
+
+/// `members` and `connect`: what /v1/nodes asks, and what stands inside `node` elsewhere.
+[[nodiscard]] joint::NodeSpec decode_node(Reader& in);
+
+/// One end of one member of a node.
+struct NodeEnd {
+  joint::NodeSpec node;
+  std::size_t member = 0;
+  joint::End end = joint::End::start;
+};
+
+/// A joint given directly, or as one end of a node: exactly one of the two.
+struct JointSource {
+  joint::Target target = {};
+  std::vector<joint::Partner> partners = {};
+  std::vector<std::optional<joint::Joint>> stated = {};  // how they are joined, of a node
+  std::optional<NodeEnd> node = {};
+  joint::EndJoint found = {};  // of the node, once resolved
+};
+/// `target` with `cutters`, or `node`.
+[[nodiscard]] JointSource decode_joint(Reader& in);
+
+/// Finds target and partners of a node's end.
+///
+/// Errors  those of joint::joint_at, naming node/...
+[[nodiscard]] Result<JointSource> resolve(JointSource source, const std::stop_token& stop);
+
+/// The same issue or warning, naming the node's members instead of target and cutters.
+[[nodiscard]] Error on_node(const JointSource& source, Error error);
+template <class T>
+[[nodiscard]] Result<T> on_node(const JointSource& source, Result<T> of) {
+  return std::move(of).map_error([&](Error error) { return on_node(source, std::move(error)); });
+}
+[[nodiscard]] std::vector<Warning> on_node(const JointSource& source,
+                                           std::vector<Warning> warnings);
+
+/// Ids of the members that cut the node's end, in the order of the index `cutter`; empty without a
+/// node.
+[[nodiscard]] std::vector<std::string> cutter_ids(const JointSource& source);
+
+}  // namespace tubecut::api

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <variant>
+#include <vector>
+
+#include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/part_request.hpp"
+#include "api/wire/reader.hpp"
+#include "core/groove/mill_path.hpp"
+#include "core/motion/schedule/spec.hpp"
+#include "core/torch/program_schedule.hpp"
+
+namespace tubecut::api {
+
+/// Where a schedule's cut comes from: computed here (a bevel table, a mill path, all cuts of a
+/// part), or given.
+using CutSource = std::variant<BevelTableRequest, groove::MillPathSpec, motion::CutPath,
+                               motion::AxisColumns, PartRequest>;
+
+struct ScheduleRequest {
+  CutSource cut;
+  motion::Machine machine;
+  motion::Motion motion;
+  torch::Setup setup;  // of a part
+  bool marks = false;  // its strokes before its cuts
+  std::int64_t max_periods = 0;
+};
+
+/// The job with its cut computed; checks and warnings of that cut beside it.
+struct ScheduleJob {
+  motion::ScheduleSpec spec;
+  std::optional<torch::ProgramSpec> program;  // of a part, whose cuts are not in `spec`
+  std::vector<Check> checks;
+  std::vector<Warning> warnings;
+};
+
+/// The fields `cut`, `contour`, `mill_path`, `axes` or `part`, `machine` and `motion`. `axes` and a
+/// mill path take their columns in the order of the machine's axes.
+[[nodiscard]] ScheduleRequest decode_schedule_request(Reader& in);
+
+/// A part with its members found.
+///
+/// Errors  those of the part, their members under `part`; unsupported_combination (a hole whose
+///         torch leans across).
+[[nodiscard]] Result<ScheduleRequest> resolve(ScheduleRequest request, const std::stop_token& stop);
+
+/// Of a resolved request.
+///
+/// Errors  those of the nested request, their members under `cut`, `mill_path` or `part`;
+///         unsupported_combination.
+[[nodiscard]] Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request,
+                                                       const std::stop_token& stop);
+
+}  // namespace tubecut::api

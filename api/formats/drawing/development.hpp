@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/bevel/hole/hole.hpp"
+#include "core/bevel/table/table.hpp"
+#include "core/joint/intersection.hpp"
+#include "core/part/part.hpp"
+
+namespace tubecut::api {
+
+/// A closed curve on a cylinder. phi is continuous; on a curve round the tube it runs from 0 to
+/// 2 pi and ends at the height it began with, on a hole's the first point is not repeated.
+struct CylinderCurve {
+  double radius = 0.0;  // mm
+  std::vector<double> phi, z;
+
+  [[nodiscard]] bool empty() const { return phi.empty(); }
+  /// Length of the polyline on the developed surface.
+  [[nodiscard]] double developed_length(bool closing) const;
+};
+
+/// A chord and the branch that its hole is for, by their names where they have some.
+struct NamedHole : bevel::HoleSpec {
+  std::string chord_name, branch_name;
+};
+
+/// One cut as drawings show it: finished edges on both walls, the torch's line on the outer one.
+struct CutOutline {
+  std::string name;
+  CylinderCurve outer, inner, torch;  // any may be empty
+  bool around = true;                 // it goes round the tube; else it is a hole
+  std::string label = {};             // of a hole: "H1 for B2"
+};
+
+/// A stretch of an end's outer edge that one partner cuts: where it is, and how far down the waste
+/// reaches there at least.
+struct PartnerSpan {
+  double phi_from = 0.0, phi_to = 0.0, z = 0.0;
+  std::size_t partner = 0;
+  bool finish = false;  // of a part
+};
+
+/// A bent surface laid flat: x = radius * phi, y = z. Frame of the result it comes from.
+struct Development {
+  double outer_radius = 0.0;
+  double wall = 0.0;
+  std::vector<CutOutline> cuts;
+  std::vector<double> junctions;  // phi, rad, on the surface that holds the root
+  std::vector<PartnerSpan> spans = {};
+  std::vector<part::Mark> marks = {};  // of a part
+  bool whole = false;                  // a part, with both its ends
+  std::string name = {};               // of a part, or of a chord that has holes only
+
+  /// Whether a cut goes round the tube; else there are holes only.
+  [[nodiscard]] bool around() const;
+};
+
+[[nodiscard]] Development developed(const bevel::TableSpec& spec, const bevel::Table& table);
+[[nodiscard]] Development developed(const joint::IntersectionSpec& spec,
+                                    const joint::Intersection& cut);
+[[nodiscard]] Development developed(const NamedHole& spec, const bevel::HoleCut& cut);
+/// "hole for B2", where the branch has a name.
+[[nodiscard]] std::string for_branch(const std::string& hole, const std::string& branch);
+/// One hole of a chord, by a name.
+[[nodiscard]] CutOutline outline(const joint::Target& chord, const bevel::Hole& hole,
+                                 std::string name);
+/// A part as it is cut: start, finish, then the holes in their order, in the part's frame.
+[[nodiscard]] Development developed(const part::PartSpec& spec, const part::Part& part);
+
+/// Where a hole's label stands on the outside, its middle at phi: in the hole, below its upper edge
+/// and off a mark at its middle; over one that is too small. `room`: mm, for its width.
+struct LabelPlace {
+  double phi = 0.0, z = 0.0, room = 0.0;
+};
+[[nodiscard]] LabelPlace label_place(const CutOutline& hole);
+
+/// Bounds of all curves: phi and z.
+struct Extent {
+  double phi_from = 0.0, phi_to = 0.0, z_from = 0.0, z_to = 0.0;
+};
+[[nodiscard]] Extent extent(const Development& development);
+
+}  // namespace tubecut::api

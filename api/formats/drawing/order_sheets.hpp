@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "api/formats/drawing/canvas.hpp"
+#include "api/wire/format.hpp"
+
+namespace tubecut::api {
+
+/// Sheets of A4 upright that blocks are set on from above downwards: what does not fit goes to the
+/// next one. Each has the same head: what it is, of which part, its verdict; and a foot: the job,
+/// sheet of sheets.
+class OrderSheets {
+ public:
+  static constexpr double kWidth = 210.0, kHeight = 297.0, kBorder = 10.0;
+  static constexpr double kPad = 3.0, kLeft = kBorder + kPad, kRight = kWidth - kBorder - kPad,
+                          kWide = kRight - kLeft;  // of what stands on it
+
+  OrderSheets(std::string title, std::string part, const Caption& caption);
+
+  /// Room for a block as wide as the sheet: the y of its upper edge.
+  double take(double height);
+  /// Begins another sheet where less than that is left of this one.
+  void keep_together(double height);
+  /// What is left of this sheet.
+  [[nodiscard]] double left() const { return y_ - kLow; }
+  [[nodiscard]] Canvas& canvas() { return sheets_.back(); }
+  /// With the foot of each.
+  [[nodiscard]] std::vector<Canvas> finished();
+
+ private:
+  static constexpr double kLow = 17.0;
+  void begin();
+
+  std::string title_, part_;
+  const Caption& caption_;
+  std::vector<Canvas> sheets_;
+  double y_ = 0.0;
+};
+
+}  // namespace tubecut::api

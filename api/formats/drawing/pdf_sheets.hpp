@@ -1,0 +1,18 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/formats/drawing/canvas.hpp"
+
+namespace tubecut::api {
+
+/// Sheets as the pages of one PDF 1.4 at full size, in the fonts that every reader brings along,
+/// Helvetica and Helvetica-Bold. No date, no compression: the same drawing gives the same bytes.
+/// Throws Unspellable where a text has letters that neither they nor ASCII can spell.
+[[nodiscard]] std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title,
+                                    const std::stop_token& stop);
+
+}  // namespace tubecut::api

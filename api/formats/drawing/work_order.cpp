@@ -1,0 +1,259 @@
+#include "api/formats/drawing/work_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "api/formats/drawing/order_sheets.hpp"
+#include "api/formats/drawing/order_tables.hpp"
+#include "api/formats/drawing/part_development.hpp"
+#include "api/formats/drawing/part_edges.hpp"
+#include "api/formats/drawing/part_view.hpp"
+#include "api/formats/numbers.hpp"
+#include "api/verdict.hpp"
+#include "api/wire/json.hpp"
+#include "api/wire/words.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kLeft = OrderSheets::kLeft, kRight = OrderSheets::kRight,
+                 kWide = OrderSheets::kWide;
+constexpr Stroke kLine{.color = "#7a8794", .width = 0.18};
+constexpr Stroke kBox{.color = "#566370", .width = 0.25};
+constexpr Lettering kHead{.height = 3.2, .bold = true};
+constexpr Lettering kSmall{.height = 2.3};
+constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
+
+struct Fact {
+  std::string name, value;
+};
+
+/// A small name over a value; without one a line to write on.
+void draw_fact(Canvas& canvas, DrawingPoint at, double width, const Fact& fact) {
+  canvas.label({at.x, at.y - 2.4}, fact.name, kGrey, width - 2.0);
+  if (fact.value.empty())
+    canvas.line({at.x, at.y - 6.2}, {at.x + width - 4.0, at.y - 6.2}, kLine);
+  else
+    canvas.label({at.x, at.y - 5.6}, fact.value, {.height = 2.7, .bold = true}, width - 2.0);
+}
+
+/// Row by row; a long value takes more columns than one.
+void draw_facts(OrderSheets& sheets, const std::vector<Fact>& facts, std::size_t columns) {
+  constexpr double kRow = 7.4;
+  const double width = kWide / static_cast<double>(columns);
+  struct Place {
+    std::size_t row, column, span;
+  };
+  std::vector<Place> places;
+  std::size_t row = 0, column = 0;
+  for (const auto& fact : facts) {
+    const double wide =
+        std::max(text_width(fact.value, kLeastText, true), text_width(fact.name, kLeastText)) + 2.0;
+    const auto span = std::min(columns, static_cast<std::size_t>(std::ceil(wide / width)));
+    if (column + std::max<std::size_t>(1, span) > columns) column = 0, ++row;
+    places.push_back({row, column, std::max<std::size_t>(1, span)});
+    column += places.back().span;
+  }
+  const double top = sheets.take(kRow * static_cast<double>(row + 1) + 2.0) - 0.6;
+  for (std::size_t i = 0; i < facts.size(); ++i)
+    draw_fact(sheets.canvas(),
+              {kLeft + width * static_cast<double>(places[i].column),
+               top - kRow * static_cast<double>(places[i].row)},
+              width * static_cast<double>(places[i].span), facts[i]);
+}
+
+void rule(OrderSheets& sheets) {
+  const double y = sheets.take(0.6);
+  sheets.canvas().line({OrderSheets::kBorder, y}, {OrderSheets::kWidth - OrderSheets::kBorder, y},
+                       kLine);
+}
+
+std::vector<Fact> order_facts(const Caption& caption) {
+  std::vector<Fact> out;
+  for (const auto* name :
+       {"order", "drawing", "revision", "customer_id", "material", "heat", "quantity"}) {
+    std::string value;
+    for (const auto& [key, text] : caption.reference)
+      if (key == name) value = text;
+    out.push_back({called(name, Term::field), value});
+  }
+  out.push_back({"machine", ""});
+  return out;
+}
+
+std::vector<Fact> part_facts(const part::PartSpec& spec, const part::Part& part) {
+  const auto& target = spec.target;
+  const auto& l = part.lengths;
+  return {{"tube", number(2.0 * target.outer_radius, Unit::mm) + " x " + mm(target.wall)},
+          {"blank, with kerfs, clamping, facing", mm(l.blank)},
+          {"tip to tip", mm(l.longest)},
+          {"throat to throat", mm(l.shortest)},
+          {"finish turned against start", degrees(part.clocking)},
+          {"between work points", mm(l.work_point)},
+          {"weld", mm(l.weld)},
+          {"mass", measure(l.mass, Unit::kg)}};
+}
+
+/// "B from -12° to 44°; the torch leans from -80° to 80°."
+std::string bevel_range(const part::PartSpec& spec, const part::Part& part) {
+  double low = 0.0, high = 0.0;
+  bool any = false;
+  const auto take = [&](const std::vector<double>& all) {
+    for (const double b : all) {
+      low = any ? std::min(low, b) : b;
+      high = any ? std::max(high, b) : b;
+      any = true;
+    }
+  };
+  take(part.start.table.b);
+  take(part.finish.table.b);
+  for (const auto& placed : part.holes) take(placed.hole.b);
+  const auto& torch = spec.start.cut.torch;
+  const auto range = degrees(low) == degrees(high)
+                         ? "Bevel B " + degrees(low) + " throughout"
+                         : "Bevel B from " + degrees(low) + " to " + degrees(high);
+  return range + "; the torch leans from " + degrees(torch.min.rad()) + " to " +
+         degrees(torch.max.rad()) + ". B above 0: the outer edge lies further towards the finish.";
+}
+
+void draw_verdict(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+                  const Caption& caption) {
+  constexpr double kRow = 3.3;
+  auto loud = kSmall;
+  if (caption.verdict.status != "ok")
+    loud = {.height = kSmall.height, .bold = true, .color = "#b3261e"};
+  std::vector<std::pair<std::string, Lettering>> lines;
+  const auto add = [&](const std::string& text, const Lettering& l) {
+    for (auto& line : wrapped(text, l.height, kWide, l.bold))
+      lines.emplace_back(std::move(line), l);
+  };
+  for (const auto& line :
+       verdict_lines(caption.verdict, {.width = 125, .warnings = 8, .plain = true}))
+    add(line, loud);
+  add(bevel_range(spec, part), kSmall);
+  double y = sheets.take(kRow * static_cast<double>(lines.size()) + 2.0) - 0.4;
+  for (const auto& [line, l] : lines) sheets.canvas().text({kLeft, y -= kRow}, line, l);
+}
+
+/// As tall as what else goes on the sheet leaves it.
+void draw_view(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+               double others) {
+  constexpr double kLeast = 50.0, kMost = 92.0;
+  const double tall = std::clamp(sheets.left() - others, kLeast, kMost);
+  const double top = sheets.take(tall);
+  auto& canvas = sheets.canvas();
+  draw_part_view(canvas, spec, part, {{kLeft, top - tall + 3.0}, {kRight, top - 2.0}});
+  canvas.text({kLeft, top - tall + 1.6},
+              "phi counts from the datum line, clockwise as seen from the start", kGrey);
+}
+
+/// Of sheet 1 below the view, where there is one strip.
+double height_below(const DevelopmentPlan& plan, const part::Part& part) {
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  const std::size_t partners = part.start.spec.partners.size() + part.finish.spec.partners.size();
+  return plan.height() + 6.0 + 4.0 * std::ceil(count(partners) / 4.0) +
+         (part.holes.empty() ? 0.0 : 10.0 + 6.4 * count(part.holes.size())) + 12.0 +
+         4.4 * std::ceil(count(part.sequence.size()) / 2.0);
+}
+
+/// What the colours of the two cuts mean, two lines of a sheet.
+void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+                   const Caption& caption) {
+  constexpr std::size_t kColumns = 4;
+  constexpr double kRow = 4.0;
+  std::vector<std::pair<std::string_view, std::string>> all;
+  const auto add = [&](const part::End& end, bool welded, const std::vector<std::string>& names,
+                       const std::string& which, std::size_t first) {
+    if (!welded) return all.emplace_back("none", which + ": cut square"), void();
+    for (std::size_t i = 0; i < end.spec.partners.size(); ++i)
+      all.emplace_back(partner_color(first + i),
+                       which + " by " + (i < names.size() ? names[i] : std::to_string(i + 1)));
+  };
+  add(part.start, spec.start.welded, caption.partners, "start", 0);
+  add(part.finish, spec.finish.welded, caption.finish_partners, "finish",
+      part.start.spec.partners.size());
+  const std::size_t rows = (all.size() + kColumns - 1) / kColumns;
+  const double top = sheets.take(kRow * static_cast<double>(rows) + 2.0), width = kWide / kColumns;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double x = kLeft + width * static_cast<double>(i % kColumns);
+    const double y = top - kRow * static_cast<double>(i / kColumns) - 3.0;
+    if (all[i].first != "none")
+      sheets.canvas().line({x, y + 0.8}, {x + 5.0, y + 0.8}, {.color = all[i].first, .width = 0.9});
+    sheets.canvas().label({x + 6.5, y}, all[i].second, kSmall, width - 8.0);
+  }
+}
+
+/// What the request accepts, and how far its points are from the exact curve.
+std::string accepted(const Caption& caption) {
+  std::string out;
+  const auto* request = caption.request;
+  const auto* accept = request != nullptr ? request->find("accept") : nullptr;
+  if (const auto* limits = accept != nullptr ? accept->as<Json::Object>() : nullptr)
+    for (const auto& [name, value] : *limits)
+      if (const auto* limit = value.as<double>())
+        out += (out.empty() ? "" : "; ") + called(name, Term::field) + " " +
+               measure(*limit, unit_named(name));
+  return out;
+}
+
+void draw_sign_off(OrderSheets& sheets, const part::PartSpec& spec, const Caption& caption) {
+  constexpr double kBoxes = 14.0, kRow = 3.3;
+  const auto limits = accepted(caption);
+  const auto& sampling = spec.start.cut.sampling;
+  std::string line = limits.empty() ? "The request states none; general tolerance as agreed: "
+                                      "................"
+                                    : "As the request accepts: " + limits + ".";
+  if (sampling.tolerance)
+    line += " Drawn within " + mm(sampling.tolerance->value) + " of the exact curve.";
+  const auto lines = wrapped(line, kSmall.height, kWide);
+  const double tall = 26.7 + kRow * static_cast<double>(lines.size()), top = sheets.take(tall);
+  auto& canvas = sheets.canvas();
+  canvas.text({kLeft, top - 5.0}, "Tolerances and release", kHead);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    canvas.text({kLeft, top - 9.4 - kRow * static_cast<double>(i)}, lines[i], kSmall);
+  const double width = kWide / 4.0;
+  for (int i = 0; i < 4; ++i) {
+    static constexpr std::array<std::string_view, 4> kSigned{"cut by", "measured by", "released by",
+                                                             "parts measured"};
+    const double x = kLeft + width * i;
+    canvas.rectangle({x, top - tall + 3.0}, {x + width, top - tall + 3.0 + kBoxes}, kBox);
+    canvas.text({x + 1.5, top - tall + kBoxes}, kSigned[static_cast<std::size_t>(i)], kGrey);
+    if (i < 3) canvas.text({x + 0.62 * width, top - tall + kBoxes}, "on", kGrey);
+  }
+}
+
+std::string name_of_part(const part::PartSpec& spec, const Caption& caption) {
+  for (const auto& [name, text] : caption.reference)
+    if (name == "part") return text;
+  return spec.name.empty() ? "Part" : spec.name;
+}
+
+}  // namespace
+
+std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& part,
+                               const Caption& caption) {
+  OrderSheets sheets("Work order", name_of_part(spec, caption), caption);
+  draw_facts(sheets, order_facts(caption), 4);
+  draw_members(sheets, caption);
+  rule(sheets);
+  draw_facts(sheets, part_facts(spec, part), 4);
+  rule(sheets);
+  draw_verdict(sheets, spec, part, caption);
+  rule(sheets);
+  const auto plan = plan_development(spec, part, kWide);
+  draw_view(sheets, spec, part, height_below(plan, part));
+  for (std::size_t i = 0; i < plan.strips.size(); ++i) {
+    const double top = sheets.take(plan.height());
+    draw_strip(sheets.canvas(), plan, i, spec, part, {kLeft, top});
+  }
+  draw_partners(sheets, spec, part, caption);
+  draw_holes(sheets, spec, part);
+  draw_steps(sheets, spec, part);
+  draw_notches(sheets, spec, part, caption);
+  draw_checks(sheets, part);
+  draw_sign_off(sheets, spec, caption);
+  return sheets.finished();
+}
+
+}  // namespace tubecut::api

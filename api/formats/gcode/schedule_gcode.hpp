@@ -1,0 +1,34 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "api/wire/format.hpp"
+#include "core/motion/schedule/schedule.hpp"
+
+namespace tubecut::api {
+
+/// The letter of each axis of a machine in RS-274: the first letter of its name where that is free
+/// and of its kind (A B C turn, X Y Z U V W go straight), else the next free one of its kind.
+[[nodiscard]] std::vector<char> axis_letters(const std::vector<motion::AxisPulses>& axes);
+
+/// Periods at which straight moves, uniform in time, begin and end so that every axis stays within
+/// `tolerance` pulses of its counts at every period; the events' are among them. Ascending, from 0
+/// to the last. Cost linear in the counts.
+[[nodiscard]] std::vector<std::int64_t> move_ends(const motion::Schedule& schedule,
+                                                  double tolerance,
+                                                  const std::stop_token& stop = {});
+
+/// A schedule as RS-274 for LinuxCNC: the axes' own values at such periods, each move in inverse
+/// time, so that the planned motion is kept in time as well. The torch (of a cut along a contour)
+/// is lit only by the option `torch`. `names`: of a program's cuts, which
+/// comments tell, and whose periods at rest are dwells; empty of a single cut.
+/// Accuracy  1 pulse at every period, 1e-6 of an axis' unit at the ends of moves.
+[[nodiscard]] std::string print_schedule_gcode(const motion::Machine& machine,
+                                               const motion::ScheduleSpec& spec,
+                                               const motion::Schedule& schedule,
+                                               const std::vector<std::string>& names,
+                                               const Caption& caption);
+
+}  // namespace tubecut::api

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "api/wire/format.hpp"
+
+namespace tubecut::api {
+
+/// A triangle mesh with a colour per vertex. Lengths in mm.
+struct Mesh {
+  std::string name;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3f> colors;  // linear RGB, 0..1, one per position
+  std::vector<std::uint32_t> indices;   // three a triangle, counter-clockwise seen from outside
+  float opacity = 1.0F;
+
+  /// Room for so many positions: many that move as they grow would do it without a look at the stop
+  /// token.
+  void reserve(std::size_t count) {
+    positions.reserve(count);
+    colors.reserve(count);
+  }
+};
+
+/// glTF 2.0 binary (.glb), one node a mesh, in metres as the format asks; flat normals are the
+/// viewer's. Verdict, reasons and warnings stand in the asset's extras.
+[[nodiscard]] std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption);
+
+/// A colour of -1..1: blue (below), grey (0), red (above).
+[[nodiscard]] Eigen::Vector3f diverging(double value);
+
+/// A closed band of `rings` rows of `across` points each, row by row, as triangles.
+[[nodiscard]] std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across,
+                                                        const std::stop_token& stop);
+
+}  // namespace tubecut::api

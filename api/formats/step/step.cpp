@@ -1,0 +1,153 @@
+#include "api/formats/step/step.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "api/formats/bevel_table_formats.hpp"
+#include "api/formats/mesh/cut_solid.hpp"
+#include "api/formats/mesh/tube_solid.hpp"
+#include "api/formats/step/step_solid.hpp"
+#include "api/formats/text.hpp"
+#include "api/stop.hpp"
+#include "core/part/edge.hpp"
+#include "core/part/hole_volume.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kFlat = 1e-9;  // mm: a cut square to the axis
+
+WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const Caption& caption) {
+  if (caption.view == "straight") return WallCurve::straight(wall);
+  corners.resize(wall.gaps(), false);
+  return WallCurve::smooth(wall, corners);
+}
+
+TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel::Table& table,
+                const Caption& caption) {
+  const std::string name(joint::end_name(place == TubeCut::Place::finish));
+  ask(caption.stop);
+  const auto wall = bevel::finished_wall(spec, table);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto& edge : wall.edges) {
+    const auto [least, most] = std::ranges::minmax(edge.z);
+    low = std::min(low, least);
+    high = std::max(high, most);
+  }
+  if (high - low <= kFlat) return {place, name, low};
+  return {place, name, curve_of(wall, corners(spec, table), caption)};
+}
+
+TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string name,
+                 const Caption& caption) {
+  ask(caption.stop);
+  const bevel::CutWall wall{.edges = {{tube.inner_radius(), hole.phi_inner, hole.z_inner},
+                                      {tube.outer_radius, hole.phi, hole.z}},
+                            .turn = 0.0};
+  return {TubeCut::Place::hole, std::move(name), curve_of(wall, {}, caption)};
+}
+
+std::string print(const joint::Target& tube, const std::vector<TubeCut>& cuts,
+                  const Caption& caption) {
+  return print_step(tube_solid(tube.inner_radius(), tube.outer_radius, cuts, caption.stop),
+                    product_of(tube, {}, caption), caption);
+}
+
+/// Where a hole lies to the cuts of both ends.
+enum class Lies { on_part, off_part, across_a_cut };
+
+Lies lies(const part::Part& part, const bevel::Hole& hole) {
+  bool below = true, above = true, clear = true;
+  for (const bool outer : {false, true}) {
+    const auto edge = [&](const bevel::Table& t) {
+      return part::Edge{t.phi, outer ? t.z_outer : t.z_inner};
+    };
+    const auto start = edge(part.start.table), finish = edge(part.finish.table);
+    const auto& phi = outer ? hole.phi : hole.phi_inner;
+    const auto& z = outer ? hole.z : hole.z_inner;
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const bool low = z[i] <= start.at(phi[i]).high, high = z[i] >= finish.at(phi[i]).low;
+      below = below && low;
+      above = above && high;
+      clear = clear && !low && !high;
+    }
+  }
+  if (below || above) return Lies::off_part;
+  return clear ? Lies::on_part : Lies::across_a_cut;
+}
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw UnfitOption{"format", why + ": step prints no such solid"};
+}
+
+}  // namespace
+
+Product product_of(const joint::Target& tube, const std::string& member, const Caption& caption) {
+  Product out{
+      .id = member,
+      .name = "tube " + fixed(2.0 * tube.outer_radius, 3) + " x " + fixed(tube.wall, 3) + " mm",
+      .revision = {}};
+  for (const auto& [key, text] : caption.reference) {
+    if (key == "part") out.id = text;
+    if (key == "revision") out.revision = text;
+  }
+  if (out.id.empty()) out.id = caption.input_sha256.substr(0, 16);
+  return out;
+}
+
+std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,
+                             const Caption& caption) {
+  return print(spec.target,
+               {end_cut(TubeCut::Place::start, spec, table, caption),
+                {TubeCut::Place::finish, "far end", far_end(spec, table, caption.stop)}},
+               caption);
+}
+
+std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
+                      const Caption& caption) {
+  const auto& tube = spec.chord;
+  std::vector<TubeCut> cuts;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < cut.holes.size(); ++i) {
+    const auto& hole = cut.holes[i];
+    if (i > 0 && part::holes_meet(tube, cut.holes[0], hole, caption.stop))
+      refuse("the holes of both sides meet");
+    for (const auto* z : {&hole.z, &hole.z_inner}) {
+      const auto [least, most] = std::ranges::minmax(*z);
+      low = std::min(low, least);
+      high = std::max(high, most);
+    }
+    cuts.push_back(hole_cut(tube, hole, hole.far ? "hole, far side" : "hole", caption));
+  }
+  cuts.push_back({TubeCut::Place::start, "end", low - tube.outer_radius});
+  cuts.push_back({TubeCut::Place::finish, "end", high + tube.outer_radius});
+  return print(tube, cuts, caption);
+}
+
+TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  const auto& tube = spec.target;
+  std::vector<TubeCut> cuts{
+      end_cut(TubeCut::Place::start, part.start.spec, part.start.table, caption),
+      end_cut(TubeCut::Place::finish, part.finish.spec, part.finish.table, caption)};
+  std::vector<const bevel::Hole*> kept;
+  const bool some_meet = std::ranges::any_of(
+      part.warnings, [](const Warning& w) { return w.code == WarningCode::holes_meet; });
+  for (std::size_t i = 0; i < part.holes.size(); ++i) {
+    const auto& hole = part.holes[i].hole;
+    const auto where = lies(part, hole);
+    if (where == Lies::off_part) continue;
+    if (where == Lies::across_a_cut) refuse("a hole reaches into the cut at an end");
+    for (const auto* other : kept)
+      if (some_meet && part::holes_meet(tube, *other, hole, caption.stop)) refuse("two holes meet");
+    kept.push_back(&hole);
+    cuts.push_back(hole_cut(tube, hole, "hole " + std::to_string(i), caption));
+  }
+  return tube_solid(tube.inner_radius(), tube.outer_radius, cuts, caption.stop);
+}
+
+std::string part_step(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
+  return print_step(part_solid(spec, part, caption), product_of(spec.target, spec.name, caption),
+                    caption);
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/formats/mesh/tube_solid.hpp"
+#include "api/formats/step/step_file.hpp"
+#include "api/stop.hpp"
+#include "api/wire/format.hpp"
+
+namespace tubecut::api {
+
+/// What the file calls a solid.
+struct Product {
+  std::string id, name, revision;
+};
+
+/// Products of AP214 in mm, one file: solids, and assemblies of them. The walls of a solid are
+/// grey, its cuts of a colour of their own, each face has its name. Head and products carry the
+/// job, the reference, both hashes and the verdict.
+class StepFile {
+ public:
+  using Id = StepEntities::Id;
+  struct Shape {
+    Id definition = 0, representation = 0, axes = 0;
+  };
+  /// One more of a shape, in a frame of the assembly: rows are its x, y and z there.
+  struct Placed {
+    Shape shape;
+    std::string name;
+    Eigen::Vector3d origin;
+    Eigen::Matrix3d rows;
+  };
+
+  /// `thinnest`: wall of its solids, which says how many digits their coordinates need.
+  StepFile(double thinnest, const Caption& caption);
+
+  Shape solid(const TubeSolid& solid, const Product& product);
+  void assembly(const Product& product, const std::vector<Placed>& parts);
+  /// The whole text; `what` it holds, in words.
+  [[nodiscard]] std::string print(const Product& product, std::string_view what) const;
+
+ private:
+  Id add_product(const Product& product);
+
+  const Caption& caption_;
+  Pace pace_;
+  StepEntities entities_;
+  Id context_ = 0;
+};
+
+/// A file of one solid.
+[[nodiscard]] std::string print_step(const TubeSolid& solid, const Product& product,
+                                     const Caption& caption);
+
+}  // namespace tubecut::api

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "api/formats/step/wall_spline.hpp"
+#include "core/bevel/beam/penetration.hpp"
+
+namespace tubecut::api {
+
+/// The edges of a cut wall as curves on their cylinders.
+///
+/// `straight`: as the answer has them, straight in (phi, z) from row to row. Where the rows are so
+/// near to each other that a smooth curve stays within kSplineError of those lines, it is that
+/// curve, a little off the rows so that it leaves as much on one side of the lines as on the other;
+/// elsewhere every row is a corner.
+/// `smooth`: through the rows, with one curvature at each, and corners at the given ones and where
+/// an edge turns far more than beside it.
+class WallCurve {
+ public:
+  /// Of a row and the share of the way to the next.
+  struct Place {
+    std::size_t row = 0;
+    double share = 0.0;
+  };
+
+  [[nodiscard]] static WallCurve straight(const bevel::CutWall& wall);
+  [[nodiscard]] static WallCurve smooth(const bevel::CutWall& wall,
+                                        const std::vector<bool>& corners);
+
+  [[nodiscard]] std::size_t rows() const { return length_.size(); }
+  [[nodiscard]] std::size_t edges() const { return edges_.size(); }
+  /// (phi, z) of an edge.
+  [[nodiscard]] Eigen::Vector2d at(std::size_t edge, const Place& place) const;
+  /// How far along the rows, mm; `around()` in all.
+  [[nodiscard]] double along(const Place& place) const;
+  [[nodiscard]] double around() const { return around_; }
+  /// Where its edges have no one slope, ascending.
+  [[nodiscard]] std::vector<Place> corners() const;
+  /// Where an edge crosses the generator phi, whatever the turn.
+  [[nodiscard]] std::vector<Place> crossings(std::size_t edge, double phi) const;
+
+  /// `stations`: joints of it, at least one, ascending; it begins at the first.
+  [[nodiscard]] WallSpline spline(const std::vector<Place>& stations,
+                                  const std::stop_token& stop) const;
+
+ private:
+  struct Edge {
+    double radius = 0.0;
+    double widest = 0.0;                             // rad, of a span
+    std::vector<Eigen::Vector2d> row;                // as given
+    std::vector<Eigen::Vector2d> gap;                // from each to the next
+    std::vector<Eigen::Vector2d> knot;               // where the curve passes it
+    std::vector<Eigen::Vector2d> arriving, leaving;  // its slopes there, per mm along the rows
+  };
+  /// Where an edge is, in (phi, z) or in space, and its slopes on both sides, per mm along the
+  /// rows.
+  template <typename Point>
+  struct Passing {
+    Point at = Point::Zero(), before = Point::Zero(), beyond = Point::Zero();
+  };
+  struct Passed {
+    Passing<Eigen::Vector2d> flat;
+    Passing<Eigen::Vector3d> space;
+  };
+  /// A place where a span may begin: a row, a station, or one in a long gap.
+  struct Node {
+    Place place;
+    double along = 0.0;  // from the first station
+    bool corner = false, station = false;
+    double turn = 0.0;  // 1 beyond the last row
+    std::vector<Passed> edges;
+  };
+  /// From one knot to the next: a cubic of each edge.
+  struct Span;
+  template <typename Point>
+  using Cubic = std::array<Point, 4>;
+  using Bezier = Cubic<Eigen::Vector3d>;
+  using Flat = Cubic<Eigen::Vector2d>;
+  /// One span in space and in (phi, z): at every parameter the same place.
+  struct Pair {
+    Bezier space;
+    Flat flat;
+  };
+
+  explicit WallCurve(const bevel::CutWall& wall);
+  struct Bend;
+  [[nodiscard]] std::vector<Bend> bends(const Edge& edge) const;
+  void find_lines();
+  void find_kinks();
+  void lay(bool centred);
+  void bend_evenly(Edge& edge) const;
+  [[nodiscard]] Eigen::Vector2d laid_gap(const Edge& edge, std::size_t row) const;
+  [[nodiscard]] Passing<Eigen::Vector2d> pass(const Edge& edge, const Place& place) const;
+  [[nodiscard]] Node node(const Place& place) const;
+  void lay_in_space(std::vector<Node>& nodes) const;
+  [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations,
+                                        const std::stop_token& stop) const;
+  /// How far round an edge goes from one node to the next, rad.
+  [[nodiscard]] double turned(std::size_t edge, const Node& from, const Node& to) const;
+  [[nodiscard]] Pair cubics(std::size_t edge, const Node& from, const Node& to) const;
+  [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from,
+                                     const std::stop_token& stop) const;
+  [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes,
+                                        const std::stop_token& stop) const;
+  [[nodiscard]] static std::vector<Span> graded(std::vector<Span> spans,
+                                                const std::stop_token& stop);
+  [[nodiscard]] bool fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to,
+                          const std::stop_token& stop) const;
+  [[nodiscard]] bool near(const Bezier& curve, const Eigen::Vector3d& point, double u) const;
+
+  std::vector<Edge> edges_;
+  std::vector<double> length_, along_;  // of the gap behind each row; up to each row
+  std::vector<bool> corner_;
+  double turn_ = 0.0, around_ = 0.0;
+  double off_cylinder_ = 0.0, off_rows_ = 0.0;  // what a span may leave it by, mm
+  std::optional<double> off_flat_;  // and its twin in (phi, z), where that is printed, mm
+};
+
+}  // namespace tubecut::api

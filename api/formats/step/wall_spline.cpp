@@ -1,0 +1,217 @@
+#include "api/formats/step/wall_spline.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "api/formats/step/wall_curve.hpp"
+#include "api/stop.hpp"
+#include "core/base/elementary.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kUneven = 6.0;  // a span to the one beside it
+
+Vector3d on_wall(double radius, const Vector2d& p) {
+  const auto [sin, cos] = elementary::sincos(p.x());
+  return {radius * cos, radius * sin, p.y()};
+}
+
+/// What makes a third of an arc's parameter the handle of the cubic nearest to it.
+double handle(double dphi) {
+  if (std::abs(dphi) < 1e-4) return 1.0 / 3.0;
+  return 4.0 / 3.0 * elementary::tan(dphi / 4.0) / dphi;
+}
+
+template <typename Point>
+Point value(const std::array<Point, 4>& c, double u) {
+  const double v = 1.0 - u;
+  return v * v * v * c[0] + 3.0 * u * v * v * c[1] + 3.0 * u * u * v * c[2] + u * u * u * c[3];
+}
+Vector3d slope(const std::array<Vector3d, 4>& c, double u) {
+  const double v = 1.0 - u;
+  return 3.0 * (v * v * (c[1] - c[0]) + 2.0 * u * v * (c[2] - c[1]) + u * u * (c[3] - c[2]));
+}
+
+/// Both halves of a cubic behind what there is of each.
+template <typename Point>
+void halve(const std::array<Point, 4>& c, std::vector<std::array<Point, 4>>& low,
+           std::vector<std::array<Point, 4>>& high) {
+  const Point a = 0.5 * (c[0] + c[1]), b = 0.5 * (c[1] + c[2]), d = 0.5 * (c[2] + c[3]);
+  const Point ab = 0.5 * (a + b), bd = 0.5 * (b + d), middle = 0.5 * (ab + bd);
+  low.push_back({c[0], a, ab, middle});
+  high.push_back({middle, bd, d, c[3]});
+}
+
+/// The control points of a cubic behind the one it begins at; its end only where it counts as one.
+template <typename Point>
+void append(const std::array<Point, 4>& c, bool full, std::vector<Point>& out) {
+  out.insert(out.end(), {c[1], c[2]});
+  if (full) out.push_back(c[3]);
+}
+
+}  // namespace
+
+struct WallCurve::Span {
+  std::vector<Bezier> curves;
+  std::vector<Flat> flats;
+  double wide = 0.0;                   // of knots
+  bool full = false, station = false;  // at its end
+};
+
+double WallCurve::turned(std::size_t edge, const Node& from, const Node& to) const {
+  return to.edges[edge].flat.at.x() - from.edges[edge].flat.at.x() + (to.turn - from.turn) * turn_;
+}
+
+WallCurve::Pair WallCurve::cubics(std::size_t edge, const Node& from, const Node& to) const {
+  const auto &a = from.edges[edge], &b = to.edges[edge];
+  const double reach = handle(turned(edge, from, to)) * (to.along - from.along);
+  const auto cubic = [&](const auto& first, const auto& last) {
+    return Cubic<std::decay_t<decltype(first.at)>>{first.at, first.at + reach * first.beyond,
+                                                   last.at - reach * last.before, last.at};
+  };
+  Pair out{.space = cubic(a.space, b.space), .flat = cubic(a.flat, b.flat)};
+  for (auto i : {0U, 1U}) out.flat[i].x() += from.turn * turn_;
+  for (auto i : {2U, 3U}) out.flat[i].x() += to.turn * turn_;
+  return out;
+}
+
+bool WallCurve::near(const Bezier& curve, const Vector3d& point, double u) const {
+  Vector3d d = value(curve, u) - point;
+  for (int round = 0; round < 3 && d.squaredNorm() > off_rows_ * off_rows_; ++round) {
+    const Vector3d t = slope(curve, u);
+    if (!(t.squaredNorm() > 0.0)) break;
+    u = std::clamp(u - d.dot(t) / t.squaredNorm(), 0.0, 1.0);
+    d = value(curve, u) - point;
+  }
+  return d.norm() <= off_rows_;
+}
+
+bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to,
+                     const std::stop_token& stop) const {
+  const auto &a = nodes[from], &b = nodes[to];
+  const double wide = b.along - a.along;
+  for (std::size_t k = 0; k < edges_.size(); ++k) {
+    if (std::abs(turned(k, a, b)) > edges_[k].widest) return false;
+    const auto both = cubics(k, a, b);
+    for (const double u : {0.25, 0.5, 0.75}) {
+      const auto p = value(both.space, u);
+      const double off = p.head<2>().norm() - edges_[k].radius;
+      if (std::abs(off) > off_cylinder_) return false;
+      if (!off_flat_) continue;
+      const auto twin = on_wall(edges_[k].radius, value(both.flat, u));
+      if ((p - twin).norm() > *off_flat_) return false;
+    }
+    Pace pace(stop);
+    for (auto i = from + 1; i < to; ++i) {
+      pace.turn();
+      const auto& at = nodes[i].edges[k].space.at;
+      if (!near(both.space, at, (nodes[i].along - a.along) / wide)) return false;
+    }
+  }
+  return true;
+}
+
+/// As far as one span can go: to a corner or a station at most.
+std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from,
+                                const std::stop_token& stop) const {
+  std::size_t most = from + 1;
+  while (most + 1 < nodes.size() && !nodes[most].corner && !nodes[most].station) ++most;
+  std::size_t good = from + 1, bad = most + 1;
+  for (std::size_t reach = 2; from + reach <= most; reach *= 2) {
+    if (!fits(nodes, from, from + reach, stop)) {
+      bad = from + reach;
+      break;
+    }
+    good = from + reach;
+  }
+  while (bad - good > 1) {
+    const auto middle = good + (bad - good) / 2;
+    (fits(nodes, from, middle, stop) ? good : bad) = middle;
+  }
+  return good;
+}
+
+std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
+                                              const std::stop_token& stop) const {
+  std::vector<Span> out;
+  for (std::size_t from = 0; from + 1 < nodes.size();) {
+    ask(stop);
+    const auto to = farthest(nodes, from, stop);
+    const auto &a = nodes[from], &b = nodes[to];
+    Span one{.curves = {},
+             .flats = {},
+             .wide = 0.0,
+             .full = b.corner || b.station,
+             .station = b.station};
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const auto both = cubics(k, a, b);
+      one.curves.push_back(both.space);
+      one.flats.push_back(both.flat);
+      one.wide = std::max(one.wide, 3.0 * handle(turned(k, a, b)) * (b.along - a.along));
+    }
+    out.push_back(std::move(one));
+    from = to;
+  }
+  return out;
+}
+
+/// The same curve, no span much wider than those beside it: readers put curves through points of
+/// each span, and such curves swing where a short one stands by a long one.
+std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans,
+                                               const std::stop_token& stop) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::vector<Span> out;
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      ask(stop);
+      const double before = spans[(i + spans.size() - 1) % spans.size()].wide;
+      const double behind = spans[(i + 1) % spans.size()].wide;
+      if (spans[i].wide <= kUneven * std::min(before, behind)) {
+        out.push_back(std::move(spans[i]));
+        out.back().wide = spans[i].wide;
+        continue;
+      }
+      changed = true;
+      Span first{.curves = {}, .flats = {}, .wide = 0.5 * spans[i].wide};
+      Span second{.curves = {}, .flats = {}, .wide = 0.5 * spans[i].wide};
+      second.full = spans[i].full;
+      second.station = spans[i].station;
+      for (const auto& curve : spans[i].curves) halve(curve, first.curves, second.curves);
+      for (const auto& flat : spans[i].flats) halve(flat, first.flats, second.flats);
+      out.push_back(std::move(first));
+      out.push_back(std::move(second));
+    }
+    spans = std::move(out);
+  }
+  return spans;
+}
+
+WallSpline WallCurve::spline(const std::vector<Place>& stations,
+                             const std::stop_token& stop) const {
+  const auto all = graded(spans(nodes(stations, stop), stop), stop);
+  WallSpline out{.joints = {{}}, .points = {}, .flat = {}, .stations = {0}};
+  for (const auto& first : all.front().curves) out.points.push_back({first[0]});
+  for (const auto& first : all.front().flats) out.flat.push_back({first[0]});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& one = all[i];
+    const bool last = i + 1 == all.size();
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      append(one.curves[k], one.full || last, out.points[k]);
+      append(one.flats[k], one.full || last, out.flat[k]);
+    }
+    out.joints.push_back({.u = out.joints.back().u + one.wide,
+                          .full = one.full || last,
+                          .control = out.points.front().size() - 1});
+    if (one.station && !last) out.stations.push_back(out.joints.size() - 1);
+  }
+  for (auto& edge : out.points) edge.back() = edge.front();
+  return out;
+}
+
+}  // namespace tubecut::api

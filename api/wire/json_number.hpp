@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "api/wire/reader.hpp"
+
+namespace tubecut::api {
+
+/// Why a number of a JSON text is no double, or nothing.
+struct NumberFault {
+  const char* reason = "";
+  double limit = 0.0;
+};
+/// `text`: as it is written, "1e-400". A number other than 0 that a double can only hold with fewer
+/// digits is too small; an integer without point or exponent is exact up to 2^53.
+[[nodiscard]] std::optional<NumberFault> number_fault(double value, std::string_view text);
+
+/// A number of a JSON text that no double holds, and where it stands.
+struct BadNumber {
+  std::string pointer = {}, text = {};
+  NumberFault fault = {};
+};
+/// The first of them, or nothing if the text ends or is wrong before there is one.
+[[nodiscard]] std::optional<BadNumber> find_bad_number(std::string_view json,
+                                                       const std::stop_token& stop);
+
+/// The first number of a JSON text that no double holds, as an issue of its field (out_of_range).
+/// Nothing if the text ends or is wrong before there is one.
+[[nodiscard]] std::optional<FieldIssue> number_issue(std::string_view json,
+                                                     const std::stop_token& stop = {});
+
+}  // namespace tubecut::api

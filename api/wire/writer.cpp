@@ -1,0 +1,266 @@
+#include "api/wire/writer.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/base/angle.hpp"
+
+namespace tubecut::api {
+
+namespace {
+
+/// What is all whole numbers of 32 bits.
+std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values,
+                                                   const std::stop_token& stop) {
+  std::vector<std::int32_t> out;
+  out.reserve(values.size());
+  Pace pace(stop);
+  for (const auto& value : values) {
+    pace.turn();
+    const auto* number = value.as<double>();
+    if (number == nullptr || *number != std::trunc(*number) ||
+        !(*number >= -2147483648.0 && *number <= 2147483647.0))
+      return std::nullopt;
+    out.push_back(static_cast<std::int32_t>(*number));
+  }
+  return out;
+}
+
+}  // namespace
+
+Writer::Writer(std::size_t reserve, std::stop_token stop, Encoding encoding)
+    : pace_(std::move(stop)) {
+  if (encoding == Encoding::cbor)
+    cbor_.emplace(pace_.stop());
+  else
+    out_.reserve(reserve);
+}
+
+Writer Writer::hashing(std::stop_token stop) {
+  Writer out(2 * kHashed, std::move(stop));
+  out.hash_.emplace();
+  return out;
+}
+
+Writer Writer::part() const {
+  return Writer(0, pace_.stop(), cbor_ ? Encoding::cbor : Encoding::json);
+}
+
+void Writer::hash_so_far() {
+  hash_->add(out_);
+  out_.clear();
+}
+
+std::string Writer::sha256() {
+  if (!hash_) return api::sha256(out_, pace_.stop());
+  hash_so_far();
+  return hash_->hex();
+}
+
+void Writer::leave_out(Cut cut) {
+  if (hash_) return;
+  cut.to = out_.size();
+  if (!cuts_.empty() && cuts_.back().to == cut.from)
+    cuts_.back().to = cut.to;
+  else
+    cuts_.push_back(cut);
+}
+
+void Writer::put(Writer part) {
+  if (cbor_) return cbor_->raw(part.take());
+  for (auto cut : part.cuts_) {
+    cut.from += out_.size();
+    cut.to += out_.size();
+    if (!hash_) cuts_.push_back(cut);
+  }
+  append(out_, part.out_, pace_.stop());
+  fresh_ = false;
+}
+
+std::string Writer::take() {
+  if (cbor_) return cbor_->take();
+  if (cuts_.empty()) return std::move(out_);
+  std::string seen;
+  std::size_t at = 0;
+  for (const auto& cut : cuts_) {
+    append(seen, std::string_view(out_).substr(at, cut.from - at), pace_.stop());
+    at = cut.to;
+    if (cut.first && out_[at] == ',') ++at;
+  }
+  append(seen, std::string_view(out_).substr(at), pace_.stop());
+  return seen;
+}
+
+void Writer::key(std::string_view name) {
+  separate();
+  if (cbor_) return cbor_->key(name);
+  append_text(out_, name);
+  out_ += ':';
+  fresh_ = true;
+}
+
+void Writer::open(char c) {
+  if (cbor_)
+    cbor_->open(c == '{');
+  else
+    out_ += c;
+  fresh_ = true;
+}
+
+void Writer::close(char c) {
+  if (cbor_)
+    cbor_->close();
+  else
+    out_ += c;
+  fresh_ = false;
+}
+
+void Writer::number(double value, std::string_view name) {
+  if (!std::isfinite(value)) throw NotFinite("not finite: " + std::string(name));
+  if (cbor_) return cbor_->number(value);
+  append_number(out_, value);
+  fresh_ = false;
+}
+
+void Writer::integer(std::int64_t value) {
+  if (cbor_) return cbor_->integer(value);
+  char buffer[24];
+  out_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+  fresh_ = false;
+}
+
+void Writer::boolean(bool value) {
+  if (cbor_) return cbor_->boolean(value);
+  out_ += value ? "true" : "false";
+  fresh_ = false;
+}
+
+void Writer::null() {
+  if (cbor_) return cbor_->null();
+  out_ += "null";
+  fresh_ = false;
+}
+
+void Writer::value(double number) { this->number(number, "element"); }
+
+void Writer::value(std::string_view text) {
+  if (cbor_) return cbor_->text(text);
+  append_text(out_, text);
+  fresh_ = false;
+}
+
+void Writer::json(const Json& of) {
+  if (const auto* b = of.as<bool>()) {
+    boolean(*b);
+  } else if (const auto* d = of.as<double>()) {
+    value(*d);
+  } else if (const auto* s = of.as<std::string>()) {
+    value(std::string_view(*s));
+  } else if (const auto* a = of.as<Json::Array>()) {
+    if (cbor_ && cbor_->in_counts())
+      if (const auto counts = counts_of(*a, pace_.stop())) return cbor_->typed_array(*counts);
+    list(*a, [this](const Json& item) { json(item); });
+  } else if (const auto* o = of.as<Json::Object>()) {
+    object([o](Writer& w) {
+      for (const auto& [name, member] : *o) w.field(name, member);
+    });
+  } else {
+    null();
+  }
+}
+
+void Writer::field(std::string_view name, double value) {
+  key(name);
+  number(value, name);
+}
+
+void Writer::field(std::string_view name, const Json& value) {
+  key(name);
+  json(value);
+}
+
+void Writer::degrees(std::string_view name, double radians) { field(name, radians * kDegPerRad); }
+
+/// One after the other into the buffer, which has room for the longest: a column costs what its
+/// numbers do.
+template <class Values, class F>
+void Writer::straight(const Values& values, F print) {
+  constexpr std::size_t kAtOnce = 256;
+  out_ += '[';
+  for (std::size_t i = 0; i < values.size();) {
+    ask(pace_.stop());
+    if (out_.size() >= kHashed && hash_) hash_so_far();
+    const std::size_t end = std::min(values.size(), i + kAtOnce);
+    const std::size_t before = out_.size(), most = (end - i) * (kNumberBytes + 1);
+    make_room(out_, most, pace_.stop());
+    out_.resize(before + most);
+    char* to = out_.data() + before;
+    for (; i < end; ++i) {
+      to = print(to, values[i]);
+      *to++ = ',';
+    }
+    out_.resize(static_cast<std::size_t>(to - out_.data()));
+  }
+  if (values.size() == 0) out_ += ',';
+  out_.back() = ']';
+  fresh_ = false;
+}
+
+void Writer::numbers(std::string_view name, std::span<const double> values, double unit) {
+  key(name);
+  if (cbor_) return list(values, [&](double v) { number(v * unit, name); });
+  straight(values, [&](char* to, double v) {
+    if (!std::isfinite(v * unit)) throw NotFinite("not finite: " + std::string(name));
+    return print_number(to, v * unit);
+  });
+}
+
+template <std::integral T>
+void Writer::column(std::string_view name, const std::vector<T>& values) {
+  key(name);
+  if constexpr (std::same_as<T, std::int32_t>)
+    if (cbor_ && cbor_->in_counts()) return cbor_->typed_array(values);
+  if (cbor_) return list(values, [this](T v) { integer(static_cast<std::int64_t>(v)); });
+  straight(values, [](char* to, T v) { return std::to_chars(to, to + kNumberBytes, v).ptr; });
+}
+template void Writer::column(std::string_view, const std::vector<std::int32_t>&);
+template void Writer::column(std::string_view, const std::vector<std::int64_t>&);
+template void Writer::column(std::string_view, const std::vector<std::size_t>&);
+
+void Writer::column(std::string_view name, std::span<const double> values) {
+  numbers(name, values, 1.0);
+}
+
+void Writer::degrees_column(std::string_view name, std::span<const double> radians) {
+  numbers(name, radians, kDegPerRad);
+}
+
+void Writer::column(std::string_view name, const std::vector<std::string>& values) {
+  key(name);
+  list(values, [this](const std::string& v) { value(std::string_view(v)); });
+}
+
+void Writer::flags(std::string_view name, const std::vector<bool>& values) {
+  key(name);
+  if (cbor_) return list(values, [this](bool v) { boolean(v); });
+  straight(values, [](char* to, bool v) {
+    const std::string_view word = v ? "true" : "false";
+    return to + word.copy(to, word.size());
+  });
+}
+
+void Writer::raw(std::string_view name, std::string_view encoded) {
+  key(name);
+  if (cbor_) return cbor_->raw(encoded);
+  append(out_, encoded, pace_.stop());
+  fresh_ = false;
+}
+
+std::string dump(const Json& json, const std::stop_token& stop) {
+  Writer out(256, stop);
+  out.json(json);
+  return out.take();
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,112 @@
+#include "core/bevel/table/end_tables.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/try.hpp"
+
+namespace tubecut::bevel {
+namespace {
+
+/// Nothing about one end alone.
+bool spoils_all(ErrorCode code) {
+  return code == ErrorCode::too_many_nodes || code == ErrorCode::cancelled;
+}
+
+Result<EndTable> end_table(const joint::NodeSpec& spec, const joint::MemberEnd& end,
+                           const TableSpec& asked, const std::stop_token& stop) {
+  auto joint = joint::joint_of(spec, end);
+  EndTable out{.spec = asked, .table = {}, .refused = {}};
+  out.spec.target = joint.target;
+  out.spec.partners = std::move(joint.partners);
+  out.spec.stated = std::move(joint.stated);
+  auto made = table(out.spec, stop);
+  if (made) {
+    out.table = *std::move(made);
+  } else if (spoils_all(made.error().code())) {
+    return tl::unexpected(made.error());
+  } else {
+    out.refused = made.error().issues.front();
+  }
+  return out;
+}
+
+/// The tables of a node share the nodes that a request may have.
+class SharedNodes {
+ public:
+  explicit SharedNodes(const TableSpec& asked)
+      : asked_(asked.sampling.max_nodes),
+        largest_(asked.sampling.tolerance ? asked_ : asked.sampling.uniform_points),
+        left_(asked) {}
+
+  /// How a table is asked for that has all that are left.
+  [[nodiscard]] const TableSpec& left() const { return left_; }
+
+  /// Tables to make at a time: by the largest so far their nodes are there, with as much again.
+  [[nodiscard]] std::size_t tables() const {
+    constexpr std::size_t kMost = 64;
+    const auto each = 2 * std::max<std::size_t>(1, largest_);
+    return std::clamp<std::size_t>(left_.sampling.max_nodes / each, 1, kMost);
+  }
+
+  [[nodiscard]] bool has(const EndTable& one) const {
+    return nodes_of(one) <= left_.sampling.max_nodes;
+  }
+
+  Result<EndTable> take(EndTable one) {
+    const auto used = nodes_of(one);
+    if (!has(one))
+      return fail({.code = ErrorCode::too_many_nodes,
+                   .member = "sampling",
+                   .got = static_cast<double>(asked_ - left_.sampling.max_nodes + used),
+                   .limit = static_cast<double>(asked_)});
+    left_.sampling.max_nodes -= used;
+    largest_ = first_ ? used : std::max(largest_, used);
+    first_ = false;
+    return one;
+  }
+
+ private:
+  static std::size_t nodes_of(const EndTable& one) { return one.table ? one.table->phi.size() : 0; }
+
+  std::size_t asked_;
+  std::size_t largest_;  // of one table; until the first is made, by what was asked
+  bool first_ = true;
+  TableSpec left_;
+};
+
+}  // namespace
+
+Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& spec,
+                                                        const joint::Nodes& nodes,
+                                                        const TableSpec& asked,
+                                                        const std::stop_token& stop,
+                                                        const Turns& turns) {
+  TRY(check_groove(asked.groove));
+  std::vector<std::size_t> cut;
+  for (std::size_t i = 0; i < nodes.ends.size(); ++i)
+    if (const auto& end = nodes.ends[i]; !end.cut_by.empty() && !end.open && !end.consumed)
+      cut.push_back(i);
+  std::vector<std::optional<EndTable>> out(nodes.ends.size());
+  SharedNodes shared(asked);
+  for (std::size_t from = 0; from < cut.size();) {
+    std::vector<std::optional<Result<EndTable>>> made(std::min(shared.tables(), cut.size() - from));
+    turns(made.size(), [&](std::size_t k) {
+      if (!stop.stop_requested())
+        made[k] = end_table(spec, nodes.ends[cut[from + k]], shared.left(), stop);
+    });
+    for (auto& one : made) {
+      if (stop.stop_requested() || !one) return fail({.code = ErrorCode::cancelled});
+      const auto end = cut[from++];
+      // One that had more nodes to take than those before it have left: asked again, as it would
+      // have been alone.
+      if (&one != made.data() && (!*one || !shared.has(**one)))
+        one = end_table(spec, nodes.ends[end], shared.left(), stop);
+      TRY(auto table, *std::move(one));
+      TRY(out[end], shared.take(std::move(table)));
+    }
+  }
+  return out;
+}
+
+}  // namespace tubecut::bevel

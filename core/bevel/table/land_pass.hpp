@@ -1,0 +1,21 @@
+#pragma once
+
+#include <stop_token>
+
+#include "core/bevel/table/table.hpp"
+
+namespace tubecut::bevel {
+
+/// The pass that makes the land of a root face: the land's own line prolonged through the wall,
+/// with the torch line that a beam of the kerf's width needs along it, as a table of its own
+/// without a land. The bevel of `table` is the pass behind it.
+///
+/// Frame   that of `table`, which must have a land and be in its own frame.
+/// Errors  unsupported_combination (root_face): the land leans beyond the torch's range, or further
+///         than the bevel, so that its pass would enter the finished part; out_of_range (kerf);
+///         cancelled.
+/// Source  docs/theory/intersections-and-bevels.md, sections 5.5 and 5.6.
+[[nodiscard]] Result<Table> land_pass(const TableSpec& spec, const Table& table,
+                                      const std::stop_token& stop = {});
+
+}  // namespace tubecut::bevel

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/base/angle.hpp"
+#include "core/joint/node/node.hpp"
+
+namespace tubecut::joint {
+
+/// Two ends that meet belong to one line if the members lie within this angle of in line: neither
+/// stands on the other, they end at the plane between them.
+inline constexpr double kInLineMost = 15.0 * kRadPerDeg;
+/// Up to this angle both faces count as square: a butt joint.
+inline constexpr double kButtMost = 0.5 * kRadPerDeg;
+/// How far the two axes may pass beside each other where the ends meet, beyond the difference of
+/// the radii; mm.
+inline constexpr double kBesideMost = 2.0;
+
+/// How two ends lie to each other.
+struct Facing {
+  double angle = 0.0;   // out of line; rad, [0, pi]
+  double beside = 0.0;  // from the one end to the other across their line, mm
+  double apart = 0.0;   // along it; < 0: they pass each other
+};
+[[nodiscard]] Facing facing(const Member& a, End of_a, const Member& b, End of_b);
+
+/// May two ends that face each other so belong to one line? `apart`: the most they may be, mm.
+[[nodiscard]] bool in_line(const Facing& facing, double radius_a, double radius_b, double apart);
+
+/// A member's end as one number: 2 i for the start of member i, 2 i + 1 for its finish.
+[[nodiscard]] constexpr std::size_t end_index(std::size_t member, End end) {
+  return 2 * member + (end == End::finish ? 1U : 0U);
+}
+[[nodiscard]] constexpr End end_of(std::size_t index) {
+  return index % 2 == 0 ? End::start : End::finish;
+}
+
+/// Of each end the one that continues it, with nothing between the two; each other's.
+///
+/// Errors  those of `solve`, of members, links and stated joints.
+[[nodiscard]] Result<std::vector<std::optional<std::size_t>>> continued(
+    const NodeSpec& spec, const std::stop_token& stop = {});
+
+}  // namespace tubecut::joint

@@ -1,0 +1,328 @@
+#include "core/joint/node/node.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+#include "core/joint/nearness.hpp"
+#include "core/joint/node/in_line.hpp"
+#include "core/joint/node/node_parts.hpp"
+
+namespace tubecut::joint {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kEquallyNear = 1e-6;                  // mm: two chords at the same distance
+constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
+constexpr double kStep = 0.01;      // mm between two mitred edges: as good as none
+constexpr double kFoundStep = 0.5;  // in line as found: coordinates are rounded
+
+using detail::Applied;
+using detail::called;
+using detail::Joined;
+using detail::Lines;
+using detail::Presence;
+using detail::sine_between;
+
+std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
+bool alike(const Member& a, const Member& b) {
+  return a.priority == b.priority && a.outer_radius == b.outer_radius;
+}
+
+/// One member that cuts an end: its tube, or a mitre's plane.
+struct Cutting {
+  Touch touch;
+  const detail::Mitre* mitre = nullptr;
+};
+
+/// Two members that pass this end, alike in rank and equally near: which one is the chord?
+Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Cutting>& above,
+                             double within) {
+  const Touch* nearest = nullptr;
+  const Touch* second = nullptr;
+  for (const auto& [touch, mitre] : above) {
+    const auto& other = spec.members[touch.other];
+    const bool passing = touch.near.inside > within + other.outer_radius;
+    if (!passing || !alike(other, spec.members[above.front().touch.other])) continue;
+    if (nearest == nullptr || touch.near.distance < nearest->near.distance)
+      second = std::exchange(nearest, &touch);
+    else if (second == nullptr || touch.near.distance < second->near.distance)
+      second = &touch;
+  }
+  if (second == nullptr || second->near.distance - nearest->near.distance > kEquallyNear) return {};
+  const auto [a, b] = std::minmax(nearest->other, second->other);
+  const auto end = nearest->end;
+  return fail({.code = ErrorCode::ambiguous_connection,
+               .member = place_of(end / 2, end % 2 == 0 ? End::start : End::finish),
+               .got = called(spec, a) + ", " + called(spec, b),
+               .unit = {},
+               .hint = called(spec, a) + " and " + called(spec, b) +
+                       " pass this end equally near and are alike; name the connection, or give "
+                       "one the smaller priority"});
+}
+
+/// Of the world's axes the one furthest from `z`, the first of equals.
+Vector3d any_reference(const Vector3d& z) {
+  int axis = 0;
+  z.cwiseAbs().minCoeff(&axis);
+  return Vector3d::Unit(axis);
+}
+
+Result<MemberFrame> frame_of(const NodeSpec& spec, std::size_t member, End end,
+                             const std::optional<Vector3d>& chord) {
+  const auto& m = spec.members[member];
+  const Vector3d& cut = m.at(end);
+  const Vector3d& far = m.at(end == End::start ? End::finish : End::start);
+  const Vector3d z = (far - cut).normalized();
+  const Vector3d reference = m.up ? *m.up : chord ? chord_reference(z, *chord) : any_reference(z);
+  auto frame = member_frame(cut, far, reference);
+  if (!frame) {
+    auto error = frame.error();
+    for (auto& issue : error.issues) issue.member = place_of(member) + "/up";
+    return tl::unexpected(std::move(error));
+  }
+  return frame;
+}
+
+/// What stands around an end, and what is known of the joints.
+struct Around {
+  const Applied& applied;
+  const Lines& lines;
+  const std::vector<Touch>& joined;
+  const std::optional<Touch>& missed;
+};
+
+/// "X is within 0.012 deg of parallel"
+std::string parallel_to(const NodeSpec& spec, std::size_t member, std::size_t other) {
+  const double off = elementary::asin(sine_between(spec.members[member], spec.members[other]));
+  const auto name = called(spec, other);
+  if (off < 2.0 * kParallel) return name + " is parallel";
+  return name + " is within " + brief(off * kDegPerRad) + " deg of parallel";
+}
+
+/// The cutters of one end, the chord first; parallel members are noted and do not cut, those of
+/// the end's own line cut it at a mitre's plane alone.
+std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const Around& around,
+                                std::vector<Warning>& warnings) {
+  const auto member = index / 2;
+  const auto& lines = around.lines;
+  std::vector<Cutting> out;
+  for (const auto& touch : around.joined) {
+    if (const auto mitre = around.applied.mitres.find({index, touch.other});
+        mitre != around.applied.mitres.end()) {
+      out.push_back({touch, &mitre->second});
+      continue;
+    }
+    const double sine = sine_between(spec.members[member], spec.members[touch.other]);
+    const bool same = lines.line[member] == lines.line[touch.other];
+    if (same && sine < elementary::sin(kInLineMost)) continue;
+    if (!lines.goes_before(spec, touch.other, member)) continue;
+    if (sine < 2.0 * kParallel) {
+      warnings.push_back(
+          {.code = WarningCode::parallel_members,
+           .member = place_of(member, end_of(index)),
+           .detail = parallel_to(spec, member, touch.other) + " and does not cut it"});
+      continue;
+    }
+    out.push_back({touch});
+  }
+  std::ranges::sort(out, [&](const Cutting& a, const Cutting& b) {
+    return lines.listed_before(spec, a.touch.other, b.touch.other);
+  });
+  return out;
+}
+
+/// The first cutter that points somewhere: with it phase zero is found. A face as good as square
+/// points nowhere.
+const Cutting* chord_of(const NodeSpec& spec, std::size_t member,
+                        const std::vector<Cutting>& cutters) {
+  for (const auto& one : cutters) {
+    const double least = one.mitre != nullptr ? elementary::sin(kButtMost) : 2.0 * kParallel;
+    if (sine_between(spec.members[member], spec.members[one.touch.other]) >= least) return &one;
+  }
+  return nullptr;
+}
+
+std::optional<Joint> joint_with(const NodeSpec& spec, const Applied& applied, std::size_t member,
+                                std::size_t other) {
+  const auto stated = applied.joints.find(std::minmax(member, other));
+  if (stated == applied.joints.end()) return std::nullopt;
+  auto out = stated->second;
+  if (out.kind == JointKind::set_in && !out.depth) out.depth = spec.members[other].wall;
+  return out;
+}
+
+Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& applied,
+                                         std::size_t member, const MemberFrame& frame,
+                                         const Cutting* chord,
+                                         const std::vector<Cutting>& cutters) {
+  std::vector<CutBy> out;
+  for (const auto& one : cutters) {
+    const auto& [touch, mitre] = one;
+    const auto& other = spec.members[touch.other];
+    CutBy cut{.member = touch.other,
+              .placement = {},
+              .stated = joint_with(spec, applied, member, touch.other),
+              .gap = touch.near.distance};
+    const AxisLine axis{other.start, other.finish - other.start};
+    if (mitre != nullptr) {
+      cut.plane = PlaneCutter{frame.rows * mitre->point, frame.rows * mitre->normal};
+      cut.eccentricity = mitre->eccentricity;
+    } else {
+      TRY(cut.placement,
+          under(place_of(touch.other), place(frame.local(axis), other.outer_radius)));
+      // The frame was made so.
+      if (!spec.members[member].up && &one == chord) cut.placement.tube.clocking = Angle{};
+      cut.eccentricity = std::abs(cut.placement.tube.offset);
+    }
+    out.push_back(std::move(cut));
+  }
+  return out;
+}
+
+/// How far the outer edges of two mitred ends stand apart at most: both are ellipses in one plane,
+/// their centres the axes' distance apart, half as wide as their tubes and longer as these lean.
+double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) {
+  if (!cut.plane) return 0.0;
+  const auto& other = spec.members[cut.member];
+  const double r = spec.members[end.member].outer_radius, s = other.outer_radius;
+  const Vector3d normal = cut.plane->normal.normalized();
+  const Vector3d along = end.frame.rows * (other.finish - other.start).normalized();
+  return std::max(std::abs(r / normal.z() - s / std::abs(normal.dot(along))), std::abs(r - s)) +
+         cut.eccentricity;
+}
+
+std::string ghost(const NodeSpec& spec, const CutBy& cut) {
+  const auto far = brief(cut.missing) + " mm";
+  const auto by = "cut by " + called(spec, cut.member);
+  if (!cut.instead) return by + " up to " + far + " beyond that member's end";
+  return by + " beyond that member's end, where " + called(spec, *cut.instead) +
+         ", which continues it, lies up to " + far + " lower";
+}
+
+void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
+          std::vector<Warning>& out) {
+  const auto at = place_of(end.member, end.end);
+  const auto least = [&](const CutBy& cut) {
+    return around.applied.found.contains(std::minmax(end.member, cut.member)) ? kFoundStep : kStep;
+  };
+  if (const auto& missed = around.missed) {
+    const double off = missed->near.distance - spec.members[missed->other].outer_radius;
+    out.push_back({.code = WarningCode::free_end,
+                   .member = at,
+                   .detail = called(spec, end.member) + " meets no member here, and misses " +
+                             called(spec, missed->other) + " by " + brief(off) + " mm"});
+  }
+  for (const auto& cut : end.cut_by)
+    if (cut.ghost)
+      out.push_back({.code = WarningCode::ghost_contact, .member = at, .detail = ghost(spec, cut)});
+  for (const auto& cut : end.cut_by)
+    if (const double step = mitre_step(spec, end, cut); step > least(cut))
+      out.push_back({.code = WarningCode::mitre_steps,
+                     .member = at,
+                     .detail = "its edge and that of " + called(spec, cut.member) +
+                               " stand up to " + shown(step) + " mm apart"});
+  if (end.open) out.push_back({.code = WarningCode::end_open, .member = at});
+  if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
+}
+
+Result<MemberEnd> place_end(const NodeSpec& spec, std::size_t index, const Around& around,
+                            const std::vector<Cutting>& cutters) {
+  MemberEnd out{.member = index / 2, .end = end_of(index)};
+  out.free = around.joined.empty();
+  const auto* first = chord_of(spec, out.member, cutters);
+  std::optional<Vector3d> chord;
+  if (first != nullptr) {
+    const auto& m = spec.members[first->touch.other];
+    chord = m.finish - m.start;
+  }
+  TRY(const auto frame, frame_of(spec, out.member, out.end, chord));
+  out.frame = frame;
+  TRY(auto placed, place_cutters(spec, around.applied, out.member, out.frame, first, cutters));
+  out.cut_by = std::move(placed);
+  return out;
+}
+
+/// Why one of the cutters of an end is none; empty where it is one.
+std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, const Around& around,
+                                 std::size_t index, const Presence& seen) {
+  const auto& cut = end.cut_by[index];
+  if (cut.plane || !seen.anywhere) return std::nullopt;
+  const auto at = place_of(end.member, end.end);
+  const double sine = sine_between(spec.members[end.member], spec.members[cut.member]);
+  if (seen.consumes && sine < kNearParallel)
+    return Warning{WarningCode::parallel_members, at,
+                   parallel_to(spec, end.member, cut.member) + " and does not cut it: the cut " +
+                       "would begin " + brief(seen.highest) + " mm from the end"};
+  const auto pair = std::minmax(end.member, cut.member);
+  const bool stated = around.applied.joints.contains(pair) && !around.applied.found.contains(pair);
+  if (stated || seen.there || !std::holds_alternative<Within>(spec.connect)) return std::nullopt;
+  return Warning{WarningCode::free_end, at,
+                 called(spec, end.member) + " meets no member here: " + called(spec, cut.member) +
+                     " ends " + brief(seen.nearest) + " mm before it would cut it"};
+}
+
+/// Of cutters that are none the first is left out, and all is seen again without it: what stays is
+/// where it cuts.
+Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Around& around,
+                            std::vector<Warning>& warnings) {
+  auto cutters = cutters_of(spec, index, around, warnings);
+  const auto* within = std::get_if<Within>(&spec.connect);
+  if (within != nullptr && !cutters.empty()) TRY(check_ambiguous(spec, cutters, within->distance));
+  std::vector<Warning> left_out;
+  for (;;) {
+    TRY(auto out, place_end(spec, index, around, cutters));
+    std::optional<std::size_t> none;
+    if (!cutters.empty()) {
+      const auto seen = detail::inspect(spec, around.lines, around.applied, out);
+      for (std::size_t i = 0; i < seen.size() && !none; ++i)
+        if (auto why = no_cutter(spec, out, around, i, seen[i])) {
+          none = i;
+          left_out.push_back(*std::move(why));
+        }
+    }
+    if (none) {
+      cutters.erase(cutters.begin() + static_cast<std::ptrdiff_t>(*none));
+      continue;
+    }
+    for (auto& one : left_out)
+      if (one.code != WarningCode::free_end || cutters.empty()) {
+        out.free = out.free || one.code == WarningCode::free_end;
+        warnings.push_back(std::move(one));
+      }
+    for (const auto& one : cutters)
+      if (one.mitre == nullptr &&
+          sine_between(spec.members[out.member], spec.members[one.touch.other]) < kNearParallel)
+        warnings.push_back(
+            {.code = WarningCode::near_parallel,
+             .member = place_of(out.member, out.end),
+             .detail = called(spec, one.touch.other) + " is within 5 deg of parallel"});
+    warn(spec, out, around, warnings);
+    return out;
+  }
+}
+
+}  // namespace
+
+Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
+  TRY(auto joined, detail::connected(spec, stop));
+  TRY(const auto near, detail::missed(spec, joined, stop));
+  const auto lines = detail::lines_of(spec, joined);
+  TRY(auto applied, detail::apply_joints(spec, lines, joined));
+  detail::join_lines(spec, lines, joined, applied);
+  Nodes out;
+  out.ends.reserve(joined.size());
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    const Around around{applied, lines, joined[i], near[i]};
+    TRY(auto end, solve_end(spec, i, around, out.warnings));
+    out.ends.push_back(std::move(end));
+  }
+  return out;
+}
+
+}  // namespace tubecut::joint

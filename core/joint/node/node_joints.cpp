@@ -1,0 +1,260 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/try.hpp"
+#include "core/joint/node/node_parts.hpp"
+
+namespace tubecut::joint {
+
+const Joint* stated_joint(const NodeSpec& spec, std::size_t a, std::size_t b) {
+  for (const auto& one : spec.joints)
+    if ((one.member == a && one.with == b) || (one.member == b && one.with == a)) return &one.joint;
+  return nullptr;
+}
+
+namespace detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInLine = 0.00872653549837393;        // sin 0.5 deg: two ends face each other
+constexpr double kNearlyInLine = 0.08715574274765817;  // sin 5 deg
+
+/// Its own path, or "members/3/joints/0": the statement as its member makes it.
+std::string place_of(const NodeSpec& spec, std::size_t index) {
+  if (const auto& own = spec.joints[index].at; !own.empty()) return own;
+  const auto member = spec.joints[index].member;
+  const auto before = spec.joints.begin() + static_cast<std::ptrdiff_t>(index);
+  const auto own = std::count_if(spec.joints.begin(), before,
+                                 [&](const StatedJoint& s) { return s.member == member; });
+  return "members/" + std::to_string(member) + "/joints/" + std::to_string(own);
+}
+
+/// "set_in, gap 1.5 mm, depth 8 mm"
+std::string told(const Joint& joint) {
+  return std::string(name_of(joint.kind)) + ", gap " + shown(joint.gap) + " mm" +
+         (joint.depth ? ", depth " + shown(*joint.depth) + " mm" : "") +
+         (joint.plane == MitrePlane::corner_to_corner ? ", corner to corner" : "");
+}
+
+/// Both sides may say the same, and must not say different things.
+Result<void> check_sides(const NodeSpec& spec) {
+  std::map<Applied::Pair, std::size_t> out;
+  for (std::size_t i = 0; i < spec.joints.size(); ++i) {
+    const auto& said = spec.joints[i];
+    const auto n = spec.members.size();
+    if (said.member >= n || said.with >= n || said.member == said.with)
+      return fail({.code = ErrorCode::out_of_range, .member = place_of(spec, i)});
+    const auto [known, fresh] = out.emplace(std::minmax(said.member, said.with), i);
+    const auto& first = spec.joints[known->second];
+    if (fresh || first.joint == said.joint) continue;
+    return fail({.code = ErrorCode::joint_contradicts,
+                 .member = place_of(spec, i),
+                 .got = told(said.joint),
+                 .limit = told(first.joint),
+                 .unit = {},
+                 .hint = called(spec, first.member) + " states it otherwise"});
+  }
+  return {};
+}
+
+bool joins(const Joined& joined, std::size_t member, std::size_t other) {
+  for (const auto end : {2 * member, 2 * member + 1})
+    if (std::ranges::find(joined[end], other, &Touch::other) != joined[end].end()) return true;
+  return false;
+}
+
+void part(Joined& joined, std::size_t member, std::size_t other) {
+  for (const auto end : {2 * member, 2 * member + 1})
+    std::erase_if(joined[end], [&](const Touch& t) { return t.other == other; });
+}
+
+const Vector3d& point_of(const NodeSpec& spec, std::size_t end) {
+  return spec.members[end / 2].at(end % 2 == 0 ? End::start : End::finish);
+}
+/// From an end into its member, unit.
+Vector3d into(const NodeSpec& spec, std::size_t end) {
+  return (point_of(spec, end ^ 1U) - point_of(spec, end)).normalized();
+}
+
+/// The two ends, of one member each, that lie nearest to each other.
+std::pair<std::size_t, std::size_t> facing_ends(const NodeSpec& spec, std::size_t a,
+                                                std::size_t b) {
+  std::pair out{2 * a, 2 * b};
+  double least = (point_of(spec, out.first) - point_of(spec, out.second)).norm();
+  for (const auto p : {2 * a, 2 * a + 1})
+    for (const auto q : {2 * b, 2 * b + 1})
+      if (const double d = (point_of(spec, p) - point_of(spec, q)).norm(); d < least) {
+        least = d;
+        out = {p, q};
+      }
+  return out;
+}
+
+/// Where two mitred axes meet: so far from either end along its own axis. The plane between them
+/// passes midway between the two places.
+struct Meeting {
+  double s, t;
+};
+
+/// Where the axes are nearest to each other. In line that place is lost in the rounding of the
+/// coordinates (0.01 mm aside and 0.01 deg out of line it is 57 mm from the ends), so there, and
+/// nearly in line where it is further from the ends than they are apart and the tubes are thick, it
+/// is where the plane midway between the ends meets either axis.
+Meeting meeting(const NodeSpec& spec, std::size_t p, std::size_t q) {
+  const Vector3d w = point_of(spec, q) - point_of(spec, p);
+  const Vector3d u = into(spec, p), v = into(spec, q);
+  const Vector3d n = u.cross(v);
+  const double square = n.squaredNorm();
+  const double midway = 0.5 * w.dot(u - v) / (1.0 - u.dot(v));
+  const bool opposed = u.dot(v) < 0.0;
+  if (opposed && !(square >= kInLine * kInLine)) return {midway, midway};
+  const Meeting nearest{w.cross(v).dot(n) / square, w.cross(u).dot(n) / square};
+  const double near =
+      w.norm() + std::max(spec.members[p / 2].outer_radius, spec.members[q / 2].outer_radius);
+  const bool far = std::max(std::abs(nearest.s), std::abs(nearest.t)) > near;
+  return opposed && square < kNearlyInLine * kNearlyInLine && far ? Meeting{midway, midway}
+                                                                  : nearest;
+}
+
+void join(Joined& joined, const NodeSpec& spec, std::size_t end, std::size_t other) {
+  auto& touches = joined[end];
+  const auto at = std::ranges::lower_bound(touches, other, {}, &Touch::other);
+  if (at != touches.end() && at->other == other) return;
+  const auto& m = spec.members[other];
+  touches.insert(at, {end, other, nearness(point_of(spec, end), {m.start, m.finish, 0.0})});
+}
+
+/// Towards the first of two tubes that leave their corner along unit `u` and `v`. The outlines of
+/// radii r and s in the plane of both axes meet r / (n.u) and s / -(n.v) along the plane of normal
+/// n from its point: alike where n is normal to s u + r v.
+Vector3d mitre_normal(MitrePlane plane, const Vector3d& u, double r, const Vector3d& v, double s) {
+  if (plane == MitrePlane::bisecting) return u - v;
+  const double c = u.dot(v);
+  return ((r + s * c) * u - (s + r * c) * v) / (r + s);
+}
+
+/// The two ends join each other, and nothing else of each other, at the plane of this normal.
+void face(const NodeSpec& spec, std::size_t p, std::size_t q, const Vector3d& normal,
+          Joined& joined, Applied& out) {
+  const auto a = p / 2, b = q / 2;
+  const Vector3d u = into(spec, p), v = into(spec, q);
+  part(joined, a, b);
+  part(joined, b, a);
+  join(joined, spec, p, b);
+  join(joined, spec, q, a);
+  const auto [s, t] = meeting(spec, p, q);
+  const Vector3d w = point_of(spec, q) - point_of(spec, p);
+  const double eccentricity = (w + t * v - s * u).cross(u).norm();
+  out.mitres.emplace(std::pair{p, b},
+                     Mitre{0.5 * (w + t * v + s * u), normal.normalized(), eccentricity});
+  out.mitres.emplace(std::pair{q, a},
+                     Mitre{0.5 * (t * v + s * u - w), -normal.normalized(), eccentricity});
+}
+
+Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
+  const auto a = spec.joints[index].member, b = spec.joints[index].with;
+  const auto [p, q] = facing_ends(spec, a, b);
+  const Vector3d u = into(spec, p), v = into(spec, q);
+  const Vector3d normal =
+      mitre_normal(spec.joints[index].joint.plane, u, spec.members[a].outer_radius, v,
+                   spec.members[b].outer_radius);
+  if (!(normal.norm() >= 2.0 * kParallel))  // or it would lie along the members
+    return fail(
+        {.code = ErrorCode::parallel_axes,
+         .member = place_of(spec, index),
+         .hint = u.dot(v) > 0.0
+                     ? "the two members lie along each other; no plane between them cuts both"
+                     : "the two lie in line and their outlines have no corners; a bisecting "
+                       "plane cuts both square"});
+  face(spec, p, q, normal, joined, out);
+  return {};
+}
+
+tl::unexpected<Error> apart(const NodeSpec& spec, std::size_t index, const std::string& hint) {
+  return fail({.code = ErrorCode::no_contact, .member = place_of(spec, index), .hint = hint});
+}
+
+Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, Joined& joined,
+                   Applied& out) {
+  const auto a = spec.joints[index].member, b = spec.joints[index].with;
+  const auto& joint = spec.joints[index].joint;
+  const auto& p = spec.members[a];
+  const auto& q = spec.members[b];
+  if (joint.kind == JointKind::through) {
+    const double reach = p.outer_radius + q.outer_radius;
+    if (!(nearness(Stretch{p.start, p.finish}, Stretch{q.start, q.finish}) < reach))
+      return apart(spec, index, "the two do not reach each other");
+    part(joined, a, b);
+    part(joined, b, a);
+    return {};
+  }
+  if (joint.kind == JointKind::mitre) {
+    if (!joins(joined, a, b) && !joins(joined, b, a))
+      return apart(spec, index, "no end of either joins the other");
+    return mitre(spec, index, joined, out);
+  }
+  const bool first = lines.goes_before(spec, a, b);
+  const auto chord = first ? a : b, branch = first ? b : a;
+  if (!joins(joined, branch, chord))
+    return apart(spec, index,
+                 "no end of " + called(spec, branch) + " joins " + called(spec, chord) +
+                     ", which goes before it");
+  const double radius = spec.members[chord].outer_radius;
+  if (joint.depth && !(*joint.depth < radius))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = place_of(spec, index) + "/depth",
+                 .got = *joint.depth,
+                 .limit = radius,
+                 .unit = "mm",
+                 .hint = "must be less than the chord's radius"});
+  return {};
+}
+
+}  // namespace
+
+bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b) {
+  const auto& p = spec.members[a];
+  const auto& q = spec.members[b];
+  if (p.priority != q.priority) return p.priority < q.priority;
+  if (p.outer_radius != q.outer_radius) return p.outer_radius > q.outer_radius;
+  return a < b;
+}
+
+std::string called(const NodeSpec& spec, std::size_t member) {
+  const auto& name = spec.members[member].name;
+  return name.empty() ? "member " + std::to_string(member) : name;
+}
+
+double sine_between(const Member& a, const Member& b) {
+  return (a.finish - a.start).normalized().cross((b.finish - b.start).normalized()).norm();
+}
+
+Result<Applied> apply_joints(const NodeSpec& spec, const Lines& lines, Joined& joined) {
+  TRY(check_sides(spec));
+  Applied out;
+  for (std::size_t i = 0; i < spec.joints.size(); ++i) {
+    const auto pair = std::minmax(spec.joints[i].member, spec.joints[i].with);
+    if (!out.joints.emplace(pair, spec.joints[i].joint).second) continue;
+    if (i + spec.found >= spec.joints.size()) out.found.insert(pair);
+    TRY(apply(spec, lines, i, joined, out));
+  }
+  return out;
+}
+
+void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out) {
+  for (std::size_t p = 0; p < lines.mates.size(); ++p) {
+    if (!lines.mates[p] || lines.mates[p]->end < p) continue;
+    const auto q = lines.mates[p]->end;
+    const Applied::Pair pair{std::min(p / 2, q / 2), std::max(p / 2, q / 2)};
+    if (out.joints.contains(pair) || separated(spec, joined, lines, p, q)) continue;
+    out.joints.emplace(pair, Joint{.kind = JointKind::mitre});
+    out.found.insert(pair);
+    face(spec, p, q, into(spec, p) - into(spec, q), joined, out);
+  }
+}
+
+}  // namespace detail
+}  // namespace tubecut::joint

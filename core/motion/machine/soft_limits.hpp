@@ -1,0 +1,23 @@
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/motion/machine/kinematics.hpp"
+#include "core/motion/machine/machine.hpp"
+#include "core/motion/path/path.hpp"
+
+namespace tubecut::motion {
+
+/// Travel of every axis at every knot of the path against its soft limits, the swing axis' too.
+/// `has_phi`: the path's first coordinate is an angle round the tube, which errors name.
+///
+/// Errors  soft_limit of machine/axes/i/soft_min or soft_max: the farthest place outside each, in
+///         the axis' unit.
+[[nodiscard]] Result<void> check_soft_limits(const Path& path,
+                                             const std::vector<AxisFunction>& axes,
+                                             const Machine& machine, bool has_phi,
+                                             const std::stop_token& stop);
+
+}  // namespace tubecut::motion

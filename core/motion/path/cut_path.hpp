@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/angle.hpp"
+#include "core/base/error.hpp"
+#include "core/motion/machine/machine.hpp"
+#include "core/motion/path/straight_edges.hpp"
+
+namespace tubecut::motion {
+
+enum class Surface : std::uint8_t { outer, inner };
+/// The side of the cut that falls away; the kept part is on the other.
+enum class Scrap : std::uint8_t { minus_z, plus_z, inside };
+
+/// The line the torch follows on one wall surface, a request's `contour`. Columns of one length,
+/// rad and mm.
+///
+/// Frame   z along the tube into the kept part, phi from x towards y, unwrapped. `b` is the beam's
+///         angle to the radial direction in the axial plane *as the machine counts it* (positive
+///         towards sigma * z): see `as_machine_counts`.
+struct CutPath {
+  std::vector<double> phi = {};
+  std::vector<double> z = {};
+  std::vector<double> b = {};
+  std::vector<double> a = {};     // the beam's tilt across, towards growing phi; empty: none
+  std::vector<bool> corner = {};  // empty, or one per point
+  std::vector<double> beam = {};  // metal along the beam, mm; empty: wall / cos b
+  double outer_radius = 0.0;
+  double wall = 0.0;  // 0: the surface is all there is
+  Surface surface = Surface::outer;
+  bool closed = true;
+  Scrap scrap = Scrap::minus_z;
+
+  [[nodiscard]] double radius() const {
+    return surface == Surface::outer ? outer_radius : outer_radius - wall;
+  }
+  [[nodiscard]] double inner_radius() const { return outer_radius - wall; }
+};
+
+/// The path with `b` in the project's sign (B > 0: outer edge further into the part) turned into
+/// the machine's.
+[[nodiscard]] CutPath as_machine_counts(CutPath cut_path, BPositive b_positive);
+
+struct Start {
+  enum class At : std::uint8_t { first_point, phi, automatic };
+  At at = At::first_point;
+  Angle phi = {};
+  std::optional<Angle> seam = {};  // an automatic start keeps off it as off a corner
+};
+
+/// What an automatic start keeps from corners and the seam, mm, where the contour has room.
+inline constexpr double kFromJunction = 5.0;
+
+enum class Direction : std::uint8_t { as_given, ccw, cw };
+
+/// A stretch of a closed cut, to be cut again after a lost arc.
+struct Sector {
+  Angle from = {};
+  Angle to = {};
+  double back_up = 5.0;  // mm before `from`
+};
+
+/// One point of a cut path; what `CutPath` holds as columns.
+struct CutPoint {
+  double phi = 0.0;
+  double z = 0.0;
+  double b = 0.0;
+  bool corner = false;
+  double beam = 0.0;
+  double a = 0.0;
+};
+
+/// A cut path as a row of points, closed ones with their first point repeated at the end, one turn
+/// on.
+struct Track {
+  std::vector<CutPoint> points = {};
+  double radius = 0.0;  // of the surface the points lie on
+  bool closed = false;
+  int turns = 0;        // of a stretch: the orientation of what it is of
+  WallRadii wall = {};  // of points on the outer surface: what their beams go through
+
+  /// Distance of two points along the developed surface, mm; B plays no part.
+  [[nodiscard]] double tip_step(std::size_t from, std::size_t to) const;
+  /// +1 where phi grows along the track (or, of a hole, where it runs counter-clockwise in (phi,
+  /// z)), else -1.
+  [[nodiscard]] int orientation() const;
+};
+
+/// Checks the path and closes it.
+///
+/// Errors  bad_number, wrong_count, angle_out_of_range, duplicate_point, turns_back, not_closed,
+///         out_of_range.
+/// Source  docs/theory/pulse-schedules.md, section 2.1.
+[[nodiscard]] Result<Track> track(const CutPath& cut_path);
+
+/// The path without the points at which the torch stands where it stood before, as at a jump of
+/// the finished edge; their corners go to the point before.
+[[nodiscard]] CutPath without_repeats(CutPath path);
+
+/// The track in the asked direction and from the asked start point.
+///
+/// Errors  out_of_range (no point at the asked phi), unsupported_combination (an open track has no
+///         start to choose).
+[[nodiscard]] Result<Track> directed(Track track, Direction direction, const Start& start);
+
+/// The stretch of a closed track between two angles in its direction, with `back_up` mm before it.
+///
+/// Errors  unsupported_combination (holes and open tracks), out_of_range.
+[[nodiscard]] Result<Track> sector_of(const Track& whole, const Sector& sector);
+
+/// From each point of a closed track along it to its nearest corner, mm; huge where it has none.
+[[nodiscard]] std::vector<double> from_corner(const Track& track);
+
+}  // namespace tubecut::motion

@@ -1,0 +1,193 @@
+#include "core/motion/path/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stop.hpp"
+#include "core/motion/timing/profile.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+/// Whole parts of the time that a timing takes: differences of times are exact, and the same on
+/// every machine.
+using Ticks = std::int64_t;
+constexpr double kTicks = 0x1p61;  // of the whole time, 4e-19 of it each
+
+class Clock {
+ public:
+  explicit Clock(double whole) : per_second_(kTicks / whole), tick_(whole / kTicks) {}
+  [[nodiscard]] Ticks ticks(double seconds) const {
+    return static_cast<Ticks>(seconds * per_second_ + 0.5);
+  }
+  [[nodiscard]] double seconds(Ticks ticks) const { return static_cast<double>(ticks) * tick_; }
+
+ private:
+  double per_second_;
+  double tick_;
+};
+
+/// u(t) before the filter, with u_ddot constant on every interval: knot times and, inside an
+/// interval, the way gone and its integral.
+class Unfiltered {
+ public:
+  Unfiltered(const std::vector<double>& x, double d, const Clock& clock)
+      : clock_(clock), intervals_(x.size() - 1), times_(x.size(), 0) {
+    double speed = std::sqrt(x[0]);
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      const double next = std::sqrt(x[i + 1]);
+      const double span = 2.0 * d / (speed + next), half = 0.5 * (next - speed) / span;
+      intervals_[i] = {span, 0.5 * speed, half / 3.0, 0.0};
+      intervals_[i].integral = integral(i, span);
+      times_[i + 1] = times_[i] + clock.ticks(span);
+      speed = next;
+    }
+  }
+
+  [[nodiscard]] Ticks end() const { return times_.back(); }
+  [[nodiscard]] std::size_t intervals() const { return intervals_.size(); }
+  [[nodiscard]] double since(std::size_t knot, Ticks t) const {
+    return clock_.seconds(t - times_[knot]);
+  }
+  /// From one knot to another behind it.
+  [[nodiscard]] double between(std::size_t from, std::size_t to) const {
+    return clock_.seconds(times_[to] - times_[from]);
+  }
+  [[nodiscard]] double span(std::size_t i) const { return intervals_[i].span; }
+  /// True where `t` lies behind interval `i` and that is not the last.
+  [[nodiscard]] bool behind(std::size_t i, Ticks t) const {
+    return i + 1 < intervals_.size() && times_[i + 1] <= t;
+  }
+  /// Integral over time of the way gone since knot `i`, `since` seconds behind it.
+  [[nodiscard]] double integral(std::size_t i, double since) const {
+    return since * since * (intervals_[i].half_speed + since * intervals_[i].sixth);
+  }
+  [[nodiscard]] double integral(std::size_t i) const { return intervals_[i].integral; }
+  [[nodiscard]] double way(std::size_t i, double since) const {
+    return since * (2.0 * intervals_[i].half_speed + since * 3.0 * intervals_[i].sixth);
+  }
+
+ private:
+  struct Interval {
+    double span = 0.0;
+    double half_speed = 0.0;  // at its start
+    double sixth = 0.0;       // of the acceleration
+    double integral = 0.0;
+  };
+  Clock clock_;
+  std::vector<Interval> intervals_;
+  std::vector<Ticks> times_;
+};
+
+/// The moving average at times that follow one another, relative to its window's first knot. What
+/// lies between the knots in the window is summed from a pivot among them: behind it as the window
+/// goes on, before it once, when the first knot has passed the pivot before.
+class Averaged {
+ public:
+  Averaged(const Unfiltered& u, double d, double filter, Ticks filter_ticks)
+      : u_(u), d_(d), filter_(filter), filter_ticks_(filter_ticks) {}
+
+  Place at(Ticks t) {
+    if (filter_ticks_ == 0) {
+      while (u_.behind(first_, t)) ++first_;
+      return place(u_.way(first_, u_.since(first_, std::min(t, u_.end()))));
+    }
+    const Ticks start = std::clamp(t - filter_ticks_, Ticks{0}, u_.end());
+    const Ticks stop = std::min(t, u_.end());
+    advance(start, stop);
+    const double since = u_.since(last_, stop);
+    double sum = between() - u_.integral(first_, u_.since(first_, start));
+    sum += u_.integral(last_, since) + since * d_ * static_cast<double>(last_ - first_);
+    sum += u_.since(u_.intervals(), std::max(t, u_.end())) * d_ *
+           static_cast<double>(u_.intervals() - first_);
+    // Before the start u is 0, which is the window's first knot as well: nothing to add.
+    return place(sum / filter_);
+  }
+
+ private:
+  void advance(Ticks start, Ticks stop) {
+    for (; u_.behind(last_, stop); ++last_) {
+      ahead_ += u_.integral(last_) + u_.span(last_) * d_ * static_cast<double>(last_ - pivot_);
+    }
+    while (u_.behind(first_, start)) ++first_;
+    if (first_ > pivot_) set_pivot();
+  }
+
+  void set_pivot() {
+    pivot_ = last_;
+    ahead_ = 0.0;
+    before_.resize(std::max(before_.size(), last_ - first_ + 1));
+    before_[0] = 0.0;
+    for (std::size_t i = last_; i-- > first_;) {
+      const std::size_t back = last_ - i;
+      before_[back] = u_.integral(i) + before_[back - 1] + d_ * u_.between(i + 1, pivot_);
+    }
+  }
+
+  /// Integral from the first knot to the last of u less u at the first.
+  [[nodiscard]] double between() const {
+    const std::size_t back = pivot_ - first_;
+    return before_[back] + ahead_ + d_ * static_cast<double>(back) * u_.between(pivot_, last_);
+  }
+
+  /// Splits the way since the first knot into interval and offset.
+  [[nodiscard]] Place place(double way) const {
+    const auto whole = static_cast<std::int64_t>(std::max(0.0, way / d_));
+    const std::size_t i = std::min(first_ + static_cast<std::size_t>(whole), u_.intervals() - 1);
+    const double offset = std::clamp(way - d_ * static_cast<double>(i - first_), 0.0, d_);
+    return {static_cast<std::uint32_t>(i), offset};
+  }
+
+  const Unfiltered& u_;
+  double d_;
+  double filter_;
+  Ticks filter_ticks_;
+  std::size_t first_ = 0, pivot_ = 0, last_ = 0;
+  std::vector<double> before_ = {0.0};  // from so many knots before the pivot on, up to it
+  double ahead_ = 0.0;                  // from the pivot to the last knot, of u less u at the pivot
+};
+
+bool before(const Place& a, const Place& b) {
+  return a.interval < b.interval || (a.interval == b.interval && a.offset < b.offset);
+}
+
+}  // namespace
+
+double periods_of(double time, double period) {
+  return std::max(1.0, std::ceil(time / period - 1e-6));
+}
+
+tl::unexpected<Error> too_many_periods(double periods, std::int64_t most) {
+  return fail({.code = ErrorCode::too_many_periods,
+               .member = "motion",
+               .got = periods,
+               .limit = static_cast<double>(most),
+               .unit = "periods"});
+}
+
+std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
+                           const std::stop_token& stop) {
+  const Clock clock(duration(timing.x, d) + timing.filter);
+  const Unfiltered u(timing.x, d, clock);
+  const Ticks filter = clock.ticks(timing.filter), total = u.end() + filter;
+  Averaged average(u, d, timing.filter, filter);
+  std::vector<Place> places;
+  places.reserve(static_cast<std::size_t>(periods) + 1);
+  places.push_back({0, 0.0});
+  const Ticks step = total / periods, over = total % periods;
+  Ticks t = 0, rest = 0;  // t + rest / periods is the period's end
+  for (std::int64_t k = 1; k < periods && !stops(stop, static_cast<std::size_t>(k)); ++k) {
+    t += step;
+    rest += over;
+    if (rest >= periods) {
+      rest -= periods;
+      ++t;
+    }
+    const Place next = average.at(t);
+    places.push_back(before(next, places.back()) ? places.back() : next);
+  }
+  places.push_back({static_cast<std::uint32_t>(u.intervals() - 1), d});
+  return places;
+}
+
+}  // namespace tubecut::motion

@@ -1,0 +1,207 @@
+#include "core/motion/path/program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/try.hpp"
+#include "core/motion/path/lead.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kRadOfDeg = kBevelWeight * kRadPerDeg;  // weight of a coordinate in degrees
+
+Program from_points(const std::vector<CutPoint>& points, double radius) {
+  Program out;
+  out.coordinates = {{radius, Coordinate::Group::tip},
+                     {1.0, Coordinate::Group::tip},
+                     {kBevelWeight, Coordinate::Group::bevel}};
+  out.x.assign(3, {});
+  for (auto* const of : {&out.x[0], &out.x[1], &out.x[2], &out.beam}) of->reserve(points.size());
+  for (const CutPoint& p : points) {
+    out.x[0].push_back(p.phi);
+    out.x[1].push_back(p.z);
+    out.x[2].push_back(p.b);
+    out.corner.push_back(p.corner);
+    out.beam.push_back(p.beam);
+  }
+  out.cut_last = points.size() - 1;
+  return out;
+}
+
+/// The contour in its direction and, for a sector, only that stretch of it.
+Result<Track> stretch(Track whole, const Motion& motion) {
+  if (motion.sector) {
+    TRY(const auto in_direction, directed(std::move(whole), motion.direction, {}));
+    return sector_of(in_direction, *motion.sector);
+  }
+  return directed(std::move(whole), motion.direction, motion.start);
+}
+
+/// Points that were placed along a checked path.
+Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
+  Program out = from_points(way.points, whole.radius);
+  out.cut_first = way.cut_first;
+  out.cut_last = way.cut_last;
+  out.closed = !with_lead && !way.stretch && whole.closed;
+  out.turns = out.closed ? whole.turns : 0;
+  return out;
+}
+
+Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
+                            const std::stop_token& stop) {
+  TRY(auto whole, track(cut_path));
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (spec.way) return of_way(*spec.way, whole, spec.motion.lead.has_value());
+  TRY(const auto cut, stretch(std::move(whole), spec.motion));
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (!spec.motion.lead) {
+    Program out = from_points(cut.points, cut.radius);
+    out.closed = cut.closed;
+    out.turns = cut.turns;
+    return out;
+  }
+  TRY(const auto border, part_border(cut_path, spec.machine.sigma(), stop));
+  TRY(const auto way, clear_lead(border, cut, *spec.motion.lead, spec.motion.eps_tip, stop));
+  Program out = from_points(way.points, cut.radius);
+  out.cut_first = way.cut_first;
+  out.cut_last = way.cut_last;
+  return out;
+}
+
+Coordinate coordinate_of(const Axis& axis, const AxisColumns& columns, bool turns_tip) {
+  if (turns_tip) return {columns.tip_radius * kRadPerDeg, Coordinate::Group::tip};
+  if (axis.unit == AxisUnit::deg) return {kRadOfDeg, Coordinate::Group::bevel};
+  return {1.0, Coordinate::Group::tip};
+}
+
+/// A mill path gives no length: its speed is the tip's.
+bool follows_tip(const AxisColumns& cut, const Machine& machine) {
+  return std::holds_alternative<ConeMill>(machine.kinematics) && cut.length.empty();
+}
+
+Result<void> check_sizes(const AxisColumns& cut, const Machine& machine) {
+  const auto wrong = [](const std::string& member) {
+    return fail({.code = ErrorCode::wrong_count, .member = member});
+  };
+  if (cut.columns.size() != machine.axes.size()) return wrong("axes");
+  const std::size_t n = cut.columns.front().size();
+  if (n < 3) return wrong("axes/" + machine.axes.front().name);
+  for (std::size_t a = 0; a < cut.columns.size(); ++a) {
+    if (cut.columns[a].size() != n) return wrong("axes/" + machine.axes[a].name);
+  }
+  if (!cut.corner.empty() && cut.corner.size() != n) return wrong("axes/corner");
+  const bool mill = follows_tip(cut, machine);
+  if (!mill && cut.length.size() != n) return wrong("axes/s");
+  if (mill && !(cut.tip_radius > 0.0 && cut.tip_radius < 1e6)) {
+    return fail({.code = ErrorCode::bad_number, .member = "axes/tip_radius"});
+  }
+  return {};
+}
+
+Result<void> check_motion_of_columns(const Motion& motion) {
+  if (motion.lead || motion.sector || motion.start.at != Start::At::first_point) {
+    return fail({ErrorCode::unsupported_combination,
+                 "motion",
+                 {},
+                 {},
+                 {},
+                 "lead, sector and start need a contour"});
+  }
+  if (std::holds_alternative<SpeedTable>(motion.speed)) {
+    return fail({ErrorCode::unsupported_combination,
+                 "motion/speed",
+                 {},
+                 {},
+                 {},
+                 "a speed table needs a contour"});
+  }
+  return {};
+}
+
+Result<void> check_values(const Program& p, const Machine& machine) {
+  for (std::size_t c = 0; c < p.x.size(); ++c) {
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (!(std::abs(p.x[c][i]) <= 1e6)) {
+        const std::string column = c < machine.axes.size() ? machine.axes[c].name : "s";
+        return fail(
+            {.code = ErrorCode::bad_number, .member = "axes/" + column + "/" + std::to_string(i)});
+      }
+    }
+  }
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (p.step(i - 1, i) == 0.0) {
+      return fail(
+          {.code = ErrorCode::duplicate_point, .member = "axes", .got = static_cast<double>(i)});
+    }
+  }
+  return {};
+}
+
+/// A closed column path ends where it began, rotary axes up to whole turns.
+Result<void> check_closed(const AxisColumns& cut, const Machine& machine) {
+  for (std::size_t a = 0; a < cut.columns.size(); ++a) {
+    const double gap = cut.columns[a].back() - cut.columns[a].front();
+    const bool rotary = machine.axes[a].pulses_per_turn > 0;
+    const double open = rotary ? gap - 360.0 * std::floor(gap / 360.0 + 0.5) : gap;
+    if (!(std::abs(open) <= 1e-6)) {
+      return fail({ErrorCode::not_closed,
+                   "axes/" + machine.axes[a].name,
+                   open,
+                   1e-6,
+                   std::string(name_of(machine.axes[a].unit)),
+                   {}});
+    }
+  }
+  return {};
+}
+
+Result<Program> of_columns(const AxisColumns& cut, const ScheduleSpec& spec) {
+  const Machine& machine = spec.machine;
+  TRY(check_sizes(cut, machine));
+  TRY(check_motion_of_columns(spec.motion));
+  const bool mill = follows_tip(cut, machine);
+  Program out;
+  for (std::size_t a = 0; a < cut.columns.size(); ++a) {
+    const bool turns_tip = mill && machine.axes[a].name == "C";
+    out.coordinates.push_back(coordinate_of(machine.axes[a], cut, turns_tip));
+    out.x.push_back(cut.columns[a]);
+  }
+  if (!mill) {
+    out.coordinates.push_back({1.0, Coordinate::Group::tip});
+    out.x.push_back(cut.length);
+  }
+  out.corner = cut.corner.empty() ? std::vector<bool>(out.size(), false) : cut.corner;
+  out.cut_last = out.size() - 1;
+  out.closed = cut.closed;
+  TRY(check_values(out, machine));
+  if (cut.closed) TRY(check_closed(cut, machine));
+  return out;
+}
+
+}  // namespace
+
+double Program::step(std::size_t from, std::size_t to) const {
+  double square = 0.0;
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    const double d = coordinates[c].weight * (x[c][to] - x[c][from]);
+    square += d * d;
+  }
+  return std::sqrt(square);
+}
+
+std::vector<double> Program::lengths() const {
+  std::vector<double> s(size(), 0.0);
+  for (std::size_t i = 1; i < s.size(); ++i) s[i] = s[i - 1] + step(i - 1, i);
+  return s;
+}
+
+Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop) {
+  if (const auto* const cut_path = std::get_if<CutPath>(&spec.cut)) {
+    return of_cut_path(*cut_path, spec, stop);
+  }
+  return of_columns(std::get<AxisColumns>(spec.cut), spec);
+}
+
+}  // namespace tubecut::motion

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "core/motion/schedule/spec.hpp"
+
+namespace tubecut::motion {
+
+/// Weight of B in the generalised length, mm per rad: of 5, 10, 20 and 50 the one that is never
+/// bad.
+inline constexpr double kBevelWeight = 10.0;
+
+/// One coordinate of the path. `weight` turns its unit into mm of generalised length.
+struct Coordinate {
+  enum class Group : std::uint8_t { tip, bevel };  // smoothed within eps_tip or eps_b
+  double weight = 1.0;
+  Group group = Group::tip;
+};
+
+/// The polyline to be followed, coordinate by coordinate: phi, z, B of a contour, or axis columns.
+struct Program {
+  std::vector<Coordinate> coordinates = {};
+  /// [coordinate][point], rad and mm (axis units for columns).
+  std::vector<std::vector<double>> x = {};
+  std::vector<bool> corner = {};  // a point where the direction jumps
+  std::vector<double> beam = {};  // mm per point; empty when the speed is one number
+  std::size_t cut_first = 0;      // points before it are the lead-in
+  std::size_t cut_last = 0;       // points after it are the lead-out
+  bool closed = false;            // ends where it starts: no lead, no overcut, no sector
+  int turns = 0;                  // of phi over a closed contour
+
+  [[nodiscard]] std::size_t size() const { return x.front().size(); }
+  /// Generalised distance of two neighbouring points, mm.
+  [[nodiscard]] double step(std::size_t from, std::size_t to) const;
+  /// Generalised length up to each point, mm.
+  [[nodiscard]] std::vector<double> lengths() const;
+};
+
+/// The contract of the input, then start point, direction, sector, lead and overcut.
+///
+/// Errors  bad_number, wrong_count, angle_out_of_range (|B| > 85 deg), duplicate_point, turns_back,
+///         not_closed, out_of_range, unsupported_combination, lead_blocked (a lead or pierce point
+///         lies in the finished part).
+/// Source  docs/theory/pulse-schedules.md, sections 2.1, 2.2 and 2.6.
+[[nodiscard]] Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop = {});
+
+}  // namespace tubecut::motion

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/motion/path/course.hpp"
+#include "core/motion/replay/reconstruction.hpp"
+
+namespace tubecut::motion {
+
+/// The worst of several values, each against its own limit. Limits are positive or zero.
+class Worst {
+ public:
+  void see(double value, double limit);
+  [[nodiscard]] bool any() const { return any_; }
+  [[nodiscard]] Check check(std::string name, std::string unit) const {
+    return {std::move(name), value_, limit_, std::move(unit)};
+  }
+
+ private:
+  double value_ = 0.0;
+  double limit_ = 0.0;
+  bool any_ = false;
+};
+
+/// I4 to I9, whatever the path: limits per period, travel, reversals. `jerk`: the schedule claims a
+/// jerk limit.
+///
+/// Source  docs/theory/pulse-schedules.md, section 9.
+[[nodiscard]] std::vector<Check> rate_invariants(const Machine& machine, const Counted& counted,
+                                                 bool jerk, const std::stop_token& stop);
+
+/// I2, I3 and I16: sums, closure, the start.
+[[nodiscard]] std::vector<Check> place_invariants(const PreparedCut& job, const Counted& counted,
+                                                  const std::stop_token& stop);
+
+struct Followed {
+  std::vector<Check> checks = {};
+  double deviation = 0.0;
+};
+
+/// I10 to I15 and, `with_lead` of a closed cut, `lead_clears_part`.
+///
+/// Source  docs/theory/pulse-schedules.md, section 9.
+[[nodiscard]] Followed path_invariants(const ScheduleSpec& spec, const PreparedCut& job,
+                                       const Counted& counted, bool with_lead,
+                                       const std::stop_token& stop);
+
+}  // namespace tubecut::motion

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "core/motion/machine/kinematics.hpp"
+#include "core/motion/path/program.hpp"
+
+namespace tubecut::motion {
+
+/// Counts that came back, one span per axis of the machine; empty where the axis stands.
+struct Counted {
+  double period = 0.0;
+  std::size_t periods = 0;
+  std::vector<std::span<const std::int32_t>> counts = {};
+  std::vector<double> start = {};
+  /// Of a stretch of a longer schedule: pulses of every axis from `start` to the stretch. Empty:
+  /// none.
+  std::vector<std::int64_t> before = {};
+
+  [[nodiscard]] std::int64_t pulses_before(std::size_t axis) const {
+    return before.empty() ? 0 : before[axis];
+  }
+};
+
+/// The axis values that counts make, period by period.
+class AxisValues {
+ public:
+  AxisValues(const Counted& counted, const Machine& machine);
+  [[nodiscard]] const std::vector<double>& now() const { return q_; }
+  void step(std::size_t period);
+
+ private:
+  const Counted& counted_;
+  std::vector<double> q_;
+  std::vector<double> pulses_ = {};  // per unit of each axis
+  std::vector<std::int64_t> sum_ = {};
+};
+
+/// Forward kinematics: the path's coordinates from axis values, by other formulas than those that
+/// made them.
+///
+/// Source  docs/theory/pulse-schedules.md, section 3.4.
+class Reconstruction {
+ public:
+  explicit Reconstruction(const ScheduleSpec& spec);
+
+  /// Coordinates that the axes determine; the others stay 0.
+  [[nodiscard]] Coordinates at(const std::vector<double>& axes) const;
+  [[nodiscard]] bool knows(std::size_t coordinate) const { return known_[coordinate]; }
+  /// Height of pivot less the height the torch's angle asks for, mm; machines with a height axis.
+  [[nodiscard]] std::optional<double> standoff_error(const std::vector<double>& axes) const;
+
+  /// What half a pulse on every axis moves each coordinate by, at most, with |B| up to `largest_b`.
+  [[nodiscard]] Coordinates quantum(double largest_b) const;
+  [[nodiscard]] double standoff_quantum() const;
+
+ private:
+  struct Roles {
+    std::size_t phi = 0, z = 0, b = 0, height = 0, fine = 0;
+    bool has_fine = false;
+  };
+  void set_tube(const CutPath& cut_path);
+  void set_generic(const Generic& generic);
+  [[nodiscard]] double half_pulse(std::size_t axis) const;  // in the axis' unit
+
+  enum class Kind : std::uint8_t { five_axis, crawler, generic, columns };
+  Kind kind_ = Kind::columns;
+  std::vector<Axis> axes_;
+  Roles roles_ = {};
+  double sigma_ = 1.0;
+  double pivot_ = 0.0;  // L: pivot to the wall along the beam
+  double past_ = 0.0;   // e: radially from the contour's surface to the outer one
+  double outer_ = 0.0;
+  double wheel_ = 0.0;                     // radius of a crawler's wheel path
+  std::vector<Coordinates> inverse_ = {};  // generic: what a unit of each axis moves
+  Coordinates origin_{};
+  std::array<bool, kMostCoordinates> known_{};
+};
+
+/// A point as the follower sees it: tip coordinates in mm.
+using TipPoint = Coordinates;
+
+/// Follows reconstructed points along the polyline of a program: how far off each is, what of the
+/// polyline was never reached, and which B the contour has where each point lies. Looks only near
+/// the last place, so that the order of the cut counts.
+class Follower {
+ public:
+  /// `part`: coordinates that take part. `window`: mm of tip path looked at on both sides.
+  /// Stopped, it follows nothing.
+  Follower(const Program& program, const std::vector<bool>& part, double window,
+           const std::stop_token& stop);
+
+  struct Found {
+    double distance = 0.0;  // mm
+    double at = 0.0;        // mm of tip path along the polyline
+    std::size_t segment = 0;
+  };
+  /// Nearest place of the polyline to the next reconstructed point.
+  Found follow(const TipPoint& tip);
+
+  /// Least and greatest value of coordinate `c` of the contour within `reach` mm of tip path around
+  /// `at`.
+  [[nodiscard]] std::pair<double, double> range(std::size_t c, double at, double reach) const;
+  /// Largest distance of a polyline point to the path followed, mm.
+  [[nodiscard]] double farthest_missed() const;
+  [[nodiscard]] double tip_length(std::size_t point) const { return at_[point]; }
+  /// Tip coordinates, mm, out of program coordinates.
+  [[nodiscard]] TipPoint tip_of(const Coordinates& x) const;
+
+ private:
+  void reach_points(const TipPoint& from, const TipPoint& to, double at);
+  [[nodiscard]] Found nearest_on(std::size_t segment, const TipPoint& tip) const;
+
+  const Program& program_;
+  std::vector<std::size_t> tip_coordinates_ = {};
+  std::vector<TipPoint> points_ = {};
+  std::vector<double> at_ = {};      // tip length up to each point
+  std::vector<double> missed_ = {};  // distance of each point to the path so far
+  double window_;
+  std::size_t low_ = 0;   // first segment within the window
+  std::size_t near_ = 0;  // first point within the window
+  double last_at_ = 0.0;
+  bool started_ = false;
+  TipPoint last_ = {};
+};
+
+}  // namespace tubecut::motion

@@ -1,0 +1,286 @@
+#include "core/motion/schedule/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
+#include "core/motion/path/border.hpp"
+#include "core/motion/schedule/schedule.hpp"
+#include "core/motion/timing/plan.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr std::size_t kPerKnot = 4;
+constexpr double kNear = 1.0;  // mm of generalised length either way: points of a corner cut off
+
+/// The beam's traces on both walls.
+class Walls {
+ public:
+  explicit Walls(const CutPath& cut_path, double sigma)
+      : radius_{cut_path.outer_radius, cut_path.inner_radius()} {
+    for (std::size_t w = 0; w < 2; ++w) rise_[w] = sigma * (radius_[w] - cut_path.radius());
+  }
+  [[nodiscard]] std::array<Flat, 2> at(double phi, double z, double b) const {
+    const double tan = elementary::tan(b);
+    return {Flat{radius_[0] * phi, z - rise_[0] * tan}, Flat{radius_[1] * phi, z - rise_[1] * tan}};
+  }
+
+ private:
+  std::array<double, 2> radius_;
+  std::array<double, 2> rise_{};
+};
+
+constexpr double kReportMargin = 2.0;  // mm where slow is just starting or stopping
+constexpr double kSlow = 0.5;          // of the speed asked
+
+/// Largest share of its limits that an axis uses over samples `from`..`to`; roots make the three
+/// kinds comparable as speeds.
+double share(const Course& course, const std::vector<Place>& places, std::size_t axis,
+             std::size_t from, std::size_t to, const std::stop_token& stop) {
+  const Axis& record = course.machine.axes[axis];
+  const double t = course.machine.period;
+  ValueCursor cursor(course.path, {&course.axes[axis], 1});
+  const auto at = [&](std::size_t k) {
+    return cursor.at(places[std::min(k, places.size() - 1)]).front();
+  };
+  double speed = 0.0, acceleration = 0.0, jerk = 0.0;
+  double a = at(from), b = at(from + 1), c = at(from + 2);
+  for (std::size_t k = from + 3; k <= to + 3 && !stops(stop, k); ++k) {
+    const double d = at(k);
+    speed = std::max(speed, std::abs(d - c));
+    acceleration = std::max(acceleration, std::abs(d - 2.0 * c + b));
+    jerk = std::max(jerk, std::abs(d - 3.0 * c + 3.0 * b - a));
+    a = b;
+    b = c;
+    c = d;
+  }
+  const double v = speed / (velocity_limit(record, t) * t);
+  const double root = std::sqrt(acceleration / (record.a_max * t * t));
+  const double cube = record.j_max ? elementary::cbrt(jerk / (*record.j_max * t * t * t)) : 0.0;
+  return std::max({v, root, cube});
+}
+
+std::string limiting_axis(const Course& course, const std::vector<Place>& places, std::size_t from,
+                          std::size_t to, const std::stop_token& stop) {
+  std::string name;
+  double most = -1.0;
+  for (const AxisBounds& bounds : course.limits.axes) {
+    const double used = share(course, places, bounds.axis, from, to, stop);
+    if (used > most) name = course.machine.axes[bounds.axis].name;
+    most = std::max(most, used);
+  }
+  return name;
+}
+
+/// A segment of the polyline run at the asked speed with all axes linear between its ends.
+struct Segment {
+  double length = 0.0;     // mm of the tip's path
+  double speed = 0.0;      // mm/s asked
+  double axis_time = 0.0;  // s that the slowest axis needs at its largest speed
+  double stop_time = 0.0;  // s from rest to rest, without a jerk limit
+};
+
+double rest_to_rest(double way, double v, double a) {
+  return way * a >= v * v ? way / v + v / a : 2.0 * std::sqrt(way / a);
+}
+
+Segment segment(const PreparedCut& job, const std::vector<double>& s, std::size_t i) {
+  const Coordinates from = coordinates_of(job.program, i), to = coordinates_of(job.program, i + 1);
+  Segment out;
+  out.length = tip_length(job.course.tip, job.program, i, i + 1);
+  out.speed = job.course.speed.least(s[i], s[i + 1]);
+  for (std::size_t a = 0; a < job.course.axes.size(); ++a) {
+    const Axis& axis = job.course.machine.axes[a];
+    const double way = std::abs(job.course.axes[a].at(to) - job.course.axes[a].at(from));
+    const double v = velocity_limit(axis, job.course.machine.period);
+    out.axis_time = std::max(out.axis_time, way / v);
+    if (way > 0.0) out.stop_time = std::max(out.stop_time, rest_to_rest(way, v, axis.a_max));
+  }
+  return out;
+}
+
+void add_segment(const PreparedCut& job, std::size_t i, double length, double speed, Naive& out) {
+  const Coordinates from = coordinates_of(job.program, i), to = coordinates_of(job.program, i + 1);
+  const double period = job.course.machine.period;
+  if (length > 0.0) out.time.push_back(out.time.back() + length / speed);
+  for (std::size_t a = 0; a < out.axes.size(); ++a) {
+    const Axis& axis = job.course.machine.axes[a];
+    auto& of = out.axes[a];
+    const double way = job.course.axes[a].at(to) - job.course.axes[a].at(from);
+    const double step = way * axis.pulses_per_axis_unit();
+    if (std::abs(step) > std::abs(static_cast<double>(of.largest_step)))
+      of.largest_step = rounded(step);
+    if (!(length > 0.0)) continue;
+    const double pulses = std::abs(step) * speed * period / length;
+    of.pulses.push_back(pulses);
+    of.peak = std::max(of.peak, rounded(pulses));
+    if (axis.n_max && pulses > static_cast<double>(*axis.n_max))
+      *of.periods_over += static_cast<std::int64_t>(std::ceil(length / (speed * period)));
+  }
+}
+
+std::vector<Use> largest_uses(const Course& course, const Plan& plan, bool jerk) {
+  std::vector<Use> out;
+  for (std::size_t i = 0; i < plan.uses.axes.size(); ++i) {
+    const Axis& axis = course.machine.axes[course.limits.axes[i].axis];
+    const AxisUse& use = plan.uses.axes[i];
+    out.push_back({axis.name, 'v', use.velocity});
+    out.push_back({axis.name, 'a', use.acceleration * use.acceleration});
+    if (jerk && axis.j_max) out.push_back({axis.name, 'j', use.jerk * use.jerk * use.jerk});
+    if (axis.n_max) out.push_back({axis.name, 'n', use.pulses});
+  }
+  return out;
+}
+
+/// Pulses by which one turn of a crawler misses a whole count: a second lap must go on from the
+/// ideal position.
+double closing_residual(const ScheduleSpec& spec) {
+  const auto* const crawler = std::get_if<Crawler>(&spec.machine.kinematics);
+  const auto* const cut_path = std::get_if<CutPath>(&spec.cut);
+  if (crawler == nullptr || cut_path == nullptr || !cut_path->closed) return 0.0;
+  const auto s = std::ranges::find(spec.machine.axes, "S", &Axis::name);
+  const double turn =
+      kTwoPi * (cut_path->outer_radius + crawler->wheel_offset) * s->pulses_per_unit;
+  return turn - std::floor(turn);
+}
+
+}  // namespace
+
+std::optional<EdgeDeviation> edge_deviation(const ScheduleSpec& spec, const Program& program,
+                                            const Path& path, const std::stop_token& stop) {
+  const auto* const cut_path = std::get_if<CutPath>(&spec.cut);
+  if (cut_path == nullptr) return std::nullopt;
+  const Walls walls(*cut_path, spec.machine.sigma());
+  std::vector<std::array<Flat, 2>> points;
+  for (std::size_t i = 0; i < program.size(); ++i)
+    points.push_back(walls.at(program.x[0][i], program.x[1][i], program.x[2][i]));
+  const auto& at = path.at_point;
+  const double from = at[program.cut_first], to = at[program.cut_last];
+  std::array<double, 2> most{};
+  /// Least distance on one wall to the segments near `u`; own one first, for it mostly suffices.
+  const auto off = [&](Flat here, std::size_t wall, std::size_t own, double u) {
+    const auto to_segment = [&](std::size_t i) {
+      return distance(here, points[i][wall], points[i + 1][wall]);
+    };
+    double least = to_segment(own);
+    for (auto i = own; i-- > program.cut_first && at[i + 1] > u - kNear && least > most[wall];)
+      least = std::min(least, to_segment(i));
+    for (auto i = own + 1; i < program.cut_last && at[i] < u + kNear && least > most[wall]; ++i)
+      least = std::min(least, to_segment(i));
+    return least;
+  };
+  std::size_t own = program.cut_first;
+  PathCursor cursor(path, false);
+  for (std::size_t k = 0; k < kPerKnot * path.intervals(); ++k) {
+    if (k % 4096 == 0 && stop.stop_requested()) return std::nullopt;
+    const double offset = path.d * static_cast<double>(k % kPerKnot) / kPerKnot;
+    const double u = path.d * static_cast<double>(k / kPerKnot) + offset;
+    if (u < from || u > to) continue;
+    while (own + 1 < program.cut_last && at[own + 1] <= u) ++own;
+    const auto x = cursor.at(k / kPerKnot, offset).x;
+    const auto here = walls.at(x[0], x[1], x[2]);
+    for (std::size_t w = 0; w < 2; ++w) most[w] = std::max(most[w], off(here[w], w, own, u));
+  }
+  return EdgeDeviation{.outer = most[0], .inner = most[1]};
+}
+
+std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place>& places,
+                                 const std::stop_token& stop) {
+  const Course& course = job.course;
+  const double d = course.path.d, end = course.path.length() - kReportMargin;
+  // Where a lead comes onto the cut at a corner, the cut is just starting: there a tab is broken
+  // off.
+  const auto first = job.program.cut_first;
+  const bool turns_in = first > 0 && job.program.corner[first];
+  const double begin = turns_in ? course.path.at_point[first] + kReportMargin : kReportMargin;
+  std::vector<SlowZone> out;
+  bool inside = false;
+  TipCursor tip(course);
+  tip.step_to(places[0]);
+  for (std::size_t k = 0; k + 1 < places.size() && !stops(stop, k); ++k) {
+    const double from = places[k].u(d), to = places[k + 1].u(d);
+    const double speed = tip.step_to(places[k + 1]) / course.machine.period;
+    const bool slow = from >= begin && to <= end && speed < kSlow * course.speed.least(from, to);
+    const auto period = static_cast<std::int64_t>(k);
+    if (slow && !inside) {
+      out.push_back({period, period, 0.0, 0.0, speed, {}});
+    } else if (slow) {
+      out.back().to = period;
+      out.back().least_speed = std::min(out.back().least_speed, speed);
+    }
+    inside = slow;
+  }
+  for (SlowZone& zone : out) {
+    if (stop.stop_requested()) break;
+    const auto from = static_cast<std::size_t>(zone.from), to = static_cast<std::size_t>(zone.to);
+    zone.phi_from = course.path.at(places[from].interval, places[from].offset)[0];
+    zone.phi_to = course.path.at(places[to + 1].interval, places[to + 1].offset)[0];
+    zone.axis = limiting_axis(course, places, from, to, stop);
+  }
+  return out;
+}
+
+std::int16_t NaiveAxis::step_in_16_bits() const {
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(largest_step & 0xffff));
+}
+
+Comparison comparison(const PreparedCut& job, const std::stop_token& stop) {
+  const std::vector<double> s = job.program.lengths();
+  Comparison out;
+  out.naive.time.push_back(0.0);
+  for (const auto& axis : job.course.machine.axes) {
+    out.naive.axes.push_back({.name = axis.name});
+    if (axis.n_max) out.naive.axes.back().periods_over = 0;
+  }
+  double share = 1.0;  // of the asked speed that the whole cut can keep
+  for (std::size_t i = 0; i + 1 < job.program.size() && !stop.stop_requested(); ++i) {
+    const Segment seg = segment(job, s, i);
+    const double asked = seg.length / seg.speed;
+    add_segment(job, i, seg.length, seg.speed, out.naive);
+    const bool slow = seg.axis_time > asked;
+    out.slow_segments += slow ? 1 : 0;
+    out.segments_time += std::max(asked, seg.axis_time);
+    out.segments_stop_time += slow ? std::max(asked, seg.stop_time) : asked;
+    if (slow) share = std::min(share, asked / seg.axis_time);
+  }
+  if (share > 0.0) {
+    out.whole_cut_time = job.ideal / share;
+    out.whole_cut_speed = job.length / out.whole_cut_time;
+  }
+  return out;
+}
+
+Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan,
+              const std::stop_token& stop) {
+  const Path& path = job.course.path;
+  Report out;
+  out.time = static_cast<double>(plan.places.size() - 1) * spec.machine.period;
+  out.ideal = job.ideal;
+  out.no_jerk = plan.no_jerk;
+  out.optimality = out.time / plan.least;
+  out.proven = plan.proven;
+  out.filter = plan.timing.filter;
+  out.stretch = plan.stretch;
+  out.length = job.length;
+  out.deviation_tip = path.deviation_tip;
+  out.deviation_b = path.deviation_b;
+  out.sag_tip = path.sag_tip;
+  out.sag_b = path.sag_b;
+  out.least_tip = plan.uses.least_tip < 1e300 ? plan.uses.least_tip : 0.0;
+  out.standoff_growth = job.standoff_growth;
+  out.closing_residual = closing_residual(spec);
+  out.max_use = largest_uses(job.course, plan, spec.motion.jerk);
+  const double fastest = job.course.speed.greatest(0.0, path.length());
+  if (plan.uses.least_tip < kSlow * fastest) out.slow = slow_zones(job, plan.places, stop);
+  out.slow_time = 0.0;
+  for (const SlowZone& zone : out.slow) {
+    out.slow_time += static_cast<double>(zone.to - zone.from + 1) * spec.machine.period;
+  }
+  return out;
+}
+
+}  // namespace tubecut::motion

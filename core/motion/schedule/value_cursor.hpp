@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/base/elementary.hpp"
+#include "core/motion/path/path.hpp"
+#include "core/motion/path/places.hpp"
+
+namespace tubecut::motion {
+
+/// Values of functions of a path's coordinates at places that follow one another. Within an
+/// interval the coordinates are cubics, so the linear part of every function is one too, and B's
+/// sine and cosine are turned on from those at its start.
+///
+/// Accuracy  at the start of an interval and at the path's end bit-equal to `AxisFunction::at`,
+///           else within 4e-16 of the sum of the magnitudes of its terms.
+/// Cost      three multiply-adds a function, and a sine and cosine an interval.
+class ValueCursor {
+ public:
+  ValueCursor(const Path& path, std::span<const AxisFunction> functions);
+
+  /// In the functions' order; they stay until the next call.
+  const std::vector<double>& at(const Place& place);
+
+ private:
+  using Cubic = std::array<double, 4>;  // by rising powers of the offset
+  struct Bend {
+    std::size_t function;
+    double sin_b, cos_b, tan_b;
+  };
+  void enter(std::size_t interval);
+  [[nodiscard]] elementary::SinCos lean(double offset) const;
+
+  const Path& path_;
+  std::vector<AxisFunction> functions_;
+  std::vector<Bend> bends_ = {};
+  std::size_t interval_ = static_cast<std::size_t>(-1);
+  std::vector<Cubic> linear_;
+  std::vector<double> values_;
+  Cubic b_{};
+  elementary::SinCos at_start_{};
+};
+
+}  // namespace tubecut::motion

@@ -1,0 +1,336 @@
+#include "core/motion/timing/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "core/base/stop.hpp"
+#include "core/base/try.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr int kFullRounds = 4;
+constexpr double kAccepted = 1.0 + 1e-9;
+constexpr double kJerkRelief = 0.97;
+
+// Of the ladder of filters.
+constexpr int kProvenAfter = 7;  // passes; then a violated place goes to the proven rows at once
+constexpr int kMostPasses = 40;  // then every interval does
+constexpr double kNothingToGain = 1.0 + 1e-4;  // over the optimum without jerk limits
+
+// Of the plan by signed rows.
+constexpr int kMostSignedPasses = 20;  // then the filter is given up
+constexpr double kStart = 3.0;         // optimism of the jerk rows
+constexpr double kLeast = 0.3;         // at most this much below the rows a proof would ask for
+constexpr double kShareRelief = 0.995;
+constexpr double kWorthwhile = 0.999;  // of the time before, to go on to the next filter
+constexpr double kCancels = 1.01;      // from here on, sums of magnitudes forbid too much
+
+constexpr double kLastCheck = 1.0 + 1e-8;
+
+/// Length in periods of the filter with which `time_of` is least: octave by octave from the longest
+/// that any axis can use down to one period, until two in a row are slower than the best.
+double best_octave(const Course& course, const std::function<double(double)>& time_of,
+                   const std::stop_token& stop) {
+  const double period = course.machine.period;
+  double longest = 0.0;
+  for (const AxisBounds& axis : course.limits.axes) {
+    if (axis.j_max > 0.0) longest = std::max(longest, 2.0 * axis.a_max / axis.j_max);
+  }
+  double best_count = 1.0, best_time = 1e300;
+  int slower = 0;
+  for (double ideal = longest / period;; ideal *= 0.5) {
+    const double count = std::max(1.0, std::floor(ideal + 0.5));
+    const double time = time_of(count * period);
+    slower = time < best_time ? 0 : slower + 1;
+    if (slower == 0) {
+      best_time = time;
+      best_count = count;
+    }
+    if (slower == 2 || count <= 1.0 || stop.stop_requested()) return best_count;
+  }
+}
+
+/// Calls `lower(i)` for every interval that the filter window of sample `k` can reach.
+void for_reach_of(const std::vector<Place>& places, std::size_t k, std::size_t reach,
+                  std::size_t intervals, const std::function<void(std::size_t)>& lower) {
+  const std::size_t from = places[k < reach ? 0 : k - reach].interval;
+  const std::size_t to = places[std::min(places.size() - 1, k + reach)].interval;
+  for (std::size_t i = from == 0 ? 0 : from - 1; i <= std::min(intervals - 1, to + 1); ++i) {
+    lower(i);
+  }
+}
+
+/// One search over the ladder of filters for one optimism.
+class LadderSearch {
+ public:
+  LadderSearch(const Course& course, const PlanOptions& options, FilteredProfiles& profiles,
+               const std::vector<double>& without_jerk, std::stop_token stop)
+      : course_(course),
+        options_(options),
+        profiles_(profiles),
+        without_jerk_(without_jerk),
+        least_(duration(without_jerk, course.limits.d)),
+        stop_(std::move(stop)) {}
+
+  /// The fastest timing found that is faster than `bound` seconds; empty x where none is.
+  Timing best(double optimism, double bound) {
+    Timing found{{}, 0.0, bound};
+    for (const double filter : filters(optimism)) {
+      if (stop_.stop_requested()) break;
+      Timing next = repaired(filter, optimism, found.time);
+      if (next.time < found.time) found = std::move(next);
+      if (good_enough(found)) break;
+    }
+    return found;
+  }
+
+  /// No other filter or optimism could save more than a part in ten thousand.
+  [[nodiscard]] bool good_enough(const Timing& timing) const {
+    return timing.time <= kNothingToGain * least_;
+  }
+
+ private:
+  [[nodiscard]] double period() const { return course_.machine.period; }
+
+  [[nodiscard]] Timing profile(double filter, const Optimism& optimism, int rounds) const {
+    return profiles_.by_magnitudes(without_jerk_, filter, optimism, rounds, stop_);
+  }
+
+  /// Scouts every octave with one round, then offers the best and its neighbours.
+  std::vector<double> filters(double optimism) const {
+    if (options_.filter) return {*options_.filter};
+    const Optimism level(course_.limits.intervals(), optimism);
+    return neighbours(best_octave(
+        course_, [&](double filter) { return profile(filter, level, 1).time; }, stop_));
+  }
+
+  [[nodiscard]] std::vector<double> neighbours(double count) const {
+    std::vector<double> out{count * period()};
+    for (const double factor : {0.70710678118654752, 1.4142135623730951}) {
+      const double next = std::max(1.0, std::floor(count * factor + 0.5));
+      if (next != count) out.push_back(next * period());
+    }
+    return out;
+  }
+
+  /// Lowers the optimism where a sample breaks its jerk limit, until none does. Every pass lowers
+  /// some of it and the proven level breaks nothing, so this ends.
+  Timing repaired(double filter, double level, double bound) const {
+    Optimism optimism(course_.limits.intervals(), level);
+    for (int pass = 1;; ++pass) {
+      Timing timing = profile(filter, optimism, kFullRounds);
+      const bool proven = std::ranges::all_of(optimism, [](double o) { return o <= 1.0; });
+      if (timing.time >= bound || proven || stop_.stop_requested()) return timing;
+      const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
+      const std::vector<double> ratio = ratios(course_, places, stop_).jerk;
+      if (*std::ranges::max_element(ratio) <= kAccepted) return timing;
+      if (pass >= kMostPasses) {
+        std::ranges::fill(optimism, 1.0);
+      } else {
+        lower(optimism, places, ratio, filter, pass >= kProvenAfter);
+      }
+    }
+  }
+
+  void lower(Optimism& optimism, const std::vector<Place>& places, const std::vector<double>& ratio,
+             double filter, bool to_proven) const {
+    const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
+    const Optimism before = optimism;
+    for (std::size_t k = 0; k < ratio.size() && !stops(stop_, k); ++k) {
+      if (ratio[k] <= kAccepted) continue;
+      for_reach_of(places, k, reach, optimism.size(), [&](std::size_t i) {
+        const double next = to_proven ? 1.0 : std::max(1.0, kJerkRelief * before[i] / ratio[k]);
+        optimism[i] = std::min(optimism[i], next);
+      });
+    }
+  }
+
+  const Course& course_;
+  const PlanOptions& options_;
+  FilteredProfiles& profiles_;
+  const std::vector<double>& without_jerk_;
+  double least_;
+  std::stop_token stop_;
+};
+
+/// Repairs plans by signed rows, filter by filter.
+class SignedSearch {
+ public:
+  SignedSearch(const Course& course, FilteredProfiles& profiles, SignedRows rows,
+               const std::stop_token& stop)
+      : course_(course), profiles_(profiles), rows_(std::move(rows)), stop_(stop) {}
+
+  Timing best(double bound) {
+    const Optimism level(intervals(), kStart);
+    rows_.share.assign(intervals(), 1.0);
+    const double count = best_octave(
+        course_,
+        [&](double filter) { return profiles_.by_signs(rows_, filter, level, 1, stop_).time; },
+        stop_);
+    Timing found{{}, 0.0, bound};
+    step_to(count, found);
+    climb(count, longer, found);
+    climb(count, shorter, found);
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::size_t intervals() const { return course_.limits.intervals(); }
+  [[nodiscard]] double period() const { return course_.machine.period; }
+
+  static double longer(double count) {
+    return std::max(count + 1.0, std::floor(count * std::numbers::sqrt2 + 0.5));
+  }
+  static double shorter(double count) {
+    return std::min(count - 1.0, std::floor(count / std::numbers::sqrt2 + 0.5));
+  }
+
+  /// True where a filter of `count` periods is worth going on from.
+  bool step_to(double count, Timing& found) {
+    Timing next = repaired(count * period(), found.time);
+    const bool better = next.time < kWorthwhile * found.time;
+    if (next.time < found.time) found = std::move(next);
+    return better;
+  }
+
+  /// Goes on until two filters in a row save nothing.
+  void climb(double count, double (*next)(double), Timing& found) {
+    for (int idle = 0; idle < 2 && !stop_.stop_requested();) {
+      count = next(count);
+      if (count < 1.0) return;
+      idle = step_to(count, found) ? 0 : idle + 1;
+    }
+  }
+
+  /// Lowers what the rows allow where a sample breaks a limit, until none does.
+  Timing repaired(double filter, double bound) {
+    Optimism optimism(intervals(), kStart);
+    rows_.share.assign(intervals(), 1.0);
+    for (int pass = 0; pass < kMostSignedPasses && !stop_.stop_requested(); ++pass) {
+      Timing timing = profiles_.by_signs(rows_, filter, optimism, kFullRounds, stop_);
+      if (timing.time >= bound || stop_.stop_requested()) break;
+      const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
+      if (!lower(optimism, places, ratios(course_, places, stop_), filter)) return timing;
+    }
+    return {{}, filter, 1e300};
+  }
+
+  /// False where nothing had to be lowered.
+  bool lower(Optimism& optimism, const std::vector<Place>& places, const Ratios& ratio,
+             double filter) {
+    const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
+    const std::vector<double> optimism_before = optimism, share_before = rows_.share;
+    bool lowered = false;
+    for (std::size_t k = 0; k < places.size() && !stops(stop_, k); ++k) {
+      const double jerk = ratio.jerk[k], acceleration = ratio.acceleration[k];
+      if (jerk <= kAccepted && acceleration <= kAccepted) continue;
+      lowered = true;
+      for_reach_of(places, k, reach, intervals(), [&](std::size_t i) {
+        if (jerk > kAccepted) {
+          const double next = std::max(kLeast, kJerkRelief * optimism_before[i] / jerk);
+          optimism[i] = std::min(optimism[i], next);
+        }
+        if (acceleration > kAccepted) {
+          rows_.share[i] = std::min(rows_.share[i], kShareRelief * share_before[i] / acceleration);
+        }
+      });
+    }
+    return lowered;
+  }
+
+  const Course& course_;
+  FilteredProfiles& profiles_;
+  SignedRows rows_;
+  std::stop_token stop_;
+};
+
+/// The fastest plan by signed rows that is faster than `bound` seconds and whose samples hold every
+/// limit of acceleration and jerk; empty x where none is found.
+///
+/// Source  docs/theory/pulse-schedules.md, section 6.3.
+Timing best_by_signed_rows(const Course& course, FilteredProfiles& profiles,
+                           const Profile& without_jerk, HalfPlanes acceleration, double bound,
+                           const std::stop_token& stop) {
+  return SignedSearch(course, profiles, {std::move(acceleration), without_jerk, {}}, stop)
+      .best(bound);
+}
+
+bool any_jerk(const PathLimits& limits) {
+  return std::ranges::any_of(limits.axes, [](const AxisBounds& axis) { return axis.j_max > 0.0; });
+}
+
+/// Samples the plan and stretches it while a limit is broken; a stretch by K divides v, a, j by K,
+/// K^2, K^3.
+Result<void> settle(Plan& out, const Course& course, const PlanOptions& options, bool jerk,
+                    const std::stop_token& stop) {
+  for (;;) {
+    const double periods = periods_of(out.timing.time * out.stretch, course.machine.period);
+    if (!(periods <= static_cast<double>(options.max_periods)))
+      return too_many_periods(periods, options.max_periods);
+    out.places = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods), stop);
+    out.uses = uses(course, out.places, jerk, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    const double worst = out.uses.worst();
+    if (worst <= kLastCheck) return {};
+    out.stretch *= std::min(1.5, worst * 1.0005);
+  }
+}
+
+Timing fastest_of(const std::vector<double>& a, const std::vector<double>& b, double d) {
+  const double time_a = duration(a, d), time_b = duration(b, d);
+  return time_a <= time_b ? Timing{a, 0.0, time_a} : Timing{b, 0.0, time_b};
+}
+
+/// The proven plan, and the faster of it and the optimistic one.
+void limit_jerk(Plan& out, LadderSearch search, const Course& course, const PlanOptions& options) {
+  out.timing = search.best(1.0, 1e300);
+  out.proven = out.timing.time;
+  if (options.optimism <= 1.0 || search.good_enough(out.timing)) return;
+  const double most = course.machine.period * (static_cast<double>(options.max_periods) + 1.0);
+  Timing faster = search.best(options.optimism, std::min(out.proven, most));
+  if (!faster.x.empty()) out.timing = std::move(faster);
+}
+
+}  // namespace
+
+Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_token stop) {
+  Conditions base = without_jerk(course.limits, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows, stop);
+  base = {};  // to be freed at the end, with the rest, would hold up a stop
+  HalfPlanes acceleration = acceleration_rows(course.limits, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const Profile by_signs = fastest_profile(speed_caps(course.limits, stop), acceleration, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  Plan out;
+  out.least = duration(by_signs.bound, course.limits.d);
+  out.timing = fastest_of(x, by_signs.x, course.limits.d);
+  out.no_jerk = out.proven = out.timing.time;
+  const double least = periods_of(out.no_jerk, course.machine.period);
+  if (!(least <= static_cast<double>(options.max_periods)))
+    return too_many_periods(least, options.max_periods);
+  const bool jerk = options.jerk && any_jerk(course.limits);
+  if (jerk) {
+    const double by_magnitudes = duration(x, course.limits.d);
+    FilteredProfiles profiles(course.limits, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    limit_jerk(out, LadderSearch(course, options, profiles, x, stop), course, options);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (!options.filter && options.optimism > 1.0 && by_magnitudes > kCancels * out.least) {
+      Timing faster = best_by_signed_rows(course, profiles, by_signs, std::move(acceleration),
+                                          out.timing.time, stop);
+      if (!faster.x.empty()) out.timing = std::move(faster);
+    }
+  }
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  TRY(settle(out, course, options, jerk, stop));
+  return out;
+}
+
+}  // namespace tubecut::motion

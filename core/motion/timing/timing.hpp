@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "core/motion/path/path_limits.hpp"
+#include "core/motion/timing/window_maxima.hpp"
+
+namespace tubecut::motion {
+
+/// u(t) of a path: x = u_dot^2 at the knots, then a moving average of `filter` seconds over u(t).
+struct Timing {
+  std::vector<double> x = {};
+  double filter = 0.0;  // s; 0: no jerk limit
+  double time = 0.0;    // s, the filter included
+};
+
+/// The widest optimism of the jerk rows on every interval; 1 is proven.
+using Optimism = std::vector<double>;
+
+/// What a profile by signed rows starts from.
+struct SignedRows {
+  HalfPlanes acceleration = {};
+  Profile without_jerk = {};
+  std::vector<double> share = {};  // of a_max that each interval may use
+};
+
+/// Fastest profiles whose rows still hold after a filter. What they need of a path is laid out once
+/// for all trials, and so is the room they are made in.
+class FilteredProfiles {
+ public:
+  /// Stopped, they are half made and for nothing.
+  explicit FilteredProfiles(const PathLimits& limits, const std::stop_token& stop = {});
+
+  /// The profile for a filter of `filter` seconds. With optimism 1 everywhere the filtered motion
+  /// keeps every limit by proof.
+  ///
+  /// Cost    at most `rounds` (1..4) times the maxima over windows and two passes.
+  /// Source  docs/theory/pulse-schedules.md, section 6.4 (with the proof).
+  [[nodiscard]] Timing by_magnitudes(const std::vector<double>& without_jerk, double filter,
+                                     const Optimism& optimism, int rounds,
+                                     const std::stop_token& stop = {});
+
+  /// The same with |q' u_ddot + q'' x| <= share a_max in place of the sum of magnitudes, so that
+  /// terms of opposite signs cancel. A mean over the filter's window leaves these rows by as much
+  /// as q' and q'' change within it: acceleration and jerk hold where the samples say so, speeds by
+  /// proof.
+  ///
+  /// Cost    as `by_magnitudes`, times about 4.
+  /// Source  docs/theory/pulse-schedules.md, section 6.3.
+  [[nodiscard]] Timing by_signs(const SignedRows& rows, double filter, const Optimism& optimism,
+                                int rounds, const std::stop_token& stop = {});
+
+ private:
+  template <class Solve>
+  Timing refined(const std::vector<double>& without_jerk, double filter, const Optimism& optimism,
+                 int rounds, const Solve& solve, const std::stop_token& stop);
+  void look_round(const std::vector<double>& fastest, double filter, const std::stop_token& stop);
+  void bound_acceleration(double filter, bool by_axes, const std::stop_token& stop);
+  void tighten(const std::vector<double>& x, const std::stop_token& stop);
+  void bound_edges(double filter, const std::stop_token& stop);
+  [[nodiscard]] std::vector<double> capped(const std::vector<double>& fastest) const;
+  [[nodiscard]] double reach(std::size_t i, double from, double most) const;
+  [[nodiscard]] std::vector<double> passed(std::vector<double> x,
+                                           const std::stop_token& stop) const;
+  [[nodiscard]] HalfPlanes signed_rows(const SignedRows& rows, const std::stop_token& stop) const;
+
+  const PathLimits& limits_;
+  WindowMaxima maxima_;
+  Windows windows_, beside_;
+  // Of the axes, pack by pack: limits and the inverses of limits; where there is none, of a jerk or
+  // behind the last axis, one that is never met.
+  std::vector<Pack> jerk_, acceleration_, per_speed_, per_acceleration_, per_jerk_;
+  std::vector<double> root_;   // of the fastest x at the knots
+  std::vector<double> bound_;  // of |u_ddot| on every interval
+  std::vector<double> used_, wide_;
+  std::vector<Row> extra_;  // beside the rows that every interval has
+  std::vector<std::uint32_t> extra_first_;
+};
+
+}  // namespace tubecut::motion

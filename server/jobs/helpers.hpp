@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "core/base/turns.hpp"
+#include "server/jobs/cpu_clock.hpp"
+
+namespace tubecut::server {
+
+/// Threads beside those of the slots that do turns of running jobs while slots are free: as many at
+/// a time as there are free slots. They hold no slot: a job that comes has it at once, and whoever
+/// helps then is gone after the turn at hand.
+class Helpers {
+ public:
+  /// Of one job at a time.
+  static constexpr std::size_t kMost = CpuBudget::kThreads - 1;
+
+  /// What a thread does for one job, in its own surroundings: `within` calls it once.
+  using Stint = std::function<void()>;
+  using Within = std::function<void(const Stint&)>;
+
+  /// Fewer where the system gives no more threads; each begins with `started`.
+  Helpers(std::size_t threads, const std::function<void()>& started);
+  ~Helpers() { join(); }
+  Helpers(const Helpers&) = delete;
+  Helpers& operator=(const Helpers&) = delete;
+
+  /// Ends the threads; jobs do the rest of their turns themselves.
+  void join();
+
+  /// So many may help from now on. From any thread.
+  void allow(int most);
+
+  /// See tubecut::Turns; in the job's thread, which does turns too. Each thread that helps does so
+  /// `within`, which throws nothing.
+  void take_turns(std::size_t count, const Turn& turn, const Within& within);
+
+ private:
+  struct Work {
+    std::size_t count;
+    const Turn& turn;
+    const Within& within;
+    std::size_t next = 0;
+    std::size_t helped_by = 0;
+    std::size_t failed = 0;  // the least turn that threw
+    std::exception_ptr failure = nullptr;
+    std::condition_variable left = {};
+  };
+  void run();
+  [[nodiscard]] Work* some_work();
+  void do_turns(Work& work, bool helps);
+
+  std::mutex mutex_;
+  std::condition_variable some_;
+  std::vector<Work*> works_;
+  std::atomic<int> working_ = 0;  // how many works there are
+  std::atomic<int> most_ = 0;
+  int helping_ = 0;
+  bool ending_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace tubecut::server
