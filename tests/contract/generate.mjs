@@ -218,9 +218,11 @@ export function* drawn(arbitrary, seed, count) {
   }
 }
 
-// Seconds a suite may spend on an endpoint's answers: of those with a generator of their own it asks a given number instead.
-// TUBECUT_SECONDS=600 gives the others the time for their number too, some ten minutes in all.
-export const seconds = (endpoint) => (own[endpoint.id] ? Infinity : Number(process.env.TUBECUT_SECONDS ?? 2));
+// The number of requests that a suite sends to an endpoint. If the endpoint has no generator of its own, its requests are near its examples,
+// and many of them are expensive: then the number is smaller. If TUBECUT_RUNS=100000, every endpoint gets the whole number, which takes ten minutes.
+const FEW_RUNS = Number(process.env.TUBECUT_RUNS ?? 60);
+export const hasGenerator = (endpoint) => own[endpoint.id] !== undefined;
+export const runsOf = (endpoint, whole) => (hasGenerator(endpoint) ? whole : Math.min(whole, FEW_RUNS));
 
 // Requests that should be answered with 200. An endpoint without a generator of its own starts from its examples.
 export function sound(contract, endpoint) {

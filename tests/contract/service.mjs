@@ -85,13 +85,12 @@ export class Service {
   }
 }
 
-// Runs `task` on every item, a few at a time, and takes no more of them after `seconds`. Returns how many it took.
-export async function each(items, task, seconds = Infinity) {
+// Runs `task` on every item, a few at a time. Returns their number.
+export async function each(items, task) {
   const queue = items[Symbol.iterator]();
-  const end = Date.now() + 1000 * seconds;
   let taken = 0;
   const worker = async () => {
-    for (let next = queue.next(); !next.done && Date.now() < end; next = queue.next()) {
+    for (let next = queue.next(); !next.done; next = queue.next()) {
       taken += 1;
       await task(next.value, taken - 1);
     }

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {decode} from '../cbor.mjs';
 import {answerFaults} from '../check.mjs';
-import {drawn, seconds, sound} from '../generate.mjs';
+import {drawn, runsOf, sound} from '../generate.mjs';
 import {member, parseRaw, print} from '../raw.mjs';
 import {each} from '../service.mjs';
 
@@ -70,9 +70,9 @@ export async function answers(context) {
       context.report.fault(`example ${name}`, context.contract.faults(endpoint.validRequest, body));
       await answerPromises(context, endpoint, name, body);
     }
-    await each(drawn(sound(context.contract, endpoint), context.seed, SOUND), async (body, i) => {
+    await each(drawn(sound(context.contract, endpoint), context.seed, runsOf(endpoint, SOUND)), async (body, i) => {
       if ((await context.service.post(endpoint.path, body)).status === 200) await answerPromises(context, endpoint, `sound ${i}`, body);
-    }, seconds(endpoint));
+    });
   }
-  return [`${examples.length} examples, ${SOUND} sound requests for each of ${endpoints.length} endpoints`];
+  return [`${examples.length} examples, up to ${SOUND} sound requests for each of ${endpoints.length} endpoints`];
 }

@@ -1,6 +1,6 @@
 // Would the check see a server that answers otherwise? Every object of real answers loses, renames and gains a member.
 import {answerFaults} from '../check.mjs';
-import {drawn, seconds, sound} from '../generate.mjs';
+import {drawn, runsOf, sound} from '../generate.mjs';
 import {objects, parseRaw, print} from '../raw.mjs';
 
 const BODIES = 40;
@@ -49,9 +49,7 @@ export async function mutants({service, contract, report, seed}) {
   const counts = {drop: 0, rename: 0, add: 0, bySchema: 0};
   for (const endpoint of contract.posts()) {
     const done = new Set();
-    const end = Date.now() + 1000 * seconds(endpoint);
-    for (const body of drawn(sound(contract, endpoint), seed, BODIES)) {
-      if (Date.now() > end) break;
+    for (const body of drawn(sound(contract, endpoint), seed, runsOf(endpoint, BODIES))) {
       const reply = await service.post(endpoint.path, body);
       if (reply.status !== 200) continue;
       const tree = parseRaw(reply.text);
