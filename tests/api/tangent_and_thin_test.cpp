@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -130,6 +131,51 @@ Json tangent(Draw& draw, double rho, double hair) {
                          {"direction", triple(std::sin(a) * std::sin(b), -std::sin(a) * std::cos(b),
                                               std::cos(a))}}}},
       {"up", triple(0, 0, 1)}}};
+}
+
+/// An elbow whose side is as far from the target's axis as one of the target's surfaces, but for a
+/// hair: where it passes, its bend runs across the target, and its plane holds the target's axis or
+/// is square to it. A generator then touches it at two heights at once.
+Json tangent_elbow(Draw& draw, double rho, double hair) {
+  using Eigen::Vector3d;
+  const double radius = draw.any(1.0, 3.0) * rho;
+  const double bend_radius = radius * draw.of(std::array{1.2, 1.5, 3.0});
+  const double bend = draw.of(std::array{60.0, 90.0, 180.0});
+  const double turned = 0.5 * bend * std::numbers::pi / 180 * draw.any(0.3, 0.9);
+  const Vector3d along = Vector3d::UnitY();
+  const Vector3d outwards =
+      draw.sign() * draw.of(std::array{Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitZ())});
+  const Vector3d start = std::cos(turned) * along - std::sin(turned) * outwards;
+  const Vector3d inwards = std::sin(turned) * along + std::cos(turned) * outwards;
+  const Vector3d place(draw.sign() * (radius - rho - hair), 0.0, draw.any(-5, 5));
+  const Vector3d point =
+      place - bend_radius * (std::sin(turned) * start + (1.0 - std::cos(turned)) * inwards);
+  const auto json = [](const Vector3d& v) { return triple(v.x(), v.y(), v.z()); };
+  return Json{Json::Object{
+      {"kind", "elbow"},
+      {"outer_diameter_mm", 2 * radius},
+      {"bend_radius_mm", bend_radius},
+      {"bend_deg", bend},
+      {"axis", Json{Json::Object{{"point_mm", json(point)}, {"direction", json(start)}}}},
+      {"inwards", json(inwards)}}};
+}
+
+TEST(Tangent, ElbowsAtEveryHairAreAnsweredOrRefused) {
+  Draw draw(103);
+  Answers answers;
+  int good = 0;
+  for (int round = 0; round < 300; ++round) {
+    const double diameter = draw.of(std::array{60.0, 48.3, 114.3}), wall = draw.any(2, 8);
+    const bool outer = draw.of(std::array{true, false});
+    const double rho = 0.5 * diameter - (outer ? 0.0 : wall);
+    const auto elbow = tangent_elbow(draw, rho, hair(draw));
+    const Json::Array cutters{elbow,
+                              plane(draw.any(-40, 40), draw.any(-0.5, 0.5), draw.any(-0.5, 0.5))};
+    good += answers.good("/v1/intersections", curves(target(diameter, wall), cutters)) ? 1 : 0;
+    if (round % 5 == 0)
+      answers.good("/v1/bevel-tables", table(target(diameter, wall), cutters, cut(draw)));
+  }
+  EXPECT_GT(good, 290);
 }
 
 TEST(Tangent, EveryKindAtEveryHairIsAnsweredOrRefused) {

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/base/elementary.hpp"
 #include "core/joint/cutters/convex.hpp"
 #include "core/joint/cutters/elbow_leg.hpp"
 #include "core/joint/node/sheets.hpp"
+#include "core/joint/trig_roots.hpp"
 #include "core/math/search.hpp"
 
 namespace tubecut::joint {
@@ -144,6 +146,57 @@ std::array<double, 2> range(const PreparedElbow& e, const Vector3d& o) {
   return out;
 }
 
+/// Where a line comes nearest to the centre line.
+struct Approach {
+  double clearance = kInfinity;  // < 0 if the line enters the elbow
+  double z = 0.0;
+};
+
+/// Angles around the bend at which its distance from the line o + z rise may have a least value:
+/// zeros of the slope of |c|^2 - 2 c.o - (c.rise)^2 with c = bend radius (cos, sin, 0) and o at its
+/// foot on the plane across the line.
+RootPhases nearest_angles(const PreparedElbow& e, const Vector3d& o) {
+  const double x = e.rise.x(), y = e.rise.y(), r = e.bend_radius;
+  const double cos1 = -o.y(), sin1 = o.x(), cos2 = -r * x * y, sin2 = -0.5 * r * (y - x) * (y + x);
+  Trig<2> slope;
+  slope.c = {Complex{0.5 * cos2, 0.5 * sin2}, Complex{0.5 * cos1, 0.5 * sin1}, Complex{},
+             Complex{0.5 * cos1, -0.5 * sin1}, Complex{0.5 * cos2, -0.5 * sin2}};
+  return root_phases(slope);
+}
+
+/// Finds where the line o + z rise comes nearest to the elbow, exactly: legs by their feet, the arc
+/// by the zeros of the slope of its distance. If it comes equally near at several places, but for
+/// `touch`, or touches at several, the highest of them, because the upper sheet ends there.
+Approach closest(const PreparedElbow& e, const Vector3d& o, double touch) {
+  std::array<Approach, 2 + RootPhases::kMost> places{};
+  std::size_t count = 0;
+  double least = kInfinity;
+  const auto consider = [&](const Vector3d& at) {
+    const Vector3d v = at - o;
+    const double z = v.dot(e.rise);
+    const double clearance = (v - z * e.rise).norm() - e.radius;
+    least = std::min(least, clearance);
+    places[count++] = {clearance, z};
+  };
+  for (const auto& leg : each_leg(e)) {
+    const Vector3d across = leg.along - leg.along.dot(e.rise) * e.rise;
+    const double far = runs_along(e, leg) ? leg_reach(e.radius, e.bend_radius) : kInfinity;
+    const double share =
+        across.squaredNorm() > 0.0 ? (o - leg.from).dot(across) / across.squaredNorm() : 0.0;
+    consider(leg.from + std::clamp(share, 0.0, far) * leg.along);
+  }
+  for (const auto& angle : nearest_angles(e, o - o.dot(e.rise) * e.rise)) {
+    const auto at = elementary::sincos(angle.phi);
+    const Vector3d c(e.bend_radius * at.cos, e.bend_radius * at.sin, 0.0);
+    if (in_sector(e, c)) consider(c);
+  }
+  const double near = std::max(least, 0.0) + touch;
+  Approach out{least, -kInfinity};
+  for (const auto& place : std::span(places).first(count))
+    if (place.clearance <= near) out.z = std::max(out.z, place.z);
+  return out;
+}
+
 /// The greatest value over the wall of a generator's heights, -infinity where the elbow is missed.
 template <class F>
 double greatest_across(const PreparedElbow& elbow, const Wall& wall, const Generator& g,
@@ -230,6 +283,7 @@ ElbowPass PreparedElbow::pass(const Generator& line) const {
     const Vector3d p = o + z * rise;
     const auto all = stretches(*this, p);
     const double gap = all.nearest().distance - radius;
+    if (gap > out.clearance && out.clearance <= kTouch * size) break;  // has touched above
     if (gap < out.clearance) {
       out.clearance = gap;
       out.z = z;
@@ -239,6 +293,15 @@ ElbowPass PreparedElbow::pass(const Generator& line) const {
     for (std::size_t i = 0; i < all.count; ++i) way = std::min(way, free_way(*this, p, all.all[i]));
     if (all.count == 2) way = std::min(way, free_way_aside(*this, p));
     z -= way;
+  }
+  if (out.clearance > kOnSurface * size) {
+    const auto nearest = closest(*this, o, kTouch * size);
+    const auto outside = [&](double at) {
+      return stretches(*this, o + at * rise).nearest().distance > radius;
+    };
+    const bool enters = nearest.clearance < 0.0 && nearest.z < z;  // steps ran out above it
+    out.clearance = nearest.clearance;
+    out.z = enters ? math::last_true(outside, z, nearest.z) : nearest.z;
   }
   out.met = out.clearance <= kTouch * size;
   return out;
@@ -261,31 +324,34 @@ Met PreparedElbow::met(double rho) const { return met_between_silhouettes(*this,
 
 std::vector<Sheets> PreparedElbow::sheets(double /*rho*/) const { return {}; }
 
+// Between two phases of the scan the clearance may dip below 0, or rise above it, where it has an
+// extreme value.
 std::vector<double> PreparedElbow::silhouettes(double rho) const {
-  const auto at = [&](double phi) { return pass(generator_at(rho, phi)); };
-  const auto border = [&](double met, double missed) {
-    return math::last_true([&](double t) { return at(met + t * (missed - met)).met; }, 0.0, 1.0) *
-               (missed - met) +
-           met;
+  const double touch = kTouch * (radius + bend_radius + rho);
+  const auto clearance = [&](double phi) {
+    return closest(*this, foot_of(*this, generator_at(rho, phi)), touch).clearance - touch;
   };
-  std::vector<ElbowPass> scan;
-  for (std::size_t k = 0; k <= kScan + 1; ++k)
-    scan.push_back(at(kTwoPi * static_cast<double>(k) / kScan));
   std::vector<double> out;
+  const auto add_border = [&](double a, double b) {
+    const bool met = clearance(a) <= 0.0;
+    const auto like_first = [&](double t) { return (clearance(a + t * (b - a)) <= 0.0) == met; };
+    out.push_back(a + math::last_true(like_first, 0.0, 1.0) * (b - a));
+  };
+  std::vector<double> scan;
+  for (std::size_t k = 0; k <= kScan + 1; ++k)
+    scan.push_back(clearance(kTwoPi * static_cast<double>(k) / kScan));
   for (std::size_t k = 0; k < kScan; ++k) {
     const double phi = kTwoPi * static_cast<double>(k) / kScan;
-    const double next = phi + kTwoPi / kScan;
-    if (scan[k].met != scan[k + 1].met)
-      out.push_back(scan[k].met ? border(phi, next) : border(next, phi));
-    // A generator between may dip in where the clearance has a least value.
-    const bool least = !scan[k].met && !scan[k + 1].met && !scan[k + 2].met &&
-                       scan[k + 1].clearance <= std::min(scan[k].clearance, scan[k + 2].clearance);
-    if (!least) continue;
-    const auto nearest = math::golden_maximum([&](double p) { return -at(p).clearance; }, phi,
-                                              next + kTwoPi / kScan);
-    if (!at(nearest.at).met) continue;
-    out.push_back(border(nearest.at, phi));
-    out.push_back(border(nearest.at, next + kTwoPi / kScan));
+    const double next = phi + kTwoPi / kScan, last = next + kTwoPi / kScan;
+    const double side = scan[k + 1] <= 0.0 ? -1.0 : 1.0;
+    if ((scan[k] <= 0.0) != (scan[k + 1] <= 0.0)) add_border(phi, next);
+    const double before = side * scan[k], here = side * scan[k + 1], after = side * scan[k + 2];
+    if (std::min(before, after) < here || std::min(before, after) < 0.0) continue;
+    const auto nearest =
+        math::golden_maximum([&](double p) { return -side * clearance(p); }, phi, last);
+    if ((clearance(nearest.at) <= 0.0) == (side < 0.0)) continue;
+    add_border(nearest.at, phi);
+    add_border(nearest.at, last);
   }
   return out;
 }

@@ -67,23 +67,34 @@ Vector3d ElbowSolid::normal(const Vector3d& p) const {
   return (p - on_centre_line(p)).normalized();
 }
 
-// Where the line grazes the elbow the steps shrink for ever: now and then the place below that is
-// nearest is looked for, within the least bend that the distance can have.
+// If the line grazes the elbow, the steps shrink for ever: therefore every hundredth step searches
+// the nearest place below, within the least bend that the distance can have. A place `near` the
+// surface is further above it along the line, therefore Newton's steps end on the surface itself.
 std::optional<double> ElbowSolid::top(double x, double y) const {
   constexpr int kDown = 20'000, kPatience = 100;
+  constexpr double kLanding = 1e-4;  // mm; a longer step would start where the line is a tangent
   const auto between = range(x, y);
   const double near = 1e-12 * (radius + bend_radius + std::abs(point.z()));
   const auto away = [&](double at) { return distance({x, y, at}); };
+  const auto landed = [&](double at) {
+    for (int step = 0; step < 3; ++step) {
+      const double falling = normal({x, y, at}).z();
+      const double by = away(at) / falling;
+      if (falling <= 0.0 || std::abs(by) > kLanding) break;
+      at -= by;
+    }
+    return at;
+  };
   double z = between[1];
   for (int step = 1; step < kDown && z > between[0]; ++step) {
     const double gap = away(z);
-    if (gap <= near) return z;
+    if (gap <= near) return landed(z);
     if (step % kPatience == 0) {
       const double below = 4.0 * std::sqrt(2.0 * (radius + bend_radius) * gap);
       const double deep =
           math::golden_maximum([&](double at) { return -away(at); }, z - below, z).at;
       if (away(deep) <= near)
-        return math::last_true([&](double at) { return away(at) <= near; }, deep, z);
+        return landed(math::last_true([&](double at) { return away(at) <= near; }, deep, z));
     }
     z -= gap;
   }
