@@ -12,7 +12,7 @@ import sources
 
 HOLDS = {
     "server": ("process, App, config,", "access, admin port"),
-    "server/http/http": ("listener, session, batch,", "framing, queue, memory"),
+    "server/http": ("listener, session, batch,", "framing, queue, memory"),
     "server/jobs": ("slots, capacity, helpers,", "memory of a job"),
     "server/observe": ("metrics, job log,", "job files"),
     "api": ("dispatch, pipeline,", "endpoint table"),
@@ -132,15 +132,15 @@ class Picture:
 
 def places(rooms, edges):
     """Centre of each room, the lower edge of core, the picture's width: server and api in a row, core by levels from the right."""
-    at = {}
-    for layer, y in (("server", 74), ("api", 206)):
-        row = sorted((r for r in rooms if r.split("/")[0] == layer), reverse=layer == "server")
-        for i, room in enumerate(row):
-            at[room] = (220 + 270 * i, y)
-    columns = {}
+    at, columns = {}, {}
     for room in (r for r in rooms if r.startswith("core/")):
         columns.setdefault(level(room, edges), []).append(room)
     width = max(WIDTH, 2 * (BOX[0] // 2 + 32) + COLUMN * max(columns, default=0))
+    for layer, y in (("server", 74), ("api", 206)):
+        row = sorted((r for r in rooms if r.split("/")[0] == layer), reverse=layer == "server")
+        pitch = min(270, (width - 220 - BOX[0] // 2 - 32) // max(1, len(row) - 1))
+        for i, room in enumerate(row):
+            at[room] = (220 + pitch * i, y)
     for step, column in columns.items():
         deep = sorted(column, key=lambda r: (-sum(r in reached(o, edges) for o in rooms), r))
         for i, room in enumerate(deep):

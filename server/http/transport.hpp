@@ -84,7 +84,7 @@ struct TransportStats {
   std::uint64_t over_time = 0;  // clients too slow to send or to take
 };
 
-/// A listening HTTP/1.1 port. The only thing the rest of the server knows of sockets; server/http/http
+/// A listening HTTP/1.1 port. The only thing the rest of the server knows of sockets; server/http
 /// implements it.
 class Transport {
  public:
