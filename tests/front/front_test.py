@@ -509,7 +509,7 @@ class Agreement(unittest.TestCase):
     def test_haproxy_limits(self):
         denied = [int(n) for n in re.findall(r"content-length\) gt (\d+)", CONFIG)]
         self.assertEqual(denied, [limit("body_large_max_bytes"), limit("body_max_bytes")])
-        large = {"/v1/" + f.stem.replace("_", "-") for f in (ROOT / "api/endpoints").glob("*.[ch]pp")
+        large = {"/v1/" + f.stem.replace("_", "-") for f in (ROOT / "api/endpoints").rglob("*.[ch]pp")
                  if "body_large_max_bytes" in f.read_text()}
         self.assertTrue(large)
         large.add("/v1/batches")
