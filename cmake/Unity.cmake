@@ -5,13 +5,19 @@ function(tubecut_alone target folder)
   set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-tubecut_alone(tubecut_core core/bevel beam/beam.cpp beam/beam_axes.cpp beam/beam_lanes.cpp beam/drop_lanes.cpp smoothing/programme.cpp beam/torch_line.cpp)
+tubecut_alone(tubecut_core core/bevel/beam beam.cpp beam_axes.cpp beam_lanes.cpp drop_lanes.cpp torch_line.cpp)
+tubecut_alone(tubecut_core core/bevel/smoothing programme.cpp)
 tubecut_alone(tubecut_core core/frame alike.cpp alike_form.cpp)
-tubecut_alone(tubecut_core core/joint contour.cpp event_phases.cpp intersection.cpp length.cpp node/node.cpp node/node_connect.cpp node/overlap.cpp node/shared_metal.cpp)
+tubecut_alone(tubecut_core core/joint contour.cpp event_phases.cpp intersection.cpp length.cpp)
+tubecut_alone(tubecut_core core/joint/node node.cpp node_connect.cpp overlap.cpp shared_metal.cpp)
 tubecut_alone(tubecut_core core/joint/cutters elbow.cpp elbow_solid.cpp rectangular_tube.cpp tube.cpp)
 tubecut_alone(tubecut_core core/part member.cpp)
-tubecut_alone(tubecut_api api batch.cpp wire/cbor.cpp wire/json.cpp catalog/post_units.cpp wire/reader.cpp suspicion.cpp catalog/tube_sizes.cpp version.cpp)  # json, cbor and reader are fuzzed, version is replaced by a server of the tests
-tubecut_alone(tubecut_api api/endpoints bevel_tables.cpp motion/feed_curves.cpp frames/frame_request.cpp holes.cpp joint_codec.cpp frames/node_codec.cpp part_request.cpp)
+tubecut_alone(tubecut_api api batch.cpp suspicion.cpp version.cpp)  # version is replaced by a server of the tests
+tubecut_alone(tubecut_api api/catalog post_units.cpp tube_sizes.cpp)
+tubecut_alone(tubecut_api api/wire cbor.cpp json.cpp reader.cpp)  # the fuzz run instruments them
+tubecut_alone(tubecut_api api/endpoints bevel_tables.cpp holes.cpp joint_codec.cpp part_request.cpp)
+tubecut_alone(tubecut_api api/endpoints/frames frame_request.cpp node_codec.cpp)
+tubecut_alone(tubecut_api api/endpoints/motion feed_curves.cpp)
 file(GLOB_RECURSE FORMATS RELATIVE ${PROJECT_SOURCE_DIR}/api/formats CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/api/formats/*.cpp)
 tubecut_alone(tubecut_api api/formats ${FORMATS})
 # gcc counts a class with members of a source's own types as such in the source itself, but not in a unit.

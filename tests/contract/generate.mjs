@@ -218,8 +218,8 @@ export function* drawn(arbitrary, seed, count) {
   }
 }
 
-// The number of requests that a suite sends to an endpoint. If the endpoint has no generator of its own, its requests are near its examples,
-// and many of them are expensive: then the number is smaller. If TUBECUT_RUNS=100000, every endpoint gets the whole number, which takes ten minutes.
+// Returns the number of requests that a suite sends to an endpoint. If the endpoint has no generator of its own, the number is smaller, because its
+// requests are near its examples, and many of those are expensive. With TUBECUT_RUNS=100000 every endpoint gets the whole number, in ten minutes.
 const FEW_RUNS = Number(process.env.TUBECUT_RUNS ?? 60);
 export const hasGenerator = (endpoint) => own[endpoint.id] !== undefined;
 export const runsOf = (endpoint, whole) => (hasGenerator(endpoint) ? whole : Math.min(whole, FEW_RUNS));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "api/api.hpp"
-#include "api/endpoints/frame_formats.hpp"
+#include "api/endpoints/frames/frame_formats.hpp"
 #include "api/formats/gcode/gcode.hpp"
 #include "api/formats/provenance.hpp"
 #include "api/formats/zip_archive.hpp"

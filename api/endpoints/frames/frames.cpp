@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "api/endpoints/all.hpp"
-#include "api/endpoints/frame_formats.hpp"
 #include "api/endpoints/frames/frame_answer.hpp"
 #include "api/endpoints/frames/frame_bundle.hpp"
+#include "api/endpoints/frames/frame_formats.hpp"
 #include "api/endpoints/frames/frame_pointers.hpp"
 #include "api/endpoints/parts.hpp"
 #include "api/pipeline.hpp"

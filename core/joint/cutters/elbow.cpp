@@ -82,8 +82,7 @@ struct Stretches {
   }
 };
 
-Stretches stretches(const PreparedElbow& e, const Vector3d& p) {
-  const auto l = legs(e);
+Stretches stretches(const PreparedElbow& e, const Legs& l, const Vector3d& p) {
   Stretches out{{near_leg(p, l.start, -Vector3d::UnitY()), near_leg(p, l.end, l.end_along), {}}, 2};
   if (!in_sector(e, p)) return out;
   if (!(elementary::hypot(p.x(), p.y()) > 0.0)) return out;
@@ -108,8 +107,7 @@ double free_way(const PreparedElbow& e, const Vector3d& p, const Near& near) {
 
 /// The same for the arc from a point that does not face it: no nearer than its two ends, and no
 /// nearer than the whole circle.
-double free_way_aside(const PreparedElbow& e, const Vector3d& p) {
-  const auto l = legs(e);
+double free_way_aside(const PreparedElbow& e, const Legs& l, const Vector3d& p) {
   const double ends = std::min((p - l.start).norm(), (p - l.end).norm()) - e.radius;
   const double r = elementary::hypot(p.x(), p.y());
   if (!(r > 0.0)) return ends;
@@ -146,15 +144,15 @@ std::array<double, 2> range(const PreparedElbow& e, const Vector3d& o) {
   return out;
 }
 
-/// Where a line comes nearest to the centre line.
+/// The point of a line that is nearest to the elbow's centre line.
 struct Approach {
   double clearance = kInfinity;  // < 0 if the line enters the elbow
   double z = 0.0;
 };
 
-/// Angles around the bend at which its distance from the line o + z rise may have a least value:
-/// zeros of the slope of |c|^2 - 2 c.o - (c.rise)^2 with c = bend radius (cos, sin, 0) and o at its
-/// foot on the plane across the line.
+/// Finds the angles around the bend at which its distance from the line o + z rise may have a
+/// minimum: zeros of the derivative of -2 c.o - (c.rise)^2 with c = bend radius (cos, sin, 0).
+/// o must be perpendicular to rise.
 RootPhases nearest_angles(const PreparedElbow& e, const Vector3d& o) {
   const double x = e.rise.x(), y = e.rise.y(), r = e.bend_radius;
   const double cos1 = -o.y(), sin1 = o.x(), cos2 = -r * x * y, sin2 = -0.5 * r * (y - x) * (y + x);
@@ -164,9 +162,10 @@ RootPhases nearest_angles(const PreparedElbow& e, const Vector3d& o) {
   return root_phases(slope);
 }
 
-/// Finds where the line o + z rise comes nearest to the elbow, exactly: legs by their feet, the arc
-/// by the zeros of the slope of its distance. If it comes equally near at several places, but for
-/// `touch`, or touches at several, the highest of them, because the upper sheet ends there.
+/// Computes the exact distance of the line o + z rise from the elbow: of the legs by
+/// perpendiculars, of the arc at the zeros of the distance's derivative. If several points are
+/// equally near within `touch`, or several touch, z is that of the highest, because the upper sheet
+/// ends there.
 Approach closest(const PreparedElbow& e, const Vector3d& o, double touch) {
   std::array<Approach, 2 + RootPhases::kMost> places{};
   std::size_t count = 0;
@@ -275,15 +274,17 @@ std::optional<double> endless_leg(const PreparedElbow& elbow, double rho) {
 
 ElbowPass PreparedElbow::pass(const Generator& line) const {
   const Vector3d o = foot_of(*this, line);
+  const auto l = legs(*this);
   const auto [low, high] = range(*this, o);
   const double size = radius + bend_radius + line.radius;
   ElbowPass out{.met = false, .z = high, .clearance = kInfinity};
   double z = high;
   for (int step = 0; step < kSteps && z >= low; ++step) {
     const Vector3d p = o + z * rise;
-    const auto all = stretches(*this, p);
+    const auto all = stretches(*this, l, p);
     const double gap = all.nearest().distance - radius;
-    if (gap > out.clearance && out.clearance <= kTouch * size) break;  // has touched above
+    if (gap > out.clearance && out.clearance <= kTouch * size)
+      break;  // it has touched the upper sheet
     if (gap < out.clearance) {
       out.clearance = gap;
       out.z = z;
@@ -291,15 +292,15 @@ ElbowPass PreparedElbow::pass(const Generator& line) const {
     if (gap <= kOnSurface * size) break;
     double way = kInfinity;
     for (std::size_t i = 0; i < all.count; ++i) way = std::min(way, free_way(*this, p, all.all[i]));
-    if (all.count == 2) way = std::min(way, free_way_aside(*this, p));
+    if (all.count == 2) way = std::min(way, free_way_aside(*this, l, p));
     z -= way;
   }
   if (out.clearance > kOnSurface * size) {
     const auto nearest = closest(*this, o, kTouch * size);
     const auto outside = [&](double at) {
-      return stretches(*this, o + at * rise).nearest().distance > radius;
+      return stretches(*this, l, o + at * rise).nearest().distance > radius;
     };
-    const bool enters = nearest.clearance < 0.0 && nearest.z < z;  // steps ran out above it
+    const bool enters = nearest.clearance < 0.0 && nearest.z < z;  // if the steps ran out above it
     out.clearance = nearest.clearance;
     out.z = enters ? math::last_true(outside, z, nearest.z) : nearest.z;
   }
@@ -315,7 +316,7 @@ std::optional<double> PreparedElbow::upper_sheet(const Generator& line) const {
 Hit PreparedElbow::continued_hit(const Generator& line) const {
   const double z = pass(line).z;
   const Vector3d p = foot_of(*this, line) + z * rise;
-  const auto near = stretches(*this, p).nearest();
+  const auto near = stretches(*this, legs(*this), p).nearest();
   const Vector3d u = (p - near.foot) / near.distance;
   return hit_on({z, u, std::max(0.0, u.dot(rise)), 0.0}, rows, line);
 }
@@ -324,8 +325,8 @@ Met PreparedElbow::met(double rho) const { return met_between_silhouettes(*this,
 
 std::vector<Sheets> PreparedElbow::sheets(double /*rho*/) const { return {}; }
 
-// Between two phases of the scan the clearance may dip below 0, or rise above it, where it has an
-// extreme value.
+// The clearance may also change its sign twice between two phases of the scan. Then it has an
+// extremum there, so every extremum next to a sampled one is checked.
 std::vector<double> PreparedElbow::silhouettes(double rho) const {
   const double touch = kTouch * (radius + bend_radius + rho);
   const auto clearance = [&](double phi) {

@@ -4,12 +4,12 @@
 
 namespace tubecut::joint {
 
-/// How a generator passes an elbow from above: its highest point of the surface, or, where it
-/// misses, the place it comes nearest to.
+/// How a generator passes an elbow from above: its highest point of the surface, or, if it misses,
+/// the point that is nearest to the elbow.
 struct ElbowPass {
   bool met = false;
   double z = 0.0;
-  double clearance = 0.0;  // <= 0 where met
+  double clearance = 0.0;  // mm; of a generator that misses, exact
 };
 
 /// In the frame of the bend: origin at its centre, x to where it begins, y along the direction
@@ -24,7 +24,8 @@ struct PreparedElbow {
   /// The distance from the centre line is followed downwards by steps that cannot pass the surface:
   /// by the distance itself, or by a bound of second order, which converges quadratically.
   /// Accuracy  the point is within 1e-12 (radius + bend radius) of the surface.
-  /// Cost      about ten distances; a grazing generator up to a hundred.
+  /// Cost      about ten distances; a grazing generator up to a hundred. One that misses: also the
+  ///           zeros of a trigonometric polynomial of order 2.
   /// Source    docs/theory/intersections-and-bevels.md, section 9.
   [[nodiscard]] ElbowPass pass(const Generator& line) const;
 
@@ -44,8 +45,8 @@ struct PreparedElbow {
   [[nodiscard]] double size(double rho) const { return (radius + bend_radius + rho) / sine(); }
   /// None: its surface is of the fourth degree, and its events are bracketed instead.
   [[nodiscard]] std::vector<Sheets> sheets(double rho) const;
-  /// Bracketed on a scan: an elbow that is met over less than half a degree may be missed unless
-  /// the scan sees the generator come near.
+  /// Finds the sign changes of the clearance, scanned at 720 phases, and those next to an extremum
+  /// between them. If the clearance has several extrema within one degree, some may be missed.
   [[nodiscard]] std::vector<double> silhouettes(double rho) const;
   [[nodiscard]] std::vector<double> kinks(double /*rho*/) const { return {}; }
   [[nodiscard]] Heights heights_near(const Generator& line, double off) const;

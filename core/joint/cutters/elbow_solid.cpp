@@ -67,12 +67,13 @@ Vector3d ElbowSolid::normal(const Vector3d& p) const {
   return (p - on_centre_line(p)).normalized();
 }
 
-// If the line grazes the elbow, the steps shrink for ever: therefore every hundredth step searches
-// the nearest place below, within the least bend that the distance can have. A place `near` the
-// surface is further above it along the line, therefore Newton's steps end on the surface itself.
+// If the line grazes the elbow, the steps shrink without end. Therefore every hundredth step
+// searches the nearest point below, within the smallest curvature that the distance can have. A
+// point within `near` of the surface is further away from it along the line, so Newton's steps end
+// on the surface.
 std::optional<double> ElbowSolid::top(double x, double y) const {
   constexpr int kDown = 20'000, kPatience = 100;
-  constexpr double kLanding = 1e-4;  // mm; a longer step would start where the line is a tangent
+  constexpr double kLanding = 1e-4;  // mm; if a step were longer, the line would be tangent there
   const auto between = range(x, y);
   const double near = 1e-12 * (radius + bend_radius + std::abs(point.z()));
   const auto away = [&](double at) { return distance({x, y, at}); };

@@ -1,4 +1,4 @@
-#include "api/endpoints/frame_formats.hpp"
+#include "api/endpoints/frames/frame_formats.hpp"
 
 #include <algorithm>
 #include <utility>
