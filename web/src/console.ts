@@ -9,7 +9,7 @@ import {endpointName, endpointOrder, tabs} from './names';
 import {leadsOf, type Lead} from './onward';
 import type {Picture} from './picture';
 import {pictured} from './pictures';
-import {contextOf, type Context} from './pictures/context';
+import {contextOf, without, type Context} from './pictures/context';
 import * as preset from './preset';
 import type {Contract} from './schema';
 import {ask, Latest, path, type Answer, type Endpoint, type Example, type Machine, type Reply, type Tube} from './service';
@@ -41,11 +41,11 @@ export class Console {
   readonly linked = signal('Copy link');
   readonly keyed = signal(false);
 
-  body: Row = {};
   readonly form: Form;
   readonly context: Context;
   readonly schedules: string[];
   private readonly latest = new Latest();
+  private taken: Row[] | undefined; // out of the request, when the preset was pressed
   private askedJob = 0;
   private drawnJob = 0; // the one that the pictures are of
   private written = '';
@@ -67,6 +67,7 @@ export class Console {
       const {hash} = new URL(newURL);
       if (hash !== this.written) void this.arrive(hash);
     });
+    addEventListener('keydown', (event) => this.shortcut(event));
   }
 
   /** What can be computed, in the order of the pages. */
@@ -86,6 +87,10 @@ export class Console {
   get details(): [string, string][] {
     const motion = this.endpoint.value === 'bevel-tables' && this.endpoints.some((each) => each.id === 'pulse-schedules');
     return tabs.filter(([id]) => id !== 'motion' || motion);
+  }
+
+  get body(): Row {
+    return this.form.body;
   }
 
   private get schema() {
@@ -121,9 +126,8 @@ export class Console {
       this.endpoint.value = '';
       this.example.value = this.reply.value = undefined;
       this.edited.value = false;
-      this.body = {};
       this.clear();
-      this.form.show({properties: {}}, {}, this.job.value);
+      this.form.show({properties: {}}, {});
     });
     document.title = 'tubecut';
     this.told();
@@ -147,12 +151,12 @@ export class Console {
     batch(() => {
       this.endpoint.value = endpoint;
       this.example.value = example;
-      this.body = body;
       this.edited.value = edited;
+      this.taken = undefined;
       this.item.value = this.lost.value = null;
       this.job.value += 1;
       rest();
-      this.form.show(this.schema ?? {}, body, this.job.value);
+      this.form.show(this.schema ?? {}, body);
     });
     document.title = `${endpointName(endpoint)} – tubecut`;
     this.compute();
@@ -160,8 +164,22 @@ export class Console {
 
   /** Cuts square, or again as before. */
   press(): void {
-    preset.toggle(this.body, this.answer.value?.request);
-    this.form.redraw();
+    if (preset.pressed(this.body)) this.form.replace(preset.release(this.body, this.taken, this.answer.value?.request));
+    else {
+      const {body, taken} = preset.press(this.body);
+      this.taken = taken;
+      this.form.replace(body);
+    }
+  }
+
+  /** Ctrl+Z, and Ctrl+Y or Ctrl+Shift+Z. A field that is no part of the form keeps its own. */
+  private shortcut(event: KeyboardEvent): void {
+    const key = event.key.toLowerCase();
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== 'z' && key !== 'y')) return;
+    const {target} = event;
+    if (target instanceof HTMLElement && target.matches('input, textarea') && !target.closest('#form')) return;
+    event.preventDefault();
+    this.form.go(key === 'y' || event.shiftKey ? 1 : -1);
   }
 
   private changed(): void {
@@ -180,7 +198,8 @@ export class Console {
       const busy = setTimeout(() => document.body.classList.add('busy'), 200);
       try {
         const reply = await ask(endpoint, body, signal);
-        const picture = reply.answer && !signal.aborted ? await pictured(endpoint, body, reply.answer, this.context) : undefined;
+        const {answer} = body['columns'] ? await ask(endpoint, without(body, new Set(['columns'])), signal) : reply; // of some columns no picture can be drawn
+        const picture = answer && !signal.aborted ? await pictured(endpoint, body, answer, this.context) : undefined;
         if (job === this.job.value && !signal.aborted) batch(() => this.take(reply, picture));
       } finally {
         clearTimeout(busy);

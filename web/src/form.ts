@@ -1,6 +1,7 @@
 import {signal} from '@preact/signals';
 import {said} from './hint';
-import {at, clone, put, type Json, type Row} from './json';
+import {History} from './history';
+import {at, put, type Json, type Row} from './json';
 import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
 
@@ -29,8 +30,10 @@ function nearest(pointer: string): HTMLElement | null {
 
 /** The request that is filled in. Values are never checked here: the service is asked, and names the field. */
 export class Form {
-  /** What the fields are drawn of; what is typed meanwhile is in `body` and in the fields themselves. */
-  readonly drawn = signal<{schema: Schema; body: Row; job: number}>({schema: {}, body: {}, job: 0});
+  /** What the fields are drawn of; what is typed meanwhile is in `body` and in the fields themselves. Of another `build` they are drawn anew. */
+  readonly drawn = signal<{schema: Schema; body: Row; build: number}>({schema: {}, body: {}, build: 0});
+  body: Row = {};
+  readonly history = new History();
   /** The request as the service understood it: its defaults are the fields' placeholders. */
   readonly echo = signal<Row>({});
   readonly complaints = signal(none);
@@ -43,18 +46,34 @@ export class Form {
     private readonly changed: () => void,
   ) {}
 
-  show(schema: Schema, body: Row, job: number): void {
-    this.drawn.value = {schema, body, job};
+  show(schema: Schema, body: Row): void {
+    this.body = body;
+    this.history.begin(body);
+    this.drawn.value = {schema, body, build: this.drawn.value.build + 1};
     this.echo.value = {}; // of another job
     this.complaints.value = none;
   }
 
   /** `towards`: the first field in what was made, or what is nearest to what is gone, has the focus then; else it stays. */
-  redraw(towards?: string): void {
+  replace(body: Row, towards?: string): void {
+    this.body = body;
+    this.history.record(body);
+    this.redraw(towards);
+  }
+
+  private redraw(towards?: string, {build} = this.drawn.value): void {
     this.towards = towards;
-    this.drawn.value = {...this.drawn.value};
+    this.drawn.value = {...this.drawn.value, body: this.body, build};
     this.complaints.value = none;
     this.changed();
+  }
+
+  /** Back to the state before, or on to the one after: all fields are made anew, because what was typed is in them alone. */
+  go(by: 1 | -1): void {
+    const step = this.history.go(by);
+    if (!step) return;
+    this.body = step.body;
+    this.redraw(step.field, {...this.drawn.value, build: this.drawn.value.build + 1});
   }
 
   /** The fields stand as they were drawn. */
@@ -66,21 +85,17 @@ export class Form {
   }
 
   write(pointer: string, value: Json | undefined): void {
-    put(this.drawn.value.body, pointer, value);
+    this.body = put(this.body, pointer, value);
+    this.history.record(this.body, pointer);
     this.changed();
   }
 
   put(pointer: string, value: Json | undefined): void {
-    put(this.drawn.value.body, pointer, value);
-    this.redraw(pointer);
+    this.replace(put(this.body, pointer, value), pointer);
   }
 
   removeRow(pointer: string): void {
-    if (at(this.echo.value, pointer) !== undefined) {
-      const echo = clone(this.echo.value);
-      put(echo, pointer, undefined); // another row's hints are not those of the next
-      this.echo.value = echo;
-    }
+    if (at(this.echo.value, pointer) !== undefined) this.echo.value = put(this.echo.value, pointer, undefined); // another row's hints are not those of the next
     this.put(pointer, undefined);
   }
 

@@ -25,19 +25,19 @@ export function at(root: Json | undefined, pointer: string): Json | undefined {
   return value;
 }
 
-/** Writes into `root`, making the objects on the way; `undefined` removes a member. */
-export function put(root: Row, pointer: string, value: Json | undefined): void {
-  const path = keys(pointer);
-  const last = path.pop() as string;
-  let holder: Json = root;
-  for (const key of path) {
-    const inner: Json | undefined = Array.isArray(holder) ? holder[Number(key)] : (holder as Row)[key];
-    if (typeof inner === 'object' && inner !== null) holder = inner;
-    else holder = (holder as Row)[key] = {};
-  }
+/** The root with another value at `pointer`, with the objects on the way to it; `undefined` removes what is there. Only what holds the value is
+ *  copied, so that what is drawn of the rest stays as it is, and every state before is still there to go back to. */
+export const put = (root: Row, pointer: string, value: Json | undefined): Row => replaced(root, keys(pointer), value) as Row;
+
+function replaced(holder: Json | undefined, [key = '', ...rest]: string[], value: Json | undefined): Json {
   if (Array.isArray(holder)) {
-    if (value === undefined) holder.splice(Number(last), 1);
-    else holder[Number(last)] = value;
-  } else if (value === undefined) delete (holder as Row)[last];
-  else (holder as Row)[last] = value;
+    const index = Number(key);
+    const made = rest.length ? replaced(holder[index], rest, value) : value;
+    return [...holder.slice(0, index), ...(made === undefined ? [] : [made]), ...holder.slice(index + 1)];
+  }
+  const row = {...(isRow(holder) ? holder : {})};
+  const made = rest.length ? replaced(row[key], rest, value) : value;
+  if (made === undefined) delete row[key];
+  else row[key] = made;
+  return row;
 }

@@ -1,4 +1,4 @@
-import {isRow, type Json, type Row} from './json';
+import {clone, isRow, type Json, type Row} from './json';
 import type {Contract, Schema} from './schema';
 
 /** The one preset there is: cut square to the wall, as a tube laser does. */
@@ -15,34 +15,29 @@ function cuts(body: Row): Row[] {
   return [body, body['defaults'] ?? null, ...['ends', 'holes', 'joints'].flatMap(within)].filter(isRow);
 }
 
-const taken = new WeakMap<Row, Row[]>(); // out of a request, when the preset was pressed
-
-/** Cuts square, or again as before. `understood`: the request as the service echoed it. */
-export function toggle(body: Row, understood: Row | undefined): void {
-  if (pressed(body)) release(body, taken.get(body), understood);
-  else taken.set(body, press(body));
-}
-
-/** Leaves to the preset what it chooses. Returns what stood there. */
-function press(body: Row): Row[] {
-  const was = cuts(body).map((cut): Row => {
+/** Leaves to the preset what it chooses. Returns the request, and what was there. */
+export function press(request: Row): {body: Row; taken: Row[]} {
+  const body = clone(request);
+  const taken = cuts(body).map((cut): Row => {
     const own = Object.fromEntries(chosen.filter((key) => key in cut).map((key) => [key, cut[key] as Json]));
     for (const key of chosen) delete cut[key];
     return own;
   });
   body['preset'] = word;
-  return was;
+  return {body, taken};
 }
 
-/** As it stood before, or, of a job that came with the preset, as the service understood it. */
-function release(body: Row, was: Row[] | undefined, understood: Row | undefined): void {
+/** The request as it was before, or, of a job that came with the preset, as the service understood it. */
+export function release(request: Row, taken: Row[] | undefined, understood: Row | undefined): Row {
+  const body = clone(request);
   delete body['preset'];
   const accept = body['accept'];
   if (isRow(accept)) for (const key of Object.keys(accept)) if (!/^max_(root_gap|extra_bevel|b)_/.test(key)) delete accept[key];
   const echoed = understood ? cuts(understood) : [];
   cuts(body).forEach((cut, i) => {
     const whole =
-      was?.[i] ?? Object.fromEntries([...chosen, 'root_surface'].flatMap((key) => (key in (echoed[i] ?? {}) ? [[key, echoed[i]?.[key] as Json]] : [])));
+      taken?.[i] ?? Object.fromEntries([...chosen, 'root_surface'].flatMap((key) => (key in (echoed[i] ?? {}) ? [[key, echoed[i]?.[key] as Json]] : [])));
     for (const [key, value] of Object.entries(whole)) if (!(key in cut)) cut[key] = value;
   });
+  return body;
 }

@@ -215,6 +215,14 @@ export class Contract {
     return '';
   }
 
+  /** Whether there is nothing to fill in: one value is all that it may have. */
+  fixed(given: Schema): boolean {
+    const schema = this.resolve(given);
+    if ('const' in schema) return true;
+    const inner = Object.values(schema.properties ?? {});
+    return inner.length > 0 && inner.every((each) => this.fixed(each));
+  }
+
   /** A value to start with; what `old` has under the same names is kept. */
   make(given: Schema, old?: Json, name = '', within = ''): Json {
     const schema = this.resolve(given);
@@ -233,6 +241,14 @@ export class Contract {
     if (schema.type === 'null') return null;
     if (schema.type === 'boolean') return false;
     return schema.type === 'string' ? '' : (schema.minimum ?? 1);
+  }
+
+  /** The value of an optional field that is added: a list of objects begins with one, because an empty list has no fields to fill in. */
+  begun(given: Schema, name: string): Json {
+    const schema = this.resolve(given);
+    const made = this.make(schema, undefined, name);
+    const item = this.resolve(schema.items ?? {});
+    return Array.isArray(made) && !made.length && (item.properties ?? item.oneOf) ? [this.make(item)] : made;
   }
 
   private makeRow(schema: Schema, old: Row, name: string): Row {

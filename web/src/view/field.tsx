@@ -127,7 +127,7 @@ function Select({schema, value, pointer, choices, shared}: Value & {choices: Jso
   const form = useForm();
   const otherwise = useComputed(() => {
     const echo = at(form.echo.value, pointer);
-    const taken = at(form.drawn.value.body, pointer) === undefined && echo !== undefined && typeof echo !== 'object' ? echo : schema.default;
+    const taken = at(form.body, pointer) === undefined && echo !== undefined && typeof echo !== 'object' ? echo : schema.default;
     return taken === undefined ? '' : `${choice(taken)} (default)`;
   });
   const change = (text: string) => form.write(pointer, text === '' ? undefined : (JSON.parse(text) as Json));

@@ -2,7 +2,7 @@ import {Fragment, type ComponentChildren} from 'preact';
 import {useLayoutEffect, useRef} from 'preact/hooks';
 import {roomy, runsOf, type Form} from '../form';
 import {called, hintOf} from '../hint';
-import {isRow, join, type Json, type Row} from '../json';
+import {at, isRow, join, put, type Json, type Row} from '../json';
 import {brief} from '../names';
 import type {Schema} from '../schema';
 import {lastKey, sentence, unit} from '../words';
@@ -10,13 +10,13 @@ import {partnerTone, Swatch} from './controls';
 import {Complaints, Field, Fields, Input, short, simple, useForm, useTold, type Value} from './field';
 import {followFocus} from './hint';
 
-const aside = new Set(['log', 'numerics']); // belong to programs
+const aside = new Set(['log', 'numerics', 'columns']); // belong to programs
 const folded = new Set(['sampling', 'reference', 'accept', 'expert', 'check', 'table']); // closed until opened
 
 /** The request as a form, drawn from the contract's schema. */
 export function RequestForm({form}: {form: Form}) {
   const root = useRef<HTMLFormElement>(null);
-  const {schema, body, job} = form.drawn.value;
+  const {schema, body, build} = form.drawn.value;
   const measuring = useRef(0);
   const room = () => roomy(root.current?.querySelectorAll('[data-pointer]') ?? []);
   /** Once, however many folds open together: measuring lays the page out. */
@@ -46,6 +46,7 @@ export function RequestForm({form}: {form: Form}) {
       onSubmit={(event) => event.preventDefault()}
       onInput={(event) => roomy([event.target as HTMLElement])}
       {...followFocus}
+      onBlurCapture={() => form.history.settle()}
     >
       <datalist id="tube-sizes">
         {form.choices.sizes.map((size) => (
@@ -53,7 +54,7 @@ export function RequestForm({form}: {form: Form}) {
         ))}
       </datalist>
       <Fields.Provider value={form}>
-        <Fragment key={job}>
+        <Fragment key={build}>
           <Parts schema={schema} value={body} pointer="" />
         </Fragment>
       </Fields.Provider>
@@ -70,14 +71,9 @@ function Parts({schema: given, value, pointer}: Value) {
   if (branches.length < 2 || schema.properties) return <Inner schema={schema} value={value} pointer={pointer} />;
   const chosen = contract.branchOf(branches, value);
   const change = (index: number) => {
-    const next = contract.make(branches[index] as Schema, value, lastKey(pointer));
-    const {body} = form.drawn.value;
+    const next = contract.make(branches[index] as Schema, at(form.body, pointer), lastKey(pointer)); // what is drawn may be older
     if (pointer) form.put(pointer, next);
-    else {
-      for (const key of Object.keys(body)) delete body[key];
-      Object.assign(body, next);
-      form.redraw();
-    }
+    else form.replace(next as Row);
   };
   const names = branches.map((branch) => sentence(contract.branchName(branches, branch)));
   return (
@@ -132,7 +128,7 @@ function Members({schema, value, pointer}: Value & {value: Row}) {
     const required = schema.required?.includes(key) ?? false;
     if (simple(form, member.schema) || short(form, member.schema)) small.push(<Field key={key} {...member} required={required} />);
     else if (key in value || required) large.push(<Group key={key} {...member} required={required} />);
-    else absent.push(<Offer key={key} schema={member.schema} pointer={member.pointer} />);
+    else if (!form.contract.fixed(member.schema)) absent.push(<Offer key={key} schema={member.schema} pointer={member.pointer} />);
   }
   const parts = [small.length > 0 && <div class="grid">{small}</div>, large];
   // Tubes first: they are what people change.
@@ -149,18 +145,18 @@ function Offer({schema, pointer}: {schema: Schema; pointer: string}) {
   const form = useForm();
   const add = () => {
     form.folds.set(pointer, true);
-    form.put(pointer, form.contract.make(schema, undefined, lastKey(pointer)));
+    form.put(pointer, form.contract.begun(schema, lastKey(pointer)));
   };
   return (
-    <button type="button" title={hintOf(schema, pointer)} onClick={add}>
+    <button type="button" title={hintOf(schema, pointer)} data-adds={pointer} onClick={add}>
       + {called(pointer)}
     </button>
   );
 }
 
-function Remover({name, act}: {name: string; act(): void}) {
+function Remover({name, pointer, act}: {name: string; pointer: string; act(): void}) {
   return (
-    <button type="button" class="remove" aria-label={`Remove ${name}`} title={`Remove ${name}`} onClick={act}>
+    <button type="button" class="remove" aria-label={`Remove ${name}`} title={`Remove ${name}`} data-removes={pointer} onClick={act}>
       ×
     </button>
   );
@@ -181,7 +177,7 @@ function Group({schema, value, pointer, required}: Value & {required: boolean}) 
           </summary>
           {value === undefined ? <Offer {...given} /> : schema.type === 'array' ? <List {...given} value={value} /> : <Parts {...given} />}
         </details>
-        {!required && <Remover name={called(pointer)} act={() => form.put(pointer, undefined)} />}
+        {!required && <Remover name={called(pointer)} pointer={pointer} act={() => form.put(pointer, undefined)} />}
       </div>
       {own && <Complaints at={pointer} />}
     </>
@@ -205,10 +201,10 @@ function List({schema, value, pointer}: Value & {value: Json}) {
   const kinds = items.map((each) => branches[contract.branchOf(branches, each)] as Schema);
   const last = items.length - 1;
   const add = (branch: Schema) => {
-    const to = join(pointer, items.length);
-    items.push(contract.make(branch, branch === kinds[last] ? items[last] : undefined));
-    if (Array.isArray(value)) form.redraw(to);
-    else form.put(pointer, items);
+    const typed = at(form.body, pointer); // what is drawn may be older
+    const own = Array.isArray(typed) ? typed : [];
+    const next = [...own, contract.make(branch, branch === kinds[last] ? own[last] : undefined)];
+    form.replace(put(form.body, pointer, next), join(pointer, own.length));
   };
   const flat = (kind: Schema) => Object.values(kind.properties ?? {}).every((each) => simple(form, contract.resolve(each)));
   return (
@@ -232,6 +228,7 @@ function List({schema, value, pointer}: Value & {value: Json}) {
               class="adder"
               aria-label={`${title}: ${name}`}
               title={title}
+              data-adds={join(pointer, items.length)}
               onClick={() => add(branches.length === 1 ? item : branch)}
             >
               + {name}
@@ -297,7 +294,7 @@ function Line({item, columns, pointer, index}: {item: Json; columns: Column[]; p
           );
         })}
         <td>
-          <Remover name={`row ${index + 1}`} act={() => form.removeRow(pointer)} />
+          <Remover name={`row ${index + 1}`} pointer={pointer} act={() => form.removeRow(pointer)} />
         </td>
       </tr>
       <LineComplaints pointer={pointer} />
@@ -328,7 +325,7 @@ function Card({schema, value, pointer, index}: Value & {value: Json; index: numb
       <div class="card-head" tabIndex={-1} data-holds={pointer}>
         <Swatch tone={partnerTone(index)} />
         <b>{name}</b>
-        <Remover name={`row ${index + 1}`} act={() => form.removeRow(pointer)} />
+        <Remover name={`row ${index + 1}`} pointer={pointer} act={() => form.removeRow(pointer)} />
       </div>
       {headed(form, form.contract.resolve(schema), value) && <Complaints at={pointer} />}
       <Parts schema={schema} value={value} pointer={pointer} />

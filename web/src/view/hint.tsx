@@ -28,10 +28,12 @@ export function Hint() {
   const told = field?.closest<HTMLElement>('[title]')?.title ?? '';
   const pointer = field?.dataset['pointer'] ?? '';
   const view = joints.test(pointer) ? drawings.find(([pattern]) => pattern.test(lastKey(pointer)))?.[1] : undefined;
+  // Under the form and as high whatever it says: if it came and went with the focus, the form would move away under the pointer, or it would cover
+  // what is clicked.
   return (
-    <aside id="hint" hidden={told === ''}>
-      {view && <img src={`${frame}#svgView(viewBox(${view}))`} width={150} height={132} alt="" />}
-      <p>{told}</p>
+    <aside id="hint">
+      {view && <img src={`${frame}#svgView(viewBox(${view}))`} width={120} height={105} alt="" />}
+      {told ? <p>{told}</p> : <p class="soft">Choose a field to see what it means.</p>}
     </aside>
   );
 }

@@ -94,15 +94,17 @@ function Ask() {
   });
   return (
     <section id="ask" aria-label="Request" class={shown ? 'open' : ''}>
-      <div class="pick">
-        <label class="offscreen" for="example">
-          Example
-        </label>
-        <Examples />
+      <div class="entry">
+        <div class="pick">
+          <label class="offscreen" for="example">
+            Example
+          </label>
+          <Examples />
+        </div>
+        <Choices>{model.way}</Choices>
+        {model.told}
+        <RequestForm form={form} />
       </div>
-      <Choices>{model.way}</Choices>
-      {model.told}
-      <RequestForm form={form} />
       <Hint />
     </section>
   );
@@ -120,6 +122,21 @@ function Examples() {
         </option>
       ))}
     </select>
+  );
+}
+
+function Undo() {
+  const {form} = useConsole();
+  const {undoable, redoable} = form.history;
+  return (
+    <span class="pair">
+      <button type="button" id="undo" aria-label="Undo" title="Undo (Ctrl+Z)" disabled={!undoable.value} onClick={() => form.go(-1)}>
+        ↶
+      </button>
+      <button type="button" id="redo" aria-label="Redo" title="Redo (Ctrl+Y)" disabled={!redoable.value} onClick={() => form.go(1)}>
+        ↷
+      </button>
+    </span>
   );
 }
 
@@ -150,6 +167,7 @@ function Choices({children}: {children: ComponentChildren}) {
       >
         Tube laser
       </button>
+      <Undo />
       <button id="reset" type="button" hidden={!console.edited.value || example === undefined} onClick={() => console.open(endpoint, example)}>
         Reset
       </button>
