@@ -62,7 +62,7 @@ export class Console {
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
     this.schedules = [...new Set([...sizes.keys()].flatMap((size) => /^NPS \S+ (.+)$/.exec(size)?.[1] ?? []))];
-    this.form = new Form(contract, {machines: machines.map((m) => m.name), sizes: [...sizes.keys()]}, () => this.changed());
+    this.form = new Form(contract, {machine: machines.map((m) => m.name), size: [...sizes.keys()]}, () => this.changed());
     addEventListener('hashchange', ({newURL}) => {
       const {hash} = new URL(newURL);
       if (hash !== this.written) void this.arrive(hash);

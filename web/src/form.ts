@@ -5,11 +5,8 @@ import {at, put, type Json, type Row} from './json';
 import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
 
-/** Names that a field can be filled with, besides what the contract says. */
-export interface Choices {
-  machines: string[];
-  sizes: string[];
-}
+/** Names that the service lists, by the fields that they fill. */
+export type Choices = Record<string, string[]> & {machine: string[]; size: string[]};
 interface Complaint {
   id: string;
   text: string;

@@ -1,7 +1,7 @@
 import type {Json} from './json';
 import type {Schema} from './schema';
 import type {Issue} from './service';
-import {about, choice, holder, label, lastKey, number, plain, sentence, unit} from './words';
+import {about, choice, isWord, holder, label, lastKey, number, plain, sentence, unit} from './words';
 
 export const called = (pointer: string) => label(lastKey(pointer), holder(pointer));
 
@@ -23,6 +23,9 @@ export const offered = (value: Json): string => {
   if (typeof value === 'number') return String(Number(value.toPrecision(6)));
   return Array.isArray(value) ? value.map(offered).join(', ') : choice(value);
 };
+
+/** A value as a refusal repeats it: names that people enter stay as they are. */
+export const got = (value: Json) => (typeof value === 'string' ? (isWord(value) ? choice(value) : `“${value}”`) : offered(value));
 
 /** What a problem says of a field. */
 export function said(issue: Issue): string {

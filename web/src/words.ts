@@ -110,6 +110,8 @@ export function term(key: string, within = ''): Term {
 /** A warning's code, or one of a field's choices. */
 export const choice = (value: unknown) => words.values[String(value)]?.[0] ?? spaced(String(value));
 
+export const isWord = (name: string) => name in words.values;
+
 type Kind = keyof Pick<Words, 'checks' | 'limits'>;
 /** A check of the proof, of an end or a hole too; one of `limits` may be used up. */
 export function check(name: string): {name: string; about: string; kind: Kind} {
@@ -154,10 +156,19 @@ export function place(pointer: string): string {
   return sentence(out.join(', ')) || 'The request';
 }
 
-/** A sentence of the service for people: names in words, numbers short, one sign for degrees. */
+/** A sentence of the service for people: names in words, numbers short, one sign for degrees. Names out of a list, such as those of machines, stay as
+ *  they are, because they are what is entered. */
 export const plain = (said: string) =>
   said
-    .replace(/(?:\/[a-z_0-9]+)+\/[a-z_0-9]+/g, (pointer) => place(pointer))
+    .split(/(\w+(?:\|\w+)+)/)
+    .map((text, i) => (i % 2 ? text.split('|').map(called).join(', ') : worded(text)))
+    .join('');
+
+const called = (name: string) => words.values[name]?.[0] ?? name;
+
+const worded = (said: string) =>
+  said
+    .replace(/(?!\/v1\/)(?<![\w/])(?:\/[a-z_0-9]+)+\/[a-z_0-9]+/g, (pointer) => place(pointer))
     .replace(/\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+\b/g, (name) => words.fields[name]?.[0] ?? choice(name))
     .replace(/-?\d+\.\d+(?:e[-+]?\d+)?/g, (digits) => (digits.length > 7 ? number(Number(digits)) : digits))
     .replace(/(\d+\.\d+) (deg|mm(?:\/min|\/s)?)(?![\w/²³])/g, (all, digits, of) =>

@@ -1,5 +1,7 @@
 // The form follows the contract: whatever can be added to a request has fields and can be removed, and no click is lost.
 import {strict as assert} from 'node:assert';
+import {readFile} from 'node:fs/promises';
+import {deflateRawSync} from 'node:zlib';
 import {answered, open, then} from '../browser.mjs';
 
 /** Answers every job within the page with a refusal, so that only the form works; `asked` is the last request. */
@@ -147,5 +149,47 @@ export const checks = {
     assert.ok(await page.locator('#redo').isDisabled());
     assert.deepEqual(page.faults, []);
     await page.context().close();
+  },
+
+  'sizes and machines are chosen out of a list, and what a refusal repeats is spelled as it is entered': async ({browser, origin, service}) => {
+    const page = await open(browser, origin, '#/parts/chord-with-holes');
+    await answered(page);
+    const size = page.locator('[data-pointer="/members/1/size"]');
+    const kept = await size.inputValue();
+    await size.click();
+    assert.ok(await page.locator('.choices [role=option]').count() > 20, 'a click shows the list');
+    await then(page, async () => {
+      await size.fill('114.3 6.3');
+      await page.keyboard.press('Enter');
+    });
+    assert.equal(await size.inputValue(), 'CHS 114.3x6.3');
+    assert.notEqual(await page.locator('#verdict .pill').innerText(), 'refused');
+    await size.fill('no such size');
+    await size.blur();
+    assert.equal(await size.inputValue(), 'CHS 114.3x6.3', 'no free text is taken');
+    await size.fill(kept.replace('CHS ', '').replace('x', ' X '));
+    await then(page, () => page.locator('.choices [role=option]', {hasText: kept}).first().click());
+    assert.equal(await size.inputValue(), kept);
+    assert.equal(await page.locator('.choices').count(), 0);
+    await page.context().close();
+
+    const {machines} = JSON.parse((await service.ask('/v1/machines', {method: 'GET'})).text);
+    const body = JSON.parse(await readFile(new URL('../../../examples/pulse-schedules/table-1-on-the-five-axis-cutter.json', import.meta.url)));
+    const link = (job) => `#/pulse-schedules/~${deflateRawSync(JSON.stringify(job)).toString('base64url')}`;
+    const other = await open(browser, origin, link({...body, machine: 'no_such_machine'}));
+    await answered(other);
+    const said = await other.locator('#verdict').innerText();
+    for (const name of ['no_such_machine', ...machines.map((each) => each.name)]) assert.ok(said.includes(name), `${name} in: ${said}`);
+    const machine = other.locator('[data-pointer="/machine"]');
+    await machine.click();
+    await machine.fill('');
+    assert.deepEqual(await other.locator('.choices [role=option]').allInnerTexts(), machines.map((each) => each.name));
+    await then(other, async () => {
+      await machine.fill('five axis');
+      await other.keyboard.press('Enter');
+    });
+    assert.match(await other.locator('#verdict .pill').innerText(), /ok|review/);
+    assert.deepEqual([...page.faults, ...other.faults], []);
+    await other.context().close();
   },
 };

@@ -6,6 +6,7 @@ import {called, hintOf, offered} from '../hint';
 import {at, isRow, type Json} from '../json';
 import type {Schema} from '../schema';
 import {choice, lastKey, sentence, unit} from '../words';
+import {Combo as Search} from './combo';
 
 export const Fields = createContext<Form | null>(null);
 export const useForm = () => useContext(Fields) as Form;
@@ -89,9 +90,9 @@ export function Input(given: Value & {name: string}) {
     ...useTold(pointer),
   };
   const key = lastKey(pointer);
-  const {machines} = form.choices;
-  const choices = schema.enum ?? (key === 'machine' && machines.length ? machines : undefined);
-  if (schema.type !== 'array' && choices && !isRow(value)) return <Select {...given} choices={choices} shared={shared} />;
+  const names = schema.type === 'string' || typeof value === 'string' ? form.choices[key] : undefined;
+  if (names?.length) return <Combo {...given} names={names} shared={shared} />;
+  if (schema.type !== 'array' && schema.enum && !isRow(value)) return <Select {...given} choices={schema.enum} shared={shared} />;
   if (schema.type === 'boolean') {
     const checked = (value ?? schema.default) === true;
     return <input type="checkbox" {...shared} checked={checked} onChange={(event) => form.write(pointer, event.currentTarget.checked)} />;
@@ -100,20 +101,33 @@ export function Input(given: Value & {name: string}) {
   return <Text {...given} shared={shared} />;
 }
 
-function Text({schema, value, pointer, shared}: Value & {shared: object}) {
+/** What counts where nothing is entered. */
+function useDefault({schema, pointer}: Value) {
   const form = useForm();
-  const textual = schema.type === 'string' && !schema.oneOf;
-  const placeholder = useComputed(() => {
+  return useComputed(() => {
     const echo = at(form.echo.value, pointer);
     const counts = echo === undefined || isRow(echo) ? schema.default : echo;
     return counts === undefined ? '' : offered(counts);
   });
+}
+
+/** A name of something that the service lists. */
+function Combo(given: Value & {names: string[]; shared: object}) {
+  const {value, pointer} = given;
+  const form = useForm();
+  return <Search {...given} value={String(value ?? '')} placeholder={useDefault(given)} change={(name) => form.write(pointer, name)} />;
+}
+
+function Text(given: Value & {shared: object}) {
+  const {schema, value, pointer, shared} = given;
+  const form = useForm();
+  const textual = schema.type === 'string' && !schema.oneOf;
+  const placeholder = useDefault(given);
   return (
     <input
       type="text"
       inputMode={textual ? 'text' : 'decimal'}
       spellcheck={false}
-      list={lastKey(pointer) === 'size' ? 'tube-sizes' : undefined}
       placeholder={placeholder}
       value={String(value ?? '')}
       {...shared}

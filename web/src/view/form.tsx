@@ -49,7 +49,7 @@ export function RequestForm({form}: {form: Form}) {
       onBlurCapture={() => form.history.settle()}
     >
       <datalist id="tube-sizes">
-        {form.choices.sizes.map((size) => (
+        {form.choices.size.map((size) => (
           <option key={size} value={size} />
         ))}
       </datalist>

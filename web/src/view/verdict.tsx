@@ -1,5 +1,6 @@
 import type {ComponentChildren} from 'preact';
-import {said} from '../hint';
+import {got, said} from '../hint';
+import type {Json} from '../json';
 import {tried} from '../key';
 import {away, holds, type Answer, type Check, type Problem, type Reply, type Warning} from '../service';
 import {beside, check as checkName, choice, place, plain, residual, sentence, spelled} from '../words';
@@ -65,7 +66,7 @@ function Refusal({problem, focus}: {problem: Problem; focus: Focus}) {
           {issues.map((issue) => (
             <li key={issue.pointer + issue.code}>
               <Place pointer={issue.pointer} focus={focus} /> {said(issue)}
-              {issue.got === undefined || issue.got === null || typeof issue.got === 'object' ? '' : ` – got ${choice(issue.got)}`}
+              {issue.got === undefined || issue.got === null || typeof issue.got === 'object' ? '' : ` – got ${got(issue.got as Json)}`}
             </li>
           ))}
         </ul>
