@@ -10,7 +10,7 @@ inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-/// A plane angle. Held in radians; degrees exist only at the edges (`deg`).
+/// A plane angle, stored in radians. Degrees appear only in the reader and the encoders (`deg`).
 class Angle {
  public:
   constexpr Angle() = default;

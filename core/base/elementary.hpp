@@ -2,14 +2,15 @@
 
 #include <span>
 
-/// The one door of core to the transcendental functions.
+/// The only access of core to transcendental functions.
 ///
-/// Results are bit-identical on every x86-64 and arm64 CPU: SLEEF's reproducible non-FMA variants
-/// (`cinz`), never the C library's, whose own CPU dispatch changes last bits. `std::sqrt`,
-/// `std::abs`, `std::floor` and the like are exact by IEEE 754 and are used directly.
+/// The results are bit-identical on every x86-64 and arm64 CPU, because they come from SLEEF's
+/// reproducible non-FMA variants (`cinz`). The C library is not used, because its own CPU dispatch
+/// changes the last bits. Call `std::sqrt`, `std::abs`, `std::floor` and the like directly: IEEE
+/// 754 makes them exact.
 ///
-/// Accuracy  1 ulp (SLEEF u10) for each; `quick_atan2` 3.5 ulp (u35) at two fifths of the price:
-///           worst seen of 20 million 5.1e-16 rad; `hypot` 1 ulp for arguments within
+/// Accuracy  1 ulp (SLEEF u10) for each function; `quick_atan2` 3.5 ulp (u35) at two fifths of the
+///           cost: worst seen of 20 million 5.1e-16 rad; `hypot` 1 ulp for arguments within
 ///           1e-150..1e150.
 namespace tubecut::elementary {
 
@@ -30,11 +31,12 @@ struct SinCos {
 [[nodiscard]] double exp(double x);
 [[nodiscard]] double pow(double x, double y);
 [[nodiscard]] double cbrt(double x);
-/// sqrt(x^2 + y^2); lengths here are far from overflow, so no scaling is done.
+/// Computes sqrt(x^2 + y^2) without scaling, because lengths here are far from overflow.
 [[nodiscard]] double hypot(double x, double y);
 [[nodiscard]] double hypot(double x, double y, double z);
 
-/// Of arrays of one length, as many side by side as the CPU takes: the bits of the functions above.
+/// Compute arrays of one length, several entries in parallel; the bits equal those of the functions
+/// above.
 void sincos(std::span<const double> x, std::span<double> sin, std::span<double> cos);
 void tan(std::span<const double> x, std::span<double> out);
 void cos(std::span<const double> x, std::span<double> out);

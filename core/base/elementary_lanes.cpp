@@ -2,8 +2,8 @@
 
 #include <sleef.h>
 
-// Compiled once for every width. What the linker shares between objects must hold no wide
-// instruction, so nothing but SLEEF and the compiler's own headers stands here.
+// Compiled once for every width. The linker may share functions between these objects, so they must
+// hold no wide instruction: include only SLEEF and the compiler's own headers here.
 #if defined(__AVX512F__)
 #define TUBECUT_SLEEF(name, accuracy) Sleef_cinz_##name##d8_##accuracy##avx512fnofma
 #elif defined(__AVX__)
@@ -37,7 +37,7 @@ void store(double* to, Pack pack) { *to = pack; }
 
 constexpr std::size_t kWidth = sizeof(Pack) / sizeof(double);
 
-/// The last entries of an array, in a pack filled with ones.
+/// The last entries of an array, in a pack padded with ones.
 struct Rest {
   double values[kWidth];
   Rest(const double* from, std::size_t n) {

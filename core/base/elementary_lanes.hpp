@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-/// For `elementary` and its test only: SLEEF's reproducible functions over arrays, by the number of
-/// doubles that stand side by side. All have the same bits.
+/// For `elementary` and its test only: SLEEF's reproducible functions over arrays, by lane width.
+/// All widths give the same bits.
 namespace tubecut::elementary {
 
 struct Lanes {
@@ -15,10 +15,10 @@ struct Lanes {
   void (*quick_atan2)(const double* y, const double* x, double* out, std::size_t n);
 };
 
-/// Of every CPU.
+/// Returns the functions for every CPU.
 [[nodiscard]] const Lanes& narrow_lanes();
 #if defined(__x86_64__)
-/// Of one with AVX, and with AVX-512.
+/// Return the functions for a CPU with AVX and with AVX-512.
 [[nodiscard]] const Lanes& wide_lanes();
 [[nodiscard]] const Lanes& widest_lanes();
 #endif

@@ -27,7 +27,7 @@ std::string shown(double value) {
 std::string brief(double value) {
   char text[32];
   constexpr auto kGeneral = std::chars_format::general;
-  constexpr double kNoise = 1e-9;  // below what any number of a text resolves: rounding errors
+  constexpr double kNoise = 1e-9;  // below the resolution of any number in a text: rounding errors
   const double read = value > -kNoise && value < kNoise ? 0.0 : value + 0.0;
   return {text, std::to_chars(text, text + sizeof text, read, kGeneral, 6).ptr};
 }

@@ -18,10 +18,10 @@ namespace tubecut {
 /// A closed interval [from, to], for example of phi in degrees.
 using Intervals = std::vector<std::pair<double, double>>;
 
-/// A value shown to the caller: what was got, or what the limit is.
+/// A value shown to the caller: the value received, or the limit.
 using Shown = Variant<std::monostate, double, std::string, Intervals>;
 
-/// One thing that is wrong. `member` is a path in core's own names, such as "cutters/1/offset"
+/// One problem in a request. `member` is a path in core's own names, such as "cutters/1/offset"
 /// (empty: the whole request); the api maps it to the wire's pointer. `got` and `limit` are in
 /// `unit` (wire units: mm, deg, s).
 struct Issue {
@@ -33,7 +33,7 @@ struct Issue {
   std::string hint = {};
 };
 
-/// Everything that is wrong with a request; never empty.
+/// All problems in a request; never empty.
 struct Error {
   std::vector<Issue> issues;
 
@@ -45,26 +45,25 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// Shorthand for returning an error: `return fail({.code = ErrorCode::no_contact, .member =
-/// "cutters"});`
+/// Returns an error: `return fail({.code = ErrorCode::no_contact, .member = "cutters"});`
 [[nodiscard]] inline tl::unexpected<Error> fail(Issue issue) {
   return tl::unexpected<Error>(Error{std::move(issue)});
 }
 
-/// Errors  all `issues`, if there are any.
+/// Errors  all `issues`, if any.
 [[nodiscard]] inline Result<void> no_issues(std::vector<Issue> issues) {
   if (issues.empty()) return {};
   return tl::unexpected<Error>(Error{std::move(issues)});
 }
 
-/// Something the caller should know about an answer that stands. `member` as in `Issue`.
+/// A note for the caller on a valid answer. `member` as in `Issue`.
 struct Warning {
   WarningCode code = WarningCode::cutter_missed;
   std::string member = {};
   std::string detail = {};
 };
 
-/// One line of an answer's proof: `value` must not exceed `limit`; either may be below zero.
+/// One check of an answer: `value` must not exceed `limit`; either may be below zero.
 struct Check {
   std::string name;
   double value = 0.0;
@@ -73,12 +72,11 @@ struct Check {
   [[nodiscard]] bool passed() const { return value <= limit; }  // false for NaN
 };
 
-/// The worse of what was found so far and one more. What is no number is worst: it stays, and
-/// fails.
+/// Sets `worst` to the larger of both. NaN counts as the largest, so it stays and fails its check.
 inline void worsen(double& worst, double value) {
   worst = value > worst || value != value ? value : worst;
 }
-/// The worst of some.
+/// Returns the largest value; NaN if one is NaN.
 [[nodiscard]] inline double worst_of(std::initializer_list<double> values) {
   double worst = *values.begin();
   for (const double value : values) worsen(worst, value);
@@ -98,7 +96,7 @@ struct WarningInfo {
   std::string_view action;
 };
 
-/// A number as text, shortest that reads back the same.
+/// Returns the shortest text that reads back as the same number.
 [[nodiscard]] std::string shown(double value);
 /// Returns a number as text for hints and details: six significant digits, 0 below 1e-9.
 [[nodiscard]] std::string brief(double value);

@@ -216,7 +216,7 @@
 // clang-format on
 namespace tubecut {
 
-/// What a code means for the caller; the server maps each to one HTTP status.
+/// The kind of an error for the caller; the server maps each kind to one HTTP status.
 enum class ErrorKind : std::uint8_t {
   unreadable,
   unauthorized,

@@ -8,11 +8,11 @@
 
 namespace tubecut {
 
-/// Room for one more behind `rows`. Those that have to move for it move in parts; stopped, none are
-/// left of them.
+/// Reserves space for one more row behind `rows`. If rows must move for it, they move in parts. If
+/// cancelled, `rows` is empty.
 template <class T>
 void make_room(std::vector<T>& rows, const std::stop_token& stop) {
-  constexpr std::size_t kAtOnce = 8192;  // far less than a millisecond to copy
+  constexpr std::size_t kAtOnce = 8192;  // copied in far less than a millisecond
   if (rows.size() < rows.capacity() || rows.size() < kAtOnce) return;
   std::vector<T> larger;
   larger.reserve(2 * rows.size());

@@ -14,10 +14,10 @@ struct Option {
   E value;
 };
 
-/// The names of all values of an enumeration, once, in the order in which they are offered: read
-/// by the api's `Reader::choice`, written by `name_of`. Given in the api's header of its room, such
-/// as api/wire/joint_names.hpp, or beside the enumeration where core's paths and messages name it
-/// too.
+/// The names of all values of an enumeration, in the order in which they are offered. The api's
+/// `Reader::choice` reads them, `name_of` writes them. They are defined in the api's header of the
+/// module, such as api/wire/joint_names.hpp, or next to the enumeration if core's paths and
+/// messages use them too.
 template <class E>
 inline constexpr auto kNames = nullptr;
 
@@ -33,14 +33,14 @@ template <Named E>
   throw std::logic_error("a value without a name");
 }
 
-/// The first of a list, where not all are offered.
+/// Returns the first of a list, if not all values are offered.
 template <std::size_t Count, class E, std::size_t N>
 [[nodiscard]] constexpr std::array<Option<E>, Count> first(const std::array<Option<E>, N>& all) {
   std::array<Option<E>, Count> out{};
   std::copy_n(all.begin(), Count, out.begin());
   return out;
 }
-/// These of one enumeration, where not all are offered.
+/// These values of one enumeration, if not all are offered.
 template <auto First, decltype(First)... Others>
 inline constexpr std::array kOnly{Option<decltype(First)>{name_of(First), First},
                                   Option<decltype(First)>{name_of(Others), Others}...};

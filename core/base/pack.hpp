@@ -2,23 +2,24 @@
 
 namespace tubecut {
 
-/// Eight numbers side by side, each reckoned by itself: an operation has the same bits in two, four
-/// or eight lanes of the CPU, as wide as the function around it is compiled (`TUBECUT_WIDE`,
-/// base/lanes.hpp). Handed on by reference, or by functions that are always inlined (no lambda
-/// returns one): in which registers it is passed depends on that width. So does how it is aligned,
-/// so that what has packs as members is `alignas(sizeof(Pack))`.
+/// Eight numbers, each computed separately: an operation has the same bits in two, four or eight
+/// lanes of the CPU, as wide as the compilation of the surrounding function (`TUBECUT_WIDE`,
+/// base/lanes.hpp). Pass a pack by reference, or through functions that are always inlined (never
+/// return one from a lambda), because its registers depend on that width. Its alignment does too,
+/// so a type with packs as members is `alignas(sizeof(Pack))`.
 using Pack [[gnu::vector_size(64)]] = double;
 
 #define TUBECUT_INLINE [[gnu::always_inline]] inline
-/// Before a function that is compiled for several lanes: with all that it calls. clang has no such
-/// clones; there what is always inlined is wide, and lambdas may not be.
+/// Put it before a function that is compiled for several lanes; it covers all functions that it
+/// calls. clang has no such clones: there a function is wide if it is always inlined; a lambda may
+/// stay narrow.
 #ifdef __clang__
 #define TUBECUT_WHOLE
 #else
 #define TUBECUT_WHOLE [[gnu::flatten]]
 #endif
 
-/// Of how many of what a pack is; a number by itself is a pack of one.
+/// The element count of a pack; a single number is a pack of one.
 template <class Numbers>
 struct PackOf {
   using Real = Numbers;
@@ -46,7 +47,7 @@ TUBECUT_INLINE void set_lane(Numbers& pack, int k, typename PackOf<Numbers>::Rea
     pack[k] = value;
 }
 
-/// In each lane what is `by` lanes further on, round the pack.
+/// Returns a pack whose lane k holds lane k + `by` of `a`, cyclically.
 template <int by, class Numbers>
 TUBECUT_INLINE Numbers from_lane(const Numbers& a) {
   if constexpr (PackOf<Numbers>::kSize == 1)
@@ -61,7 +62,7 @@ TUBECUT_INLINE Numbers larger(const Numbers& a, const Numbers& b) {
   return a > b ? a : b;
 }
 
-/// By halves, whatever the lanes of the CPU.
+/// Returns the sum by halves, so its bits do not depend on the CPU's lanes.
 template <class Numbers>
 TUBECUT_INLINE auto sum_of(const Numbers& a) {
   if constexpr (PackOf<Numbers>::kSize == 1)

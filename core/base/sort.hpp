@@ -8,8 +8,8 @@
 
 namespace tubecut {
 
-/// Ascending, as std::ranges::sort, and asks at least every few ms of work. What a stopped one
-/// leaves is in no order.
+/// Sorts in ascending order like std::ranges::sort and checks for cancellation at least every few
+/// ms of work. If cancelled, the order is undefined.
 template <class T, class Projection = std::identity>
 void sort_unless_stopped(std::vector<T>& values, const std::stop_token& stop, Projection of = {}) {
   constexpr std::ptrdiff_t kBlock = 8192;

@@ -7,9 +7,9 @@
 
 #include "core/base/error.hpp"
 
-/// `TRY(auto table, make(spec));` takes the value of a Result or hands its error to the caller;
-/// `TRY(check(spec));` has no value to take. The one macro for control flow: C++20 has no operator
-/// for it.
+/// `TRY(auto table, make(spec));` takes the value of a Result or returns its error to the caller;
+/// `TRY(check(spec));` has no value to take. It is the only macro for control flow, because C++20
+/// has no operator for it.
 #define TRY(...) TUBECUT_TRY_PICK(__VA_ARGS__, TUBECUT_TRY_TAKE, TUBECUT_TRY_ONLY, )(__VA_ARGS__)
 #define TUBECUT_TRY_PICK(first, second, name, ...) name
 #define TUBECUT_TRY_ONLY(...)                                                                     \
@@ -26,8 +26,8 @@
 
 namespace tubecut {
 
-/// Errors and warnings of a part of the request as the whole calls it: every path begins with
-/// `where`.
+/// Returns the errors or warnings of a part of the request with paths of the whole: each path
+/// begins with `where`.
 template <class Told>
 [[nodiscard]] std::vector<Told> under(std::string_view where, std::vector<Told> all) {
   for (auto& one : all)

@@ -5,8 +5,9 @@
 
 namespace tubecut {
 
-/// std::variant for alternatives of which every one is a string, a vector or plain: when memory
-/// ends while libstdc++ 12 copies one of those, it destroys an alternative that it has not made.
+/// std::variant for alternatives that are strings, vectors or plain. It is needed because libstdc++
+/// 12 destroys an alternative that it has not constructed when memory ends while it copies one of
+/// them.
 template <class... Types>
 struct Variant : std::variant<Types...> {
   using Base = std::variant<Types...>;
@@ -15,7 +16,7 @@ struct Variant : std::variant<Types...> {
   Variant(const Variant& other) : Base() {
     std::visit(
         [this](const auto& value) {
-          auto copy = value;  // this may fail, what follows may not
+          auto copy = value;  // this may throw, the next line does not
           static_cast<Base&>(*this) = std::move(copy);
         },
         static_cast<const Base&>(other));
