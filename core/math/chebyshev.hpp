@@ -15,37 +15,38 @@ struct ChebyshevSeries {
   std::vector<double> coefficients = {};
 };
 
-/// p(t) by Clenshaw's recurrence.
+/// Computes p(t) by Clenshaw's recurrence.
 /// Accuracy  a few eps of the sum of |c_k| within [from, to].
 [[nodiscard]] double value(const ChebyshevSeries& series, double t);
 
-/// int_from^t p, exact as a polynomial; zero at `from`.
+/// Returns int_from^t p, exact as a polynomial; zero at `from`.
 [[nodiscard]] ChebyshevSeries antiderivative(const ChebyshevSeries& series);
 
-/// Coefficients of the ascending powers of s in [-1, 1].
+/// Returns the coefficients of the ascending powers of s in [-1, 1].
 [[nodiscard]] std::vector<double> scaled_powers(const ChebyshevSeries& series);
 
-/// Coefficients of the ascending powers of t - from, by composition of `scaled_powers` with s = 2
-/// (t - from)/(to - from) - 1.
+/// Returns the coefficients of the ascending powers of t - from, by composition of `scaled_powers`
+/// with s = 2 (t - from)/(to - from) - 1.
 [[nodiscard]] std::vector<double> powers(const ChebyshevSeries& series);
 
-/// Ascending coefficients at `t`.
+/// Computes the polynomial with ascending coefficients at `t`.
 [[nodiscard]] double horner(std::span<const double> coefficients, double t);
 
-/// The polynomial of degree `degree` through f at the Chebyshev points of [from, to]: f itself when
-/// f is such a polynomial.
+/// Returns the polynomial of degree `degree` through f at the Chebyshev points of [from, to]. If f
+/// is such a polynomial, the result is f itself.
 template <class F>
 [[nodiscard]] ChebyshevSeries chebyshev_interpolant(F&& f, int degree, double from, double to);
 
-/// The polynomial through (nodes[i], values[i]); nodes distinct.
+/// Returns the polynomial through (nodes[i], values[i]); the nodes must be distinct.
 [[nodiscard]] ChebyshevSeries interpolant(std::span<const double> nodes,
                                           std::span<const double> values, double from, double to);
 
-/// The series of degree values.size() - 1 that takes `values` at `chebyshev_nodes(values.size())`.
+/// Returns the series of degree values.size() - 1 that takes `values` at
+/// `chebyshev_nodes(values.size())`.
 [[nodiscard]] ChebyshevSeries from_node_values(std::span<const double> values, double from,
                                                double to);
 
-/// cos(pi (2 i + 1)/(2 count)), i = 0 .. count - 1.
+/// Returns cos(pi (2 i + 1)/(2 count)), i = 0 .. count - 1.
 [[nodiscard]] std::vector<double> chebyshev_nodes(int count);
 
 template <class F>

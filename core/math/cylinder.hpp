@@ -6,7 +6,7 @@
 
 namespace tubecut::math {
 
-/// The point of these cylinder coordinates about z.
+/// Returns the point with these cylinder coordinates about z.
 [[nodiscard]] inline Eigen::Vector3d cylinder_point(double radius, double phi, double z) {
   const auto at = elementary::sincos(phi);
   return {radius * at.cos, radius * at.sin, z};

@@ -11,7 +11,7 @@
 namespace tubecut::math {
 namespace {
 
-/// An edge that is not upright, from left to right.
+/// An edge that is not vertical, from left to right.
 struct Side {
   double x0, y0, x1, y1;
   std::size_t polygon;
@@ -44,7 +44,8 @@ struct Rise {
   double left, right;
 };
 
-/// Where sides change places between two x, and where they pass the window's floor and ceiling.
+/// Returns the x between `from` and `to` where two sides cross, or where one crosses the window's
+/// floor or ceiling.
 std::vector<double> crossings(const std::vector<Side>& over, double from, double to,
                               const Window& window) {
   std::vector<Rise> rises;
@@ -54,7 +55,7 @@ std::vector<double> crossings(const std::vector<Side>& over, double from, double
     if (std::isfinite(level)) rises.push_back({level, level});
   std::ranges::sort(rises, {}, &Rise::left);
   std::vector<double> out{from, to};
-  if (std::ranges::is_sorted(rises, {}, &Rise::right)) return out;  // as in most strips
+  if (std::ranges::is_sorted(rises, {}, &Rise::right)) return out;  // true for most strips
   for (std::size_t i = 0; i < rises.size(); ++i)
     for (std::size_t j = i + 1; j < rises.size(); ++j) {
       const double left = rises[i].left - rises[j].left, right = rises[i].right - rises[j].right;
@@ -65,7 +66,7 @@ std::vector<double> crossings(const std::vector<Side>& over, double from, double
   return out;
 }
 
-/// Length of the union at x: each polygon's sides in pairs from below.
+/// Returns the length of the union at x, from each polygon's sides in pairs from below.
 double covered(const std::vector<Side>& over, double x, const Window& window) {
   std::vector<std::pair<std::size_t, double>> hits;
   hits.reserve(over.size());
@@ -111,7 +112,7 @@ double union_area(std::span<const Polygon> polygons, const Window& window,
   std::vector<Side> over;
   std::size_t next = 0;
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
-    if (stop.stop_requested()) break;  // a strip may have hundreds of sides
+    if (stop.stop_requested()) break;  // because a strip may have hundreds of sides
     const double from = corners[k], to = corners[k + 1];
     std::erase_if(over, [&](const Side& side) { return side.x1 <= from; });
     while (next < all.size() && all[next].x0 <= from) {

@@ -7,12 +7,12 @@
 
 namespace tubecut::math {
 
-/// A closed polygon in the plane; the first point is not repeated, and either way round will do.
+/// A closed polygon in the plane, in either direction; the first point is not repeated.
 struct Polygon {
   std::vector<double> x, y;
 };
 
-/// Area of a polygon that does not cross itself.
+/// Computes the area of a polygon that does not cross itself.
 [[nodiscard]] double area(const Polygon& polygon);
 
 /// A rectangle with its sides along the axes.
@@ -23,17 +23,18 @@ struct Window {
   double y_to = std::numeric_limits<double>::infinity();
 };
 
-/// Area of the union of polygons within a window, by strips between all corners and crossings.
+/// Computes the area of the union of polygons within a window, by strips between all corners and
+/// crossings.
 ///
-/// A polygon that crosses itself counts by the even-odd rule.
-/// Accuracy  exact but for rounding: about 1e-14 of the area of what the polygons stand in.
-/// Cost      in the corners n log n, each with k log k for the k edges over one x (k^2 where edges
-///           cross); ends early, with a part of the area, when told to stop.
+/// If a polygon crosses itself, it counts by the even-odd rule.
+/// Accuracy  exact except for rounding: about 1e-14 of the area that contains the polygons.
+/// Cost      in the corners n log n, each with k log k for the k edges over one x (k^2 if edges
+///           cross). If cancelled, returns early with a part of the area.
 [[nodiscard]] double union_area(std::span<const Polygon> polygons, const Window& window = {},
                                 const std::stop_token& stop = {});
 
-/// What a polygon encloses more than once, or the wrong way round; 0 of one that does not cross
-/// itself, but for rounding.
+/// Computes the area that a polygon encloses more than once or in reverse; 0 except for rounding if
+/// it does not cross itself.
 ///
 /// Cost      as union_area's.
 [[nodiscard]] double crossed_area(const Polygon& polygon, const std::stop_token& stop = {});

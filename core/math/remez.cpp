@@ -50,7 +50,7 @@ Levelled level_on(const SampledCurve& curve, const std::vector<double>& referenc
   return out;
 }
 
-/// The largest |error| of every run of equal sign, refined, in ascending t.
+/// Finds the largest |error| of every run of equal sign, refined, in ascending t.
 std::vector<Extreme> alternating_extrema(const SampledCurve& curve, const ChebyshevSeries& series) {
   const auto& grid = curve.grid;
   std::vector<std::size_t> best;
@@ -76,7 +76,7 @@ std::vector<Extreme> alternating_extrema(const SampledCurve& curve, const Chebys
   return out;
 }
 
-/// Drops extrema until `count` are left, keeping the signs alternating and the largest one.
+/// Drops extrema until `count` are left; the signs stay alternating and the largest one stays.
 void thin(std::vector<Extreme>& extrema, std::size_t count) {
   while (extrema.size() > count) {
     if (extrema.size() == count + 1) {

@@ -24,16 +24,16 @@ struct RelativeMinimax {
   int exchanges = 0;
 };
 
-/// The levelling Remez stops at, and the rounding floor of p/f - 1 below which nothing can be
-/// levelled.
+/// The accuracy of the levelling at which Remez stops, and the rounding floor of p/f - 1 below
+/// which levelling is impossible.
 inline constexpr double kLevelled = 1e-10;
 inline constexpr double kLevelledFloor = 5e-14;
 
-/// The polynomial of `degree` (0..8) with the smallest largest relative error p/f - 1: Remez
-/// exchange of all extrema.
+/// Computes the polynomial of `degree` (0..8) with the smallest largest relative error p/f - 1, by
+/// Remez exchange of all extrema.
 ///
-/// Errors    cancelled; not_converged when 60 exchanges do not level a curve (none seen; at most 5
-///           needed by the golden curves).
+/// Errors    cancelled; not_converged if 60 exchanges do not level a curve (never seen; the golden
+///           curves need at most 5).
 /// Accuracy  worst <= level (1 + kLevelled) or worst - level <= kLevelledFloor.
 /// Cost      one pass over the grid an exchange, and 41 calls of the curve an extremum.
 /// Source    docs/theory/feed-curves.md, section 4.

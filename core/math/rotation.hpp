@@ -8,8 +8,8 @@
 
 namespace tubecut::math {
 
-/// Right-handed turns by an angle in rad, with the reproducible sine and cosine (Eigen's own would
-/// call the C library's).
+/// Return right-handed rotations by an angle in rad. They use the reproducible sine and cosine,
+/// because Eigen's own would call the C library's.
 [[nodiscard]] inline Eigen::Matrix3d turn_about_y(double angle) {
   const auto t = elementary::sincos(angle);
   Eigen::Matrix3d out;
@@ -24,7 +24,7 @@ namespace tubecut::math {
   return out;
 }
 
-/// phi brought into [0, 2 pi).
+/// Returns phi reduced to [0, 2 pi).
 [[nodiscard]] inline double whole_turn(double phi) {
   const double turned = phi - kTwoPi * std::floor(phi / kTwoPi);
   return turned < kTwoPi ? turned : 0.0;

@@ -6,12 +6,12 @@
 
 namespace tubecut::math {
 
-/// `count` (>= 2) Chebyshev-spaced points from `from` to `to`, both ends exact, ascending: dense
-/// where polynomial errors oscillate fastest.
+/// Returns `count` (>= 2) Chebyshev-spaced points from `from` to `to`, ascending, both ends exact:
+/// dense where polynomial errors oscillate fastest.
 [[nodiscard]] std::vector<double> chebyshev_grid(std::size_t count, double from, double to);
 
-/// The point where `f` changes sign between `low` and `high` (f(low) and f(high) of opposite sign,
-/// or one of them zero).
+/// Finds the point where `f` changes sign between `low` and `high` (f(low) and f(high) of opposite
+/// sign, or one of them zero).
 ///
 /// Accuracy  the last bracket is two neighbouring doubles, or 2^-128 of the first one.
 /// Cost      at most 128 calls.
@@ -26,8 +26,8 @@ template <class F>
   return low + 0.5 * (high - low);
 }
 
-/// The largest `x` of [low, high] for which `holds` is true, given that it holds at `low` and, once
-/// false, stays false.
+/// Finds the largest `x` of [low, high] for which `holds` is true. `holds` must be true at `low`
+/// and, once false, stay false.
 /// Cost      at most 128 calls.
 template <class Predicate>
 [[nodiscard]] double last_true(Predicate&& holds, double low, double high) {
@@ -44,8 +44,8 @@ struct Extreme {
   double value = 0.0;
 };
 
-/// The maximum of `f`, unimodal on [low, high], by golden section; never below the better of the
-/// two inner points.
+/// Finds the maximum of `f`, unimodal on [low, high], by golden section; never below the better of
+/// the two inner points.
 ///
 /// Accuracy  the bracket shrinks to 1e-8 of its width, so the value is good to 1e-16 of the curve's
 ///           drop over it.
@@ -75,8 +75,8 @@ template <class F>
   return at_left > at_right ? Extreme{left, at_left} : Extreme{right, at_right};
 }
 
-/// The largest value of `f` over an ascending grid, refined between the neighbours of the best grid
-/// point; `sampled` holds f at the grid. Ends count.
+/// Finds the largest value of `f` over an ascending grid, refined between the neighbours of the
+/// best grid point; `sampled` holds f at the grid. Ends count.
 template <class F>
 [[nodiscard]] Extreme grid_maximum(F&& f, const std::vector<double>& grid,
                                    const std::vector<double>& sampled) {
