@@ -19,7 +19,7 @@ TipFeed ArmTip::at(double stroke) const {
   const auto arm = elementary::sincos(linkage_.rest_angle.rad() + rate_ * stroke);
   const double px = linkage_.arm * arm.cos;
   const double py = linkage_.arm * arm.sin;
-  const double w = px - linkage_.pivot_offset;  // from O2 to P
+  const double w = px - linkage_.pivot_offset;  // from O2 to P, along X
   const double u = py - height_;
   const double along =
       u * slot_.sin - w * slot_.cos;  // |O2 P| cos psi and |O2 P| sin psi, psi = pi - alpha - beta
@@ -48,7 +48,7 @@ double ArmTip::stroke_of(double feed, double guess) const {
   for (int step = 0; step < 50; ++step) {
     const TipFeed here = at(stroke);
     const double change = (feed - here.feed) / here.first;
-    if (!(std::abs(change) < before) && step > 5) break;  // at the rounding floor
+    if (!(std::abs(change) < before) && step > 5) break;  // stop at the rounding floor
     before = std::abs(change);
     stroke += change;
     if (change == 0.0) break;

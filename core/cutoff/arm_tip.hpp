@@ -5,26 +5,26 @@
 
 namespace tubecut::cutoff {
 
-/// Tool feed and its derivatives by the stroke, and the terms whose sum the second one is.
+/// Tool feed and its derivatives with respect to the stroke.
 struct TipFeed {
   double feed = 0.0;              // mm
   double first = 0.0;             // mm/mm
   double second = 0.0;            // 1/mm
   double second_terms = 0.0;      // sum of the magnitudes of its terms
   double elevation_cosine = 1.0;  // |cos psi|
-  double tangency = 1.0;          // 1 - rho cos e over its largest value: 0 at a dead point
+  double tangency = 1.0;          // (1 - rho cos e) / (its largest value): 0 at a dead point
 };
 
-/// Eq. (4) in coordinates of the arm tip P, with no arctangent: tan psi is a quotient of two
-/// lengths. The proof's own way from stroke to feed; shares nothing with `Mechanism` but the
-/// dimensions and k.
+/// Eq. (4) in coordinates of the arm tip P, without arctangents: tan psi is a quotient of two
+/// lengths. The verification computes feeds from strokes with it; it shares only the dimensions and
+/// k with `Mechanism`.
 ///
 /// Source    docs/theory/feed-curves.md, section 2, eq. (4).
 class ArmTip {
  public:
   ArmTip(const Linkage& linkage, double rad_per_mm);
   [[nodiscard]] TipFeed at(double stroke) const;
-  /// The stroke of a feed by Newton's method from a near `guess`; at most 50 steps.
+  /// Computes the stroke of a feed by Newton's method from a close `guess`; at most 50 steps.
   [[nodiscard]] double stroke_of(double feed, double guess) const;
 
  private:

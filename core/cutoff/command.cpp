@@ -14,10 +14,10 @@ namespace {
 
 using math::ChebyshevSeries;
 
-constexpr int kMostDigits = 17;          // every double comes back from 17 significant digits
+constexpr int kMostDigits = 17;          // 17 significant digits restore every double
 constexpr double kRoundingShare = 1.01;  // rounding may raise the speed error by 1 %
 
-/// Of `f`, of which `sampled` holds the values on the grid.
+/// Returns the extent of `f`; `sampled` holds its values on the grid.
 template <class F>
 Extent extent_of(const F& f, const std::vector<double>& grid, const std::vector<double>& sampled) {
   std::vector<double> negated(sampled.size());
@@ -27,7 +27,7 @@ Extent extent_of(const F& f, const std::vector<double>& grid, const std::vector<
           math::grid_maximum(f, grid, sampled).value};
 }
 
-/// What a command does at one time.
+/// The state of a command at one time.
 class Drive {
  public:
   Drive(const WorkFeed& work, const ChebyshevSeries& series)
@@ -71,7 +71,7 @@ Result<void> check_range(const WorkFeed& work, const Drive& drive,
   return {};
 }
 
-/// Errors  of `check_range`.
+/// Errors  those of `check_range`.
 Result<CommandErrors> assess(const WorkFeed& work, const ChebyshevSeries& series) {
   const auto& w = work.work();
   const auto& [at, grid, exact] = work.speed();
@@ -128,8 +128,7 @@ void round_coefficients(const WorkFeed& work, Command& out) {
     out.rounded_max_relative_error = speed_error(work, out.seconds_rounded);
     if (out.rounded_max_relative_error <= allowed) return;
   }
-  out.digits =
-      kMostDigits;  // the error is at the rounding floor; these are the coefficients themselves
+  out.digits = kMostDigits;  // if the error is at the rounding floor, keep the coefficients exactly
 }
 
 Result<ChebyshevSeries> fit(const WorkFeed& work, FitMethod method, int degree,

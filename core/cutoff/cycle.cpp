@@ -11,7 +11,7 @@ namespace tubecut::cutoff {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
-constexpr int kFeedSteps = 64;  // of the search for the slowest feed that meets a target
+constexpr int kFeedSteps = 64;  // steps of the search for the slowest feed that meets a target
 constexpr std::size_t kStopEvery = 4096;
 
 CylinderLimits limits_of(const CycleSpec& spec) {
@@ -105,13 +105,13 @@ Result<Plan> plan(const Window& window, double v, const CycleSpec& spec) {
     return above(ErrorCode::max_feed_exceeded, "cycle/max_feed", out.stop_feed, *spec.max_feed,
                  "mm");
   out.back = rapid_move(out.stop_stroke, 0.0, limits)
-                 .value_or(RapidMove{});  // from rest to rest over > 0 it exists
+                 .value_or(RapidMove{});  // a move from rest to rest over > 0 always exists
   return out;
 }
 
-/// The slowest feed whose cycle takes at most `seconds`. Up to some feed every plan is possible,
-/// beyond it none; below it the cycle shortens with the feed but for the longer ramps, so a scan
-/// finds the first step that meets the target.
+/// Returns the slowest feed whose cycle takes at most `seconds`. Plans are possible up to some feed
+/// and impossible above it. Below it, a faster feed shortens the cycle except for the longer ramps,
+/// so a scan finds the first step that meets the target.
 std::optional<double> feed_for(const Window& window, const CycleSpec& spec, double seconds) {
   const auto possible = [&](double v) { return plan(window, v, spec).has_value(); };
   const auto meets = [&](double v) {
@@ -144,7 +144,7 @@ CycleTarget target_of(const Window& window, const CycleSpec& spec, const Cycle& 
   return out;
 }
 
-/// Constant-jerk phases of everything but the work feed, in time order.
+/// Returns the constant-jerk phases of everything except the work feed, in time order.
 std::vector<Phase> phases_of(const Plan& plan, const Cycle& c, double start_stroke,
                              double end_stroke, const CycleSpec& spec) {
   const auto limits = limits_of(spec);
@@ -158,7 +158,7 @@ std::vector<Phase> phases_of(const Plan& plan, const Cycle& c, double start_stro
   here = cruise(here, plan.approach.cruise);
   here = append_ramp(motion, here, plan.approach.peak, c.speed_in, 1.0, limits);
   motion.push_back({c.work_start, plan.work_duration, start_stroke, c.speed_in, 0.0,
-                    0.0});  // the work feed, by its map
+                    0.0});  // the work feed, computed from its map
   here = append_ramp(motion, {c.work_end, 0.0, end_stroke, c.speed_out, 0.0, 0.0}, c.speed_out, 0.0,
                      1.0, limits);
   here = cruise({c.stop, 0.0, plan.stop_stroke, 0.0, 0.0, 0.0}, spec.dwell);

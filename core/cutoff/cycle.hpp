@@ -16,15 +16,15 @@ struct CycleSpec {
   double max_cylinder_speed = 0.0;         // mm/s, > 0
   double max_cylinder_acceleration = 0.0;  // mm/s^2, > 0
   double max_cylinder_jerk = 0.0;          // mm/s^3, > 0
-  std::optional<double> max_feed = {};     // mm, the tool never passes it
+  std::optional<double> max_feed = {};     // mm, limit of the tool
   double dwell = 0.0;                      // s at the deepest point
   double handling = 0.0;                   // s a piece, outside the motion
-  std::optional<double> target = {};       // pieces per hour asked for, > 0
+  std::optional<double> target = {};       // requested pieces per hour, > 0
 };
 
 inline constexpr std::size_t kMostSamples = 2'000'000;
 
-/// Set points at the servo period; the last one is the end of the motion exactly, at rest.
+/// Set points at the servo period; the last one is exactly the end of the motion, at rest.
 struct CycleSamples {
   std::vector<double> time;          // s
   std::vector<double> stroke;        // mm
@@ -34,19 +34,19 @@ struct CycleSamples {
   std::vector<double> feed_speed;    // tool, mm/s
 };
 
-/// What a target rate needs.
+/// The feed that a target rate requires.
 struct CycleTarget {
   bool met = false;
   std::optional<double> estimated_feed =
-      {};  // mm/s, with the rapid moves' times kept; empty: they alone take too long
+      {};  // mm/s, if the rapid moves keep their times; empty: they take longer than the target
   std::optional<double> feed =
-      {};  // mm/s, with the ramps planned again; empty: no feed within the limits
+      {};  // mm/s, if the ramps are planned again; empty: no feed within the limits
 };
 
 struct Cycle {
   double work_start = 0.0;  // t1, s
   double work_end = 0.0;    // t2, s
-  double stop = 0.0;        // the tool stands, s
+  double stop = 0.0;        // time until the tool stops, s
   double end = 0.0;         // t3, back at rest, s
   double cycle = 0.0;       // t3 + handling, s
   double pieces_per_hour = 0.0;
@@ -64,7 +64,7 @@ struct Cycle {
   CycleSamples samples = {};
 };
 
-/// Rapid approach, work feed, stop, dwell, return, within the cylinder's limits.
+/// Computes rapid approach, work feed, stop, dwell and return within the cylinder's limits.
 ///
 /// Errors    out_of_range, not_finite, work_speed_above_limit, work_accel_above_limit (also for the
 ///           jerk), approach_too_short, max_feed_exceeded, unreachable_x, too_many_samples,

@@ -37,8 +37,8 @@ Result<Table> tabulate(const WorkFeed& work, const TableStep& spec) {
   TRY(on.met());
   const auto& w = work.work();
   const double range = w.end_feed - w.start_feed;
-  const double steps =
-      std::ceil(range / spec.step * (1.0 - 1e-12));  // a step that divides the range ends on it
+  const double steps = std::ceil(
+      range / spec.step * (1.0 - 1e-12));  // if the step divides the range, the last row is its end
   if (steps + 1.0 > kMostTableRows)
     return fail({.code = ErrorCode::out_of_range,
                  .member = "table/step",
@@ -70,7 +70,8 @@ std::vector<Warning> warnings_of(const FeedCurveSpec& spec, const Work& work) {
   return out;
 }
 
-/// The request may name the wall twice: where it is cut, and as the tube's.
+/// Checks that both walls are equal, because the request may specify the wall twice: of the cut and
+/// of the tube.
 Result<void> check_one_wall(const FeedCurveSpec& spec) {
   const auto* cut = std::get_if<CutDistances>(&spec.cut.range);
   if (!spec.tube || cut == nullptr || cut->wall == spec.tube->wall) return {};

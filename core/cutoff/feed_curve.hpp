@@ -18,7 +18,7 @@ namespace tubecut::cutoff {
 struct TablePoints {
   int points = 400;  // 2..20 000
 };
-/// A row every `step` mm of feed, and one at the end.
+/// Rows at every `step` mm of feed and at the end.
 struct TableStep {
   double step = 0.1;  // mm, > 0; at most 100 000 rows
 };
@@ -44,7 +44,7 @@ struct FeedCurveSpec {
   std::optional<ComparisonSpec> comparison = {};
 };
 
-/// `cycle`, `tool` and `comparison` are there when the request has them.
+/// `cycle`, `tool` and `comparison` are present if requested.
 struct FeedCurve {
   Geometry geometry = {};
   Work work = {};
@@ -59,11 +59,12 @@ struct FeedCurve {
 inline constexpr int kMostTablePoints = 20'000;
 inline constexpr double kMostTableRows = 100'000.0;
 
-/// Table, polynomial command, cycle and cutting figures of a constant tool feed through one
-/// linkage.
+/// Computes the table, polynomial command, cycle and cutting figures of a constant tool feed
+/// through one linkage.
 ///
 /// Errors    those of Mechanism::make, WorkFeed::make, command, comparison, cycle and tool_outputs;
-///           out_of_range for the table; unsupported_combination (tube/wall is not the cut's).
+///           out_of_range for the table; unsupported_combination (tube/wall differs from the
+///           cut's).
 /// Accuracy  strokes and speeds 1e-12 relative, accelerations 1e-12 of their largest value.
 /// Cost      under 1 us a table row or servo sample, some 3 ms a fit.
 [[nodiscard]] Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop = {});

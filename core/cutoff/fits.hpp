@@ -9,22 +9,22 @@
 
 namespace tubecut::cutoff {
 
-/// The four ways to choose the polynomial, each on [0, duration] of the work feed.
+/// The four methods to fit the polynomial, each on [0, duration] of the work feed.
 /// Source    docs/theory/feed-curves.md, section 4.
 
-/// The parabola through three times; empty `nodes` are 0, the time of the highest speed (or
-/// duration/2), duration.
+/// Computes the parabola through three times. If `nodes` is empty, they are 0, the time of the
+/// highest speed (or duration/2), and duration.
 /// Errors    bad_nodes: not finite, not ascending, or outside [0, duration].
 [[nodiscard]] Result<math::ChebyshevSeries> three_point(
     const WorkFeed& work, const std::optional<std::array<double, 3>>& nodes);
 
-/// Interpolation at degree + 1 equally spaced times.
+/// Interpolates at degree + 1 equally spaced times.
 [[nodiscard]] math::ChebyshevSeries equispaced(const WorkFeed& work, int degree);
 
-/// Least integral of the squared error: Legendre projection by 64-point Gauss.
+/// Minimises the integral of the squared error: Legendre projection by 64-point Gauss.
 [[nodiscard]] math::ChebyshevSeries least_squares(const WorkFeed& work, int degree);
 
-/// Least largest relative error.
+/// Minimises the largest relative error.
 /// Errors    not_converged, cancelled.
 [[nodiscard]] Result<math::ChebyshevSeries> minimax(const WorkFeed& work, int degree,
                                                     std::stop_token stop);

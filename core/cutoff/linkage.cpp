@@ -19,22 +19,22 @@ using elementary::SinCos;
 using elementary::sincos;
 
 constexpr double kDeadPointMargin =
-    1e-9;  // of 1 - rho cos e: nearer, the slot counts as tangent to the arm circle
+    1e-9;  // of 1 - rho cos e: below it, the slot counts as tangent to the arm circle
 constexpr double kTangentMargin =
     1e-6;  // of cos^2(theta - beta): nearer than 0.06 deg the inverse loses its digits
-constexpr double kStrokeMargin = 1e-12;  // of the stroke's width, kept from both limits
+constexpr double kStrokeMargin = 1e-12;  // fraction of the stroke's width, margin to both limits
 constexpr int kPeakScan = 64;            // steps of psi that separate the roots of g''
 
-double reduced(double angle) {  // to (-pi, pi]
+double reduced(double angle) {  // Reduces an angle to (-pi, pi].
   return angle - kTwoPi * std::ceil((angle - kPi) / kTwoPi);
 }
 
-/// Of a - b.
+/// Computes sine and cosine of a - b.
 SinCos difference(const SinCos& a, const SinCos& b) {
   return {a.sin * b.cos - a.cos * b.sin, a.cos * b.cos + a.sin * b.sin};
 }
 
-/// Of half an angle within (-pi, pi), by the root that does not cancel.
+/// Computes sine and cosine of half an angle within (-pi, pi), by the root that does not cancel.
 SinCos half_of(const SinCos& whole) {
   if (whole.cos >= 0.0) {
     const double cosine = std::sqrt(0.5 * (1.0 + whole.cos));
@@ -44,7 +44,7 @@ SinCos half_of(const SinCos& whole) {
   return {sine, 0.5 * whole.sin / sine};
 }
 
-constexpr double kLeastPair = 1e-3;                  // mm; a shorter feed calibrates nothing
+constexpr double kLeastPair = 1e-3;  // mm; a shorter feed is too inaccurate for a calibration
 constexpr double kLeastRate = 1e-9, kMostRate = 10;  // rad/mm
 
 Result<void> check(const Linkage& l) {
@@ -85,7 +85,7 @@ Result<Mechanism> Mechanism::make(const Linkage& l) {
   return m;
 }
 
-/// The position at rest, from the triangle O1 O2 P in units of the arm.
+/// Computes the position at rest, from the triangle O1 O2 P in units of the arm.
 Result<void> Mechanism::set_rest(const Linkage& l) {
   const auto wrong = [](ErrorCode code, const char* member, Angle got) {
     return fail({.code = code, .member = member, .got = got.deg(), .unit = "deg"});
@@ -116,13 +116,13 @@ Result<void> Mechanism::set_rest(const Linkage& l) {
   return {};
 }
 
-/// 1 - rho cos e by half of e, without cancellation near a dead point.
+/// Computes 1 - rho cos e from half of e, without cancellation near a dead point.
 double Mechanism::lead_of(const SinCos& half) const {
   return one_minus_ratio_ + 2.0 * ratio_ * half.sin * half.sin;
 }
 
-/// The angle of slot 1 from rest at a feed: tan(psi0 - psi) from the two tangents, so nothing
-/// cancels near rest.
+/// Computes the angle of slot 1 from rest at a feed: tan(psi0 - psi) from the two tangents, so
+/// nothing cancels near rest.
 Mechanism::SlotTurn Mechanism::slot_turn(double feed) const {
   const double x0 = geometry_.rod_height;
   const double across = feed / offset_;
@@ -142,9 +142,10 @@ double Mechanism::arm_turn(const SlotTurn& slot) const {
   return 2.0 * atan2(half.sin, half.cos);
 }
 
-/// theta - theta0 = (beta - beta0) + asin(rho sin delta) - asin(rho sin delta0); the difference of
+/// theta - theta0 = (beta - beta0) + asin(rho sin delta) - asin(rho sin delta0). The difference of
 /// the two arcs is 2 atan of (difference of sines)/(sum of cosines), which keeps full relative
-/// accuracy near rest. Half of either term lies within a quarter turn: one arctangent has both.
+/// accuracy near rest. Half of either term is within a quarter turn, so one arctangent gives their
+/// sum.
 SinCos Mechanism::half_arm_turn(const SlotTurn& slot, double cosine) const {
   const SinCos& half = slot.half;
   const double rise = -2.0 * ratio_ * difference(slot_lag_sides_, half).cos * half.sin;
@@ -156,7 +157,7 @@ Mechanism::Limit Mechanism::limit(double pole, double dead, bool upper) const {
   const bool dead_first = upper ? dead < pole : dead > pole;
   if (!dead_first) return {arm_turn(slot_turned(pole)), {}, false};
   const double psi = geometry_.slot_elevation.rad();
-  // sin(theta - beta) is exactly 1 or -1 there; through its cosine half the digits would be lost
+  // sin(theta - beta) is exactly 1 or -1 there; its cosine would lose half the digits
   const double turn = dead + (upper ? 0.5 * kPi : -0.5 * kPi) - atan2(sine_, cosine_);
   return {turn, offset_ * sin(dead) / (psi_.cos * cos(psi - dead)), true};
 }
@@ -166,7 +167,7 @@ void Mechanism::set_limits() {
   const double psi = geometry_.slot_elevation.rad();
   double dead_low = -kNever;
   double dead_high = kNever;
-  if (one_minus_ratio_ <= 0.0) {  // slot 1 is tangent to the arm circle where |sin delta| = 1/rho
+  if (one_minus_ratio_ <= 0.0) {  // slot 1 is tangent to the arm circle at |sin delta| = 1/rho
     const double half_width = elementary::asin(1.0 / ratio_);
     const double centre = kPi + kTwoPi * std::floor(slot_lag_ / kTwoPi);
     dead_low = slot_lag_ - centre - half_width;
@@ -229,7 +230,7 @@ Result<double> Mechanism::tool_feed(double stroke) const {
                .unit = "mm"});
 }
 
-/// With sine and cosine of half the arm's turn all else is algebra: e = e0 - turn, beta's turn
+/// With sine and cosine of half the arm's turn, the rest is algebra: e = e0 - turn, beta's turn
 /// less the arm's as a quotient, sums of angles by their sines and cosines.
 Forward Mechanism::forward(double stroke) const {
   const SinCos half = sincos(0.5 * k_ * stroke);
@@ -277,7 +278,7 @@ Inverse Mechanism::inverse(double feed, SinCos& half) const {
   return {0.0, b * t * per_k, b * b * e * per_k, b * b * (4.0 * q * b * e * per_a + e1) * per_k};
 }
 
-/// atan of a small tangent by its series, cut off below 1e-22 of it.
+/// Computes atan of a small tangent by its series, truncated below 1e-22 relative.
 Inverse StrokeCursor::at(double feed) {
   constexpr double kNear = 1e-3;
   SinCos half;
@@ -297,8 +298,8 @@ Inverse StrokeCursor::at(double feed) {
   return out;
 }
 
-/// The highest g' inside the range: a scan over psi brackets every root of g'' that matters,
-/// bisection finds it.
+/// Finds the highest g' inside the range: a scan over psi brackets every root of g'' that matters,
+/// bisection refines it.
 std::optional<double> Mechanism::find_peak() const {
   const double psi = geometry_.slot_elevation.rad();
   const auto angle = [this](double feed) {

@@ -27,7 +27,7 @@ struct Linkage {
   std::optional<MeasuredPair> calibrate = {};  // gives rad_per_mm instead of the member
 };
 
-/// What the linkage alone decides. Empty limits are infinite.
+/// Quantities that follow from the linkage only. Empty limits are infinite.
 struct Geometry {
   double rod_height = 0.0;    // x0, mm
   Angle slot_elevation = {};  // psi0 of slot 2 at rest
@@ -36,17 +36,17 @@ struct Geometry {
   std::optional<double> feed_low = {};  // open interval of the feed, mm
   std::optional<double> feed_high = {};
   std::optional<double> feed_at_peak =
-      {};                   // where the cylinder runs fastest at constant feed; independent of k
-  double rad_per_mm = 0.0;  // k used
+      {};                   // where the cylinder is fastest at constant feed; independent of k
+  double rad_per_mm = 0.0;  // the k in use
 };
 
-/// Tool feed and its derivative by the stroke.
+/// Tool feed and its derivative with respect to the stroke.
 struct Forward {
   double feed = 0.0;  // mm
   double rate = 0.0;  // f', mm/mm
 };
 
-/// Stroke at a feed and its derivatives by the feed.
+/// Stroke at a feed and its derivatives with respect to the feed.
 struct Inverse {
   double stroke = 0.0;  // mm
   double first = 0.0;   // g'
@@ -66,22 +66,22 @@ class Mechanism {
   ///           slot_off_rod; unreachable_x for the feed of a calibration.
   [[nodiscard]] static Result<Mechanism> make(const Linkage& linkage);
 
-  /// Tool feed at a stroke.
+  /// Computes the tool feed at a stroke.
   /// Errors    tan_pole or dead_point: the stroke is outside (stroke_low, stroke_high) shrunk by
   ///           1e-12 of its width.
   [[nodiscard]] Result<double> tool_feed(double stroke) const;
 
-  /// The same, and the cylinder stroke at a feed, with derivatives, for arguments known to be in
-  /// range.
+  /// Compute the tool feed at a stroke, or the cylinder stroke at a feed, with derivatives. The
+  /// arguments must be in range.
   /// Cost      one call of an elementary function each, three roots and some six quotients.
   [[nodiscard]] Forward forward(double stroke) const;
   [[nodiscard]] Inverse inverse(double feed) const;
 
-  /// Whether a feed is within the linkage's range, and the arm no nearer than 0.06 deg to a tangent
-  /// position.
+  /// Returns true if a feed is within the linkage's range and the arm is at least 0.06 deg from a
+  /// tangent position.
   [[nodiscard]] bool reaches(double feed) const;
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-  /// Horizontal part A of the pivots' distance, the scale of the accuracy line.
+  /// Returns the horizontal part A of the pivots' distance, the scale of the accuracy line.
   [[nodiscard]] double pivot_offset() const { return offset_; }
 
  private:
@@ -99,9 +99,9 @@ class Mechanism {
   [[nodiscard]] SlotTurn slot_turn(double feed) const;
   [[nodiscard]] static SlotTurn slot_turned(double angle);
   [[nodiscard]] double arm_turn(const SlotTurn& slot) const;  // theta - theta0
-  /// Sine and cosine of half of it, times one factor.
+  /// Computes sine and cosine of half of it, times one factor.
   [[nodiscard]] elementary::SinCos half_arm_turn(const SlotTurn& slot, double cosine) const;
-  /// All but the stroke, for which there is half the arm's turn.
+  /// Computes all except the stroke, and stores half the arm's turn for it.
   [[nodiscard]] Inverse inverse(double feed, elementary::SinCos& half_arm_turn) const;
   [[nodiscard]] double lead_of(const elementary::SinCos& lag_half) const;
   [[nodiscard]] Limit limit(double slot_turn_at_pole, double slot_turn_at_dead_point,
@@ -127,12 +127,13 @@ class Mechanism {
   Geometry geometry_ = {};
 };
 
-/// `Mechanism::inverse` at feeds that follow one another: the arm's turn is carried on from a feed
-/// near by, by the arctangent of what little lies between.
+/// `Mechanism::inverse` at a sequence of feeds: computes the arm's turn from that of a nearby feed,
+/// by the arctangent of the small difference.
 ///
 /// Accuracy  strokes within 4e-16 rad of the arm's turn of `Mechanism::inverse`; derivatives the
 ///           same.
-/// Cost      no elementary function while the arm is within 1e-3 rad of the last that took one.
+/// Cost      no elementary function while the arm is within 1e-3 rad of the last position that used
+///           one.
 class StrokeCursor {
  public:
   explicit StrokeCursor(const Mechanism& mechanism) : mechanism_(&mechanism) {}
@@ -140,7 +141,8 @@ class StrokeCursor {
 
  private:
   const Mechanism* mechanism_;
-  elementary::SinCos anchor_ = {};  // of half the arm's turn, times one factor; at rest
+  elementary::SinCos anchor_ =
+      {};  // sine and cosine of half the arm's turn, times one factor; at rest
   double angle_ = 0.0;
 };
 

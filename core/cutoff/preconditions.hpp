@@ -9,8 +9,8 @@
 
 namespace tubecut::cutoff {
 
-/// Collects what one number alone can have wrong, so that one answer names every field. NaN fails
-/// every test.
+/// Collects the errors of single numbers, so that one answer names every field. NaN fails every
+/// test.
 class Preconditions {
  public:
   explicit Preconditions(std::string prefix) : prefix_(std::move(prefix)) {}

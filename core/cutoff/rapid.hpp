@@ -5,14 +5,14 @@
 
 namespace tubecut::cutoff {
 
-/// What the cylinder may do, all > 0.
+/// Limits of the cylinder, all > 0.
 struct CylinderLimits {
   double speed = 0.0;         // mm/s
   double acceleration = 0.0;  // mm/s^2
   double jerk = 0.0;          // mm/s^3
 };
 
-/// A piece of motion at constant jerk, from its state at `start`.
+/// A phase of constant jerk, from its state at `start`.
 struct Phase {
   double start = 0.0;         // s
   double duration = 0.0;      // s
@@ -22,10 +22,10 @@ struct Phase {
   double jerk = 0.0;          // mm/s^3
 };
 
-/// Phase evaluated `elapsed` seconds after its start.
+/// Returns the phase `elapsed` seconds after its start.
 [[nodiscard]] Phase after(const Phase& phase, double elapsed);
 
-/// Least time and the distance of a jerk-limited change of speed, acceleration 0 at both ends.
+/// The shortest jerk-limited change of speed, acceleration 0 at both ends.
 struct Ramp {
   double duration = 0.0;  // s
   double distance = 0.0;  // mm, mean speed times duration
@@ -39,8 +39,8 @@ struct RapidMove {
   double duration = 0.0;  // s
 };
 
-/// The rapid move over `distance` that starts at rest and leaves at `end_speed` (<= the speed
-/// limit); empty when the ramp to `end_speed` alone is longer.
+/// Computes the rapid move over `distance` that starts at rest and leaves at `end_speed` (<= the
+/// speed limit). Returns empty when the ramp to `end_speed` is longer than `distance`.
 ///
 /// Accuracy  the peak of a short move is the last double that fits; the rest of the distance goes
 ///           into the cruise.

@@ -20,7 +20,8 @@ Result<void> check_tool(const ToolSpec& tool) {
   return on.met();
 }
 
-/// Height of the ridge that a corner of `radius` leaves between two passes `feed` apart, um.
+/// Computes the height in um of the ridge that a corner of `radius` leaves between two passes at
+/// distance `feed`.
 double ideal_roughness(double feed, double radius) {
   return kUmPerMm * feed * feed / (8.0 * radius);
 }

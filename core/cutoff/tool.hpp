@@ -9,7 +9,7 @@
 
 namespace tubecut::cutoff {
 
-/// The blades on the disc, sharing one groove.
+/// The blades on the disc; they share one groove.
 struct ToolSpec {
   double disc = 0.0;           // rev/min, > 0
   int blades = 1;              // >= 1
@@ -17,7 +17,7 @@ struct ToolSpec {
   double kerf = 0.0;           // mm, > 0
 };
 
-/// The tubes a machine takes, mm, least and most.
+/// The tubes that a machine accepts, mm, smallest and largest.
 struct TubeRange {
   std::pair<double, double> outer_diameter = {};
   std::pair<double, double> wall = {};
@@ -30,7 +30,7 @@ struct TubeSpec {
   std::optional<TubeRange> machine = {};
 };
 
-/// What needs the tube's size.
+/// Figures that require the tube's size.
 struct WallCut {
   double cutting_speed_outside = 0.0;  // m/min at the outer diameter
   double cutting_speed_bore = 0.0;     // m/min
@@ -40,19 +40,19 @@ struct WallCut {
   double chip_volume = 0.0;            // mm^3, the whole ring
 };
 
-/// Kinematic figures only: no chatter, no force.
+/// Kinematic figures without chatter and force.
 struct ToolOutputs {
   double feed_per_revolution = 0.0;  // mm
   double feed_per_blade = 0.0;       // mm
   double feed_per_blade_low = 0.0;   // mm, at the command's lowest tool speed
   double feed_per_blade_high = 0.0;  // mm
   double roughness = 0.0;            // ideal R_t, um
-  double roughness_one_blade = 0.0;  // um, if one blade stands proud
+  double roughness_one_blade = 0.0;  // um, if one blade is proud
   std::optional<WallCut> wall_cut = {};
 };
 
-/// Cutting figures at the constant tool feed `feed` (mm/s); `ripple` is the command's largest
-/// relative error of it.
+/// Computes cutting figures at the constant tool feed `feed` (mm/s); `ripple` is the command's
+/// largest relative error of it.
 ///
 /// Errors    out_of_range, not_finite, wall_too_thick.
 /// Source    docs/theory/feed-curves.md, section 6.
@@ -63,12 +63,13 @@ struct ToolOutputs {
 /// Errors    out_of_range, not_finite, wall_too_thick.
 [[nodiscard]] Result<void> check_tube(const TubeSpec& tube);
 
-/// The tubes taken by the machine with this linkage, where a source tells: that of Tables 2 and 3
-/// of source 004, diameters 89..195 mm and walls 6..25 mm. Of that of its Table 1 none are told.
+/// Returns the tubes that the machine with this linkage accepts, if a source states them: only the
+/// machine of Tables 2 and 3 of source 004, diameters 89..195 mm and walls 6..25 mm. For that of
+/// its Table 1 the source gives no range.
 [[nodiscard]] std::optional<TubeRange> published_range(const Linkage& linkage);
 
-/// Notes for a tube outside the range of its machine: `tube.machine`, else the published one; none
-/// where neither is there.
+/// Returns notes for a tube outside the range of its machine (`tube.machine`, else the published
+/// range); empty without a range.
 [[nodiscard]] std::vector<Warning> tube_warnings(const Linkage& linkage, const TubeSpec& tube);
 
 }  // namespace tubecut::cutoff

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSteps = 2000;
 constexpr double kErrorFloor =
-    1e-6;  // of the speed: below it errors are held to kFitError of this, 2e-9
+    1e-6;  // of the speed: smaller errors are compared within kFitError of this, 2e-9
 
 /// One instant of the work feed by Newton on eq. (4).
 struct Instant {
@@ -86,8 +86,8 @@ double disagreement(double measured, double stated, double floor) {
   return std::abs(measured - stated) / (stated + floor);
 }
 
-/// Stated ripple, position error and drift against the seconds form integrated as powers and put
-/// through eq. (4).
+/// Checks the stated ripple, position error and drift against the seconds form, integrated as
+/// powers and put through eq. (4).
 void push_tool_errors(const FeedCurveSpec& spec, const FeedCurve& curve,
                       const std::vector<Instant>& path, const ArmTip& tip,
                       std::vector<Check>& checks) {

@@ -9,7 +9,7 @@ namespace tubecut::cutoff {
 namespace {
 
 constexpr double kRounding =
-    1e-11;  // of the largest stroke and speed: what a short last interval may show
+    1e-11;  // of the largest stroke and speed: rounding in a short last interval
 
 double largest(const std::vector<double>& values) {
   double out = 0.0;
@@ -17,8 +17,8 @@ double largest(const std::vector<double>& values) {
   return out;
 }
 
-/// What lies between neighbouring samples, as shares of what the jerk limit and the reported steps
-/// allow.
+/// Changes between neighbouring samples, as fractions of the maximum by the jerk limit and the
+/// reported steps.
 struct Steps {
   double stroke = 0.0;        // trapezium of the speeds against the stroke
   double speed = 0.0;         // trapezium of the accelerations against the speed
@@ -60,11 +60,12 @@ void push_feeds(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip&
   double feed = std::abs(deepest.feed - c.stop_feed) +
                 std::abs(c.stop_feed - curve.work.end_feed - c.overshoot);
   double speed = 0.0;
-  double fastest = curve.work.feed;  // at least: a coarse period may miss every motion
+  double fastest =
+      curve.work.feed;  // at least the work feed, because a coarse period may skip every motion
   for (std::size_t i = 0; i < s.time.size() && !stop.stop_requested(); ++i) {
     const TipFeed here = tip.at(s.stroke[i]);
     worsen(feed, std::abs(here.feed - s.feed[i]));
-    // Towards the tangent's pole the derivative loses digits as 1/cos psi.
+    // Near the tangent's pole the derivative loses digits as 1/cos psi.
     worsen(speed, here.elevation_cosine * std::abs(here.first * s.speed[i] - s.feed_speed[i]));
     worsen(fastest, std::abs(here.first * s.speed[i]));
   }
@@ -87,7 +88,7 @@ void push_times(const CycleSpec& spec, const FeedCurve& curve, std::vector<Check
                                 std::abs(s.feed_speed.back())});
   checks.push_back({"cycle_ends_at_rest", rest, limit::kRest, ""});
   if (!c.target || !c.target->estimated_feed) return;
-  // At the estimate the work feed takes what the target leaves beside everything else.
+  // At the estimate, the work feed takes the target's time less that of all other phases.
   const double others = c.cycle - (c.work_end - c.work_start);
   const double work = (curve.work.end_feed - curve.work.start_feed) / *c.target->estimated_feed;
   checks.push_back({"cycle_target_estimate",

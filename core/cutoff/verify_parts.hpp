@@ -14,7 +14,7 @@ void verify_command(const FeedCurveSpec& spec, const FeedCurve& curve, const Arm
 void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
                   const std::stop_token& stop, std::vector<Check>& checks);
 
-/// Scale of a feed at a place of the linkage: |x| + A/cos^2 psi.
+/// Returns the scale of a feed at a position of the linkage: |x| + A/cos^2 psi.
 [[nodiscard]] inline double feed_scale(const Linkage& linkage, const TipFeed& here) {
   const double x = here.feed < 0.0 ? -here.feed : here.feed;
   return x + linkage.pivot_offset / (here.elevation_cosine * here.elevation_cosine);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kGridPoints = 1601;
 constexpr double kShortest = 1e-3;  // mm of work feed
-// Largest to smallest cylinder speed of a work feed. Beyond it the window runs against an end of
-// the linkage, where a grid no longer tells the extremes; machines stay below 3.
+// Maximum ratio of the largest to the smallest cylinder speed of a work feed. Beyond it the window
+// approaches an end of the linkage, and a grid no longer finds the extremes; machines stay below 3.
 constexpr double kMostUneven = 100.0;
 
 Result<void> check(const FeedWindow& window) {
@@ -46,7 +46,7 @@ FeedWindow window_of(const Cut& cut) {
   return {d.clearance - d.slowdown, d.clearance + d.wall + d.overcut};
 }
 
-/// Of what `f` is at any time, of which `sampled` holds magnitudes on the grid.
+/// Returns the largest magnitude of `f` over time; `sampled` holds magnitudes on the grid.
 template <class F>
 double largest_magnitude(const F& f, const std::vector<double>& grid,
                          const std::vector<double>& sampled) {
@@ -117,7 +117,7 @@ CylinderState WorkFeed::at(double time, StrokeCursor& cursor) const {
 void WorkFeed::find_extremes() {
   work_.start_stroke = mechanism_.inverse(work_.start_feed).stroke;
   work_.end_stroke = mechanism_.inverse(work_.end_feed).stroke;
-  // A copy of this mechanism and window keeps the curve a value of its own.
+  // The curve owns a copy of this mechanism and window, so it stays a value.
   speed_.at = [mechanism = mechanism_, w = work_](double time) {
     const double feed = time >= w.duration ? w.end_feed : w.start_feed + w.feed * time;
     return w.feed * mechanism.inverse(feed).first;

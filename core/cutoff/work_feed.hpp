@@ -13,8 +13,8 @@ struct FeedWindow {
   double end_feed = 0.0;  // > start_feed
 };
 
-/// The work feed by what the tool passes, mm: it starts `slowdown` before the tube and ends
-/// `overcut` beyond the wall.
+/// The work feed by the distances that the tool covers, mm: it starts `slowdown` before the tube
+/// and ends `overcut` beyond the wall.
 struct CutDistances {
   double clearance = 0.0;  // s1, tool at rest to the tube, >= 0
   double slowdown = 0.0;   // s2, 0..clearance
@@ -27,7 +27,7 @@ struct Cut {
   double feed = 0.0;  // v of the tool, mm/s, > 0
 };
 
-/// What the exact work feed asks of the cylinder.
+/// The cylinder motion that the exact work feed requires.
 struct Work {
   double start_feed = 0.0;                 // x_s, mm
   double end_feed = 0.0;                   // x_e, mm
@@ -52,8 +52,8 @@ struct CylinderState {
   double jerk = 0.0;          // mm/s^3
 };
 
-/// The constant tool feed x = x_s + v t on [0, T] and the cylinder motion that makes it, in closed
-/// form.
+/// The constant tool feed x = x_s + v t on [0, T] and the cylinder motion that produces it, in
+/// closed form.
 ///
 /// Source    docs/theory/feed-curves.md, section 3.
 class WorkFeed {
@@ -62,12 +62,12 @@ class WorkFeed {
   [[nodiscard]] static Result<WorkFeed> make(const Mechanism& mechanism, const Cut& cut);
 
   [[nodiscard]] CylinderState at(double time) const;
-  /// The same at times that follow one another.
+  /// Computes the same for a sequence of times.
   [[nodiscard]] CylinderState at(double time, StrokeCursor& cursor) const;
   [[nodiscard]] double cylinder_speed(double time) const { return at(time).speed; }
   [[nodiscard]] const Work& work() const { return work_; }
   [[nodiscard]] const Mechanism& mechanism() const { return mechanism_; }
-  /// The cylinder speed over time on 1601 Chebyshev-spaced points.
+  /// Returns the cylinder speed over time on 1601 Chebyshev-spaced points.
   [[nodiscard]] const math::SampledCurve& speed() const { return speed_; }
 
  private:
