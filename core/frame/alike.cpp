@@ -23,28 +23,29 @@ using detail::FormWall;
 using detail::near_zero;
 using detail::Side;
 
-constexpr double kWritten = 1e6;  // lengths are told apart to six decimals
-// By how much a mean over phases may be off where the contour has corners and jumps.
+constexpr double kWritten = 1e6;  // lengths are compared to six decimals
+// Maximum error of a mean over phases if the contour has corners and jumps.
 constexpr double kMeanOff = 0.1, kMeanOffOfRadius = 0.01;  // mm; of the radius
 
-/// What two alike have in common to the letter, in no order.
+/// Returns the texts that two alike shapes must share exactly; each list is sorted, because the
+/// order has no meaning.
 std::vector<std::string> key_of(const Shape& shape) {
   std::vector<std::string> out{shape.key};
   for (const auto* keys : {&shape.start, &shape.finish, &shape.holes, &shape.marks}) {
     auto sorted = *keys;
     std::ranges::sort(sorted);
     out.insert(out.end(), sorted.begin(), sorted.end());
-    out.emplace_back();  // where the next begin
+    out.emplace_back();  // separates the lists
   }
   return out;
 }
 
-/// Ways from points of one wall to those of another: round the tube and along it.
+/// Distances from points of one wall to those of another: around the tube and along it.
 struct Ways {
   std::vector<double> round, along;
-  double between = 0.0;  // what more may lie between two phases
+  double between = 0.0;  // additional distance possible between two phases
 
-  /// False where they have no points in common.
+  /// Returns false when they have no points in common.
   bool add(const FormWall::Line& one, const FormWall::Line& other) {
     const auto n = one.z.size();
     if (other.z.size() != n || other.phi.size() != one.phi.size()) return false;
@@ -55,7 +56,7 @@ struct Ways {
     }
     for (std::size_t i = 0; i < n; ++i) {
       const auto before = (i + n - 1) % n, after = (i + 1) % n;
-      // Of a smooth curve an eighth of the second difference.
+      // For a smooth curve, an eighth of the second difference is enough.
       worsen(between, 0.25 * elementary::hypot(r[before] - 2.0 * r[i] + r[after],
                                                a[before] - 2.0 * a[i] + a[after]));
     }
@@ -73,7 +74,7 @@ struct Ways {
     along.push_back(one.z_from - other.z_from);
   }
 
-  /// The move along the axis that leaves the least of them, and what it leaves.
+  /// Returns the move along the axis that minimises the largest distance, and that distance.
   [[nodiscard]] std::pair<double, double> fitted() const {
     const auto [least, most] = std::ranges::minmax(along);
     const double shift = 0.5 * (least + most);
@@ -93,7 +94,7 @@ joint::MemberFrame Laid::stand(const joint::MemberFrame& own) const {
   return out;
 }
 
-/// What the forms are, and what was compared.
+/// The forms, and a cache of comparisons.
 class Gatherer::Known {
  public:
   Known(std::span<const part::PartSpec* const> forms, std::span<const std::string> texts,
@@ -108,8 +109,8 @@ class Gatherer::Known {
                                          const std::stop_token& stop);
 
  private:
-  using Column = std::vector<std::size_t>;  // of shapes, holes or marks
-  /// Two forms, the turn, and which of holes and marks answer which.
+  using Column = std::vector<std::size_t>;  // indices of shapes, holes or marks
+  /// Two forms, the turn, and the matched holes and marks.
   using Pair = std::tuple<std::size_t, std::size_t, std::int64_t, Column, Column>;
   struct Fit {
     bool there = false;
@@ -128,7 +129,7 @@ class Gatherer::Known {
                       form ? written(*form->part->target.length) : 0.0,
                       std::string_view(texts_[shape.form]));
   }
-  /// May two be alike by the length that is left?
+  /// Returns true if the lengths between both cuts permit that two are alike.
   [[nodiscard]] bool near(const Shape& a, const Shape& b) const {
     const auto& form = forms_[a.form];
     const double off = std::abs(left(a) - left(b));
@@ -144,11 +145,12 @@ class Gatherer::Known {
   std::vector<std::optional<Form>> forms_;
   std::vector<std::string> texts_;
   double within_;
-  std::vector<std::optional<std::optional<FormWall>>> walls_;  // of each form, once asked for
+  std::vector<std::optional<std::optional<FormWall>>>
+      walls_;  // of each form, computed on first use
   std::map<Pair, Fit> fits_;
 };
 
-/// Every point of the member's wall, turned, against the same point of the other's.
+/// Compares every point of the member's turned wall with the same point of the other's wall.
 Gatherer::Known::Fit Gatherer::Known::fit(const Side& member, const Side& by, const Laid& laid,
                                           const std::stop_token& stop) {
   const Pair pair{member.shape.form, by.shape.form,
@@ -202,7 +204,7 @@ std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by,
   return std::nullopt;
 }
 
-/// Of shapes in their order, near each other in length.
+/// Groups shapes that are near each other in length, given in their order.
 void Gatherer::Known::gather(std::span<const Shape> shapes, Column rest,
                              std::vector<AlikeGroup>& out, const std::stop_token& stop) {
   while (!rest.empty() && !stop.stop_requested()) {

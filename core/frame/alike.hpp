@@ -15,50 +15,51 @@
 
 namespace tubecut::frame {
 
-/// Differences below this are none, whatever is asked for: numbers are written to 1e-6 mm, and a
-/// shallow cut makes ten times as much of it.
+/// The smallest permitted tolerance: smaller differences count as 0, because numbers are written to
+/// 1e-6 mm and a shallow cut multiplies that by ten.
 inline constexpr double kLeastAlike = 1e-5;  // mm
 
-/// A member's part as it is asked for, and what of it must be another's to the letter.
+/// A member's part as requested, with keys that must be identical in alike parts.
 struct Shape {
-  std::size_t form = 0;  // of the parts that are asked for; members of one form share it
+  std::size_t form = 0;  // index of a requested part; members of one form share it
   std::string key;       // the tube, and how both ends are cut
   std::vector<std::string> start, finish;  // of each partner
-  std::vector<std::string> holes, marks;   // of each, with the part that stands there
+  std::vector<std::string> holes, marks;   // of each, with the part that is placed there
 };
 
-/// How the part that represents a group becomes one of its members: turned back by `turn` about
-/// its axis, then moved by `shift` along it, both in the member's start frame.
+/// Transforms the part that represents a group into one of its members: rotate it back by `turn`
+/// about its axis, then move it by `shift` along it, both in the member's start frame.
 struct Laid {
   Angle turn;
-  double shift = 0.0;                      // mm
-  double differs = 0.0;                    // the surfaces' distance is at most this, mm
-  std::vector<std::size_t> start, finish;  // of the member's partners each the other's
+  double shift = 0.0;    // mm
+  double differs = 0.0;  // maximum distance of the surfaces, mm
+  std::vector<std::size_t> start,
+      finish;  // for each partner of the member, the index of the matching one
   std::vector<std::size_t> holes, marks;
 
-  /// The start frame of the part that represents the group, as this member.
+  /// Returns the start frame of the representing part, placed as this member.
   [[nodiscard]] joint::MemberFrame stand(const joint::MemberFrame& own) const;
 };
 
 struct AlikeGroup {
-  std::size_t by = 0;                                // the shape that represents it
-  std::vector<std::pair<std::size_t, Laid>> shapes;  // ascending, `by` among them
+  std::size_t by = 0;                                // the shape that represents the group
+  std::vector<std::pair<std::size_t, Laid>> shapes;  // ascending, includes `by`
 };
 
-/// Groups of parts whose finished surfaces differ nowhere by more than `within` (at least
-/// kLeastAlike) from the part that represents their group, turned about its axis and moved along
-/// it as fits; never mirrored, nor end for end. What was compared once is not compared again.
+/// Groups parts whose finished surfaces differ by at most `within` (at least kLeastAlike)
+/// everywhere from the part that represents their group, after a rotation about its axis and a move
+/// along it; never mirrored or end for end. Each comparison is made only once.
 ///
-/// What is compared is the finished wall itself, edge by edge at the same phase: at kAlikePhases of
-/// each end, half as many of each hole, and the places of the marks; what may lie between two
-/// phases is counted by second differences. The sampling's own rows play no part.
+/// The finished walls are compared edge by edge at equal phases: kAlikePhases at each end, half as
+/// many at each hole, and the positions of the marks. Second differences bound the difference
+/// between two phases. The sampling's own rows do not matter.
 ///
-/// Which parts are one depends neither on the order of the shapes nor on where the frame stands:
-/// a group is gathered round the middle one by the length that is left between both cuts.
+/// The groups depend neither on the order of the shapes nor on the position of the frame, because
+/// each group is gathered around the one that is in the middle by length between both cuts.
 class Gatherer {
  public:
-  /// `forms`: each part as it is asked for, nullptr where it cannot be read: it is alike to its own
-  /// form alone. `texts`: of each form, which break ties.
+  /// `forms`: each part as requested. If it is invalid, it is nullptr, and it is alike only to its
+  /// own form. `texts`: of each form; they break ties.
   Gatherer(std::span<const part::PartSpec* const> forms, std::span<const std::string> texts,
            double within);
   ~Gatherer();
@@ -67,7 +68,7 @@ class Gatherer {
 
   /// Errors  cancelled.
   /// Cost    about 2 ms for each end and hole of a form that another one resembles; 50 us for each
-  ///         form else.
+  ///         other form.
   [[nodiscard]] Result<std::vector<AlikeGroup>> groups(std::span<const Shape> shapes,
                                                        const std::stop_token& stop = {});
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMeanOver = 256;  // phases
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Mean height of the contour on the bore.
+/// Returns the mean height of the contour on the bore.
 double mean_height(const FormEnd& end, double radius) {
   double sum = 0.0;
   for (std::size_t k = 0; k < kMeanOver; ++k) {
@@ -44,7 +44,8 @@ std::optional<FormEnd> end_of(const bevel::TableSpec& cut) {
   return out;
 }
 
-/// On phases of its own, as many as are compared; the kerf leaves no trace on the finished part.
+/// Returns the cut on the phases of the comparison, without kerf, because the kerf does not affect
+/// the finished part.
 bevel::TableSpec on_phases(bevel::TableSpec cut, Angle turn) {
   for (auto& partner : cut.partners) partner = joint::turned(partner, turn);
   cut.sampling = {.uniform_points = kAlikePhases};
@@ -52,13 +53,13 @@ bevel::TableSpec on_phases(bevel::TableSpec cut, Angle turn) {
   return cut;
 }
 
-/// The edges of an end, of a finish as the start sees them.
+/// Adds the edges of an end; those of a finish in the start's frame.
 bool add_end(const bevel::TableSpec& cut, Angle turn, std::optional<double> length, FormWall& out,
              const std::stop_token& stop) {
   const auto table = bevel::table(on_phases(cut, turn), stop);
   if (!table || table->phi.size() != kAlikePhases) return false;
   for (const auto* z : {&table->z_inner, &table->z_face, &table->z_outer}) {
-    if (z->empty()) continue;  // without a land
+    if (z->empty()) continue;  // if there is no land
     auto& line = out.ends.emplace_back();
     for (const double one : *z) line.z.push_back(length ? *length - one : one);
   }

@@ -12,41 +12,44 @@
 /// For `Gatherer` only.
 namespace tubecut::frame::detail {
 
-/// Heights of one partner alone round the middle of the wall; empty where it is missed.
+/// The number of phases around the middle of the wall at which a partner's height is sampled.
 inline constexpr std::size_t kLooks = 16;
 using Looks = std::array<std::optional<double>, kLooks>;
 
-/// One end of a form: its partners, each for itself.
+/// One end of a form, with each partner separately.
 struct FormEnd {
   std::vector<joint::PreparedCutter> partners;
   std::vector<std::optional<double>> perpendicular;  // in the end's frame, rad; empty: no side
-  double left = 0.0;  // mean height of the contour on the bore; NaN where it is open
+  double left = 0.0;  // mean height of the contour on the bore; NaN if it is open
 
   [[nodiscard]] Looks looks(std::size_t partner, double radius, double turned_by) const;
 };
 
-/// What is known of a form before its walls are: enough to see which forms resemble each other.
+/// The data of a form that is known before its walls are computed: enough to find forms that
+/// resemble each other.
 struct Form {
   const part::PartSpec* part = nullptr;
   FormEnd start, finish;
-  std::vector<joint::TubeCutter> holes;  // their branches
-  double left = 0.0;  // length between both cuts on the bore, of all phases the mean; NaN: unknown
+  std::vector<joint::TubeCutter> holes;  // the branches of the holes
+  double left = 0.0;                     // mean length between both cuts on the bore; NaN: unknown
 
-  [[nodiscard]] double middle() const;  // radius
+  [[nodiscard]] double middle() const;  // mean radius of the wall
 };
-/// Empty where the partners cannot be prepared.
+/// Returns empty when the partners are invalid.
 [[nodiscard]] std::optional<Form> form_of(const part::PartSpec& part);
 
-/// The finished wall of a form at phases of its own: z in the start's frame, of holes phi too.
+/// The finished wall of a form at the phases of the comparison: z in the start's frame, for holes
+/// also phi.
 struct FormWall {
   struct Line {
     std::vector<double> z, phi;
-    double radius = 0.0;  // of a hole's
+    double radius = 0.0;  // only of a hole
   };
   std::vector<Line> ends;                // of the start, then of the finish, from the bore out
-  std::vector<std::vector<Line>> holes;  // of each
+  std::vector<std::vector<Line>> holes;  // of each hole
 };
-/// Turned about its axis by this much first. Empty where it cannot be made on those phases.
+/// Computes the wall of the part rotated by `turn` about its axis. Returns empty when the part
+/// cannot be cut on these phases.
 [[nodiscard]] std::optional<FormWall> wall_of(const part::PartSpec& part, Angle turn,
                                               const std::stop_token& stop);
 

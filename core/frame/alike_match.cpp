@@ -10,11 +10,14 @@
 namespace tubecut::frame::detail {
 namespace {
 
-constexpr double kResembles = 1.0;    // mm: at a few places, before the walls are compared
-constexpr double kHasASide = 1.0;     // mm: of a partner's heights, by which a part is turned
-constexpr std::size_t kRimLooks = 3;  // a partner's rim may pass so many looks on one part alone
+constexpr double kResembles = 1.0;  // mm: tolerance at a few points, before the walls are compared
+constexpr double kHasASide =
+    1.0;  // mm: height difference of a partner that defines a side, by which a part is turned
+constexpr std::size_t kRimLooks =
+    3;  // the rim of a partner may hit one part and miss the other at this many phases
 
-/// By how much one partner stands higher than another: empty where their heights differ otherwise.
+/// Returns the height of one partner above another; empty when the height differences are not
+/// constant.
 std::optional<double> higher_by(const Looks& one, const Looks& other, double within) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::size_t on_one = 0;
@@ -25,13 +28,13 @@ std::optional<double> higher_by(const Looks& one, const Looks& other, double wit
     most = std::max(most, *one[k] - *other[k]);
   }
   if (on_one > kRimLooks || most - least > within) return std::nullopt;
-  return most < least ? 0.0 : 0.5 * (most + least);  // neither is met at all
+  return most < least ? 0.0 : 0.5 * (most + least);  // 0 if both miss all generators
 }
 
-/// How the partners of one end answer those of another: each the other's index.
+/// How the partners of one end match those of another: the index of each match.
 struct Answered {
   std::vector<std::size_t> which;
-  double higher = 0.0;  // than the other's
+  double higher = 0.0;  // than the other
 };
 
 std::optional<Answered> answer(const FormEnd& end, const std::vector<std::string>& keys,
@@ -59,7 +62,7 @@ std::optional<Answered> answer(const FormEnd& end, const std::vector<std::string
   return out;
 }
 
-/// A hole's or a mark's own place on the tube.
+/// The position of a hole or a mark on the tube.
 struct Spot {
   double phi = 0.0, z = 0.0, offset = 0.0, inclination = 0.0;
 };
@@ -76,7 +79,7 @@ std::vector<Spot> marks_of(const Form& form) {
   return out;
 }
 
-/// Of each spot the nearest of the others that answers it.
+/// Finds for each spot the nearest match among the others.
 std::optional<std::vector<std::size_t>> answer(const std::vector<Spot>& spots,
                                                const std::vector<std::string>& keys,
                                                const std::vector<Spot>& to,
@@ -105,8 +108,8 @@ std::optional<std::vector<std::size_t>> answer(const std::vector<Spot>& spots,
   return out;
 }
 
-/// Sides of a part by which it may be turned onto another, in the start's frame: of the partners of
-/// one key, or of its holes or marks.
+/// Returns the sides of a part by which it may be turned onto another, in the start's frame: of the
+/// partners with this key, or of its holes or marks.
 std::vector<double> sides_of(const Side& side, int room, const std::string& key) {
   std::vector<double> out;
   const auto add_end = [&](const FormEnd& end, const std::vector<std::string>& keys, double sign) {
@@ -124,10 +127,10 @@ std::vector<double> sides_of(const Side& side, int room, const std::string& key)
   return out;
 }
 
-/// The side that a part is turned by: of the first partner that is not square to the tube, else of
+/// The side by which a part is turned: of the first partner that is not square to the tube, else of
 /// a hole or mark.
 struct Handle {
-  int room = -1;  // none: it may stay as it is
+  int room = -1;  // -1: no turn is needed
   std::string key;
   double phi = 0.0;
 };

@@ -10,26 +10,26 @@ namespace tubecut::frame::detail {
 
 inline constexpr double kSameTurn = 1e-7;  // rad
 
-/// An angle brought next to 0.
+/// Returns the angle reduced to [-pi, pi].
 [[nodiscard]] double near_zero(double angle);
 
-/// What a part is compared by.
+/// A part in a comparison.
 struct Side {
   const Form& form;
   const Shape& shape;
 
-  /// Is something said of every partner, hole and mark?
+  /// Returns true if every partner, hole and mark has a key.
   [[nodiscard]] bool whole() const;
 };
 
-/// Turns about its axis, rad, that may lay a part onto another: the side of the other's first
-/// partner that has one, else of its first hole or mark, onto each of the part's own. An axis has
-/// no sense, so each also the other way round. Of turns that differ by no more than a tenth of
-/// `within` on the surface, the first.
+/// Returns the rotations about the axis, rad, that may map a part onto another: they map each
+/// matching side of the part to the side of the other's first partner that has one, else of its
+/// first hole or mark. Each also occurs plus pi, because an axis has no sense. If turns differ by
+/// at most a tenth of `within` on the surface, only the first is kept.
 [[nodiscard]] std::vector<double> turns(const Side& member, const Side& by, double within);
 
-/// Do two resemble each other, the member turned? By a few places of each partner, and by the
-/// places of holes and marks; `shift` is as near as these tell it.
+/// Checks whether two parts resemble each other after the member is turned, at a few phases of each
+/// partner and by the positions of holes and marks. `shift` is an estimate from these.
 [[nodiscard]] std::optional<Laid> resembles(const Side& member, const Side& by, double turn,
                                             double within);
 

@@ -31,7 +31,7 @@ tl::unexpected<Error> contradicts(std::size_t joint, const std::string& field,
                .hint = hint});
 }
 
-/// What core's nodes know it as: a butt joint is a mitre of two in line.
+/// Returns the kind for core's nodes, where a butt joint is a mitre of two members in line.
 joint::JointKind of_node(How::Kind kind) {
   switch (kind) {
     case How::Kind::set_on:
@@ -48,7 +48,7 @@ joint::JointKind of_node(How::Kind kind) {
 }
 joint::Joint of_node(const How& how) { return {of_node(how.kind), how.gap, how.depth, how.plane}; }
 
-/// The vectors that say how one stands: none may be without length.
+/// Returns the direction vectors of a body; each must have a length above 0.
 struct Directions {
   using All = std::vector<std::pair<std::string, Vector3d>>;
   All operator()(const joint::AxisTube& t) const { return {{"axis/direction", t.axis.direction}}; }
@@ -75,7 +75,7 @@ Result<void> check_others(const FrameSpec& spec) {
   return {};
 }
 
-/// From a point to the surface, either way.
+/// Distance from a point to the surface, unsigned.
 struct Off {
   const Vector3d& point;
   double operator()(const joint::AxisTube& t) const {
@@ -88,7 +88,8 @@ struct Off {
   }
 };
 
-/// Of two members that join by what is stated alone: the branch's end at the chord.
+/// Returns the link of two members that are joined only by a statement: the branch's end at the
+/// chord.
 joint::Link link(const FrameSpec& spec, const joint::NodeSpec& node, const StatedJoint& said) {
   const bool first = joint::detail::goes_before(node, said.member, said.with);
   const auto chord = first ? said.member : said.with, branch = first ? said.with : said.member;
@@ -101,7 +102,7 @@ joint::Link link(const FrameSpec& spec, const joint::NodeSpec& node, const State
   return {.member = branch, .end = said.end.value_or(nearer), .to = {chord}};
 }
 
-/// The joints that are stated, of members and of others.
+/// Reads the stated joints, of members and of others.
 Result<Joined> stated(const FrameSpec& spec) {
   Joined out;
   out.node.members = spec.members;
@@ -131,19 +132,19 @@ Result<Joined> stated(const FrameSpec& spec) {
   return out;
 }
 
-/// Sine of half of what two ends at a plane lie out of line, twice: as good as the angle.
+/// Returns twice the sine of half the angle between two ends at a plane: as accurate as the angle.
 double out_of_line(const joint::CutBy& cut) {
   return 2.0 * Vector3d::UnitZ().cross(cut.plane->normal.normalized()).norm();
 }
 
-/// As the defaults say; in line a butt joint or a mitre with their gap.
+/// Returns the joint by the defaults; in line, a butt joint or a mitre with their gap.
 How found_as(const FrameSpec& spec, const joint::CutBy& cut) {
   if (!cut.plane) return spec.found;
   const bool square = out_of_line(cut) <= joint::kButtMost;
   return {.kind = square ? How::Kind::butt : How::Kind::mitre, .gap = spec.found.gap};
 }
 
-/// Pairs that meet and of which nobody says how, each by its branch.
+/// Adds the pairs that meet without a stated joint, each by its branch.
 void add_found(const FrameSpec& spec, Joined& joined) {
   for (const auto& end : joined.nodes.ends)
     for (const auto& cut : end.cut_by) {
@@ -156,7 +157,7 @@ void add_found(const FrameSpec& spec, Joined& joined) {
     }
 }
 
-/// Two ends in line, or a joint that is none.
+/// Checks that a butt joint joins two ends in line.
 Result<void> check_butt(const joint::CutBy& cut, const Joint& one) {
   if (one.how.kind != How::Kind::butt || !one.stated) return {};
   const double off = out_of_line(cut);
@@ -165,7 +166,7 @@ Result<void> check_butt(const joint::CutBy& cut, const Joint& one) {
                      "the two lie " + brief(off * kDegPerRad) + " deg out of line; mitre them");
 }
 
-/// Who is the branch, and how deep it is set in, as the nodes have it.
+/// Takes the branch and the depth of set-in joints from the nodes.
 Result<void> settle(const FrameSpec& spec, Joined& joined) {
   for (const auto& end : joined.nodes.ends)
     for (const auto& cut : end.cut_by) {
@@ -212,8 +213,8 @@ std::vector<NotCut> not_cut(const FrameSpec& spec, const Joined& joined) {
   return out;
 }
 
-/// Those of the nodes, but for what one of the others makes good: an end without members, or open
-/// to them.
+/// Returns the warnings of the nodes, except those that an other body resolves: an end without
+/// members, or open to them.
 std::vector<Warning> warnings(const Joined& joined) {
   std::set<std::string> cut_by_others;
   for (std::size_t i = 0; i < joined.others.size(); ++i)

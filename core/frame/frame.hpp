@@ -11,24 +11,24 @@
 
 namespace tubecut::frame {
 
-/// How two that meet are joined, said once for both. Lengths in mm, as joint::Joint has them.
+/// How two bodies that meet are joined, stated once for both. Lengths in mm, as in joint::Joint.
 struct How {
   enum class Kind {
     set_on,
     set_in,
     through,
     mitre,
-    butt  // two ends in line, face to face: both square
+    butt  // two ends in line, face to face, both square
   };
   Kind kind = Kind::set_on;
   double gap = 0.0;
   std::optional<double> depth = {};
   joint::MitrePlane plane = joint::MitrePlane::bisecting;
-  bool hole = false;  // is the chord's hole cut? Set-on: the branch's bore
+  bool hole = false;  // true if the chord's hole is cut; set-on: the branch's bore
   friend bool operator==(const How&, const How&) = default;
 };
 
-/// What cuts ends and is not cut itself, placed in the world.
+/// A body that cuts ends and is not cut itself, placed in the world.
 struct Other {
   joint::Partner partner;
   std::string name = {};
@@ -37,27 +37,27 @@ struct Other {
 struct StatedJoint {
   std::size_t member = 0;
   std::size_t with = 0;                // another member, or one of the others
-  bool other = false;                  // it is one of the others
-  std::optional<joint::End> end = {};  // of the branch; empty: the end that is nearer
+  bool other = false;                  // true if `with` is one of the others
+  std::optional<joint::End> end = {};  // of the branch; empty: the nearer end
   How how;
 };
 
-/// Members of one structure with their joints. Of two members which is the branch follows from
-/// priority, diameter and place, as in joint::NodeSpec; through: the thinner one. What is found in
-/// line is a butt joint or a mitre with the gap of `found`.
+/// Members of one structure with their joints. Priority, diameter and position determine which of
+/// two members is the branch, as in joint::NodeSpec; through: the thinner one. Members found in
+/// line get a butt joint or a mitre with the gap of `found`.
 struct FrameSpec {
   std::vector<joint::Member> members;
   std::vector<Other> others;
   std::vector<StatedJoint> joints;
-  std::optional<double> within = {};  // mm, as joint::Within; empty: only what is stated is joined
-  How found;                          // joints of members that nobody states
+  std::optional<double> within = {};  // mm, as joint::Within; empty: only stated joints exist
+  How found;                          // for joints of members that are not stated
 };
 
 /// One joint as both sides are cut for it.
 struct Joint {
-  std::size_t branch = 0, chord = 0;  // of a mitre or a butt joint as they are stated
-  bool other = false;                 // the chord is one of the others
-  How how;                            // set-in with its depth
+  std::size_t branch = 0, chord = 0;  // for a mitre or a butt joint in the stated order
+  bool other = false;                 // true if the chord is one of the others
+  How how;                            // if set-in, with its depth
   std::optional<std::size_t> stated;  // empty: found
 };
 
@@ -66,26 +66,26 @@ struct Cutter {
   joint::Partner partner;
   std::optional<joint::Joint> stated;
   std::size_t joint = 0;
-  double missing = 0.0;  // so far the cut follows it where it is not, mm
+  double missing = 0.0;  // the cut follows the partner up to this far beyond its end, mm
 };
-/// A hole for a branch, which stands in the start's frame and points out of the chord.
+/// A hole for a branch, which is given in the start's frame and points out of the chord.
 struct Hole {
   joint::TubeCutter branch;
   double wall = 0.0;  // of the branch
   std::size_t member = 0, joint = 0;
-  joint::End end = joint::End::start;  // of the branch; passing through it has none
+  joint::End end = joint::End::start;  // of the branch; unused if it passes through
 };
-/// Where a branch stands, in the start's frame.
+/// The position of a branch, in the start's frame.
 struct Stand {
   part::Mark mark;
   std::size_t member = 0;
 };
 
-/// A member as a part: what part::PartSpec asks for, but for how the cuts are made. Both ends have
-/// one x: on the side of the member's `up`; else where the first cutter that has a side, or the
-/// first branch on it, has clocking 0. Axes of cutters rise with z, and what has no order of its
-/// own is sorted along the member: congruent members have like pieces, whatever way round their
-/// chords were drawn.
+/// A member as a part: the input of part::PartSpec except the cut options. Both ends have one x: on
+/// the side of the member's `up`; else on the side where the first cutter that has a side, or the
+/// first branch on the member, has clocking 0. Axes of cutters rise with z, and lists without an
+/// order of their own are sorted along the member, so congruent members get equal pieces,
+/// regardless of the direction in which their chords were drawn.
 struct Piece {
   joint::Target target;
   joint::MemberFrame frame;  // of the start, in the world
@@ -94,35 +94,35 @@ struct Piece {
   std::vector<Stand> stands;
 };
 
-/// Why an end is left square at its work point, or an other cuts nothing.
+/// The reason why an end is left square at its work point, or why an other body cuts nothing.
 enum class Why { free, cuts_the_others, parallel, not_joined };
 struct NotCut {
   Why why = Why::free;
-  std::size_t index = 0;  // of the member; not_joined: of the other
+  std::size_t index = 0;  // of the member; for not_joined: of the other body
   std::optional<joint::End> end = {};
 };
 
 struct Frame {
   std::vector<Piece> pieces;  // of each member, in their order
-  std::vector<Joint> joints;  // those stated in their order, then those found
+  std::vector<Joint> joints;  // stated joints in their order, then found joints
   std::vector<NotCut> not_cut;
-  std::vector<Warning> warnings;  // of ends, and of members that share metal
+  std::vector<Warning> warnings;  // of ends, and of members that overlap
 };
 
-/// Finds every joint once, and from it the branch's end and the chord's hole, or both ends of a
-/// mitre: they cannot differ.
+/// Finds every joint once. From it derives the branch's end and the chord's hole, or both ends of a
+/// mitre, so the two sides always agree.
 ///
-/// Errors    those of joint::solve (members/...; joints/i/... of what is stated, defaults/... of
-///           what is found) and of joint::overlaps; joint_contradicts (joints/i: two are already
+/// Errors    those of joint::solve (members/...; joints/i/... for stated joints, defaults/... for
+///           found ones) and of joint::overlaps; joint_contradicts (joints/i: two are already
 ///           joined; through, of two alike; butt, out of line), zero_length (others/i/...),
 ///           ambiguous_connection (joints/i: which end?), parallel_axes (others/i), cancelled.
 /// Accuracy  of joint::solve.
-/// Cost      twice that of joint::solve, with joint::overlaps; linear in members else.
+/// Cost      twice that of joint::solve, with joint::overlaps; otherwise linear in members.
 [[nodiscard]] Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop = {});
 
-/// The parts as they are asked for, by their own numbers alone, put back into the world and held
-/// against the centre-lines; and the two sides of each joint against one another. `asked`: of each
-/// member; none is looked at where it is null, a part that is refused by itself.
+/// Verifies the requested parts by their own numbers: places them back into the world and compares
+/// them with the centre-lines, and compares the two sides of each joint. `asked`: of each member;
+/// if a part is refused by itself, it is null and is skipped.
 [[nodiscard]] std::vector<Check> verify(const FrameSpec& spec, const Frame& frame,
                                         std::span<const part::PartSpec* const> asked,
                                         const std::stop_token& stop = {});

@@ -24,7 +24,7 @@ bool alike(const joint::Member& a, const joint::Member& b) {
          a.up == b.up;
 }
 
-/// Of each end the one it may be made one with.
+/// Finds for each end the end that it may be merged with.
 Result<Mates> mates(const FrameSpec& spec, const MergeSpec& besides, const std::stop_token& stop) {
   joint::NodeSpec node{.members = spec.members,
                        .connect = joint::Within{spec.within.value_or(joint::kBesideMost)}};
@@ -58,10 +58,10 @@ Result<Mates> mates(const FrameSpec& spec, const MergeSpec& besides, const std::
   return out;
 }
 
-/// Pieces one behind the other, each by the end that comes first.
+/// Pieces in sequence, each by the end that comes first.
 using Run = std::vector<std::size_t>;
 
-/// From this end on, through the member and on along its line; a ring ends where it began.
+/// Follows the line from this end through its member and on; stops where a ring closes.
 Run run_from(const Mates& mates, std::size_t first) {
   Run out{first};
   for (auto next = mates[first ^ 1U]; next && *next != first; next = mates[*next ^ 1U])
@@ -69,7 +69,7 @@ Run run_from(const Mates& mates, std::size_t first) {
   return out;
 }
 
-/// Every member in one run. A ring begins at its earliest member.
+/// Assigns every member to one run. A ring begins at its earliest member.
 std::vector<Run> runs(const Mates& mates) {
   std::vector<Run> out;
   std::vector<bool> seen(mates.size() / 2, false);
@@ -88,7 +88,7 @@ const Vector3d& point_of(const FrameSpec& spec, std::size_t end) {
   return spec.members[end / 2].at(end_of(end));
 }
 
-/// How far the ends of the pieces from `from` to `to`, both of them with, lie beside the line from
+/// Returns the largest distance of the ends of pieces `from` to `to` (inclusive) to the line from
 /// the first to the last.
 double off_line(const FrameSpec& spec, const Run& run, std::size_t from, std::size_t to) {
   const Vector3d& start = point_of(spec, run[from]);
@@ -100,8 +100,8 @@ double off_line(const FrameSpec& spec, const Run& run, std::size_t from, std::si
   return out;
 }
 
-/// The run in as few parts as keep all ends near their axes, each as long as it can be from the
-/// first on.
+/// Splits the run into the fewest parts that keep all ends near their axes; each part is as long as
+/// possible, from the first on.
 std::vector<Run> straight(const FrameSpec& spec, const Run& run) {
   std::vector<Run> out;
   for (std::size_t from = 0; from < run.size();) {
@@ -114,7 +114,7 @@ std::vector<Run> straight(const FrameSpec& spec, const Run& run) {
   return out;
 }
 
-/// As its earliest piece runs.
+/// Gives the run the direction of its earliest piece.
 Run as_earliest(Run run) {
   const auto first = *std::ranges::min_element(run);
   if (end_of(first) == joint::End::start) return run;
@@ -148,8 +148,8 @@ bool same(const StatedJoint& a, const StatedJoint& b) {
                   : std::minmax(a.member, a.with) == std::minmax(b.member, b.with));
 }
 
-/// Joints of the members as they are now: those of pieces of one fall away, and one stands for
-/// those alike.
+/// Adds the joints of the merged members: joints between pieces of one member are dropped, equal
+/// ones are merged.
 Result<void> add_joints(const FrameSpec& spec, const MergeSpec& besides, Merged& out) {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> of_pair;
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {

@@ -20,24 +20,25 @@ using joint::End;
 using joint::MemberFrame;
 using joint::Partner;
 
-/// Of an axis at right angles to the member: it rises no way.
+/// If an axis rises by less, it counts as at right angles to the member.
 constexpr double kLevel = 1e-9;
 
-constexpr double kWritten = 1e6;  // numbers are told apart to six decimals
+constexpr double kWritten = 1e6;  // numbers are compared to six decimals
 
-/// Foot of the perpendicular from the frame's origin: of a line and of a plane any point will do.
+/// Returns the foot of the perpendicular from the frame's origin, because for a line and a plane
+/// any point is valid.
 Vector3d foot_on_line(const Vector3d& point, const Vector3d& unit) {
   return point - point.dot(unit) * unit;
 }
 
-/// A partner of the world in a frame: one case for every kind.
+/// Transforms a partner from the world into a frame: one overload for every kind.
 struct In {
   const MemberFrame& frame;
 
   [[nodiscard]] Vector3d turned(const Vector3d& v) const { return (frame.rows * v).normalized(); }
 
-  /// The axis turned so that it rises with z; one that does not rise, so that its common
-  /// perpendicular lies in the first half turn.
+  /// Orients the axis so that it rises with z. If it is level, its common perpendicular lies in the
+  /// first half turn.
   Result<Partner> operator()(const AxisTube& tube) const {
     auto axis = frame.local(tube.axis);
     axis.direction.normalize();
@@ -75,7 +76,7 @@ struct In {
   }
 };
 
-/// What cuts an end, in the world.
+/// A body that cuts an end, in the world.
 struct InWorld {
   Partner partner;
   std::optional<joint::Joint> stated;
@@ -118,7 +119,7 @@ Result<std::vector<Cutter>> placed(const std::vector<InWorld>& all, const Member
   return out;
 }
 
-/// A plane as good as square: it leans by no more than the rounding of coordinates may make it.
+/// Returns true if a plane is square to the axis within the rounding of coordinates.
 bool is_square(const Partner& partner) {
   const auto* plane = std::get_if<joint::PlaneCutter>(&partner);
   if (plane == nullptr) return false;
@@ -126,7 +127,7 @@ bool is_square(const Partner& partner) {
   return elementary::hypot(n.x(), n.y()) <= 0.5 * joint::kButtMost;
 }
 
-/// Those that have a side.
+/// Returns the partners that have a side.
 std::vector<Partner> partners(const std::vector<Cutter>& cutters) {
   std::vector<Partner> out;
   for (const auto& one : cutters)
@@ -141,7 +142,7 @@ struct Branch {
   bool passes = false;
 };
 
-/// Of each member those that stand on it or pass through it.
+/// Returns for each member the branches that are set on it or pass through it.
 std::vector<std::vector<Branch>> branches(const Joined& joined) {
   std::vector<std::vector<Branch>> out(joined.node.members.size());
   for (const auto& end : joined.nodes.ends)
@@ -165,7 +166,7 @@ Result<Frames> frames(const joint::Member& m, const Vector3d& x) {
   return out;
 }
 
-/// A side, and whether the one across from it would do as well: the first cutter rises neither way.
+/// A side. `either` is true if the opposite side is equivalent, because the first cutter is level.
 struct Side {
   Vector3d x;
   bool either = false;
@@ -178,7 +179,8 @@ bool is_level(const std::vector<Cutter>& cutters) {
   return false;
 }
 
-/// The member's own side: of `up`, of the first cutter that has one, of the first branch.
+/// Returns the member's own side: of `up`, of the first cutter that has one, or of the first
+/// branch.
 Result<Side> side(const FrameSpec& spec, const joint::Member& m, const std::vector<InWorld>& start,
                   const std::vector<InWorld>& finish, const std::vector<Branch>& on_it) {
   if (m.up) return Side{*m.up};
@@ -197,7 +199,7 @@ Result<Side> side(const FrameSpec& spec, const joint::Member& m, const std::vect
   return Side{by.cos * any.start.rows.row(0) + by.sin * any.start.rows.row(1), is_level(of)};
 }
 
-/// Numbers by which two ways to see one piece are told apart, as they are written.
+/// Numbers, as they are written, that order two views of one piece.
 class Written {
  public:
   void operator()(const joint::TubeCutter& t) {
@@ -232,7 +234,7 @@ std::vector<double> written(const Piece& piece) {
   return out.take();
 }
 
-/// Along the member, then round it, within what is written.
+/// Orders along the member, then around it, at the written precision.
 auto order(double z, double turn) {
   return std::tuple(std::round(z * kWritten), std::round(turn * kWritten));
 }
@@ -259,7 +261,7 @@ Result<void> add_branches(const FrameSpec& spec, const Joined& joined,
   return {};
 }
 
-/// What cuts a member, and what stands on it.
+/// The bodies that cut a member, and the branches on it.
 struct Around {
   std::vector<InWorld> start, finish;
   const std::vector<Branch>& on_it;
@@ -302,7 +304,7 @@ joint::Beside seats_of_others(const FrameSpec& spec, const Joined& joined) {
     for (const auto& one : joined.others[i]) {
       const auto partner =
           joint::by_kind(spec.others[one.other].partner, In{joined.nodes.ends[i].frame});
-      if (!partner) continue;  // `pieces` refuses it
+      if (!partner) continue;  // `pieces` rejects it
       const std::array grown{joint::grown(*partner, joined.joints[one.joint].how.gap)};
       const auto cutters = joint::resolve(grown);
       if (cutters) out[i].push_back(cutters->front());

@@ -15,9 +15,9 @@ using joint::End;
 
 constexpr double kWrittenDecimals =
     1e-5;                     // mm: numbers are written to six decimals, angles to eleven
-constexpr double kFar = 1e5;  // mm: beyond it digits are lost with the distance
+constexpr double kFar = 1e5;  // mm: farther away, digits are lost with the distance
 
-/// The worst of many by what each may be.
+/// The largest ratio of a value to its limit.
 struct Most {
   double value = 0.0, limit = kWrittenDecimals;
   void see(double one, double size) {
@@ -29,7 +29,7 @@ struct Most {
   }
 };
 
-/// A frame of an end, made again from the centre-line and the side alone.
+/// The frame of an end, recomputed from only the centre-line and the side.
 struct Seen {
   Vector3d origin;
   Matrix3d axes;  // columns
@@ -47,7 +47,7 @@ struct Line {
 };
 Line axis_of(const joint::Member& m) { return {m.start, (m.finish - m.start).normalized()}; }
 
-/// A tube's axis by its four numbers, turned and tilted step by step.
+/// Computes a tube's axis from its four numbers, turned and tilted step by step.
 Line axis_of(const Seen& frame, const joint::TubeCutter& t) {
   const auto a = elementary::sincos(t.inclination.rad());
   const auto b = elementary::sincos(t.clocking.rad());
@@ -59,8 +59,8 @@ Line axis_of(const Seen& frame, const joint::TubeCutter& t) {
           frame.axes * clock * tilt * Vector3d::UnitZ()};
 }
 
-/// How far it passes beside the line it stands for, where the two meet: next to `at`, and as far to
-/// both sides as they are thick.
+/// Returns the distance of an axis to the line that it represents, where the two meet: near `at`,
+/// and at `reach` to both sides, because the tubes are that thick.
 double beside(const Line& seen, const Line& line, const Vector3d& at, double reach) {
   const Vector3d foot = line.point + (at - line.point).dot(line.unit) * line.unit;
   double worst = 0.0;
@@ -75,7 +75,8 @@ struct Worst {
   double sides = 0.0;
 };
 
-/// Two mitred faces, each in its own frame: planes alike, seen from both.
+/// Returns the difference of two mitred faces, each in its own frame: equal planes, compared from
+/// both sides.
 double apart(const Seen& frame, const joint::PlaneCutter& plane, const Seen& other_frame,
              const joint::PlaneCutter& other, double reach) {
   const Vector3d n = (frame.axes * plane.normal).normalized();
@@ -104,7 +105,7 @@ class Proof {
   [[nodiscard]] const Worst& worst() const { return worst_; }
 
  private:
-  /// What either part is cut for, of one joint.
+  /// The cuts of both parts for one joint.
   struct Mate {
     std::vector<joint::Joint> of_ends, of_holes;
     std::vector<std::pair<Seen, joint::PlaneCutter>> faces;
