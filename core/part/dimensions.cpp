@@ -14,25 +14,26 @@
 namespace tubecut::part {
 namespace {
 
-constexpr double kSeen = 1.0;     // mm: what a tape shows
-constexpr double kSquare = 0.01;  // mm: an end flatter than this has no long point
+constexpr double kSeen = 1.0;     // mm: visible with a tape
+constexpr double kSquare = 0.01;  // mm: a flatter end has no long point
 constexpr std::size_t kMost = 12, kLeast = 8;
 constexpr double kDiameterOff = 3.0, kWallOff = 2.0, kPivotOff = 5.0;  // mm
 constexpr double kClockingOff = 5.0 * kRadPerDeg;
 
 double girth(const Shape& s) { return kTwoPi * s.outer_radius; }
 
-/// One dimension: how it is measured on any shape.
+/// One dimension, and its measurement on any shape.
 struct Gauge {
   CheckDimension about;
   std::function<double(const Shape&)> read;
-  bool around = false;  // a place on the girth: modulo the girth
+  bool around = false;  // a position on the circumference: modulo the circumference
 };
 
 const Edge& outer(const Shape& s, bool finish) { return finish ? s.finish_outer : s.start_outer; }
 const Edge& inner(const Shape& s, bool finish) { return finish ? s.finish_inner : s.start_inner; }
 
-/// The outer edge's node furthest from the other end (`longest`), or nearest to it.
+/// Returns the node of the outer edge that is furthest from the other end (`longest`), or nearest
+/// to it.
 std::size_t point(const Shape& s, bool finish, bool longest) {
   return outer(s, finish).extreme(finish == longest);
 }
@@ -51,7 +52,7 @@ double crown_chord(const Shape& s, bool finish) {
   return chord(s.outer_radius, e.phi[a], e.z[a], e.phi[b], e.z[b]);
 }
 
-/// How far the inner edge stands beyond the outer one at phi.
+/// Returns the distance by which the inner edge extends beyond the outer one at phi.
 double overhang(const Shape& s, bool finish, double phi) {
   const double ahead = outer(s, finish).at(phi).low - inner(s, finish).at(phi).low;
   return finish ? -ahead : ahead;
@@ -134,7 +135,7 @@ void add_end(const Shape& shape, bool finish, std::vector<Gauge>& out) {
                       [finish, at](const Shape& s) { return overhang(s, finish, at); }));
 }
 
-/// What there is room for: the tip, and for an end alone also its long and short points.
+/// Adds further dimensions while they fit: the tip, and for a single end its long and short points.
 void add_more(const Shape& shape, std::vector<Gauge>& out) {
   if (out.size() < kMost)
     out.push_back(gauge("tip_to_tip", Tool::tape,
@@ -172,7 +173,7 @@ struct Node {
   double phi, z;
 };
 
-/// The edge turned by `by`, and first mirrored if asked.
+/// Rotates the edge by `by`, after a mirroring if `mirror` is set.
 Edge moved(const Edge& e, bool mirror, double by) {
   std::vector<Node> nodes;
   for (std::size_t i = 0; i < e.phi.size(); ++i)
@@ -194,7 +195,7 @@ void move_end(Shape& s, bool finish, bool mirror, double by) {
   i = moved(i, mirror, by);
 }
 
-/// The edge that does not hold the root lies on the other side of the one that does.
+/// Mirrors `other` at the edge with the root, because B swings the wrong way.
 void swing_wrong(const Edge& root, Edge& other) {
   for (std::size_t k = 0; k < root.z.size(); ++k) other.z[k] = 2.0 * root.z[k] - other.z[k];
 }
@@ -206,7 +207,7 @@ void swing_wrong(Shape& s) {
               s.finish_root_outer ? s.finish_inner : s.finish_outer);
 }
 
-/// The same torch lines through a thicker wall.
+/// Extends the torch lines through a thicker wall.
 void thicken(double factor, const Edge& o, Edge& i) {
   for (std::size_t k = 0; k < i.z.size(); ++k) i.z[k] = o.z[k] - factor * (o.z[k] - i.z[k]);
 }
@@ -219,7 +220,7 @@ void shift_by_slope(double factor, Edge& o, Edge& i) {
   }
 }
 
-/// The part with one mistake made; clocking and mirror may befall either end.
+/// Returns the part with one mistake; for clocking and mirror, one shape for either end.
 std::vector<Shape> with(Mistake mistake, const Shape& shape) {
   std::vector<Shape> out{shape};
   auto& s = out.front();

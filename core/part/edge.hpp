@@ -6,7 +6,8 @@
 namespace tubecut::part {
 
 /// A closed line around a tube, z over phi (rad, ascending in [0, 2 pi), two equal phases at a
-/// jump), straight between its nodes on the developed surface: as the machine goes.
+/// jump), straight between its nodes on the developed surface, because the machine interpolates in
+/// this way.
 struct Edge {
   std::vector<double> phi, z;
 
@@ -17,14 +18,15 @@ struct Edge {
   [[nodiscard]] Span at(double angle) const;
   [[nodiscard]] double lowest() const;
   [[nodiscard]] double highest() const;
-  /// The node with the lowest (`upwards` false) or highest z. Of several that stand out alike,
-  /// within 0.01 mm, the first after phi = 0: a tape does not tell them apart.
+  /// Returns the node with the lowest (`upwards` false) or highest z. If several are equal within
+  /// 0.01 mm, returns the first after phi = 0, because a tape does not resolve them.
   [[nodiscard]] std::size_t extreme(bool upwards) const;
-  /// Integral of z over the whole turn, mm rad.
+  /// Computes the integral of z over one revolution, mm rad.
   [[nodiscard]] double turn_integral() const;
 };
 
-/// Volume under a ring of edges at ascending radii, straight between them, down to z = 0, mm^3.
+/// Computes the volume under a ring of edges at ascending radii, straight between them, down to z =
+/// 0, mm^3.
 /// Source  docs/theory/parts.md, section 3.
 [[nodiscard]] double ring_volume(std::span<const double> radii, std::span<const Edge> edges);
 

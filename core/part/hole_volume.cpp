@@ -16,8 +16,10 @@ namespace {
 using math::Polygon;
 
 constexpr int kRings = 16;
-constexpr int kRowsPerRow = 4;   // what lies between rows goes with the square of their distance
-constexpr double kTouch = 1e-9;  // of a hole's area, that rounding leaves two that only touch
+constexpr int kRowsPerRow =
+    4;  // the error between rows is proportional to the square of their distance
+constexpr double kTouch =
+    1e-9;  // fraction of a hole's area: overlap that is only rounding, if two holes touch
 
 /// Rectangle around both edges of a cut on the developed plane.
 struct Box {
@@ -34,14 +36,14 @@ Box box_of(const bevel::Hole& hole) {
 
 double mixed(double inner, double outer, double u) { return inner + u * (outer - inner); }
 
-/// Holes near each other, by the boxes around their edges: each may meet another of its crowd, or,
-/// if one may, the cut of an end, and nothing else.
+/// Holes near each other, by the boxes around their edges: each may meet only another of its group
+/// or, if `at_end`, the cut of an end.
 struct Crowd {
   std::vector<const bevel::Hole*> holes;
   bool at_end = false;
 };
 
-/// The same wherever it shows within one turn.
+/// Adds the same hole at each position within one revolution.
 void add_turns(const joint::Target& target, const bevel::Hole& hole, double u,
                const std::stop_token& stop, std::vector<Polygon>& to) {
   for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
@@ -52,7 +54,7 @@ void add_turns(const joint::Target& target, const bevel::Hole& hole, double u,
   }
 }
 
-/// All that an end's cut has taken, out to `beyond`: the turn at hand and one to each side of it.
+/// Returns the region that an end's cut has removed, out to `beyond`, over three revolutions.
 Polygon cut_off(const bevel::Table& end, const joint::Target& target, double face, double u,
                 double beyond) {
   const double edge = face / target.wall;  // where the root face ends
@@ -72,7 +74,7 @@ Polygon cut_off(const bevel::Table& end, const joint::Target& target, double fac
   return out;
 }
 
-/// Area (rad mm) of the union within one turn.
+/// Computes the area (rad mm) of the union within one revolution.
 double within_turn(const std::vector<Polygon>& polygons, const std::stop_token& stop) {
   return math::union_area(polygons, {.x_from = 0.0, .x_to = kTwoPi}, stop);
 }

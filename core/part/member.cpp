@@ -22,14 +22,14 @@ using joint::End;
 using joint::MemberEnd;
 using joint::MemberFrame;
 
-/// A mitre's plane, seen from another frame at the same end.
+/// Transforms a mitre's plane into another frame at the same end.
 joint::PlaneCutter turned(const joint::PlaneCutter& plane, const MemberFrame& from,
                           const MemberFrame& to) {
   const Eigen::Matrix3d turn = to.rows * from.rows.transpose();
   return {turn * plane.point, turn * plane.normal};
 }
 
-/// The partners of an end, seen from `frame`.
+/// Returns the partners of an end in `frame`.
 Result<std::vector<joint::Partner>> partners(const joint::NodeSpec& node, const MemberEnd& end,
                                              const MemberFrame& frame) {
   std::vector<joint::Partner> out;
@@ -50,7 +50,8 @@ Result<std::vector<joint::Partner>> partners(const joint::NodeSpec& node, const 
   return out;
 }
 
-/// Start and finish frame with one x: that of `up`, of the start's chord, or of the finish's.
+/// Computes the start and finish frames with one x: that of `up`, of the start's chord, or of the
+/// finish's.
 Result<std::pair<MemberFrame, MemberFrame>> frames(const joint::Member& m, const MemberEnd& start,
                                                    const MemberEnd& finish) {
   const bool from_start = m.up.has_value() || !start.cut_by.empty();
@@ -89,7 +90,7 @@ struct Standing {
   End end;
 };
 
-/// Ends of other members that this one cuts.
+/// Finds the ends of other members that this one cuts.
 std::vector<Standing> standing_on(const joint::Nodes& nodes, std::size_t member) {
   std::vector<Standing> out;
   for (const auto& end : nodes.ends)
@@ -134,8 +135,8 @@ bool is_hole_for(const bevel::HoleSpec& hole, const joint::Joint& joint) {
   return hole.kind == joint.kind && hole.gap == joint.gap && hole.depth == joint.depth;
 }
 
-/// Chord and branch are two calls: what the one is asked for must be what the members state, from
-/// which the other is cut.
+/// Checks the requested joints against those of the members, because chord and branch are separate
+/// requests and the branch is cut by the members' joints.
 Result<void> check_joints(const MemberSpec& spec, const std::vector<Standing>& standing,
                           std::vector<Warning>& warnings) {
   for (std::size_t i = 0; i < spec.holes.size(); ++i) {
@@ -159,7 +160,7 @@ Result<void> check_joints(const MemberSpec& spec, const std::vector<Standing>& s
   return {};
 }
 
-/// Branches that enter the wall by what is stated, and for which no hole is asked.
+/// Warns of branches that enter the wall by their stated joint without a requested hole.
 void warn_of_missing(const MemberSpec& spec, const std::vector<Standing>& standing,
                      std::vector<Warning>& warnings) {
   const auto& members = spec.node.members;

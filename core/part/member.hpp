@@ -9,58 +9,60 @@
 
 namespace tubecut::part {
 
-/// Where phi = 0 lies on a part.
+/// The position of phi = 0 on a part.
 enum class Datum {
-  up,           // on the side of a direction (of a part given directly: its own phi = 0)
-  seam,         // on the tube's seam, `seam` round from there
-  first_cutter  // where the start's first partner has clocking 0; the finish's if it has none
+  up,           // on the side of a direction (for a part given directly: its own phi = 0)
+  seam,         // on the tube's seam, at `seam` from that direction
+  first_cutter  // where the start's first partner has clocking 0; if it has no side, the finish's
+                // first partner
 };
 
-/// The part's phi = 0 in the start's frame, from the ends' own partners.
+/// Computes the part's phi = 0 in the start's frame, from the partners of its ends.
 /// Errors  bad_reference_direction (datum: no partner has a side).
 [[nodiscard]] Result<Angle> datum_angle(Datum datum, Angle seam,
                                         const std::vector<joint::Partner>& start,
                                         const std::vector<joint::Partner>& finish);
 
-/// A plane square to the axis, `height` from the work point into the member, instead of partners.
+/// Returns an end whose partner is a plane square to the axis, `height` from the work point into
+/// the member.
 [[nodiscard]] EndSpec square_end(const bevel::TableSpec& options, double height);
 
-/// Where the axis of a member that stands on a part of this outer radius leaves its surface; on the
-/// nearest side when it passes by. `frame`: of the part's start.
+/// Returns the point where the axis of a branch leaves the surface of a part with this outer
+/// radius; if the axis misses the part, the nearest point. `frame`: of the part's start.
 [[nodiscard]] Mark mark_of(const joint::Member& branch, joint::End end,
                            const joint::MemberFrame& frame, double radius);
 
-/// A hole for a member of the node: `cut` but for chord and branch.
+/// A hole for a member of the node: `cut` except chord and branch.
 struct BranchHole {
   bevel::HoleSpec cut;
   std::size_t branch = 0;
 };
 
-/// One member of a node as a part. An end that no member cuts is cut square at its work point.
+/// One member of a node as a part. If no member cuts an end, it is cut square at its work point.
 struct MemberSpec {
   joint::NodeSpec node;
   std::size_t member = 0;
   Datum datum = Datum::first_cutter;
   std::optional<Eigen::Vector3d> up = {};  // empty: the member's own
-  Angle seam = {};                         // from `up`, or from the first cutter without one
-  bevel::TableSpec cut;                    // of both ends, but for target and partners
+  Angle seam = {};                         // from `up`; if it is empty, from the first cutter
+  bevel::TableSpec cut;                    // of both ends, except target and partners
   std::vector<BranchHole> holes;
   double clamping = 0.0, facing = 0.0, density = 7850.0;
 };
 
 struct FoundMember {
   PartSpec part;
-  std::vector<std::size_t> start_cutters, finish_cutters;  // members
+  std::vector<std::size_t> start_cutters, finish_cutters;  // member indices
   std::vector<Warning> warnings;                           // of the node about this member's ends
 };
 
-/// Finds who cuts the member's ends, who stands on it, and its frame in the world.
+/// Finds the members that cut this member's ends, the branches on it, and its frame in the world.
 ///
 /// Errors    those of joint::solve (members/...); bad_reference_direction (up, datum); no_contact
 ///           (holes/i/member: that member neither ends on this one nor passes through it);
 ///           joint_contradicts (holes/i/joint: the members state another).
-/// Warnings  joint_not_stated (the hole is for a joint that the branch's own part would not be cut
-///           for), hole_missing (a branch that is set in, or passes through, has no hole).
+/// Warnings  joint_not_stated (the branch's own part would not be cut for the hole's joint),
+///           hole_missing (a branch that is set in, or passes through, has no hole).
 /// Source    docs/theory/parts.md, section 1.
 [[nodiscard]] Result<FoundMember> find_member(const MemberSpec& spec,
                                               const std::stop_token& stop = {});

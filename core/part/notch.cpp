@@ -16,7 +16,7 @@ namespace {
 constexpr int kPhases = 1440;
 constexpr double kStep = kTwoPi / kPhases;
 
-/// Least value over the turn: the best of the phases, then thirds about it.
+/// Finds the minimum over one revolution: the best phase, refined by ternary search.
 double least(const std::function<double(double)>& value) {
   double best = 0.0, low = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kPhases; ++i)
@@ -35,7 +35,7 @@ double least(const std::function<double(double)>& value) {
   return low;
 }
 
-/// A round partner, in the end's own frame.
+/// Returns the partner as a round tube, in the end's own frame; empty when it is not round.
 std::optional<joint::TubeCutter> round(const joint::Partner& partner) {
   if (const auto* tube = std::get_if<joint::TubeCutter>(&partner)) return *tube;
   const auto* line = std::get_if<joint::AxisTube>(&partner);
@@ -64,7 +64,7 @@ class OuterWall {
         return std::isfinite(z) ? z : std::numeric_limits<double>::infinity();
       });
   }
-  /// From the long point; empty where it is not to be had.
+  /// Returns the depth from the long point; empty when it is undefined.
   [[nodiscard]] std::optional<double> depth(std::size_t partner) const {
     if (!std::isfinite(tip_)) return std::nullopt;
     const double throat = -least([&](double phi) { return -sheet(partner, phi); });
@@ -82,7 +82,8 @@ class OuterWall {
   double tip_ = std::numeric_limits<double>::infinity();
 };
 
-/// A side of the tube, in the part's phi: where the partner leans to, else its perpendicular.
+/// A side of the tube, in the part's phi: the direction in which the partner leans, else its
+/// perpendicular.
 struct Side {
   double phi = 0.0;
   bool leans = false;
@@ -93,7 +94,8 @@ Side side_of(const joint::TubeCutter& tube, bool finish) {
   return {finish ? -own : own, bearing->lean.has_value()};
 }
 
-/// From one side to another; where one of them leans to both ways, between the perpendiculars.
+/// Returns the rotation from one side to another; if a partner leans both ways, between the
+/// perpendiculars.
 double turn(const joint::TubeCutter& from, bool from_finish, const joint::TubeCutter& to,
             bool to_finish) {
   const auto a = side_of(from, from_finish), b = side_of(to, to_finish);

@@ -24,7 +24,8 @@ void carry(std::vector<Warning> warnings, std::string_view parent, std::vector<W
   for (auto& w : under(parent, std::move(warnings))) out.push_back(std::move(w));
 }
 
-/// The root curve without what is set in: that is welded round its hole.
+/// Returns the length of the root curve without its set-in parts, because those are welded around
+/// their hole.
 double welded_length(const End& end) {
   const auto& t = end.own;
   const auto set_in = [&](std::size_t row) {
@@ -41,7 +42,7 @@ double welded_length(const End& end) {
   return whole ? t.length_total : out;
 }
 
-/// The end cut in its own frame, which is turned so that its phi = 0 is the part's.
+/// Cuts the end in its own frame, rotated so that its phi = 0 is the part's.
 Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& stop) {
   const auto& asked = finish ? spec.finish : spec.start;
   End out{.spec = asked.cut};
@@ -71,7 +72,7 @@ Result<void> cut_holes(const PartSpec& spec, Part& out, const std::stop_token& s
 Edge outer_edge(const Table& t) { return {t.phi, t.z_outer}; }
 Edge inner_edge(const Table& t) { return {t.phi, t.z_inner}; }
 
-/// The two cuts of a wall must not meet. Both are straight between their nodes.
+/// Checks that the two cuts of a wall do not meet. Both are straight between their nodes.
 Result<void> check_left(const Part& p, double length, const std::stop_token& stop) {
   double least = std::numeric_limits<double>::infinity();
   for (const bool outer : {false, true}) {
@@ -90,7 +91,7 @@ Result<void> check_left(const Part& p, double length, const std::stop_token& sto
                .hint = "the cuts of both ends meet; the limit is where they just touch"});
 }
 
-/// How far beyond the finished edges the kerf reaches: a whole kerf.
+/// Returns the lowest z of the kerf, a whole kerf beyond the finished edges.
 double lowest_kerf(const Table& t) {
   double out = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < t.phi.size(); ++i) {
@@ -123,7 +124,8 @@ Lengths lengths(const PartSpec& spec, const Part& p, const std::stop_token& stop
   return out;
 }
 
-/// What lies on the finished part: the datum line, the part's mark, who stands where.
+/// Returns the marks on the finished part: the datum line, the part's mark, the positions of
+/// branches.
 std::vector<Mark> marks(const PartSpec& spec, const Part& p, double dz) {
   const double from = outer_edge(p.start.table).at(0.0).high;
   const double to = outer_edge(p.finish.table).at(0.0).low;
@@ -147,8 +149,8 @@ std::pair<double, double> span_of(const std::vector<double>& a, const std::vecto
   return {std::min(x.min, y.min), std::max(x.max, y.max)};
 }
 
-/// Marks first, then holes from the free end towards the clamp, then the free end, then the end
-/// that parts the piece from what is clamped.
+/// Orders the steps: marks, then holes from the free end towards the clamp, then the free end, then
+/// the end that separates the part from the clamped rest.
 std::vector<Step> sequence(const Part& p) {
   std::vector<Step> out;
   for (std::size_t i = 0; i < p.marks.size(); ++i)
@@ -173,9 +175,9 @@ std::string asked_hole(const PartSpec& spec, std::size_t hole) {
   return "holes/" + std::to_string(spec.holes[hole].asked);
 }
 
-/// Holes that run into each other: between them no wall is left for the weld of either. One warning
-/// for each as asked, naming those before it; the two sides of one that passes through may meet
-/// too.
+/// Warns of holes that run into each other, because no wall is left between them for either weld.
+/// Each requested hole gets one warning that names the earlier ones; the two sides of a through
+/// hole may meet too.
 void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
                      const std::stop_token& stop) {
   std::map<std::size_t, std::set<std::size_t>> met;
@@ -196,9 +198,9 @@ void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& 
 
 /// Where a hole's edge leaves the wall between the two cuts.
 struct Beyond {
-  bool anywhere = false;  // somewhere
-  bool start = true;      // everywhere, at the start
-  bool finish = true;     // everywhere, at the finish
+  bool anywhere = false;  // at some node
+  bool start = true;      // at every node, at the start
+  bool finish = true;     // at every node, at the finish
 };
 
 Beyond beyond(const Part& p, const bevel::Hole& hole, const std::stop_token& stop) {
@@ -218,8 +220,8 @@ Beyond beyond(const Part& p, const bevel::Hole& hole, const std::stop_token& sto
   return out;
 }
 
-/// A hole in the scrap alone is a mistake of the request's; one that reaches into a cut may be
-/// meant, and so may one side of a brace that passes through.
+/// Checks the holes against the cuts. A hole entirely in the scrap is an error of the request; one
+/// that extends into a cut may be intended, and so may one side of a brace that passes through.
 Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
                        const std::stop_token& stop) {
   std::vector<Beyond> at;
@@ -269,7 +271,7 @@ joint::MemberFrame part_frame(const PartSpec& spec, double dz) {
   return out;
 }
 
-/// Everything that follows from the two ends and the holes.
+/// Computes all results that follow from the two ends and the holes.
 void assemble(const PartSpec& spec, Part& out, const std::stop_token& stop) {
   const double length = *spec.target.length;
   const double dz = -lowest(out.start.own);
@@ -298,7 +300,7 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   Part out;
   for (const bool finish : {false, true}) {
     TRY(auto end, cut_end(spec, finish, stop));
-    // A plane square to the axis has nothing to warn of.
+    // A plane square to the axis has no relevant warnings.
     if ((finish ? spec.finish : spec.start).welded)
       carry(end.own.warnings, joint::end_name(finish), out.warnings);
     (finish ? out.finish : out.start) = std::move(end);

@@ -14,22 +14,22 @@
 
 namespace tubecut::part {
 
-/// One end as asked. `cut` has target and partners in the end's own frame, as a bevel table takes
+/// One requested end. `cut` has target and partners in the end's own frame, as a bevel table takes
 /// them: z from the end into the member, phi = 0 on the same side at both ends. Seen from the
-/// finish phi therefore runs the other way.
+/// finish, phi therefore runs in reverse.
 struct EndSpec {
   bevel::TableSpec cut;
-  bool welded = true;  // false: an end plane, nothing is welded to it
+  bool welded = true;  // false: an end plane without a weld
 };
 
-/// A hole of the part. Its branch stands in the start's frame.
+/// A hole of the part. Its branch is given in the start's frame.
 struct HoleSpec {
   bevel::HoleSpec hole;
   std::string name = {};  // of the branch
-  std::size_t asked = 0;  // which request of the caller's it is: errors name holes/asked
+  std::size_t asked = 0;  // index of the caller's request: errors name holes/asked
 };
 
-/// A line or point to be drawn on the part's outer surface, for those who fit it.
+/// A line or point to be drawn on the part's outer surface for the fitter.
 struct Mark {
   enum class Kind { datum_line, part_mark, partner };
   Kind kind = Kind::datum_line;
@@ -39,29 +39,29 @@ struct Mark {
 };
 
 struct PartSpec {
-  joint::Target target;  // its length, between the work points, must be there
+  joint::Target target;  // its length, between the work points, is required
   EndSpec start, finish;
   std::vector<HoleSpec> holes;
   Angle zero = {};                      // the part's phi = 0, in the start's frame
-  joint::MemberFrame start_frame = {};  // of the start, in the world; identity without one
+  joint::MemberFrame start_frame = {};  // of the start, in the world; the identity if unknown
   std::vector<Mark> partners = {};      // in the start's frame
   std::string name = {};
   double clamping = 0.0, facing = 0.0;  // allowances of the blank
   double density = 7850.0;              // kg/m^3
 };
 
-/// A place on the part's outer edge.
+/// A point on the part's outer edge.
 struct EdgePoint {
   double phi = 0.0, z = 0.0;
 };
 
 /// One end of the finished part.
 struct End {
-  bevel::TableSpec spec;  // as it was cut: partners turned to the part's phi = 0, own frame
+  bevel::TableSpec spec;  // as cut: partners rotated to the part's phi = 0, own frame
   bevel::Table own;       // in the end's own frame
   bevel::Table table;     // in the part's frame; B > 0: the outer edge lies further towards +z
   EdgePoint longest, shortest;  // of the outer edge: furthest from, and nearest to, the other end
-  double weld_length = 0.0;     // of the root curve; 0 when nothing is welded
+  double weld_length = 0.0;     // of the root curve; 0 if nothing is welded
   double groove_volume = 0.0;   // between cut and partners within the wall, mm^3
 };
 
@@ -73,15 +73,16 @@ struct PlacedHole {
 
 struct Lengths {
   double work_point = 0.0;
-  double longest = 0.0;   // tip to tip, of either wall
-  double shortest = 0.0;  // throat to throat: the whole ring that is left; < 0 when there is none
-  double blank = 0.0;     // with both kerfs, clamping and facing
+  double longest = 0.0;  // tip to tip, of either wall
+  double shortest =
+      0.0;  // throat to throat: the length of the full ring; < 0 if there is no full ring
+  double blank = 0.0;  // with both kerfs, clamping and facing
   double weld = 0.0;
   double volume = 0.0;  // of the finished part, mm^3
   double mass = 0.0;    // kg
 };
 
-/// One thing done to the blank, in the order of the list.
+/// One operation on the blank, in the order of the list.
 struct Step {
   enum class What { mark, hole, finish, start };
   What what = What::mark;
@@ -92,7 +93,7 @@ struct Step {
 struct Part {
   joint::MemberFrame frame;  // of the part in the world, or in the start's frame
   End start, finish;
-  std::vector<bevel::HoleSpec> hole_specs;  // turned, in the start's frame
+  std::vector<bevel::HoleSpec> hole_specs;  // rotated, in the start's frame
   std::vector<bevel::HoleCut> hole_cuts;    // in the start's frame
   std::vector<PlacedHole> holes;
   double clocking = 0.0;  // see clocking_between
@@ -103,20 +104,21 @@ struct Part {
   std::vector<Warning> warnings;
 };
 
-/// Both ends and the holes of one member in one frame, and what it is measured by.
+/// Computes both ends and the holes of one member in one frame, with its dimensions.
 ///
-/// Frame   right-handed; z along the member from the start's long point, the lowest of either
-///         wall, which has z = 0, to the finish; phi from x towards y, zero at PartSpec::zero.
-///         B > 0 everywhere: the outer edge lies further towards +z.
+/// Frame   right-handed; z along the member from the start's long point, the lowest of either wall,
+///         which has z = 0, to the finish; phi from x towards y, zero at PartSpec::zero. B > 0
+///         everywhere: the outer edge lies further towards +z.
 /// Errors  those of bevel::table and bevel::hole, under start/..., finish/... and holes/i/...;
 ///         member_consumed (the two cuts meet); hole_off_part (holes/i: all of it is cut off);
 ///         out_of_range (no length).
-/// Accuracy  a point's place in the world within 1e-12 of the lengths involved of the end's own.
+/// Accuracy  the position of a point in the world differs by at most 1e-12 of the lengths involved
+///           from the end's own.
 /// Source  docs/theory/parts.md.
 [[nodiscard]] Result<Part> part(const PartSpec& spec, const std::stop_token& stop = {});
 
-/// The part proved from its own numbers: each end's and hole's own proof (the worst of them all),
-/// and every point placed by a matrix instead of column by column.
+/// Verifies the part from its own numbers: the checks of each end and hole (the worst of each
+/// name), and the position of every point by a matrix instead of column by column.
 [[nodiscard]] std::vector<Check> verify(const PartSpec& spec, const Part& part,
                                         const std::stop_token& stop = {});
 

@@ -14,7 +14,7 @@ namespace {
 
 double other_way(double phi) { return phi == 0.0 ? 0.0 : kTwoPi - phi; }
 
-/// Rows in the order of falling phi, those at phi = 0 first.
+/// Returns the rows in the order of descending phi, those at phi = 0 first.
 std::vector<std::size_t> reversed(const std::vector<double>& phi) {
   const auto zeros = static_cast<std::size_t>(std::ranges::count(phi, 0.0));
   std::vector<std::size_t> out;
@@ -51,7 +51,7 @@ std::vector<joint::Event> mirrored(std::vector<joint::Event> events, double leng
   return events;
 }
 
-/// The phase after which a step comes when seen the other way: that of the next row.
+/// Returns the phase after which a step comes in the reverse order: that of the next row.
 double next_phi(const std::vector<double>& phi, double at) {
   const auto next = std::ranges::upper_bound(phi, at);
   return next == phi.end() ? phi.front() : *next;
@@ -150,7 +150,7 @@ double clocking_between(const std::vector<joint::Partner>& start,
   const auto a = joint::bearing(start.front());
   const auto b = joint::bearing(finish.front());
   if (!a || !b) return 0.0;
-  // The finish's own phi runs the other way.
+  // The finish's own phi runs in reverse.
   const bool both = a->lean && b->lean;
   const double turn = both ? -*b->lean - *a->lean : -b->perpendicular - a->perpendicular;
   const double period = both ? kTwoPi : kPi;

@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 using math::cylinder_point;
 
 constexpr double kPlaced = 1e-9;  // mm
-constexpr double kVolume = 1e-9;  // of itself
+constexpr double kVolume = 1e-9;  // relative
 
-/// The worst of each name, by how near it comes to its limit.
+/// The worst check of each name, relative to its limit.
 class Worst {
  public:
   void see(const std::vector<Check>& checks, const std::string& prefix) {
@@ -43,14 +43,15 @@ class Worst {
   std::vector<Check> checks_;
 };
 
-/// From the part's frame to the end's own: a shift, and at the finish half a turn about x.
+/// Transforms from the part's frame to the end's own: a shift, and at the finish half a revolution
+/// about x.
 struct Place {
   Eigen::Matrix3d turn;
   Vector3d shift;
   Vector3d operator()(const Vector3d& p) const { return turn * p + shift; }
 };
 
-/// Every row of the part's table holds the same points as the end's own.
+/// Checks that every row of the part's table holds the same points as the end's own.
 double misplaced(const End& end, bool finish, const Place& place, const std::stop_token& stop) {
   const auto& target = end.spec.target;
   const auto n = end.own.phi.size();
@@ -69,7 +70,7 @@ double misplaced(const End& end, bool finish, const Place& place, const std::sto
     pair(target.outer_radius, a.z_outer[k], b.z_outer[i]);
     pair(target.inner_radius(), a.torch_inner[k], b.torch_inner[i]);
     pair(target.outer_radius, a.torch_outer[k], b.torch_outer[i]);
-    // The beam's direction, turned as the points are.
+    // The beam's direction, transformed as the points are.
     const Vector3d radial = cylinder_point(1.0, a.phi[k], 0.0),
                    own = cylinder_point(1.0, b.phi[i], 0.0);
     const auto beam = elementary::sincos(a.b[k]);
@@ -99,8 +100,8 @@ double misplaced(const bevel::Hole& placed, const bevel::Hole& own, double dz) {
   return worst;
 }
 
-/// A part's volume by the divergence theorem with the field (0, 0, z): the two cut faces alone,
-/// each row's sector by Simpson across the wall.
+/// Computes a part's volume by the divergence theorem with the field (0, 0, z): only the two cut
+/// faces count, each row's sector by Simpson across the wall.
 double ruled(const bevel::Table& t, const joint::Target& target, double face) {
   double sum = 0.0;
   for (std::size_t i = 0; i < t.phi.size(); ++i) {
@@ -121,8 +122,8 @@ double ruled(const bevel::Table& t, const joint::Target& target, double face) {
   return sum;
 }
 
-/// A hole's lines where they pass the radius rho: acos(p / rho) round from their feet, p from the
-/// axis.
+/// Returns the polygon where a hole's lines cross the radius rho: at acos(p / rho) from their feet,
+/// p from the axis.
 math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double rho,
                       const std::stop_token& stop) {
   const double inner = target.inner_radius(), outer = target.outer_radius;
@@ -141,7 +142,7 @@ math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double 
   return out;
 }
 
-/// Whether two polygons cannot touch, seen on the cylinder.
+/// Returns true if two polygons on the cylinder cannot touch.
 bool apart(const math::Polygon& a, const math::Polygon& b) {
   const auto [az, bz] = std::pair{std::ranges::minmax(a.y), std::ranges::minmax(b.y)};
   if (az.min > bz.max || bz.min > az.max) return true;
@@ -151,7 +152,8 @@ bool apart(const math::Polygon& a, const math::Polygon& b) {
   return true;
 }
 
-/// What the holes take, ring by ring: each line's place by its foot, each ring's crowds by itself.
+/// Computes the volume of the holes ring by ring: each line's position from its foot, each group
+/// separately.
 double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
   double from = -1e300, to = 1e300;
   for (const auto* z : {&p.start.table.z_inner, &p.start.table.z_outer})
@@ -175,7 +177,7 @@ double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token
             return &other == &polygon || apart(polygon, other);
           });
       if (alone) {
-        double twice = 0.0;  // by the divergence theorem: z over the way round
+        double twice = 0.0;  // by the divergence theorem: z over the angle
         for (std::size_t i = 0; i < polygon.x.size(); ++i) {
           const auto j = (i + 1) % polygon.x.size();
           twice += (polygon.x[j] - polygon.x[i]) * (polygon.y[i] + polygon.y[j]);
@@ -201,7 +203,7 @@ double volume_off(const PartSpec& spec, const Part& p, const std::stop_token& st
   return std::abs(p.lengths.mass / (spec.density * 1e-9) - volume) / std::abs(volume);
 }
 
-/// Outside length at the four quarters, from the answer's own rows by a search of its own.
+/// Returns the error of an outside length at phi, by a separate search in the answer's rows.
 double quarter_off(const Part& p, const CheckDimension& d, double phi) {
   const auto height = [&](const bevel::Table& t, bool high) {
     double best = 0.0;

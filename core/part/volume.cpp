@@ -13,11 +13,12 @@
 namespace tubecut::part {
 namespace {
 
-constexpr int kAcross = 6;                   // Gauss points across the wall, or a part of it
-constexpr int kAlong = 3;                    // and along each piece of the way from row to row
-constexpr double kPiece = 3.0 * kRadPerDeg;  // no longer: a partner bends little over it
+constexpr int kAcross = 6;  // Gauss points across the wall, or a part of it
+constexpr int kAlong = 3;   // and along each segment from row to row
+constexpr double kPiece =
+    3.0 * kRadPerDeg;  // maximum length, because a partner bends little over it
 
-/// Radii of the edges across the wall, and where they lie.
+/// Radii of the edges across the wall, and their fractions.
 struct Rings {
   std::vector<double> radii;
   std::vector<Edge> edges;
@@ -35,7 +36,7 @@ Rings rings(const bevel::TableSpec& spec, const bevel::Table& t) {
   return out;
 }
 
-/// Height of the cut over its partners' metal; 0 below it, and where there is none.
+/// Height of the cut above its partners' metal; 0 below it, and if there is no metal.
 class Depth {
  public:
   explicit Depth(const bevel::TableSpec& spec, std::vector<joint::PreparedCutter> partners)
@@ -54,7 +55,7 @@ class Depth {
   std::vector<joint::PreparedCutter> partners_;
 };
 
-/// Integral of the depth over the area between two edges of the wall in one half plane, per radian:
+/// Integrates the depth over the area between two edges of the wall in one half plane, per radian:
 /// straight from z0 at rho0 to z1 at rho1.
 double across(const Depth& depth, double phi, const std::array<double, 2>& rho,
               const std::array<double, 2>& z) {

@@ -21,7 +21,7 @@ struct Piece {
   Point a, b;
 };
 
-/// An upright box.
+/// A bounding box on the developed wall.
 struct WebBox {
   Point least = Point::Constant(kFar), most = Point::Constant(-kFar);
 
@@ -29,7 +29,7 @@ struct WebBox {
     least = least.cwiseMin(p);
     most = most.cwiseMax(p);
   }
-  /// A bound of the way to another, `shift` further round, from below.
+  /// Returns a lower bound of the distance to another box at `shift` around the tube.
   [[nodiscard]] double apart(const WebBox& other, double shift) const {
     const double x =
         std::max({0.0, other.least.x() + shift - most.x(), least.x() - other.most.x() - shift});
@@ -43,7 +43,7 @@ struct Way {
   Point from = Point::Zero(), to = Point::Zero();
 };
 
-/// From a point to the nearest of a piece.
+/// Computes the shortest path from a point to a segment.
 Way way(const Point& p, const Piece& to) {
   const Point along = to.b - to.a;
   const double square = along.squaredNorm();
@@ -72,7 +72,7 @@ Way way(const Piece& one, const Piece& other) {
   return out;
 }
 
-/// A line of pieces, in blocks of neighbours that lie in a box each.
+/// A polyline in blocks of neighbouring segments, each with a bounding box.
 class Line {
  public:
   Line(std::vector<Point> points, bool closed) : points_(std::move(points)) {
@@ -89,15 +89,15 @@ class Line {
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
 
-  /// From where to where it goes round.
+  /// Returns its extent around the tube.
   [[nodiscard]] std::pair<double, double> round() const {
     return {whole_.least.x(), whole_.most.x()};
   }
-  /// A bound of the way to another line, `shift` further round, from below.
+  /// Returns a lower bound of the distance to another polyline at `shift` around the tube.
   [[nodiscard]] double apart(const Line& other, double shift) const {
     return whole_.apart(other.whole_, shift);
   }
-  /// Is a point within the closed line?
+  /// Returns true if a point is inside the closed line.
   [[nodiscard]] bool holds(const Point& p) const {
     bool inside = false;
     for (const auto& [a, b] : pieces_)
@@ -107,8 +107,9 @@ class Line {
     return inside;
   }
 
-  /// The shortest way to another line, `shift` further round, if it is shorter than `best`.
-  /// Cost  the square of the blocks, and the pieces of those that are near.
+  /// Replaces `best` by the shortest path to another polyline, at `shift` around the tube, if that
+  /// is shorter.
+  /// Cost  the square of the blocks, and the segments of near blocks.
   void shorten(const Line& other, double shift, Way& best, const std::stop_token& stop) const {
     const double within = reach(other, shift);
     for (std::size_t i = 0; i < boxes_.size(); ++i)
@@ -126,13 +127,13 @@ class Line {
     const auto from = i * kBlock;
     return std::span(pieces_).subspan(from, std::min(kBlock, pieces_.size() - from));
   }
-  /// A bound of the shortest way from above: between the blocks' first points.
+  /// Returns an upper bound of the shortest path: between the blocks' first points.
   [[nodiscard]] double reach(const Line& other, double shift) const {
     double out = kFar;
     for (std::size_t i = 0; i < pieces_.size(); i += kBlock)
       for (std::size_t j = 0; j < other.pieces_.size(); j += kBlock)
         out = std::min(out, (other.pieces_[j].a + Point(shift, 0.0) - pieces_[i].a).squaredNorm());
-    return std::sqrt(out) * (1.0 + 1e-12);  // rounding must not hide the pair itself
+    return std::sqrt(out) * (1.0 + 1e-12);  // because rounding must not exclude the pair itself
   }
   static void shorten(std::span<const Piece> one, std::span<const Piece> other, double shift,
                       Way& best) {
@@ -148,7 +149,7 @@ class Line {
   WebBox whole_;
 };
 
-/// One of the two walls, developed.
+/// One of the two surfaces of the wall, developed.
 struct Wall {
   double radius;
   bool outer;
@@ -160,7 +161,7 @@ struct Wall {
     for (std::size_t i = 0; i < phi.size(); ++i) out.emplace_back(radius * phi[i], z[i]);
     return {std::move(out), true};
   }
-  /// An end's edge, once round and as far again to both sides: as far as a hole's phases go.
+  /// Returns an end's edge over three revolutions, because a hole's phases extend that far.
   [[nodiscard]] Line of(const bevel::Table& end) const {
     std::vector<Point> out;
     const auto& z = outer ? end.z_outer : end.z_inner;
@@ -174,7 +175,7 @@ struct Wall {
   }
 };
 
-/// Looks for the narrowest webs, wall by wall.
+/// Finds the narrowest webs on both surfaces.
 class Search {
  public:
   Search(const Part& part, const std::stop_token& stop) : part_(part), stop_(stop) {}
@@ -231,7 +232,7 @@ class Search {
     for (std::size_t i = 0; i < holes.size() && !stop_.stop_requested(); ++i) {
       Way best{.length = out.to_end ? out.to_end->width : kFar};
       const double before = best.length;
-      // Behind the cut nothing is left at all.
+      // Beyond the cut, no wall is left.
       const auto p = holes[i].points().front();
       const auto there = edge.at(p.x() / wall.radius);
       if (finish ? p.y() >= there.low : p.y() <= there.high)
