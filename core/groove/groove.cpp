@@ -10,8 +10,8 @@
 namespace tubecut::groove {
 namespace {
 
-/// The bevel table's target frame is the branch frame turned half round, its phi counted from x:
-/// phi = omega - 90 deg.
+/// The bevel table's target frame is the branch frame rotated by half a turn, its phi counted from
+/// x: phi = omega - 90 deg.
 Angle table_phi(double turn) {
   const double from_x = turn - 0.25;
   return Angle::rad(kTwoPi * (from_x < 0.0 ? from_x + 1.0 : from_x));

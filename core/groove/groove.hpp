@@ -21,14 +21,14 @@ struct GrooveSection {
   double height = 0.0;         // h, mm
   double root_z = 0.0;         // of curve 3, mm
   std::optional<double>
-      ellipse_a;  // semi-axis of the chord's section across the branch, mm; a line pair has none
+      ellipse_a;  // semi-axis of the chord's section across the branch, mm; empty for a line pair
   Areas areas;
   Ruling ruling;
   CurvePoints curves;
   Angle groove_angle;  // beta, of the groove line to the branch axis
 };
 
-/// The same joint with a groove line at one angle all round.
+/// The same joint with a groove line at one constant angle.
 struct Comparison {
   double height = 0.0;              // of that groove, mm
   std::vector<double> filler_area;  // per reported section, axial, mm^2; negative where its edge
@@ -38,8 +38,8 @@ struct Comparison {
 
 struct Groove {
   std::vector<GrooveSection> sections;
-  double area = 0.0;        // asked or found filler area, in the section `area_in` names, mm^2
-  double least_area = 0.0;  // below it the groove vanishes somewhere, mm^2
+  double area = 0.0;  // requested or found filler area, in the section that `area_in` names, mm^2
+  double least_area = 0.0;                    // below it the groove vanishes somewhere, mm^2
   double height_min = 0.0, height_max = 0.0;  // over 720 sections, mm
   double filler_volume = 0.0;                 // mm^3
   double weld_length = 0.0;                   // along curve 3, mm
@@ -47,8 +47,8 @@ struct Groove {
   std::vector<Warning> warnings;
 };
 
-/// The equal-area groove of a joint. Branch frame: z along the branch axis away from the chord, x
-/// along the common perpendicular; omega from +y towards -x.
+/// Computes the equal-area groove of a joint. Branch frame: z along the branch axis away from the
+/// chord, x along the common perpendicular; omega from +y towards -x.
 ///
 /// Errors    of `joint_of` and `survey`.
 /// Accuracy  sections 1e-12 relative; volume and length as in `survey`.
@@ -56,13 +56,13 @@ struct Groove {
 /// Source    docs/theory/grooves-and-milling.md, sections 1-5.
 [[nodiscard]] Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop = {});
 
-/// One section anywhere round the joint, as `groove` reports them.
+/// Computes one section anywhere around the joint, in the form of `groove`.
 ///
 /// Errors  of `joint_of` and `section`.
 [[nodiscard]] Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega,
                                                const std::stop_token& stop = {});
 
-/// Proves an answer by other formulas than those that made it.
+/// Verifies an answer by formulas independent of those that computed it.
 ///
 /// Cost    about 3 ms.
 [[nodiscard]] std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,

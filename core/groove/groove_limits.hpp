@@ -4,16 +4,16 @@
 
 namespace tubecut::groove {
 
-/// Limits of `verify` that do not depend on size. Derivatives by differences, and figures of a
-/// round between its stations, are only as exact as that.
+/// Limits of `verify` that do not depend on size. They limit derivatives by differences, and
+/// figures of a revolution between its stations.
 inline constexpr double kTwistLimitDeg = 1e-4;   // central differences; worst seen 8e-7
 inline constexpr double kHeightLimit = 1e-9;     // of the same stations
 inline constexpr double kLeastAreaLimit = 1e-9;  // likewise, by quadrature; of the filler area
 inline constexpr double kVolumeLimit =
-    2e-5;  // two trapezoids half a step apart; 6e-6 at a kink of curve 3
+    2e-5;  // two trapezoids at half a step's distance; 6e-6 at a kink of curve 3
 inline constexpr double kLengthLimit = 1e-4;  // a polygon of 720 sides against a smooth integral
 
-/// Limits that are rounding: they grow with the joint.
+/// Limits of rounding: they grow with the joint.
 struct GrooveLimits {
   double on_chord = 0.0;    // mm
   double weld_width = 0.0;  // mm

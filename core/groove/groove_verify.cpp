@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Running worst of deviations to either side.
+/// Running maximum of deviations to either side.
 class Worst {
  public:
   void add(double deviation) { worsen(value_, std::abs(deviation)); }
@@ -34,7 +34,7 @@ Vector3d in_space(Angle omega, const Vector2d& point) {
   return math::turn_about_z(omega.rad()) * Vector3d(0.0, point.x(), point.y());
 }
 
-/// The chord as a line in space; everything about it is found by vectors.
+/// The chord as a line in space; all its quantities are computed by vectors.
 struct ChordAxis {
   Vector3d point;
   Vector3d along;
@@ -80,8 +80,8 @@ class RegionIntegral {
   }
 
  private:
-  // All coordinates from P1, so that a distant origin costs no digits: area = closed integral of -z
-  // dx, moment of -z (x1 + x) dx.
+  // All coordinates are relative to P1, so that a distant origin costs no digits: area = closed
+  // integral of -z dx, moment of -z (x1 + x) dx.
   static void add_line(const Vector2d& from, const Vector2d& to, double x1, Region& out) {
     const double dx = to.x() - from.x(), mean = 0.5 * (from.y() + to.y());
     out.area -= mean * dx;
@@ -127,7 +127,7 @@ class RegionIntegral {
   elementary::SinCos omega_, tilt_;
 };
 
-constexpr int kNormalStations = 50;  // none but two of them a knot of the factor
+constexpr int kNormalStations = 50;  // only two of them are knots of the factor
 
 struct SectionDeviations {
   Worst on_chord, width, area, sum, curves, twist, compare;
@@ -147,7 +147,7 @@ double curve_deviation(const GrooveSpec& spec, const GrooveSection& s) {
   return worst.value();
 }
 
-/// Twist from normals by central differences of points in space.
+/// Computes the twist from normals by central differences of points in space.
 double twist_by_points(const Joint& joint, Angle omega, Angle step) {
   const auto before = section(joint, omega - step), after = section(joint, omega + step);
   if (!before || !after) return std::numeric_limits<double>::quiet_NaN();
@@ -167,7 +167,7 @@ double twist_by_points(const Joint& joint, Angle omega, Angle step) {
   return std::copysign(elementary::atan2(low.cross(high).norm(), low.dot(high)), side);
 }
 
-/// Two steps of the differences, so that the error's first term cancels.
+/// Uses two steps of the differences, so that the error's first term cancels.
 double twist_by_points(const Joint& joint, Angle omega) {
   const double gap = 1.0 - (joint.root_radius + std::abs(joint.eccentricity)) / joint.chord_radius;
   const double step = std::clamp(3e-4 * std::sqrt(gap), 1e-8, 1e-4);
@@ -194,7 +194,7 @@ void add_section(const GrooveSpec& spec, const Groove& groove, const Joint& join
   worst.compare.add(integral.over(s.p1, s.p2, edge).area - groove.compare->filler_area[index]);
 }
 
-/// The largest of a figure over the stations of the survey.
+/// Returns the largest of a figure over the stations of the survey.
 template <class Figure>
 double largest_of_round(const Figure& figure) {
   double out = -std::numeric_limits<double>::infinity();
@@ -207,7 +207,7 @@ struct RoundDeviations {
   double volume = 0.0, fixed_volume = 0.0, length = 0.0;
 };
 
-/// The figures of a whole round, between the sections of the survey.
+/// Checks the figures of a whole revolution, between the sections of the survey.
 RoundDeviations round_figures(const GrooveSpec& spec, const Groove& groove, const Joint& joint) {
   RoundDeviations out;
   const double step = kTwoPi / kSurveySections;
@@ -231,7 +231,7 @@ RoundDeviations round_figures(const GrooveSpec& spec, const Groove& groove, cons
   return out;
 }
 
-/// The filler area at which the height vanishes in one section.
+/// Returns the filler area at which the height vanishes in one section.
 double flat_area(const GrooveSpec& spec, const Joint& joint, const Section& at) {
   const Vector2d p1 = {at.toe.x1, at.toe.y1}, p2 = {at.toe.x2, at.toe.y2};
   const RegionIntegral integral{spec, at.omega};

@@ -61,7 +61,7 @@ void check_compare(const GrooveSpec& spec, FieldCheck& check) {
                .unit = "deg"});
 }
 
-/// Everything one field alone can tell.
+/// Returns the issues of single fields.
 std::vector<Issue> field_issues(const GrooveSpec& spec) {
   FieldCheck check;
   check.length("chord/outer_diameter", spec.chord.outer_diameter, false);
@@ -97,9 +97,9 @@ void check_wall(const Pipe& pipe, const char* member, std::vector<Issue>& issues
                     .unit = "mm"});
 }
 
-constexpr double kLeastWeldWidth = 0.01;  // mm of wall beside the root face
+constexpr double kLeastWeldWidth = 0.01;  // minimum width in mm of wall next to the root face
 
-/// What two fields together can tell.
+/// Returns the issues of pairs of fields.
 std::vector<Issue> shape_issues(const GrooveSpec& spec) {
   std::vector<Issue> issues;
   check_wall(spec.chord, "chord/wall", issues);
@@ -115,7 +115,7 @@ std::vector<Issue> shape_issues(const GrooveSpec& spec) {
   }
   const double root = 0.5 * spec.branch.outer_diameter - spec.branch.wall + spec.root_face.width;
   const double outermost = root + std::abs(spec.eccentricity);
-  if (outermost >= 0.5 * spec.chord.outer_diameter)  // equal: curve 3 has a kink
+  if (outermost >= 0.5 * spec.chord.outer_diameter)  // if equal, curve 3 has a kink
     issues.push_back(
         {.code = ErrorCode::no_pierce,
          .member = "eccentricity",
@@ -143,7 +143,7 @@ Joint dimensions(const GrooveSpec& spec) {
   return out;
 }
 
-/// The axial area that a groove of this height has there.
+/// Computes the axial area of a groove of this height there.
 Result<double> area_of_height(const Joint& joint, const FillerHeight& reference) {
   const Direction dir = direction(reference.at);
   const auto found = toe(joint, dir);

@@ -18,13 +18,13 @@ struct Pipe {
   double wall = 0.0;  // 0 < wall < radius
 };
 
-/// The rectangle left at the branch's end below the groove. Lengths in mm.
+/// The rectangle that remains at the branch's end below the groove. Lengths in mm.
 struct RootFace {
   double height = 0.0;  // a >= 0, along the branch axis
   double width = 0.0;   // b, 0 < b < branch wall
 };
 
-/// The section in which the filler area is the same everywhere.
+/// The section in which the filler area is constant.
 enum class AreaIn : std::uint8_t {
   axial,   // the half plane through the branch axis
   normal,  // the plane normal to the seam
@@ -40,7 +40,7 @@ struct FillerHeight {
 };
 using Filler = std::variant<FillerArea, FillerHeight>;
 
-/// A groove line at one angle all round, measured from the square cut.
+/// A groove line at one constant angle, measured from the square cut.
 struct FixedBevel {
   Angle bevel = Angle::deg(45);  // 0 <= bevel < 90 deg
 };
@@ -60,7 +60,7 @@ struct GrooveSpec {
   std::optional<FixedBevel> compare;
 };
 
-/// A checked joint: what every formula of the groove starts from. Lengths in mm.
+/// A checked joint: the input of every formula of the groove. Lengths in mm.
 struct Joint {
   double chord_radius = 0.0;   // R
   double bore_radius = 0.0;    // R - delta1
@@ -74,22 +74,22 @@ struct Joint {
   double sin_a = 1.0;  // of the inclination
   double cos_a = 0.0;
   double area = 0.0;  // filler area, mm^2, in the section that `area_in` names
-  /// Of `area`, the area of the axial sections, at equal steps from omega = 0; none: 1.
+  /// Ratio of the axial sections' area to `area`, at equal steps from omega = 0; empty: 1.
   std::optional<PeriodicSpline> area_factor = {};
 };
 
 inline constexpr int kMaxSections = 20000;
 
-/// The joint of a spec. Only what single fields and the filler's reference section can tell is
-/// checked here; whether the groove exists all round is `survey`'s to say.
+/// Computes the joint of a spec. It checks only single fields and the filler's reference section;
+/// `survey` checks whether the groove exists all around.
 ///
 /// Errors  not_finite, out_of_range, wall, root_width, angle, no_pierce, area; no_p2 and
-///         p2_ambiguous at the reference section of a filler height; `area` also where normal
-///         sections cannot be made equal.
+///         p2_ambiguous at the reference section of a filler height; `area` also if normal sections
+///         cannot be made equal.
 /// Source  docs/theory/grooves-and-milling.md, sections 1 and 9.
 [[nodiscard]] Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop = {});
 
-/// An angle as degrees with enough digits for a message.
+/// Returns an angle as degrees with enough digits for a message.
 [[nodiscard]] std::string degrees_text(Angle angle);
 
 }  // namespace tubecut::groove

@@ -7,7 +7,8 @@
 
 namespace tubecut::groove {
 
-// The machine as bodies in space: a second way from axes to tool and workpiece, for proofs alone.
+// The machine as bodies in space: an independent path from axes to tool and workpiece, for
+// verification only.
 
 /// The tool as a body in machine space.
 struct Tool {
@@ -33,7 +34,7 @@ class Machine {
     return math::turn_about_z((c - spec_.setup.c_zero).rad()) * lying_;
   }
   [[nodiscard]] Eigen::Vector3d lift() const { return {0.0, 0.0, spec_.setup.z_zero}; }
-  /// The axes without the optimisation's part.
+  /// Returns the axes without the optimisation's part.
   [[nodiscard]] AxisPosition before(const MillPosition& p) const {
     AxisPosition out = p.at;
     out.b = p.at.b - Angle::rad(p.by.db);
@@ -50,11 +51,12 @@ class Machine {
   Eigen::Matrix3d lying_;
 };
 
-/// Distance to the flank from the cone's apex and the angle seen there; for nearly cylindrical
-/// mills, whose apex is far, from the axis.
+/// Computes the distance to the flank from the cone's apex and the angle there. For nearly
+/// cylindrical mills, whose apex is far away, it uses the axis.
 [[nodiscard]] double flank_distance(const Mill& mill, const Tool& tool, const Eigen::Vector3d& p);
 
-/// Signed distance to the cutter's whole meridian, both sides of the axis, as a polygon.
+/// Computes the signed distance to the cutter's whole meridian, both sides of the axis, as a
+/// polygon.
 [[nodiscard]] double solid_distance(const Mill& mill, const Tool& tool, const Eigen::Vector3d& p);
 
 }  // namespace tubecut::groove

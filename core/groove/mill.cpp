@@ -11,7 +11,7 @@
 namespace tubecut::groove {
 namespace {
 
-/// Machine Z grows against the branch axis when the end looks up.
+/// Machine Z grows against the branch axis if the end looks up.
 double z_sign(Mount mount) { return mount == Mount::end_up ? -1.0 : 1.0; }
 
 std::vector<Issue> number_issues(const Mill& mill, const Setup& setup) {
@@ -65,8 +65,8 @@ std::vector<Issue> fit_issues(const Joint& joint, const Survey& survey, const Mi
                       .limit = longest * cone.cos_k,
                       .unit = "mm",
                       .hint = "the generatrix must reach from curve 3 to curve 4 everywhere"});
-  // The tip's face leans over the root face where the generatrix's normal m points inward: beta +
-  // kappa > 90 deg.
+  // If the generatrix's normal m points inward (beta + kappa > 90 deg), the tip's face leans over
+  // the root face.
   const double kappa = mill.half_angle.deg();
   const double lean = setup.direction > 0 ? survey.groove_angle_max.deg() + kappa
                                           : std::max(survey.groove_angle_max.deg() - kappa,
@@ -140,7 +140,7 @@ ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mi
 ToolPose moved(const ToolPose& pose, const Setup& setup, Hold hold, Increment by) {
   const double sg = z_sign(setup.mount);
   const auto [s, c] = elementary::sincos(by.db);
-  // B turns the axis from machine Z towards X; against the branch axis for end_up.
+  // B tilts the axis from machine Z towards X; against the branch axis for end_up.
   const Eigen::Vector2d axis(pose.axis.x() * c + sg * pose.axis.y() * s,
                              pose.axis.y() * c - sg * pose.axis.x() * s);
   const Eigen::Vector2d lift(0.0, sg * by.dz);

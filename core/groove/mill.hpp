@@ -12,14 +12,14 @@
 
 namespace tubecut::groove {
 
-/// Truncated cone, its radius growing towards the spindle. Lengths in mm.
+/// Truncated cone; its radius grows towards the spindle. Lengths in mm.
 struct Mill {
   Angle half_angle;         // kappa, [0, 90) deg
   double tip_radius = 0.0;  // >= 0; not 0 together with kappa
   double length = 0.0;      // along the axis, > 0
 };
 
-/// Which way the pipe end to be cut looks along machine Z.
+/// The direction in which the pipe end to be cut looks along machine Z.
 enum class Mount : std::uint8_t { end_up, end_down };
 
 struct Range {
@@ -36,7 +36,7 @@ struct Setup {
       0.0;  // from the tip to the B axis, >= 0, mm; 0: X, Z are those of the tip's centre
   double z_zero = 0.0;   // added to Z, mm
   Angle c_zero;          // C at omega = 0
-  int direction = 1;     // +1: tip at curve 3, spindle beyond curve 4; -1: the other way round
+  int direction = 1;     // +1: tip at curve 3, spindle beyond curve 4; -1: reversed
   double overrun = 0.0;  // of the generatrix past curve 3, >= 0, mm
   Travel travel;
 };
@@ -56,37 +56,37 @@ struct AxisPosition {
 };
 
 enum class Hold : std::uint8_t {
-  tip,    // X and Z follow so that B turns the tool about its tip's centre
-  pivot,  // the source's two variables: X stays, B turns about its own axis
+  tip,    // X and Z follow so that B tilts the tool about its tip's centre
+  pivot,  // the source's two variables: X stays, B tilts about its own axis
 };
 
-/// What an optimisation adds to the initial position: machine increments, mm and rad.
+/// The increments of an optimisation to the initial position: machine increments, mm and rad.
 struct Increment {
   double dz = 0.0, db = 0.0;
 };
 
-/// Pose with the whole generatrix on the ruling of the section. Source 6.2.
+/// Returns the pose with the whole generatrix on the ruling of the section. Source 6.2.
 [[nodiscard]] ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mill,
                                     const Setup& setup);
 
-/// The pose after an increment. Source 8.1.
+/// Returns the pose after an increment. Source 8.1.
 [[nodiscard]] ToolPose moved(const ToolPose& pose, const Setup& setup, Hold hold, Increment by);
 
-/// Pose in the section at `omega` as axis positions, and back. Exact inverses of one another to
-/// rounding. Source 6.3.
+/// Converts the pose in the section at `omega` to axis positions, and back. The two are inverses
+/// except for rounding. Source 6.3.
 [[nodiscard]] AxisPosition axis_position(const ToolPose& pose, const Setup& setup, Angle omega);
 [[nodiscard]] ToolPose tool_pose(const AxisPosition& axes, const Setup& setup);
 
-/// A point against the tool: `distance` to the unbounded flank cone (> 0 not cut), its gradient,
-/// and how far along the generatrix from the tip its foot lies. Coordinates of the tool's section
-/// half plane: (radial, tangential, axial).
+/// A point relative to the tool: `distance` to the unbounded flank cone (> 0 not cut), its
+/// gradient, and the position of its foot along the generatrix from the tip. Coordinates of the
+/// tool's section half plane: (radial, tangential, axial).
 struct FlankFoot {
   double distance = 0.0;
   Eigen::Vector3d gradient;
   double along = 0.0;
 };
 
-/// A mill with its angle's sine and cosine at hand.
+/// A mill with the precomputed sine and cosine of its angle.
 struct Cone {
   double sin_k = 0.0, cos_k = 1.0;
   double tip_radius = 0.0, back_radius = 0.0;
@@ -94,7 +94,7 @@ struct Cone {
 
   explicit Cone(const Mill& mill);
 
-  /// Distance to the unbounded flank. Source 6.4.
+  /// Computes the distance to the unbounded flank. Source 6.4.
   [[nodiscard]] double flank(const ToolPose& pose, const Eigen::Vector3d& p) const {
     const Meridian m = meridian(pose, p);
     return flank(m.rho, m.l);
@@ -102,7 +102,7 @@ struct Cone {
   [[nodiscard]] double flank(double rho, double l) const {
     return (rho - tip_radius) * cos_k - l * sin_k;
   }
-  /// Signed distance to the finite cutter, negative inside.
+  /// Computes the signed distance to the finite cutter, negative inside.
   [[nodiscard]] double solid(const ToolPose& pose, const Eigen::Vector3d& p) const {
     const Meridian m = meridian(pose, p);
     return solid(m.rho, m.l);
@@ -110,14 +110,14 @@ struct Cone {
   [[nodiscard]] double solid(double rho, double l) const;
   [[nodiscard]] FlankFoot foot(const ToolPose& pose, const Eigen::Vector3d& p) const;
 
-  /// How a distance rises with rho and l; of the solid's, where it has a corner, one of the two.
+  /// The derivatives of a distance by rho and l; at a corner of the solid, one of the two.
   struct Rise {
     double by_rho = 0.0, by_l = 0.0;
   };
   [[nodiscard]] Rise flank_rise() const { return {cos_k, -sin_k}; }
   [[nodiscard]] Rise solid_rise(double rho, double l) const;
 
-  /// A point in the tool's own terms.
+  /// A point in the tool's coordinates.
   struct Meridian {
     double rho = 0.0, l = 0.0;  // from the axis, along it from the tip
     double across = 0.0;        // signed in-plane part of rho
@@ -130,7 +130,7 @@ struct Cone {
   }
 };
 
-/// Whether tool and setup are possible at all, and fit the groove.
+/// Checks that tool and setup are possible, and fit the groove.
 ///
 /// Errors  not_finite, out_of_range, tool, setup, tool_short, root_collision; `member` from
 ///         "mill/..." and "setup/...".

@@ -11,7 +11,7 @@
 /// The parts of `mill_path`, for its own sources and the probe.
 namespace tubecut::groove {
 
-/// What every position of a path needs; values, made once. A station counts optimised positions
+/// Values that every position of a path needs, computed once. A station counts optimised positions
 /// from omega = 0, with its fraction.
 struct Shop {
   const MillPathSpec& spec;
@@ -21,7 +21,7 @@ struct Shop {
   [[nodiscard]] double omega(double station) const { return kTwoPi * station / spec.positions; }
 };
 
-/// A position and all that is said about it: optimised by the spec's method, or with a `given`
+/// Computes a position and its figures: optimised by the spec's method, or with a `given`
 /// increment.
 ///
 /// Errors  of `gap` and of the method; cancelled.
@@ -29,7 +29,7 @@ struct Shop {
                                                              std::optional<Increment> given,
                                                              std::stop_token stop);
 
-/// Increments between the optima: smooth where the optima are, broken lines where they are noise.
+/// Increments between the optima: smooth if the optima are, polylines if they are noise.
 class Increments {
  public:
   Increments(const std::vector<MillPosition>& optima, Method method);
@@ -41,18 +41,18 @@ class Increments {
   PeriodicSpline dz_, db_;
 };
 
-/// Stations to emit: the optima, and between each two as many equal parts as keep the sag of linear
-/// axes below `kAxisSag`.
+/// Returns the stations to emit: the optima, and between each two as many equal parts as keep the
+/// sag of linear axes below `kAxisSag`.
 ///
 /// Errors  too_many_nodes, cancelled, those of `section`.
 [[nodiscard]] Result<std::vector<double>> emitted_stations(const Shop& shop,
                                                            const Increments& increments,
                                                            std::stop_token stop);
 
-/// `angle` turned by whole turns to within half a turn of `to`; rad.
+/// Returns `angle` shifted by whole revolutions to within half a revolution of `to`; rad.
 [[nodiscard]] double nearest_turn(double angle, double to);
 
-/// A position's failure as the request's: which member to blame, and where.
+/// Converts a position's failure to an error of the request: the member at fault, and the position.
 [[nodiscard]] tl::unexpected<Error> failed(ErrorCode code, double omega);
 
 }  // namespace tubecut::groove

@@ -97,7 +97,7 @@ std::vector<Warning> path_warnings(const MillPathSpec& spec, const MillPath& pat
 
 Result<std::vector<MillPosition>> optima_of(const Shop& shop, std::stop_token stop) {
   std::vector<MillPosition> out;
-  out.reserve(std::size_t(shop.spec.positions));  // grown, 20 000 would move in one piece
+  out.reserve(std::size_t(shop.spec.positions));  // because growth would move all 20 000 at once
   for (int i = 0; i < shop.spec.positions; ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     auto found = position(shop, i, std::nullopt, stop);

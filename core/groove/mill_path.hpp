@@ -32,33 +32,33 @@ struct MillPathSpec {
 
 struct MillPath {
   std::vector<MillPosition> positions;
-  Swept swept;            // of what the machine does: linear axes between all emitted positions
-  Swept swept_at_optima;  // had only the optima been emitted
+  Swept swept;            // of the machine's motion: linear axes between all emitted positions
+  Swept swept_at_optima;  // if only the optima were emitted
   bool qualified = false;
   std::vector<Warning> warnings;
 };
 
 inline constexpr int kMinPositions = 4, kMaxPositions = 20000;
-inline constexpr int kMaxPoints = 101;  // per ruling; the minimax looks at every triple
-/// Of all positions together, what they are looked at by: points of their rulings, triples of the
-/// points of a ruling, and points for the annealing, which looks at each 2401 times.
+inline constexpr int kMaxPoints = 101;  // per ruling; the minimax checks every triple
+/// Limits over all positions together: points of their rulings, triples of the points of a ruling,
+/// and points for the annealing, which evaluates each 2401 times.
 inline constexpr double kMaxSamples = 4e7, kMaxTriples = 1e8, kMaxAnnealedSamples = 2e6;
 inline constexpr double kAxisSag =
     1e-3;  // mm, of the tool between emitted positions, at mid interval
 inline constexpr double kRootFaceCut = -0.005;   // mm; below it a warning
 inline constexpr double kRootFaceReject = -0.5;  // mm; below it the path is not qualified
 
-/// Points of rulings that one position is looked at by, and triples of the points of a ruling.
+/// Points of rulings per position, and triples of the points of a ruling.
 struct GapWork {
   double samples = 0.0, triples = 0.0;
 };
 [[nodiscard]] GapWork gap_work(const GapCheck& check);
 
-/// The most positions that may be optimised so, and the most that may be emitted.
+/// Returns the maximum number of positions to optimise with this method, and to emit.
 [[nodiscard]] int most_positions(const GapCheck& check, Method method);
 [[nodiscard]] int most_emitted(const GapCheck& check);
 
-/// The cone mill's path round the groove on a C, X, Z, B machine.
+/// Computes the cone mill's path around the groove on a C, X, Z, B machine.
 ///
 /// Errors    of `groove` (member "groove/..."), of `check_tool`; sampling, setup, out_of_range,
 ///           window, contact, z_ineffective, travel, too_many_nodes (more positions for the sag
@@ -69,8 +69,8 @@ struct GapWork {
 /// Source    docs/theory/grooves-and-milling.md, sections 6-8.
 [[nodiscard]] Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop = {});
 
-/// Proves an answer by other formulas than those that made it: points in machine space against the
-/// cone's apex angle.
+/// Verifies an answer by independent formulas: points in machine space against the cone's apex
+/// angle.
 ///
 /// Cost    about 0.1 ms per position.
 [[nodiscard]] std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path,

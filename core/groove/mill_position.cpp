@@ -20,7 +20,7 @@ ContactLine line_of(const Gap& gap) {
   return out;
 }
 
-/// Every position has a generator of its own, so that their order and number do not matter.
+/// Returns a generator for one position, so that the order and number of positions do not matter.
 std::mt19937_64 generator(std::uint64_t seed, int index) {
   return std::mt19937_64{seed * 0x9E3779B97F4A7C15ULL + std::uint64_t(index)};
 }

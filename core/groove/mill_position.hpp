@@ -19,13 +19,13 @@ struct ContactLine {
 /// One emitted position.
 struct MillPosition {
   Angle omega;
-  AxisPosition at;         // B without jumps of a turn from the position before
+  AxisPosition at;         // B continuous with the position before
   Increment by;            // from the initial position
-  bool optimised = false;  // else between two optima, with their interpolated increments
+  bool optimised = false;  // false: between two optima, with their interpolated increments
   ContactLine before, after;
   GridFigures grid_before, grid;  // the source's own
   double certificate = 0.0;       // mm
-  double bias = 0.0;              // mm, that the certificate refers to
+  double bias = 0.0;              // mm, the reference of the certificate
   std::array<int, 3> reference = {};
   int evaluations = 0;  // 0 between optima
   bool qualified = false;

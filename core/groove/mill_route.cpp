@@ -12,7 +12,8 @@ class Route {
  public:
   Route(const Shop& shop, const Increments& increments) : shop_(shop), increments_(increments) {}
 
-  /// Stations to emit: the optima, and between each two as many equal parts as keep the sag small.
+  /// Returns the stations to emit: the optima, and between each two as many equal parts as keep the
+  /// sag small.
   [[nodiscard]] Result<std::vector<double>> stations(std::stop_token stop) const {
     std::vector<double> out;
     const int most = most_emitted(shop_.spec.check);
@@ -50,7 +51,7 @@ class Route {
     return Exact{pose, {omega.rad(), at.x, at.z, at.b.rad()}};
   }
 
-  /// How far the tool's ends and the axes are off at the middle of a linear move.
+  /// Returns the error of the tool's ends and the axes at the middle of a linear move.
   [[nodiscard]] double sag(const Exact& a, const Exact& middle, const Exact& b) const {
     const Block half{0.0, 0.5 * (a.block.x + b.block.x), 0.5 * (a.block.z + b.block.z),
                      0.5 * (a.block.b + nearest_turn(b.block.b, a.block.b))};

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Running worst value.
+/// Running maximum.
 struct MaxResidual {
   double value = 0.0;
   void add(double deviation) { worsen(value, deviation); }
@@ -65,8 +65,8 @@ class Verifier {
     return machine_.table(c) * p + machine_.lift();
   }
 
-  /// Without its increments the tool lies along the ruling, its edge at the asked distance from
-  /// curve 3.
+  /// Checks that without its increments the tool lies along the ruling, its edge at the requested
+  /// distance from curve 3.
   void start_on_ruling(const MillPosition& p) {
     const AxisPosition at = machine_.before(p);
     const Tool tool = machine_.tool(at);
@@ -83,8 +83,8 @@ class Verifier {
                         std::sqrt(along * along + r * r + 2.0 * along * r * sin_k)));
   }
 
-  /// Every reported gap is the distance of the ruling it names, and no ruling beside it or further
-  /// off is deeper.
+  /// Checks that every reported gap is the distance of its ruling, and that no adjacent or further
+  /// ruling is deeper.
   void contacts(const MillPosition& p, const AxisPosition& at, const ContactLine& line) {
     constexpr double kBeside = 1e-7;  // rad; d'' h^2 / 2 stays below 1e-11 mm
     const Tool tool = machine_.tool(at);
@@ -109,7 +109,7 @@ class Verifier {
     }
   }
 
-  /// The figures of a position against its gaps.
+  /// Checks the figures of a position against its gaps.
   void summary(const MillPosition& p) {
     for (const ContactLine* line : {&p.before, &p.after}) {
       const auto [low, high] = std::minmax_element(line->gap.begin(), line->gap.end());
@@ -123,9 +123,10 @@ class Verifier {
   }
 
   /// Weak duality: with weights that no increment can change, sum lam g / sum |lam| bounds every
-  /// position from below. Slopes by differences of the apex-angle distance at the touched points.
+  /// position from below. Slopes come from differences of the apex-angle distance at the touched
+  /// points.
   void optimum(const MillPosition& p) {
-    // What is left of a slope after two steps is rounding: about 1e-9 of it.
+    // After two steps, the error of a slope is rounding: about 1e-9 of it.
     const double step = 5e-5 * (spec_.mill.tip_radius + 0.1 * spec_.mill.length);
     const double reach = spec_.mill.length + spec_.mill.tip_radius +
                          (spec_.optimise.hold == Hold::pivot ? spec_.setup.pivot_length : 0.0);
@@ -151,9 +152,9 @@ class Verifier {
     if (spec_.optimise.method == Method::chebyshev) certificate_.add(proven - own);
   }
 
-  /// Of a point's distance by z and by B times `reach`: central differences over a step and over
-  /// half of it, so that the flank's third derivative falls out, which long tools with small tips
-  /// have.
+  /// Computes the slopes of a point's distance by z and by B times `reach`: central differences
+  /// over a step and over half of it, so that the flank's third derivative cancels, which is large
+  /// for long tools with small tips.
   [[nodiscard]] Eigen::Vector2d slopes(const MillPosition& p, double step, double reach,
                                        const Vector3d& point) const {
     const auto over = [&](double h) {
@@ -165,7 +166,7 @@ class Verifier {
     return half + (half - whole) / 3.0;
   }
 
-  /// Distance of a point in machine space after a further increment.
+  /// Returns the distance of a point in machine space after a further increment.
   [[nodiscard]] double shifted(const MillPosition& p, double dz, double db,
                                const Vector3d& point) const {
     AxisPosition at = p.at;
@@ -177,7 +178,7 @@ class Verifier {
     return flank_distance(spec_.mill, tool, point);
   }
 
-  /// The tool half way between two positions against the tool on the ruling there.
+  /// Checks the tool midway between two positions against the tool on the ruling there.
   void between(std::size_t i) {
     const MillPosition &a = around(i), &b = around(i + 1);
     const double turn = kTwoPi * std::floor((b.at.b.rad() - a.at.b.rad()) / kTwoPi + 0.5);
@@ -200,8 +201,8 @@ class Verifier {
     return around(i).omega.rad() + kTwoPi * double(i / path_.positions.size());
   }
 
-  /// The increments between positions i and i + 1: through four neighbours where they are smooth,
-  /// else through two.
+  /// Returns the increments between positions i and i + 1: through four neighbours if they are
+  /// smooth, else through two.
   [[nodiscard]] Increment half_increment(std::size_t i, double omega) const {
     const std::size_t n = path_.positions.size();
     if (spec_.optimise.method != Method::chebyshev || n < 4)
@@ -218,8 +219,8 @@ class Verifier {
     return out;
   }
 
-  /// A tool on the ruling, found by turning the ruling itself about the seam's tangent plane, then
-  /// incremented.
+  /// Returns a tool on the ruling, found by rotating the ruling itself about the seam's tangent
+  /// plane, with the increment added.
   [[nodiscard]] Tool on_ruling(double omega, Increment by) const {
     const double sg = spec_.setup.mount == Mount::end_up ? -1.0 : 1.0;
     const Matrix3d table = machine_.table(spec_.setup.c_zero - Angle::rad(sg * omega));
@@ -241,8 +242,9 @@ class Verifier {
     return out;
   }
 
-  /// Least distance of a workpiece point over the motion beside `station`: by ternary search in its
-  /// segment between two blocks and in the one before, for the motion has a corner at every block.
+  /// Finds the smallest distance of a workpiece point over the motion near `station`: by ternary
+  /// search in its segment between two blocks and in the previous one, because the motion has a
+  /// corner at every block.
   template <class Distance>
   [[nodiscard]] double least_near(const Vector3d& point, double station, Distance distance) const {
     const auto at = [&](double t) {
@@ -264,7 +266,8 @@ class Verifier {
     return std::min(least_from(first - 1.0), least_from(first));
   }
 
-  /// Reported extremes found again where they are said to be, and no sampled point beyond them.
+  /// Recomputes reported extremes at their positions, and checks that no sampled point exceeds
+  /// them.
   void whole_round() {
     for (const MillPosition& p : path_.positions) {
       blocks_.push_back({p.omega.rad(), p.at.x, p.at.z, p.at.b.rad()});
@@ -288,7 +291,7 @@ class Verifier {
     for (int k = 0; k < 3 * kRulings && !stop_.stop_requested(); ++k) {
       const double omega = kTwoPi * (k / 3) / kRulings;
       const double v =
-          double(k % 3 * last / 2) / last;  // first, a middle and the last of the points looked at
+          double(k % 3 * last / 2) / last;  // first, a middle and the last of the points
       const double e = sampled(work_point(omega, v), omega, flank_distance);
       swept_.add(s.flank_min.value - e);
       swept_.add(e - s.flank_max.value);
@@ -296,8 +299,8 @@ class Verifier {
     }
   }
 
-  /// Least distance over all blocks within a quarter turn, the tools brought to the workpiece, then
-  /// between blocks.
+  /// Returns the smallest distance over all blocks within a quarter turn, with the tools moved to
+  /// the workpiece, then between blocks.
   template <class Distance>
   [[nodiscard]] double sampled(const Vector3d& point, double omega, Distance distance) const {
     double best = std::numeric_limits<double>::infinity(), station = 0.0;
@@ -318,7 +321,7 @@ class Verifier {
   const std::stop_token& stop_;
   Machine machine_;
   std::vector<Block> blocks_;
-  std::vector<Tool> tools_;  // at the blocks, seen from the workpiece
+  std::vector<Tool> tools_;  // at the blocks, in the workpiece's frame
   MaxResidual start_, gap_, least_, figures_, certificate_, sag_, swept_, root_;
 };
 

@@ -19,20 +19,21 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kKnots = 72;       // of the factor, round the turn
-constexpr int kPatience = 4;     // rounds that bring nothing nearer
+constexpr int kKnots = 72;       // of the factor, per revolution
+constexpr int kPatience = 4;     // rounds without progress
 constexpr double kEqual = 2e-4;  // of the area, at the knots
-constexpr double kEnough = 0.9;  // of what a round asks for
-constexpr int kPoints = 8;       // on each side of the filler; twice as many beside it
-constexpr int kSteps = 40;       // of a plane's meeting with a line
+constexpr double kEnough = 0.9;  // of the values requested in a round
+constexpr int kPoints = 8;       // on each side of the filler; twice as many for the extrapolation
+constexpr int kSteps = 40;       // of the intersection of a plane and a line
 constexpr double kFar = 80.0 * kRadPerDeg;
 constexpr double kMet = 1e-9;  // rad
 
 /// The three sides of the filler: groove, weld face, chord.
 enum class Side : std::uint8_t { groove, face, chord };
-constexpr std::array kSides{Side::groove, Side::face, Side::chord};  // once round
+constexpr std::array kSides{Side::groove, Side::face, Side::chord};  // in circular order
 
-/// A point of a side, in its axial section: `share` of the way along it, on the way round.
+/// Returns a point of a side, in its axial section: at the fraction `share` along it, in circular
+/// order.
 Vector2d on_side(const Joint& joint, const Section& at, Side side, double share) {
   const Vector2d p1{at.toe.x1, at.toe.y1}, p2{at.toe.x2, at.toe.y2};
   const Vector2d p3{joint.branch_radius, at.y3};
@@ -49,7 +50,8 @@ class NormalPlane {
  public:
   NormalPlane(const Joint& joint, const Section& at) : joint_(joint), at_(at) {}
 
-  /// Where it meets the point of a side that all sections have: its place in the plane.
+  /// Returns the intersection with the point of a side that all sections have, in coordinates of
+  /// the plane.
   [[nodiscard]] std::optional<Vector2d> meets(Side side, double share) const {
     double turn = 0.0, off = 0.0;
     auto point = on_side(joint_, at_, side, share);
@@ -71,7 +73,7 @@ class NormalPlane {
   }
 
  private:
-  /// Along curve 3 from the plane, times the length of its derivative.
+  /// Returns the distance along curve 3 from the plane, times the length of its derivative.
   [[nodiscard]] double ahead(double turn, const Vector2d& p) const {
     return joint_.root_radius * p.x() * elementary::sin(turn) + at_.z3_d * (p.y() - at_.toe.y1);
   }
@@ -86,7 +88,7 @@ class NormalPlane {
   const Section& at_;
 };
 
-/// Area of the polygon through so many points of each side.
+/// Computes the area of the polygon through this many points of each side.
 std::optional<double> polygon(const NormalPlane& plane, int points) {
   std::vector<Vector2d> corners;
   for (const Side side : kSides)
@@ -131,8 +133,8 @@ Result<void> refuse(const Joint& joint, const Furthest& worst) {
                "; ask for equal areas in axial sections"});
 }
 
-/// Makes the joint's area the one that its normal section has at the kept angle, and leaves the
-/// axial area there what it is to be. False where there is none.
+/// Sets the joint's area to that of its normal section at the kept angle, and keeps the axial area
+/// there. Returns false when there is no such section.
 bool keep(const KeptArea& kept, Joint& joint, std::vector<double>& factors) {
   const double turn = kept.at.rad() / kTwoPi * kKnots;
   const auto scale = [&](double by) {
@@ -147,7 +149,8 @@ bool keep(const KeptArea& kept, Joint& joint, std::vector<double>& factors) {
   return true;
 }
 
-/// One round: the areas that the factors give. False where there is none.
+/// Runs one round: computes the areas from the factors. Returns false when a section does not
+/// exist.
 bool areas_of(const Joint& joint, std::vector<double>& out, Furthest& none,
               const std::stop_token& stop) {
   for (int k = 0; k < kKnots && !stop.stop_requested(); ++k) {
@@ -188,7 +191,7 @@ Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kep
   for (int k = 0; k < kKnots; ++k) {
     const auto dir = direction(station(k, kKnots));
     const auto at = toe(joint, dir);
-    if (!at) return {};  // the survey names it
+    if (!at) return {};  // the survey reports it
     factors.push_back(first_order_factor(joint, dir, *at));
     if (!(filler_area(joint, *at, 0.0) < joint.area * factors.back())) return {};  // likewise
   }

@@ -14,15 +14,15 @@ namespace tubecut::groove {
 namespace {
 
 constexpr double kLeastZEffect = 0.0871557427476582;  // sin 5 deg
-constexpr double kOptimal = 1e-12;                    // mm, or 5e-15 R where that is coarser
-constexpr double kAcceptable = 1e-9;                  // mm, where rounding stops the descent
+constexpr double kOptimal = 1e-12;                    // mm, or 5e-15 R if that is coarser
+constexpr double kAcceptable = 1e-9;                  // mm, if rounding stops the descent
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
-/// Weights with sum lam J = 0: what no step can change is sum lam g.
+/// Returns weights with sum lam J = 0, so that no step can change sum lam g.
 Eigen::Vector3d multipliers(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                             const Eigen::Vector2d& c) {
   return {cross(b, c), cross(c, a), cross(a, b)};
@@ -33,7 +33,7 @@ Eigen::Vector3d pick(std::span<const double> values, const std::array<int, 3>& t
           values[std::size_t(triple[2])]};
 }
 
-/// The step that levels the three residuals of the reference.
+/// Returns the step that levels the three residuals of the reference.
 Eigen::Vector2d levelling_step(const Eigen::Vector3d& g, std::span<const Eigen::Vector2d> slopes,
                                const LinearMinimax& at, const Eigen::Vector3d& lam) {
   Eigen::Matrix3d system;
@@ -64,7 +64,7 @@ double worst(const Gap& gap, double bias) {
   return out;
 }
 
-/// One position on its way down.
+/// One position during the descent.
 struct Trial {
   Increment by;
   Gap gap;
@@ -76,7 +76,7 @@ class Descent {
   Descent(const Task& task, Gap initial, std::stop_token stop)
       : task_(task), stop_(std::move(stop)), at_{{}, std::move(initial), 0.0} {}
 
-  /// Sequential linear minimax of max |g - bias| from where the last one ended.
+  /// Runs the sequential linear minimax of max |g - bias| from where the last one ended.
   tl::expected<Optimum, ErrorCode> run(double bias) {
     constexpr int kSteps = 50;
     at_.worst = worst(at_.gap, bias);
@@ -95,7 +95,7 @@ class Descent {
   }
 
  private:
-  /// Where to return to when a step taken on trust leads nowhere.
+  /// The state to which the search returns if a step that was accepted on trust leads nowhere.
   struct Refuge {
     Trial from;
     Eigen::Vector2d step;
@@ -114,7 +114,7 @@ class Descent {
     ++evaluations_;
     Trial out{by, {}, std::numeric_limits<double>::infinity()};
     auto found = gap(task_.near, task_.cone, moved(task_.start, task_.setup, task_.hold, by));
-    if (!found) return out;  // beyond the window: as bad as can be
+    if (!found) return out;  // outside the window: an infinite gap
     out.gap = std::move(*found);
     out.worst = worst(out.gap, bias);
     return out;
@@ -124,9 +124,9 @@ class Descent {
     return evaluate({from.by.dz + part * by.x(), from.by.db + part * by.y()}, bias);
   }
 
-  /// Takes the whole step where it helps, and once also where it does not (a far B axis bends the
-  /// way down, and the next linear step mends that sooner than halving does); else goes back and
-  /// halves. The last step can only polish.
+  /// Takes the whole step if it helps, and once also if it does not (a far B axis bends the path,
+  /// and the next linear step corrects that sooner than halving does); else returns and halves. The
+  /// last step can only polish.
   bool step(const Eigen::Vector2d& by, double bias, bool last) {
     constexpr double kBearable = 2.0;
     Trial next = along(at_, by, 1.0, bias);
@@ -227,7 +227,7 @@ tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap init
   Descent descent{task, std::move(initial), std::move(stop)};
   auto out = descent.run(0.0);
   if (bias == Bias::centred) return out;
-  // Lifting everything by G changes the attainable G a little: aim at the new one until they agree.
+  // Lifting everything by G slightly changes the attainable G: aim at the new one until they agree.
   constexpr int kRounds = 8;
   for (int i = 0; out && i < kRounds; ++i) {
     const double aim = worst(out->gap, out->bias);
@@ -250,7 +250,7 @@ tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& ra
   const double start = here;
   Increment at, best;
   double least = here;
-  // Moves some times the error they are to remove: in Z directly, in B at the generatrix's far
+  // Moves some times the error that they must remove: in Z directly, in B at the generatrix's far
   // end.
   const double reach = task.hold == Hold::tip ? task.cone.generatrix
                                               : task.cone.generatrix + task.setup.pivot_length;

@@ -44,7 +44,7 @@ struct Cubic {
     return u * u * ((1.0 + 2.0 * t) * a + x * slope_a) +
            t * t * ((1.0 + 2.0 * u) * b - (width - x) * slope_b);
   }
-  /// Where it is least, `slope_a` being negative and `slope_b` positive.
+  /// Returns its minimum, if `slope_a` is negative and `slope_b` positive.
   [[nodiscard]] double least() const {
     const double secant = 3.0 * (b - a) / width;
     const double mean = slope_a + slope_b - secant;  // of the slope's quadratic
@@ -54,7 +54,7 @@ struct Cubic {
   }
 };
 
-/// Distance's derivative along omega at one level, and what it was read from.
+/// Distance's derivative along omega at one level, and the values that it comes from.
 struct Slope {
   double value = 0.0;
   Contact contact;
@@ -73,14 +73,14 @@ Slope slope_at(const Neighbourhood& near, const Cone& cone, const ToolPose& pose
   return out;
 }
 
-/// Where D is asked for next, between two rulings that have it.
+/// Returns a guess of D between two rulings with known D.
 double toe_near(const Neighbour& low, const Neighbour& high, double delta) {
   const Cubic D{low.D, low.D_d, high.D, high.D_d, high.delta - low.delta};
   return D.at(delta - low.delta);
 }
 
-/// The zero of the slope between two rulings whose slopes differ in sign: where the cubic through
-/// both distances and slopes is least, three times, then by the Illinois false position.
+/// Finds the zero of the slope between two rulings whose slopes differ in sign: at the minimum of
+/// the cubic through both distances and slopes, three times, then by the Illinois false position.
 tl::expected<Contact, ErrorCode> solve_contact(const Neighbourhood& near, const Cone& cone,
                                                const ToolPose& pose, double v, int ruling,
                                                Slope low, Slope high) {
@@ -96,7 +96,7 @@ tl::expected<Contact, ErrorCode> solve_contact(const Neighbourhood& near, const 
     double delta = a + distance.least();
     if (i >= kCubics || !(delta > a && delta < b))
       delta = b - high.value * (b - a) / (high.value - low.value);
-    if (!(delta > a && delta < b)) break;  // no double is left between them
+    if (!(delta > a && delta < b)) break;  // no double is between them
     TRY(const auto between,
         neighbour(*near.joint, near.omega, delta, toe_near(first, last, delta)));
     Slope here = slope_at(near, cone, pose, between, v);
@@ -129,9 +129,9 @@ tl::expected<Contact, ErrorCode> contact_at(const Neighbourhood& near, const Con
   Slope low = slope(deepest - 1), middle = slope(deepest), high = slope(deepest + 1);
   // A guard that has never fired, at any pitch up to 45 deg in 7320 random positions. The flank is
   // convex and the groove bends less between two rulings than the flank does (d'' of section 7 is
-  // some hundred mm), so the distance is convex along omega around its least value, and the rulings
-  // beside the deepest of three have slopes of either sign. Only a groove wavier than the pitch
-  // could differ; then no contact line can be trusted.
+  // some hundred mm), so the distance is convex along omega around its minimum, and the rulings
+  // next to the deepest of three have slopes of either sign. Only a groove wavier than the pitch
+  // could differ; then no contact line is reliable.
   if (!(low.value < 0.0 && high.value > 0.0)) return tl::unexpected(ErrorCode::contact);
   if (middle.value == 0.0) return middle.contact;
   return middle.value > 0.0 ? solve_contact(near, cone, pose, v, deepest - 1, low, middle)
@@ -151,7 +151,7 @@ tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle o
   const int reach = ruling_reach(check);
   out.rulings.reserve(std::size_t(2 * reach + 1));
   out.samples.reserve(std::size_t(2 * reach + 1) * std::size_t(check.points));
-  std::optional<double> near;  // D of the ruling before, and its way on
+  std::optional<double> near;  // D of the ruling before, and its extrapolation
   for (int m = -reach; m <= reach; ++m) {
     if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
     TRY(const auto found, neighbour(joint, omega, m * check.pitch.rad(), near));

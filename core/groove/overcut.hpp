@@ -10,18 +10,18 @@
 
 namespace tubecut::groove {
 
-/// How one position is looked at.
+/// The sampling and limit of the check of one position.
 struct GapCheck {
   int points = 11;                // per ruling, v = i / (points - 1), 3..101
-  Angle window = Angle::deg(40);  // neighbouring rulings considered to either side, <= 90 deg
+  Angle window = Angle::deg(40);  // range of neighbouring rulings to either side, <= 90 deg
   Angle pitch = Angle::deg(1);    // of those rulings, 0 < pitch <= window
-  double qualify = 0.5;           // over- and undercut must stay below, mm
+  double qualify = 0.5;           // limit of over- and undercut, mm
 };
 
-/// Rulings to either side of the section's own.
+/// Returns the number of rulings to either side of the section's own.
 [[nodiscard]] int ruling_reach(const GapCheck& check);
 
-/// The rulings around a section, placed in its half plane; made once and read by every trial
+/// The rulings around a section, placed in its half plane; computed once and read by every trial
 /// position.
 struct Neighbourhood {
   struct Neighbour {
@@ -41,8 +41,8 @@ struct Neighbourhood {
 [[nodiscard]] tl::expected<Neighbourhood, ErrorCode> neighbourhood(
     const Joint& joint, Angle omega, const GapCheck& check, const std::stop_token& stop = {});
 
-/// The source's figures: the ruling that holds the deepest point, read at its points. They miss
-/// what lies between rulings.
+/// The source's figures: the ruling that contains the deepest point, read at its points. They omit
+/// the surface between rulings.
 struct GridFigures {
   double over = 0.0, under = 0.0;                                  // mm, both >= 0
   [[nodiscard]] double objective() const { return over + under; }  // (16)
@@ -50,8 +50,8 @@ struct GridFigures {
 [[nodiscard]] GridFigures grid_figures(const Neighbourhood& near, const Cone& cone,
                                        const ToolPose& pose);
 
-/// Where one level v of the groove touches the flank at one position: the least distance over all
-/// neighbouring rulings.
+/// The contact of one level v of the groove with the flank at one position: the smallest distance
+/// over all neighbouring rulings.
 struct Contact {
   double gap = 0.0;       // mm, < 0 overcut
   double delta = 0.0;     // offset of the ruling touched, rad
@@ -68,9 +68,9 @@ struct Gap {
   [[nodiscard]] bool qualified(double limit) const { return over < limit && under < limit; }
 };
 
-/// The contact line of a position.
+/// Computes the contact line of a position.
 ///
-/// Errors    window (a least distance on the border), contact, those of `section`.
+/// Errors    window (a smallest distance on the border), contact, those of `section`.
 /// Accuracy  gap 1e-10 mm (the minimiser enters in second order); worst seen 1.1e-13 against the
 ///           golden file's 40 digits.
 /// Cost      about 12 us for 81 rulings of 11 points: two or three sections a level.

@@ -7,9 +7,9 @@
 namespace tubecut::groove {
 namespace {
 
-/// Solves m[i-1] + 4 m[i] + m[i+1] = rhs[i] round the turn. The system's inverse is a sum of two
-/// decaying geometric series with ratio sqrt(3) - 2, so one sweep forward and one back, each closed
-/// over the turn, are exact.
+/// Solves m[i-1] + 4 m[i] + m[i+1] = rhs[i] around one revolution. The system's inverse is a sum of
+/// two decaying geometric series with ratio sqrt(3) - 2, so one sweep forward and one back, each
+/// closed over the revolution, are exact.
 std::vector<double> solve_round(std::vector<double> rhs) {
   const std::size_t n = rhs.size();
   const double ratio = std::sqrt(3.0) - 2.0;
@@ -18,7 +18,7 @@ std::vector<double> solve_round(std::vector<double> rhs) {
   const auto sweep = [&](auto index) {
     double carry = 0.0;
     for (std::size_t i = 0; i < n; ++i) carry = rhs[index(i)] + ratio * carry;
-    carry /= 1.0 - turn;  // the value before the first, seen from a turn later
+    carry /= 1.0 - turn;  // the value before the first, one revolution later
     for (std::size_t i = 0; i < n; ++i) carry = rhs[index(i)] = rhs[index(i)] + ratio * carry;
   };
   sweep([](std::size_t i) { return i; });

@@ -5,21 +5,21 @@
 
 namespace tubecut::groove {
 
-/// The periodic cubic spline through values at equal steps of one turn; four or more values.
+/// The periodic cubic spline through values at equal steps of one revolution; four or more values.
 class PeriodicSpline {
  public:
   explicit PeriodicSpline(std::vector<double> values);
 
   [[nodiscard]] std::size_t count() const { return values_.size(); }
-  /// Value at `station` steps from the first value; any real number.
+  /// Computes the value at `station` steps from the first value; any real number.
   ///
   /// Accuracy  (5/384) of the fourth difference of a smooth function.
   [[nodiscard]] double operator()(double station) const;
-  /// Its derivative, per step.
+  /// Computes its derivative, per step.
   [[nodiscard]] double slope(double station) const;
 
  private:
-  /// Where a station lies: between values i and j, the share t of the way.
+  /// The position of a station: between values i and j, at the fraction t.
   struct Place {
     std::size_t i, j;
     double t;

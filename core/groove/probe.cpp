@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kSamePlace = 1e-12;  // rad
 
-/// The axes at `omega` of the linear motion from position to position.
+/// Returns the axes at `omega` of the linear motion from position to position.
 AxisPosition on_path(const std::vector<MillPosition>& all, double omega) {
   const auto after = std::ranges::upper_bound(all, omega + kSamePlace, {},
                                               [](const MillPosition& p) { return p.omega.rad(); });
@@ -37,7 +37,7 @@ AxisPosition on_path(const std::vector<MillPosition>& all, double omega) {
   return out;
 }
 
-/// A point of the surface in the half plane of a section that is `delta` away.
+/// Transforms a point of the surface into the half plane of a section that is `delta` away.
 Eigen::Vector3d in_half_plane(const Eigen::Vector3d& p, double delta) {
   const double radial = elementary::hypot(p.x(), p.y());
   const auto [sin, cos] = elementary::sincos(delta);
@@ -61,7 +61,7 @@ Result<Probed> probed(const Joint& joint, const MillPathSpec& spec, const MillPa
   return out;
 }
 
-/// Of all contact lines the place that goes before all others by `deeper`.
+/// Returns the point of all contact lines that is first in the order `deeper`.
 template <class Deeper>
 Deepest deepest(const MillPath& path, ContactLine MillPosition::*line, Deeper deeper) {
   Deepest out;

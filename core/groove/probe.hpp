@@ -8,21 +8,23 @@
 
 namespace tubecut::groove {
 
-/// A point of the groove's surface, seen from the mill where it stands at `omega`.
+/// A point of the groove's surface, and the position `omega` of the mill.
 struct ProbePoint {
   Angle omega;     // of the tool
   Angle ruling;    // of the point
   double v = 0.0;  // from curve 3 to curve 4
 };
 
-/// Its distance (14) to the unbounded flank of the mill, < 0 where it is cut away.
+/// Its distance (14) to the unbounded flank of the mill, < 0 if it is cut away.
 struct Probed {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // mm, in the branch's frame
-  double before = 0.0, after = 0.0;  // mm; from the initial position of that section, on the path
-  AxisPosition at_before = {}, at = {};  // that they are of
+  double before = 0.0,
+         after = 0.0;  // mm; from the initial position of that section, and from the path
+  AxisPosition at_before = {}, at = {};  // the positions of the two
 };
 
-/// Where along a path the flank goes deepest into the surface, and where it misses it most (15).
+/// The points along a path where the flank cuts deepest into the surface, and where it leaves most
+/// (15).
 struct Deepest {
   ProbePoint at;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -37,7 +39,7 @@ struct Probe {
   DeepestPlaces before, after;  // of the contact lines of all positions
 };
 
-/// Between two positions of the path the machine's axes run linearly.
+/// Computes the probes. Between two positions of the path the machine's axes run linearly.
 ///
 /// Errors    those of `section` (member "probe/i"); cancelled.
 /// Accuracy  distances 1e-10 mm.
@@ -47,7 +49,7 @@ struct Probe {
                                   const std::vector<ProbePoint>& asked,
                                   const std::stop_token& stop = {});
 
-/// Distances found again in the branch's frame, from the cone's apex angle.
+/// Recomputes the distances in the branch's frame, from the cone's apex angle.
 [[nodiscard]] Check verify(const MillPathSpec& spec, const std::vector<ProbePoint>& asked,
                            const Probe& probe, const std::stop_token& stop = {});
 

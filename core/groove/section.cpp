@@ -11,7 +11,7 @@
 namespace tubecut::groove {
 namespace {
 
-/// The chord seen in one section: y over x and its derivatives.
+/// The chord in one section: y over x and its derivatives.
 struct ChordLine {
   const Joint& joint;
   Direction dir;
@@ -35,7 +35,7 @@ struct ChordLine {
     return (-along * joint.cos_a + t * x * dir.sin / q - along * along * R * R / (q * q * q)) /
            joint.sin_a;
   }
-  /// How far out the section line reaches before the chord's silhouette.
+  /// Returns how far out the section line extends before the chord's silhouette.
   [[nodiscard]] double reach() const {
     if (dir.sin == 0.0) return std::numeric_limits<double>::infinity();
     const double side = dir.sin > 0.0 ? -joint.eccentricity : joint.eccentricity;
@@ -43,7 +43,7 @@ struct ChordLine {
   }
 };
 
-/// P2 at distance D outward of P1.
+/// Places P2 at distance D outward of P1.
 void place_p2(const ChordLine& chord, double D, Toe& toe) {
   toe.D = D;
   toe.x2 = toe.x1 + D;
@@ -54,8 +54,8 @@ void place_p2(const ChordLine& chord, double D, Toe& toe) {
   toe.slope2 = chord.slope(toe.t2, toe.q2);
 }
 
-/// D^2 + dy^2 = c^2 within (0, reach]: Newton while it stays in the bracket, bisection else and
-/// after 50 steps, until the distance is c but for its rounding.
+/// Solves D^2 + dy^2 = c^2 within (0, reach]: Newton while it stays in the bracket, else bisection,
+/// as well as after 50 steps, until the distance is c except for its rounding.
 bool solve_p2(const ChordLine& chord, std::optional<double> near, Toe& toe) {
   constexpr int kNewtonSteps = 50, kSteps = 120;  // 70 halvings leave less than 1e-21 c
   constexpr double kRounding = 2e-15;             // of c^2
@@ -80,7 +80,7 @@ bool solve_p2(const ChordLine& chord, std::optional<double> near, Toe& toe) {
   return true;
 }
 
-/// theta - sin theta, without cancellation.
+/// Computes theta - sin theta, without cancellation.
 double bulge(double theta) {
   if (theta > 0.7) return theta - elementary::sin(theta);
   const double s = theta * theta;
@@ -105,7 +105,7 @@ struct AreaAt {
   double slope = 0.0;  // its derivative by omega
 };
 
-/// Steps of the area's factors from omega = 0.
+/// Returns the steps of the area's factors from omega = 0.
 double station(const PeriodicSpline& factors, Direction dir) {
   return elementary::atan2(dir.sin, dir.cos) / kTwoPi * static_cast<double>(factors.count());
 }
@@ -117,7 +117,7 @@ AreaAt area_at(const Joint& joint, Direction dir) {
   return {joint.area * factors(at), joint.area * factors.slope(at) * per_turn / kTwoPi};
 }
 
-/// d S_C / d omega, given D' .
+/// Computes d S_C / d omega from D'.
 double bow_slope(const Joint& joint, Direction dir, const Toe& toe, double D_d) {
   if (dir.sin == 0.0) return 0.0;
   const double R = joint.chord_radius;
@@ -146,9 +146,9 @@ tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir, std::optiona
   toe.slope1 = chord.slope(toe.t1, toe.q1);
   if (!solve_p2(chord, near, toe)) return tl::unexpected(ErrorCode::no_p2);
   toe.y2 = toe.y1 + toe.dy;
-  // The chord is concave over x, so distance from P1 surely grows along it while it turns by less
-  // than a right angle. With a right angle and no eccentricity both slopes have one sign and it
-  // always does; a steep heel and a thick wall turn further.
+  // The chord is concave over x, so the distance from P1 grows along it for certain while it turns
+  // by less than a right angle. At a right angle without eccentricity, both slopes have one sign
+  // and this always holds; a steep heel and a thick wall turn further.
   if (!(1.0 + toe.slope1 * toe.slope2 > 0.0)) return tl::unexpected(ErrorCode::p2_ambiguous);
   measure_bow(joint, dir, toe);
   return toe;

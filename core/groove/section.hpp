@@ -15,8 +15,9 @@ struct Direction {
   double cos = 1.0;
 };
 
-/// The direction of a section. An angle within its own rounding (4e-16 rad per turn) of a quarter
-/// turn is that quarter turn, so that the two longitudinal sections are exactly so.
+/// Returns the direction of a section. If an angle is within its own rounding (4e-16 rad per
+/// revolution) of a quarter turn, it is that quarter turn, so that the two longitudinal sections
+/// are exact.
 [[nodiscard]] Direction direction(Angle omega);
 
 /// The weld's two ends on the chord, P1 and P2, in section coordinates: x from the branch axis, y
@@ -50,7 +51,7 @@ struct Section {
   double D_d = 0.0;       // d D / d omega, mm/rad
 };
 
-/// P1, P2 and the bow of the section in direction `dir`; `near` is a guess of D, mm.
+/// Computes P1, P2 and the bow of the section in direction `dir`; `near` is a guess of D, mm.
 ///
 /// Errors    no_p2, p2_ambiguous.
 /// Accuracy  |P1 P2| = c and both points on the chord within 1e-13 (R + r) / sin(alpha); worst seen
@@ -61,8 +62,8 @@ struct Section {
 [[nodiscard]] tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir,
                                                std::optional<double> near = {});
 
-/// The whole section: closed-form height and derivatives. The signs that make it a groove are
-/// checked by `survey`.
+/// Computes the whole section: closed-form height and derivatives. `survey` checks the signs that
+/// make it a groove.
 ///
 /// Errors    as `toe`.
 /// Accuracy  1e-12 relative; worst seen 1.6e-15 against the golden file's 34 digits.
@@ -70,21 +71,21 @@ struct Section {
 [[nodiscard]] tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
                                                        std::optional<double> near = {});
 
-/// The chord's outer surface in the section in direction `dir`, over x from the branch axis; beyond
-/// its silhouette there is none. mm
+/// Computes the chord's outer surface in the section in direction `dir`, over x from the branch
+/// axis; empty beyond its silhouette. mm
 [[nodiscard]] std::optional<double> chord_height(const Joint& joint, Direction dir, double x);
 
-/// Filler area of the axial section that a groove of this height has there.
+/// Computes the filler area of the axial section of a groove of this height there.
 [[nodiscard]] double filler_area(const Joint& joint, const Toe& toe, double height);
 
 [[nodiscard]] Areas areas(const Joint& joint, const Section& section);
 
-/// What the joint's area is multiplied by to give that of the axial section: 1 unless its areas are
+/// Returns the factor from the joint's area to that of the axial section: 1 unless its areas are
 /// equal in normal sections.
 [[nodiscard]] double axial_factor(const Joint& joint, Direction dir);
 
-/// 1 / cos psi: the axial section's area over the normal one's, to first order in the seam's
-/// curvature.
+/// Returns 1 / cos psi: the axial section's area over the normal one's, to first order in the
+/// seam's curvature.
 [[nodiscard]] double first_order_factor(const Joint& joint, Direction dir, const Toe& toe);
 
 }  // namespace tubecut::groove

@@ -12,8 +12,8 @@ Eigen::Vector3d at(const Section& section, double s, double z) {
   return {-section.dir.sin * s, section.dir.cos * s, z};
 }
 
-/// First moment of the bow about the branch axis, mm^3. The circle segment it is the affine image
-/// of has the first moment chord^3 / 12 along its bisector.
+/// Computes the first moment of the bow about the branch axis, mm^3. The bow is the affine image of
+/// a circle segment, whose first moment is chord^3 / 12 along its bisector.
 double bow_moment(const Joint& joint, const Section& section) {
   const Direction dir = section.dir;
   const Toe& p = section.toe;
@@ -24,7 +24,7 @@ double bow_moment(const Joint& joint, const Section& section) {
   return (chord * chord * chord / 12.0 * bisector_t / scale - joint.eccentricity * p.bow) / dir.sin;
 }
 
-/// Normal S_w x d in (radial, tangential, axial) components, not of unit length.
+/// Computes the normal S_w x d in (radial, tangential, axial) components, not of unit length.
 Eigen::Vector3d normal_at(const Joint& joint, const Section& section, double v) {
   const double H = joint.groove_width;
   const double s = joint.root_radius + v * H;

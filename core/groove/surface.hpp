@@ -16,26 +16,27 @@ struct CurvePoints {
   Eigen::Vector3d c4;  // groove edge, on the branch's outside
 };
 
-/// How far the ruling at one section is from lying in a developable surface.
+/// The deviation of the ruling at one section from a developable surface.
 struct Ruling {
-  double determinant = 0.0;  // det(C3', d, d'), mm^3; 0 all round <=> developable
+  double determinant = 0.0;  // det(C3', d, d'), mm^3; 0 everywhere <=> developable
   Angle twist;               // between the normals at C3 and C4, sign of the determinant
 };
 
 /// Source  docs/theory/grooves-and-milling.md, (1)-(4).
 [[nodiscard]] CurvePoints curve_points(const Joint& joint, const Section& section);
 
-/// Point of the groove surface (12): v = 0 on curve 3, v = 1 on curve 4.
+/// Computes a point of the groove surface (12): v = 0 on curve 3, v = 1 on curve 4.
 [[nodiscard]] Eigen::Vector3d surface_point(const Joint& joint, const Section& section, double v);
 
 /// Source  docs/theory/grooves-and-milling.md, 5.
 [[nodiscard]] Ruling ruling(const Joint& joint, const Section& section);
 
-/// Filler between this section and its neighbour per radian of omega: the first moment of the
-/// filler area about the branch axis (Guldin), mm^3/rad, for a groove edge `height` above P1.
+/// Computes the filler between this section and its neighbour per radian of omega: the first moment
+/// of the filler area about the branch axis (Guldin), mm^3/rad, for a groove edge `height` above
+/// P1.
 [[nodiscard]] double volume_rate(const Joint& joint, const Section& section, double height);
 
-/// Angle of the groove line to the branch axis.
+/// Computes the angle of the groove line to the branch axis.
 [[nodiscard]] Angle groove_angle(const Joint& joint, const Section& section);
 
 }  // namespace tubecut::groove

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFlattestGroove = 80.0, kSteepestGroove = 10.0;  // deg to the branch axis
 
-/// Where a property holds among the sections: enough for one warning.
+/// The number of sections with a property and the first of them: enough for one warning.
 struct Seen {
   int count = 0;
   Angle first;
@@ -46,7 +46,7 @@ class Surveyor {
     sums_.height_min = sums_.angle_min = std::numeric_limits<double>::infinity();
   }
 
-  /// The first section that is no groove is kept with its code.
+  /// Keeps the first section that is not a groove, with its code.
   void add(const Section& section) {
     if (const auto code = fault(joint_, section); code && !bad_) bad_ = Bad{*code, section};
     const Toe& p = section.toe;

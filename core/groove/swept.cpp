@@ -13,25 +13,25 @@ namespace {
 
 constexpr double kFarAway = std::numeric_limits<double>::infinity();
 constexpr double kSearched =
-    1e-6;  // mm; a search between blocks errs by less, and so do its bounds
+    1e-6;  // mm; the error of a search between blocks, and of its bounds, is smaller
 
-/// Where a point lies among those looked at.
+/// The position of a sampled point.
 struct At {
   int ruling = 0, level = 0;
 };
 
-/// A point and what its value is known not to be below.
+/// A point and a lower bound of its value.
 struct Bounded {
   double bound = 0.0;
   At at;
-  bool tight = true;  // false: `range` would bound it better
+  bool tight = true;  // false: `range` gives a better bound
   [[nodiscard]] bool operator<(const Bounded& other) const {
-    if (bound != other.bound) return bound > other.bound;  // the least on top of the heap
+    if (bound != other.bound) return bound > other.bound;  // the smallest on top of the heap
     return std::pair(at.ruling, at.level) > std::pair(other.at.ruling, other.at.level);
   }
 };
 
-/// Least distances of all points, asked for only where their bounds leave something to win.
+/// Smallest distances of all points, computed only if their bounds can change the result.
 class Sweep {
  public:
   Sweep(const Joint& joint, const SweptPoints& points, ToolMotion motion)
@@ -84,7 +84,7 @@ class Sweep {
     const LeastRange flank = motion_.range(p, Part::flank, motion_.at_blocks(p, Part::flank));
     deepest_.push_back({flank.low, at});
     highest_.push_back({-flank.met.value, at});
-    // Where the flank comes deepest the cutter itself comes no less than to its distance there.
+    // The cutter itself cuts at most as deep as its distance where the flank is deepest.
     left_.push_back({-motion_.distance(p, Part::solid, flank.met.station), at, false});
   }
 
@@ -93,8 +93,8 @@ class Sweep {
     root_.push_back({motion_.range(p, Part::solid, motion_.at_blocks(p, Part::solid)).low, at});
   }
 
-  /// The least of `sign` times the values, the first of equals: from the least bound on, until none
-  /// that is left can be less.
+  /// Returns the smallest of `sign` times the values, the first of equals: from the smallest bound
+  /// on, until no other can be smaller.
   template <class PointAt>
   Extreme extreme(std::vector<Bounded> heap, const PointAt& point_at, Part part, double sign,
                   const std::stop_token& stop) {

@@ -10,21 +10,21 @@
 
 namespace tubecut::groove {
 
-/// One emitted position: linear axes against omega, B without jumps of a turn. Ascending omega
-/// within one turn; the last block runs on into the first.
+/// One emitted position: linear axes against omega, B continuous. Ascending omega within one
+/// revolution; after the last block follows the first.
 struct Block {
   double omega = 0.0;       // rad
   double x = 0.0, z = 0.0;  // mm
   double b = 0.0;           // rad
 };
 
-/// What the tool does between two blocks.
+/// The tool's motion between two blocks.
 enum class Between : std::uint8_t {
-  nothing,  // it cuts at the blocks alone, as the source's figures assume
+  nothing,  // it cuts only at the blocks, as the source's figures assume
   linear,   // every axis runs linearly
 };
 
-/// An extreme figure and where it is met.
+/// An extreme figure and its position.
 struct Extreme {
   double value = 0.0;    // mm
   Angle omega = {};      // of the point's ruling
@@ -32,32 +32,33 @@ struct Extreme {
   double station = 0.0;  // block index, with its fraction, of the tool that cuts deepest there
 };
 
-/// What a whole revolution leaves on the workpiece: distances to the deepest of all tool positions.
+/// The workpiece after a whole revolution: distances to the deepest of all tool positions.
 struct Swept {
   Extreme flank_min, flank_max;  // unbounded flank; min < 0 overcut, max > 0 uncut
   Extreme stock_left_max;        // finite cutter, on the groove surface
   Extreme root_face_min;         // finite cutter, on the root face; < 0: cut into
 };
 
-/// The points `swept` looks at.
+/// The points at which `swept` samples.
 struct SweptPoints {
   int rulings = 360;
   int per_ruling = 11;  // v = i / (n - 1)
   int root_levels = 9;  // of the root face, from curve 3 to its bottom
 };
 
-/// Tool at a station: block index with its fraction.
+/// Returns the tool at a station: block index with its fraction.
 [[nodiscard]] Block block_at(std::span<const Block> blocks, double station);
 [[nodiscard]] ToolPose pose_of(const Block& block, const Setup& setup);
 
-/// Swept error of the flank, stock left and root-face clearance.
+/// Computes the swept error of the flank, the stock left and the root-face clearance.
 ///
 /// Errors    of `section`; cancelled.
-/// Accuracy  at each point looked at, the least distance over the motion within 1e-7 mm; between
-///           the points nothing is said (a ruling per degree misses less than 4 % of a case's
+/// Accuracy  at each sampled point, the smallest distance over the motion within 1e-7 mm; there is
+///           no guarantee between the points (a ruling per degree misses less than 4 % of a case's
 ///           figure).
 /// Cost      about 4 ns for each point and block within a quarter turn of it, one or two distances
-///           between the blocks of each, and a search there for the few that bounds leave: 5-15 ms.
+///           between the blocks of each, and a search for the few that the bounds do not decide:
+///           5-15 ms.
 /// Source    docs/theory/grooves-and-milling.md, 7 and 8.4.
 [[nodiscard]] tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone,
                                                    const Setup& setup,

@@ -9,12 +9,13 @@
 namespace tubecut::groove {
 namespace {
 
-constexpr double kNear = 0.25 * kTwoPi;  // tools further round than this do not reach a ruling
+constexpr double kNear = 0.25 * kTwoPi;  // tools further around than this do not reach a ruling
 // Steps of a golden section between two blocks. The flank's minimum is a parabola, the finite
 // cutter's may be a corner.
-constexpr int kSmoothSteps = 21;    // leaves 4e-5 of a block
-constexpr int kCornerSteps = 37;    // leaves 2e-8 of a block
-constexpr double kRounding = 1e-9;  // mm, of a distance; far above it at any size that is read
+constexpr int kSmoothSteps = 21;  // accurate to 4e-5 of a block
+constexpr int kCornerSteps = 37;  // accurate to 2e-8 of a block
+constexpr double kRounding =
+    1e-9;  // mm, of a distance; far above the actual rounding at any permitted size
 
 /// A tool with the direction of its section.
 struct Station {
@@ -32,7 +33,7 @@ Station station_of(const Block& block, const Setup& setup) {
   return {{s, c}, pose_of(block, setup)};
 }
 
-/// First of the least values of the first `count`.
+/// Returns the first of the smallest of the first `count` values.
 Eigen::Index least_of(const Eigen::ArrayXd& values, Eigen::Index count) {
   const double least = values.head(count).minCoeff();
   Eigen::Index i = 0;
@@ -40,8 +41,8 @@ Eigen::Index least_of(const Eigen::ArrayXd& values, Eigen::Index count) {
   return i;
 }
 
-/// Least value along a line whose ends have distances `a` and `b` and slopes there: no tangent of a
-/// convex function rises above it.
+/// Returns a lower bound along a line whose ends have distances `a` and `b` and slopes there,
+/// because no tangent of a convex function rises above it.
 double above_tangents(double a, double slope_a, double b, double slope_b) {
   if (slope_a >= 0.0) return a;
   if (slope_b <= 0.0) return b;
@@ -106,8 +107,8 @@ Least ToolMotion::at_blocks(const WorkPoint& p, Part part) {
   return {distance_[i], double((first_ + i) % Eigen::Index(blocks_.size()))};
 }
 
-/// The flank and both faces bound the cutter by planes, so its distance is at least the largest of
-/// theirs: it is asked for only where that is below the least so far.
+/// The planes of the flank and both faces bound the cutter, so its distance is at least the largest
+/// of theirs: it is computed only if that is below the minimum so far.
 Least ToolMotion::least_solid() {
   const auto along = along_.head(count_);
   distance_.head(count_) = distance_.head(count_).max(-along).max(along - cone_.length);
@@ -150,7 +151,7 @@ Least ToolMotion::by_golden_section(const WorkPoint& point, Part part, double lo
 Least ToolMotion::over_motion(const WorkPoint& point, Part part) {
   Least best = at_blocks(point, part);
   if (between_ == Between::nothing) return best;
-  // One by one: at the block the motion has a corner.
+  // One by one, because the motion has a corner at the block.
   const double block = best.station;
   for (const double low : {block - 1.0, block}) {
     const Least found = by_golden_section(point, part, low);
@@ -164,7 +165,7 @@ ToolMotion::Place ToolMotion::place(const WorkPoint& point, Part part, double t)
   const Eigen::Vector3d p = at.seen(point);
   const auto [rho, l, across] = Cone::meridian(at.pose, p);
   const Cone::Rise rise = part == Part::flank ? cone_.flank_rise() : cone_.solid_rise(rho, l);
-  const double out = rho > 0.0 ? rise.by_rho / rho : 0.0;  // on the axis 0 is a subgradient
+  const double out = rho > 0.0 ? rise.by_rho / rho : 0.0;  // on the axis, 0 is a subgradient
   return {{across, p.y(), l},
           {out * across, out * p.y(), rise.by_l},
           part == Part::flank ? cone_.flank(rho, l) : cone_.solid(rho, l),
@@ -181,8 +182,8 @@ ToolMotion::Step ToolMotion::step_from(double block) const {
           b.b - a.b};
 }
 
-/// Of the point in the tool's frame, per block: the ruling turns against the section, the pivot
-/// runs straight, the axis leans.
+/// Computes the velocity of the point in the tool's frame, per block: the ruling turns against the
+/// section, the pivot runs straight, the axis tilts.
 Eigen::Vector3d ToolMotion::velocity(const Place& at, const Step& step) const {
   const double sign = setup_.mount == Mount::end_up ? -1.0 : 1.0;
   const Eigen::Vector2d& axis = at.axis;
@@ -195,7 +196,7 @@ Eigen::Vector3d ToolMotion::velocity(const Place& at, const Step& step) const {
           s * axis.x() + from_s * lean.x() + z * axis.y() + from_z * lean.y()};
 }
 
-/// Bound of the acceleration, per square of a block, of a point in the tool's frame.
+/// Returns a bound of the acceleration, per square of a block, of a point in the tool's frame.
 double ToolMotion::acceleration(const WorkPoint& point, const Place& at_one_end,
                                 const Step& step) const {
   const double lean = std::abs(step.lean), turn = step.turn;
@@ -204,9 +205,10 @@ double ToolMotion::acceleration(const WorkPoint& point, const Place& at_one_end,
   return lean * lean * arm + 2.0 * lean * way + turn * turn * point.s;
 }
 
-/// What the flank's distance bends at least by, per square of a block, between two places a block
-/// apart: the point's way past the axis bends its distance from that, its acceleration takes away
-/// no more than all of itself. Not above zero where nothing is known.
+/// Returns a lower bound of the second derivative of the flank's distance, per square of a block,
+/// between two places at one block's distance: the point's path past the axis bends its distance
+/// from that, and its acceleration removes at most its whole magnitude. Returns at most 0 if there
+/// is no bound.
 double ToolMotion::bend(const Place& from, const Place& to, double acceleration) const {
   const Eigen::Vector2d line = to.at.head<2>() - from.at.head<2>();
   const Eigen::Vector2d half_way = 0.5 * (to.at.head<2>() + from.at.head<2>());

@@ -14,54 +14,55 @@ struct WorkPoint {
   double s = 0.0, z = 0.0;  // mm
 };
 
-/// Which distance of the cutter is asked for.
+/// Selects the distance to the flank or to the whole cutter.
 enum class Part : std::uint8_t { flank, solid };
 
-/// The least of a distance over the motion and where it is met.
+/// The minimum of a distance over the motion and its position.
 struct Least {
   double value = 0.0;    // mm
   double station = 0.0;  // block index, with its fraction
 };
 
-/// What a least distance over the motion cannot be below, and a distance that is met.
+/// A lower bound of the minimum distance over the motion, and a distance that occurs.
 struct LeastRange {
   double low = 0.0;
   Least met = {};
 };
 
-/// A tool on its way round a workpiece, looked at from one ruling after another: every block within
+/// A tool on its path around a workpiece, relative to one ruling after another: every block within
 /// a quarter turn of it, in arrays.
 class ToolMotion {
  public:
   ToolMotion(const Cone& cone, const Setup& setup, std::span<const Block> blocks, Between between);
 
-  /// From here on points lie on the ruling in direction `dir` at `omega`.
+  /// Selects the ruling in direction `dir` at `omega` for the following points.
   void look_at(double omega, Direction dir);
 
-  /// The least distance over the blocks.
+  /// Computes the minimum distance over the blocks.
   [[nodiscard]] Least at_blocks(const WorkPoint& point, Part part);
 
-  /// The least distance over the motion: at the blocks, then by golden section in both segments
-  /// beside the best of them, where the distance falls and rises once.
+  /// Computes the minimum distance over the motion: at the blocks, then by golden section in both
+  /// segments next to the best of them, where the distance falls and rises once.
   ///
   /// Accuracy  1e-7 mm.
   [[nodiscard]] Least over_motion(const WorkPoint& point, Part part);
 
-  /// Bounds of `over_motion` where `at_blocks` is known: one or two distances in place of the
+  /// Computes bounds of `over_motion` from a known `at_blocks`: one or two distances instead of the
   /// search.
   ///
   /// A distance to a cone or a cutter is convex, so a tangent bounds it from below along the
-  /// straight line between two places of the point in the tool's frame; the point's way leaves that
-  /// line by no more than its greatest acceleration times an eighth of the square of the step.
+  /// straight line between two positions of the point in the tool's frame; the point's path
+  /// deviates from that line by at most its largest acceleration times an eighth of the square of
+  /// the step.
   ///
-  /// Accuracy  rounding below 1e-8 mm left out.
+  /// Accuracy  without rounding, which is below 1e-8 mm.
   [[nodiscard]] LeastRange range(const WorkPoint& point, Part part, const Least& best) const;
 
-  /// Distance at one station.
+  /// Computes the distance at one station.
   [[nodiscard]] double distance(const WorkPoint& point, Part part, double station) const;
 
  private:
-  /// A point in the tool's frame, its distance and how that changes.
+  /// A point in the tool's frame, its distance and the derivative of that.
   struct Place {
     Eigen::Vector3d at = {};     // across the axis in the section's plane, out of it, along
     Eigen::Vector3d slope = {};  // a subgradient
@@ -90,9 +91,9 @@ class ToolMotion {
   const Setup& setup_;
   std::span<const Block> blocks_;
   Between between_;
-  // Of every block, twice round, so that a window never wraps.
+  // For every block, twice around, so that a window never wraps.
   Eigen::ArrayXd sin_, cos_, tip_s_, tip_z_, axis_s_, axis_z_;
-  // Of the blocks in the window: the ruling's direction from theirs, then one point's meridians.
+  // For the blocks in the window: the ruling's direction from theirs, then one point's meridians.
   Eigen::ArrayXd ahead_, aside_, rho_, along_, distance_;
   Eigen::Index first_ = 0, count_ = 0;
 };
