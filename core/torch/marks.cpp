@@ -8,12 +8,12 @@
 namespace tubecut::torch {
 namespace {
 
-/// A place on the outer wall, rad and mm.
+/// A point on the outer wall, rad and mm.
 struct Place {
   double phi = 0.0, z = 0.0;
 };
 
-/// Straight from one place to the other, by way of their middle.
+/// Returns a straight stroke from one point to the other, through their middle.
 TorchCut stroke(const joint::Target& tube, std::string name, Place from, Place to) {
   TorchCut out{.name = std::move(name), .path = {}, .mark = true};
   out.path = {.phi = {from.phi, 0.5 * (from.phi + to.phi), to.phi},

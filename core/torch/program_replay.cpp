@@ -23,7 +23,7 @@ using motion::EventKind;
 using motion::Worst;
 
 constexpr double kRounding = 1e-9;     // s, mm
-constexpr double kTabRounding = 2e-6;  // mm, what a tab's place is found within
+constexpr double kTabRounding = 2e-6;  // mm, tolerance of a tab's position
 
 /// The worst of checks of one name.
 class WorstOf {
@@ -48,7 +48,7 @@ class WorstOf {
   std::vector<One> all_ = {};
 };
 
-/// What is looked at: the program as it should be and the counts as they are.
+/// The input of the checks: the program as required and the counts as received.
 struct Looked {
   const ProgramSpec& spec;
   const std::vector<ProgramCut>& cuts;
@@ -58,7 +58,7 @@ struct Looked {
   std::stop_token stop;
 };
 
-/// Borders at which the list of segments is not that of the program.
+/// Returns the number of borders at which the list of segments differs from the program.
 double wrong_borders(const Looked& l) {
   const auto& segments = l.segments;
   auto expected = expected_segments(l.cuts);
@@ -75,13 +75,13 @@ double wrong_borders(const Looked& l) {
   return wrong + (at == static_cast<std::int64_t>(l.counted.periods) ? 0.0 : 1.0);
 }
 
-/// What switches a tool on and off.
+/// The events that switch a tool on and off.
 struct Switch {
   EventKind on = EventKind::torch_on, off = EventKind::torch_off;
 };
 constexpr Switch kTorch{}, kMarker{EventKind::mark_on, EventKind::mark_off};
 
-/// Periods of a stretch in which a tool is on, by the events alone.
+/// Returns the periods of a segment in which a tool is on, from the events only.
 std::int64_t lit(const Switch& tool, const std::vector<motion::Event>& events, std::int64_t from,
                  std::int64_t to) {
   std::int64_t out = 0, on = -1;
@@ -94,7 +94,8 @@ std::int64_t lit(const Switch& tool, const std::vector<motion::Event>& events, s
   return on < 0 ? out : out + std::max<std::int64_t>(0, to - std::max(from, on));
 }
 
-/// Periods of cuts and marks in which their tool is off, and of anything else in which one is on.
+/// Returns the periods of cuts and marks in which their tool is off, and of all other segments in
+/// which a tool is on.
 double wrongly_lit(const Looked& l) {
   std::int64_t out = 0;
   for (const auto& s : l.segments) {
@@ -107,7 +108,7 @@ double wrongly_lit(const Looked& l) {
   return static_cast<double>(out);
 }
 
-/// The stretch of a segment, with all pulses before it.
+/// Returns the counts of a segment, with all pulses before it.
 motion::Counted stretch(const motion::Counted& whole, const Segment& segment,
                         std::vector<std::int64_t> before) {
   const auto from = static_cast<std::size_t>(segment.from);
@@ -125,7 +126,7 @@ void add_up(const motion::Counted& stretch, const std::stop_token& stop,
       sums[a] += stretch.counts[a][k];
 }
 
-/// Between the cuts: where the pierce stands and for how long, how high the tip travels.
+/// Checks between the cuts: position and duration of the pierce, and the tip's height on the way.
 class Between {
  public:
   explicit Between(const Looked& l) : l_(l), machine_(l.spec.machine) {
@@ -159,8 +160,8 @@ class Between {
     see(delay_, asked - static_cast<double>(still(counted)) * counted.period, 0.0);
   }
 
-  /// The tip's height over the tube where more than that changes. Between two places B goes
-  /// straight, so that the tip hangs lower by no more than its bend.
+  /// Checks the tip's height over the tube while other axes move. Between two places B is linear,
+  /// so the tip is lower by at most its bend.
   void see_rapid(double radius, const motion::Counted& counted) {
     if (!lifts_) return;
     motion::AxisValues values(counted, machine_);
@@ -192,7 +193,8 @@ class Between {
     worst.see(worst_of({0.0, value}), limit + kRounding);
   }
 
-  /// Of the tip over the tube's axis, with nothing of what made the counts.
+  /// Computes the height of the tip over the tube's axis, independently of the code that made the
+  /// counts.
   [[nodiscard]] double height(const std::vector<double>& q) const {
     double pivot = 0.0;
     for (std::size_t a = 0; a < q.size(); ++a)
@@ -200,7 +202,7 @@ class Between {
     return pivot - pivot_ * elementary::cos(q[swing_] * kRadPerDeg);
   }
 
-  /// What rounding to pulses moves the tip's height by.
+  /// Returns the change of the tip's height by rounding to pulses.
   [[nodiscard]] double quantum() const {
     double out = 0.0;
     for (std::size_t a = 0; a < high_.size(); ++a) {
@@ -217,7 +219,7 @@ class Between {
     return false;
   }
 
-  /// Periods at the stretch's start without any pulse.
+  /// Returns the periods at the segment's start without any pulse.
   [[nodiscard]] std::size_t still(const motion::Counted& counted) const {
     for (std::size_t k = 0; k < counted.periods && !stops(l_.stop, k); ++k)
       for (const auto& counts : counted.counts)
@@ -226,7 +228,7 @@ class Between {
   }
 
   const Looked& l_;
-  motion::Machine machine_;  // its stand-off that of the pierce
+  motion::Machine machine_;  // with the standoff of the pierce
   double pivot_ = 0.0;
   bool lifts_ = false;
   std::vector<bool> high_ = {};
@@ -234,8 +236,8 @@ class Between {
   Worst pierce_ = {}, delay_ = {}, clear_ = {};
 };
 
-/// The metal of every tab by the counts: from the stretch that ends there to the one that goes on,
-/// or the first.
+/// Measures the metal of every tab from the counts: from the segment that ends there to the one
+/// that continues, or the first.
 class SeenTabs {
  public:
   explicit SeenTabs(const Looked& l) : l_(l) {
@@ -250,7 +252,7 @@ class SeenTabs {
     }
   }
 
-  /// The counts of a cut's segment; `turns`: of its winding.
+  /// Follows the counts of a cut's segment; `turns`: of its winding.
   void follow(std::size_t k, double turns, const motion::Counted& counted) {
     const auto& cut = l_.cuts[k];
     if (!cut.way.points.stretch) return;
@@ -272,7 +274,7 @@ class SeenTabs {
 
   /// Errors  those of torch_border.
   Result<void> report(WorstOf& out) const {
-    motion::PartBorder border;  // of the cut whose stretches these are
+    motion::PartBorder border;  // of the cut that these segments belong to
     for (std::size_t k = 0; k < l_.cuts.size(); ++k) {
       const auto& cut = l_.cuts[k];
       if (!cut.way.points.stretch) continue;
@@ -304,7 +306,7 @@ class SeenTabs {
   std::vector<Trail> trails_ = {};
 };
 
-/// All that can be told where the segments are the program's.
+/// Runs all checks that are possible if the segments are the program's.
 ///
 /// Errors  those of motion::prepare_cut.
 Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double& deviation) {

@@ -8,33 +8,35 @@
 
 namespace tubecut::torch {
 
-/// A program's schedule as it came back from outside.
+/// A program's schedule from outside.
 struct ProgramReplaySpec {
   ProgramSpec job = {};
-  double period = 0.0;                           // s
-  std::vector<std::vector<double>> counts = {};  // per axis of the machine; empty: the axis stands
-  std::vector<double> start = {};                // per axis, in its unit
+  double period = 0.0;  // s
+  std::vector<std::vector<double>> counts =
+      {};                              // per axis of the machine; empty: the axis is at rest
+  std::vector<double> start = {};      // per axis, in its unit
   std::vector<Segment> segments = {};  // kind, from and to: their cuts follow from their order
   std::vector<motion::Event> events = {};
 };
 
-/// The whole rebuilt from its counts: of every cut the invariants that hold it to its contour, the
-/// worst of them all; of all periods, borders of segments with them, those of limits; and of what
-/// is between the cuts
+/// Rebuilds the whole program from its counts. It checks the invariants of every cut against its
+/// contour (the worst of all cuts), the limits over all periods including borders of segments, and
+/// the motion between the cuts:
 ///
-///   segments_join     borders at which the list is not that of the program, or has gaps
-///   torch_lit         periods lit in a rapid or a mark, or dark in a cut; the marking tool
-///   likewise pierce_place      mm from where the pierce of the program is, its height with it
-///   pierce_delay      s that a pierce stands still for less than asked
-///   tab_width         mm by which a tab is narrower than asked, by the counts
-///   rapid_clearance   mm by which the tip is lower than asked while anything else moves
+///   segments_join     borders at which the list differs from the program, or has gaps
+///   torch_lit         periods lit in a rapid or a mark, or dark in a cut; also the marking tool
+///   pierce_place      mm from the pierce of the program, including its height
+///   pierce_delay      s by which a pierce is shorter than requested
+///   tab_width         mm by which a tab is narrower than requested, from the counts
+///   rapid_clearance   mm by which the tip is too low while anything else moves
 ///
 /// Errors  wrong_count, bad_number, and those of the job itself.
 /// Source  docs/theory/pulse-schedules.md, sections 9 and 11.
 [[nodiscard]] Result<motion::Replay> replay(const ProgramReplaySpec& spec,
                                             const std::stop_token& stop = {});
 
-/// The same on an own answer. One that does not even fit its request fails the check `replayable`.
+/// Checks the same on our own answer. If it does not fit its request, it fails the check
+/// `replayable`.
 [[nodiscard]] std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedule,
                                         const std::stop_token& stop = {});
 

@@ -17,10 +17,10 @@ namespace {
 
 using motion::EventKind;
 
-/// Periods at rest behind a leg: the third difference at its end sees no other.
+/// Periods at rest after a leg, so that the third difference at its end includes no other leg.
 constexpr std::int64_t kRest = 2;
 
-/// The name of its cut before what an error or warning tells.
+/// Returns the text of an error or warning with the name of its cut before it.
 std::string of_cut(const std::string& name, const std::string& text) {
   return name.empty() ? text : "cut " + name + (text.empty() ? "" : ": " + text);
 }
@@ -49,7 +49,7 @@ void add_uses(const std::vector<motion::Use>& uses, std::vector<motion::Use>& ou
   }
 }
 
-/// The cuts' reports as one, without marks: sums of times and lengths, else the worst.
+/// Combines the cuts' reports, without marks: sums of times and lengths, else the worst.
 class WholeReport {
  public:
   void add(const motion::Report& r) {
@@ -77,7 +77,7 @@ class WholeReport {
     larger(all.edges->inner, r.edges->inner);
   }
 
-  /// `time` in all; what goes beside the cuts is the same in every plan.
+  /// `time` is the total; the time between the cuts is the same in every plan.
   [[nodiscard]] motion::Report of_all(double time) const {
     motion::Report out = all_;
     const double beside = time - all_.time;
@@ -90,11 +90,11 @@ class WholeReport {
 
  private:
   motion::Report all_ = {};
-  double least_ = 0.0;  // s, no plan of the cuts is faster
+  double least_ = 0.0;  // s, lower bound of every plan of the cuts
   bool any_ = false;
 };
 
-/// mm/s, the least and the most that are asked for anywhere.
+/// mm/s, the smallest and the largest requested speed.
 struct Speeds {
   double least = 0.0, most = 0.0;
 };
@@ -111,8 +111,8 @@ motion::Speed speed_of(const ProgramSpec& spec, const TorchCut& cut) {
   return spec.motion.speed;
 }
 
-/// Periods of all ways at the fastest speed asked for, before any of them is planned: smoothing
-/// shortens them, but never by half.
+/// Checks the periods of all paths at the fastest requested speed before any of them is planned:
+/// smoothing shortens them by less than half.
 Result<void> check_periods(const ProgramSpec& spec, const std::vector<ProgramCut>& cuts) {
   double seconds = 0.0;
   for (const auto& cut : cuts) {
@@ -163,7 +163,7 @@ class Scheduling {
   motion::CutPoint first(const std::vector<ProgramCut>& cuts, std::size_t i) const {
     return stand_.counted(cuts[i].first(), turns_[i]);
   }
-  /// The axes where a cut's pierce, or a mark's stroke, begins.
+  /// Returns the axis values at the start of a cut's pierce, or of a mark's stroke.
   std::vector<double> over(const std::vector<ProgramCut>& cuts, std::size_t i) const {
     const auto at = first(cuts, i);
     return cuts[i].cut.mark ? stand_.cutting(at) : stand_.piercing(at);
@@ -185,7 +185,7 @@ class Scheduling {
     if (segment.kind == Segment::Kind::rapid) event(EventKind::rapid_end, segment.cut);
   }
 
-  /// One straight move and its rest, sampled.
+  /// Samples one straight move and its rest.
   Result<void> leg(motion::StraightMove move) {
     move.from = counter_.at();
     TRY(stand_.check(move.to));
@@ -207,7 +207,7 @@ class Scheduling {
     return {};
   }
 
-  /// Off the tube, turned and along it, and down again.
+  /// Moves off the tube, turns and moves along it, and down again.
   Result<void> go_to(std::size_t i) {
     const auto to = over(out_.cuts, i);
     begin(Segment::Kind::rapid, i);
@@ -272,7 +272,7 @@ class Scheduling {
     return motion::too_many_periods(all, spec_.max_periods);
   }
 
-  /// The cut's own bound as that of the whole.
+  /// Converts the cut's own limit of periods to that of the whole.
   Result<motion::PlannedCut> in_room(Result<motion::PlannedCut> planned) const {
     if (planned || planned.error().code() != ErrorCode::too_many_periods) return planned;
     auto& issue = planned.error().issues.front();

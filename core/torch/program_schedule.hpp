@@ -12,8 +12,8 @@
 
 namespace tubecut::torch {
 
-/// A whole program to be scheduled. Of `motion`: speed, tolerances, jerk, expert; its start and
-/// lead are `setup`'s, its cuts run as given.
+/// A whole program to be scheduled. From `motion` it takes speed, tolerances, jerk and expert;
+/// `setup` determines start and lead, and its cuts run as given.
 struct ProgramSpec {
   std::vector<TorchCut> cuts = {};
   Setup setup = {};
@@ -22,15 +22,15 @@ struct ProgramSpec {
   std::int64_t max_periods = 4'000'000;
 };
 
-/// A stretch of the schedule: the way to a cut, its pierce, the cut from lead-in to lead-out; or
-/// the way to a mark's stroke and the stroke.
+/// A segment of the schedule: the path to a cut, its pierce, the cut from lead-in to lead-out; or
+/// the path to a mark's stroke and the stroke.
 struct Segment {
   enum class Kind : std::uint8_t { rapid, pierce, cut, mark };
   Kind kind = Kind::rapid;
-  std::size_t cut = 0;    // of the program; of the last rapid the one it leaves
-  std::int64_t from = 0;  // periods done before it
-  std::int64_t to = 0;    // and behind it
-  /// Of a cut: its slow zones count from the start of the whole.
+  std::size_t cut = 0;    // in the program; for the last rapid, the cut that it leaves
+  std::int64_t from = 0;  // periods before it
+  std::int64_t to = 0;    // and at its end
+  /// Only for a cut: its slow zones count from the start of the whole.
   std::optional<motion::Report> report = {};
   motion::AxisSums sums = {};
 };
@@ -40,15 +40,16 @@ struct ProgramSchedule {
   std::vector<Segment> segments = {};
   std::vector<ProgramCut> cuts = {};
 
-  /// s
+  /// Returns the total time of this kind, s.
   [[nodiscard]] double time_of(Segment::Kind kind) const;
 };
 
-/// The whole program in one schedule: every count rounded from its one start, so that nothing
-/// drifts from cut to cut; every leg from rest to rest, so that limits hold across them.
+/// Computes the whole program as one schedule. Every count is rounded from its one start, so that
+/// no error accumulates from cut to cut; every leg runs from rest to rest, so that limits hold
+/// across them.
 ///
-/// A machine with a height goes between cuts as `Setup` says; one without moves level, and its
-/// control lifts the torch. Every cut's phi goes on by the nearest whole turn.
+/// A machine with a height axis moves between cuts as in `Setup`; without one it moves level, and
+/// its control lifts the torch. Every cut's phi continues by the nearest whole revolution.
 ///
 /// Errors    those of program_cut, motion::schedule, each hint naming the cut;
 ///           unsupported_combination (a torch that leans across).
@@ -58,18 +59,18 @@ struct ProgramSchedule {
 [[nodiscard]] Result<ProgramSchedule> schedule(const ProgramSpec& spec,
                                                const std::stop_token& stop = {});
 
-/// What the segments of such cuts are, in order: the last rapid, of machines that lift, left out.
+/// The segments of these cuts, in order, without the last rapid of machines that lift.
 struct Expected {
   Segment::Kind kind = Segment::Kind::rapid;
   std::size_t cut = 0;
 };
 [[nodiscard]] std::vector<Expected> expected_segments(const std::vector<ProgramCut>& cuts);
 
-/// One cut of the program as a job of its own, of the points it has; `turns`: as `windings`.
+/// Returns one cut of the program as a job of its own, with its points; `turns`: as `windings`.
 [[nodiscard]] motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut,
                                            double turns);
 
-/// All of its cuts, with their points.
+/// Returns all of its cuts, with their points.
 ///
 /// Errors  as `schedule`.
 [[nodiscard]] Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec,

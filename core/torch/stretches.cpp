@@ -14,12 +14,13 @@
 namespace tubecut::torch {
 namespace {
 
-constexpr double kStep = 0.05;   // mm, between two gaps that are tried
-constexpr double kExact = 1e-7;  // mm, a gap is as wide as it must be within this
-constexpr double kMove = 1.0;    // mm, between two places that are tried for a tab
-constexpr double kNear = 4.0;    // widths along a way: what lies further is not beside a tab
+constexpr double kStep = 0.05;   // mm, between two gaps in the search
+constexpr double kExact = 1e-7;  // mm, accuracy of a gap
+constexpr double kMove = 1.0;    // mm, between two tab positions in the search
+constexpr double kNear = 4.0;    // widths along a path: points beyond are not next to a tab
 
-constexpr double kWidest = 8.0;  // of what is asked: beyond it no bevel, but the way in, is why
+constexpr double kWidest =
+    8.0;  // of the requested width: beyond it, the lead-in and no bevel is the reason
 
 using Points = std::vector<motion::CutPoint>;
 
@@ -28,7 +29,7 @@ struct Stretch {
   double from = 0.0, to = 0.0;
 };
 
-/// A way on both walls, the inner first.
+/// A path on both walls, the inner first.
 using Walls = std::array<motion::Chords, 2>;
 
 Walls on_walls(const motion::PartBorder& border, const Points& way) {
@@ -41,23 +42,23 @@ Walls on_walls(const motion::PartBorder& border, const Points& way) {
   return {on(border.inner_radius), on(border.outer_radius)};
 }
 
-/// The least of one way's points from the other, on the same wall, mm.
+/// Returns the smallest distance of one path's points to the other path, on the same wall, mm.
 double distance(const Walls& from, const Walls& to, const std::stop_token& stop) {
   double out = 1e300;
   for (std::size_t wall = 0; wall < from.size(); ++wall)
     for (const auto& point : from[wall].points) {
-      if (stop.stop_requested()) return out;  // a turn goes along all of the other way
+      if (stop.stop_requested()) return out;  // because an iteration covers all of the other path
       out = motion::nearer(out, point, to[wall]);
     }
   return out;
 }
 
-/// The same both ways: of places of either to the other.
+/// The same in both directions.
 double apart(const Walls& one, const Walls& other, const std::stop_token& stop) {
   return std::min(distance(one, other, stop), distance(other, one, stop));
 }
 
-/// Of a way, before its cut begins, mm.
+/// Returns the length of a path before its cut begins, mm.
 double way_in(const TorchWay& way, double radius) {
   const auto& points = way.points.points;
   const auto first = static_cast<std::ptrdiff_t>(way.points.cut_first);
@@ -71,7 +72,7 @@ Points turned(Points points, double by) {
   return points;
 }
 
-/// Where tabs end: evenly, moved off corners where there is room; the last before the start.
+/// Returns where tabs end: evenly, moved off corners if there is room; the last before the start.
 std::vector<double> tab_ends(const motion::Track& whole, const std::vector<double>& length,
                              int count, double gap) {
   const auto corner = motion::from_corner(whole);
@@ -109,8 +110,8 @@ class TabbedWays {
     more_.resize(static_cast<std::size_t>(tabs.count), 0.0);
   }
 
-  /// With the lead halved, down to kShortestLead, until it leaves the tabs in which scrap holds on:
-  /// in a small hole it reaches far across.
+  /// Halves the lead, down to kShortestLead, until it leaves the tabs that hold the scrap intact,
+  /// because in a small hole it reaches far across.
   Result<std::vector<TorchWay>> run(std::optional<motion::Lead> lead, int count) {
     while (true) {
       auto out = ways(lead, count);
@@ -145,7 +146,7 @@ class TabbedWays {
     return out;
   }
 
-  /// The stretch with its way in, as far off as the scrap has room for.
+  /// Returns the segment with its lead-in, as long as the scrap permits.
   Result<TorchWay> way_along(const Stretch& s, const std::optional<motion::Lead>& asked) {
     const auto track = motion::stretch_of(whole_, length_, s.from, s.to);
     if (!asked) return TorchWay{{track.points, 0, track.points.size() - 1, true}, 0.0};
@@ -156,9 +157,8 @@ class TabbedWays {
     return way;
   }
 
-  /// How long before its end the tab begins, mm: first by the cut's end alone, which is the nearest
-  /// mostly, then by all that lies near it.
-  /// `least`: from axis to axis.
+  /// Returns how long before its end the tab begins, mm: first from the cut's end only, which is
+  /// usually the nearest, then from everything near it. `least`: from axis to axis.
   Result<double> gap_before(const Stretch& s, double least, const TorchWay& after, double turn) {
     const double along = kNear * least + way_in(after, whole_.radius);
     const auto near =
@@ -195,7 +195,7 @@ class TabbedWays {
     return high;
   }
 
-  /// The way in stays, the stretch ends elsewhere.
+  /// Keeps the lead-in and changes the end of the segment.
   void end_at(const Stretch& s, TorchWay& way) const {
     auto& points = way.points;
     const auto track = motion::stretch_of(whole_, length_, s.from, s.to);

@@ -8,18 +8,18 @@
 
 namespace tubecut::torch {
 
-/// Whether a cut of a program has tabs; `last`: it is the program's last.
+/// Returns true if a cut of a program has tabs; `last`: it is the program's last.
 [[nodiscard]] bool holds(const Tabs& tabs, const TorchCut& cut, bool last);
 
-/// The stretches of a cut between its tabs, from its start on: the last tab lies before the start.
-/// The others lie evenly along the tip's path, moved no more than a quarter of that off corners. A
-/// stretch is come onto square to it, by the lead's radius, and ends where its tab begins: arcs and
-/// an overcut would reach over what holds.
+/// Computes the segments of a cut between its tabs, from its start on: the last tab lies before the
+/// start. The others are spaced evenly along the tip's path, moved off corners by at most a quarter
+/// of that spacing. A segment begins with a lead-in square to it, of the lead's radius, and ends
+/// where its tab begins, because arcs and an overcut would cross the tab.
 ///
-/// `more`: by how much each tab is wider than `tabs.width`, mm; empty: none is.
+/// `more`: additional width of each tab over `tabs.width`, mm; empty: 0.
 ///
 /// Errors  those of torch_way; out_of_range (tabs/count: they take more than half of the cut),
-///         lead_blocked (tabs/width_mm: no way onto the cut leaves so much).
+///         lead_blocked (tabs/width_mm: no lead-in leaves this width).
 /// Source  docs/theory/pulse-schedules.md, section 11.
 [[nodiscard]] Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut,
                                                               const Approach& approach,
@@ -27,26 +27,27 @@ namespace tubecut::torch {
                                                               const std::vector<double>& more = {},
                                                               const std::stop_token& stop = {});
 
-/// How much of two ways is looked at beside the tab between them, mm along the tip's path: of the
-/// cut that ends there, and of the next one with its way in. Four widths of the tab.
+/// The lengths of two paths that are checked next to the tab between them, mm along the tip's path:
+/// of the cut that ends there, and of the next one with its lead-in. Four widths of the tab.
 struct BesideTab {
   double end = 0.0, start = 0.0;
 };
 [[nodiscard]] BesideTab beside_tab(const TorchCut& cut, const Tabs& tabs, const TorchWay& before,
                                    const TorchWay& after);
 
-/// The points of a way within so many mm of its end, the last first, or of its start.
+/// Returns the points of a path within `length` mm of its end, the last first, or of its start.
 [[nodiscard]] std::vector<motion::CutPoint> near_end(const std::vector<motion::CutPoint>& way,
                                                      double radius, double length, bool end);
 
-/// Metal between the end of a cut at a tab and all that the next stretch cuts, its way in with it,
-/// mm, the least of both walls: of every point of either to the other. The kerf is off on both
-/// sides. `border`: the cut's torch_border; whole turns between the two play no part.
+/// Computes the metal between the end of a cut at a tab and the whole path of the next segment,
+/// including its lead-in, mm, the smaller of both walls: over every point of either to the other.
+/// The kerf is subtracted on both sides. `border`: the cut's torch_border; whole revolutions
+/// between the two are ignored.
 [[nodiscard]] double metal_between(const motion::PartBorder& border, double kerf,
                                    const std::vector<motion::CutPoint>& end,
                                    const std::vector<motion::CutPoint>& start,
                                    const std::stop_token& stop = {});
-/// The same of two ways as they are laid.
+/// The same for two paths as placed.
 [[nodiscard]] double metal_between(const motion::PartBorder& border, const TorchCut& cut,
                                    const Tabs& tabs, const TorchWay& before, const TorchWay& after,
                                    const std::stop_token& stop = {});

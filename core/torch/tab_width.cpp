@@ -14,21 +14,21 @@ namespace {
 
 constexpr int kRounds = 12;
 constexpr int kInKnot = 4;         // points between two knots of a path, 0.1 mm at most
-constexpr double kSampled = 1e-3;  // mm, a corner's bend between two points or two periods
-constexpr double kEnough = 1e-6;   // mm, of a width that is reached
+constexpr double kSampled = 1e-3;  // mm, the bend of a corner between two points or two periods
+constexpr double kEnough = 1e-6;   // mm, tolerance of a width
 
-/// A sign of B, as the machine counts it.
+/// Returns the sign of B, as the machine counts it.
 double sign_of(const motion::Machine& machine) {
   return machine.b_positive == motion::BPositive::outer_edge_to_waste ? -1.0 : 1.0;
 }
 
-/// The points of the smoothed path of one stretch, as the torch counts B.
+/// Returns the points of the smoothed path of one segment, as the torch counts B.
 Result<Trail> followed(const ProgramSpec& spec, const ProgramCut& cut, const BesideTab& beside,
                        const std::stop_token& stop) {
   const auto job = cut_job(spec, cut, 0.0);
   TRY(const auto program, motion::program(job, stop));
   TRY(const auto path, motion::smooth_path(program, job.motion.eps_tip, job.motion.eps_b, stop));
-  // A machine that does not swing stands square.
+  // A machine that does not swing is square.
   const double sign = motion::Reconstruction(job).knows(2) ? sign_of(spec.machine) : 0.0;
   Trail out(cut.cut.path.radius(), beside.start, beside.end);
   motion::PathCursor cursor(path, false);
@@ -40,7 +40,7 @@ Result<Trail> followed(const ProgramSpec& spec, const ProgramCut& cut, const Bes
   return out;
 }
 
-/// By how much each tab is narrower than it should be, mm; negative: wider.
+/// Returns how much each tab is narrower than required, mm; negative: wider.
 Result<std::vector<double>> lacking(const ProgramSpec& spec, const std::vector<ProgramCut>& cuts,
                                     const motion::PartBorder& border, const std::stop_token& stop) {
   const auto& tabs = *spec.setup.tabs;

@@ -12,8 +12,9 @@
 namespace tubecut::torch {
 namespace {
 
-constexpr double kSigma = -1.0;    // of TorchCut's B, see motion::PartBorder
-constexpr double kTouching = 0.1;  // mm, most of the chords' sag that a lead may touch the part by
+constexpr double kSigma = -1.0;  // of TorchCut's B, see motion::PartBorder
+constexpr double kTouching =
+    0.1;  // mm, maximum of the chords' sag by which a lead may touch the part
 
 motion::CutPath on_tube(const joint::Target& tube, motion::Scrap scrap) {
   return {.outer_radius = tube.outer_radius,
@@ -23,8 +24,8 @@ motion::CutPath on_tube(const joint::Target& tube, motion::Scrap scrap) {
           .scrap = scrap};
 }
 
-/// A point at phi = 0, on the straight lines that both edges run in across it: tan B is straight
-/// there.
+/// Inserts a point at phi = 0, on the straight lines of both edges across it, where tan B is
+/// linear.
 void begin_at_seam(motion::CutPath& path) {
   if (path.phi.empty() || !(path.phi.front() > 0.0)) return;
   const double ahead = path.phi.front() + kTwoPi - path.phi.back();
@@ -62,7 +63,7 @@ TorchCut hole_cut(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::str
   return out;
 }
 
-/// The points as they stand; of a closed path from the first to the first again.
+/// Returns the points without leads; of a closed path from the first to the first again.
 motion::CutWithLead once_round(const motion::CutPath& path) {
   motion::CutWithLead out;
   for (std::size_t i = 0; i < path.phi.size(); ++i)
@@ -79,7 +80,7 @@ motion::CutWithLead once_round(const motion::CutPath& path) {
   return out;
 }
 
-/// The cut with these leads, or nothing where they or the pierce come too near the part.
+/// Returns the cut with these leads; empty when they or the pierce are too near the part.
 Result<std::optional<motion::CutWithLead>> lead_and_pierce(const motion::PartBorder& border,
                                                            const motion::Track& from,
                                                            const motion::Lead& lead,
@@ -99,7 +100,7 @@ TorchCut part_end(const part::Part& part, bool finish) {
   return out;
 }
 
-/// The pass of an end's land where the part lies.
+/// Returns the pass of an end's land in the part's frame.
 Result<TorchCut> part_land(const part::PartSpec& spec, const part::Part& part, bool finish,
                            const std::stop_token& stop) {
   const auto& end = finish ? part.finish : part.start;
@@ -110,7 +111,7 @@ Result<TorchCut> part_land(const part::PartSpec& spec, const part::Part& part, b
   return end_cut(end.spec, placed, finish ? motion::Scrap::plus_z : motion::Scrap::minus_z);
 }
 
-/// The land's pass before the cut that is there.
+/// Inserts the land's pass before the last cut.
 void put_before_last(TorchCut land, std::vector<TorchCut>& out) {
   auto& bevel = out.back();
   const std::string of = bevel.name.empty() ? "" : bevel.name + ", ";

@@ -8,20 +8,21 @@
 
 namespace tubecut::torch {
 
-/// Where a machine's axes stand along a program on one tube.
+/// The positions of a machine's axes along a program on one tube.
 class TorchStand {
  public:
   /// Errors  unsupported_combination (a machine without a torch, or without maps).
   static Result<TorchStand> of(const motion::Machine& machine, const motion::CutPath& tube,
                                const Setup& setup);
 
-  /// The point as the machine counts it, so many radians on.
+  /// Returns the point as the machine counts it, rotated by this many radians.
   [[nodiscard]] motion::CutPoint counted(motion::CutPoint point, double turns) const;
-  /// The axes with the tip at a counted point: off the wall as it cuts, or as it pierces.
+  /// Returns the axes with the tip at a counted point: at the cutting height, or at the pierce
+  /// height.
   [[nodiscard]] std::vector<double> cutting(const motion::CutPoint& point) const;
   [[nodiscard]] std::vector<double> piercing(const motion::CutPoint& point) const;
-  /// The same place along and round the tube, the tip clear of it whichever way it swings; as it is
-  /// where the machine has no height.
+  /// Returns the same position along and around the tube, with the tip clear of it in every swing;
+  /// unchanged if the machine has no height axis.
   [[nodiscard]] std::vector<double> clear(std::vector<double> axes) const;
   [[nodiscard]] bool lifts() const { return height_.has_value(); }
 
