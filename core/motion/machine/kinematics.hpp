@@ -31,7 +31,7 @@ struct Pose {
 };
 
 /// q = constant + linear . x + sin_b sin B + cos_b cos B + tan_b tan B, with B the coordinate of
-/// index 2. Every machine here, and the trace of the beam on either wall surface, is of this form.
+/// index 2. Every machine here, and the trace of the beam on either wall surface, has this form.
 struct AxisFunction {
   double constant = 0.0;
   Coordinates linear{};
@@ -42,23 +42,23 @@ struct AxisFunction {
   [[nodiscard]] bool is_linear() const { return sin_b == 0.0 && cos_b == 0.0 && tan_b == 0.0; }
   [[nodiscard]] double at(const Coordinates& x) const;
   [[nodiscard]] double at(const Pose& pose) const;
-  /// q', q'', q''' along the path by the chain rule.
+  /// Computes q', q'', q''' along the path by the chain rule.
   ///
   /// Source  docs/theory/pulse-schedules.md, section 3.
   [[nodiscard]] std::array<double, 3> derivatives(const Jet& jet) const;
 };
 
-/// The axes of a machine over the coordinates of a cut, in the machine's order.
+/// Returns the axes of a machine over the coordinates of a cut, in the machine's order.
 ///
-/// Errors  unsupported_combination (a contour on a machine that takes columns, or the reverse).
+/// Errors  unsupported_combination (a contour on a machine that requires columns, or the reverse).
 [[nodiscard]] Result<std::vector<AxisFunction>> axis_functions(const ScheduleSpec& spec);
 
-/// The functions whose joint rate is the speed of the cut: the beam's trace on the surface asked
-/// for, the mill's tip, or the given length.
+/// Returns the functions whose joint rate is the speed of the cut: the beam's trace on the
+/// requested surface, the mill's tip, or the given length.
 [[nodiscard]] std::vector<AxisFunction> speed_functions(const ScheduleSpec& spec);
 
-/// Largest growth of the stand-off of a crawler that swings about its pivot, mm; 0 for every other
-/// machine.
+/// Computes the largest growth of the standoff of a crawler that swings about its pivot, mm; 0 for
+/// every other machine.
 ///
 /// Errors  standoff_too_large.
 [[nodiscard]] Result<double> standoff_growth(const ScheduleSpec& spec, const Program& program);

@@ -50,7 +50,7 @@ class Findings {
   std::vector<Issue> issues_;
 };
 
-constexpr double kMaxLength = 1e6;  // mm; anything longer is a unit mistake
+constexpr double kMaxLength = 1e6;  // mm; a longer value is a unit error
 
 void check_axis(const Axis& axis, const std::string& at, Findings& found) {
   if (axis.name.empty()) found.add(ErrorCode::bad_text, at + "/name");
@@ -164,8 +164,8 @@ Machine five_axis_cutter() {
                    slide("Z1", 100, 800, 16000), slide("Z2", 20, 200, 4000), swing()}};
 }
 
-/// Without an axis for the torch's height, only a swing about the point that it cuts keeps its
-/// stand-off where B varies by 60 deg, as it does on the source's own pair.
+/// Without an axis for the torch's height, the standoff is kept at a B that varies by 60 deg only
+/// if the torch swings about the point that it cuts, as on the source's own pair.
 Machine crawler() {
   return {.name = "crawler",
           .kinematics = Crawler{.wheel_offset = 60.0, .swing_center = SwingCenter::remote},
@@ -185,7 +185,7 @@ Machine generic() {
           .axes = {rotary("C", 360000, 60, 300, 6000), slide("Z", 200, 1000, 20000), swing()}};
 }
 
-/// The source whose machine has these axes; empty where the type is our own.
+/// Returns the source whose machine has these axes; empty when the type is our own.
 std::string source_of(const Machine& machine) {
   struct Of {
     std::string operator()(const FiveAxisCutter&) const { return "source 000, section 2.2"; }

@@ -13,7 +13,7 @@
 
 namespace tubecut::motion {
 
-/// An axis counts in its own unit, which its record names; nothing else of core is in degrees.
+/// An axis counts in its own unit, which its record states; nothing else in core is in degrees.
 enum class AxisUnit : std::uint8_t { deg, mm };
 
 /// One driven axis. Limits per second in the axis' unit; exactly one of the two pulse counts is
@@ -27,7 +27,7 @@ struct Axis {
   double v_max = 0.0;
   double a_max = 0.0;
   std::optional<double> j_max = {};        // empty: this axis has no jerk limit
-  std::optional<std::int64_t> n_max = {};  // pulses per period the controller can hold
+  std::optional<std::int64_t> n_max = {};  // maximum pulses per period of the controller
   std::optional<double> soft_min = {};
   std::optional<double> soft_max = {};
 
@@ -41,18 +41,18 @@ struct FiveAxisCutter {
   static constexpr std::string_view kName = "five_axis_cutter";
   double pivot_length = 0.0;  // pivot to torch tip, mm
   double standoff = 0.0;      // tip to wall, mm
-  double z2_share = 0.0;      // share of the height given to Z2; 0: left to the height control
+  double z2_share = 0.0;      // fraction of the height given to Z2; 0: left to the height control
 };
 
 enum class SwingCenter : std::uint8_t { remote, pivot };
 
-/// Source 002: a carriage that crawls round the pipe (S), a cross slide (E) and the swing (B).
+/// Source 002: a carriage that crawls around the pipe (S), a cross slide (E) and the swing (B).
 struct Crawler {
   static constexpr std::string_view kName = "crawler";
   double wheel_offset = 0.0;  // of the wheel path over the pipe, mm
   SwingCenter swing_center = SwingCenter::remote;
   double pivot_length = 0.0;  // pivot above the wall, mm; used with SwingCenter::pivot
-  std::optional<double> standoff_max = {};  // largest tolerated growth of the stand-off, mm
+  std::optional<double> standoff_max = {};  // maximum growth of the standoff, mm
 };
 
 /// Source 001: the mill's axes C, X, Z, B, given directly as columns.
@@ -69,13 +69,13 @@ struct LinearMap {
 };
 struct Generic {
   static constexpr std::string_view kName = "generic";
-  std::vector<LinearMap> maps = {};  // empty when the cut comes as plain axis columns
+  std::vector<LinearMap> maps = {};  // empty if the cut comes as plain axis columns
 };
 
 using Kinematics = std::variant<FiveAxisCutter, Crawler, ConeMill, Generic>;
 
-/// Which way the machine counts B: towards the outer edge lying further into the kept part, or
-/// towards the waste.
+/// The direction in which the machine counts B: towards the outer edge lying further into the kept
+/// part, or towards the scrap.
 enum class BPositive : std::uint8_t { outer_edge_into_part, outer_edge_to_waste };
 
 struct Machine {
@@ -85,25 +85,26 @@ struct Machine {
   BPositive b_positive = BPositive::outer_edge_into_part;
   std::vector<Axis> axes = {};
 
-  /// +1 where the torch's tip leads its pivot towards +z for B > 0 (source 000), else -1.
+  /// Returns +1 if the torch's tip leads its pivot towards +z for B > 0 (source 000), else -1.
   [[nodiscard]] double sigma() const {
     return b_positive == BPositive::outer_edge_into_part ? -1.0 : 1.0;
   }
 };
 
-/// The machine's word for its kind, `kName` of its kinematics.
+/// Returns the name of its kind on the wire, `kName` of its kinematics.
 [[nodiscard]] std::string_view type_name(const Machine& machine);
 
-/// Everything that is wrong with the machine itself; `member` starts at "machine".
+/// Checks the machine itself; `member` starts at "machine".
 ///
-/// Errors  bad_number, zero_limit, wrong_count (axes 1..8, names missing or twice), out_of_range.
+/// Errors  bad_number, zero_limit, wrong_count (axes 1..8, names missing or duplicate),
+///         out_of_range.
 [[nodiscard]] Result<void> check(const Machine& machine);
 
-/// The largest speed of an axis in its unit per second: its own limit or the overflow limit n_max /
-/// (pulses * period).
+/// Returns the largest speed of an axis in its unit per second: its own limit or the overflow limit
+/// n_max / (pulses * period).
 [[nodiscard]] double velocity_limit(const Axis& axis, double period);
 
-/// Where one number of a built-in machine comes from.
+/// The source of one number of a built-in machine.
 struct Provenance {
   std::string member;  // such as "axes/1/v_max"
   bool assumption = true;
@@ -114,8 +115,8 @@ struct CatalogueEntry {
   std::vector<Provenance> values;  // one per number and choice of the record, in its order
 };
 
-/// The built-in machines. The sources publish axes but no pulse counts, periods or limits, so
-/// nearly every number is marked an assumption.
+/// Returns the built-in machines. The sources publish axes but no pulse counts, periods or limits,
+/// so nearly every number is marked an assumption.
 ///
 /// Source  docs/theory/pulse-schedules.md, sections 3 and 4.5.
 [[nodiscard]] std::vector<CatalogueEntry> catalogue();

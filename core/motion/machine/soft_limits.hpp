@@ -10,8 +10,9 @@
 
 namespace tubecut::motion {
 
-/// Travel of every axis at every knot of the path against its soft limits, the swing axis' too.
-/// `has_phi`: the path's first coordinate is an angle round the tube, which errors name.
+/// Checks the travel of every axis at every knot of the path against its soft limits, including the
+/// swing axis. `has_phi`: the path's first coordinate is an angle around the tube, which errors
+/// state.
 ///
 /// Errors  soft_limit of machine/axes/i/soft_min or soft_max: the farthest place outside each, in
 ///         the axis' unit.

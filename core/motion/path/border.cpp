@@ -14,13 +14,13 @@
 namespace tubecut::motion {
 namespace {
 
-/// How a beam runs outwards from its point of the contour's surface: 1, and these.
+/// The direction of a beam outwards from its point of the contour's surface: 1, and these tangents.
 struct Slope {
   double b, a;
 };
 
-/// Where the beam through a point of the contour's surface meets the surface of radius `rho`. One
-/// that grazes past it: its nearest place.
+/// Computes where the beam through a point of the contour's surface meets the surface of radius
+/// `rho`. If it misses, returns its nearest point.
 Flat on_surface(const PartBorder& part, const CutPoint& p, Slope tan, double rho) {
   const double radius = part.cut.radius;
   if (tan.a == 0.0) return {rho * p.phi, p.z - part.sigma * (rho - radius) * tan.b};
@@ -37,7 +37,7 @@ Slope slope_of(const CutPoint& p) {
   return {elementary::tan(p.b), p.a == 0.0 ? 0.0 : elementary::tan(p.a)};
 }
 
-/// The border where its beams meet the surface of radius `rho`.
+/// Computes the border where its beams meet the surface of radius `rho`.
 BorderWall wall_of(const PartBorder& part, double rho) {
   std::vector<Flat> line(part.cut.points.size());
   std::ranges::transform(part.cut.points, line.begin(),
@@ -50,9 +50,9 @@ bool crosses_above(Flat p, Flat a, Flat b) {
   return a.z + (b.z - a.z) * (p.s - a.s) / (b.s - a.s) > p.z;
 }
 
-/// Signed distance to the border on one surface: positive inside the kept part. Boxes that are too
-/// far off to hold the nearest chord, and lie neither above nor below the point, are not looked
-/// into.
+/// Computes the signed distance to the border on one surface: positive inside the kept part. Boxes
+/// that are too far away to contain the nearest chord, and are neither above nor below the point,
+/// are skipped.
 double depth(const PartBorder& part, const CutPoint& point, Slope tan, const BorderWall& wall,
              const std::stop_token& stop) {
   const Flat p = on_surface(part, point, tan, wall.rho);
@@ -72,13 +72,14 @@ double depth(const PartBorder& part, const CutPoint& point, Slope tan, const Bor
   return kept ? nearest : -nearest;
 }
 
-/// The point turned by whole turns into the span of the border.
+/// Shifts the point by whole revolutions into the span of the border.
 CutPoint wrapped(const PartBorder& part, CutPoint p) {
   p.phi -= kTwoPi * std::floor((p.phi - part.from_phi) / kTwoPi);
   return p;
 }
 
-/// One turn of a ring seen from a point near its seam needs the neighbouring turn for the distance.
+/// Computes the depth with the neighbouring revolutions, because a point near the seam of a ring
+/// may be nearest to one of them.
 double depth_on_ring(const PartBorder& part, const CutPoint& p, Slope tan, const BorderWall& wall,
                      const std::stop_token& stop) {
   const double here = depth(part, p, tan, wall, stop);
@@ -110,7 +111,7 @@ class BorderCurve {
     }
   }
 
-  /// Segment `i` at share `w`.
+  /// Returns the point of segment `i` at the fraction `w`.
   [[nodiscard]] CutPoint at(std::size_t i, double w) const {
     const double l = length(i);
     const Spot start = tangent(i, i), end = tangent(i + 1, i);
@@ -123,7 +124,7 @@ class BorderCurve {
     return {x[0] / track_.radius, x[1], x[2], false, 0.0, a};
   }
 
-  /// Distance of segment `i`'s chord to the curve in its middle.
+  /// Returns the distance of segment `i`'s chord to the curve in its middle.
   [[nodiscard]] double sag(std::size_t i) const {
     if (length(i) == 0.0) return 0.0;
     return 0.125 * length(i) * tip_length(mixed(1.0, tangent(i, i), -1.0, tangent(i + 1, i)));
@@ -141,7 +142,7 @@ class BorderCurve {
     return mixed(1.0 / length(i), chord(i), 0.0, {});
   }
 
-  /// Tangent at knot `k` for the segment `own` beside it.
+  /// Returns the tangent at knot `k` for the adjacent segment `own`.
   [[nodiscard]] Spot tangent(std::size_t k, std::size_t own) const {
     const std::size_t before = k == 0 ? segments() - 1 : k - 1;
     const std::size_t after = k == segments() ? 0 : k;
@@ -156,8 +157,8 @@ class BorderCurve {
   std::vector<Spot> spots_;
 };
 
-/// A closed track with points of the smooth curve through its own put between them, and how far its
-/// own chords leave it.
+/// A closed track with inserted points of the smooth curve through its own points, and the largest
+/// distance of its own chords to that curve.
 struct SmoothTrack {
   Track track = {};
   double sag = 0.0;  // mm

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-/// Lines on a developed surface, straight from point to point.
+/// Polylines on a developed surface.
 namespace tubecut::motion {
 
 /// A point or direction of a developed surface: s = radius * phi, and z.
@@ -12,20 +12,20 @@ struct Flat {
   double z = 0.0;
 };
 
-/// From p to the straight line between a and b, mm.
+/// Computes the distance from p to the straight line between a and b, mm.
 [[nodiscard]] double distance(Flat p, Flat a, Flat b);
 
 struct Box {
   Flat low, high;
 };
 
-/// No more than the distance to anything in the box, mm.
+/// Returns a lower bound of the distance to anything in the box, mm.
 [[nodiscard]] double least_distance(Flat p, const Box& box);
-/// No less than it.
+/// Returns an upper bound of it.
 [[nodiscard]] double most_distance(Flat p, const Box& box);
 
-/// A line's points, and boxes that hold so many of its chords each: what asks for the nearest looks
-/// into few of them. A line of one point has a chord of no length.
+/// A polyline's points, with boxes that each contain a fixed number of its chords, so that a search
+/// for the nearest checks few of them. A polyline of one point has a chord of zero length.
 struct Chords {
   static constexpr std::size_t kInBox = 64;
 
@@ -44,9 +44,10 @@ void each_chord(const Chords& line, std::size_t box, const See& see) {
     see(line.points[i], line.points[i < last ? i + 1 : i]);
 }
 
-/// The lesser of `nearest` and the distance to a chord, which is worked out only where it can be.
+/// Returns the smaller of `nearest` and the distance to a chord, which is computed only if it can
+/// be smaller.
 [[nodiscard]] double nearer(double nearest, Flat p, Flat a, Flat b);
-/// The same of a whole line.
+/// The same for a whole polyline.
 [[nodiscard]] double nearer(double nearest, Flat p, const Chords& line);
 
 }  // namespace tubecut::motion

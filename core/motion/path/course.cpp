@@ -11,8 +11,8 @@
 namespace tubecut::motion {
 namespace {
 
-/// Length over speed, segment by segment with the fastest speed of each: a floor for any schedule
-/// of the polyline.
+/// Computes length over speed, segment by segment with the fastest speed of each: a lower bound for
+/// any schedule of the polyline.
 void measure(PreparedCut& job, const std::stop_token& stop) {
   const std::vector<double> s = job.program.lengths();
   for (std::size_t i = 1; i < job.program.size() && !stops(stop, i); ++i) {
@@ -23,7 +23,7 @@ void measure(PreparedCut& job, const std::stop_token& stop) {
 }
 
 Result<void> check_periods(const PreparedCut& job, std::int64_t most) {
-  // Smoothing shortens the polyline; half of it can never be gained.
+  // Smoothing shortens the polyline by less than half.
   const double least = periods_of(0.5 * job.ideal, job.course.machine.period);
   if (least <= static_cast<double>(most)) return {};
   return too_many_periods(periods_of(job.ideal, job.course.machine.period), most);
@@ -32,7 +32,7 @@ Result<void> check_periods(const PreparedCut& job, std::int64_t most) {
 constexpr double kEndMargin = 2.0;  // mm at both ends where a slow tip is a start or stop
 constexpr std::size_t kRest = 3;    // resting samples before and after
 
-/// First, second and third difference of a value that is given sample by sample.
+/// First, second and third difference of a sampled value.
 struct Differences {
   double value = 0.0;
   double first = 0.0, second = 0.0, third = 0.0;
@@ -46,7 +46,7 @@ struct Differences {
   }
 };
 
-/// Rounding of one axis value: a few units in the last place of its largest part.
+/// Returns the rounding of one axis value: a few units in the last place of its largest part.
 double rounding(const Course& course, const AxisFunction& f) {
   double size =
       std::abs(f.constant) + std::abs(f.sin_b) + std::abs(f.cos_b) + 12.0 * std::abs(f.tan_b);
@@ -58,12 +58,12 @@ double rounding(const Course& course, const AxisFunction& f) {
   return 4.0 * 2.220446049250313e-16 * size;
 }
 
-/// One moving axis under watch.
+/// The limits of one moving axis.
 struct Watched {
   const Axis* axis;
   Differences differences;
   double noise;
-  double velocity, acceleration, jerk;  // limits of the differences; 0: none
+  double velocity, acceleration, jerk;  // limits of the differences; 0: no limit
 };
 
 std::vector<AxisFunction> moving(const Course& course) {
@@ -91,7 +91,8 @@ double over(double difference, double noise, double limit) {
   return std::max(0.0, std::abs(difference) - noise) / limit;
 }
 
-/// Ratios of differences to their limits, 0 where those hold: hardly anywhere is a quotient taken.
+/// Return the ratios of differences to their limits, 0 if those hold, because that avoids nearly
+/// every division.
 double jerk_excess(const Watched& w) {
   const double size = std::abs(w.differences.third), noise = 8.0 * w.noise;
   return w.jerk == 0.0 || size <= w.jerk + noise ? 0.0 : over(size, noise, w.jerk);
@@ -102,7 +103,7 @@ double acceleration_excess(const Watched& w) {
   return size <= w.acceleration + noise ? 0.0 : over(size, noise, w.acceleration);
 }
 
-/// Of the magnitudes of differences.
+/// Maxima of the magnitudes of differences.
 struct Largest {
   double first = 0.0, second = 0.0, third = 0.0;
 
@@ -113,7 +114,7 @@ struct Largest {
   }
 };
 
-/// Roots so that a stretch of time divides each once.
+/// Takes roots, so that a stretch of time divides each by the same factor.
 AxisUse use_of(const Watched& w, const Largest& largest, bool jerk) {
   AxisUse out;
   out.velocity = over(largest.first, 2.0 * w.noise, w.velocity);
@@ -128,7 +129,7 @@ AxisUse use_of(const Watched& w, const Largest& largest, bool jerk) {
   return out;
 }
 
-/// Way from `before` to `now`, which takes its place.
+/// Returns the distance from `before` to `now`, and stores `now` in `before`.
 double way_to(const double* now, std::vector<double>& before) {
   double square = 0.0;
   for (std::size_t f = 0; f < before.size(); ++f) {
@@ -139,8 +140,8 @@ double way_to(const double* now, std::vector<double>& before) {
   return std::sqrt(square);
 }
 
-/// Calls `see(k, axes, values)` after every sample, the resting ones behind the end included; k may
-/// pass the last place. The values are those of the moving axes, then of `beside`.
+/// Calls `see(k, axes, values)` after every sample, including the resting ones after the end; k may
+/// exceed the last place. The values are those of the moving axes, then of `beside`.
 template <class See>
 void walk(const Course& course, const std::vector<Place>& places,
           const std::vector<AxisFunction>& beside, const std::stop_token& stop, const See& see) {
@@ -155,7 +156,7 @@ void walk(const Course& course, const std::vector<Place>& places,
   }
 }
 
-/// The tip's speed over the period that ends at place `k`.
+/// Records the tip's speed over the period that ends at place `k`.
 void note_tip(const Course& course, const std::vector<Place>& places, std::size_t k, double step,
               Uses& out) {
   const double d = course.path.d, speed = step / course.machine.period;

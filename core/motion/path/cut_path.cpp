@@ -13,11 +13,12 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr double kBack = 3e-3;     // rad, of a turn by half a round
+constexpr double kBack = 3e-3;     // rad, of a reversal
 constexpr double kClosing = 1e-6;  // mm and rad between the two ends
 constexpr double kMostBevel = 85.0 * kRadPerDeg + 1e-12;
-constexpr double kMostPhi = 72000.0 * kRadPerDeg;  // a program winds on from cut to cut
-constexpr double kMostLength = 1e6;                // mm
+constexpr double kMostPhi =
+    72000.0 * kRadPerDeg;            // because phi of a program accumulates from cut to cut
+constexpr double kMostLength = 1e6;  // mm
 
 Result<void> check_columns(const CutPath& c) {
   const std::size_t n = c.phi.size();
@@ -76,7 +77,7 @@ Result<void> check_numbers(const CutPath& c) {
 
 std::vector<CutPoint> rows(const CutPath& c) {
   std::vector<CutPoint> points;
-  points.reserve(c.phi.size() + 1);  // what closes them
+  points.reserve(c.phi.size() + 1);  // the closing point
   for (std::size_t i = 0; i < c.phi.size(); ++i) {
     const double beam = c.beam.empty() ? c.wall / elementary::cos(c.b[i]) : c.beam[i];
     points.push_back({c.phi[i], c.z[i], c.b[i], !c.corner.empty() && c.corner[i], beam,
@@ -97,8 +98,8 @@ double largest_phi_step(const std::vector<CutPoint>& points) {
   return largest;
 }
 
-/// Makes the end the first point one turn on, appending it where a whole turn comes open; `gap` is
-/// what is missing to it, in rad of phi.
+/// Sets the end to the first point one revolution on, and appends it if a whole revolution is open;
+/// `gap` is the missing rad of phi.
 Result<void> close(Track& t, double gap) {
   auto& points = t.points;
   const bool there = std::abs(gap) <= kClosing;
@@ -143,21 +144,21 @@ Result<void> check_duplicates(const Track& t) {
   return {};
 }
 
-/// A track that runs straight back over itself: on the way back nobody can tell, from where the tip
-/// is, which of the two it is on.
+/// Rejects a track that runs straight back over itself, because the tip's position then does not
+/// determine the position along the track.
 Result<void> check_turns(const Track& t) {
   struct Way {
     double x, z;
     std::size_t from;
   };
-  std::vector<Way> ways;  // of the tip: a swing in place is none
+  std::vector<Way> ways;  // of the tip: a swing without motion has none
   for (std::size_t i = 1; i < t.points.size(); ++i) {
     const CutPoint& a = t.points[i - 1];
     const CutPoint& b = t.points[i];
     if (a.phi != b.phi || a.z != b.z)
       ways.push_back({t.radius * (b.phi - a.phi), b.z - a.z, i - 1});
   }
-  for (std::size_t k = t.closed ? 0 : 1; k < ways.size(); ++k) {  // closed: across the join too
+  for (std::size_t k = t.closed ? 0 : 1; k < ways.size(); ++k) {  // if closed: across the join too
     const Way& there = ways[(k + ways.size() - 1) % ways.size()];
     const Way& on = ways[k];
     const double along = there.x * on.x + there.z * on.z;
@@ -170,10 +171,10 @@ Result<void> check_turns(const Track& t) {
   return {};
 }
 
-constexpr double kSamePhi = 1e-9;          // rad; nearer than this a point is the asked one
+constexpr double kSamePhi = 1e-9;          // rad; a nearer point is used as the requested one
 constexpr double kCornerCos = 0.93969262;  // cos 20 deg: beyond it two steps make a corner
 
-/// Makes point `first` of a closed track its start.
+/// Rotates a closed track so that point `first` is its start.
 Track rotated(const Track& t, std::size_t first) {
   Track out = t;
   out.points.clear();
@@ -186,8 +187,8 @@ Track rotated(const Track& t, std::size_t first) {
   return out;
 }
 
-/// The first place of the track at angle `phi`, modulo whole turns: a point there, inserted if need
-/// be.
+/// Returns the first point of the track at angle `phi`, modulo whole revolutions; inserts one if
+/// needed.
 std::optional<std::size_t> at_phi(Track& t, double phi) {
   for (std::size_t i = 0; i + 1 < t.points.size(); ++i) {
     const CutPoint a = t.points[i];
@@ -218,13 +219,14 @@ bool is_corner(const Track& t, std::size_t i) {
   return ax * bx + az * bz + ab * bb < kCornerCos * lengths;
 }
 
-/// Between the beam and the wall's normal.
+/// Computes the angle between the beam and the wall's normal.
 double tilt(const CutPoint& p) {
   if (p.a == 0.0) return std::abs(p.b);
   return elementary::atan(elementary::hypot(elementary::tan(p.a), elementary::tan(p.b)));
 }
 
-/// Least tilt among the points well away from corners; without such, the point farthest from them.
+/// Returns the point with the smallest tilt among those well away from corners; if there are none,
+/// the point farthest from corners.
 std::size_t automatic_start(const Track& t, const std::optional<Angle>& seam) {
   std::vector<double> distance = from_corner(t);
   for (std::size_t i = 0; seam && i < distance.size(); ++i) {
@@ -345,7 +347,7 @@ std::vector<double> from_corner(const Track& t) {
   return distance;
 }
 
-constexpr double kNoWay = 1e-6;  // mm: two nodes nearer than that are one
+constexpr double kNoWay = 1e-6;  // mm: nearer nodes are merged
 
 Result<Track> directed(Track t, Direction direction, const Start& start) {
   const bool against = (direction == Direction::ccw && t.orientation() < 0) ||

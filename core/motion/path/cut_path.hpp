@@ -16,8 +16,8 @@ enum class Surface : std::uint8_t { outer, inner };
 /// The side of the cut that falls away; the kept part is on the other.
 enum class Scrap : std::uint8_t { minus_z, plus_z, inside };
 
-/// The line the torch follows on one wall surface, a request's `contour`. Columns of one length,
-/// rad and mm.
+/// The line that the torch follows on one wall surface, a request's `contour`. Columns of one
+/// length, rad and mm.
 ///
 /// Frame   z along the tube into the kept part, phi from x towards y, unwrapped. `b` is the beam's
 ///         angle to the radial direction in the axial plane *as the machine counts it* (positive
@@ -26,11 +26,11 @@ struct CutPath {
   std::vector<double> phi = {};
   std::vector<double> z = {};
   std::vector<double> b = {};
-  std::vector<double> a = {};     // the beam's tilt across, towards growing phi; empty: none
+  std::vector<double> a = {};     // the beam's tilt across, towards growing phi; empty: 0
   std::vector<bool> corner = {};  // empty, or one per point
   std::vector<double> beam = {};  // metal along the beam, mm; empty: wall / cos b
   double outer_radius = 0.0;
-  double wall = 0.0;  // 0: the surface is all there is
+  double wall = 0.0;  // 0: there is only this surface
   Surface surface = Surface::outer;
   bool closed = true;
   Scrap scrap = Scrap::minus_z;
@@ -41,30 +41,30 @@ struct CutPath {
   [[nodiscard]] double inner_radius() const { return outer_radius - wall; }
 };
 
-/// The path with `b` in the project's sign (B > 0: outer edge further into the part) turned into
-/// the machine's.
+/// Converts a path with `b` in the project's sign (B > 0: outer edge further into the part) to the
+/// machine's sign.
 [[nodiscard]] CutPath as_machine_counts(CutPath cut_path, BPositive b_positive);
 
 struct Start {
   enum class At : std::uint8_t { first_point, phi, automatic };
   At at = At::first_point;
   Angle phi = {};
-  std::optional<Angle> seam = {};  // an automatic start keeps off it as off a corner
+  std::optional<Angle> seam = {};  // an automatic start avoids it like a corner
 };
 
-/// What an automatic start keeps from corners and the seam, mm, where the contour has room.
+/// The distance of an automatic start from corners and the seam, mm, if the contour has room.
 inline constexpr double kFromJunction = 5.0;
 
 enum class Direction : std::uint8_t { as_given, ccw, cw };
 
-/// A stretch of a closed cut, to be cut again after a lost arc.
+/// A part of a closed cut, to be cut again after a lost arc.
 struct Sector {
   Angle from = {};
   Angle to = {};
   double back_up = 5.0;  // mm before `from`
 };
 
-/// One point of a cut path; what `CutPath` holds as columns.
+/// One point of a cut path; `CutPath` stores the same as columns.
 struct CutPoint {
   double phi = 0.0;
   double z = 0.0;
@@ -74,19 +74,19 @@ struct CutPoint {
   double a = 0.0;
 };
 
-/// A cut path as a row of points, closed ones with their first point repeated at the end, one turn
+/// A cut path as a list of points; closed ones repeat their first point at the end, one revolution
 /// on.
 struct Track {
   std::vector<CutPoint> points = {};
-  double radius = 0.0;  // of the surface the points lie on
+  double radius = 0.0;  // of the surface that contains the points
   bool closed = false;
-  int turns = 0;        // of a stretch: the orientation of what it is of
-  WallRadii wall = {};  // of points on the outer surface: what their beams go through
+  int turns = 0;        // of a part of a track: the orientation of the whole
+  WallRadii wall = {};  // for points on the outer surface: the wall that their beams cross
 
-  /// Distance of two points along the developed surface, mm; B plays no part.
+  /// Returns the distance of two points along the developed surface, mm; B is ignored.
   [[nodiscard]] double tip_step(std::size_t from, std::size_t to) const;
-  /// +1 where phi grows along the track (or, of a hole, where it runs counter-clockwise in (phi,
-  /// z)), else -1.
+  /// Returns +1 if phi grows along the track (or if a hole runs counter-clockwise in (phi, z)),
+  /// else -1.
   [[nodiscard]] int orientation() const;
 };
 
@@ -97,22 +97,24 @@ struct Track {
 /// Source  docs/theory/pulse-schedules.md, section 2.1.
 [[nodiscard]] Result<Track> track(const CutPath& cut_path);
 
-/// The path without the points at which the torch stands where it stood before, as at a jump of
-/// the finished edge; their corners go to the point before.
+/// Returns the path without repeated positions of the torch, as at a jump of the finished edge;
+/// their corners move to the previous point.
 [[nodiscard]] CutPath without_repeats(CutPath path);
 
-/// The track in the asked direction and from the asked start point.
+/// Returns the track in the requested direction and from the requested start point.
 ///
-/// Errors  out_of_range (no point at the asked phi), unsupported_combination (an open track has no
-///         start to choose).
+/// Errors  out_of_range (no point at the requested phi), unsupported_combination (the start of an
+///         open track is fixed).
 [[nodiscard]] Result<Track> directed(Track track, Direction direction, const Start& start);
 
-/// The stretch of a closed track between two angles in its direction, with `back_up` mm before it.
+/// Returns the part of a closed track between two angles in its direction, with `back_up` mm before
+/// it.
 ///
 /// Errors  unsupported_combination (holes and open tracks), out_of_range.
 [[nodiscard]] Result<Track> sector_of(const Track& whole, const Sector& sector);
 
-/// From each point of a closed track along it to its nearest corner, mm; huge where it has none.
+/// Returns the distance from each point of a closed track along it to its nearest corner, mm; very
+/// large without corners.
 [[nodiscard]] std::vector<double> from_corner(const Track& track);
 
 }  // namespace tubecut::motion

@@ -33,7 +33,8 @@ Flat unit(Flat a) {
   return length > 0.0 ? (1.0 / length) * a : Flat{1.0, 0.0};
 }
 
-/// First direction with a length going from point `i` by `by`; a pure swing of B has none.
+/// Returns the first direction of non-zero length from point `i` in steps of `by`; a pure swing of
+/// B has none.
 Flat chord(const Track& t, std::size_t i, int by) {
   const auto last = static_cast<std::ptrdiff_t>(t.points.size()) - 1;
   for (auto j = static_cast<std::ptrdiff_t>(i) + by; j >= 0 && j <= last; j += by) {
@@ -43,8 +44,8 @@ Flat chord(const Track& t, std::size_t i, int by) {
   return {};
 }
 
-/// Tangent in the middle of a smooth seam (parabola through three points), of the cut's own side at
-/// a corner.
+/// Returns the tangent in the middle of a smooth seam (parabola through three points); at a corner,
+/// that of the cut's own side.
 Flat tangent(const Track& t, Flat before, Flat after, bool starting) {
   const double a = elementary::hypot(before.s, before.z);
   const double b = elementary::hypot(after.s, after.z);
@@ -60,7 +61,7 @@ Flat scrap_normal(Flat t, int orientation, Scrap scrap) {
   return (scrap == Scrap::plus_z ? orientation : -orientation) * left;
 }
 
-/// Direction along the track just before point `i`; none at the start of an open one.
+/// Returns the direction along the track just before point `i`; zero at the start of an open track.
 Flat behind(const Track& t, std::size_t i) {
   if (i == 0 && !t.closed) return {};
   return -1.0 * chord(t, i == 0 ? t.points.size() - 1 : i, -1);
@@ -74,7 +75,7 @@ Join join(const Track& t, Scrap scrap, std::size_t i, bool starting) {
   return {t.points[i], flat(t, t.points[i]), along, scrap_normal(along, t.orientation(), scrap)};
 }
 
-/// A point `a` rad round the arc from the join; `way` is -1 before the join, +1 behind it.
+/// Returns a point `a` rad around the arc from the join; `way` is -1 before the join, +1 after it.
 Flat on_arc(const Join& j, double radius, double a, double way) {
   const auto [sin, cos] = elementary::sincos(a);
   return j.point + radius * (1.0 - cos) * j.normal + way * radius * sin * j.tangent;
@@ -98,8 +99,8 @@ Away arc(const Join& j, const Lead& lead, double way) {
   return out;
 }
 
-/// Lengthens the way in straight: until the fan of B fits before the cut, and a square one until it
-/// begins as far off as asked.
+/// Extends the lead-in by a straight run: until the fan of B fits before the cut, and for a square
+/// lead until it begins at the requested distance.
 void add_run(Away& way_in, const Join& j, const Lead& lead) {
   const bool square = lead.shape == Lead::Shape::square;
   const double start = square ? 0.0 : way_in.distance.back();
@@ -115,13 +116,13 @@ void add_run(Away& way_in, const Join& j, const Lead& lead) {
   }
 }
 
-/// B, the beam's way through the wall and its tilt across.
+/// B, the beam's length through the wall and its tilt across.
 struct Line {
   double b, beam, a;
 };
 
-/// What a closed cut has this far past its start, mm, or before it: no further than to where it
-/// turns a corner or swings on the spot.
+/// Returns the line of a closed cut at this distance after its start, mm, or before it; stops where
+/// the cut has a corner or swings without motion.
 Line line_of(const Track& cut, double past_start) {
   const auto n = cut.points.size();
   const bool back = past_start < 0.0;
@@ -139,7 +140,7 @@ Line line_of(const Track& cut, double past_start) {
   return out;
 }
 
-/// Of the lead's place this far past the cut's start, or before it.
+/// Returns the line of the lead at this distance after the cut's start, or before it.
 Line line_of(const Track& cut, const Join& j, LeadBevel bevel, double past_start) {
   const bool held = bevel == LeadBevel::held || !cut.closed;
   return held ? Line{j.at.b, j.at.beam, j.at.a} : line_of(cut, past_start);

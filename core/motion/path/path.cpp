@@ -55,7 +55,7 @@ class HermiteCurve {
   }
 
   /// Halves the factors at both ends of every segment that leaves the range of its ends by more
-  /// than `over`, until none does. Each node is halved at most nine times, so this ends.
+  /// than `over`, until none does. It ends, because each node is halved at most nine times.
   void limit(double over) {
     std::vector<bool> dirty(lengths_.size(), true);
     for (bool changed = true; changed;) changed = halve(over, dirty);
@@ -68,7 +68,7 @@ class HermiteCurve {
            l * (w.m0 * factor_[i] * start_[i] + w.m1 * factor_[i + 1] * end_[i]);
   }
 
-  /// Distance to the chord at the same parameter.
+  /// Returns the distance to the chord at the same parameter.
   [[nodiscard]] double sag(std::size_t i, double h) const {
     return at(i, h) - (values_[i] + h * (values_[i + 1] - values_[i]));
   }
@@ -117,7 +117,8 @@ class HermiteCurve {
   std::vector<int> halvings_;
 };
 
-/// Flagged points, both ends, and points where the generalised direction turns by more than 20 deg.
+/// Returns flagged points, both ends, and points where the generalised direction turns by more than
+/// 20 deg.
 std::vector<bool> corners(const Program& p, const std::vector<double>& lengths) {
   std::vector<bool> corner = p.corner;
   corner.front() = corner.back() = true;
@@ -175,7 +176,7 @@ void sample(const Program& p, const std::vector<double>& s, const std::vector<He
   }
 }
 
-/// Hermite through the points, corners kept, with its limiter, sampled about every `d` mm.
+/// Samples the limited Hermite curve through the points about every `d` mm; corners stay.
 ///
 /// Errors  too_many_nodes, cancelled.
 Result<Resampled> resample(const Program& p, double d, double eps_tip, double eps_b,
@@ -207,7 +208,7 @@ Result<Resampled> resample(const Program& p, double d, double eps_tip, double ep
   return out;
 }
 
-/// x at -j is 2 x[0] - x[j], and likewise behind the end.
+/// Extends x by odd reflection: x at -j is 2 x[0] - x[j], and likewise after the end.
 std::vector<double> reflected(const std::vector<double>& x, std::size_t m) {
   const std::size_t n = x.size();
   std::vector<double> out;
@@ -220,7 +221,8 @@ std::vector<double> reflected(const std::vector<double>& x, std::size_t m) {
   return out;
 }
 
-/// Sums differences to the centre, in pairs: little rounding, and none of the direction.
+/// Sums differences to the centre in pairs: the rounding is small and does not depend on the
+/// direction.
 std::vector<double> mean(const std::vector<double>& x, std::size_t m, const std::stop_token& stop) {
   const std::vector<double> wide = reflected(x, m);
   std::vector<double> out(x.size());
@@ -262,7 +264,8 @@ Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t
   return out;
 }
 
-/// The widest smoothing that keeps the tolerance; deviation above it only where even none does.
+/// Finds the widest smoothing that keeps the tolerance. The deviation exceeds it only if it does so
+/// without smoothing.
 Smoothed widest(const Program& p, const Resampled& r, Group group, double most, double tolerance,
                 const std::stop_token& stop) {
   auto fits = static_cast<std::size_t>(most / (2.0 * r.d));
@@ -308,8 +311,8 @@ double ahead(const std::vector<double>& p, std::size_t j) {
   return j + 1 == p.size() ? 2.0 * p[j] - p[j - 1] : p[j + 1];
 }
 
-/// Position, slope, curvature and third derivative of one coordinate at a knot, seen from the
-/// interval after it.
+/// Position, slope, curvature and third derivative of one coordinate at a knot, for the interval
+/// after it.
 struct Cubic {
   double x, first, second, third;
 };
@@ -382,7 +385,7 @@ Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b, std::sto
     return fail({ErrorCode::out_of_range, "motion/eps_b", eps_b.deg(), 0.01, "deg", {}});
   }
   const double bevel = eps_b.rad() * kBevelWeight;
-  // With no mean at all a knot is off by at most d / 3, so the halving ends.
+  // Without smoothing a knot is off by at most d / 3, so the halving ends.
   for (double d = kSpacing;; d *= 0.5) {
     TRY(const auto samples, resample(p, d, eps_tip, eps_b.rad(), stop));
     Smoothed tip = widest(p, samples, Group::tip, kWidestTip, eps_tip, stop);

@@ -10,8 +10,8 @@
 
 namespace tubecut::motion {
 
-/// The smoothed path: a uniform cubic B-spline, C2, at rest-capable ends. Parameter u in mm,
-/// 0..d*intervals.
+/// The smoothed path: a uniform cubic B-spline, C2, with ends that permit a rest. Parameter u in
+/// mm, 0..d*intervals.
 struct Path {
   double d = 0.1;  // knot spacing, mm of generalised length
   std::vector<Coordinate> coordinates = {};
@@ -24,18 +24,18 @@ struct Path {
 
   [[nodiscard]] std::size_t intervals() const { return control.front().size() - 1; }
   [[nodiscard]] double length() const { return d * static_cast<double>(intervals()); }
-  /// Coordinates at `offset` mm, 0..d, behind knot `i`. Exact at both ends of the path.
+  /// Computes the coordinates at `offset` mm, 0..d, after knot `i`. Exact at both ends of the path.
   [[nodiscard]] Coordinates at(std::size_t i, double offset) const;
-  /// Coordinate `c` on interval `i` by rising powers of the offset.
+  /// Returns coordinate `c` on interval `i` by rising powers of the offset.
   [[nodiscard]] std::array<double, 4> cubic(std::size_t c, std::size_t i) const;
-  /// The same with three derivatives along u; `bends`: sin B and cos B are wanted.
+  /// Computes the same with three derivatives along u. If `bends` is set, also sin B and cos B.
   [[nodiscard]] Jet jet(std::size_t interval, double offset, bool bends) const;
 };
 
-/// Evaluates a path at places that follow one another, keeping the cubic of the current interval.
+/// Evaluates a path at a sequence of places; caches the cubic of the current interval.
 class PathCursor {
  public:
-  /// `bends`: sin B and cos B are wanted.
+  /// If `bends` is set, computes sin B and cos B.
   PathCursor(const Path& path, bool bends) : path_(path), bends_(bends) {}
   /// Bit-equal to `Path::at`.
   [[nodiscard]] Pose at(std::size_t interval, double offset);
@@ -47,15 +47,15 @@ class PathCursor {
   std::array<std::array<double, 4>, kMostCoordinates> cubic_ = {};
 };
 
-/// Two centred means of width 2m+1 with odd reflection at the ends; the ends are kept exactly.
-/// Reversal of the input reverses the result bit by bit.
+/// Applies two centred means of width 2m+1 with odd reflection at the ends; the ends are kept
+/// exactly. If the input is reversed, the result is reversed bit by bit.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 2.4.
 [[nodiscard]] std::vector<double> box2(const std::vector<double>& x, std::size_t m,
                                        const std::stop_token& stop = {});
 
-/// The path: Hermite through the program's points, corners kept, with its limiter, sampled about
-/// every 0.1 mm, then smoothed as far as the tolerances (mm, rad) allow.
+/// Computes the path: the limited Hermite curve through the program's points with its corners,
+/// sampled about every 0.1 mm, then smoothed as far as the tolerances (mm, rad) permit.
 ///
 /// Errors    out_of_range (tolerances below 1e-3 mm, 0.01 deg), too_many_nodes, cancelled.
 /// Accuracy  knots within eps_tip and eps_b of the unsmoothed path, measured at every knot.

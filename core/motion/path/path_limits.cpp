@@ -70,8 +70,8 @@ struct TipRate {
   Bound3 along{};  // at the start, the inner Bezier value, at the end
 };
 
-/// Rate of the tip on an interval: its velocity is a quadratic (or nearly), so the Bezier points
-/// bound it.
+/// Computes the rate of the tip on an interval: its velocity is a quadratic (or nearly), so the
+/// Bezier points bound it.
 TipRate tip_rate(const std::vector<AxisFunction>& tip, const Jet& start, const Jet& middle,
                  const Jet& end, double d) {
   Bound3 square{};
@@ -92,7 +92,7 @@ TipRate tip_rate(const std::vector<AxisFunction>& tip, const Jet& start, const J
   if (linear) return out;
   out.largest = kSampledMargin * out.largest + d * d / 8.0 * third;
   for (double& value : out.along) value *= kSampledMargin;
-  out.along[1] += d * d / 4.0 * third;  // the middle value lies half as far out as the inner one
+  out.along[1] += d * d / 4.0 * third;  // the middle value is half as far out as the inner one
   return out;
 }
 
@@ -101,7 +101,8 @@ constexpr double kHardlyMore = 1.02;
 /// q' u_ddot + q'' x at one place of an interval is start x_i + end x_(i+1).
 using Values = std::array<HalfPlane, 3>;
 
-/// The Bezier values: both ends, and start + d/2 times the derivative there, 3 q'' u_ddot + q''' x.
+/// Returns the Bezier values: both ends, and start + d/2 times the derivative there, 3 q'' u_ddot +
+/// q''' x.
 Values bezier_values(const AxisBounds& axis, std::size_t i, double d) {
   const double per_step = 0.5 / d;  // u_ddot = (x_(i+1) - x_i) per_step
   const auto at = [&](double first, double second, bool end) {
@@ -115,7 +116,7 @@ Values bezier_values(const AxisBounds& axis, std::size_t i, double d) {
   return {start, middle, end};
 }
 
-/// Bezier values of a rate per mm of u on an interval, a quadratic, and its largest size.
+/// Bezier values of a rate per mm of u on an interval, a quadratic, and its maximum magnitude.
 struct Rate {
   double start = 0.0;
   double inner = 0.0;
@@ -123,9 +124,9 @@ struct Rate {
   double largest = 0.0;
 };
 
-/// Largest value of r^2 (1 - s) / r_0^2 + r^2 s / r_1^2 over an interval, by the Bezier values of
-/// this polynomial of degree 5: what a cap for each knot by itself, x = v^2 / r^2, allows too much
-/// between them. 1 or a little more where the rate r hardly changes.
+/// Returns the maximum of r^2 (1 - s) / r_0^2 + r^2 s / r_1^2 over an interval, by the Bezier
+/// values of this polynomial of degree 5: the factor by which separate caps for each knot, x = v^2
+/// / r^2, are exceeded between them. 1 or slightly more if the rate r hardly changes.
 double between_caps(const Rate& r) {
   const double a = r.start, b = r.inner, c = r.end;
   const std::array square{a * a, a * b, (2.0 * b * b + a * c) / 3.0, b * c, c * c};
@@ -137,8 +138,8 @@ double between_caps(const Rate& r) {
   return most;
 }
 
-/// Caps at both knots of an interval for a speed `v`: by the rate at each, where what lies between
-/// them takes little of that away, else by the largest rate at both.
+/// Returns caps at both knots of an interval for a speed `v`: from the rate at each if the values
+/// between reduce them only slightly, else from the largest rate at both.
 std::array<double, 2> interval_caps(const Rate& r, double v) {
   if (r.largest == 0.0) return {kNoLimit, kNoLimit};
   if (std::min(std::abs(r.start), std::abs(r.end)) > 0.5 * r.largest) {
@@ -181,7 +182,7 @@ PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
               {{}, {}, {}, axes[a].is_linear()}};
     auto& [first, second, third, linear] = all[a].along;
     for (auto* const values : {&all[a].first, &all[a].second, &all[a].third, &third}) {
-      if (stop.stop_requested()) return out;  // memory is touched for the first time
+      if (stop.stop_requested()) return out;  // because this touches the memory for the first time
       values->resize(n);
     }
     for (auto* const values : {&first, &second}) values->resize(n + 1);
@@ -218,7 +219,7 @@ Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop) {
   const std::size_t n = limits.intervals();
   Conditions out;
   out.caps.assign(n + 1, kNoLimit);
-  out.rows.rows.reserve(n * limits.axes.size());  // to grow would move all of them at once
+  out.rows.rows.reserve(n * limits.axes.size());  // because growth would move all of them at once
   for (std::size_t i = 0; i < n; ++i) {
     if (stops(stop, i)) return out;
     double fastest = limits.slowness[i] > 0.0 ? 1.0 / limits.slowness[i] : 1e150;

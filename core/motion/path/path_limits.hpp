@@ -31,11 +31,11 @@ struct AxisBounds {
   SignedDerivatives along = {};
 };
 
-/// All that timing needs to know of a path on a machine.
+/// All data of a path on a machine for the timing.
 struct PathLimits {
   double d = 0.1;
   std::vector<AxisBounds> axes = {};  // moving axes only
-  /// Per interval: tip path per mm of u over the speed asked, s/mm.
+  /// Per interval: tip path per mm of u over the requested speed, s/mm.
   std::vector<double> slowness = {};
   /// The same at an interval's start, as inner Bezier value and at its end.
   std::vector<std::array<double, 3>> slowness_along = {};
@@ -44,7 +44,7 @@ struct PathLimits {
 };
 
 /// Accuracy  exact for axes linear in the coordinates; else sampled at three points of each
-///           interval with 0.1 % margin, the last check covers the rest.
+///           interval with 0.1 % margin, and the last check covers the rest.
 /// Source    docs/theory/pulse-schedules.md, sections 5.1 and 5.2.
 [[nodiscard]] PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
                                      const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
@@ -57,14 +57,15 @@ struct Conditions {
 };
 [[nodiscard]] Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop = {});
 
-/// Caps of x at the knots by the speeds of axes and tip, on whole intervals; zero at both ends.
+/// Computes caps of x at the knots from the speeds of axes and tip, on whole intervals; zero at
+/// both ends.
 ///
 /// Accuracy  as `limits`.
 [[nodiscard]] std::vector<double> speed_caps(const PathLimits& limits,
                                              const std::stop_token& stop = {});
 
-/// |q' u_ddot + q'' x| <= a_max of every axis on whole intervals, signs kept. With u_ddot constant
-/// it is a quadratic along the interval, so that its three Bezier values bound it.
+/// Computes the rows |q' u_ddot + q'' x| <= a_max of every axis on whole intervals, with signs. If
+/// u_ddot is constant, it is a quadratic along the interval, so its three Bezier values bound it.
 ///
 /// Accuracy  exact for axes linear in the coordinates; else with 0.1 % margin.
 /// Source    docs/theory/pulse-schedules.md, section 6.2.

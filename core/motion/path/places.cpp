@@ -9,10 +9,10 @@
 namespace tubecut::motion {
 namespace {
 
-/// Whole parts of the time that a timing takes: differences of times are exact, and the same on
-/// every machine.
+/// Integer units of a timing's duration, so that differences of times are exact, and equal on every
+/// machine.
 using Ticks = std::int64_t;
-constexpr double kTicks = 0x1p61;  // of the whole time, 4e-19 of it each
+constexpr double kTicks = 0x1p61;  // in the whole duration, 4e-19 of it each
 
 class Clock {
  public:
@@ -28,7 +28,7 @@ class Clock {
 };
 
 /// u(t) before the filter, with u_ddot constant on every interval: knot times and, inside an
-/// interval, the way gone and its integral.
+/// interval, the distance travelled and its integral.
 class Unfiltered {
  public:
   Unfiltered(const std::vector<double>& x, double d, const Clock& clock)
@@ -49,16 +49,16 @@ class Unfiltered {
   [[nodiscard]] double since(std::size_t knot, Ticks t) const {
     return clock_.seconds(t - times_[knot]);
   }
-  /// From one knot to another behind it.
+  /// Returns the time from one knot to a later one.
   [[nodiscard]] double between(std::size_t from, std::size_t to) const {
     return clock_.seconds(times_[to] - times_[from]);
   }
   [[nodiscard]] double span(std::size_t i) const { return intervals_[i].span; }
-  /// True where `t` lies behind interval `i` and that is not the last.
+  /// Returns true if `t` is after interval `i` and that is not the last.
   [[nodiscard]] bool behind(std::size_t i, Ticks t) const {
     return i + 1 < intervals_.size() && times_[i + 1] <= t;
   }
-  /// Integral over time of the way gone since knot `i`, `since` seconds behind it.
+  /// Integrates over time the distance travelled since knot `i`, `since` seconds after it.
   [[nodiscard]] double integral(std::size_t i, double since) const {
     return since * since * (intervals_[i].half_speed + since * intervals_[i].sixth);
   }
@@ -79,9 +79,9 @@ class Unfiltered {
   std::vector<Ticks> times_;
 };
 
-/// The moving average at times that follow one another, relative to its window's first knot. What
-/// lies between the knots in the window is summed from a pivot among them: behind it as the window
-/// goes on, before it once, when the first knot has passed the pivot before.
+/// The moving average at a sequence of times, relative to its window's first knot. The integral
+/// between the knots in the window is split at a pivot: the sum after it grows with the window, the
+/// sum before it is recomputed once, when the first knot passes the pivot.
 class Averaged {
  public:
   Averaged(const Unfiltered& u, double d, double filter, Ticks filter_ticks)
@@ -100,7 +100,7 @@ class Averaged {
     sum += u_.integral(last_, since) + since * d_ * static_cast<double>(last_ - first_);
     sum += u_.since(u_.intervals(), std::max(t, u_.end())) * d_ *
            static_cast<double>(u_.intervals() - first_);
-    // Before the start u is 0, which is the window's first knot as well: nothing to add.
+    // Before the start u is 0, which is also the window's first knot: nothing to add.
     return place(sum / filter_);
   }
 
@@ -124,13 +124,13 @@ class Averaged {
     }
   }
 
-  /// Integral from the first knot to the last of u less u at the first.
+  /// Integrates u less u at the first knot, from the first knot to the last.
   [[nodiscard]] double between() const {
     const std::size_t back = pivot_ - first_;
     return before_[back] + ahead_ + d_ * static_cast<double>(back) * u_.between(pivot_, last_);
   }
 
-  /// Splits the way since the first knot into interval and offset.
+  /// Splits the distance since the first knot into interval and offset.
   [[nodiscard]] Place place(double way) const {
     const auto whole = static_cast<std::int64_t>(std::max(0.0, way / d_));
     const std::size_t i = std::min(first_ + static_cast<std::size_t>(whole), u_.intervals() - 1);
@@ -143,7 +143,7 @@ class Averaged {
   double filter_;
   Ticks filter_ticks_;
   std::size_t first_ = 0, pivot_ = 0, last_ = 0;
-  std::vector<double> before_ = {0.0};  // from so many knots before the pivot on, up to it
+  std::vector<double> before_ = {0.0};  // from each knot before the pivot up to it, by their number
   double ahead_ = 0.0;                  // from the pivot to the last knot, of u less u at the pivot
 };
 

@@ -9,7 +9,7 @@
 
 namespace tubecut::motion {
 
-/// A place of the path: `offset` mm behind knot `interval`.
+/// A place of the path: `offset` mm after knot `interval`.
 struct Place {
   std::uint32_t interval = 0;
   double offset = 0.0;
@@ -17,17 +17,18 @@ struct Place {
   [[nodiscard]] double u(double d) const { return d * interval + offset; }
 };
 
-/// Periods of `period` seconds that a time of `time` seconds takes.
+/// Returns the number of periods of `period` seconds in `time` seconds.
 [[nodiscard]] double periods_of(double time, double period);
 
-/// The error of a schedule that would have more periods than the `most` allowed.
+/// Returns the error of a schedule with more periods than `most`.
 [[nodiscard]] tl::unexpected<Error> too_many_periods(double periods, std::int64_t most);
 
-/// u at the ends of `periods` equal periods, 0 first and the path's end last, never decreasing.
+/// Computes u at the ends of `periods` equal periods, 0 first and the path's end last, never
+/// decreasing.
 ///
-/// Accuracy  times in whole parts of 4e-19 of the whole; sums, over the window alone, within 4e-16
-///           of the way that the window spans.
-/// Cost      one pass over knots and periods, whatever the filter.
+/// Accuracy  times in units of 4e-19 of the whole; sums, over the window only, within 4e-16 of the
+///           distance that the window spans.
+/// Cost      one pass over knots and periods, for any filter.
 /// Source    docs/theory/pulse-schedules.md, section 6.3.
 [[nodiscard]] std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
                                          const std::stop_token& stop = {});

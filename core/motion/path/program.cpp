@@ -30,7 +30,7 @@ Program from_points(const std::vector<CutPoint>& points, double radius) {
   return out;
 }
 
-/// The contour in its direction and, for a sector, only that stretch of it.
+/// Returns the contour in its direction; for a sector, only that part of it.
 Result<Track> stretch(Track whole, const Motion& motion) {
   if (motion.sector) {
     TRY(const auto in_direction, directed(std::move(whole), motion.direction, {}));
@@ -39,7 +39,7 @@ Result<Track> stretch(Track whole, const Motion& motion) {
   return directed(std::move(whole), motion.direction, motion.start);
 }
 
-/// Points that were placed along a checked path.
+/// Returns the program of points that were placed along a checked path.
 Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
   Program out = from_points(way.points, whole.radius);
   out.cut_first = way.cut_first;
@@ -76,7 +76,7 @@ Coordinate coordinate_of(const Axis& axis, const AxisColumns& columns, bool turn
   return {1.0, Coordinate::Group::tip};
 }
 
-/// A mill path gives no length: its speed is the tip's.
+/// Returns true for a mill path without lengths, because its speed is the tip's.
 bool follows_tip(const AxisColumns& cut, const Machine& machine) {
   return std::holds_alternative<ConeMill>(machine.kinematics) && cut.length.empty();
 }
@@ -139,7 +139,7 @@ Result<void> check_values(const Program& p, const Machine& machine) {
   return {};
 }
 
-/// A closed column path ends where it began, rotary axes up to whole turns.
+/// Checks that a closed column path ends where it began, rotary axes modulo whole revolutions.
 Result<void> check_closed(const AxisColumns& cut, const Machine& machine) {
   for (std::size_t a = 0; a < cut.columns.size(); ++a) {
     const double gap = cut.columns[a].back() - cut.columns[a].front();

@@ -9,8 +9,8 @@
 
 namespace tubecut::motion {
 
-/// Weight of B in the generalised length, mm per rad: of 5, 10, 20 and 50 the one that is never
-/// bad.
+/// Weight of B in the generalised length, mm per rad: of 5, 10, 20 and 50 the only one that is
+/// never bad.
 inline constexpr double kBevelWeight = 10.0;
 
 /// One coordinate of the path. `weight` turns its unit into mm of generalised length.
@@ -33,13 +33,13 @@ struct Program {
   int turns = 0;                  // of phi over a closed contour
 
   [[nodiscard]] std::size_t size() const { return x.front().size(); }
-  /// Generalised distance of two neighbouring points, mm.
+  /// Returns the generalised distance of two neighbouring points, mm.
   [[nodiscard]] double step(std::size_t from, std::size_t to) const;
-  /// Generalised length up to each point, mm.
+  /// Returns the generalised length up to each point, mm.
   [[nodiscard]] std::vector<double> lengths() const;
 };
 
-/// The contract of the input, then start point, direction, sector, lead and overcut.
+/// Checks the input, then applies start point, direction, sector, lead and overcut.
 ///
 /// Errors  bad_number, wrong_count, angle_out_of_range (|B| > 85 deg), duplicate_point, turns_back,
 ///         not_closed, out_of_range, unsupported_combination, lead_blocked (a lead or pierce point

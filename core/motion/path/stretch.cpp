@@ -7,11 +7,11 @@
 namespace tubecut::motion {
 namespace {
 
-/// mm; a place nearer to a point than this is that point. One put beside it would round to the
-/// same, and a path that has a point twice has no direction there.
+/// mm; a place nearer to a point than this counts as that point, because an inserted point would
+/// round to the same, and a path with a repeated point has no direction there.
 constexpr double kSamePlace = 1e-8;
 
-/// The points nearer to a length than kSamePlace are at it: first and one past the last.
+/// Returns the points within kSamePlace of a length: the first and one past the last.
 std::pair<std::size_t, std::size_t> points_at(const std::vector<double>& length, double at) {
   const auto first = std::ranges::lower_bound(length, at - kSamePlace) - length.begin();
   const auto past = std::ranges::upper_bound(length, at + kSamePlace) - length.begin();

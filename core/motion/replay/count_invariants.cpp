@@ -13,9 +13,9 @@ namespace tubecut::motion {
 namespace {
 
 constexpr std::ptrdiff_t kAskEvery = 1024;  // periods
-constexpr double kStrict = 1e-6;            // an integer must stay below its limit, not on it
+constexpr double kStrict = 1e-6;            // an integer must be below its limit, not equal to it
 constexpr double kTravelSlack = 0.51;       // pulses: half of one, and rounding
-constexpr double kHalf = 0.5;               // pulses that a rounded count may be off
+constexpr double kHalf = 0.5;               // pulses: maximum error of a rounded count
 constexpr double kRounding = 1e-6;          // pulses, of values far from the start
 
 struct AxisCounts {
@@ -24,14 +24,14 @@ struct AxisCounts {
   double period;
   const std::stop_token& stop;
   double start = 0.0;
-  std::int64_t before = 0;  // pulses since the start, where these begin
+  std::int64_t before = 0;  // pulses from the start of the whole to the start of these
 
-  /// Whether to go on with period `k`.
+  /// Returns true if the loop continues with period `k`.
   [[nodiscard]] bool goes_on(std::ptrdiff_t k) const {
     return k % kAskEvery != 0 || !stop.stop_requested();
   }
   [[nodiscard]] double pulses() const { return axis.pulses_per_axis_unit(); }
-  /// Count of period `k`, at rest before and behind.
+  /// Returns the count of period `k`, at rest before and after.
   [[nodiscard]] double at(std::ptrdiff_t k) const {
     const bool inside = k >= 0 && k < static_cast<std::ptrdiff_t>(counts.size());
     return inside ? counts[static_cast<std::size_t>(k)] : 0.0;
@@ -49,8 +49,8 @@ AxisCounts counts_of(const Machine& machine, const Counted& counted, std::size_t
           counted.start[axis], counted.pulses_before(axis)};
 }
 
-/// I2: the sum against the axis values at both ends of the program, of a stretch rounded from the
-/// start of the whole.
+/// I2: checks the sum against the axis values at both ends of the program; for a part of it,
+/// rounded from the start of the whole.
 void see_sum(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, bool stretch,
              Worst& worst) {
   const double start = f.at(coordinates_of(job.program, 0));
@@ -61,8 +61,8 @@ void see_sum(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f,
   worst.see(std::abs(static_cast<double>(a.total() - expected)), 0.0);
 }
 
-/// I3: whole turns of a rotary axis, nothing on all others but those that go round with phi
-/// uncounted in turns.
+/// I3: checks for whole revolutions of a rotary axis, and zero on all others, except those that
+/// follow phi without a count per revolution.
 void see_closure(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, Worst& worst) {
   const bool goes_round = f.linear[0] != 0.0 && job.program.turns != 0;
   if (goes_round && a.axis.pulses_per_turn == 0) return;
@@ -94,7 +94,7 @@ void see_jerk(const AxisCounts& a, Worst& worst) {
   }
 }
 
-/// I8: pulses beyond a soft limit.
+/// I8: counts the pulses beyond a soft limit.
 void see_travel(const AxisCounts& a, Worst& worst) {
   std::int64_t sum = a.before;
   for (std::size_t k = 0; k <= a.counts.size(); ++k) {
@@ -106,7 +106,7 @@ void see_travel(const AxisCounts& a, Worst& worst) {
   }
 }
 
-/// I9: an axis that turns round is slow on both sides.
+/// I9: checks that an axis that reverses is slow on both sides.
 void see_reversals(const AxisCounts& a, Worst& worst) {
   const double limit = a.axis.a_max * a.period * a.period * a.pulses() + 2.0;
   std::int32_t before = 0;
@@ -119,9 +119,9 @@ void see_reversals(const AxisCounts& a, Worst& worst) {
   }
 }
 
-/// I16: the start against the axis value at the program's first point, in pulses; whole turns of a
-/// rotary axis apart. What stands on the path within its tolerance may still stand beside its
-/// start.
+/// I16: compares the start with the axis value at the program's first point, in pulses, modulo
+/// whole revolutions of a rotary axis. Needed because a schedule within the path's tolerance may
+/// still begin away from its start.
 void see_start(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, bool stretch,
                Worst& worst) {
   double off =

@@ -11,9 +11,9 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr double kLook = 0.5;            // mm the follower looks ahead beyond all allowances
+constexpr double kLook = 0.5;  // mm that the follower searches ahead beyond all allowances
 constexpr std::size_t kLongWindow = 25;  // periods of I15
-constexpr double kLeadStep = 0.05;       // mm of tip path between looks at the lead's clearance
+constexpr double kLeadStep = 0.05;       // mm of tip path between checks of the lead's clearance
 
 using Group = Coordinate::Group;
 
@@ -22,9 +22,9 @@ struct Allowance {
   double tip = 0.0;        // I10, mm
   double skipped = 0.0;    // I11, mm
   double bevel = 0.0;      // I12, rad
-  double place = 0.0;      // I12: where along the path B may come from, mm
+  double place = 0.0;      // I12: the path distance within which B may vary, mm
   double speed = 0.0;      // t_q of the speed's trace, mm
-  double thickness = 0.0;  // what an error of B moves the beam on the far wall, mm
+  double thickness = 0.0;  // shift of the beam on the far wall per rad of B, mm
 };
 
 double largest_bevel(const Program& program) {
@@ -76,7 +76,7 @@ class Examination {
   [[nodiscard]] bool is_tip(std::size_t c) const {
     return job_.program.coordinates[c].group == Group::tip;
   }
-  /// Plain axes have no tip to go by: there every axis is followed, in generalised length.
+  /// Plain axes have no tip, so every axis is followed, in generalised length.
   [[nodiscard]] bool plain() const {
     const auto* const columns = std::get_if<AxisColumns>(&spec_.cut);
     return columns != nullptr && !columns->length.empty();
@@ -98,7 +98,7 @@ class Examination {
     }
     const double near = motion.eps_tip + std::sqrt(quanta) + followed_bevels;
     allow_.tip = near + path.sag_tip;
-    // Smoothing is measured at the knots; a corner may lie half a spacing beside one.
+    // Smoothing is measured at the knots; a corner may be half a spacing away from one.
     allow_.place = allow_.tip + 0.5 * path.d;
     allow_.skipped = near + 0.5 * fastest() * counted_.period + 0.5 * path.d;
     allow_.bevel = motion.eps_b.rad() + path.sag_b + bevel;
@@ -158,7 +158,7 @@ class Examination {
     }
   }
 
-  /// Largest speed asked for near a place of the polyline, mm/s.
+  /// Returns the largest requested speed near a place of the polyline, mm/s.
   [[nodiscard]] double asked(const Follower& follower, const Follower::Found& found) const {
     const SpeedAlong& speed = job_.course.speed;
     double most = std::max(speed.at_point(found.segment), speed.at_point(found.segment + 1));
@@ -263,7 +263,7 @@ bool any_tip_known(const PreparedCut& job, const Reconstruction& torch) {
 }  // namespace
 
 void Worst::see(double value, double limit) {
-  // value / limit compared without dividing: a limit may be zero
+  // compares value / limit without a division, because a limit may be zero
   const bool worse = !any_ || value * limit_ > value_ * limit ||
                      (limit == 0.0 && limit_ == 0.0 && value > value_) || std::isnan(value);
   if (worse && !std::isnan(value_)) {

@@ -25,14 +25,14 @@ class Worst {
   bool any_ = false;
 };
 
-/// I4 to I9, whatever the path: limits per period, travel, reversals. `jerk`: the schedule claims a
-/// jerk limit.
+/// Checks I4 to I9, for any path: limits per period, travel, reversals. `jerk`: the schedule claims
+/// a jerk limit.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 9.
 [[nodiscard]] std::vector<Check> rate_invariants(const Machine& machine, const Counted& counted,
                                                  bool jerk, const std::stop_token& stop);
 
-/// I2, I3 and I16: sums, closure, the start.
+/// Checks I2, I3 and I16: sums, closure, the start.
 [[nodiscard]] std::vector<Check> place_invariants(const PreparedCut& job, const Counted& counted,
                                                   const std::stop_token& stop);
 
@@ -41,7 +41,7 @@ struct Followed {
   double deviation = 0.0;
 };
 
-/// I10 to I15 and, `with_lead` of a closed cut, `lead_clears_part`.
+/// Checks I10 to I15 and, if `with_lead` is set for a closed cut, `lead_clears_part`.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 9.
 [[nodiscard]] Followed path_invariants(const ScheduleSpec& spec, const PreparedCut& job,

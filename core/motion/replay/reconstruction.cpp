@@ -22,7 +22,7 @@ double distance(const TipPoint& a, const TipPoint& b) {
   return std::sqrt(square);
 }
 
-/// Share of the way from `a` to `b` nearest to `p`, 0..1.
+/// Returns the fraction 0..1 from `a` to `b` that is nearest to `p`.
 double foot(const TipPoint& p, const TipPoint& a, const TipPoint& b) {
   double along = 0.0, square = 0.0;
   for (std::size_t c = 0; c < a.size(); ++c) {
@@ -89,7 +89,8 @@ void Reconstruction::set_tube(const CutPath& cut_path) {
   past_ = cut_path.outer_radius - cut_path.radius();
 }
 
-/// Least squares over the coordinates that any axis follows; of lower rank nothing is known.
+/// Solves least squares over the coordinates that any axis follows. If the rank is too low, no
+/// coordinate is determined.
 void Reconstruction::set_generic(const Generic& generic) {
   kind_ = Kind::generic;
   const auto rows = static_cast<Eigen::Index>(generic.maps.size());

@@ -14,14 +14,13 @@
 
 namespace tubecut::motion {
 
-/// Counts that came back, one span per axis of the machine; empty where the axis stands.
+/// Counts from outside, one span per axis of the machine; empty when the axis is at rest.
 struct Counted {
   double period = 0.0;
   std::size_t periods = 0;
   std::vector<std::span<const std::int32_t>> counts = {};
   std::vector<double> start = {};
-  /// Of a stretch of a longer schedule: pulses of every axis from `start` to the stretch. Empty:
-  /// none.
+  /// For a part of a longer schedule: pulses of every axis from `start` to the part. Empty: 0.
   std::vector<std::int64_t> before = {};
 
   [[nodiscard]] std::int64_t pulses_before(std::size_t axis) const {
@@ -29,7 +28,7 @@ struct Counted {
   }
 };
 
-/// The axis values that counts make, period by period.
+/// The axis values of counts, period by period.
 class AxisValues {
  public:
   AxisValues(const Counted& counted, const Machine& machine);
@@ -43,21 +42,23 @@ class AxisValues {
   std::vector<std::int64_t> sum_ = {};
 };
 
-/// Forward kinematics: the path's coordinates from axis values, by other formulas than those that
-/// made them.
+/// Forward kinematics: computes the path's coordinates from axis values, by formulas independent of
+/// those that made them.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 3.4.
 class Reconstruction {
  public:
   explicit Reconstruction(const ScheduleSpec& spec);
 
-  /// Coordinates that the axes determine; the others stay 0.
+  /// Computes the coordinates that the axes determine; the others stay 0.
   [[nodiscard]] Coordinates at(const std::vector<double>& axes) const;
   [[nodiscard]] bool knows(std::size_t coordinate) const { return known_[coordinate]; }
-  /// Height of pivot less the height the torch's angle asks for, mm; machines with a height axis.
+  /// Returns the height of the pivot less the height required by the torch's angle, mm; only for
+  /// machines with a height axis.
   [[nodiscard]] std::optional<double> standoff_error(const std::vector<double>& axes) const;
 
-  /// What half a pulse on every axis moves each coordinate by, at most, with |B| up to `largest_b`.
+  /// Returns the maximum change of each coordinate by half a pulse on every axis, with |B| up to
+  /// `largest_b`.
   [[nodiscard]] Coordinates quantum(double largest_b) const;
   [[nodiscard]] double standoff_quantum() const;
 
@@ -78,22 +79,23 @@ class Reconstruction {
   double pivot_ = 0.0;  // L: pivot to the wall along the beam
   double past_ = 0.0;   // e: radially from the contour's surface to the outer one
   double outer_ = 0.0;
-  double wheel_ = 0.0;                     // radius of a crawler's wheel path
-  std::vector<Coordinates> inverse_ = {};  // generic: what a unit of each axis moves
+  double wheel_ = 0.0;  // radius of a crawler's wheel path
+  std::vector<Coordinates> inverse_ =
+      {};  // generic: change of the coordinates per unit of each axis
   Coordinates origin_{};
   std::array<bool, kMostCoordinates> known_{};
 };
 
-/// A point as the follower sees it: tip coordinates in mm.
+/// A point for the follower: tip coordinates in mm.
 using TipPoint = Coordinates;
 
-/// Follows reconstructed points along the polyline of a program: how far off each is, what of the
-/// polyline was never reached, and which B the contour has where each point lies. Looks only near
-/// the last place, so that the order of the cut counts.
+/// Follows reconstructed points along the polyline of a program: computes the distance of each, the
+/// points of the polyline that were never reached, and the contour's B at each point. It searches
+/// only near the last place, so that the order of the cut counts.
 class Follower {
  public:
-  /// `part`: coordinates that take part. `window`: mm of tip path looked at on both sides.
-  /// Stopped, it follows nothing.
+  /// `part`: coordinates that take part. `window`: mm of tip path searched on both sides. If
+  /// cancelled, it is empty.
   Follower(const Program& program, const std::vector<bool>& part, double window,
            const std::stop_token& stop);
 
@@ -102,16 +104,16 @@ class Follower {
     double at = 0.0;        // mm of tip path along the polyline
     std::size_t segment = 0;
   };
-  /// Nearest place of the polyline to the next reconstructed point.
+  /// Finds the nearest place of the polyline to the next reconstructed point.
   Found follow(const TipPoint& tip);
 
-  /// Least and greatest value of coordinate `c` of the contour within `reach` mm of tip path around
-  /// `at`.
+  /// Returns the smallest and largest value of coordinate `c` of the contour within `reach` mm of
+  /// tip path around `at`.
   [[nodiscard]] std::pair<double, double> range(std::size_t c, double at, double reach) const;
-  /// Largest distance of a polyline point to the path followed, mm.
+  /// Returns the largest distance of a polyline point to the followed path, mm.
   [[nodiscard]] double farthest_missed() const;
   [[nodiscard]] double tip_length(std::size_t point) const { return at_[point]; }
-  /// Tip coordinates, mm, out of program coordinates.
+  /// Converts program coordinates to tip coordinates, mm.
   [[nodiscard]] TipPoint tip_of(const Coordinates& x) const;
 
  private:

@@ -70,7 +70,7 @@ std::vector<Check> examine(const ScheduleSpec& spec, const PreparedCut& job, con
                            double fraction, bool own, double* deviation,
                            const std::stop_token& stop) {
   std::vector<Check> out{{"I1", fraction, 0.0, "pulses"}};
-  // In the order of their numbers but for the start, which comes after the rates.
+  // In the order of their numbers except the start, which comes after the rates.
   std::vector<Check> places = place_invariants(job, counted, stop);
   if (places.empty()) return out;  // cancelled
   const Check begin = places.back();
@@ -93,7 +93,7 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
   const Reconstruction torch(spec);
   AxisValues values(counted, spec.machine);
   for (auto* column : {&out.phi, &out.z, &out.b})
-    column->reserve(counted.periods + 1);  // grown, a million would move in one piece
+    column->reserve(counted.periods + 1);  // because growth of a million would move at once
   for (std::size_t k = 0; k <= counted.periods; ++k) {
     if (k % kCheckEvery == 0 && stop.stop_requested()) return;
     if (k > 0) values.step(k - 1);

@@ -10,15 +10,16 @@
 
 namespace tubecut::motion {
 
-/// A schedule as it came back from outside: counts may be anything.
+/// A schedule from outside: its counts may have any value.
 struct ReplaySpec {
-  ScheduleSpec job = {};                         // machine, contour and motion it claims to follow
-  double period = 0.0;                           // s
-  std::vector<std::vector<double>> counts = {};  // per axis of the machine; empty: the axis stands
-  std::vector<double> start = {};                // per axis, in its unit
+  ScheduleSpec job = {};  // the machine, contour and motion that it claims to follow
+  double period = 0.0;    // s
+  std::vector<std::vector<double>> counts =
+      {};                          // per axis of the machine; empty: the axis is at rest
+  std::vector<double> start = {};  // per axis, in its unit
 };
 
-/// The counts as integers, and how far the worst was from one.
+/// The counts as integers, and the largest distance to an integer.
 struct Received {
   double period = 0.0;
   std::size_t periods = 0;
@@ -34,7 +35,7 @@ struct Received {
                                         const std::vector<std::vector<double>>& counts,
                                         std::vector<double> start, const std::stop_token& stop);
 
-/// The tool path that counts make, one more point than periods, and every invariant.
+/// The tool path of the counts, one more point than periods, and every invariant.
 struct Replay {
   std::vector<double> phi = {};  // rad; contour cuts
   std::vector<double> z = {};    // mm
@@ -43,21 +44,21 @@ struct Replay {
   double deviation = 0.0;  // largest distance of the tip to the contour, mm
 };
 
-/// The path of a contour's counts; none of axis columns.
+/// Rebuilds the path of a contour's counts; empty for axis columns.
 void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
              const std::stop_token& stop);
 
-/// Rebuilds the torch from integer counts and holds it against the contour: invariants I1 to I16,
-/// each with its worst value, the limit there and the unit. Those that do not apply (no contour, no
-/// jerk limit) are left out.
+/// Rebuilds the torch from integer counts and compares it with the contour: invariants I1 to I16,
+/// each with its worst value, the limit there and the unit. Invariants that do not apply (no
+/// contour, no jerk limit) are omitted.
 ///
 /// Errors  wrong_count, bad_number, and those of the job itself.
 /// Cost    one pass over the periods; per period the contour points within about a millimetre.
 /// Source  docs/theory/pulse-schedules.md, section 9.
 [[nodiscard]] Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop = {});
 
-/// The same invariants on an own answer, and `lead_clears_part`. An answer that does not even fit
-/// its request fails the check `replayable`.
+/// Checks the same invariants on our own answer, and `lead_clears_part`. If an answer does not fit
+/// its request, it fails the check `replayable`.
 [[nodiscard]] std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule,
                                         const std::stop_token& stop = {});
 

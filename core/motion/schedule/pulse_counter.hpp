@@ -8,31 +8,32 @@
 
 namespace tubecut::motion {
 
-/// Of each axis, in the machine's order.
+/// For each axis, in the machine's order.
 struct AxisSums {
   std::vector<std::int64_t> peak = {}, total = {};
 };
 
-/// Counts leg after leg, each rounded from one start: no pulse is lost between the legs, and none
-/// drifts over all of them.
+/// Counts leg after leg, all rounded from one start: no pulse is lost between the legs, and no
+/// error accumulates over all of them.
 class PulseCounter {
  public:
   PulseCounter(const Machine& machine, std::vector<double> start);
 
-  /// Room for so many periods more: without, every count would be held twice.
+  /// Reserves memory for this many further periods, because without it every count would be stored
+  /// twice.
   void expect(std::int64_t periods);
-  /// One period later, at these values of all axes.
+  /// Adds one period that ends at these values of all axes.
   void step(const std::vector<double>& values);
-  /// So many periods at rest.
+  /// Adds periods at rest.
   void rest(std::int64_t periods);
-  /// Along a planned cut, from where it begins.
+  /// Adds the counts along a planned cut, from its start.
   void follow(const PlannedCut& cut, const std::stop_token& stop);
 
-  /// Of the periods from this one on.
+  /// Returns the sums from this period on.
   [[nodiscard]] AxisSums sums_from(std::int64_t period, const std::stop_token& stop) const;
   [[nodiscard]] std::int64_t periods() const { return periods_; }
   [[nodiscard]] const std::vector<double>& at() const { return at_; }
-  /// Ends the counting.
+  /// Ends the counting and returns the pulses.
   [[nodiscard]] std::vector<AxisPulses> take();
 
  private:

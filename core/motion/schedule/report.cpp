@@ -15,7 +15,8 @@ namespace tubecut::motion {
 namespace {
 
 constexpr std::size_t kPerKnot = 4;
-constexpr double kNear = 1.0;  // mm of generalised length either way: points of a corner cut off
+constexpr double kNear =
+    1.0;  // mm of generalised length in each direction, because corners may be cut off
 
 /// The beam's traces on both walls.
 class Walls {
@@ -34,11 +35,12 @@ class Walls {
   std::array<double, 2> rise_{};
 };
 
-constexpr double kReportMargin = 2.0;  // mm where slow is just starting or stopping
-constexpr double kSlow = 0.5;          // of the speed asked
+constexpr double kReportMargin =
+    2.0;                       // mm at each end where a slow tip is only starting or stopping
+constexpr double kSlow = 0.5;  // of the requested speed
 
-/// Largest share of its limits that an axis uses over samples `from`..`to`; roots make the three
-/// kinds comparable as speeds.
+/// Returns the largest fraction of its limits that an axis uses over samples `from`..`to`; roots
+/// make the three kinds comparable as speeds.
 double share(const Course& course, const std::vector<Place>& places, std::size_t axis,
              std::size_t from, std::size_t to, const std::stop_token& stop) {
   const Axis& record = course.machine.axes[axis];
@@ -76,11 +78,11 @@ std::string limiting_axis(const Course& course, const std::vector<Place>& places
   return name;
 }
 
-/// A segment of the polyline run at the asked speed with all axes linear between its ends.
+/// A segment of the polyline at the requested speed with all axes linear between its ends.
 struct Segment {
   double length = 0.0;     // mm of the tip's path
-  double speed = 0.0;      // mm/s asked
-  double axis_time = 0.0;  // s that the slowest axis needs at its largest speed
+  double speed = 0.0;      // mm/s requested
+  double axis_time = 0.0;  // s of the slowest axis at its largest speed
   double stop_time = 0.0;  // s from rest to rest, without a jerk limit
 };
 
@@ -136,8 +138,8 @@ std::vector<Use> largest_uses(const Course& course, const Plan& plan, bool jerk)
   return out;
 }
 
-/// Pulses by which one turn of a crawler misses a whole count: a second lap must go on from the
-/// ideal position.
+/// Returns the pulses by which one revolution of a crawler differs from a whole count, because a
+/// second lap must continue from the ideal position.
 double closing_residual(const ScheduleSpec& spec) {
   const auto* const crawler = std::get_if<Crawler>(&spec.machine.kinematics);
   const auto* const cut_path = std::get_if<CutPath>(&spec.cut);
@@ -161,7 +163,8 @@ std::optional<EdgeDeviation> edge_deviation(const ScheduleSpec& spec, const Prog
   const auto& at = path.at_point;
   const double from = at[program.cut_first], to = at[program.cut_last];
   std::array<double, 2> most{};
-  /// Least distance on one wall to the segments near `u`; own one first, for it mostly suffices.
+  /// Finds the smallest distance on one wall to the segments near `u`; the own segment first,
+  /// because it usually suffices.
   const auto off = [&](Flat here, std::size_t wall, std::size_t own, double u) {
     const auto to_segment = [&](std::size_t i) {
       return distance(here, points[i][wall], points[i + 1][wall]);
@@ -192,8 +195,7 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
                                  const std::stop_token& stop) {
   const Course& course = job.course;
   const double d = course.path.d, end = course.path.length() - kReportMargin;
-  // Where a lead comes onto the cut at a corner, the cut is just starting: there a tab is broken
-  // off.
+  // If a lead meets the cut at a corner, the cut is just starting: a tab is broken off there.
   const auto first = job.program.cut_first;
   const bool turns_in = first > 0 && job.program.corner[first];
   const double begin = turns_in ? course.path.at_point[first] + kReportMargin : kReportMargin;
@@ -236,7 +238,7 @@ Comparison comparison(const PreparedCut& job, const std::stop_token& stop) {
     out.naive.axes.push_back({.name = axis.name});
     if (axis.n_max) out.naive.axes.back().periods_over = 0;
   }
-  double share = 1.0;  // of the asked speed that the whole cut can keep
+  double share = 1.0;  // of the requested speed that the whole cut can keep
   for (std::size_t i = 0; i + 1 < job.program.size() && !stop.stop_requested(); ++i) {
     const Segment seg = segment(job, s, i);
     const double asked = seg.length / seg.speed;

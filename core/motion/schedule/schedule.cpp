@@ -15,7 +15,8 @@ bool is_moving(const Course& course, std::size_t axis) {
   return std::ranges::count(course.limits.axes, axis, &AxisBounds::axis) > 0;
 }
 
-/// Pulses by which a closed cut ends beside its start, whole turns of a rotary axis apart.
+/// Returns the pulses between the end and the start of a closed cut, modulo whole revolutions of a
+/// rotary axis.
 std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& course,
                      std::int64_t total) {
   if (axis.pulses_per_turn > 0) return total % axis.pulses_per_turn;
@@ -23,7 +24,7 @@ std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& cour
   return total - rounded(ideal_pulses(axis, end, start));
 }
 
-/// Counts of the moving axes in one walk over the places.
+/// Computes the counts of the moving axes in one walk over the places.
 void count(const Course& course, const std::vector<Place>& places, const std::stop_token& stop,
            std::vector<AxisPulses>& out) {
   std::vector<AxisFunction> functions;
@@ -59,7 +60,7 @@ void sum_up(const PreparedCut& job, std::size_t a, AxisPulses& out) {
   }
 }
 
-/// First sample at or behind a point of the program.
+/// Returns the first sample at or after a point of the program.
 std::int64_t passes(const Course& course, const std::vector<Place>& places, std::size_t point) {
   const double mark = course.path.at_point[point] - 1e-9;
   const auto at = std::ranges::lower_bound(places, mark, {},

@@ -14,11 +14,11 @@
 
 namespace tubecut::motion {
 
-/// Ideal cumulative pulses of an axis at value `q`, counted from `start`.
+/// Computes the ideal cumulative pulses of an axis at value `q`, counted from `start`.
 [[nodiscard]] double ideal_pulses(const Axis& axis, double q, double start);
 
-/// floor(p + 1/2): halves go up on both signs. Never more than half a pulse off, and |N_k -
-/// N_(k-1)| <= ceil|dp|.
+/// Returns floor(p + 1/2): halves round up for both signs. The error is at most half a pulse, and
+/// |N_k - N_(k-1)| <= ceil|dp|.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 7.
 [[nodiscard]] std::int64_t rounded(double pulses);
@@ -30,8 +30,9 @@ struct AxisPulses {
   double start = 0.0;                     // axis value before the first period, in its unit
   std::vector<std::int32_t> counts = {};  // one per period; empty: the axis never moves
   std::int64_t total = 0;
-  std::int64_t peak = 0;     // largest |count|
-  std::int64_t closure = 0;  // pulses between end and start of a closed cut, whole turns apart
+  std::int64_t peak = 0;  // largest |count|
+  std::int64_t closure =
+      0;  // pulses between end and start of a closed cut, modulo whole revolutions
 
   [[nodiscard]] bool idle() const { return counts.empty(); }
 };
@@ -65,7 +66,7 @@ struct Schedule {
   std::vector<Warning> warnings = {};
 };
 
-/// A cut timed, before its pulses are counted.
+/// A cut after timing, before its pulses are counted.
 struct PlannedCut {
   PreparedCut job;
   Plan plan = {};
@@ -76,15 +77,15 @@ struct PlannedCut {
 /// Errors  as `schedule`.
 [[nodiscard]] Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& stop);
 
-/// What a report has to be looked at for.
+/// Returns the warnings for a report.
 [[nodiscard]] std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report);
 
-/// The pulses of every axis of the machine.
+/// Computes the pulses of every axis of the machine.
 [[nodiscard]] std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
                                              const std::stop_token& stop = {});
 
-/// Integer pulses per axis and period for a cut on a machine: time-optimal without jerk limits,
-/// jerk-limited, no pulse lost.
+/// Computes integer pulses per axis and period for a cut on a machine: time-optimal without jerk
+/// limits, jerk-limited, no pulse lost.
 ///
 /// Errors    of the contour: bad_number, wrong_count, angle_out_of_range, duplicate_point,
 ///           turns_back, not_closed, out_of_range, unsupported_combination, lead_blocked,

@@ -15,8 +15,9 @@ namespace tubecut::motion {
 /// Axis values given directly, one column per axis of the machine, in the axis' unit: a mill path
 /// or plain axes.
 struct AxisColumns {
-  std::vector<double> length = {};  // s, mm: what the speed is measured along; empty: a mill path
-  double tip_radius = 0.0;          // rho3 of a mill path: C turns the tip on this radius, mm
+  std::vector<double> length =
+      {};                   // s, mm: the length that the speed refers to; empty: a mill path
+  double tip_radius = 0.0;  // rho3 of a mill path: C turns the tip on this radius, mm
   std::vector<std::vector<double>> columns = {};  // in the order of the machine's axes
   std::vector<bool> corner = {};
   bool closed = false;
@@ -25,12 +26,12 @@ struct AxisColumns {
 using Cut = std::variant<CutPath, AxisColumns>;
 
 struct Expert {
-  double optimism = 3.0;              // 1: proven rows only
+  double optimism = 3.0;              // 1: only proven rows
   std::optional<double> filter = {};  // s; empty: the best of the ladder
   bool sag_warning = true;
 };
 
-/// How a cut is to be run.
+/// The parameters of a cut's motion.
 struct Motion {
   Speed speed = 10.0;
   Surface speed_on = Surface::outer;
@@ -49,9 +50,8 @@ struct ScheduleSpec {
   Cut cut = CutPath{};
   Machine machine = {};
   Motion motion = {};
-  /// Of a cut path: its points from pierce to where the torch is put out, where they are known
-  /// already. Start and direction are theirs, and so is the lead: `motion` only tells whether there
-  /// is one.
+  /// For a cut path: its points from pierce to torch off, if they are already known. They also
+  /// determine start, direction and lead; `motion` then only states whether there is a lead.
   std::optional<CutWithLead> way = {};
   std::int64_t max_periods = 4'000'000;
 };

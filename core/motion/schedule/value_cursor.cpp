@@ -6,10 +6,10 @@ namespace tubecut::motion {
 namespace {
 
 constexpr std::size_t kBevel = 2;          // index of the coordinate B
-constexpr double kNearValue = 1.0 / 16.0;  // rad; further on the series would leave 1e-18
+constexpr double kNearValue = 1.0 / 16.0;  // rad; beyond it the series would leave 1e-18
 
-/// Sine and cosine of an angle turned on by at most `kNearValue`: Taylor's series of what is turned
-/// by, cut off below 3e-19, and the sum of the two angles.
+/// Rotates sine and cosine of an angle by at most `kNearValue`: Taylor's series of the rotation,
+/// truncated below 3e-19, and the sum of the two angles.
 elementary::SinCos turned(const elementary::SinCos& of, double by) {
   const double s = by * by;
   const double sine =

@@ -11,9 +11,9 @@
 
 namespace tubecut::motion {
 
-/// Values of functions of a path's coordinates at places that follow one another. Within an
-/// interval the coordinates are cubics, so the linear part of every function is one too, and B's
-/// sine and cosine are turned on from those at its start.
+/// Computes functions of a path's coordinates at a sequence of places. Within an interval the
+/// coordinates are cubics, so the linear part of every function is one too, and B's sine and cosine
+/// are rotated from those at its start.
 ///
 /// Accuracy  at the start of an interval and at the path's end bit-equal to `AxisFunction::at`,
 ///           else within 4e-16 of the sum of the magnitudes of its terms.
@@ -22,7 +22,7 @@ class ValueCursor {
  public:
   ValueCursor(const Path& path, std::span<const AxisFunction> functions);
 
-  /// In the functions' order; they stay until the next call.
+  /// Returns the values in the functions' order; they are valid until the next call.
   const std::vector<double>& at(const Place& place);
 
  private:

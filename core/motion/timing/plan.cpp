@@ -16,23 +16,25 @@ constexpr int kFullRounds = 4;
 constexpr double kAccepted = 1.0 + 1e-9;
 constexpr double kJerkRelief = 0.97;
 
-// Of the ladder of filters.
-constexpr int kProvenAfter = 7;  // passes; then a violated place goes to the proven rows at once
-constexpr int kMostPasses = 40;  // then every interval does
-constexpr double kNothingToGain = 1.0 + 1e-4;  // over the optimum without jerk limits
+// For the ladder of filters.
+constexpr int kProvenAfter =
+    7;  // passes; after them a violated place goes directly to the proven rows
+constexpr int kMostPasses = 40;                // after them, every interval does
+constexpr double kNothingToGain = 1.0 + 1e-4;  // of the optimum without jerk limits
 
-// Of the plan by signed rows.
-constexpr int kMostSignedPasses = 20;  // then the filter is given up
+// For the plan by signed rows.
+constexpr int kMostSignedPasses = 20;  // after them, the filter is given up
 constexpr double kStart = 3.0;         // optimism of the jerk rows
-constexpr double kLeast = 0.3;         // at most this much below the rows a proof would ask for
+constexpr double kLeast = 0.3;         // minimum, relative to the rows of a proof
 constexpr double kShareRelief = 0.995;
-constexpr double kWorthwhile = 0.999;  // of the time before, to go on to the next filter
-constexpr double kCancels = 1.01;      // from here on, sums of magnitudes forbid too much
+constexpr double kWorthwhile = 0.999;  // of the previous time, to continue with the next filter
+constexpr double kCancels = 1.01;      // above it, sums of magnitudes are too strict
 
 constexpr double kLastCheck = 1.0 + 1e-8;
 
-/// Length in periods of the filter with which `time_of` is least: octave by octave from the longest
-/// that any axis can use down to one period, until two in a row are slower than the best.
+/// Returns the length in periods of the filter with the smallest `time_of`: octave by octave from
+/// the longest that any axis can use down to one period, until two in sequence are slower than the
+/// best.
 double best_octave(const Course& course, const std::function<double(double)>& time_of,
                    const std::stop_token& stop) {
   const double period = course.machine.period;
@@ -76,7 +78,7 @@ class LadderSearch {
         least_(duration(without_jerk, course.limits.d)),
         stop_(std::move(stop)) {}
 
-  /// The fastest timing found that is faster than `bound` seconds; empty x where none is.
+  /// Returns the fastest timing that is faster than `bound` seconds; x is empty if there is none.
   Timing best(double optimism, double bound) {
     Timing found{{}, 0.0, bound};
     for (const double filter : filters(optimism)) {
@@ -88,7 +90,7 @@ class LadderSearch {
     return found;
   }
 
-  /// No other filter or optimism could save more than a part in ten thousand.
+  /// Returns true if no other filter or optimism could save more than a part in ten thousand.
   [[nodiscard]] bool good_enough(const Timing& timing) const {
     return timing.time <= kNothingToGain * least_;
   }
@@ -100,7 +102,7 @@ class LadderSearch {
     return profiles_.by_magnitudes(without_jerk_, filter, optimism, rounds, stop_);
   }
 
-  /// Scouts every octave with one round, then offers the best and its neighbours.
+  /// Tries every octave with one round, then returns the best and its neighbours.
   std::vector<double> filters(double optimism) const {
     if (options_.filter) return {*options_.filter};
     const Optimism level(course_.limits.intervals(), optimism);
@@ -117,8 +119,8 @@ class LadderSearch {
     return out;
   }
 
-  /// Lowers the optimism where a sample breaks its jerk limit, until none does. Every pass lowers
-  /// some of it and the proven level breaks nothing, so this ends.
+  /// Lowers the optimism where a sample breaks its jerk limit, until none does. It ends, because
+  /// every pass lowers some of it and the proven level breaks no limit.
   Timing repaired(double filter, double level, double bound) const {
     Optimism optimism(course_.limits.intervals(), level);
     for (int pass = 1;; ++pass) {
@@ -190,7 +192,7 @@ class SignedSearch {
     return std::min(count - 1.0, std::floor(count / std::numbers::sqrt2 + 0.5));
   }
 
-  /// True where a filter of `count` periods is worth going on from.
+  /// Returns true if the search should continue from a filter of `count` periods.
   bool step_to(double count, Timing& found) {
     Timing next = repaired(count * period(), found.time);
     const bool better = next.time < kWorthwhile * found.time;
@@ -198,7 +200,7 @@ class SignedSearch {
     return better;
   }
 
-  /// Goes on until two filters in a row save nothing.
+  /// Continues until two filters in sequence save nothing.
   void climb(double count, double (*next)(double), Timing& found) {
     for (int idle = 0; idle < 2 && !stop_.stop_requested();) {
       count = next(count);
@@ -207,7 +209,7 @@ class SignedSearch {
     }
   }
 
-  /// Lowers what the rows allow where a sample breaks a limit, until none does.
+  /// Lowers the rows' permission where a sample breaks a limit, until none does.
   Timing repaired(double filter, double bound) {
     Optimism optimism(intervals(), kStart);
     rows_.share.assign(intervals(), 1.0);
@@ -221,7 +223,7 @@ class SignedSearch {
     return {{}, filter, 1e300};
   }
 
-  /// False where nothing had to be lowered.
+  /// Returns false when nothing had to be lowered.
   bool lower(Optimism& optimism, const std::vector<Place>& places, const Ratios& ratio,
              double filter) {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
@@ -250,8 +252,8 @@ class SignedSearch {
   std::stop_token stop_;
 };
 
-/// The fastest plan by signed rows that is faster than `bound` seconds and whose samples hold every
-/// limit of acceleration and jerk; empty x where none is found.
+/// Finds the fastest plan by signed rows that is faster than `bound` seconds and whose samples keep
+/// every limit of acceleration and jerk; x is empty if there is none.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 6.3.
 Timing best_by_signed_rows(const Course& course, FilteredProfiles& profiles,
@@ -287,7 +289,7 @@ Timing fastest_of(const std::vector<double>& a, const std::vector<double>& b, do
   return time_a <= time_b ? Timing{a, 0.0, time_a} : Timing{b, 0.0, time_b};
 }
 
-/// The proven plan, and the faster of it and the optimistic one.
+/// Computes the proven plan, and keeps the faster of it and the optimistic one.
 void limit_jerk(Plan& out, LadderSearch search, const Course& course, const PlanOptions& options) {
   out.timing = search.best(1.0, 1e300);
   out.proven = out.timing.time;
@@ -303,7 +305,7 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
   Conditions base = without_jerk(course.limits, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows, stop);
-  base = {};  // to be freed at the end, with the rest, would hold up a stop
+  base = {};  // because its release at the end, with the rest, would delay a cancellation
   HalfPlanes acceleration = acceleration_rows(course.limits, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   const Profile by_signs = fastest_profile(speed_caps(course.limits, stop), acceleration, stop);

@@ -18,7 +18,8 @@ struct PlanOptions {
 
 struct Plan {
   Timing timing = {};
-  double least = 0.0;    // s, no motion along the path within v, a, tip speed and n_max is faster
+  double least =
+      0.0;  // s, lower bound for a motion along the path within v, a, tip speed and n_max
   double no_jerk = 0.0;  // s
   double proven = 0.0;   // s, of the proven mode
   double stretch = 1.0;
@@ -26,10 +27,10 @@ struct Plan {
   Uses uses = {};
 };
 
-/// The fastest of the ladder of filters, with optimism and repair, never slower than the proven
-/// mode; checked on its samples and, should a limit be broken there, stretched.
+/// Returns the fastest plan of the ladder of filters, with optimism and repair, never slower than
+/// the proven mode. Its samples are checked; if a limit is broken there, it is stretched.
 ///
-/// Where cancelling terms of acceleration bind, the plan by signed rows is made as well.
+/// If cancelling terms of acceleration bind, the plan by signed rows is computed as well.
 ///
 /// Errors  too_many_periods (before samples are taken), cancelled.
 /// Source  docs/theory/pulse-schedules.md, sections 6.2 and 6.3.

@@ -11,18 +11,18 @@ namespace tubecut::motion {
 namespace {
 
 constexpr double kUnlimited = 1e300;
-constexpr double kInside = 1.0 - 1e-12;  // rounding must not leave a row
+constexpr double kInside = 1.0 - 1e-12;  // rounding must not violate a row
 
-/// The rows of one interval seen from one of its knots: near * a + far * b <= 1.
+/// The rows of one interval as conditions of one of its knots: near * a + far * b <= 1.
 class Stage {
  public:
   Stage(const HalfPlanes& all, std::size_t i, bool backward)
       : rows_(std::span(all.rows).subspan(all.first[i], all.first[i + 1] - all.first[i])),
         backward_(backward) {}
 
-  /// Largest `a` up to `cap` for which some `b` in 0..most holds the rows. What is left to b, its
-  /// ceiling less its floor, is a concave piecewise linear function of a and not negative at 0:
-  /// from above, its tangents fall on its root in at most one step a row.
+  /// Returns the largest `a` up to `cap` for which some `b` in 0..most satisfies the rows. The room
+  /// for b, its ceiling less its floor, is a concave piecewise linear function of a and at least 0
+  /// at 0: from above, its tangents reach its root in at most one step per row.
   [[nodiscard]] double largest_near(double cap, double most) const {
     if (holds(cap, most)) return cap;
     double a = alone(cap);
@@ -36,7 +36,7 @@ class Stage {
     return a < cap ? kInside * a : cap;
   }
 
-  /// Largest `b` up to `most` at this `a`.
+  /// Returns the largest `b` up to `most` at this `a`.
   [[nodiscard]] double largest_far(double a, double most) const {
     double b = most;
     for (const HalfPlane& row : rows_) {
@@ -59,7 +59,7 @@ class Stage {
         rows_, [&](const HalfPlane& row) { return near(row) * a + far(row) * b <= 1.0; });
   }
 
-  /// What the rows without b leave of `a`.
+  /// Returns the largest `a` that the rows without b permit.
   [[nodiscard]] double alone(double a) const {
     for (const HalfPlane& row : rows_) {
       if (far(row) == 0.0 && near(row) * a > 1.0) a = 1.0 / near(row);
@@ -86,7 +86,7 @@ class Stage {
   bool backward_;
 };
 
-/// Largest value at every knot from which the last knot can be reached.
+/// Returns the largest value at every knot from which the last knot can be reached.
 std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows,
                              const std::stop_token& stop) {
   const std::size_t n = most.size() - 1;
@@ -97,7 +97,7 @@ std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows,
   return most;
 }
 
-/// Of those, the largest that can be reached from the first knot too.
+/// Returns the largest of those that can also be reached from the first knot.
 std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows,
                             const std::stop_token& stop) {
   for (std::size_t i = 0; i + 1 < most.size() && !stops(stop, i); ++i) {
@@ -106,8 +106,8 @@ std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows,
   return most;
 }
 
-/// A row that holds both knots down makes the faster choice at one of them the slower at the other.
-/// In its place stand two caps, the corner that it cuts from the box of `bound`, shrunk.
+/// If a row holds both knots down, a faster choice at one of them makes the other slower. Two caps
+/// replace it: the corner that it cuts from the box of `bound`, shrunk.
 std::vector<double> cornered(std::vector<double> caps, const std::vector<double>& bound,
                              const HalfPlanes& rows, const std::stop_token& stop) {
   for (std::size_t i = 0; i + 1 < caps.size() && !stops(stop, i); ++i) {
@@ -131,7 +131,7 @@ std::vector<double> largest_profile(std::vector<double> x, double d, const Rows&
   std::vector<double> slope, shift;
   for (auto* const of : {&slope, &shift}) of->reserve(rows.rows.size());
   for (std::size_t i = 0; i < n && !stops(stop, i); ++i) {
-    // Interval by interval: filled at once, they keep a stop waiting.
+    // Interval by interval, because filling all at once delays a cancellation.
     for (auto* const of : {&slope, &shift}) of->resize(rows.first[i + 1]);
     for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
       const Row& row = rows.rows[r];

@@ -10,7 +10,7 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr double kMostSpeed = 1e5;  // mm/s; anything faster is a unit mistake
+constexpr double kMostSpeed = 1e5;  // mm/s; a faster value is a unit error
 
 Result<void> check_speed(double speed, const std::string& member) {
   if (!std::isfinite(speed)) return fail({.code = ErrorCode::bad_number, .member = member});

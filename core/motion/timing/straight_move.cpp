@@ -9,18 +9,19 @@ namespace tubecut::motion {
 namespace {
 
 constexpr double kFree = 1e300;
-constexpr double kInsideShare = 1.0 - 1e-9;  // rounding must not lift a count over n_max
+constexpr double kInsideShare = 1.0 - 1e-9;  // rounding must not raise a count above n_max
 
 }  // namespace
 
 SCurve SCurve::fastest(double v, double a, std::optional<double> j) {
   if (!j) {
-    if (v * v > a) v = std::sqrt(a);  // the way is 1: no time to reach it
+    if (v * v > a) v = std::sqrt(a);  // the path is 1: too short to reach it
     return {1.0 / v, v / a, 0.0};
   }
   if (v * *j < a * a) a = std::sqrt(v * *j);
   if (1.0 / v >= v / a + a / *j) return {1.0 / v, v / a, a / *j};
-  // Half the way to speed up, half to slow down: v (v / a + a / j) = 1, a reached or not.
+  // Half the path to accelerate, half to decelerate: v (v / a + a / j) = 1, whether a is reached or
+  // not.
   const double t = a / *j;
   v = 0.5 * a * (std::sqrt(t * t + 4.0 / a) - t);
   if (v / a >= t) return {v / a + t, v / a, t};

@@ -10,11 +10,12 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr double kEdgeShare = 0.6;    // most of the jerk budget given to curvature
-constexpr double kFreeTime = 1e150;   // no limit, and its square still a number
-constexpr std::uint32_t kReach = 10;  // intervals over which a round looks for |u_ddot|
+constexpr double kEdgeShare = 0.6;    // maximum fraction of the jerk budget for curvature
+constexpr double kFreeTime = 1e150;   // no limit, and its square is still finite
+constexpr std::uint32_t kReach = 10;  // intervals over which a round searches for |u_ddot|
 
-/// Intervals that a filter window can reach from each interval; `root` is the speed at the knots.
+/// Computes the intervals that a filter window can reach from each interval; `root` is the speed at
+/// the knots.
 void reach_of(const std::vector<double>& root, double d, double filter, Windows& out) {
   const std::size_t n = root.size() - 1;
   std::vector<double> t(n + 1, 0.0);
@@ -40,7 +41,7 @@ Windows around(std::size_t n, std::uint32_t reach) {
   return out;
 }
 
-/// |u_ddot| alone, and alpha |u_ddot| + beta x <= c at both knots.
+/// Adds the bound of |u_ddot|, and alpha |u_ddot| + beta x <= c at both knots.
 void add_magnitude(const Row& row, double d, HalfPlanes& out) {
   const double pull = row.alpha / (2.0 * d * row.c), weight = row.beta / row.c;
   if (weight == 0.0) {
@@ -89,7 +90,7 @@ FilteredProfiles::FilteredProfiles(const PathLimits& limits, const std::stop_tok
   }
 }
 
-/// Maxima over the windows that the fastest profile so far leaves to the filter.
+/// Computes maxima over the filter's windows, from the fastest profile so far.
 void FilteredProfiles::look_round(const std::vector<double>& fastest, double filter,
                                   const std::stop_token& stop) {
   for (std::size_t j = 0; j < root_.size(); ++j) root_[j] = std::sqrt(fastest[j]);
@@ -100,7 +101,7 @@ void FilteredProfiles::look_round(const std::vector<double>& fastest, double fil
   maxima_.widen(windows_, stop);
 }
 
-/// What filter edges and, `by_axes`, acceleration alone leave of |u_ddot|.
+/// Bounds |u_ddot| by the filter's edges and, if `by_axes`, by acceleration.
 void FilteredProfiles::bound_acceleration(double filter, bool by_axes,
                                           const std::stop_token& stop) {
   for (std::size_t i = 0; i < bound_.size() && !stops(stop, i); ++i) {
@@ -120,7 +121,7 @@ void FilteredProfiles::bound_acceleration(double filter, bool by_axes,
   }
 }
 
-/// Not much more than the round before has used near by.
+/// Permits only slightly more than the values that the previous round used nearby.
 void FilteredProfiles::tighten(const std::vector<double>& x, const std::stop_token& stop) {
   for (std::size_t i = 0; i < used_.size(); ++i) {
     used_[i] = std::abs(x[i + 1] - x[i]) / (2.0 * limits_.d);
@@ -131,8 +132,8 @@ void FilteredProfiles::tighten(const std::vector<double>& x, const std::stop_tok
   }
 }
 
-/// The jerk rows: what curvature needs of the budget, up to `kEdgeShare`, is taken from what edges
-/// may have of |u_ddot|; where it needs more there is a row for that.
+/// Computes the jerk rows: curvature takes its part of the budget, up to `kEdgeShare`, from the
+/// edges' limit of |u_ddot|; if it needs more, a row is added.
 void FilteredProfiles::bound_edges(double filter, const std::stop_token& stop) {
   widen(bound_, windows_, stop, wide_);
   extra_.clear();
@@ -158,7 +159,7 @@ void FilteredProfiles::bound_edges(double filter, const std::stop_token& stop) {
   }
 }
 
-/// `fastest` within the speeds that every window leaves.
+/// Limits `fastest` to the speeds that every window permits.
 std::vector<double> FilteredProfiles::capped(const std::vector<double>& fastest) const {
   std::vector<double> caps = fastest;
   const auto cap = [](double& x, double slowness) {
@@ -175,8 +176,8 @@ std::vector<double> FilteredProfiles::capped(const std::vector<double>& fastest)
   return caps;
 }
 
-/// Largest x at one knot of interval `i` up to `most`, with `from` at the other. Rows by magnitudes
-/// see both knots alike.
+/// Returns the largest x at one knot of interval `i` up to `most`, with `from` at the other. Rows
+/// by magnitudes are symmetric in both knots.
 double FilteredProfiles::reach(std::size_t i, double from, double most) const {
   const double twice = 2.0 * limits_.d;
   most = std::min(most, from + twice * bound_[i]);
@@ -198,7 +199,7 @@ double FilteredProfiles::reach(std::size_t i, double from, double most) const {
   return most;
 }
 
-/// As `largest_profile`, its rows read from the maxima.
+/// Same as `largest_profile`, with its rows read from the maxima.
 std::vector<double> FilteredProfiles::passed(std::vector<double> x,
                                              const std::stop_token& stop) const {
   const std::size_t n = limits_.intervals();
@@ -210,11 +211,11 @@ std::vector<double> FilteredProfiles::passed(std::vector<double> x,
   return x;
 }
 
-/// Rows of acceleration as they are, without windows, and those of jerk with them.
+/// Returns the rows of acceleration without windows, and those of jerk with them.
 HalfPlanes FilteredProfiles::signed_rows(const SignedRows& rows,
                                          const std::stop_token& stop) const {
   HalfPlanes out;
-  // Room for all there can be: what has to grow moves as a whole.
+  // Reserve the maximum, because growth would move everything.
   out.rows.reserve(rows.acceleration.rows.size() + 2 * bound_.size() + 4 * extra_.size());
   out.first.reserve(bound_.size() + 1);
   for (std::size_t i = 0; i < bound_.size() && !stops(stop, i); ++i) {
@@ -228,8 +229,8 @@ HalfPlanes FilteredProfiles::signed_rows(const SignedRows& rows,
   return out;
 }
 
-/// Solves the rows round by round, each with the windows that the profile before leaves, until one
-/// is no faster.
+/// Solves the rows round by round, each with the windows of the previous profile, until one is no
+/// faster.
 template <class Solve>
 Timing FilteredProfiles::refined(const std::vector<double>& without_jerk, double filter,
                                  const Optimism& optimism, int rounds, const Solve& solve,
@@ -259,7 +260,7 @@ Timing FilteredProfiles::by_magnitudes(const std::vector<double>& without_jerk, 
     bound_acceleration(filter, true, stop);
     if (!before.empty()) tighten(before, stop);
     bound_edges(filter, stop);
-    if (stop.stop_requested()) return fastest;  // not all rows are there
+    if (stop.stop_requested()) return fastest;  // not all rows are present
     return passed(capped(fastest), stop);
   };
   return refined(without_jerk, filter, optimism, rounds, solve, stop);
@@ -272,7 +273,7 @@ Timing FilteredProfiles::by_signs(const SignedRows& rows, double filter, const O
     if (!before.empty()) tighten(before, stop);
     bound_edges(filter, stop);
     const HalfPlanes all = signed_rows(rows, stop);
-    if (stop.stop_requested()) return fastest;  // not all rows are there
+    if (stop.stop_requested()) return fastest;  // not all rows are present
     return fastest_within(capped(fastest), rows.without_jerk.bound, all, stop);
   };
   return refined(rows.without_jerk.x, filter, optimism, rounds, solve, stop);

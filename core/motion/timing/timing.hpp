@@ -19,22 +19,22 @@ struct Timing {
 /// The widest optimism of the jerk rows on every interval; 1 is proven.
 using Optimism = std::vector<double>;
 
-/// What a profile by signed rows starts from.
+/// The start of a profile by signed rows.
 struct SignedRows {
   HalfPlanes acceleration = {};
   Profile without_jerk = {};
-  std::vector<double> share = {};  // of a_max that each interval may use
+  std::vector<double> share = {};  // fraction of a_max that each interval may use
 };
 
-/// Fastest profiles whose rows still hold after a filter. What they need of a path is laid out once
-/// for all trials, and so is the room they are made in.
+/// Computes the fastest profiles whose rows still hold after a filter. Data of the path and buffers
+/// are prepared once for all trials.
 class FilteredProfiles {
  public:
-  /// Stopped, they are half made and for nothing.
+  /// If cancelled, they are incomplete and must not be used.
   explicit FilteredProfiles(const PathLimits& limits, const std::stop_token& stop = {});
 
-  /// The profile for a filter of `filter` seconds. With optimism 1 everywhere the filtered motion
-  /// keeps every limit by proof.
+  /// Computes the profile for a filter of `filter` seconds. With optimism 1 everywhere the filtered
+  /// motion provably keeps every limit.
   ///
   /// Cost    at most `rounds` (1..4) times the maxima over windows and two passes.
   /// Source  docs/theory/pulse-schedules.md, section 6.4 (with the proof).
@@ -42,10 +42,10 @@ class FilteredProfiles {
                                      const Optimism& optimism, int rounds,
                                      const std::stop_token& stop = {});
 
-  /// The same with |q' u_ddot + q'' x| <= share a_max in place of the sum of magnitudes, so that
-  /// terms of opposite signs cancel. A mean over the filter's window leaves these rows by as much
-  /// as q' and q'' change within it: acceleration and jerk hold where the samples say so, speeds by
-  /// proof.
+  /// Computes the same with |q' u_ddot + q'' x| <= share a_max in place of the sum of magnitudes,
+  /// so that terms of opposite signs cancel. A mean over the filter's window violates these rows by
+  /// as much as q' and q'' change within it: samples decide whether acceleration and jerk hold;
+  /// speeds hold by proof.
   ///
   /// Cost    as `by_magnitudes`, times about 4.
   /// Source  docs/theory/pulse-schedules.md, section 6.3.
@@ -69,13 +69,13 @@ class FilteredProfiles {
   const PathLimits& limits_;
   WindowMaxima maxima_;
   Windows windows_, beside_;
-  // Of the axes, pack by pack: limits and the inverses of limits; where there is none, of a jerk or
-  // behind the last axis, one that is never met.
+  // For the axes, pack by pack: limits and their inverses; a missing jerk limit, and the padding
+  // after the last axis, is a limit that is never reached.
   std::vector<Pack> jerk_, acceleration_, per_speed_, per_acceleration_, per_jerk_;
   std::vector<double> root_;   // of the fastest x at the knots
   std::vector<double> bound_;  // of |u_ddot| on every interval
   std::vector<double> used_, wide_;
-  std::vector<Row> extra_;  // beside the rows that every interval has
+  std::vector<Row> extra_;  // in addition to the rows of every interval
   std::vector<std::uint32_t> extra_first_;
 };
 

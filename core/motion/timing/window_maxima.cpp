@@ -32,8 +32,8 @@ WindowMaxima::WindowMaxima(const PathLimits& limits, const std::stop_token& stop
       width_((speed_ / kPack + 1) * kPack) {
   for (auto* const of : {&rows_, &maxima_}) of->reserve(limits.intervals() * width_);
   for (std::size_t i = 0; i < limits.intervals(); ++i) {
-    // Row by row, and asked more often: all at once takes tens of milliseconds, and a page of 2 MiB
-    // that is touched first up to eight.
+    // Row by row, with more frequent checks, because all at once takes tens of milliseconds, and
+    // the first access to a page of 2 MiB up to eight.
     if (i % 128 == 0 && stop.stop_requested()) return;
     for (auto* const of : {&rows_, &maxima_}) of->resize((i + 1) * width_, 0.0);
     double* const row = at(rows_, i);
@@ -52,9 +52,9 @@ void WindowMaxima::raise(const double* a, const double* b, double* to) const {
   }
 }
 
-/// A window is what lies before a pivot, whose maxima up to it are known from every row on, and
-/// what lies behind, of which one row is kept. When the pivot leaves the window, its last row is
-/// the next one.
+/// A window consists of the rows before a pivot, whose maxima up to it are stored for every row,
+/// and the rows after it, of which one maximum is kept. When the pivot leaves the window, the
+/// window's last row becomes the next one.
 void WindowMaxima::widen(const Windows& w, const std::stop_token& stop) {
   const std::vector<double> none(width_, -std::numeric_limits<double>::infinity());
   std::vector<double> tail = none;

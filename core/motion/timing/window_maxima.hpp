@@ -10,46 +10,46 @@
 
 namespace tubecut::motion {
 
-/// So many columns are reckoned with at once.
+/// Columns are processed in packs of this size.
 inline constexpr std::size_t kPack = 4;
 using Pack = Eigen::Array<double, kPack, 1>;
 
-/// Intervals low[i] .. high[i] for every interval i; neither bound ever falls.
+/// Intervals low[i] .. high[i] for every interval i; neither bound ever decreases.
 struct Windows {
   std::vector<std::uint32_t> low = {};
   std::vector<std::uint32_t> high = {};
 };
 
-/// Largest value of `values` over each window.
+/// Computes the largest value of `values` over each window.
 ///
-/// Cost  each value is put in and taken out once.
+/// Cost  each value is added and removed once.
 void widen(const std::vector<double>& values, const Windows& w, const std::stop_token& stop,
            std::vector<double>& out);
 
-/// The largest of every bound of a path over the windows of its intervals, and of two more columns
-/// that change from trial to trial. A row holds all columns of an interval, so that one comparison
-/// of rows does for all of them.
+/// Maxima of every bound of a path over the windows of its intervals, and of two more columns that
+/// change from trial to trial. A row contains all columns of an interval, so that one comparison of
+/// rows is enough for all of them.
 class WindowMaxima {
  public:
-  /// Stopped, it is half made and for nothing.
+  /// If cancelled, it is incomplete and must not be used.
   explicit WindowMaxima(const PathLimits& limits, const std::stop_token& stop = {});
 
   void set_optimism(std::size_t i, double optimism) { at(rows_, i)[optimism_] = -optimism; }
   void set_speed(std::size_t i, double speed) { at(rows_, i)[speed_] = speed; }
 
-  /// Takes the maxima over the windows.
+  /// Computes the maxima over the windows.
   ///
-  /// Cost  three comparisons of rows an interval, whatever the windows.
+  /// Cost  three comparisons of rows an interval, for any windows.
   void widen(const Windows& w, const std::stop_token& stop);
 
-  /// |q'|, |q''| and |q'''| of axes `a` and the following, 0 behind the last.
+  /// Return |q'|, |q''| and |q'''| of axes `a` and the following, 0 after the last.
   [[nodiscard]] Pack first(std::size_t i, std::size_t a) const { return pack(i, a); }
   [[nodiscard]] Pack second(std::size_t i, std::size_t a) const { return pack(i, axes_ + a); }
   [[nodiscard]] Pack third(std::size_t i, std::size_t a) const { return pack(i, 2 * axes_ + a); }
-  /// Axes and what fills their last pack.
+  /// Returns the number of axes, including the padding of their last pack.
   [[nodiscard]] std::size_t axes() const { return axes_; }
   [[nodiscard]] double slowness(std::size_t i) const { return at(i)[slowness_]; }
-  [[nodiscard]] double optimism(std::size_t i) const { return -at(i)[optimism_]; }  // the least
+  [[nodiscard]] double optimism(std::size_t i) const { return -at(i)[optimism_]; }  // the minimum
   [[nodiscard]] double speed(std::size_t i) const { return at(i)[speed_]; }         // of u
 
  private:
@@ -62,7 +62,7 @@ class WindowMaxima {
 
   std::size_t axes_, slowness_, optimism_, speed_, width_;
   std::vector<double> rows_, maxima_;
-  std::vector<double> heads_;  // largest of the rows from one of them up to the pivot
+  std::vector<double> heads_;  // maximum of the rows from each one up to the pivot
 };
 
 }  // namespace tubecut::motion
