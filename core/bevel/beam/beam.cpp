@@ -28,37 +28,37 @@ using beam::slope_across;
 using beam::slope_along;
 using beam::Surface;
 
-constexpr double kPlaces = 2000.0;  // along the cut, beside the rows and their middles
-constexpr double kFine = 0.25;      // of half a kerf: across the wall, where they are
+constexpr double kPlaces = 2000.0;  // along the cut, in addition to the rows and their middles
+constexpr double kFine = 0.25;      // of half a kerf: across the wall, distance of points
 constexpr double kMostLines = 48;
-constexpr int kFewest = 2, kMost = 8;  // stretches across the wall
-constexpr int kFiner = 3;              // each way, for cuts that bend
+constexpr int kFewest = 2, kMost = 8;  // intervals across the wall
+constexpr int kFiner = 3;              // in each direction, for cuts that bend
 constexpr double kTiny = 1e-300;
-constexpr int kHalvings = 250;       // at most, of cells between places; most cuts need some ten
-constexpr int kHalvingsOfRows = 40;  // likewise, where no more than what is there is asked for
+constexpr int kHalvings = 250;       // at most, of cells between samples; most cuts need some ten
+constexpr int kHalvingsOfRows = 40;  // likewise, if only the rows are requested
 
 struct Grid {
   double apart;            // mm, along the cut
-  int lines;               // stretches across the wall
+  int lines;               // intervals across the wall
   std::size_t first, end;  // rows
   bool land = false;
 };
 
-/// A line of the grid, and the share of the way after its row at which its cells end.
+/// A line of the grid, and the fraction of the path after its row at which its cells end.
 struct GridLine {
   std::size_t row;
   double u, u1;
   double along, across;  // of a cell, mm
 };
 
-/// Hands over all cells of a grid with their figures, line by line.
+/// Passes all cells of a grid with their figures to `see`, line by line.
 template <class See>
 class Cells {
  public:
   Cells(const Figure& figure, const Grid& grid, const See& see)
       : figure_(figure), grid_(grid), see_(see), last_(size() - 1) {}
 
-  /// Up to kLanes lines of the grid; cells end at each but the very first.
+  /// Processes up to kLanes lines of the grid; cells end at each except the very first.
   void line_up(std::span<const GridLine> lines) {
     std::array<Place, beam::kLanes> ends{};
     std::array<Line, beam::kLanes> across;
@@ -113,12 +113,12 @@ class Cells {
   const See& see_;
   std::vector<Slopes> last_;    // of the cells before
   std::vector<double> before_;  // figures on the line before
-  std::vector<Place> places_;   // on the lines that come now
+  std::vector<Place> places_;   // on the lines in progress
   std::vector<Line> on_;
   std::vector<double> here_;
 };
 
-/// All cells of the grid, with their figures.
+/// Passes all cells of the grid, with their figures, to `see`.
 template <class See>
 void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& stop,
                const See& see) {
@@ -141,7 +141,8 @@ void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& st
   if (!lines.empty() && !stop.stop_requested()) hand_over();
 }
 
-/// Stretches across the wall: more in walls thick beside the kerf.
+/// Returns the number of intervals across the wall: more if the wall is thick compared with the
+/// kerf.
 int lines(const BeamCut& cut) {
   constexpr double kKerfs = 4.0;
   if (cut.kerf == 0.0) return kFewest;
@@ -149,7 +150,7 @@ int lines(const BeamCut& cut) {
   return static_cast<int>(std::clamp(parts, 1.0 * kFewest, 1.0 * kMost));
 }
 
-/// Raises what is found everywhere to what the rows show, because the verification reads the rows.
+/// Raises the results everywhere to those at the rows, because the verification reads the rows.
 void raise_to_rows(const BeamFound& rows, BeamFound& all) {
   auto& [proof, gouged_from] = all;
   if (rows.proof.gouge > proof.gouge)
@@ -216,13 +217,15 @@ BeamFound beam_found(const BeamCut& cut, SampleDensity density, const std::stop_
 
 BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,
                       const std::stop_token& stop) {
-  constexpr double kAimed = 0.7 * kGougeLimit;  // a little more may be taken than is found
-  constexpr double kMore = 1.25;  // moved off the line's own surface, that next to it gains less
+  constexpr double kAimed =
+      0.7 * kGougeLimit;  // because slightly more may be removed than is found
+  constexpr double kMore =
+      1.25;  // because the distance to the surface grows less than the torch moves
   constexpr int kRounds = 8;
   Further further(rows, 0.0);
   for (int round = 0;; ++round) {
     const auto moved = cut(further);
-    const bool bends = round > 0 && moved.turn == 0.0;  // an end's drop is the least already
+    const bool bends = round > 0 && moved.turn == 0.0;  // the drop of an end is already the minimum
     const auto found =
         beam_found(moved, bends ? SampleDensity::finely : SampleDensity::everywhere, stop);
     if (!(found.proof.gouge > kAimed) || round == kRounds || stop.stop_requested())

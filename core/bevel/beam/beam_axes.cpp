@@ -14,15 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTurn = 2.0 * kRadPerDeg;  // over which a helix is a parabola: 1e-6 of the radius
-constexpr double kSwing =
-    3.0 * kRadPerDeg;                // over which the squared distance is all but a parabola
-constexpr double kArc = 1.01;        // no longer than that is an arc over its chord
-constexpr double kMostParts = 64.0;  // of the way from row to row, each no longer than four kerfs
+constexpr double kTurn = 2.0 * kRadPerDeg;   // over which a helix is a parabola: 1e-6 of the radius
+constexpr double kSwing = 3.0 * kRadPerDeg;  // over which the squared distance is nearly a parabola
+constexpr double kArc = 1.01;                // maximum ratio of an arc to its chord
+constexpr double kMostParts = 64.0;  // of the path from row to row, each at most four kerfs long
 constexpr double kTiny = 1e-300;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool axial(const AcrossWall& at) { return at.phi_outer == at.phi_inner; }  // as every end's are
+bool axial(const AcrossWall& at) { return at.phi_outer == at.phi_inner; }  // true for every end
 
 double apart(double a, double b) { return std::abs(b - a); }
 
@@ -32,7 +31,7 @@ AxisAt axis_at(const Vector3d& p, const Vector3d& d) {
 
 std::array<double, 3> numbers(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// The parabola through three places, by the power of the share of the way.
+/// Returns the parabola through three points, by powers of the fraction of the path.
 std::array<std::array<double, 3>, 3> parabola(const Vector3d& a, const Vector3d& b,
                                               const Vector3d& c) {
   return {numbers(a), numbers(4.0 * b - 3.0 * a - c), numbers(2.0 * (a - 2.0 * b + c))};
@@ -105,7 +104,7 @@ Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
   }
 }
 
-/// Into stretches.
+/// Divides the path into segments.
 void Axes::divide(const std::vector<Line>& rows) {
   const auto n = cut_.torch.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -116,7 +115,7 @@ void Axes::divide(const std::vector<Line>& rows) {
     const double way = std::min(rise + cut_.outer * wide, 4.0 * kMostParts * cut_.kerf);
     const Vector3d from = rows[i].to - rows[i].from, to = rows[i + 1].to - rows[i + 1].from;
     const double cross = from.cross(to).norm(), dot = from.dot(to);
-    // No angle below half of it makes another part.
+    // Angles below half of kSwing make no further part.
     const double swing = cross < 0.5 * kSwing * dot ? 0.0 : elementary::atan2(cross, dot);
     const int parts =
         1 +
@@ -150,7 +149,7 @@ void Axes::add_ways(const std::vector<Line>& rows, const std::stop_token& stop) 
       here = last;
     }
   }
-  if (ways_.size() < parts_.size()) ways_.resize(parts_.size(), Way{});  // stopped: not read
+  if (ways_.size() < parts_.size()) ways_.resize(parts_.size(), Way{});  // when cancelled: not read
 }
 
 Way Axes::way(const Line& first, const Line& middle, const Line& last) const {
@@ -173,8 +172,8 @@ std::size_t Axes::stretch_of(const OnWay& at) const {
   return k;
 }
 
-/// The points' own stretches, from the first to the last: on a ring, so that the last may be in the
-/// second lap.
+/// Returns the segments that contain the points, from the first to the last. On a ring, the last
+/// may be in the second lap.
 std::pair<std::size_t, std::size_t> Axes::stretches(std::span<const OnWay> own) const {
   const auto lap = static_cast<std::ptrdiff_t>(ways_.size());
   const auto start = static_cast<std::ptrdiff_t>(stretch_of(own.front()));
@@ -196,9 +195,9 @@ void Axes::see_first(std::size_t k, const EightPoints& points, Eight& square,
   see(static_cast<double>(k % ways_.size()), 0.0, square, best);
 }
 
-/// Where the axes are further away than the best ones, none nearer comes before they have travelled
-/// as much; and of a cut round the tube none comes once their half planes, up to half a turn ahead
-/// of the points, are.
+/// If the axes are further away than the best ones, no nearer one comes before they have travelled
+/// the difference. For a cut around the tube, no nearer one comes once their half planes, up to
+/// half a revolution ahead of the points, are further away.
 Walked Axes::walk_on(std::size_t k, bool on, const EightPoints& points, Eight& square,
                      EightNearest& best) const {
   const double inner = cut_.inner > 0.0 ? cut_.inner : 1.0;
@@ -211,7 +210,7 @@ void Axes::walk_ahead(std::size_t k, std::size_t last, const EightPoints& points
   while (k <= last) {
     const auto walked = walk_on(k, true, points, square, best);
     if (meridian_ && walked.beside >= 0.0) return;
-    const auto base = k - k % n;  // what was travelled is known of two laps
+    const auto base = k - k % n;  // the travelled distance covers two laps
     const double clear = travelled_[k - base + 1] + walked.clear;
     if (travelled_[k - base + 2] > clear) {
       ++k;
@@ -237,7 +236,7 @@ void Axes::walk_back(std::size_t end, std::size_t first, const EightPoints& poin
   }
 }
 
-/// From the axes that are the points' own, ahead and back.
+/// Starts at the points' own axes, and walks ahead and back.
 void Axes::nearest(std::span<const OnWay> own, const EightPoints& points,
                    std::span<Nearest> out) const {
   const auto n = ways_.size();
@@ -253,7 +252,8 @@ void Axes::nearest(std::span<const OnWay> own, const EightPoints& points,
     squares(way(k).last, way(k).floor, points, square);
     see(static_cast<double>(k % n), 1.0, square, best);
   }
-  // Half a lap of stretches is no half turn: where the turn decides they may run all round.
+  // Half a lap of segments is not half a revolution; if the revolution decides, they may run all
+  // around.
   const auto run = meridian_ ? n - 1 : n / 2;
   walk_ahead(low, high + run, points, first, best);
   walk_back(low + n, low + n - run, points, first, best);

@@ -20,40 +20,41 @@ struct Line {
   Eigen::Vector3d from, to;
 };
 [[nodiscard]] Line placed(const BeamCut& cut, const AcrossWall& at);
-/// Many at once.
+/// Computes many at once.
 void placed(const BeamCut& cut, std::span<const AcrossWall> at, std::span<Line> out);
 [[nodiscard]] std::vector<Line> placed(const BeamCut& cut, std::span<const AcrossWall> at);
-/// The share u of the way from row i to the next; rows are joined the last to the first.
+/// Interpolates at the fraction u from row i to the next; the last row is joined to the first.
 [[nodiscard]] AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t i,
                                  double u);
 
-/// A share u of the way after a row.
+/// A fraction u of the path after a row.
 struct OnWay {
   std::size_t row;
   double u;
 };
 
-/// The nearest axis: its squared distance, and the share of the way after `row` where it stands.
+/// The nearest axis: its squared distance, and its fraction of the path after `row`.
 struct Nearest {
   double square;
   OnWay at;
   std::size_t stretch;
-  double share;  // of the stretch
+  double share;  // of the segment
 };
 
-/// The axes along the torch's way; indices over two laps, so that half a lap either way is a run.
+/// The axes along the torch's path; indices cover two laps, so that half a lap in either direction
+/// is contiguous.
 class Axes {
  public:
   Axes(const BeamCut& cut, const std::stop_token& stop);
 
-  /// To each point, from the axes less than half a lap from its own place on the way; of up to
-  /// kLanes points near one another.
+  /// Finds the nearest axis of each point, less than half a lap from its own position on the path;
+  /// for up to kLanes points near one another.
   void nearest(std::span<const OnWay> own, const EightPoints& points, std::span<Nearest> out) const;
-  /// The place of that axis that is nearest to q.
+  /// Returns the point of that axis that is nearest to q.
   [[nodiscard]] Eigen::Vector3d point(const Nearest& axis, const Eigen::Vector3d& q) const;
 
  private:
-  /// A stretch's shares of the way from its row to the next.
+  /// A segment's fractions of the path from its row to the next.
   struct Part {
     std::size_t row;
     double from, to;
@@ -75,9 +76,10 @@ class Axes {
   const BeamCut& cut_;
   std::vector<Part> parts_;
   std::vector<Way> ways_;
-  std::vector<std::size_t> first_;  // stretch of each row
-  std::vector<double> travelled_;   // to the start of the stretch, of all before it
-  bool meridian_ = false;  // each axis in a half plane through the tube's axis, as an end's are
+  std::vector<std::size_t> first_;  // first segment of each row
+  std::vector<double> travelled_;   // total of all segments before this one
+  bool meridian_ =
+      false;  // true if each axis is in a half plane through the tube's axis, as at an end
 };
 
 }  // namespace tubecut::bevel::beam

@@ -9,10 +9,11 @@
 namespace tubecut::bevel::beam {
 namespace {
 
-constexpr double kKept = 0.8;         // of a cell's slope, by its halves
-constexpr double kTold = 2e-3;        // mm: a cell that promises no more than this is left alone,
-constexpr double kToldShare = 8e-3;   // nor one that promises only so much of what is known
-constexpr double kNoLength = 1e-300;  // mm: cells may have none
+constexpr double kKept = 0.8;  // fraction of a cell's slope that its halves keep
+constexpr double kTold =
+    2e-3;  // mm: if a cell can exceed the best by no more than this, it is dropped,
+constexpr double kToldShare = 8e-3;   // or by no more than this fraction of the best
+constexpr double kNoLength = 1e-300;  // mm: cells may have zero length
 
 void set_most(Cell& c) { c.most = c.highest() + 0.5 * (c.grows_along() + c.grows_across()); }
 
@@ -49,7 +50,7 @@ void Figure::of(std::span<const Place> at, std::span<const Line> lines,
 }
 
 void Figure::note(const Surface::Seen& seen, double value) const {
-  constexpr double kAtRow = 1e-6;  // of the way to the next
+  constexpr double kAtRow = 1e-6;  // of the path to the next
   const auto see = [&](std::size_t row) { (*by_row)[row] = std::max((*by_row)[row], value); };
   if (seen.u < 1.0 - kAtRow) see(seen.row);
   if (seen.u > kAtRow) see((seen.row + 1) % by_row->size());
@@ -73,7 +74,7 @@ void Largest::see(const Cell& cell, double sign) {
   double highest = sign * cell.value[0];
   for (const double value : cell.value) highest = std::max(highest, sign * value);
   const double most = highest + 0.5 * (cell.grows_along() + cell.grows_across());
-  // What is known only grows: a cell that is of no use now is of none at the end.
+  // The best only grows, so a cell that is useless now stays useless.
   if (!(highest > best_.value || promises(most) || is_near_best(highest))) return;
   Cell own = cell;
   for (double& value : own.value) value *= sign;
@@ -85,7 +86,7 @@ void Largest::see(const Cell& cell, double sign) {
 Found Largest::worst(int halvings, const std::stop_token& stop) {
   for (const Cell* start : best_cells(stop)) climb(*start, stop);
   if (stop.stop_requested()) return best_;
-  std::vector<Cell> left;  // of hundred thousands seen few hold more than is known now
+  std::vector<Cell> left;  // few of hundreds of thousands of cells can still exceed the best
   std::size_t seen = 0;
   for (const Cell& cell : cells_) {
     if (stops(stop, seen++)) return best_;
@@ -108,7 +109,7 @@ Found Largest::worst(int halvings, const std::stop_token& stop) {
   return best_;
 }
 
-/// More than is known, by as much as is told.
+/// Returns true if `most` exceeds the best by a relevant amount.
 bool Largest::promises(double most) const {
   const double known = std::max(0.0, best_.value);
   return most > known + std::max(kTold, kToldShare * known);
@@ -123,7 +124,7 @@ void Largest::keep(const Cell& cell) {
   if (cell.highest() > best_.value) best_ = highest(cell);
 }
 
-/// Few cells that are not neighbours and show nearly as much as any.
+/// Returns a few cells that are not neighbours and have nearly the best value.
 std::vector<const Cell*> Largest::best_cells(const std::stop_token& stop) const {
   constexpr std::size_t kPool = 64, kClimbs = 6;
   std::vector<const Cell*> pool;
@@ -140,7 +141,8 @@ std::vector<const Cell*> Largest::best_cells(const std::stop_token& stop) const 
       out.push_back(*cell);
   return out;
 }
-/// From a cell's best corner to a place from which no step of a hundredth of the cell leads up.
+/// Climbs from a cell's best corner to a point from which no step of a hundredth of the cell leads
+/// up.
 void Largest::climb(const Cell& cell, const std::stop_token& stop) {
   constexpr int kSteps = 100;
   Found here = highest(cell);
@@ -163,14 +165,14 @@ void Largest::climb(const Cell& cell, const std::stop_token& stop) {
   keep(here);
 }
 
-/// Its four parts, of its length along the cut, across the wall or both: where a figure may
-/// change most. Slopes are kept by each halving.
+/// Returns its four parts, divided along the cut, across the wall or both, where a figure may
+/// change most. Each halving keeps the slopes.
 std::array<Cell, 4> Largest::quartered(const Cell& cell) const {
   constexpr double kSteeper = 2.0;
   const bool along = cell.grows_along() > kSteeper * cell.grows_across();
   const bool across = cell.grows_across() > kSteeper * cell.grows_along();
   const std::size_t n = along ? 4 : across ? 1 : 2, m = 4 / n;
-  std::array<double, 15> value{};  // of places, (m + 1) on each line
+  std::array<double, 15> value{};  // of samples, (m + 1) on each line
   std::array<Place, 6> places{};
   std::array<std::size_t, 6> at{};
   std::size_t news = 0;

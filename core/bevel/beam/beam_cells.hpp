@@ -10,18 +10,21 @@
 
 #include "core/bevel/beam/beam_surface.hpp"
 
-/// Where a beam takes or leaves most: pieces of the finished surface, and the search among them.
+/// The cells of the finished surface, and the search for the cell where a beam removes or leaves
+/// most.
 namespace tubecut::bevel::beam {
 
-inline constexpr double kMargin = 4.0;  // times a slope that corners show: a ridge between them
+inline constexpr double kMargin =
+    4.0;  // factor on the slope at corners, because a ridge may lie between them
 
-/// How far the surface is short of half a kerf from the nearest axis (`sign` -1) or beyond it (1).
+/// The distance by which the nearest axis is nearer to the surface than half a kerf (`sign` -1) or
+/// farther (1).
 struct Figure {
   const Surface& surface;
   double half, sign;
-  std::vector<double>* by_row = nullptr;  // the most of it, by the rows on whose way the axis is
+  std::vector<double>* by_row = nullptr;  // maximum for each row on whose path the axis is
 
-  /// Of up to kLanes places near one another.
+  /// Computes it for up to kLanes points near one another.
   void operator()(std::span<const Place> at, std::span<double> out) const;
   void of(std::span<const Place> at, std::span<const Line> lines, std::span<double> out) const;
 
@@ -29,20 +32,20 @@ struct Figure {
   void note(const Surface::Seen& seen, double value) const;
 };
 
-/// A place and its figure there.
+/// A point and its figure.
 struct Found {
   double value = -std::numeric_limits<double>::infinity();
   Place at;
 };
 
-/// A piece of the surface between four places; the corners: at `from`, at v1, at u1, at both.
+/// A cell of the surface between four points; the corners: at `from`, at v1, at u1, at both.
 struct Cell {
   Place from;
   double u1, v1;
   std::array<double, 4> value;
   double along, across;                          // mm
-  double steep_along = 0.0, steep_across = 0.0;  // what a figure may change by, in mm a mm
-  double most = 0.0;                             // what it may hold
+  double steep_along = 0.0, steep_across = 0.0;  // bound of a figure's change, in mm per mm
+  double most = 0.0;                             // bound of its value
 
   [[nodiscard]] double grows_along() const { return steep_along * along; }
   [[nodiscard]] double grows_across() const { return steep_across * across; }
@@ -51,20 +54,20 @@ struct Cell {
   }
 };
 
-/// By how much a figure changes along the cell, and across it, from corner to corner, mm a mm.
+/// Return the change of a figure along the cell and across it, from corner to corner, mm per mm.
 [[nodiscard]] double slope_along(const Cell& c);
 [[nodiscard]] double slope_across(const Cell& c);
-/// Sets how steep the cell may be from those; a ridge may stand between its corners, so it is no
-/// less than a share of what it was: of the cell before, or of the one it is a part of. A distance
-/// grows no faster than its point moves.
+/// Sets the slope bounds of the cell from those. A ridge may lie between its corners, so each is at
+/// least a fraction of the earlier bound: of the cell before, or of the one that contained it. A
+/// distance grows no faster than its point moves.
 void set_slopes(Cell& c, double share, double along, double across);
 
-/// The largest figure: from the best places uphill, then the cell that promises most is halved
-/// until none promises more than is known, or for as long as is granted.
+/// Finds the largest figure: climbs from the best points, then halves the most promising cell until
+/// no cell promises more than the best, or until the halvings are used up.
 class Largest {
  public:
   explicit Largest(const Figure& figure) : figure_(figure) {}
-  /// A cell with its slopes; figures are those of its corners, times `sign`.
+  /// Adds a cell with its slopes; figures are those of its corners, times `sign`.
   void see(const Cell& cell, double sign);
   [[nodiscard]] Found worst(int halvings, const std::stop_token& stop);
 
@@ -80,7 +83,7 @@ class Largest {
   [[nodiscard]] std::array<Cell, 4> quartered(const Cell& cell) const;
 
   const Figure& figure_;
-  std::deque<Cell> cells_;  // a vector of hundred thousands would move in one piece
+  std::deque<Cell> cells_;  // because a vector of hundreds of thousands would move at once
   Found best_;
 };
 

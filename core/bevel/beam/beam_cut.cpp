@@ -10,7 +10,7 @@
 namespace tubecut::bevel {
 namespace {
 
-/// Of all pairs of rows those within a kerf of each other.
+/// Returns the fraction of all pairs of rows that are within a kerf of each other.
 double share_within(double kerf, double radius) { return std::min(1.0, kerf / (kTwoPi * radius)); }
 
 }  // namespace
@@ -81,8 +81,8 @@ Result<void> check_spared(const BeamCut& cut, const BeamProof& proof) {
 
 std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated,
                                      const std::stop_token& stop) {
-  constexpr double kGouge = 1e-3;                // mm: what beam_proof promises
-  constexpr double kLeft = 5e-3, kShare = 0.02;  // mm, and of what is left
+  constexpr double kGouge = 1e-3;                // mm: the accuracy of beam_proof
+  constexpr double kLeft = 5e-3, kShare = 0.02;  // mm, and relative to `left`
   const auto seen = beam_proof(cut, SampleDensity::rows, stop);
   return {{"gouge", worst_of({seen.gouge, stated.gouge}), kGougeLimit, "mm"},
           {"gouge_stated", worst_of({0.0, seen.gouge - stated.gouge}), kGouge, "mm"},

@@ -8,8 +8,8 @@
 namespace tubecut::bevel::beam {
 namespace {
 
-constexpr int kSteps = 4;           // of Newton, from the parabola through three places
-constexpr double kGained = 1e-6;    // of a squared distance: a step that gains less is the last
+constexpr int kSteps = 4;           // of Newton, from the parabola through three points
+constexpr double kGained = 1e-6;    // of a squared distance: a smaller gain ends the iteration
 constexpr double kParabola = 0.05;  // likewise: no parabola is further below it
 constexpr double kTiny = 1e-300;    // of a bend
 
@@ -60,8 +60,8 @@ TUBECUT_INLINE void roots(const Eight& of, Eight& out, std::size_t n) {
   for (std::size_t l = 0; l < n; ++l) out[l] = std::sqrt(of[l]);
 }
 
-/// The shares at which parabolas through three places are lowest; `promise` is below 0 where one is
-/// within the stretch and may be nearer than what is known.
+/// Computes the fractions at which parabolas through three points are lowest; `promise` is below 0
+/// if one is within the segment and may be nearer than the best.
 TUBECUT_INLINE void bottoms(const Eight& low, const Eight& middle, const Eight& high,
                             const EightNearest& best, Eight& share, Eight& promise, std::size_t n) {
   for (std::size_t l = 0; l < n; ++l) {
@@ -74,7 +74,7 @@ TUBECUT_INLINE void bottoms(const Eight& low, const Eight& middle, const Eight& 
   }
 }
 
-/// From there to the nearest axis, by Newton.
+/// Refines from there to the nearest axis by Newton.
 TUBECUT_INLINE void descend(const Way& way, double stretch, const EightPoints& points, Eight& x,
                             const Eight& promise, EightNearest& best, std::size_t n) {
   const Vector i0 = of(way.inner[0]), i1 = of(way.inner[1]), i2 = of(way.inner[2]);

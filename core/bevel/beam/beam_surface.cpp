@@ -137,7 +137,7 @@ Vector3d Surface::point(const Place& at, const Line& line) const {
   return mixed_points(line.from, line.to, at.land ? at.v : share(at));
 }
 
-/// How far a place of the axis runs beyond the finished line of its own row.
+/// Returns the distance of a point of the axis beyond the finished line of its own row.
 double Surface::beyond(const Line& finished, std::size_t row, const Vector3d& point) const {
   const Vector3d across = finished.to - finished.from;
   const Vector3d from = point - finished.from;

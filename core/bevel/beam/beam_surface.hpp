@@ -11,29 +11,29 @@
 
 namespace tubecut::bevel::beam {
 
-/// A place of the finished surface: between rows, across the wall.
+/// A point of the finished surface: between rows, across the wall.
 struct Place {
   std::size_t row = 0;
   double u = 0.0, v = 0.0;
   bool land = false;
 };
 
-/// The finished surface and the axes past it.
+/// The finished surface and the axes near it.
 class Surface {
  public:
   Surface(const BeamCut& cut, const std::stop_token& stop);
 
-  /// The nearest axis to a place: its distance, negative where it runs beyond the finished line of
-  /// its own row, in the part; and where on the torch's way it stands.
+  /// The nearest axis to a point: its distance, negative if it lies beyond the finished line of its
+  /// own row, in the part; and its position on the torch's path.
   struct Seen {
     double distance;
     std::size_t row;
     double u;
   };
-  /// Of up to kLanes places near one another, each on its line.
+  /// Computes it for up to kLanes points near one another, each on its line.
   void seen(std::span<const Place> at, std::span<const Line> lines, std::span<Seen> out) const;
   void seen(std::span<const Place> at, std::span<Seen> out) const;
-  /// Across the wall, or the land; of up to kLanes places.
+  /// Computes the lines across the wall, or the land, for up to kLanes points.
   void across_wall(std::span<const Place> at, std::span<Line> out) const;
 
   [[nodiscard]] double phase(const Place& at) const;
@@ -41,9 +41,10 @@ class Surface {
   [[nodiscard]] double across(std::size_t row, bool land) const {
     return (land ? on_land_ : on_wall_)[row];
   }
-  /// Length of the way from one row to the next, on the wall where it is longer.
+  /// Returns the length of the path from one row to the next, on the wall where it is longer.
   [[nodiscard]] double step(std::size_t row) const { return steps_[row]; }
-  /// A place so far along the cut and across the wall from another, mm; no further than the edges.
+  /// Returns the point at these distances along the cut and across the wall from another, mm;
+  /// clamped to the edges.
   [[nodiscard]] Place moved(Place from, double along, double across) const;
 
  private:
@@ -60,7 +61,8 @@ class Surface {
   Axes axes_;
   std::vector<Eigen::Vector3d> along_;  // from each row to the next, in the middle of the wall
   std::vector<double> steps_, on_wall_, on_land_;
-  std::vector<bool> off_;  // on the way from each row to the next the axis is clear of its own line
+  std::vector<bool>
+      off_;  // true if on the path from each row to the next the axis is clear of its own line
 };
 
 }  // namespace tubecut::bevel::beam

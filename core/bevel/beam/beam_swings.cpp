@@ -9,15 +9,15 @@
 namespace tubecut::bevel::beam {
 namespace {
 
-constexpr double kApart = 0.1;    // rad: leans that are apart
-constexpr double kTiny = 1e-300;  // mm: steps may have no length
+constexpr double kApart = 0.1;    // rad: minimum difference of two leans
+constexpr double kTiny = 1e-300;  // mm: steps may have zero length
 
-/// Rows near which, within half a kerf, these leans are apart.
+/// Marks the rows near which these leans differ within half a kerf.
 void mark_swings(const std::vector<double>& leans, const std::vector<double>& steps, double reach,
                  std::vector<bool>& near, const std::stop_token& stop) {
   const auto n = leans.size();
   for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
-    double low = leans[i], high = low, left = reach;  // to look ahead
+    double low = leans[i], high = low, left = reach;  // distance ahead
     std::size_t k = i;
     for (; k < i + n && left > 0.0; ++k) {
       const double there =

@@ -9,9 +9,9 @@
 
 namespace tubecut::bevel::beam {
 
-/// Runs of rows near which, within half a kerf, the torch leans in ways that are apart: there a
-/// place where the beam is in the part can be narrow across the wall. Beams of an end pass one
-/// another by phase, those of a hole any way.
+/// Returns the runs of rows near which, within half a kerf, the torch leans differently. There, a
+/// spot where the beam is in the part can be narrow across the wall. Beams of an end pass one
+/// another by phase, those of a hole in any direction.
 [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut,
                                                                       const std::stop_token& stop);
 

@@ -13,26 +13,26 @@ namespace tubecut::bevel::drop {
 namespace {
 
 constexpr std::size_t kLanes = 8;
-constexpr double kSpread = 4.0;        // reaches: axes side by side are no further apart,
-constexpr double kWidest = 0.5 * kPi;  // nor than that
-constexpr int kHalves = 40;            // where looking again would not end
+constexpr double kSpread = 4.0;        // reaches: maximum spread of the axes in one group,
+constexpr double kWidest = 0.5 * kPi;  // and its absolute maximum
+constexpr int kHalves = 40;            // if the iteration would not converge
 constexpr double kBetween =
-    1e-4;  // of half the kerf, more than on three circles: more is between them
-constexpr double kSwing = 2e-2;  // likewise, where lines lean in ways that are apart
+    1e-4;  // of half the kerf, above the values on three circles: then there is more between them
+constexpr double kSwing = 2e-2;  // likewise, if lines lean differently
 
 using Eight = std::array<double, kLanes>;
 
-/// As many axes as the loops go over; the last stands for those that lack.
+/// One group of axes for the loops; the last axis fills the missing entries.
 struct alignas(64) Group {
   Eight phi, sine, cosine, foot, slope, secant, drop;
 };
 
-/// Where a row is, seen from each axis.
+/// The position of a row relative to each axis.
 struct alignas(64) Seen {
   Eight phase, sine, cosine;
 };
 
-/// The search on one stretch of one circle.
+/// The search on one interval of one circle.
 struct alignas(64) Search {
   Eight first, last, x, ahead, angle, cosine;
 };
@@ -43,12 +43,12 @@ struct Round {
   int rounds, halvings;
 };
 
-/// A stretch's: its height where it begins, and by the phase.
+/// Of an interval: the height at its start, and its derivative by the phase.
 struct Rise {
   double low, rate;
 };
 
-/// asin, up to a sine of kSeries: 1e-12.
+/// Computes asin, up to a sine of kSeries: 1e-12.
 inline double arc_sine(double s) {
   const double q = s * s;
   constexpr double c3 = 1.0 / 6, c5 = 3.0 / 40, c7 = 5.0 / 112, c9 = 35.0 / 1152;
@@ -56,8 +56,8 @@ inline double arc_sine(double s) {
   return s + s * q * (c3 + q * (c5 + q * (c7 + q * (c9 + q * (c11 + q * (c13 + q * c15))))));
 }
 
-/// Where the beam reaches on the stretch, and the place at which a plane of its slope would need
-/// most.
+/// Computes the beam's range on the interval, and the point that a plane of its slope would require
+/// most at.
 TUBECUT_INLINE void begin(const Round& c, const Rise& s, const Group& axis, const Seen& from,
                           const Seen& to, Search& out, std::size_t n) {
   const double pull = s.rate / c.rho, square = pull * pull;
@@ -72,8 +72,8 @@ TUBECUT_INLINE void begin(const Round& c, const Rise& s, const Group& axis, cons
   }
 }
 
-/// What the surface asks for along a circle is a concave function of the angle round the beam: it
-/// is largest where the surface's own slope there is the beam's.
+/// The requirement of the surface along a circle is a concave function of the angle around the
+/// beam: it is largest where the surface's own slope equals the beam's.
 TUBECUT_INLINE void look_again(const Round& c, const Rise& s, const Group& axis, Search& out,
                                std::size_t n) {
   for (std::size_t l = 0; l < n; ++l) {
@@ -85,7 +85,7 @@ TUBECUT_INLINE void look_again(const Round& c, const Rise& s, const Group& axis,
   }
 }
 
-/// The same by halves.
+/// The same by bisection.
 TUBECUT_INLINE void halve(const Round& c, const Rise& s, const Group& axis, Search& out,
                           std::size_t n) {
   for (int k = 0; k < kHalves; ++k)
@@ -100,7 +100,7 @@ TUBECUT_INLINE void halve(const Round& c, const Rise& s, const Group& axis, Sear
     }
 }
 
-/// Angles round the tube by their sines.
+/// Computes angles around the tube from their sines.
 TUBECUT_INLINE void angles(const Round& c, Search& out, std::size_t n) {
   for (std::size_t l = 0; l < n; ++l) {
     out.ahead[l] = std::sqrt(std::abs((c.rho - out.x[l]) * (c.rho + out.x[l])));
@@ -117,7 +117,7 @@ TUBECUT_INLINE void angles(const Round& c, Search& out, std::size_t n) {
   for (std::size_t l = 0; l < n; ++l) out.angle[l] = times * arc_sine(out.angle[l]);
 }
 
-/// What is asked for between two rows.
+/// Computes the drop that is required between two rows.
 TUBECUT_INLINE void search(const Round& c, const Rise& s, const Seen& from, const Seen& to,
                            Group& axis, std::size_t n) {
   Search at{};
@@ -136,8 +136,8 @@ TUBECUT_INLINE void search(const Round& c, const Rise& s, const Seen& from, cons
   }
 }
 
-/// What is asked for at a row, and whether more is just before it and after it, above 0: at what
-/// is out of reach there is more towards the axis.
+/// Computes the drop that is required at a row, and its derivatives just before and after the row;
+/// > 0 means that it grows there. If the row is out of reach, the sign points to the axis.
 TUBECUT_INLINE void see_node(const Round& c, double z, double rate_before, double rate_after,
                              const Seen& row, Group& axis, Eight& before, Eight& after,
                              std::size_t n) {
@@ -156,8 +156,8 @@ TUBECUT_INLINE void see_node(const Round& c, double z, double rate_before, doubl
   }
 }
 
-/// What a circle asks for on its stretches between rows seen. The most is at a row, or where more
-/// is both after the one and before the other.
+/// Computes the drop that a circle requires on its intervals between rows. The maximum is at a row,
+/// or in an interval at whose start it grows and at whose end it falls.
 TUBECUT_WIDE void pass_circle(const Round& circle, const double* z, const double* rate,
                               const std::size_t* row, const Seen* seen, std::size_t rows,
                               Group& axis, std::size_t packs) {
@@ -186,16 +186,16 @@ TUBECUT_WIDE void see_row(double phi, double sine, double cosine, const Group& a
   }
 }
 
-/// Finished lines across the wall, side by side in memory.
+/// Finished lines across the wall, contiguous in memory.
 struct LineRun {
   const double *sine, *cosine, *foot, *slope;
   std::size_t size;
   double low, high, half, inner;
 };
 
-/// What finished lines across the wall ask for within it: where the axis leans more than the line,
-/// most is needed where that all but leaves the beam: the sum of a rising line and the beam's
-/// round, which has a closed form.
+/// Computes the drop that finished lines across the wall require within it. If the axis leans more
+/// than the line, the maximum is where the line nearly leaves the beam: the sum of a rising line
+/// and the beam's circle, which has a closed form.
 TUBECUT_WIDE void pass_lines(const LineRun& lines, Group& axis, std::size_t packs) {
   const std::size_t n = kLanes * packs;
   const auto m = lines;
@@ -223,7 +223,7 @@ TUBECUT_WIDE void pass_lines(const LineRun& lines, Group& axis, std::size_t pack
   }
 }
 
-/// The rows by a number that goes on over laps.
+/// The rows by a number that continues over laps.
 class Laps {
  public:
   explicit Laps(const Finished& f) : f_(f), n_(static_cast<std::ptrdiff_t>(f.phi.size())) {}
@@ -247,12 +247,12 @@ class Laps {
   std::ptrdiff_t n_;
 };
 
-/// Axes side by side and the phases between which they and all in their reach are.
+/// A group of axes and the phases between which they and all rows in their reach are.
 class Look {
  public:
   Look(const Finished& f, std::size_t lanes) : f_(f), laps_(f), n_(lanes) {}
 
-  /// Takes axes from `i` on; the first that is left.
+  /// Takes axes from `i` on; returns the first that remains.
   [[nodiscard]] std::size_t take(const Axes& axes, std::size_t i) {
     const double reach = f_.circles.front().reach;
     const double spread = std::min(kWidest, kSpread * reach);
@@ -334,7 +334,7 @@ class Look {
                 c.rate.data(), rows_.data(), seen_.data(), rows_.size(), group_, n_);
   }
 
-  /// Is the parabola through what is needed on three circles higher between them?
+  /// Returns true if the parabola through the requirements on three circles is higher between them.
   [[nodiscard]] bool is_most_between(const Eight& inner, const Eight& middle,
                                      const Eight& outer) const {
     for (std::size_t l = 0; l < kLanes; ++l) {

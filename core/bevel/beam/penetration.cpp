@@ -19,12 +19,12 @@ using joint::Solid;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// An edge of one piece of the wall on its way from one row to the next.
+/// An edge of one part of the wall from one row to the next.
 struct Run {
   double radius, phi, z, turn, rise;
 
   [[nodiscard]] double phi_at(double u) const { return phi + u * turn; }
-  /// The place at u, whose phase has this sine and cosine.
+  /// Returns the point at u, whose phase has this sine and cosine.
   [[nodiscard]] Vector3d place(const elementary::SinCos& to, double u) const {
     return {radius * to.cos, radius * to.sin, z + u * rise};
   }
@@ -34,13 +34,14 @@ struct Run {
 /// The wall between two neighbouring edges, from one row to the next.
 struct Piece {
   std::array<Run, 2> runs;
-  double steepest = 0.0, most_bent = 0.0;  // of both edges, over the whole way
+  double steepest = 0.0, most_bent = 0.0;  // of both edges, over the whole interval
 
   [[nodiscard]] Vector3d at(double u, double v) const {
     const Vector3d low = runs[0].at(u);
     return low + v * (runs[1].at(u) - low);
   }
-  /// Greatest way of a point whose u grows by `width`, and greatest second derivative over it, mm.
+  /// Return the maximum path of a point whose u grows by `width`, and its maximum second derivative
+  /// over it, mm.
   [[nodiscard]] double way(double width) const { return width * steepest; }
   [[nodiscard]] double bow(double width) const { return width * width * most_bent; }
 };
@@ -62,24 +63,24 @@ Piece piece_of(const CutWall& wall, std::size_t edge, std::size_t gap) {
   return out;
 }
 
-/// A place that was looked at.
+/// A point that was checked.
 struct Found {
   double depth = -kInfinity;
   Vector3d at = Vector3d::Zero();
   std::size_t solid = 0;
 };
 
-/// Where the search of a plain solid stands: a part of a gap, across the whole wall.
+/// A part of a gap, across the whole wall, in the search of a plain solid.
 struct Strip {
   std::size_t gap = 0;
   double from = 0.0, to = 1.0;     // along
-  double first = 0.0, last = 0.0;  // least distance of its two end lines
-  double most = 0.0;               // no depth within is greater
+  double first = 0.0, last = 0.0;  // smallest distance of its two end lines
+  double most = 0.0;               // bound of the depth within
 
   [[nodiscard]] double middle() const { return 0.5 * (from + to); }
 };
 
-/// Where that of another stands: a part of a gap, along and across.
+/// A part of a gap, along and across, in the search of any other solid.
 struct WallCell {
   std::size_t gap = 0;
   double from = 0.0, to = 1.0;   // along
@@ -88,16 +89,17 @@ struct WallCell {
   [[nodiscard]] double middle() const { return 0.5 * (from + to); }
 };
 
-/// The wall between two neighbouring edges, all the way round.
+/// The wall between two neighbouring edges, all the way around.
 struct RowRing {
   std::vector<Piece> pieces;  // of each gap
-  std::vector<double> ways;   // of each piece, whole: apart, since most are asked nothing else
-  std::array<PointArrays, 2> edges;  // both ends of the line across, where each begins
+  std::vector<double>
+      ways;  // `way(1)` of each piece, stored separately because most pieces need nothing else
+  std::array<PointArrays, 2> edges;  // both ends of the line across at the start of each piece
   bool axial = false;                // both edges run through the same phases
 };
 
-/// Places with the cosines and sines of both edges' phases for x and y. An end's are the same for
-/// both: `axial`.
+/// Returns points with the cosines and sines of both edges' phases for x and y. If `axial`, as for
+/// an end, both edges have equal phases.
 std::array<PointArrays, 2> turned(std::span<const double> low, std::span<const double> high,
                                   bool axial) {
   std::array<PointArrays, 2> out{PointArrays(low.size()), PointArrays(low.size())};
@@ -109,7 +111,7 @@ std::array<PointArrays, 2> turned(std::span<const double> low, std::span<const d
   return out;
 }
 
-/// The places of both edges' rows.
+/// Returns the points of both edges' rows.
 std::array<PointArrays, 2> rows_of(const WallEdge& low, const WallEdge& high, bool axial) {
   const auto n = low.phi.size();
   auto out = turned(low.phi, high.phi, axial);
@@ -137,8 +139,8 @@ RowRing ring_of(const CutWall& wall, std::size_t edge) {
   return out;
 }
 
-/// Searches one ring for one solid, widest parts first. `Aim` tells what is sought: `see` takes
-/// every depth found, `enough` the depth that need not be looked for.
+/// Searches one ring for one solid, widest parts first. `Aim` specifies the goal: `see` takes every
+/// depth found, `enough` returns the depth below which the search stops.
 template <class Aim, joint::SolidKind Kind>
 class Search {
  public:
@@ -170,7 +172,7 @@ class Search {
     aim_.see(gap, -distance, [&] { return Found{-distance, p, index_}; });
     return distance;
   }
-  /// The nearest place of the line across from `a` to `b`.
+  /// Passes the nearest point of the line across from `a` to `b` to the aim.
   void see(std::size_t gap, double distance, double share, const PointArrays& a,
            const PointArrays& b, std::size_t i) {
     aim_.see(gap, -distance, [&] {
@@ -178,8 +180,8 @@ class Search {
     });
   }
 
-  /// A plain solid is searched by strips, each between two lines across the wall: those that the
-  /// lines at their ends do not bound at once.
+  /// Returns the strips of a plain solid, each between two lines across the wall, that the lines at
+  /// their ends do not bound at once.
   std::vector<Strip> strips() {
     const auto n = ring_.pieces.size();
     const auto& [a, b] = ring_.edges;
@@ -195,8 +197,8 @@ class Search {
     return out;
   }
 
-  /// Another solid is searched by cells. Edges first: the deepest place lies on one of them more
-  /// often than not.
+  /// Returns the cells of any other solid. Edges first, because the deepest point is usually on one
+  /// of them.
   std::vector<WallCell> cells() {
     std::vector<WallCell> out(ring_.pieces.size());
     for (std::size_t gap = 0; gap < out.size(); ++gap) {
@@ -207,12 +209,13 @@ class Search {
     return out;
   }
 
-  /// A strip that may hold more than is enough, with the greatest depth that it may.
+  /// Keeps a strip if its bound of the depth is more than enough.
   void keep(Strip strip, std::vector<Strip>& out) const {
     const auto& piece = ring_.pieces[strip.gap];
     const double low = std::min(strip.first, strip.last), width = strip.to - strip.from;
     const double way = piece.way(width);
-    const double nearest = low - 0.5 * way;  // no point is further than that from both end lines
+    const double nearest =
+        low - 0.5 * way;  // because no point is further than that from both end lines
     const double bent = solid_.most_bent(nearest);
     const double drop = (bent * way * way + piece.bow(width)) / 8.0;
     strip.most = -std::max(nearest, low - drop);
@@ -220,9 +223,9 @@ class Search {
   }
   [[nodiscard]] bool holds_more(const Strip& s) const { return s.most > aim_.enough(s.gap); }
 
-  /// The lines in the middle of those strips of a level that may hold more than was seen before the
-  /// level, side by side; then one strip after the other, since a line that was seen may be enough
-  /// for the strips after it.
+  /// Checks the lines in the middle of those strips of a level that may exceed the depth found so
+  /// far, in parallel; then one strip after the other, because a result may be enough for the
+  /// strips after it.
   void halve(std::vector<Strip>& open, std::vector<Strip>& out, const std::stop_token& stop) {
     std::erase_if(open, [&](const Strip& s) { return !holds_more(s); });
     const auto [a, b] = middles(open);
@@ -238,7 +241,7 @@ class Search {
     }
   }
 
-  /// Both ends of the line across in the middle of each strip.
+  /// Returns both ends of the line across in the middle of each strip.
   [[nodiscard]] std::array<PointArrays, 2> middles(const std::vector<Strip>& strips) const {
     const auto n = strips.size();
     const auto run_of = [&](std::size_t i, std::size_t k) -> const Run& {
@@ -264,8 +267,8 @@ class Search {
     }
   }
 
-  /// Looks at a cell's middle and halves it unless its tangent plane bounds it: along where only
-  /// the edges' bow keeps it from that, else the longer way.
+  /// Checks a cell's middle and halves the cell unless its tangent plane bounds it: along, if only
+  /// the edges' bow prevents the bound, else the longer direction.
   void divide(const WallCell& c, std::vector<WallCell>& out) {
     const auto& piece = ring_.pieces[c.gap];
     const double u = c.middle(), v = 0.5 * (c.low + c.high);
@@ -321,7 +324,7 @@ struct Deepest {
   double slack;
   Found best;
 
-  // A number that is no number stays, and fails whatever is proved with it.
+  // NaN stays, so every check that uses it fails.
   void see(std::size_t /*gap*/, double depth, const auto& found) {
     if (depth > best.depth || depth != depth) best = found();
   }

@@ -8,7 +8,7 @@
 namespace tubecut::bevel {
 namespace {
 
-/// A closed edge, heights counted the way its tongues point.
+/// A closed edge; heights are measured in the direction of its tongues.
 class Edge {
  public:
   Edge(std::span<const double> phi, const std::vector<double>& z, double sign)
@@ -26,8 +26,8 @@ class Edge {
     const auto [least, most] = std::ranges::minmax(height_);
     return most - least;
   }
-  /// How far round the edge stays above `level` on from row i, or back from it, rad; a whole turn
-  /// where it never falls to it.
+  /// Returns how far the edge stays above `level` from row i forwards, or backwards, rad; a whole
+  /// revolution if it never falls to it.
   [[nodiscard]] double above(std::size_t i, double level, bool forwards) const {
     const auto n = size();
     double turned = 0.0;

@@ -13,20 +13,21 @@
 namespace tubecut::bevel {
 namespace {
 
-// No length stands here but as a share of another: tables scale exactly.
+// Every length here is a fraction of another, so tables scale exactly.
 constexpr double kFlat = 5e-4;  // of kerf and a tenth of the wall, normal to the line: straight,
 constexpr double kFlattest = 1.5e-5;  // and of the radius
-constexpr double kHollow = 4.0;       // times that: a stretch hollow by less
-constexpr double kWidest = 0.0125;    // of the radius, between places that are looked at
+constexpr double kHollow = 4.0;       // times that: a smaller hollow counts as straight
+constexpr double kWidest = 0.0125;    // of the radius, maximum distance of sampled points
 constexpr double kLines = 0.25;       // of half a kerf: between finished lines across the wall,
-constexpr double kMostLines = 16.0;   // and no more from row to row
-constexpr int kDeepest = 12;          // halvings of the stretch between two rows
+constexpr double kMostLines = 16.0;   // and at most this many from row to row
+constexpr int kDeepest = 12;          // halvings of the interval between two rows
 constexpr int kMostRounds = 12;       // of a search,
-constexpr double kStill = 1e-5;       // of half the kerf: until what is needed is so near
-constexpr std::size_t kRows = 64;     // whose places are looked at together
+constexpr double kStill =
+    1e-5;  // of half the kerf: error of the requirement at which the search ends
+constexpr std::size_t kRows = 64;  // whose points are computed together
 
-/// Places between an edge and the middle of the wall. Between them what is needed bends by
-/// w^2 k / (10 rho^2) where they are w apart: less than 1e-3 of the kerf, and than 1e-5 of the
+/// Returns fractions between an edge and the middle of the wall. Between two at distance w, the
+/// requirement bends by w^2 k / (10 rho^2): less than 1e-3 of the kerf, and than 1e-5 of the
 /// radius.
 std::vector<double> shares_between(double inner, double outer, double kerf) {
   const double wide = std::sqrt(std::max(1.0, 100.0 * kerf / outer));
@@ -38,13 +39,13 @@ std::vector<double> shares_between(double inner, double outer, double kerf) {
   return out;
 }
 
-/// How often the search for the place at which most is needed looks again: `lean` is the largest
-/// sine of an axis's lean. 0 where that would not end.
+/// Returns the number of iterations of the search for the maximum: `lean` is the largest sine of an
+/// axis's lean. 0 if it would not converge.
 int rounds_of(double half, double rho, double lean) {
   const double share = half / rho;
   if (!(share < 1.0)) return 0;
   const double ahead = std::sqrt((1.0 - share) * (1.0 + share));
-  // Each look is nearer by so much; what is needed, by its square.
+  // Each iteration reduces the error by this factor; that of the requirement, by its square.
   const double nearer = lean * share / ahead + 0.385 * share * share / (ahead * ahead * ahead);
   double left = 0.5 * nearer * nearer;
   for (int k = 1; k <= kMostRounds; ++k) {
@@ -54,7 +55,7 @@ int rounds_of(double half, double rho, double lean) {
   return 0;
 }
 
-/// Of an angle, until a series has its sine.
+/// Returns the halvings of an angle until a series is accurate for its sine.
 int halvings_of(double limit, double rho) {
   double cosine = std::sqrt(std::max(0.0, (rho - limit) * (rho + limit))) / rho;
   int times = 0;
@@ -66,14 +67,15 @@ int halvings_of(double limit, double rho) {
   return times;
 }
 
-/// A place between rows: the share u of the way from one to the next, and what an axis there needs.
+/// A point between rows: the fraction u from one to the next, and the drop that an axis there
+/// requires.
 struct Place {
   std::size_t row;
   double u;
   double drop = 0.0;
 };
 
-/// Rows straight from one to the next, the last joined to the first.
+/// Rows, straight from one to the next, the last joined to the first.
 struct Columns {
   const std::vector<double>& phi;
   std::vector<double> foot, slope;  // of the line across the wall, on the inner one
@@ -115,7 +117,7 @@ class LeastDrop {
     };
     for (const double u : {0.0, 1.0, 0.5}) finished_.circles.push_back(across(u));
     for (const double u : shares_between(inner, outer, spec.kerf)) {
-      if (stop.stop_requested()) return;  // and nothing is asked of what there is
+      if (stop.stop_requested()) return;  // because the result is not read
       finished_.between.push_back(across(u));
     }
     set_swing(edge, outer);
@@ -127,8 +129,8 @@ class LeastDrop {
     add_band(inner, edge, on_land);
   }
 
-  /// Of the rows from `first` to before `end`: places between which the least drop is all but
-  /// straight, ascending, each row's own first; then row `end` alone.
+  /// For the rows from `first` to before `end`, returns points between which the smallest drop is
+  /// nearly straight, ascending, each row's own first; then only row `end`.
   [[nodiscard]] std::vector<Place> places(std::size_t first, std::size_t end) const {
     std::vector<Place> out;
     for (auto i = first; i < end; ++i) {
@@ -153,7 +155,7 @@ class LeastDrop {
     return out;
   }
 
-  /// Along the inner wall, and where the finished line meets it.
+  /// Returns the position along the inner wall, and the height of the finished line there.
   [[nodiscard]] Points::value_type on_line(const Place& at) const {
     const double foot = math::mixed(lines_.foot[at.row], lines_.foot[lines_.next(at.row)], at.u);
     return {finished_.inner * at.u * width(at.row), foot - at.drop};
@@ -161,7 +163,7 @@ class LeastDrop {
   [[nodiscard]] double width(std::size_t i) const { return lines_.width(i); }
 
  private:
-  /// A part of the way from a row to the next that is yet to be halved.
+  /// A part of the path from a row to the next that must be halved.
   struct Gap {
     std::size_t row;
     double from, to;
@@ -180,12 +182,12 @@ class LeastDrop {
     }
   }
 
-  /// A line that leans otherwise than the axis's own lines go on to, by `a`, asks for most across
-  /// the wall, no more than a w^2 / (4 rho) above what it asks for at two places w apart.
+  /// If a line's lean differs by `a` from that of the axis's own lines, its requirement is largest
+  /// across the wall, and exceeds those at two points at distance w by at most a w^2 / (4 rho).
   void set_swing(double low, double high) {
     const double wide = 0.5 * (high - low), reach = finished_.circles.front().reach;
     const auto n = lines_.phi.size();
-    const auto turns = [&](std::size_t i) {  // of the slope, by the phase
+    const auto turns = [&](std::size_t i) {  // derivative of the slope by the phase
       const double rise = lines_.slope[lines_.next(i)] - lines_.slope[i];
       return rise == 0.0 ? 0.0 : rise / lines_.width(i);
     };
@@ -236,7 +238,7 @@ class LeastDrop {
     finished_.bands.push_back(std::move(out));
   }
 
-  /// Length of the finished edges' way from row i to the next, the longer one's.
+  /// Returns the length of the finished edges from row i to the next, of the longer one.
   [[nodiscard]] double way(std::size_t i) const {
     double rise = 0.0;
     for (const auto& circle : finished_.circles)
@@ -244,7 +246,7 @@ class LeastDrop {
     return elementary::hypot(finished_.inner * width(i), rise);
   }
 
-  /// Once at least.
+  /// Returns at least 1.
   [[nodiscard]] int least_halvings(std::size_t i) const {
     if (!(width(i) > 0.0 && kerf_ > 0.0)) return 1;
     int out = 1;
@@ -253,7 +255,7 @@ class LeastDrop {
     return out;
   }
 
-  /// Sets what each place needs. The secants of their axes.
+  /// Sets the drop that each point requires. Returns the secants of their axes.
   std::vector<double> look(std::vector<Place>& at) const {
     const auto n = at.size();
     drop::Axes axes;
@@ -274,14 +276,15 @@ class LeastDrop {
     return std::move(axes.secant);
   }
 
-  /// Is the drop off the straight line by more than nothing? What lies above it is a gouge, what
-  /// lies below it metal that stays.
+  /// Returns true if the drop deviates from the straight line by a relevant amount. If it is above
+  /// the line, the difference is a gouge; below it, metal that stays.
   [[nodiscard]] bool bends(double from, double middle, double to, double secant) const {
     const double bulge = middle - 0.5 * (from + to), flat = flat_ * secant;
     return bulge > flat || bulge < -kHollow * flat;
   }
 
-  /// Both halves of the parts that bend at their middle, of places that stand in pairs.
+  /// Returns both halves of the parts that bend at their middle; the points alternate between ends
+  /// and middles.
   [[nodiscard]] std::vector<Gap> bulging(const std::vector<Place>& at,
                                          const std::vector<double>& secants) const {
     std::vector<Gap> out;
@@ -297,7 +300,7 @@ class LeastDrop {
     return out;
   }
 
-  /// The middles of gaps, in their order; both halves of those that bend there.
+  /// Appends the middles of gaps, in their order; returns both halves of those that bend there.
   std::vector<Gap> halved(const std::vector<Gap>& gaps, std::vector<Place>& middles) const {
     for (const auto& gap : gaps) middles.push_back({gap.row, 0.5 * (gap.from + gap.to)});
     const auto secants = look(middles);
@@ -319,14 +322,14 @@ class LeastDrop {
   drop::Finished finished_;
 };
 
-/// Phases between row i and the next at which the line of the least drop bends.
+/// Appends the phases between row i and the next at which the line of the smallest drop bends.
 void append_bends(const LeastDrop& drop, double phi, double tolerance,
                   std::span<const Place> places, std::vector<double>& out) {
-  constexpr double kNarrow = 2e-6;  // rad: no finer
+  constexpr double kNarrow = 2e-6;  // rad: minimum
   const auto row = places.front().row;
   const double width = drop.width(row);
   if (width < kNarrow) return;
-  // No point is further from a line than along z.
+  // The distance of a point to a line is at most that along z.
   const auto off = [&](const Place& at) {
     const double u = at.row == row ? at.u : 1.0;
     return std::abs(at.drop - math::mixed(places.front().drop, places.back().drop, u));
@@ -355,7 +358,7 @@ TorchLine torch_line(const TableSpec& spec, const Table& table, const std::vecto
   TorchLine out{std::vector<double>(n, 0.0), {}};
   if (spec.kerf == 0.0 && table.z_face.empty()) return out;
   const LeastDrop drop(spec, table, stop);
-  std::size_t known = 0;  // rows before have their drops
+  std::size_t known = 0;  // rows before this one have their drops
   for (std::size_t first = 0, end = 0; first < n && !stop.stop_requested(); first = end) {
     for (end = first; end < n && end - first < kRows && wanted[end] == wanted[first];) ++end;
     if (!wanted[first]) continue;

@@ -28,7 +28,7 @@ constexpr int kCells = 36;  // before any deviation is measured: 10 deg
 constexpr int kProbes = 7;
 constexpr int kHalvings = 20;
 constexpr double kCrossed = 1e-9;               // of a hole's area, that rounding leaves
-constexpr double kShallow = 1e-9 * kRadPerDeg;  // rad; what counts as a groove lost
+constexpr double kShallow = 1e-9 * kRadPerDeg;  // rad; a larger loss of the groove is reported
 
 double wrapped(double phi) { return phi - kTwoPi * std::floor(phi / kTwoPi); }
 
@@ -62,7 +62,7 @@ class Refiner {
     return all;
   }
 
-  /// A node more half way across each flagged gap.
+  /// Adds a node in the middle of each flagged gap.
   std::vector<Node> halved(const std::vector<Node>& nodes, const std::vector<bool>& gaps) const {
     std::vector<Node> out;
     for (std::size_t i = 0; i < nodes.size() && !stop_.stop_requested(); ++i) {
@@ -73,7 +73,7 @@ class Refiner {
     return out;
   }
 
-  /// The uniform phases that are not nodes already join them.
+  /// Adds the uniform phases that are not yet nodes.
   std::vector<Node> with(std::vector<Node> nodes, std::size_t n) const {
     const auto old = nodes.size();
     for (auto& node : uniform(n)) {
@@ -153,7 +153,7 @@ Result<std::vector<Node>> sample(const HoleSpec& spec, const Refiner& refiner,
   return nodes;
 }
 
-/// Runs of nodes that satisfy `holds`, as intervals of the branch's phase in deg.
+/// Returns runs of nodes that satisfy `holds`, as intervals of the branch's phase in deg.
 template <class F>
 Intervals runs(const std::vector<Node>& nodes, F holds) {
   Intervals out;
@@ -186,8 +186,8 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
   return fail(beyond_torch(spec, std::move(beyond), needs));
 }
 
-/// Where the wall's lines run together the other edge turns back over its own way: no cut leaves
-/// such a wall, with no kerf either.
+/// Rejects walls whose lines cross: the other edge turns back there, and no cut makes such a wall,
+/// even without kerf.
 Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, const Hole& hole,
                          const std::stop_token& stop) {
   const bool crosses = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double u) {
@@ -239,7 +239,7 @@ Hole tabulate(const HoleSpec& spec, const WallLines& walls, const std::vector<No
                        &out.torch_phi, &out.torch_z, &out.torch_phi_inner, &out.torch_z_inner})
     column->reserve(nodes.size());
   for (const auto& [phase, w] : nodes) {
-    // The far side's branch frame is mirrored: its phase runs the other way.
+    // The far side's branch frame is mirrored: its phase runs in reverse.
     out.branch_phi.push_back(far ? wrapped(kPi - phase) : phase);
     out.phi.push_back(walls.phi(w.outer));
     out.z.push_back(w.outer.z());
@@ -259,8 +259,8 @@ Hole tabulate(const HoleSpec& spec, const WallLines& walls, const std::vector<No
   return out;
 }
 
-/// Half a kerf off the wall, and further where a beam that wide would take from it: beside its own
-/// line, where the wall turns, and between nodes.
+/// Moves the torch half a kerf off the wall, and further if a beam of that width would remove metal
+/// from it: next to its own line, where the wall turns, and between nodes.
 Hole cleared(const HoleSpec& spec, const WallLines& walls, std::vector<Node>& nodes, bool far,
              const std::stop_token& stop) {
   auto out = tabulate(spec, walls, nodes, far);
@@ -280,7 +280,7 @@ Hole cleared(const HoleSpec& spec, const WallLines& walls, std::vector<Node>& no
   return out;
 }
 
-/// The gaps between nodes in which the wall that faces the other member comes too near to it.
+/// Returns the gaps between nodes in which the wall that faces the other member is too near to it.
 Result<std::vector<bool>> too_near(const HoleSpec& spec, const joint::TubeCutter& branch,
                                    const Hole& hole, const std::stop_token& stop) {
   if (spec.kind != JointKind::set_on) return too_near_between(spec, branch, hole, stop);
@@ -288,8 +288,9 @@ Result<std::vector<bool>> too_near(const HoleSpec& spec, const joint::TubeCutter
   return too_near_between(spec, branch, end, stop);
 }
 
-/// Nodes more until the gap is kept between nodes too: edges within the tolerance of their curves
-/// at probes do not show that, and the branch's end has the hole's nodes.
+/// Adds nodes until the gap is kept between nodes too. This is needed because edges within the
+/// tolerance of their curves at probes do not guarantee it, and the branch's end has the hole's
+/// nodes.
 Result<void> keep_gap(const HoleSpec& spec, const joint::TubeCutter& branch, const Refiner& refiner,
                       const WallLines& walls, bool far, std::vector<Node>& nodes,
                       const std::stop_token& stop) {
@@ -340,7 +341,7 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   return out;
 }
 
-/// One hole, and of what makes its kerf too wide the first cause.
+/// Computes one hole. If the kerf is too wide, returns the first cause.
 Result<Hole> hole_or_cause(const HoleSpec& spec, const joint::TubeCutter& branch, bool far,
                            std::vector<Warning>& warnings, const std::stop_token& stop) {
   auto out = one_hole(spec, branch, far, warnings, stop);

@@ -14,9 +14,9 @@ namespace tubecut::bevel {
 using joint::JointKind;
 
 enum class Tilt {
-  axial,  // the torch swings in the chord's axial plane only: the machines of this service
-  free,   // it also tilts across: the wall has the asked groove all around
-  none    // it does not tilt: the wall is square to the chord, as wide as the branch needs
+  axial,  // the torch swings only in the chord's axial plane: the machines of this service
+  free,   // it also tilts across: the wall has the requested groove on all sides
+  none    // it does not tilt: the wall is square to the chord, as wide as the branch requires
 };
 
 /// The branch by the four numbers of its axis, or by its axis line; the direction points out of the
@@ -27,7 +27,7 @@ struct HoleSpec {
   joint::Target chord;
   BranchPlacement branch;
   double branch_wall = 0.0;
-  JointKind kind = JointKind::set_on;  // a mitre has no hole
+  JointKind kind = JointKind::set_on;  // mitre is invalid here
   double gap = 0.0;                    // between the surfaces that face each other, normal to them
   std::optional<double> depth = {};    // set-in: the branch's end below the chord's outer surface;
                                        // empty: flush with the bore
@@ -40,11 +40,13 @@ struct HoleSpec {
 
 /// The gap between the two cut surfaces, one entry per node.
 struct FitUp {
-  std::vector<double> root, face, least;  // at the root, at the other edge, least across the wall
-  // Straight between the nodes, as the machine goes; least_between by an enclosure, within 3e-4:
+  std::vector<double> root, face,
+      least;  // at the root, at the other edge, smallest across the wall
+  // Straight between the nodes, because the machine interpolates them; least_between by an
+  // enclosure, within 3e-4:
   double least_between = 0.0, greatest_root_between = 0.0;
-  // Where that is: of the branch's end in its frame (set-on), else of the hole's wall in the
-  // chord's. Its depth is counted from the asked gap.
+  // The position of that minimum: on the branch's end in its frame (set-on), else on the hole's
+  // wall in the chord's. Its depth is measured from the requested gap.
   Penetration nearest;
 };
 
@@ -62,12 +64,12 @@ struct Hole {
   std::vector<double> torch_phi, torch_z;  // torch axis on the outer surface
   std::vector<double> torch_phi_inner, torch_z_inner;
   double length_total = 0.0;  // of the root curve
-  BeamProof torch_line;       // what the kerf takes and leaves along it
+  BeamProof torch_line;       // the metal that the kerf removes and leaves along it
   FitUp fit;
 };
 
 /// The branch's own end, in its frame: z along the branch out of the chord, phi from the common
-/// perpendicular; the same phases as the hole's nodes. What bevel::table gives with the root on the
+/// perpendicular; the same phases as the hole's nodes. It equals bevel::table with the root on the
 /// inner wall and contact inner: set-on with the groove, set-in flush with the cylinder `depth`
 /// below the chord's outer surface.
 struct BranchEnd {
@@ -77,34 +79,35 @@ struct BranchEnd {
 
 struct HoleCut {
   std::vector<Hole> holes;          // near side first
-  std::optional<BranchEnd> branch;  // not for `through`
+  std::optional<BranchEnd> branch;  // absent for `through`
   std::vector<Warning> warnings;
 };
 
-/// The hole in a chord for a branch, the branch's end that goes with it, and how they fit.
+/// Computes the hole in a chord for a branch, the matching end of the branch, and the fit of the
+/// two.
 ///
-/// The torch's axis runs half a kerf off the wall, and as much further as a round beam of the
-/// kerf's width needs to stay out of the chord, at nodes and between them (`torch_line`).
+/// The torch's axis runs half a kerf off the wall. It runs further off if a round beam of the
+/// kerf's width would enter the chord, at nodes or between them (`torch_line`).
 ///
 /// Frame     z along the chord, phi from x towards y. B > 0: the outer edge lies further towards
 ///           +z.
-/// Errors    open_profile (branch; phi intervals of the branch: it reaches beyond the chord's
-///           side), edge_crosses (branch; phi intervals of the branch: the wall's lines run
-///           together), no_contact, parallel_axes, zero_length, out_of_range, torch_range,
-///           too_many_nodes, cancelled.
-/// Accuracy  the root's gap within 1e-9 mm of the asked one at the nodes, nowhere less across the
-///           wall; between nodes, where both edges run straight in (phi, z), nowhere less than it
-///           by more than the sampling's tolerance (nodes are added until `entering` finds no gap
-///           that is). A bare grid promises that at its nodes alone: by more than
-///           joint::Tolerance's it is the warning `enters_partner`.
+/// Errors    open_profile (branch; phi intervals of the branch: it extends beyond the chord's
+///           side), edge_crosses (branch; phi intervals of the branch: the wall's lines cross),
+///           no_contact, parallel_axes, zero_length, out_of_range, torch_range, too_many_nodes,
+///           cancelled.
+/// Accuracy  the root's gap within 1e-9 mm of the requested one at the nodes, and nowhere less
+///           across the wall. Between nodes, both edges are straight in (phi, z), and the gap falls
+///           below it by at most the sampling's tolerance (nodes are added until `entering` finds
+///           no such gap). On a bare grid this holds only at the nodes: if the gap falls short by
+///           more than joint::Tolerance's, the result has the warning `enters_partner`.
 /// Source    docs/theory/intersections-and-bevels.md, section 8.
 [[nodiscard]] Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop = {});
 
-/// The answer proved in 3D: distances of its own points to the axes, by cross products.
+/// Verifies the answer in 3D: distances of its own points to the axes, by cross products.
 [[nodiscard]] std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut,
                                         const std::stop_token& stop = {});
 
-/// The branch's four numbers.
+/// Computes the branch's four numbers.
 ///
 /// Errors  as joint::place, at branch/axis.
 [[nodiscard]] Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch);

@@ -11,8 +11,8 @@
 namespace tubecut::bevel {
 namespace {
 
-constexpr double kMostLean = 89.0 * kRadPerDeg;  // of any torch's range
-constexpr std::array kLess{5.0, 15.0, 30.0};     // deg, by which a cause is made smaller
+constexpr double kMostLean = 89.0 * kRadPerDeg;  // maximum of any torch's range
+constexpr std::array kLess{5.0, 15.0, 30.0};     // deg, by which a cause is reduced
 
 const char* beyond_hint(Tilt tilt) {
   switch (tilt) {
@@ -51,7 +51,7 @@ class Causes {
   }
 
   [[nodiscard]] std::optional<Issue> range(bool max) const {
-    if (!max && spec_.tilt != Tilt::axial) return std::nullopt;  // only its greatest lean counts
+    if (!max && spec_.tilt != Tilt::axial) return std::nullopt;  // only its largest lean counts
     auto changed = spec_;
     auto& end = max ? changed.torch.max : changed.torch.min;
     const double asked = end.deg(), most = std::min(std::abs(asked), lean_ * kDegPerRad);
@@ -108,7 +108,8 @@ double furthest_lean(const Hole& hole) {
 }
 
 Issue beyond_torch(const HoleSpec& spec, Intervals phases, double needs) {
-  // A torch that leans further helps as far as any does; beyond it another tilt, or another branch.
+  // A wider range of the torch helps up to kMostLean; beyond it only another tilt or another branch
+  // does.
   const bool by_range = std::abs(needs) <= kMostLean, low = by_range && needs < 0.0;
   Issue out{.code = ErrorCode::torch_range,
             .member = low                       ? "torch/min"

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kOver = 1e-9 * kRadPerDeg;  // of the branch's radius: rounding
 
-/// Errors about the joint's one curve are errors about the branch.
+/// Converts errors about the joint's one curve to errors about the branch.
 Error about_branch(Error error) {
   for (auto& issue : error.issues)
     if (issue.member.starts_with("cutters"))
@@ -20,8 +20,8 @@ Error about_branch(Error error) {
   return error;
 }
 
-/// Root on the inner wall, on the cylinder that the end stands on; never below flush there, where
-/// that would enter the wall.
+/// Places the root on the inner wall, on the cylinder on which the end is set; B is at least flush
+/// if a smaller B would enter the wall.
 Result<void> stand_on(const HoleSpec& spec, const joint::Contour& contour, double radius,
                       BranchEnd& end, const std::stop_token& stop) {
   const Wall wall{contour.radius, radius};

@@ -21,7 +21,8 @@ using math::cylinder_point;
 constexpr int kAcross = 5;                               // points across the wall
 constexpr std::array kBetween = {0.0, 0.25, 0.5, 0.75};  // from one node to the next
 
-/// Both edges of a cut wall at one place: phase and height on the root's surface and on the other.
+/// Both edges of a cut wall at one position: phase and height on the root's surface and on the
+/// other.
 struct Edges {
   double root_phi, root_z, face_phi, face_z;
 };
@@ -77,7 +78,7 @@ std::vector<Edges> edges(const HoleSpec& spec, const HoleCut& cut, const Hole& h
   return out;
 }
 
-/// The hole's wall by its edges, and the branch's.
+/// Returns the hole's wall by its edges, or the branch's.
 CutWall wall_of(const HoleSpec& spec, const Hole& hole) {
   return {.edges = {{spec.chord.inner_radius(), hole.phi_inner, hole.z_inner},
                     {spec.chord.outer_radius, hole.phi, hole.z}},
@@ -90,13 +91,13 @@ CutWall wall_of(const HoleSpec& spec, const joint::TubeCutter& branch, const Bra
           .turn = kTwoPi};
 }
 
-/// The wall that faces the other member.
+/// Returns the wall that faces the other member.
 CutWall facing_wall(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
                     const Hole& hole) {
   return spec.kind == JointKind::set_on ? wall_of(spec, branch, *cut.branch) : wall_of(spec, hole);
 }
 
-/// What it faces, with the asked gap around it.
+/// Returns the solid that it faces, grown by the requested gap.
 joint::TubeCutter other_member(const HoleSpec& spec, const joint::TubeCutter& branch) {
   auto out =
       spec.kind == JointKind::set_on ? chord_seen_from(branch, spec.chord.outer_radius) : branch;
@@ -113,14 +114,15 @@ Penetration nearest(const HoleSpec& spec, const joint::TubeCutter& branch, const
   return out;
 }
 
-/// How much nearer than the asked gap a place lies, by its distance to the other member's axis.
+/// Returns how much nearer than the requested gap a point is, by its distance to the other member's
+/// axis.
 double nearer(const joint::TubeCutter& other, const Vector3d& place) {
   const auto line = joint::axis_of(other);
   return other.radius - (place - line.point).cross(line.direction).norm();
 }
 
-/// The deepest of a fixed set of places between the rows: half way and once more there, at both
-/// edges and once between them, by the golden ratio.
+/// Returns the largest depth at a fixed set of points between the rows: in the middle and at one
+/// more position by the golden ratio, at both edges and once between them.
 double sampled(const CutWall& wall, const joint::TubeCutter& other, const std::stop_token& stop) {
   constexpr double kGolden = 0.6180339887498949;
   double deepest = 0.0, seed = 0.0;

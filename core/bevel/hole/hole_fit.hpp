@@ -6,14 +6,15 @@
 
 namespace tubecut::bevel {
 
-/// The chord as the partner of the branch's end: clocking 0 by the choice of the branch's phase.
+/// Returns the chord as the partner of the branch's end: its clocking is 0 by the choice of the
+/// branch's phase.
 [[nodiscard]] joint::TubeCutter chord_seen_from(const joint::TubeCutter& branch, double radius);
 
-/// Of each gap between nodes, whether the wall that faces the other member comes nearer to it there
-/// than asked by more than the tolerance: the hole's wall to the branch, the branch's end to the
-/// chord.
+/// For each gap between nodes, returns true if the wall that faces the other member is nearer to it
+/// than requested by more than the tolerance: the hole's wall to the branch, the branch's end to
+/// the chord.
 ///
-/// Accuracy  none that does is missed; flagged from 0.98 of the tolerance on (`entering`).
+/// Accuracy  none is missed; flagged from 0.98 of the tolerance on (`entering`).
 [[nodiscard]] std::vector<bool> too_near_between(const HoleSpec& spec,
                                                  const joint::TubeCutter& branch, const Hole& hole,
                                                  const std::stop_token& stop);
@@ -21,16 +22,16 @@ namespace tubecut::bevel {
                                                  const joint::TubeCutter& branch,
                                                  const BranchEnd& end, const std::stop_token& stop);
 
-/// The gap between the two cut surfaces, measured in 3D from the tables themselves: set-on, the
+/// Measures the gap between the two cut surfaces in 3D from the tables themselves: set-on, the
 /// branch's end to the chord's outer surface; else the hole's wall to the branch's outer surface.
 [[nodiscard]] FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch,
                            const HoleCut& cut, const Hole& hole, const std::stop_token& stop);
 
-/// The warning where a bare grid comes nearer than the asked gap by more than joint::Tolerance's.
+/// Adds a warning if a bare grid is nearer than the requested gap by more than joint::Tolerance's.
 void note_nearest(const HoleSpec& spec, HoleCut& cut);
 
-/// What the fit-ups state of their nearest places, held against those and against others by the
-/// distance to an axis.
+/// Checks the stated nearest points of the fit-ups, at those points and at others, by the distance
+/// to an axis.
 [[nodiscard]] std::vector<Check> nearest_checks(const HoleSpec& spec,
                                                 const joint::TubeCutter& branch, const HoleCut& cut,
                                                 const std::stop_token& stop);

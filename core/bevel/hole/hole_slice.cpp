@@ -16,7 +16,7 @@ math::Polygon slice(const joint::Target& target, const Hole& hole, double u, dou
   math::Polygon out;
   for (auto* column : {&out.x, &out.y}) column->reserve(hole.phi.size());
   for (std::size_t i = 0; i < hole.phi.size() && !stops(stop, i); ++i) {
-    // Seen along the tube: from (inner, 0) by d, until rho away from the axis.
+    // In the plane across the tube: from (inner, 0) by d, until rho from the axis.
     const auto swing = elementary::sincos(hole.phi[i] - hole.phi_inner[i]);
     const Eigen::Vector2d d{outer * swing.cos - inner, outer * swing.sin};
     const double half = inner * d.x(), square = d.squaredNorm();

@@ -7,9 +7,9 @@
 
 namespace tubecut::bevel {
 
-/// A hole's line on the cylinder between, developed to (phi, z), the share u of the way from the
-/// bore out: where the straight lines from edge to edge pass it. `turn` is added to phi. Told to
-/// stop, it has some of its corners, or none.
+/// Returns a hole's line on the intermediate cylinder at the fraction u from the bore out,
+/// developed to (phi, z): where the straight lines from edge to edge cross it. `turn` is added to
+/// phi. If cancelled, returns some or no corners.
 [[nodiscard]] math::Polygon slice(const joint::Target& target, const Hole& hole, double u,
                                   double turn, const std::stop_token& stop);
 

@@ -19,7 +19,7 @@ constexpr double kLength = 1e-6;     // mm
 constexpr double kWallAngle = 1e-6;  // deg
 constexpr int kWallLines = 9;
 
-/// A straight line through space with the distance to it by what is left beside the foot.
+/// A straight line in space; distances come from the component perpendicular to it.
 struct WallAxis {
   Vector3d point, direction;
   [[nodiscard]] Vector3d beside(const Vector3d& p) const {
@@ -38,14 +38,14 @@ struct Proof {
          end = 0.0;
 };
 
-/// One node of a hole, rebuilt in space. `root`: where the wall meets the branch, which of a wall
-/// square to the chord may be anywhere across it.
+/// One node of a hole, rebuilt in space. `root`: where the wall meets the branch; for a wall square
+/// to the chord, anywhere across it.
 struct Row {
   Vector3d outer, inner, root, torch_outer, torch_inner;
   Vector3d chord_normal, branch_normal;
 };
 
-/// The place between two points that is nearest to an axis.
+/// Returns the point between two points that is nearest to an axis.
 Vector3d nearest(const Vector3d& a, const Vector3d& b, const WallAxis& axis) {
   const Vector3d from = axis.beside(a), way = axis.beside(b) - from;
   const double square = way.squaredNorm();
@@ -70,7 +70,7 @@ Row row(const HoleSpec& spec, const Hole& h, const WallAxis& axis, std::size_t i
   return r;
 }
 
-/// Groove, tilt and kerf of the wall's line.
+/// Checks groove, tilt and kerf of the wall's line.
 void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i, Proof& p) {
   worsen(p.dihedral,
          std::abs(between(r.chord_normal, -r.branch_normal) - h.dihedral[i]) * kDegPerRad);
@@ -83,7 +83,7 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
   const double off_outer = (r.outer - r.torch_outer).dot(cut);
   const double off_inner = (r.inner - r.torch_inner).dot(cut);
   worsen(p.kerf, 0.5 * spec.kerf - std::min(off_outer, off_inner));
-  // A head that does not tilt stands square where it is: not quite parallel to the wall.
+  // A head that does not tilt is square at its own position: not exactly parallel to the wall.
   if (spec.tilt != Tilt::none) worsen(p.kerf, std::abs(off_outer - off_inner));
   const Vector3d torch = r.torch_outer - r.torch_inner;
   const auto at = elementary::sincos(h.torch_phi[i]);
@@ -93,15 +93,15 @@ void prove_wall(const HoleSpec& spec, const Hole& h, const Row& r, std::size_t i
   worsen(p.tilt, std::abs(elementary::atan2(across, height) - h.a[i]) * kDegPerRad);
 }
 
-/// A set-on hole cut with free tilt is the branch's bore prolonged, wherever the torch leans so
-/// far.
+/// Checks that a set-on hole cut with free tilt is the branch's extended bore, if the torch can
+/// lean that far.
 void prove_bore(const HoleSpec& spec, const Row& r, const WallAxis& axis, double rho, Proof& p) {
   const double lean = between(r.chord_normal, axis.direction.normalized());
   if (spec.tilt == Tilt::free && lean <= spec.torch.max.rad())
     worsen(p.root, std::abs(axis.distance(r.inner) - rho));
 }
 
-/// The hole's wall against the branch.
+/// Checks the hole's wall against the branch.
 void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const WallAxis& axis,
                      double branch_radius, std::size_t i, Proof& p) {
   worsen(p.gap, std::abs(axis.distance(r.root) - branch_radius - spec.gap));
@@ -113,7 +113,7 @@ void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Wa
   worsen(p.fit, std::abs(axis.distance(r.outer) - branch_radius - h.fit.face[i]));
 }
 
-/// The branch's end against the chord, in the branch's own frame.
+/// Checks the branch's end against the chord, in the branch's own frame.
 void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const BranchEnd& end,
                const FitUp& fit, Proof& p, const std::stop_token& stop) {
   const auto line = joint::axis_of(end.chord);
@@ -133,7 +133,7 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
       const double t = static_cast<double>(k) / (kWallLines - 1);
       worsen(p.gap, seat - axis.distance((1.0 - t) * root + t * face));
     }
-    // Set in, it lies flush: in the seat's tangent plane at the root.
+    // If set in, it is flush: in the seat's tangent plane at the root.
     if (!on && end.b[i] > spec.torch.min.rad())
       worsen(p.end, std::abs((face - root).dot(axis.beside(root).normalized())));
     if (!on) continue;
@@ -142,7 +142,7 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
   }
 }
 
-/// Of the torch's lines, the worst of each check over the holes.
+/// Returns the worst of each check of the torch's lines over the holes.
 std::vector<Check> torch_checks(const HoleSpec& spec, const HoleCut& cut,
                                 const std::stop_token& stop) {
   std::vector<Check> out;

@@ -19,9 +19,9 @@ Vector3d radial_at(const Vector3d& p) {
   return Vector3d(p.x(), p.y(), 0.0) / elementary::hypot(p.x(), p.y());
 }
 
-/// The first point, outwards or inwards, of a line that leaves the axis on the cylinder `radius`.
-/// Empty where the line passes by; one that is tangent but for rounding touches. How far it passes
-/// from the axis is one product: b^2 - a c would lose every digit at a tangent.
+/// Returns the first point on the cylinder `radius`, outwards or inwards, of a line that leaves the
+/// axis. Returns empty when the line misses it; a line that is tangent within rounding touches it.
+/// The distance to the axis is one product, because b^2 - a c would lose every digit at a tangent.
 std::optional<Vector3d> on_cylinder(const Vector3d& p, const Vector3d& along, double radius) {
   const double flat = elementary::hypot(along.x(), along.y());
   const double passes = std::abs(p.x() * along.y() - p.y() * along.x()) / flat;
@@ -85,8 +85,8 @@ double WallLines::phi(const Vector3d& point) const {
   return frame_.side_phi + elementary::atan2(point.dot(frame_.across), point.dot(frame_.side));
 }
 
-/// Of the wall against the branch's surface, in the section across the weld, >= 0. A set-on hole
-/// is the branch's bore: flush.
+/// Returns the requested groove of the wall against the branch's surface, in the section across the
+/// weld, >= 0. A set-on hole is the branch's bore: flush.
 double WallLines::asked_groove(double dihedral) const {
   if (root_outside_) return 0.0;
   if (const auto* half = std::get_if<HalfDihedral>(&spec_.groove))
@@ -96,8 +96,8 @@ double WallLines::asked_groove(double dihedral) const {
   return 0.0;
 }
 
-// The branch's own direction, so that the hole is its bore prolonged; where that leans further from
-// the surface's normal than the torch does, as far towards it as the torch goes.
+// Returns the branch's own direction, so that the hole is its extended bore. If that leans further
+// from the surface's normal than the torch can, returns the torch's limit towards it.
 WallLines::Direction WallLines::along_branch(const Corner& c) const {
   const double up = frame_.axis.dot(c.chord);
   const Vector3d flat = frame_.axis - up * c.chord;
@@ -108,7 +108,7 @@ WallLines::Direction WallLines::along_branch(const Corner& c) const {
   return {.unit = at.cos * c.chord + at.sin * flat.normalized(), .held_back = lean - most};
 }
 
-// In the section across the weld the line stands `dihedral - groove` above the chord's surface.
+// In the section across the weld, the line is at `dihedral - groove` above the chord's surface.
 WallLines::Direction WallLines::free_direction(const Corner& c) const {
   if (root_outside_) return along_branch(c);
   const double asked = asked_groove(c.dihedral);
@@ -121,7 +121,7 @@ WallLines::Direction WallLines::free_direction(const Corner& c) const {
           .needs = c.dihedral - 0.5 * kPi};
 }
 
-// Where the curve runs along the chord, a swing in the axial plane leaves the bevel as it is: the
+// Where the curve runs along the chord, a swing in the axial plane does not change the bevel: the
 // groove fades out towards the sides instead of driving B to 90 deg. Never less than flush.
 WallLines::Direction WallLines::axial_direction(const Corner& c, const Vector3d& radial) const {
   const Vector3d tangential(-radial.y(), radial.x(), 0.0);
@@ -153,8 +153,8 @@ WallLines::Direction WallLines::axial_direction(const Corner& c, const Vector3d&
   return out;
 }
 
-/// How far along the chord the branch's surface lies from a point, on its side towards +z or -z;
-/// empty where it lies beside the point.
+/// Returns the distance along the chord from a point to the branch's surface, on its side towards
+/// +z or -z; empty when no such point exists.
 std::optional<double> WallLines::height_over(const Vector3d& point, double side) const {
   const Vector3d from = point - frame_.foot;
   const Vector3d beside = from - from.dot(frame_.axis) * frame_.axis;
@@ -165,9 +165,9 @@ std::optional<double> WallLines::height_over(const Vector3d& point, double side)
   return (side * std::sqrt(square) - b) / a;
 }
 
-// A line square to the chord from the root out enters the branch where that leans over it. The
-// branch's height over the line is concave: it is greatest at the line's end, or where the surface
-// is parallel to the line. The root moves along the chord by as much.
+// A line square to the chord from the root out enters the branch if that leans over it. The
+// branch's height over the line is concave: its maximum is at the line's end, or where the surface
+// is parallel to the line. The root moves along the chord by that height.
 WallLines::Corner WallLines::moved_clear(const Corner& c, const Vector3d& radial,
                                          Vector3d& root) const {
   if (root_outside_ || !(c.branch.dot(radial) < 0.0) || c.branch.z() == 0.0) return c;
@@ -197,8 +197,8 @@ WallLines::Corner WallLines::moved_clear(const Corner& c, const Vector3d& radial
   return {radial_at(touch), (from - from.dot(frame_.axis) * frame_.axis).normalized()};
 }
 
-// The finished wall is square to the chord where its own root lies. The torch stands square beside
-// it: a little further off outside than on the bore, and nowhere nearer than asked.
+// The finished wall is square to the chord at its own root. The torch is square next to it:
+// slightly further off outside than on the bore, and nowhere nearer than requested.
 WallLine WallLines::square_line(const Vector3d& root, const Corner& met, double off) const {
   const double inside = spec_.chord.inner_radius(), outside = spec_.chord.outer_radius;
   WallLine out;
@@ -225,7 +225,7 @@ WallLine WallLines::square_line(const Vector3d& root, const Corner& met, double 
     if (std::abs(lacks) <= kSettled * outside) break;
     by += lacks;
   }
-  // Beside the chord's middle plane the outline would have to turn back under the branch.
+  // Away from the chord's middle plane, the outline would have to turn back under the branch.
   const bool beside = std::abs(frame_.foot.dot(frame_.across)) > radius_;
   const bool reached = spec_.torch.min.rad() <= 0.0 && spec_.torch.max.rad() >= 0.0;
   out.beyond_torch =
@@ -244,7 +244,7 @@ WallLine WallLines::at(double phase, double off) const {
   const Corner c(radial_at(out.root), leaving);
   out.dihedral = c.dihedral;
 
-  // The torch line runs inside the wall; its own axial plane is the one that counts.
+  // The torch line runs inside the wall, and its own axial plane determines the tilt.
   Vector3d base = out.root;
   Direction d;
   for (int round = 0; round < kKerfRounds; ++round) {

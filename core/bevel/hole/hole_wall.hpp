@@ -7,15 +7,16 @@
 
 namespace tubecut::bevel {
 
-/// The branch seen from the chord: its axis, and the two directions across it from which its phase
-/// counts. `x` is against the common perpendicular, so that the chord's clocking there is 0.
+/// The branch relative to the chord: its axis, and the two directions across it from which its
+/// phase is measured. `x` is opposite to the common perpendicular, so that the chord's clocking
+/// there is 0.
 struct BranchFrame {
   Eigen::Vector3d foot, x, y, axis;
   Eigen::Vector3d side, across;  // of the chord: unit, to the branch's side; a quarter turn further
   double side_phi = 0.0;         // [0, 2 pi)
 };
 [[nodiscard]] BranchFrame branch_frame(const joint::TubeCutter& branch);
-/// The same axis seen from the chord's other side.
+/// Returns the same axis from the chord's other side.
 [[nodiscard]] joint::TubeCutter reversed(const joint::TubeCutter& branch);
 
 /// The line along which one point of the hole's wall is cut.
@@ -23,23 +24,23 @@ struct WallLine {
   Eigen::Vector3d root, outer, inner;  // finished wall
   Eigen::Vector3d torch_outer, torch_inner;
   double dihedral = 0.0, groove = 0.0, b = 0.0, a = 0.0;
-  double lost = 0.0;          // groove asked and not cut; set-on: short of the branch's direction
+  double lost = 0.0;  // groove requested but not cut; set-on: difference to the branch's direction
   bool beyond_torch = false;  // the torch cannot keep the wall off the branch here
-  double needs = 0.0;         // rad: the lean that could; a right angle: none
+  double needs = 0.0;         // rad: the lean that could; if no lean can, a right angle
   bool misses_bore = false;   // the line does not reach the other surface
 };
 
-/// Makes wall lines for one side of the chord.
+/// Computes wall lines for one side of the chord.
 class WallLines {
  public:
   WallLines(const HoleSpec& spec, const joint::TubeCutter& branch, double radius,
             const joint::PreparedCutter& chord);
 
   [[nodiscard]] WallLine at(double phase) const { return at(phase, 0.5 * spec_.kerf); }
-  /// With the torch's axis as far off the wall, mm.
+  /// `off` is the distance of the torch's axis to the wall, mm.
   [[nodiscard]] WallLine at(double phase, double off) const;
   [[nodiscard]] const BranchFrame& frame() const { return frame_; }
-  /// Phase on the chord, continuous around the branch's side.
+  /// Returns the phase on the chord, continuous around the branch's side.
   [[nodiscard]] double phi(const Eigen::Vector3d& point) const;
 
  private:
@@ -47,9 +48,9 @@ class WallLines {
   struct Direction {
     Eigen::Vector3d unit;
     double b = 0.0;
-    double held_back = 0.0;  // set-on: how far the torch stays from the branch's direction, rad
+    double held_back = 0.0;  // set-on: the angle between the torch and the branch's direction, rad
     bool beyond = false;
-    double needs = 0.0;  // where beyond, as of a WallLine
+    double needs = 0.0;  // if beyond, as in WallLine
   };
   [[nodiscard]] double asked_groove(double dihedral) const;
   [[nodiscard]] std::optional<double> height_over(const Eigen::Vector3d& point, double side) const;

@@ -4,8 +4,8 @@
 
 namespace tubecut::bevel {
 
-/// weight/2 (x + share y)^2 + rest/2 y^2, a quadratic in two unknowns that only ever grows: what is
-/// added never cancels.
+/// weight/2 (x + share y)^2 + rest/2 y^2, a quadratic in two unknowns that only grows, so additions
+/// never cancel.
 template <class Numbers>
 struct alignas(sizeof(Numbers)) Squares {
   Numbers weight, share, rest;
@@ -21,21 +21,21 @@ struct alignas(sizeof(Numbers)) Squares {
   }
 };
 
-/// Least cost of an arc of the ring, by the height f and the slope v with which it begins and those
-/// with which it ends, `end`:
+/// The minimum cost of an arc of the ring, as a function of its first height f and slope v, and of
+/// its last ones, `end`:
 ///
 ///     1/2 weight (f + lever v + ahead . end)^2 + 1/2 rest (v + back . end)^2 + of_end
-// As the others, an aggregate made by {}: clang 16 leaves out a constructor that functions for
-// several lanes call.
+// Like the others, an aggregate initialised with {}, because clang 16 omits a constructor that
+// functions for several lanes call.
 template <class Numbers>
 struct alignas(sizeof(Numbers)) ArcCost {
-  static constexpr double kPinned = 1e100;  // weight of what cannot differ
+  static constexpr double kPinned = 1e100;  // weight of quantities that cannot differ
 
   Numbers weight, lever, rest;
   Numbers ahead[2], back[2];
   Squares<Numbers> of_end;
 
-  /// An arc without a node: it ends as it begins.
+  /// Returns an arc without a node: its end equals its start.
   TUBECUT_INLINE static ArcCost nothing() {
     ArcCost out{};
     out.weight += kPinned;
@@ -45,7 +45,7 @@ struct alignas(sizeof(Numbers)) ArcCost {
     return out;
   }
 
-  /// 1/2 w v^2 more.
+  /// Adds 1/2 w v^2.
   TUBECUT_INLINE void add_slope(const Numbers& w) {
     const Numbers sum = rest + w, share = rest / sum;
     of_end.add(share * w, back[0], back[1]);
@@ -53,7 +53,7 @@ struct alignas(sizeof(Numbers)) ArcCost {
     rest = sum;
   }
 
-  /// 1/2 w f^2 more.
+  /// Adds 1/2 w f^2.
   TUBECUT_INLINE void add_height(const Numbers& w) {
     const Numbers sum = weight + w, share = weight / sum;
     const Numbers left = share * w;  // weight of (lever v + ahead . end)^2
@@ -77,11 +77,11 @@ struct alignas(sizeof(Numbers)) ArcPull {
   Numbers f, v, end_f, end_v;
 };
 
-/// Where one arc goes on as another: the state between them is chosen best.
+/// Joins an arc to the next one: the state between them minimises the cost.
 template <class Numbers>
 class ArcJoin {
  public:
-  /// `arc` grows by `next`.
+  /// Extends `arc` by `next`.
   TUBECUT_INLINE void join(ArcCost<Numbers>& arc, const ArcCost<Numbers>& next) {
     const Numbers none{}, once = none + 1.0;
     f_between_ = {next.weight, {once, next.lever, none, none, next.ahead[0], next.ahead[1]}};
@@ -111,7 +111,7 @@ class ArcJoin {
     arc.of_end = of_end;
   }
 
-  /// The linear terms of what `join` made.
+  /// Updates the linear terms of the arc that `join` extended.
   TUBECUT_INLINE void join(ArcPull<Numbers>& arc, const ArcPull<Numbers>& next) const {
     const Numbers by_f = arc.end_f + next.f;
     const Numbers by_v = arc.end_v + next.v - f_between_.of[between_v] * by_f;
@@ -129,8 +129,8 @@ class ArcJoin {
     Numbers of[6];
   };
 
-  /// Turns two rows so that `other` has nothing left of what the pivot has once: the pair is worth
-  /// what it was.
+  /// Rotates two rows so that the pivot's column vanishes in `other`; their sum of squares is
+  /// unchanged.
   template <int column>
   TUBECUT_INLINE static void rotate(Row& pivot, Row& other) {
     const Numbers by = other.of[column], more = other.weight * by;
@@ -147,7 +147,7 @@ class ArcJoin {
     pivot.weight = sum;
   }
 
-  /// Takes out of a row what it has of the state between.
+  /// Eliminates the state between from a row.
   TUBECUT_INLINE void take(Row& row) {
     rotate<between_f>(f_between_, row);
     rotate<between_v>(v_between_, row);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLaps = 16;  // 4 are the most seen, on 10 000 hostile profiles
 
-/// The closed path and what its limits say about each node.
+/// The closed path and the limits at each node.
 struct BrakingPath {
   const std::vector<double>& s;
   const std::vector<double>& b;
@@ -19,13 +19,13 @@ struct BrakingPath {
   std::vector<double> ahead;  // mm from each node to the next
   std::vector<double> leave;  // m, start slope of each node's braking curves, rad/mm
   // The profile keeps the limits here. Such a node needs no curve of its own: where e is its B, e
-  // at the neighbours is no lower than theirs, so e keeps the limits too.
+  // at the neighbours is at least theirs, so e keeps the limits too.
   std::vector<char> keeps;
 
   [[nodiscard]] std::size_t size() const { return b.size(); }
   [[nodiscard]] std::size_t next(std::size_t j) const { return j + 1 == size() ? 0 : j + 1; }
   [[nodiscard]] std::size_t previous(std::size_t j) const { return j == 0 ? size() - 1 : j - 1; }
-  /// From i forward to k; a whole turn when they are equal.
+  /// Returns the distance from i forward to k; a whole lap if they are equal.
   [[nodiscard]] double distance(std::size_t i, std::size_t k) const {
     return k > i ? s[k] - s[i] : s[k] - s[i] + period;
   }
@@ -44,7 +44,7 @@ void choose_start(BrakingPath& path, std::size_t j) {
   const bool corner = low > high;  // concave beyond A: no start slope suits both sides
   double m = 0.5 * (low + high);
   if (corner) m = std::abs(slope_in) <= std::abs(slope_out) ? low : high;
-  // A curve started no steeper than A L / 4 has fallen below its start after one turn; nor may it
+  // A curve started no steeper than A L / 4 has fallen below its start after one lap; nor may it
   // rise beyond `highest`.
   const double steepest =
       std::min({slope, 0.25 * rate * path.period, std::sqrt(2.0 * rate * (path.highest - b[j]))});
@@ -73,7 +73,7 @@ struct Braking {
   double slope = 0.0;
   friend bool operator==(const Braking&, const Braking&) = default;
 };
-/// Nothing comes from a node that starts no curve.
+/// A node without a curve passes nothing on.
 constexpr Braking kNoCurve{-std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity()};
 
@@ -90,14 +90,15 @@ Braking brake(Braking from, double h, const BevelRateLimits& limits) {
 
 enum class Sense { forward, backward };
 
-/// The start of node j's own curve.
+/// Returns the start of node j's own curve.
 Braking start(const BrakingPath& path, std::size_t j, Sense sense) {
   if (path.keeps[j]) return {path.b[j], kNoCurve.slope};
   return {path.b[j], sense == Sense::forward ? path.leave[j] : -path.leave[j]};
 }
 
-/// Once round from j to j, the state there after it. What it passes goes to `out`, or raises it. A
-/// curve that arrives at a node below B ends there, and the node's own begins.
+/// Travels once around from j to j and returns the state there. Writes the curve to `out`, or
+/// raises `out` to it. A curve that arrives at a node below B ends there, and the node's own
+/// begins.
 Braking lap(const BrakingPath& path, std::size_t j, Sense sense, Braking at, bool raise,
             std::vector<double>& out) {
   for (std::size_t visit = 0; visit < path.size(); ++visit) {
@@ -110,7 +111,7 @@ Braking lap(const BrakingPath& path, std::size_t j, Sense sense, Braking at, boo
   return at;
 }
 
-/// The braking curves of all nodes in one sense: the highest at each.
+/// Computes the braking curves of all nodes in one direction: the highest at each.
 std::vector<double> sweep(const BrakingPath& path, Sense sense) {
   std::vector<double> out(path.size());
   const auto top = static_cast<std::size_t>(std::ranges::max_element(path.b) - path.b.begin());
@@ -122,21 +123,21 @@ std::vector<double> sweep(const BrakingPath& path, Sense sense) {
       seen.push_back(at);
       continue;
     }
-    // Curves as long as the path can take turns: the laps then repeat in twos or more. Each lap of
-    // the endless path is sound, so is their highest, and that closes.
+    // If curves are as long as the path, they can alternate: the laps then repeat in twos or more.
+    // Each lap of the endless path is valid, so their maximum is too, and that closes.
     auto state = at;
     for (auto more = seen.end() - again; more > 1; --more)
       state = lap(path, top, sense, state, true, out);
     return out;
   }
-  // Never seen. The constant is sound too.
+  // Never seen. The constant is valid too.
   out.assign(path.size(), path.b[top]);
   return out;
 }
 
 // Both are the upper hull of e - A s^2/2, written in differences: no s^2 to cancel, and no origin.
-/// The parabola of second derivative A through (i, e_i) and (k, e_k) passes below or through e_j, i
-/// < j < k.
+/// Returns true if the parabola of second derivative A through (i, e_i) and (k, e_k) passes below
+/// or through e_j, i < j < k.
 bool touches(const BrakingPath& path, const std::vector<double>& e, std::size_t i, std::size_t j,
              std::size_t k) {
   const double left = path.distance(i, j);
@@ -145,7 +146,7 @@ bool touches(const BrakingPath& path, const std::vector<double>& e, std::size_t 
          (e[k] - e[j]) / right;
 }
 
-/// That parabola at j, never below e_j.
+/// Returns that parabola at j, never below e_j.
 double rolled(const BrakingPath& path, const std::vector<double>& e, std::size_t i, std::size_t j,
               std::size_t k) {
   const double chord = (e[k] - e[i]) / path.distance(i, k);
@@ -153,8 +154,8 @@ double rolled(const BrakingPath& path, const std::vector<double>& e, std::size_t
                                    (chord - 0.5 * path.limits.curvature * path.distance(j, k)));
 }
 
-/// The contacts from the highest e (always one: the constant through it lies above e) once round to
-/// it again.
+/// Returns the contacts from the highest e (always one, because the constant through it lies above
+/// e) once around to it again.
 std::vector<std::size_t> contacts(const BrakingPath& path, const std::vector<double>& e) {
   const std::size_t n = path.size();
   const auto top = static_cast<std::size_t>(std::ranges::max_element(e) - e.begin());
@@ -181,7 +182,7 @@ std::vector<double> braking_envelope(const AngleProfile& profile, const Envelope
   for (std::size_t c = 0; c + 1 < hull.size(); ++c)
     for (auto j = path.next(hull[c]); j != hull[c + 1]; j = path.next(j))
       f[j] = rolled(path, e, hull[c], j, hull[c + 1]);
-  // A parabola may overshoot the limit it is tangent to by the last bits.
+  // A parabola may overshoot the limit to which it is tangent by the last bits.
   for (double& value : f) value = std::min(value, spec.highest);
   return f;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostWindows = 200;
 constexpr double kUneven =
-    1e-6;  // share of the spacing by which uniform samples may differ from it
+    1e-6;  // fraction of the spacing by which uniform samples may differ from it
 constexpr double kSlopeOfTransition = 1.5;  // steepest slope of the cubic, in |step| / T
 
 Result<void> check(const AngleProfile& profile, const HermiteSpec& spec) {
@@ -51,8 +51,8 @@ Result<void> check(const AngleProfile& profile, const HermiteSpec& spec) {
   return {};
 }
 
-/// Samples from the step at `index` to the next junction, forwards or backwards; a whole turn when
-/// there is no other.
+/// Returns the samples from the step at `index` to the next junction, forwards or backwards; a
+/// whole lap if there is no other.
 std::size_t gap_to_junction(std::span<const std::size_t> junctions, std::size_t index,
                             bool forwards, std::size_t n) {
   std::size_t least = n;
@@ -63,8 +63,8 @@ std::size_t gap_to_junction(std::span<const std::size_t> junctions, std::size_t 
   return least;
 }
 
-/// The least T whose cubic stays within the limit, if it ends within half the gap to the next
-/// junction.
+/// Returns the smallest T whose cubic stays within the limit, if it ends within half the gap to the
+/// next junction.
 Result<std::size_t> own_transition(const Mutation& worst, double limit,
                                    std::span<const std::size_t> junctions, std::size_t n) {
   const double least = std::max(2.0, std::ceil(kSlopeOfTransition * std::abs(worst.step) / limit));

@@ -16,17 +16,18 @@ namespace {
 using Array = Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kMostSteps = 80;    // 36 are the most seen, on 20 000 hostile profiles
-constexpr double kGap = 1e-12;    // of the area, between it and what the multipliers prove
-constexpr double kNear = 1e-5;    // the same, from where on the multipliers may be the best
-constexpr double kSmall = 1e-3;   // an area that counts as one: 1e-3 spacings times the range of B
-constexpr double kStart = 0.1;    // of the range of B: how far above it the search begins
-constexpr double kNarrow = 0.05;  // least room below the limit to begin with
-constexpr double kPinned = 1e60;  // weight of such a height, and of a bend where no node is
-constexpr double kKeptShare = 0.99;  // share of the way to the next limit, at least
-constexpr double kLost = 100.0;      // of that way: as far leads only what arcs made without digits
+constexpr int kMostSteps = 80;  // 36 are the most seen, on 20 000 hostile profiles
+constexpr double kGap = 1e-12;  // of the area: its maximum distance to the bound by the multipliers
+constexpr double kNear = 1e-5;  // the same; below it the multipliers may be the best
+constexpr double kSmall = 1e-3;   // smaller areas count as this: 1e-3 spacings times the range of B
+constexpr double kStart = 0.1;    // of the range of B: height of the start above it
+constexpr double kNarrow = 0.05;  // minimum initial room below the limit
+constexpr double kPinned = 1e60;  // weight of such a height, and of a bend without a node
+constexpr double kKeptShare = 0.99;  // fraction of the path to the next limit, at least
+constexpr double kLost =
+    100.0;  // of that path: only arcs computed without valid digits lead that far
 
-/// The inequalities, a slack of every node in each group.
+/// The inequalities; each group has one slack per node.
 enum Group : std::size_t {
   above_b,
   rising,
@@ -41,37 +42,38 @@ enum Group : std::size_t {
 template <class Numbers>
 struct alignas(sizeof(Numbers)) Slack {
   Numbers s, y, inverse;  // 1/s
-  Numbers dy;             // the step of y; until it is known, what makes it
+  Numbers dy;             // the step of y; before that, its right-hand side
 };
 
-/// In each lane a node of its arc. The last arc is filled up with places of no length, at which
-/// nothing bends and no slack is short.
+/// In each lane a node of its arc. The last arc is padded with nodes of zero length, at which
+/// nothing bends and no slack is small.
 template <class Numbers>
 struct alignas(sizeof(Numbers)) Place {
   Numbers w{}, x{}, v{};      // weight in the area, height above B, slope
   Numbers df{}, dv{}, du{};   // the step: of height, slope and bend
-  Numbers lack{};             // of f <= highest: what the slack is too large by
-  Numbers pinned{}, stiff{};  // least weights of the height and of the bend
+  Numbers lack{};             // of f <= highest: the excess of the slack
+  Numbers pinned{}, stiff{};  // minimum weights of the height and of the bend
   std::array<Slack<Numbers>, groups> of;
 };
 
 template <class Numbers>
 class InteriorPoint {
  public:
-  /// `limited`: with the groups of f <= highest.
+  /// `limited`: includes the groups of f <= highest.
   InteriorPoint(const Programme& p, bool limited);
 
-  /// False when stopped or not converged.
+  /// Returns false when cancelled or not converged.
   [[nodiscard]] bool solve(const std::stop_token& stop);
 
-  /// Heights in rad, each the one before plus its slope, none below B.
+  /// Returns heights in rad, each the one before plus its slope, at least B.
   [[nodiscard]] Array heights() const;
-  /// The multipliers that proved most on the way: rounding spoils them where slacks grow small.
+  /// Returns the multipliers of the best bound so far, because rounding spoils later ones when
+  /// slacks become small.
   [[nodiscard]] const Multipliers& multipliers() const { return best_; }
 
-  /// Mehrotra: the step to the optimum itself tells how far to aim, and what its product adds. The
-  /// first one touches all memory: where pages are slow to come by, 20 ms for 20 000 nodes, so that
-  /// it is asked within a step too. What a stopped one leaves is not looked at.
+  /// Makes Mehrotra's step: the step to the optimum itself determines the target product and the
+  /// correction. The first one touches all memory and may take 20 ms for 20 000 nodes if pages are
+  /// slow, so cancellation is checked within a step too. If cancelled, nobody reads the result.
   TUBECUT_INLINE void step(const std::stop_token& stop);
 
  private:
@@ -91,7 +93,7 @@ class InteriorPoint {
   TUBECUT_INLINE static Numbers ratio(const Slack<Numbers>& slack) {
     return slack.y * slack.inverse;
   }
-  /// Calls with each slack of a place and its step.
+  /// Calls `each` with each slack of a place and its step.
   template <class Each>
   TUBECUT_INLINE void each_slack(Place<Numbers>& at, const Numbers& df, const Numbers& dv,
                                  const Numbers& du, const Each& each) const {
@@ -103,14 +105,14 @@ class InteriorPoint {
     if (limited_) each(at.of[below_limit], Numbers(-df - at.lack));
   }
 
-  /// Calls with every node, its place and its lane there.
+  /// Calls `each` with every node, its place and its lane there.
   template <class Each>
   void each_node(const Each& each) const {
     Index j = 0;
     for (int k = 0; k < kArcs; ++k)
       for (std::size_t i = 0; i < places_.size() && j < p_.size(); ++i) each(j++, i, k);
   }
-  /// What is asked of each place, by nodes.
+  /// Returns the value of `of` for each place, by nodes.
   template <class Of>
   [[nodiscard]] Array by_nodes(const Of& of) const {
     Array out(p_.size());
@@ -132,7 +134,8 @@ class InteriorPoint {
   RingNewton<Numbers> newton_;
   std::vector<Place<Numbers>> places_;
   double area_ = 0.0, gap_ = 0.0, lack_ = 0.0;
-  double far_ = 0.0, far_dual_ = 0.0;  // of the way to the next limit, how far the step goes
+  double far_ = 0.0,
+         far_dual_ = 0.0;  // length of the step as a fraction of the path to the next limit
   Multipliers best_;
   double bound_ = -std::numeric_limits<double>::infinity();
 };
@@ -144,7 +147,7 @@ InteriorPoint<Numbers>::InteriorPoint(const Programme& p, bool limited)
       newton_(static_cast<std::size_t>((p.size() + kArcs - 1) / kArcs)),
       places_(newton_.size()) {}
 
-/// A constant above B, with multipliers that balance exactly.
+/// Starts at a constant above B, with multipliers that balance exactly.
 template <class Numbers>
 void InteriorPoint<Numbers>::begin() {
   constexpr double kWide = 1e60;
@@ -180,7 +183,7 @@ void InteriorPoint<Numbers>::begin() {
   measured(area, gap, lack);
 }
 
-/// Where B is at the limit the height has no room, so its two slacks leave the programme.
+/// If B is at the limit, the height has no room, so its two slacks leave the programme.
 template <class Numbers>
 void InteriorPoint<Numbers>::pin() {
   each_node([&](Index j, std::size_t i, int k) {
@@ -219,8 +222,9 @@ void InteriorPoint<Numbers>::factor() {
   });
 }
 
-/// The product of slack and multiplier to aim at, from the step to the optimum: the less that step
-/// would leave, the less. Leaves in `dy` what the step adds to the products.
+/// Returns the target for the product of slack and multiplier, from the step to the optimum: the
+/// smaller the products after that step, the smaller the target. Leaves the step's contribution to
+/// the products in `dy`.
 template <class Numbers>
 double InteriorPoint<Numbers>::aim() {
   Numbers near{}, near_dual{}, by_slacks{}, by_both{};
@@ -252,7 +256,7 @@ double InteriorPoint<Numbers>::aim() {
   return share * share * share * gap_ / static_cast<double>(slacks);
 }
 
-/// Finds the step to where all products are as large, less what `aim` found that steps add.
+/// Finds the step to equal products, less the contribution that `aim` found.
 template <class Numbers>
 void InteriorPoint<Numbers>::aim_at(double product) {
   Numbers near{}, near_dual{};
@@ -282,7 +286,7 @@ void InteriorPoint<Numbers>::aim_at(double product) {
   far_dual_ = static_cast<double>(largest_of(near_dual));
 }
 
-/// Goes the step, no further than the share `kept` of the way to the next limit.
+/// Makes the step, at most the fraction `kept` of the path to the next limit.
 template <class Numbers>
 void InteriorPoint<Numbers>::go(double kept) {
   const double length = far_ > kept ? kept / far_ : 1.0;
@@ -346,8 +350,8 @@ void InteriorPoint<Numbers>::keep_best() {
 template <class Numbers>
 Array InteriorPoint<Numbers>::heights() const {
   const Index n = p_.size();
-  // What rounding leaves open at the end is spread over all steps. In the profile's own unit: each
-  // height is rounded once.
+  // The rounding error of closing is spread over all steps. In the profile's own unit, each height
+  // is rounded once.
   double open = 0.0;
   const Array v = by_nodes([](const auto& at) -> const auto& { return at.v; });
   for (Index j = 0; j < n; ++j) open += p_.h[j] * v[j];

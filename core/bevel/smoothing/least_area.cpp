@@ -26,8 +26,9 @@ Ring ring(const AngleProfile& profile) {
 
 double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
-/// Contacts whose sum is that of the weights. What is missing goes to those that differ from their
-/// weight: where B is left alone nothing is borne, and no rounding may add up there.
+/// Returns contacts whose sum is that of the weights. The difference goes to contacts that differ
+/// from their weight, because where the profile keeps B there is no load, and rounding must not add
+/// up there.
 std::vector<double> balanced(std::vector<double> contact, const std::vector<double>& weight) {
   double missing = 0.0, able = 0.0;
   const auto takes = [&](std::size_t j) { return contact[j] > 0.0 && contact[j] != weight[j]; };
@@ -41,7 +42,8 @@ std::vector<double> balanced(std::vector<double> contact, const std::vector<doub
   return contact;
 }
 
-/// The multipliers of the second differences, mm^2, that balance the others; their mean is free.
+/// Computes the multipliers of the second differences, mm^2, that balance the others; their mean is
+/// free.
 std::vector<double> bends(const Ring& r, const std::vector<double>& contact,
                           const std::vector<double>& slope) {
   const auto n = contact.size();
@@ -61,11 +63,11 @@ std::vector<double> bends(const Ring& r, const std::vector<double>& contact,
   return out;
 }
 
-/// Where sum w |x - it| is least: half of the weight lies on either side.
+/// Returns x with the minimum sum w |x - it|: half of the weight lies on either side.
 double weighted_median(const std::vector<double>& x, const std::vector<double>& w) {
   std::vector<std::pair<double, double>> nodes(x.size());
   for (std::size_t j = 0; j < x.size(); ++j) nodes[j] = {x[j], w[j]};
-  double below = 0.5 * sum(w);  // weight that is still looked for
+  double below = 0.5 * sum(w);  // remaining weight
   auto from = nodes.begin(), to = nodes.end();
   while (to - from > 1) {
     const auto middle = from + (to - from) / 2;

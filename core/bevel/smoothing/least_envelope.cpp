@@ -15,10 +15,12 @@ namespace {
 using Array = Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kProved = 1e-7;  // of the area: more than that is tried again, with more digits
+constexpr double kProved =
+    1e-7;  // of the area: if the excess is larger, tries again with more digits
 
-/// The heights with B's own bits where they touch it: by less than a hundred millionth of what the
-/// limits leave at that spacing, or so far from every break that no least profile leaves B.
+/// Returns the heights with B's own bits where they touch it: within a hundred millionth of the
+/// change that the limits permit at that spacing, or so far from every break that no least profile
+/// leaves B.
 std::vector<double> touching(const AngleProfile& profile, const EnvelopeSpec& spec,
                              const Programme& p, const Array& f) {
   std::vector<double> out(profile.b.size());
@@ -47,7 +49,8 @@ bool proved(const AngleProfile& profile, const EnvelopeSpec& spec, const Envelop
 template <class Numbers>
 std::optional<Envelope> solved(const AngleProfile& profile, const EnvelopeSpec& spec,
                                const Programme& p, const std::stop_token& stop) {
-  // Few profiles come near the limit: the programme without it is smaller, and proves as much.
+  // Few profiles come near the limit, so the programme without it comes first: it is smaller and
+  // proves as much.
   for (const bool limited : {false, true}) {
     const auto least = interior_point<Numbers>(p, limited, stop);
     if (!least || (!limited && least->heights.maxCoeff() > spec.highest)) continue;

@@ -14,7 +14,7 @@ using Index = Programme::Index;
 
 constexpr double kLong = 1e-3;  // of the mean spacing: long enough to divide by
 
-/// Nodes further than any curve reaches from where B itself breaks a limit.
+/// Returns the nodes that no curve reaches from where B itself breaks a limit.
 std::vector<char> kept_nodes(const Programme& p) {
   const Index n = p.size();
   const auto slope = [&](Index j) { return (p.b[p.next(j)] - p.b[j]) / p.h[j]; };
@@ -27,7 +27,7 @@ std::vector<char> kept_nodes(const Programme& p) {
     away[j] = breaks ? 0.0 : std::numeric_limits<double>::infinity();
     in = ahead;
   }
-  // Once round each way, and on for as long as that is nearer.
+  // Goes once around in each direction, and continues while that is nearer.
   const auto nearer = [&](Index j, double by_the_last) {
     const bool is = by_the_last < away[j];
     if (is) away[j] = by_the_last;
@@ -48,8 +48,9 @@ std::vector<char> kept_nodes(const Programme& p) {
   return keeps;
 }
 
-/// Between nodes that keep B nothing is borne, so no rounding of theirs may add up: their contacts
-/// are their weights, and each stretch of others balances by itself, by the contacts at its ends.
+/// Balances the multipliers. Between nodes that keep B there is no load, and rounding must not add
+/// up: their contacts are their weights, and each run of other nodes balances by itself, by the
+/// contacts at its ends.
 void balance_stretches(const Programme& p, Array& contacts, Array& slopes) {
   const Index n = p.size();
   const auto kept = [&](Index j) { return p.keeps[static_cast<std::size_t>(j)] != 0; };
@@ -106,9 +107,9 @@ Programme::Programme(const AngleProfile& of, const EnvelopeSpec& limits)
   keeps = kept_nodes(*this);
 }
 
-/// They follow from the forces either side. Over a step too short to divide by those are known but
-/// for a part that both its ends share: the last pinned height of such a stretch takes what the
-/// forces at its long ends leave for it.
+/// They follow from the forces on either side. Over a step that is too short for a division, those
+/// are known except for a part that both its ends share: the last pinned height of such a run takes
+/// the remainder of the forces at its long ends.
 void Programme::set_pinned(Array& contacts, const Array& slopes, const Array& bends) const {
   const auto shear = [&](Index j) { return (slopes[j] + bends[j] - bends[next(j)]) / h[j]; };
   Index from = 0;
@@ -139,7 +140,7 @@ Multipliers Programme::multipliers(const Array& contacts, const Array& slopes) c
   auto out = no_multipliers(profile);
   for (Index j = 0; j < size(); ++j) {
     const auto k = of_profile(j);
-    // Exactly its weight, where nothing is borne.
+    // Exactly its weight if there is no load.
     if (keeps[static_cast<std::size_t>(j)] == 0 || contact[j] != w[j])
       out.contact[k] = contact[j] * pitch;
     out.slope[k] = of_slope[j] * pitch * pitch;

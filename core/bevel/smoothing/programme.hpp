@@ -8,14 +8,14 @@
 namespace tubecut::bevel {
 
 /// The linear programme of the least area, in numbers near 1: heights in units of the range of B,
-/// lengths in units of the mean spacing, cut open where the nodes are furthest apart.
+/// lengths in units of the mean spacing, cut open where the distance of two nodes is largest.
 struct Programme {
   using Array = Eigen::ArrayXd;
   using Index = Eigen::Index;
 
   Programme(const AngleProfile& profile, const EnvelopeSpec& spec);
 
-  const AngleProfile& profile;  // what it came from
+  const AngleProfile& profile;  // its source
   const EnvelopeSpec& spec;
   Array h, w, b;  // to the next node; weight in the area; B
   double slope = 0.0, curvature = 0.0, highest = 0.0;
@@ -30,13 +30,13 @@ struct Programme {
     return static_cast<std::size_t>(j + first < size() ? j + first : j + first - size());
   }
 
-  /// Between B and the limit there is none, so the height is that of B.
+  /// Returns true if there is no room between B and the limit, so the height is that of B.
   [[nodiscard]] bool no_room(Index j) const { return !(highest - b[j] > 1e-12); }
 
-  /// What heights without room bear, put into `contacts`, from what slopes and bends bear.
+  /// Sets the `contacts` of heights without room from the multipliers of slopes and bends.
   void set_pinned(Array& contacts, const Array& slopes, const Array& bends) const;
 
-  /// Multipliers in the profile's own units and order.
+  /// Returns multipliers in the profile's own units and order.
   [[nodiscard]] Multipliers multipliers(const Array& contacts, const Array& slopes) const;
 };
 

@@ -6,20 +6,20 @@
 
 namespace tubecut::bevel {
 
-/// Least of a quadratic over a closed path: heights f_j, the slopes v_j after them and the bends
+/// Minimises a quadratic over a closed path: heights f_j, the slopes v_j after them and the bends
 /// u_j = v_j - v_{j-1} before those, f_{j+1} = f_j + h_j v_j. It sums, over j,
 ///
 ///     1/2 height_j f_j^2 + 1/2 slope_j v_j^2 + 1/2 bend_j u_j^2
 ///
-/// and a linear term of each. Backwards along an arc the cost to go stays a sum of squares, so
-/// weights from 1e-300 to 1e60 stand beside one another and steps of any length: nothing is
-/// subtracted that could cancel. A weight of 1e60 pins a height or a bend.
+/// and a linear term of each. Backwards along an arc, the cost to go stays a sum of squares, so
+/// weights from 1e-300 to 1e60 and steps of any length can be mixed, because no subtraction can
+/// cancel. A weight of 1e60 pins a height or a bend.
 ///
-/// A ring is as many arcs of equally many nodes as `Numbers` has lanes. Each lane goes along its
-/// own; then each joins the arcs ahead, by one, two and four, until it has the whole ring from
-/// where its own begins, and knows the state there.
+/// A ring is divided into one arc per lane of `Numbers`, with equally many nodes. Each lane runs
+/// along its own arc; then each joins the arcs ahead, by one, two and four, until it has the whole
+/// ring from its own start and knows the state there.
 ///
-/// Cost  seven divisions a node to factor, none to solve; and of joining the arcs.
+/// Cost  seven divisions a node to factor, none to solve; plus joining the arcs.
 template <class Numbers>
 class RingNewton {
  public:
@@ -32,17 +32,17 @@ class RingNewton {
 
   explicit RingNewton(std::size_t nodes_of_an_arc) : nodes_(nodes_of_an_arc) {}
 
-  /// Lengths from node j of each arc to the next, >= 0; none until they are set.
+  /// Returns the lengths from node j of each arc to the next, >= 0; initially 0.
   [[nodiscard]] Numbers& length(std::size_t j) { return nodes_[j].h; }
 
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
 
-  /// `weights_of(j)`: those of node j of each arc.
+  /// `weights_of(j)` returns those of node j of each arc.
   template <class WeightsOf>
   TUBECUT_INLINE void factor(const WeightsOf& weights_of);
 
-  /// After `factor`, with the linear terms `terms_of(j)`. Calls `take(j, f, v, u)` with what is
-  /// least, the first of each arc last.
+  /// Call it after `factor`, with the linear terms `terms_of(j)`. Calls `take(j, f, v, u)` with the
+  /// minimiser, the first of each arc last.
   template <class TermsOf, class Take>
   TUBECUT_INLINE void solve(const TermsOf& terms_of, const Take& take);
 
@@ -64,7 +64,7 @@ class RingNewton {
 
   std::vector<Node> nodes_;
   ArcJoin<Numbers> joins_[3];
-  Squares<Numbers> ends_{};  // of height and slope where each arc begins, the whole ring round
+  Squares<Numbers> ends_{};  // of height and slope at the start of each arc, over the whole ring
 };
 
 template <class Numbers>
@@ -76,7 +76,7 @@ void RingNewton<Numbers>::factor(const WeightsOf& weights_of) {
     const Weights weights = weights_of(j);
     arc.lever += at.h;
     arc.add_slope(weights.slope);
-    // The slope after the node is chosen: 1/2 bend (v - v before)^2 beside the cost to go.
+    // The slope after the node is chosen: 1/2 bend (v - v before)^2 plus the cost to go.
     const Numbers both = arc.rest + weights.bend, pull = arc.weight * arc.lever;
     const Numbers gain = 1.0 / (both + pull * arc.lever), of_both = 1.0 / both;
     at.gain = gain;

@@ -6,8 +6,8 @@
 
 namespace tubecut::bevel {
 
-/// The area that a refined envelope added, rad mm, and the least that any could, by the table's
-/// multipliers; from its own rows. Empty for every other smoothing.
+/// The area that a refined envelope added, rad mm, and the lower bound by the table's multipliers;
+/// computed from its own rows. Empty for every other smoothing.
 struct SmoothedArea {
   double area, least, excess;  // excess: as `area_excess`
 };

@@ -9,8 +9,8 @@
 
 #include "core/base/error.hpp"
 
-/// Smoothing of the bevel angle B over one turn of the path, so that the swing axis can follow.
-/// Lengths in mm, angles in radians.
+/// Smooths the bevel angle B over one lap of the path, so that the swing axis can follow. Lengths
+/// in mm, angles in radians.
 ///
 /// Source    docs/theory/intersections-and-bevels.md, section 6.
 namespace tubecut::bevel {
@@ -22,15 +22,15 @@ struct AngleProfile {
   double period = 0.0;    // mm, length of the closed path, > s.back() - s.front()
 };
 
-/// What the swing axis can follow at the speed of the cut.
+/// The limits of the swing axis at the speed of the cut.
 struct BevelRateLimits {
   double slope = 0.0;      // K, rad/mm, > 0
   double curvature = 0.0;  // A, rad/mm^2, > 0: bound of the second divided difference
 };
 
-/// Limits of a swing axis (rad/s, rad/s^2) whose path is cut at `speed` mm/s with the share `use`
-/// of the axis: slope = use v / speed, curvature = use a / speed^2, along the true length of the
-/// cut.
+/// Computes the limits of a swing axis (rad/s, rad/s^2) whose path is cut at `speed` mm/s with the
+/// fraction `use` of the axis: slope = use v / speed, curvature = use a / speed^2, along the true
+/// length of the cut.
 ///
 /// Errors  zero_limit (axis not above zero), out_of_range (speed not above zero, use outside (0,
 ///         1]).
@@ -43,7 +43,7 @@ struct Mutation {
   double step = 0.0;  // rad, B after minus B before
 };
 
-/// All steps with |step| > limit, ascending in index.
+/// Returns all steps with |step| > limit, ascending in index.
 [[nodiscard]] std::vector<Mutation> mutations(std::span<const double> b, double limit);
 
 /// Slopes and second divided differences (slope right - slope left) / ((h left + h right) / 2),
@@ -54,11 +54,12 @@ struct Steepness {
 };
 [[nodiscard]] Steepness steepness(const AngleProfile& profile);
 
-/// The most a smoothed profile may measure: its limits and what rounding can add to them.
+/// Returns the maximum steepness of a smoothed profile: its limits plus possible rounding.
 [[nodiscard]] Steepness allowed_steepness(const AngleProfile& smoothed,
                                           const BevelRateLimits& limits);
 
-/// Area between `smoothed` and the profile, sum of (f_j - B_j)(h left + h right)/2, rad*mm.
+/// Computes the area between `smoothed` and the profile, sum of (f_j - B_j)(h left + h right)/2,
+/// rad*mm.
 [[nodiscard]] double area_above(const AngleProfile& profile, std::span<const double> smoothed);
 
 struct EnvelopeSpec {
@@ -67,8 +68,8 @@ struct EnvelopeSpec {
   bool refine = true;  // the least area; else the braking envelope
 };
 
-/// What the limits of a smoothed profile are worth: multipliers of the linear programme of the
-/// least area, one a node. Any values prove a bound (least_area.hpp); good ones prove a good one.
+/// The value of each limit of a smoothed profile: multipliers of the linear programme of the least
+/// area, one per node. Any values prove a bound (least_area.hpp); good values prove a good bound.
 struct Multipliers {
   std::vector<double> contact;  // mm: of f >= B less that of f <= highest
   std::vector<double> slope;    // mm^2: of the slope after the node, |slope| <= K
@@ -79,32 +80,32 @@ struct Envelope {
   Multipliers multipliers;  // empty without `refine`
 };
 
-/// The smoothed bevel: f >= B at every node, |slope| <= K, |second difference| <= A, f <= highest.
-/// Of least area with `refine`; else the braking envelope. Always feasible.
+/// Computes the smoothed bevel: f >= B at every node, |slope| <= K, |second difference| <= A, f <=
+/// highest. With `refine` it has the least area; else it is the braking envelope. Always feasible.
 ///
 /// Accuracy  f >= B and f <= highest exactly; slope within 1e-9 K + 4 eps max|f| / h_min, second
-///           within 1e-6 A + 8 eps max|f| / h_min^2. Refined: area within 1e-6 of the least by its
-///           own multipliers (10 000 hostile profiles; GLPK agrees on 200 nodes). A node further
-///           than (max B - min B)/K + 4K/A from every node where B itself breaks a limit keeps its
-///           bits, as does every node that B touches.
+///           within 1e-6 A + 8 eps max|f| / h_min^2. Refined: area within 1e-6 of the minimum by
+///           its own multipliers (10 000 hostile profiles; GLPK agrees on 200 nodes). If a node is
+///           further than (max B - min B)/K + 4K/A from every node where B itself breaks a limit,
+///           it keeps its bits; so does every node that B touches.
 /// Errors    wrong_count, not_finite, out_of_range (order, period, limits, a B above `highest`),
 ///           cancelled.
-/// Cost      linear, without `refine`; with it a step of the search is, and 20 000 nodes take some
-///           30. `stop` is looked at in every step.
+/// Cost      linear without `refine`; with it each step of the search is linear, and 20 000 nodes
+///           take some 30 steps. Every step checks `stop`.
 /// Source    docs/theory/intersections-and-bevels.md, sections 6.2 and 6.3.
 [[nodiscard]] Result<Envelope> envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
                                         const std::stop_token& stop = {});
 
 struct HermiteSpec {
-  double limit = 0.0;  // rad, steps above it are treated, > 0
-  std::optional<int>
-      transition;  // T in samples, 2..n/4; empty: for each window the least T >= 1.5 |step| / limit
+  double limit = 0.0;             // rad, steps above it are treated, > 0
+  std::optional<int> transition;  // T in samples, 2..n/4; empty: for each window the smallest T
+                                  // >= 1.5 |step| / limit
   std::vector<std::size_t> junctions =
-      {};  // indices i of the steps i -> i+1 across a junction, ascending; only used
-           // without `transition`; empty: the profile's mutations
+      {};  // indices i of the steps i -> i+1 across a junction, ascending; only used without
+           // `transition`; empty: the profile's mutations
 };
 
-/// One treated step. The window runs over samples `from`, ..., `to` (cyclic, T steps); its inner
+/// One treated step. The window covers samples `from`, ..., `to` (cyclic, T steps); its inner
 /// samples were replaced.
 struct HermiteWindow {
   std::size_t index = 0;  // of the step index -> index + 1
@@ -121,8 +122,9 @@ struct HermiteSmoothed {
   std::vector<HermiteWindow> windows;  // in order of treatment
 };
 
-/// The published smoothing, corrected, for comparison: cubic windows beside each step above the
-/// limit, largest first, the larger sample kept. Promises neither f >= B nor any slope.
+/// Applies the published smoothing, corrected, for comparison: cubic windows next to each step
+/// above the limit, largest first; the larger sample is kept. Guarantees neither f >= B nor any
+/// slope.
 ///
 /// Errors  wrong_count, not_finite, out_of_range (order, period, limit, transition),
 ///         sampling_not_uniform, smoothing_not_converged (200 windows), transition_too_long (no T
@@ -132,8 +134,8 @@ struct HermiteSmoothed {
 [[nodiscard]] Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec,
                                               std::stop_token stop = {});
 
-/// The preconditions on a profile shared by both methods: counts, finite, ascending within the
-/// period.
+/// Checks the preconditions on a profile that both methods share: counts, finite, ascending within
+/// the period.
 [[nodiscard]] Result<void> check_profile(const AngleProfile& profile);
 
 }  // namespace tubecut::bevel

@@ -8,12 +8,12 @@
 namespace tubecut::bevel {
 namespace {
 
-/// The normal's parts by which the angles are given. For the inside dihedral the whole derivation
-/// holds with the radial part reversed.
+/// The components of the normal that determine the angles. For the inside dihedral, the whole
+/// derivation holds with the radial part reversed.
 struct Parts {
   double radial;      // cos(dihedral) = -radial
   double across;      // sin(dihedral)
-  double tangential;  // as the kind of dihedral has it, with hypot(tangential, axial) = slant
+  double tangential;  // depends on the kind of dihedral; hypot(tangential, axial) = slant
   double slant;
   double axial;
 };
@@ -24,7 +24,8 @@ Parts parts(const Eigen::Vector3d& n, Dihedral dihedral) {
           .tangential = n.y(),
           .slant = elementary::hypot(n.y(), n.z()),
           .axial = n.z()};
-  // The published normal is no unit vector; its radial part is right and gives the sine.
+  // The published normal is not a unit vector, but its radial part is correct, so the sine follows
+  // from it.
   p.across = dihedral == Dihedral::as_published
                  ? std::sqrt(std::max(0.0, (1.0 - n.x()) * (1.0 + n.x())))
                  : p.slant;
@@ -42,8 +43,8 @@ Rule::Rule(const GrooveRule& rule, Dihedral dihedral) : rule_(rule), dihedral_(d
   sin_limit_ = at.sin;
 }
 
-// tan B = tan tau / cos gamma with cos gamma = axial / slant, and tau = 90 deg - dihedral + groove.
-// With groove = dihedral / 2: tan tau = (1 + cos dihedral) / sin dihedral.
+// Computes tan B = tan tau / cos gamma with cos gamma = axial / slant, and tau = 90 deg - dihedral
+// + groove. With groove = dihedral / 2: tan tau = (1 + cos dihedral) / sin dihedral.
 Angles Rule::angles(const Eigen::Vector3d& normal) const {
   const auto p = parts(normal, dihedral_);
   Angles a{.dihedral = elementary::quick_atan2(p.across, -p.radial),

@@ -8,7 +8,7 @@
 namespace tubecut::bevel {
 namespace {
 
-/// Nothing about one end alone.
+/// Returns true for errors that do not concern a single end.
 bool spoils_all(ErrorCode code) {
   return code == ErrorCode::too_many_nodes || code == ErrorCode::cancelled;
 }
@@ -39,10 +39,11 @@ class SharedNodes {
         largest_(asked.sampling.tolerance ? asked_ : asked.sampling.uniform_points),
         left_(asked) {}
 
-  /// How a table is asked for that has all that are left.
+  /// Returns the spec of a table that may use all remaining nodes.
   [[nodiscard]] const TableSpec& left() const { return left_; }
 
-  /// Tables to make at a time: by the largest so far their nodes are there, with as much again.
+  /// Returns the number of tables to compute at a time: the remaining nodes suffice for twice the
+  /// largest so far.
   [[nodiscard]] std::size_t tables() const {
     constexpr std::size_t kMost = 64;
     const auto each = 2 * std::max<std::size_t>(1, largest_);
@@ -70,7 +71,7 @@ class SharedNodes {
   static std::size_t nodes_of(const EndTable& one) { return one.table ? one.table->phi.size() : 0; }
 
   std::size_t asked_;
-  std::size_t largest_;  // of one table; until the first is made, by what was asked
+  std::size_t largest_;  // of one table; before the first, from the request
   bool first_ = true;
   TableSpec left_;
 };
@@ -98,8 +99,8 @@ Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& s
     for (auto& one : made) {
       if (stop.stop_requested() || !one) return fail({.code = ErrorCode::cancelled});
       const auto end = cut[from++];
-      // One that had more nodes to take than those before it have left: asked again, as it would
-      // have been alone.
+      // If a table needs more nodes than those before it left, compute it again with the remaining
+      // nodes, as in a sequential run.
       if (&one != made.data() && (!*one || !shared.has(**one)))
         one = end_table(spec, nodes.ends[end], shared.left(), stop);
       TRY(auto table, *std::move(one));

@@ -10,16 +10,17 @@
 
 namespace tubecut::bevel {
 
-/// The table of one end of a node, or why it has none.
+/// The table of one end of a node, or the reason why it has no table.
 struct EndTable {
-  TableSpec spec;  // as asked for, with this end's target and partners
+  TableSpec spec;  // as requested, with this end's target and partners
   std::optional<Table> table;
   std::optional<Issue> refused;
 };
 
-/// The tables of every end that is cut all round and not consumed, in the order of `nodes.ends`;
-/// the others are empty. `asked` tells everything but target and partners. An end that cannot be
-/// cut as asked does not spoil the others: it says why. Each table is a turn.
+/// Computes the tables of every end that is cut on all sides and not consumed, in the order of
+/// `nodes.ends`; the others are empty. `asked` specifies everything except target and partners. If
+/// an end cannot be cut as requested, it returns its error and does not affect the others. Each
+/// table is a task.
 ///
 /// Errors  wrong_count, out_of_range (groove/zones: the table of zones itself), too_many_nodes (of
 ///         all ends together), cancelled.

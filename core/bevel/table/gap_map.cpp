@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kSamePhase = 1e-9;  // rad
 
-/// The heights of a table at a phase that is a row of it, or between two; where two rows stand
-/// there, the one `after` the jump or before it.
+/// The heights of a table at a phase that is a row of it, or between two. If two rows have this
+/// phase, the one before the jump, or after it if `after` is set.
 class Heights {
  public:
   explicit Heights(const Table& table) : table_(table) {}
@@ -75,7 +75,7 @@ TableSpec flush_of(const TableSpec& spec) {
   out.dihedral = Dihedral::weld_side;
   out.kerf = 0.0;
   out.smoothing = NoSmoothing{};
-  out.sampling.max_nodes *= 2;  // its own rows come beside those of the square cut
+  out.sampling.max_nodes *= 2;  // its own rows are added to those of the square cut
   return out;
 }
 

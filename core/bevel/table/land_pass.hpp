@@ -6,9 +6,9 @@
 
 namespace tubecut::bevel {
 
-/// The pass that makes the land of a root face: the land's own line prolonged through the wall,
-/// with the torch line that a beam of the kerf's width needs along it, as a table of its own
-/// without a land. The bevel of `table` is the pass behind it.
+/// Computes the pass that makes the land of a root face, as a table of its own without a land: the
+/// land's own line extended through the wall, with the torch line that a beam of the kerf's width
+/// needs along it. The bevel of `table` is the pass behind it.
 ///
 /// Frame   that of `table`, which must have a land and be in its own frame.
 /// Errors  unsupported_combination (root_face): the land leans beyond the torch's range, or further

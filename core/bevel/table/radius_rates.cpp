@@ -5,7 +5,7 @@
 namespace tubecut::bevel {
 namespace {
 
-/// How far the surface moves, normal to itself, for each mm of radius.
+/// Return the motion of the surface, normal to itself, per mm of radius.
 double moved_by_radius(const joint::PreparedTube& /*tube*/) { return 1.0; }
 double moved_by_radius(const joint::PreparedElbow& /*elbow*/) { return 1.0; }
 double moved_by_radius(const joint::PreparedCone& cone) {
@@ -17,7 +17,7 @@ double moved_by_radius(const joint::PreparedRectangularTube& /*box*/) { return k
 }  // namespace
 
 RadiusRates radius_rates(const joint::PreparedCutter& partner, const Eigen::Vector3d& normal) {
-  constexpr double kSilhouette = 1e-9;  // a rate above 1e9 says nothing
+  constexpr double kSilhouette = 1e-9;  // a rate above 1e9 has no meaning
   const double axial = normal.z();
   if (!(axial > kSilhouette)) return {};
   const double moved =

@@ -44,7 +44,7 @@ void fill_angles(const TableSetup& g, const Rows& rows, Table& out) {
   out.b_required = each(points, &Point::required);
 }
 
-/// The zone of every row; a dihedral the table does not have is an error.
+/// Finds the zone of every row; a dihedral outside the table is an error.
 Result<void> fill_zones(const TableSpec& spec, const Rows& rows, Table& out) {
   const auto* zoned = std::get_if<ZonedGroove>(&spec.groove);
   if (zoned == nullptr) return {};
@@ -62,7 +62,7 @@ Result<void> fill_zones(const TableSpec& spec, const Rows& rows, Table& out) {
                        " to " + shown(high * kDegPerRad) + " deg"});
 }
 
-/// What the contours tell, before any row.
+/// Returns the data that follow from the contours, before any row.
 Table outline(const TableSetup& g, const Rows& rows) {
   Table out;
   out.inward = g.spec.dihedral != Dihedral::weld_side;
@@ -76,14 +76,14 @@ Table outline(const TableSetup& g, const Rows& rows) {
   return out;
 }
 
-/// A table on its way.
+/// A table in progress.
 struct Draft {
-  std::vector<double> also = {};  // phases of rows besides those of the sampling
+  std::vector<double> also = {};  // phases of rows in addition to those of the sampling
   Rows rows = {};
   Table table = {};
 };
 
-/// More rows, and B on all of them.
+/// Adds rows, and computes B on all rows.
 Result<void> smooth(const TableSetup& g, const std::vector<double>& more, Draft& draft,
                     const std::stop_token& stop) {
   draft.also.insert(draft.also.end(), more.begin(), more.end());
@@ -96,7 +96,7 @@ Result<void> smooth(const TableSetup& g, const std::vector<double>& more, Draft&
   return detail::fill_smoothed(g, draft.rows, draft.table, stop);
 }
 
-/// The finished surface on the draft's rows.
+/// Computes the finished surface on the draft's rows.
 Result<void> surface(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
   detail::fill_surfaces(g, draft.rows, draft.table, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
@@ -112,7 +112,7 @@ Result<void> add(const TableSetup& g, const std::vector<double>& more, Draft& dr
   return surface(g, draft, stop);
 }
 
-/// Rows where the root goes from one zone's gap to another's.
+/// Adds rows where the root goes from one zone's gap to another's.
 Result<void> follow_gaps(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
   constexpr int kRounds = 12;  // of halving
   for (int round = 0; round < kRounds; ++round) {
@@ -123,7 +123,7 @@ Result<void> follow_gaps(const TableSetup& g, Draft& draft, const std::stop_toke
   return {};
 }
 
-/// Rows where B turns: B alone tells.
+/// Adds rows where B turns; only B determines them.
 Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
   constexpr int kRounds = 6;  // of halving
   for (int round = 0; round < kRounds; ++round) {
@@ -134,12 +134,12 @@ Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_tok
   return {};
 }
 
-/// Rows where the torch's line bends; the line, where it is that of the draft. After the first
-/// round it can bend anew only near rows that the last one added: elsewhere B alone moves, by
-/// little.
+/// Adds rows where the torch's line bends; returns the line if it belongs to the draft. After the
+/// first round it can bend anew only near the last added rows, because elsewhere only B moves, and
+/// by little.
 Result<std::optional<TorchLine>> follow_torch(const TableSetup& g, Draft& draft,
                                               const std::stop_token& stop) {
-  constexpr int kRounds = 3;  // the second sees what the first's own rows changed
+  constexpr int kRounds = 3;  // the second covers the changes by the first's own rows
   auto line = torch_line(g.spec, draft.table, stop);
   if (line.rows.empty()) return line;
   for (int round = 0; round < kRounds && !line.rows.empty(); ++round) {
@@ -150,10 +150,10 @@ Result<std::optional<TorchLine>> follow_torch(const TableSetup& g, Draft& draft,
   return std::nullopt;
 }
 
-/// Rows where the finished wall enters a partner between those there are; whether there were any.
+/// Adds rows where the finished wall enters a partner between rows; returns true if it added any.
 Result<bool> follow_partners(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
   if (!promises_no_penetration(g.spec)) return false;
-  constexpr int kRounds = 10;  // each divides a depth by sixteen where the cut is smooth
+  constexpr int kRounds = 10;  // each divides a depth by sixteen if the cut is smooth
   for (int round = 0; round < kRounds; ++round) {
     const auto more =
         detail::entering_phases(g, draft.table, g.spec.sampling.tolerance->value, stop);
@@ -170,7 +170,8 @@ void note(const TableSetup& g, Draft& draft) {
   if (!g.spec.sampling.tolerance) detail::note_events_between(g, draft.table);
 }
 
-/// The gaps of an untilted cut, beside those of a bevelled one that has all its rows.
+/// Computes the gaps of an untilted cut, and those of a bevelled cut with the same rows for
+/// comparison.
 Result<void> map_gaps(const TableSetup& g, Table& out, const std::stop_token& stop) {
   const auto bevelled = detail::flush_of(g.spec);
   TRY(const auto other, detail::set_up(bevelled, stop));

@@ -28,7 +28,7 @@ struct EnvelopeSmoothing {
   bool refine = true;
 };
 struct HermiteSmoothing {
-  std::optional<int> transition_points = 15;  // empty: the least that keeps the limit (`auto`)
+  std::optional<int> transition_points = 15;  // empty: the smallest that keeps the limit (`auto`)
 };
 struct NoSmoothing {};
 using Smoothing = std::variant<EnvelopeSmoothing, HermiteSmoothing, NoSmoothing>;
@@ -37,18 +37,18 @@ struct TableSpec {
   joint::Target target;
   std::vector<joint::Partner> partners;
   std::vector<std::optional<joint::Joint>>
-      stated;  // how the partners are joined; empty: nobody says
+      stated;  // how the partners are joined; empty: not stated
   joint::Sampling sampling;
   RootSurface root_surface = RootSurface::inner;
   GrooveRule groove;
   Dihedral dihedral = Dihedral::weld_side;
   Contact contact = Contact::inner;
   double root_face = 0.0;  // height of the land at the root, across the wall; contact inner only
-  double root_gap = 0.0;   // the cut stands off every partner by this much, normal to it
+  double root_gap = 0.0;   // distance of the cut to every partner, normal to it
   double coating = 0.0;    // thickness on every partner
   double kerf = 0.0;
   TorchRange torch;
-  bool untilted = false;  // the head stands square to the wall everywhere: see `table`
+  bool untilted = false;  // the head is square to the wall everywhere: see `table`
   Smoothing smoothing;
   Angle mutation_limit = Angle::deg(10);  // larger steps of the smoother's input are listed
 };
@@ -58,17 +58,17 @@ struct Table {
   std::vector<double> phi, developed, length;
   std::vector<std::size_t> cutter;
   std::vector<double> z_inner, z_outer;  // the finished part
-  std::vector<double> z_face, b_face;    // outer edge and elevation of the land; empty without one
-  std::vector<std::size_t> zone;         // of the groove rule's table; empty without one
+  std::vector<double> z_face, b_face;  // outer edge and elevation of the land; empty without a land
+  std::vector<std::size_t> zone;       // of the groove rule's table; empty without such a table
   std::vector<double> dihedral, groove, tau, gamma, flush;
   std::vector<double> b_raw, b_required,
-      b;                     // rule within the torch range; least that keeps partners out; the cut
+      b;  // rule within the torch range; smallest that keeps partners out; the cut
   std::vector<double> gap;   // root opening: z_inner less the envelope on the inner wall
   GapMap gaps;               // of an untilted cut
   std::vector<double> beam;  // metal along the torch line
   std::vector<double> torch_inner, torch_outer;  // the torch axis, kerf applied
-  BeamProof torch_line;                          // what the kerf takes and leaves along it
-  bool inward = false;  // B counts as published: positive = elevation seen inwards
+  BeamProof torch_line;  // the metal that the kerf removes and leaves along it
+  bool inward = false;   // B counts as published: positive = elevation seen inwards
   std::vector<joint::Event> inner_events, outer_events;
   struct Step {
     double phi, step;
@@ -83,7 +83,7 @@ struct Table {
   std::vector<Window> windows;
   struct Binding {
     double from, to;     // phi
-    double groove_lost;  // largest angle by which the bevel was cut back
+    double groove_lost;  // largest reduction of the bevel angle
     double root_gap;     // largest root opening there, mm
   };
   std::vector<Binding> torch_binds;
@@ -94,36 +94,37 @@ struct Table {
   std::vector<double> dz_branch, dz_chord;  // of the rows: RadiusRates of the root's z
 };
 
-/// The bevel table of one cut end: contour, angles, contact, smoothing, finished surface and torch
-/// line.
+/// Computes the bevel table of one cut end: contour, angles, contact, smoothing, finished surface
+/// and torch line.
 ///
 /// Contact inner: the root's inner edge lies on the partners' envelope at the inner wall, and B is
-/// at least what keeps every partner out. Contact automatic: the cut is lifted until it just
-/// touches; B is the same but for the torch's range, so that the root opens (`gap`) only where the
-/// torch binds; with the square rule B is 0. Contact outer: the outer edge lies on the envelope at
-/// the outer wall.
+/// at least the angle that keeps every partner out. Contact automatic: the cut is lifted until it
+/// just touches; B is the same except for the torch's range, so that the root opens (`gap`) only
+/// where the torch binds; with the square rule B is 0. Contact outer: the outer edge lies on the
+/// envelope at the outer wall.
 ///
-/// Between two rows both edges, and that of a land, run straight in (phi, z), with every sampling:
-/// what a machine does that interpolates its rows, and what every format and part goes on with. At
-/// each phi the wall is straight across. `penetration` is the deepest place of that whole surface,
-/// round the seam too. With a tolerance and any contact but none it is never deeper than the
-/// tolerance (normal to the partner); elsewhere a depth above the tolerance, or above that of
-/// joint::Tolerance on a bare grid, is the warning `enters_partner`.
+/// Between two rows both edges, and that of a land, are straight in (phi, z), with every sampling,
+/// because the machine interpolates its rows; every format and part uses the same surface. At each
+/// phi the wall is straight across. `penetration` is the deepest point of that whole surface,
+/// including the closing interval. With a tolerance and any contact but none, it is at most the
+/// tolerance (normal to the partner). Otherwise, a depth above the tolerance, or on a bare grid
+/// above that of joint::Tolerance, gives the warning `enters_partner`.
 ///
-/// Partners count as grown by coating + root_gap, so the cut stays that far off their metal; gap is
-/// what opens beyond that. One whose joint is stated counts as that joint's seat: its own gap, from
-/// which root_gap must not differ; where the target is set into it, the cut lies flush at the
-/// depth, without groove. Root gaps of zones: zone_gaps.hpp. A root face of height f is a land from
-/// the inner edge to the radius r_in + f, square to the axis, or as steep as a partner makes it;
-/// the bevel begins at its outer edge, and `torch_*` is the bevel's line.
+/// Partners count as grown by coating + root_gap, so the cut keeps that distance to their metal;
+/// `gap` is the opening beyond that. If a partner's joint is stated, the partner counts as that
+/// joint's seat: it has its own gap, and root_gap must be 0 or equal to it; if the target is set
+/// into it, the cut is flush at the depth, without groove. Root gaps of zones: zone_gaps.hpp. A
+/// root face of height f is a land from the inner edge to the radius r_in + f, square to the axis,
+/// or as steep as a partner requires; the bevel begins at its outer edge, and `torch_*` is the
+/// bevel's line.
 ///
-/// An `untilted` cut has B = 0 on every row, where an end is set in too; it goes with the square
-/// rule and any contact but inner. What that leaves open at both edges, and what a flush bevel of
-/// the same end would leave, stands in `gaps`.
+/// An `untilted` cut has B = 0 on every row, also where an end is set in; it requires the square
+/// rule and any contact except inner. `gaps` contains the gaps that it leaves at both edges, and
+/// those of a flush bevel of the same end.
 ///
-/// The torch's axis is lowered no further than a round beam of the kerf's width needs to stay out
-/// of the finished part, rows and what lies between them (`torch_line`). With a tolerance it also
-/// has the rows that its own bends need.
+/// The torch's axis is lowered only as far as a round beam of the kerf's width needs to stay out of
+/// the finished part, at rows and between them (`torch_line`). With a tolerance the table also has
+/// the rows that the bends of this line need.
 ///
 /// Frame     z along the target from the cut end into the kept member, phi from x towards y; B > 0:
 ///           outer edge further into the part.
@@ -131,29 +132,32 @@ struct Table {
 ///           sampling_not_uniform, smoothing_not_converged, smoothing_enters, cut_enters (contact
 ///           outer), out_of_range (groove/zones, root_face, kerf), joint_contradicts (root_gap),
 ///           transition_too_long, unsupported_combination, too_many_nodes, cancelled.
-/// Accuracy  `penetration` is stated within 3e-4 mm, by an enclosure.
+/// Accuracy  `penetration` is exact within 3e-4 mm, by an enclosure.
 /// Source    docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
 [[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
 
 /// Errors  wrong_count, out_of_range (groove/zones/i).
 [[nodiscard]] Result<void> check_groove(const GrooveRule& groove);
 
-/// How partner i is joined, where somebody says.
+/// Returns the stated joint of partner i, if any.
 [[nodiscard]] const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size_t i);
 
-/// The partners as the cut must see them: grown by coating and (least) root gap, or to their seat.
+/// Returns the partners as cutters for the cut: grown by coating and (smallest) root gap, or to
+/// their seat.
 [[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
 
-/// The finished surface by its rows: inner edge, the land's, outer edge. Views of the table.
+/// Returns the finished surface by its rows: inner edge, the land's, outer edge. Views of the
+/// table.
 [[nodiscard]] CutWall finished_wall(const TableSpec& spec, const Table& table);
 
-/// May the finished surface enter no partner by more than `penetration_limit`, between rows either?
+/// Returns true if the finished surface must not enter a partner by more than `penetration_limit`,
+/// including between rows.
 [[nodiscard]] bool promises_no_penetration(const TableSpec& spec);
-/// The sampling's tolerance; on a bare grid the one it has by default. mm
+/// Returns the sampling's tolerance; for a bare grid its default. mm
 [[nodiscard]] double penetration_limit(const TableSpec& spec);
 
-/// The table proved from its own numbers by other formulas: 3D distances, normals from gradients,
-/// half tangents.
+/// Verifies the table from its own numbers by independent formulas: 3D distances, normals from
+/// gradients, half tangents.
 [[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table,
                                         const std::stop_token& stop = {});
 

@@ -21,7 +21,7 @@ struct WallCircle {
 };
 WallCircle of(const Directions& t) { return {t.sine.data(), t.cosine.data()}; }
 
-/// Lengths of radial - side normal and of radial + side normal.
+/// Computes the lengths of radial - side normal and of radial + side normal.
 TUBECUT_WIDE void half_tangents(WallCircle phi, Vectors normal, double side, double* apart,
                                 double* along, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -60,7 +60,7 @@ TUBECUT_WIDE void plane_errors_of(WallCircle phi, Vectors normal, const double* 
   }
 }
 
-/// Counted in whole lanes: a number is finite where not all bits of its exponent are set.
+/// Counts in whole lanes: a number is finite if not all bits of its exponent are set.
 TUBECUT_WIDE std::uint64_t count_not_finite(const double* values, std::size_t n) {
   constexpr std::uint64_t kExponent = 0x7FF0000000000000U;
   std::uint64_t out = 0;
@@ -72,7 +72,7 @@ TUBECUT_WIDE std::uint64_t count_not_finite(const double* values, std::size_t n)
   return out;
 }
 
-/// Between each entry and the next, at shares of the way; `v` has one entry more.
+/// Interpolates between each entry and the next at the given fractions; `v` has one entry more.
 TUBECUT_WIDE void mix(const double* share, const double* v, double* out, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) out[i] = (1.0 - share[i]) * v[i] + share[i] * v[i + 1];
 }
@@ -91,7 +91,7 @@ TUBECUT_WIDE void heights(Radii at, const double* radius, const double* z_inner,
   }
 }
 
-/// The column, and its first entry again `turn` on.
+/// Returns the column with its first entry, plus `turn`, appended.
 std::vector<double> closed(const std::vector<double>& column, double turn) {
   auto out = column;
   out.push_back(column.front() + turn);

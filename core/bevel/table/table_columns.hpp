@@ -4,17 +4,17 @@
 
 namespace tubecut::bevel {
 
-/// What the numbers of a column are, by what they become when the tube is seen from its other end.
+/// How the numbers of a column change if the tube is seen from its other end.
 enum class ColumnKind {
-  station,    // of the row round the cut: counted the other way
-  height,     // z: counted from the other end
-  elevation,  // an angle towards +z: of the other sign
-  rate,       // of a height by something else: of the other sign; kNoRate where there is none
-  plain,      // the same
+  station,    // of the row around the cut: measured in reverse
+  height,     // z: measured from the other end
+  elevation,  // an angle towards +z: changes its sign
+  rate,       // of a height by another quantity: changes its sign; kNoRate if undefined
+  plain,      // unchanged
 };
 
-/// Calls `see(kind, column...)` with every column of numbers of a table, or of several tables side
-/// by side. A column added to `Table` is a line here.
+/// Calls `see(kind, column...)` with every numeric column of a table, or of several tables in
+/// parallel. If you add a column to `Table`, add a line here.
 template <class F, class... T>
 void each_column(const F& see, T&... t) {
   using enum ColumnKind;

@@ -8,7 +8,7 @@
 namespace tubecut::bevel::detail {
 namespace {
 
-/// Where the raised root stands at a phase.
+/// Returns the height of the raised root at a phase.
 double root_at(const TableSetup& g, double phi) {
   const auto line = joint::generator_at(g.root.radius, phi);
   return stood_at(g, line, joint::continued_hit(g.root.cutters.front(), line)).hit.z;
@@ -21,7 +21,7 @@ const ZonedGroove* zones_with_gaps(const TableSpec& spec) {
   return zoned != nullptr && zoned->has_root_gaps() ? zoned : nullptr;
 }
 
-/// Zones that name the root gap go with one partner, the root inside, and no other gap.
+/// Zones with root gaps require a single partner, the root inside, and no other gap.
 Result<void> check_gaps(const TableSpec& spec) {
   if (zones_with_gaps(spec) == nullptr) return {};
   const auto refused = [](std::string member, std::string hint) {
@@ -57,7 +57,7 @@ Stood stood_at(const TableSetup& g, const joint::Generator& line, const joint::H
     out.hit = joint::continued_hit(out.partner, line);
     return out;
   };
-  // What the zone asks for there beyond what is there.
+  // The gap that the zone requests there beyond the smallest one.
   const double bottom = g.gaps->least_gap();
   const auto lacks = [&](const joint::Hit& hit, double more) {
     return g.gaps->at(g.rule.angles(hit.normal).dihedral).root_gap - bottom - more;
@@ -67,7 +67,7 @@ Stood stood_at(const TableSetup& g, const joint::Generator& line, const joint::H
   if (!(at_low > 0.0)) return {0.0, g.root.cutters.front(), least};
   auto out = at(high);
   double at_high = lacks(out.hit, high);
-  constexpr int kSteps = 60;        // by halves at the worst
+  constexpr int kSteps = 60;        // at worst by bisection
   constexpr double kThere = 1e-12;  // mm
   for (int k = 0; k < kSteps && at_high < -kThere && high - low > kThere; ++k) {
     const double chord = low + (high - low) * at_low / (at_low - at_high);
@@ -108,14 +108,14 @@ void measure_root(const TableSetup& g, Rows& rows) {
 }
 
 joint::PreparedCutter grown_for(const TableSetup& g, double more) {
-  // What can be prepared can be so when it is thicker.
+  // If a cutter can be prepared, a thicker one can be too.
   return joint::prepare(joint::grown(g.cutters.front(), more)).value();
 }
 
 std::vector<double> rows_where_gap_turns(const TableSetup& g, const Rows& rows) {
   std::vector<double> out;
   if (!g.gaps || !g.spec.sampling.tolerance) return out;
-  constexpr double kNarrow = 1e-4;  // mm, developed: no finer
+  constexpr double kNarrow = 1e-4;  // mm, developed: minimum
   const auto& nodes = rows.samples.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto j = (i + 1) % nodes.size();

@@ -17,7 +17,7 @@ bool set_in(const TableSpec& spec, std::size_t partner) {
   return is_set_in(stated_joint(spec, partner));
 }
 
-/// One gap a joint; and zones name every row's own, which a flush row has not.
+/// Checks that a joint has one gap, and that zones with gaps occur without flush rows.
 Result<void> check_stated(const TableSpec& spec) {
   for (std::size_t i = 0; i < spec.stated.size(); ++i) {
     if (!spec.stated[i]) continue;
@@ -37,7 +37,7 @@ Result<void> check_stated(const TableSpec& spec) {
   return {};
 }
 
-/// B = 0 must be what is asked for and what the torch can do.
+/// Checks that B = 0 is requested and within the torch's range.
 Result<void> check_untilted(const TableSpec& spec) {
   if (!spec.untilted) return {};
   const bool reached = spec.torch.min.rad() <= 0.0 && spec.torch.max.rad() >= 0.0;
@@ -76,7 +76,8 @@ Result<void> check(const TableSpec& spec) {
   return check_groove(spec.groove);
 }
 
-/// Events that are no rows of the root's own contour: of the other wall, and of the land's edge.
+/// Returns events that are no rows of the root's own contour: of the other wall, and of the land's
+/// edge.
 std::vector<double> row_phases(const TableSetup& g, const std::stop_token& stop) {
   std::vector<double> out;
   for (const auto& event : g.other.events) out.push_back(event.phi);
@@ -87,9 +88,9 @@ std::vector<double> row_phases(const TableSetup& g, const std::stop_token& stop)
   return out;
 }
 
-/// What the smoother starts from.
+/// Returns the input of the smoother.
 double input_of(const TableSpec& spec, const Point& p) {
-  // What is required beyond the range is refused, but for rounding: 60 deg of a plane that
+  // An angle required beyond the range is rejected, except for rounding: 60 deg of a plane that
   // leans 30.
   if (spec.contact == Contact::inner)
     return std::min(std::max(p.raw, p.required), spec.torch.max.rad());
@@ -98,7 +99,7 @@ double input_of(const TableSpec& spec, const Point& p) {
   return floored ? std::min(std::max(p.raw, p.required), spec.torch.max.rad()) : p.raw;
 }
 
-/// With a land: its elevation, and the least B from its outer edge.
+/// With a land, computes its elevation, and the smallest B from its outer edge.
 void stand_on_face(const TableSetup& g, std::span<const joint::PreparedCutter> partners, double phi,
                    double z, Point& out) {
   const double edge = g.wall.inner + g.spec.root_face;
@@ -110,7 +111,7 @@ void stand_on_face(const TableSetup& g, std::span<const joint::PreparedCutter> p
                                 z + g.spec.root_face * slope);
 }
 
-/// The angles where the root lies at `z` on the inner wall, and stands off these partners.
+/// Computes the angles where the root is at `z` on the inner wall, clear of these partners.
 void fill_point(const TableSetup& g, double phi, std::span<const joint::PreparedCutter> partners,
                 const joint::Hit& hit, double z, Point& out) {
   const bool published = g.spec.dihedral == Dihedral::as_published;
@@ -141,14 +142,14 @@ bool one_sided(const joint::Node& node) {
   return node.kind == joint::NodeKind::smooth || node.kind == joint::NodeKind::jump;
 }
 
-/// Can the points be made side by side? Not where each row has a rule of its own.
+/// Returns true if the points can be vectorised; they cannot if each row has a rule of its own.
 bool alike(const TableSpec& spec) {
   const bool zoned = std::holds_alternative<ZonedGroove>(spec.groove);
   const bool flush = !spec.untilted && std::ranges::any_of(spec.stated, is_set_in);
   return !zoned && !flush && spec.dihedral != Dihedral::as_published && spec.root_face == 0.0;
 }
 
-/// `point` of these nodes at once, each by the cutter before it.
+/// Computes `point` for these nodes at once, each by the cutter before it.
 void make_alike(const TableSetup& g, std::span<const std::size_t> at, Rows& rows) {
   const auto n = at.size();
   std::vector<double> phi(n), z(n);
@@ -179,7 +180,8 @@ void make_alike(const TableSetup& g, std::span<const std::size_t> at, Rows& rows
   }
 }
 
-/// So many rows take `make_alike` 1 ms, beside a rectangular tube 1.3.
+/// Returns the number of rows that `make_alike` computes in 1 ms, or with a rectangular tube in
+/// 1.3.
 std::size_t rows_between_looks(std::span<const joint::PreparedCutter> cutters) {
   constexpr std::size_t kWithoutElbow = 256, kOfOneElbow = 128;  // searched, row by row
   const auto elbows =
@@ -194,7 +196,7 @@ bool same_place(const joint::Node& a, const joint::Node& b) {
          a.kind == b.kind;
 }
 
-/// The nodes that `known` has no point of; the others' points are taken over.
+/// Returns the nodes without a point in `known`; copies the points of the others.
 std::vector<std::size_t> take_over(const Rows& known, Rows& rows) {
   const auto& had = known.samples.nodes;
   const auto& nodes = rows.samples.nodes;

@@ -90,7 +90,7 @@ Result<std::vector<double>> smooth(const TableSetup& g, const joint::Samples& sa
   return p.profile.b;
 }
 
-/// Smoothed B beyond the torch: an error with its phases.
+/// If the smoothed B is beyond the torch, returns an error with its phases.
 Result<void> check_smoothed_in_torch_range(const TableSetup& g, const Rows& rows,
                                            const std::vector<double>& b) {
   const auto& samples = rows.samples;
@@ -107,7 +107,7 @@ Result<void> check_smoothed_in_torch_range(const TableSetup& g, const Rows& rows
   return {};
 }
 
-/// What the smoothing left below what it was given. Only the published one may.
+/// Checks whether the smoothing is below its input; only the published one may be.
 Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
@@ -144,7 +144,7 @@ Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
 }
 
 constexpr double kRowBend = 0.25;      // of K, at one row
-constexpr double kMinSegment = 0.125;  // of K/A: no segment shorter than this is halved
+constexpr double kMinSegment = 0.125;  // of K/A: shorter segments are not halved
 
 struct Segment {
   double length = 0.0;  // along the smoother's path, mm

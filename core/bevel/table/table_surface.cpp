@@ -30,10 +30,10 @@ bool promises_no_penetration(const TableSpec& spec) {
 namespace detail {
 namespace {
 
-constexpr int kAcrossOpen = 16;  // places looked at where nothing is met
+constexpr int kAcrossOpen = 16;  // samples if nothing is met
 
-/// Height at which a cut of this slope just touches, at one node. A partner that is lost here at
-/// its silhouette, all across the wall, does not hold the lower of the jump's two nodes.
+/// Computes the height at which a cut of this slope just touches, at one node. If a partner is lost
+/// here at its silhouette, all across the wall, it does not hold the lower of the jump's two nodes.
 double lift_at(const TableSetup& g, const Rows& rows, std::size_t i, double slope) {
   const auto& nodes = rows.samples.nodes;
   const auto line = joint::generator_at(g.wall.inner, nodes[i].phi);
@@ -132,7 +132,7 @@ Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table&
 
 std::vector<double> entering_phases(const TableSetup& g, const Table& t, double tolerance,
                                     const std::stop_token& stop) {
-  constexpr double kNarrow = 1e-4;  // mm, developed: no finer
+  constexpr double kNarrow = 1e-4;  // mm, developed: minimum
   const auto gaps = entering(finished_wall(g.spec, t), g.solids, tolerance, stop);
   std::vector<double> out;
   for (std::size_t i = 0; i < gaps.size(); ++i) {
@@ -162,7 +162,7 @@ void state_penetration(const TableSetup& g, Table& out, const std::stop_token& s
 }
 
 void note_overhang(const TableSetup& g, Table& out) {
-  if (g.inner) return;  // with the root outside, both walls are met all round
+  if (g.inner) return;  // if the root is outside, both walls are met on all sides
   for (const auto& [from, to] : g.other.open) {
     double worst = 0.0;
     for (int k = 0; k <= kAcrossOpen; ++k) {

@@ -30,7 +30,7 @@ constexpr double kStated = 1e-3;       // mm
 constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
 constexpr double kTangent = 5e-5;      // sine between the normals: at a corner less than 4.5e-5
 
-/// What the smoother was given at each row: at a jump the larger of the two.
+/// Returns the smoother's input at each row: at a jump the larger of the two.
 std::vector<double> smoother_input(const TableSpec& spec, const Table& t) {
   const auto n = t.phi.size();
   const bool lifted = spec.contact == Contact::automatic;
@@ -49,7 +49,7 @@ std::vector<double> smoother_input(const TableSpec& spec, const Table& t) {
   return out;
 }
 
-/// The path that was smoothed, nodes of one jump as one: what went in, and b.
+/// The smoothed path, nodes of one jump as one: the input, and b.
 struct Path {
   AngleProfile input, smoothed;
 };
@@ -78,7 +78,8 @@ SmoothedArea area_of(const TableSpec& spec, const EnvelopeSmoothing& method, con
   return {area, least, area_excess(p.input, least, area)};
 }
 
-/// Slopes and second differences of b along the path, and by how much its area exceeds the least.
+/// Checks slopes and second differences of b along the path, and the excess of its area over the
+/// minimum.
 void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, const Table& t,
                      const std::vector<double>& input, std::vector<Check>& out) {
   const auto both = path(t, input, method.along);
@@ -108,7 +109,7 @@ void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, con
         {"area_excess", area_of(spec, method, both, t.multipliers).excess, kAreaExcess, ""});
 }
 
-/// How far the cut of each row stays from the nearest partner, mm; negative: it enters.
+/// Returns the distance of each row's cut to the nearest partner, mm; negative: it enters.
 std::vector<double> clearances(const TableSpec& spec, const Table& t,
                                const std::vector<joint::Solid>& solids, const Directions& phi,
                                const std::stop_token& stop) {
@@ -136,7 +137,7 @@ std::vector<double> clearances(const TableSpec& spec, const Table& t,
   return least;
 }
 
-/// Shares that lie everywhere, by the golden ratio.
+/// Returns fractions that cover the interval evenly, by the golden ratio.
 std::vector<double> golden_shares(std::size_t n) {
   constexpr double kGolden = 0.6180339887498949;
   std::vector<double> out(n);
@@ -149,8 +150,8 @@ std::vector<double> golden_shares(std::size_t n) {
   return out;
 }
 
-/// The deepest of these places between each row and the next: half way at every edge and once
-/// between them, and one anywhere in the gap.
+/// Returns the largest depth at these points between each row and the next: in the middle at every
+/// edge and once between them, and one anywhere in the gap.
 double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
                      const std::stop_token& stop) {
   const auto n = t.phi.size();
@@ -191,7 +192,7 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
   return numbers ? -lowest : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// What the table states of its deepest place, held against that place and against others.
+/// Checks the table's stated deepest point, at that point and at others.
 void penetration_checks(const TableSpec& spec, const Table& t,
                         const std::vector<joint::Solid>& solids, double at_rows,
                         std::vector<Check>& out, const std::stop_token& stop) {
@@ -207,8 +208,8 @@ void penetration_checks(const TableSpec& spec, const Table& t,
         {"penetration_between", worst_of({p.depth, found}), penetration_limit(spec), "mm"});
 }
 
-/// The gaps of an untilted cut: from each edge its gap back along the nearest partner's normal lies
-/// that partner's surface, and none nearer.
+/// Checks the gaps of an untilted cut: at the distance of its gap from each edge, back along the
+/// nearest partner's normal, is that partner's surface, and no other is nearer.
 double gaps_off(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
                 const std::stop_token& stop) {
   double worst = t.gaps.square.inner.size() == t.phi.size() ? 0.0 : 1.0;
@@ -231,15 +232,16 @@ double gaps_off(const TableSpec& spec, const Table& t, const std::vector<joint::
   return worst;
 }
 
-/// Have tube and partner all but one tangent plane at the row? So at a tube's own corner, which
-/// turns within a few micrometres: the angles are those of one of its sides.
+/// Returns true if tube and partner have nearly one tangent plane at the row. This also happens at
+/// a tube's own corner, which turns within a few micrometres: the angles are those of one of its
+/// sides.
 bool tangent(const RowNormals& rows, std::size_t i) {
   const auto& n = rows.partner;
   const double across = rows.phi.cosine[i] * n.y[i] - rows.phi.sine[i] * n.x[i];
   return n.z[i] * n.z[i] + across * across < kTangent * kTangent;
 }
 
-/// Root gaps of zones, by what each next zone adds: of a row by its dihedral, deg.
+/// Root gaps of zones, as the increment of each next zone: of a row by its dihedral, deg.
 class GapRamps {
  public:
   explicit GapRamps(const ZonedGroove& zoned)
@@ -267,7 +269,8 @@ class GapRamps {
   double half_;
 };
 
-/// How far the root is off its zones' gaps: the distance from it to the one partner.
+/// Returns the error of the root's gap against its zones': the distance from it to the only
+/// partner.
 double gaps_missed(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
                    const GapRamps& ramps) {
   double worst = solids.size() == 1 ? 0.0 : std::numeric_limits<double>::infinity();
@@ -275,14 +278,14 @@ double gaps_missed(const TableSpec& spec, const Table& t, const std::vector<join
     const auto at = math::cylinder_point(spec.target.inner_radius(), t.phi[i], t.z_inner[i]);
     const double there = solids.front().distance(at) + ramps.least();
     const double off = there - ramps.at(t.dihedral[i] * kDegPerRad);
-    // Lifted, the root may open further.
+    // If lifted, the root may open further.
     worsen(worst, spec.contact == Contact::automatic ? -off : std::abs(off));
   }
   return worst;
 }
 
-/// How many entries of the columns are no finite number, but for rates, which may be absent. With
-/// one of them no other line of the proof says anything.
+/// Returns how many entries of the columns are not finite, except rates, which may be absent. If
+/// there is one, no other check has a meaning.
 std::size_t not_numbers(const Table& t) {
   std::size_t out = 0;
   const auto count = [&](ColumnKind kind, const std::vector<double>& column) {

@@ -59,7 +59,8 @@ double Zones::greatest_gap() const {
 
 namespace {
 
-/// All zones have a root gap or none; and from one to the next it changes over a band.
+/// Checks that all zones have a root gap or none has, and that it changes over a band from one to
+/// the next.
 Result<void> check_root_gaps(const ZonedGroove& table, const std::vector<std::size_t>& order) {
   const auto bad = [&](ErrorCode code, std::size_t i, std::string hint) {
     return fail({.code = code,

@@ -10,33 +10,34 @@
 
 namespace tubecut::bevel {
 
-/// The groove angle over one interval of the dihedral, straight between its two ends; in a band
-/// shared with another zone only a part of what is cut, as of the root gap.
+/// The groove angle over one interval of the dihedral, linear between its two ends; in a band
+/// shared with another zone it is only a part of the groove, and of the root gap.
 struct GrooveZone {
   std::string id;
-  Angle dihedral_from, dihedral_to;     // ascending, within 0..180 deg
-  Angle groove_from, groove_to;         // at those ends, >= 0
-  std::optional<double> root_gap = {};  // mm, between root and partner; all zones have one, or none
+  Angle dihedral_from, dihedral_to;  // ascending, within 0..180 deg
+  Angle groove_from, groove_to;      // at those ends, >= 0
+  std::optional<double> root_gap =
+      {};  // mm, between root and partner; either all zones have it or no zone
 };
 
-/// A user's table of grooves, for example a welding procedure's. Where two zones meet or overlap
-/// the transition may lie anywhere in a band from `overlap` / 2 below the upper zone's first
-/// dihedral to `overlap` / 2 above the lower zone's last. There the groove is the mean of both, the
-/// upper zone's weight running straight from 0 to 1 across the band, each zone's own groove held at
-/// its end beyond it: a straight line where both are constant in the band, else a parabola. Without
-/// any band the groove steps, and the border belongs to the upper zone; a root gap never steps.
+/// A user's table of grooves, for example a welding procedure's. If two zones meet or overlap, the
+/// transition may lie anywhere in a band from `overlap` / 2 below the upper zone's first dihedral
+/// to `overlap` / 2 above the lower zone's last. There the groove is the mean of both; the upper
+/// zone's weight is linear from 0 to 1 across the band, and each zone's own groove is constant
+/// beyond its end: a straight line if both are constant in the band, else a parabola. Without a
+/// band the groove steps, and the border belongs to the upper zone; a root gap never steps.
 struct ZonedGroove {
   std::vector<GrooveZone> zones;  // in any order
   Angle overlap = {};
 
-  /// Does each zone have a root gap of its own?
+  /// Returns true if each zone has a root gap of its own.
   [[nodiscard]] bool has_root_gaps() const { return !zones.empty() && zones.front().root_gap; }
 };
 
-/// A root gap that changes from one zone to the next does so over a band no narrower than this.
+/// The minimum band over which a root gap changes from one zone to the next.
 inline constexpr Angle kLeastGapBand = Angle::deg(0.5);
 
-/// The zones ready for use, ascending.
+/// The zones in ascending order, prepared for use.
 class Zones {
  public:
   Zones() = default;
@@ -45,11 +46,11 @@ class Zones {
   struct At {
     double groove = 0.0;    // rad
     double root_gap = 0.0;  // mm; without root gaps 0
-    std::size_t zone = 0;   // index in the table as given: in a band the nearer zone
+    std::size_t zone = 0;   // index in the given table: in a band the nearer zone
     bool inside = false;    // the table has this dihedral
   };
   [[nodiscard]] At at(double dihedral) const;
-  /// Of the root gaps.
+  /// Returns the smallest root gap.
   [[nodiscard]] double least_gap() const;
   [[nodiscard]] double greatest_gap() const;
 
