@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kUpright = 1e-9;  // a face as steep as that has no height of its own
+constexpr double kUpright = 1e-9;  // a steeper face has no height of its own
 
 template <std::size_t Degree>
 void add(const Trig<Degree>& zero, std::vector<double>& out) {
@@ -21,7 +21,8 @@ void add(const Trig<Degree>& zero, std::vector<double>& out) {
 template <class Kind>
 void find(const Kind& /*cutter*/, double /*rho*/, std::vector<double>& /*out*/) {}
 
-// A generator leaves a face at its edges where the other coordinate is that of a corner's centre.
+// Finds the phases where a generator leaves a face at its edges: the other coordinate is that of a
+// corner's centre.
 void find(const PreparedRectangularTube& box, double rho, std::vector<double>& out) {
   const auto& w = box.frame.rise;
   const Eigen::Vector2d half(box.half_width, box.half_height);
@@ -42,7 +43,8 @@ struct Rim {
   Vector3d along, outwards;  // unit: of the leg's axis, and from the bend's centre
 };
 
-// On the plane of the circle a generator has one place; it is on the rim at the leg's radius.
+// Finds the phases on the rim: a generator crosses the plane of the circle at one point, which is
+// on the rim if its distance from the centre is the leg's radius.
 void find(const PreparedElbow& elbow, double rho, std::vector<double>& out) {
   const auto component = [&](const Vector3d& unit) {
     const Vector3d global = elbow.rows.transpose() * unit;

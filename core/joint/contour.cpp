@@ -30,7 +30,8 @@ Result<std::vector<PreparedCutter>> prepare_all(std::span<const Cutter> cutters,
   return out;
 }
 
-/// A run of an elbow that goes up along the member has no place where it ends to cut it.
+/// Rejects an elbow whose leg goes up along the member, because such a leg never ends and cuts the
+/// whole member.
 Result<void> check_legs(std::span<const PreparedCutter> cutters, double rho) {
   for (std::size_t i = 0; i < cutters.size(); ++i) {
     const auto* elbow = std::get_if<PreparedElbow>(&cutters[i]);

@@ -16,14 +16,14 @@ namespace {
 constexpr double kSameCurve = 1e-13;  // relative; rounding of two descriptions of one curve
 constexpr std::array kBrackets = {1e-9, 1e-7, 1e-5, 1e-4, 1e-3};  // rad
 constexpr std::size_t kScanSteps = 1440;
-constexpr double kLeap = 0.02;      // relative; a difference between scanned phases worth a look
-constexpr double kJump = 1e-4;      // relative; what a continuous curve cannot do within 1e-15 rad
-constexpr double kTouching = 1e-6;  // relative; kept without a sign change
-constexpr double kHair = 1e-9;      // relative; rounding
+constexpr double kLeap = 0.02;  // relative; a larger difference between scanned phases is checked
+constexpr double kJump = 1e-4;  // relative; impossible for a continuous curve within 1e-15 rad
+constexpr double kTouching = 1e-6;     // relative; kept without a sign change
+constexpr double kHair = 1e-9;         // relative; rounding
 constexpr double kSameHeight = 1e-12;  // relative; rounding of a scanned height
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// A block of the scan is looked at whole where few cutters may be on top there, else in parts.
+// A block of the scan is processed whole if few cutters may be on top there, else in parts.
 constexpr std::size_t kBlock = 32, kParts = 4, kFew = 3;
 
 bool same_piece(const Sheets& a, const Sheets& b) {
@@ -36,8 +36,8 @@ bool same_curve(const std::vector<Sheets>& a, const std::vector<Sheets>& b) {
   return !a.empty() && std::ranges::equal(a, b, same_piece);
 }
 
-/// Phases near every solution of mid_i +- sqrt(square_i) = mid_j +- sqrt(square_j). In this form
-/// (of (Q_i + Q_j - D^2)^2 - 4 Q_i Q_j) nearly equal curves lose no digits.
+/// Finds phases near every solution of mid_i +- sqrt(square_i) = mid_j +- sqrt(square_j). In this
+/// form (of (Q_i + Q_j - D^2)^2 - 4 Q_i Q_j) nearly equal curves lose no digits.
 RootPhases crossings(const Sheets& a, const Sheets& b) {
   const auto apart = a.mid - b.mid;
   if (!a.curved && !b.curved) return root_phases(apart);
@@ -48,7 +48,7 @@ RootPhases crossings(const Sheets& a, const Sheets& b) {
   return root_phases(unlike * unlike - 2.0 * (apart2 * (a.square + b.square)) + apart2 * apart2);
 }
 
-/// The generator turned by no more than kBrackets' last: series that leave 1e-21.
+/// Returns the generator rotated by at most kBrackets' last, by series with an error of 1e-21.
 Generator turned_little(const Generator& line, double by) {
   const double square = by * by;
   const double cos = 1.0 - square * (0.5 - square / 24.0);
@@ -57,7 +57,7 @@ Generator turned_little(const Generator& line, double by) {
           line.sin_phi * cos + line.cos_phi * sin};
 }
 
-/// Secant steps with Illinois weights, a halving every third step: at most 3 * 53 steps.
+/// Secant steps with Illinois weights, a bisection every third step: at most 3 * 53 steps.
 template <class G>
 double close_bracket(const G& g, double a, double ga, double b, double gb) {
   constexpr double kNarrow = 2.3e-16;
@@ -145,10 +145,11 @@ void EventPhases::add_pair(std::size_t i, std::size_t j) {
       }
 }
 
-/// Are these two apart here, or below a third, by more than any sheet changes within 1e-6 rad? Of a
-/// sheet mid + sqrt(square) that is the root of what its square changes by.
+/// Returns true if the two differ here, or lie below a third, by more than the change of any sheet
+/// within 1e-6 rad. A sheet mid + sqrt(square) changes by at most the root of the change of its
+/// square.
 bool EventPhases::passed_over(std::size_t i, std::size_t j, const Generator& line) const {
-  constexpr double kFar = 0.01;  // of its size
+  constexpr double kFar = 0.01;  // relative
   const double z = continued_sheet(cutters_[i], line);
   const double beside = kFar * std::max(size_of(i), size_of(j));
   if (std::abs(z - continued_sheet(cutters_[j], line)) > beside) return true;
@@ -161,7 +162,7 @@ bool EventPhases::passed_over(std::size_t i, std::size_t j, const Generator& lin
   });
 }
 
-/// Height, continued beyond the silhouettes, at a phase of the scan.
+/// Returns the height at a phase of the scan, continued beyond the silhouettes.
 double EventPhases::scanned_height(std::size_t i, std::size_t k) {
   auto& heights = scans_.try_emplace(i, kScanSteps, kUnknown).first->second;
   double& z = heights[k % kScanSteps];
@@ -174,15 +175,15 @@ bool EventPhases::same_height(std::size_t i, std::size_t j, std::size_t k) {
   return std::abs(scanned_height(i, k) - scanned_height(j, k)) <= kSameHeight * size;
 }
 
-/// Crossings without a closed form are looked for between the phases of a scan, where the cutter
-/// can be on top at all.
+/// Crossings without a closed form are searched between the phases of a scan, where the cutter can
+/// be on top.
 void EventPhases::add_scanned() {
   if (active_.size() < 2) return;
   if (!std::ranges::any_of(active_, [&](std::size_t i) { return scanned(i); })) return;
   for (std::size_t k = 0; k < kScanSteps; k += kBlock) add_cells(k, k + kBlock, active_);
 }
 
-/// Cells `from` to `to`: parts of them where many cutters may be on top.
+/// Processes cells `from` to `to`, in parts if many cutters may be on top.
 void EventPhases::add_cells(std::size_t from, std::size_t to, std::vector<std::size_t> cutters) {
   if (stop_.stop_requested()) return;
   cutters = on_top(from, to, cutters);
@@ -195,8 +196,8 @@ void EventPhases::add_cells(std::size_t from, std::size_t to, std::vector<std::s
   for (std::size_t k = from; k < to; ++k) add_cell(k, cutters);
 }
 
-/// Those that may hold the profile between the phases of a scan `from` and `to` + 1. A generator
-/// there is nowhere further than `off` from the one in the middle.
+/// Returns the cutters that may hold the profile between the scan phases `from` and `to` + 1. Every
+/// generator there is within `off` of the middle one.
 std::vector<std::size_t> EventPhases::on_top(std::size_t from, std::size_t to,
                                              const std::vector<std::size_t>& cutters) const {
   const double half = 0.5 * (phase_of(to + 1) - phase_of(from));
@@ -216,7 +217,8 @@ std::vector<std::size_t> EventPhases::on_top(std::size_t from, std::size_t to,
   return out;
 }
 
-/// Of cutters of one height on both sides of a cell the first: bends of one tube share a leg.
+/// Of cutters with equal heights on both sides of a cell, keeps only the first, because bends of
+/// one tube share a leg.
 std::vector<std::size_t> EventPhases::unlike(std::size_t k,
                                              const std::vector<std::size_t>& cutters) {
   std::vector<std::size_t> out;
@@ -235,8 +237,8 @@ void EventPhases::add_cell(std::size_t k, const std::vector<std::size_t>& cutter
       if (scanned(some[a]) || scanned(some[b])) add_in_cell(some[a], some[b], k);
 }
 
-/// Sign changes of z_i - z_j between neighbouring phases, on both sides of a near miss, and where
-/// curves part that were one.
+/// Finds sign changes of z_i - z_j between neighbouring phases, on both sides of a near miss, and
+/// where curves that coincided separate.
 void EventPhases::add_in_cell(std::size_t i, std::size_t j, std::size_t k) {
   const auto g = [&](std::size_t at) { return scanned_height(i, at) - scanned_height(j, at); };
   const auto same = [&](std::size_t at) { return same_height(i, j, at); };
@@ -286,7 +288,7 @@ std::optional<double> EventPhases::hidden_at(std::size_t i) {
   return std::nullopt;
 }
 
-/// The narrowest bracket around `near` in which z_i - z_j changes sign, closed.
+/// Finds the narrowest bracket around `near` in which z_i - z_j changes sign, and closes it.
 std::optional<double> EventPhases::polish(std::size_t i, std::size_t j, double near,
                                           const Generator& line) const {
   const auto g = [&](double off) { return apart(i, j, turned_little(line, off)); };

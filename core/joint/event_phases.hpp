@@ -14,13 +14,13 @@
 /// For `divide` only: the phases where its profile may have an event.
 namespace tubecut::joint::detail {
 
-inline constexpr double kSamePhase = 1e-11;  // rad; closer candidates are one
+inline constexpr double kSamePhase = 1e-11;  // rad; closer candidates are merged
 
-/// The shorter way round.
+/// Returns the shorter distance around the circle.
 [[nodiscard]] double phase_distance(double a, double b);
 
-/// Silhouettes, corners and crossings of every cutter and pair. Some are no events: the profile
-/// lies elsewhere. None is missed.
+/// Finds silhouettes, corners and crossings of every cutter and pair. It misses no event, but some
+/// results are no events, because another cutter is higher there.
 class EventPhases {
  public:
   struct Kink {
@@ -28,20 +28,20 @@ class EventPhases {
     std::size_t cutter;
   };
 
-  /// Stopped, some are missed.
+  /// If cancelled, some are missing.
   EventPhases(std::span<const PreparedCutter> cutters, double rho, const std::stop_token& stop);
 
-  /// Hit somewhere, and no other description of an earlier one.
+  /// Cutters that are hit somewhere and do not repeat an earlier one.
   [[nodiscard]] const std::vector<std::size_t>& active() const { return active_; }
-  /// Ascending, [0, 2 pi), no two the same.
+  /// Ascending, [0, 2 pi), distinct.
   [[nodiscard]] const std::vector<double>& phases() const { return phases_; }
   [[nodiscard]] const std::vector<Kink>& kinks() const { return kinks_; }
-  /// A length the rounding of this active cutter's z is proportional to.
+  /// Returns a length to which the rounding of this active cutter's z is proportional.
   [[nodiscard]] double size_of(std::size_t i) const { return sizes_[i]; }
-  /// Its surface has no closed form: its events are bracketed.
+  /// Returns true if its surface has no closed form, so its events are bracketed.
   [[nodiscard]] bool scanned(std::size_t i) const { return sheets_[i].empty(); }
-  /// The highest sheet of a scanned cutter ends at a silhouette of its own while a lower one is
-  /// met: z jumps from the cutter to itself.
+  /// Returns the phase where the highest sheet of a scanned cutter ends at a silhouette of its own
+  /// while a lower sheet is met: z jumps from the cutter to itself.
   [[nodiscard]] std::optional<double> hidden_at(std::size_t i);
 
  private:
@@ -69,11 +69,11 @@ class EventPhases {
   std::span<const PreparedCutter> cutters_;
   double rho_;
   const std::stop_token& stop_;
-  std::vector<std::vector<Sheets>> sheets_;  // of each cutter, its pieces
+  std::vector<std::vector<Sheets>> sheets_;  // for each cutter, its parts
   std::vector<std::size_t> active_;
   std::vector<double> sizes_;                         // of the active ones
   std::vector<Met> met_;                              // of every cutter
-  std::map<std::size_t, std::vector<double>> scans_;  // NaN: not looked at yet
+  std::map<std::size_t, std::vector<double>> scans_;  // NaN: not computed yet
   std::vector<double> phases_;
   std::vector<Kink> kinks_;
 };

@@ -37,7 +37,7 @@ class Divider {
     for (const auto i : found_.active()) {
       if (stop_.stop_requested()) break;
       if (!found_.scanned(i)) continue;
-      if (std::ranges::find(labels_, Label(i)) == labels_.end()) continue;  // nowhere on top
+      if (std::ranges::find(labels_, Label(i)) == labels_.end()) continue;  // never on top
       const auto phi = found_.hidden_at(i);
       if (phi && (label_at(*phi - kBeside) == i || label_at(*phi + kBeside) == i))
         return Division::Hidden{i, *phi};
@@ -84,7 +84,7 @@ class Divider {
     const bool jumps = std::abs(event.z_to - event.z_from) > noise;
     event.kind = from == to ? EventKind::kink : jumps ? EventKind::jump : EventKind::junction;
     if (event.kind == EventKind::junction) {
-      // Next to a silhouette the steeper curve keeps only half the digits of the common height.
+      // Next to a silhouette, the steeper curve keeps only half the digits of the common height.
       const auto slope = [&](std::size_t i) {
         return std::abs(continued_hit(cutters_[i], line).z_dphi);
       };
@@ -98,10 +98,10 @@ class Divider {
     return event;
   }
 
-  /// Keeps the phases where something happens; the labels between them follow.
+  /// Keeps the phases with an event; the labels between them follow.
   Division assemble() const {
     Division out;
-    std::vector<std::pair<double, Label>> starts;  // of stretches
+    std::vector<std::pair<double, Label>> starts;  // of the intervals
     for (std::size_t k = 0; k < phases_.size(); ++k) {
       const Label before = labels_[k > 0 ? k - 1 : labels_.size() - 1];
       const Label after = labels_[k];

@@ -11,13 +11,14 @@
 
 namespace tubecut::joint {
 
-/// Which cutter holds the profile, and where.
+/// The cutter that holds the profile, and its height.
 struct Contact {
   double z = 0.0;
   std::size_t cutter = 0;
 };
 
-/// The highest contact of a generator, the lowest index on ties; empty where all cutters miss.
+/// Returns the highest contact of a generator, the lowest index on ties; empty when all cutters
+/// miss.
 [[nodiscard]] std::optional<Contact> highest(std::span<const PreparedCutter> cutters,
                                              const Generator& line);
 
@@ -27,7 +28,7 @@ enum class EventKind {
   kink       // corner of one cutter's own curve: from = to
 };
 
-/// A place where the profile is not smooth. `from`, z_from just before it, `to`, z_to just after.
+/// A point where the profile is not smooth. `from`, z_from just before it, `to`, z_to just after.
 struct Event {
   EventKind kind = EventKind::junction;
   double phi = 0.0;  // rad, [0, 2 pi)
@@ -44,12 +45,12 @@ struct Segment {
   std::size_t cutter = 0;
 };
 
-/// The whole circle divided. Segments and events ascend in phi; segment k begins at event k. With
-/// no event at all there is one segment [0, 2 pi].
+/// The division of the whole circle. Segments and events ascend in phi; segment k begins at event
+/// k. If there are no events, there is one segment [0, 2 pi].
 struct Division {
   std::vector<Event> events;
   std::vector<Segment> segments;
-  Intervals open;  // deg; no cutter is hit. One that crosses phi = 0 ends above 360
+  Intervals open;  // deg; no cutter is hit. If one crosses phi = 0, it ends above 360
   struct Hidden {
     std::size_t cutter;
     double phi;
@@ -57,16 +58,16 @@ struct Division {
   std::optional<Hidden> hidden;  // an elbow's own bend hides a lower part of it: z would jump there
 };
 
-/// Exact events of the profile max_i z_i on a surface of radius rho, in closed form: silhouettes,
-/// corners, and the roots of z_i = z_j for every pair by a polynomial of degree 8 (tubes), 4 (tube
-/// and plane), 2 (planes) in e^{i phi}, polished on z_i - z_j. Where parts are `open` there are no
-/// events at their borders and no segment inside them.
+/// Computes the exact events of the profile max_i z_i on a surface of radius rho, in closed form:
+/// silhouettes, corners, and the roots of z_i = z_j for every pair by a polynomial of degree 8
+/// (tubes), 4 (tube and plane), 2 (planes) in e^{i phi}, polished on z_i - z_j. Parts in `open`
+/// have no events at their borders and no segments.
 ///
-/// Cutters whose curves are the same to rounding count as one, the first.
+/// If the curves of several cutters are equal to rounding, only the first counts.
 ///
 /// An elbow's junctions are bracketed on a scan of 1440 phases and closed like the others.
 ///
-/// Stopped, it tells nothing.
+/// If cancelled, returns an empty Division.
 ///
 /// Accuracy  junction phi within 1e-12 rad; jump phi too, but its lost z only within 1e-5 mm (the
 ///           curve is vertical there).

@@ -43,7 +43,7 @@ Leaves leaves(const PreparedPlane& p, const Cutter& /*cutter*/, const Generator&
 Cutter moved(Cutter cutter, double by) {
   by_kind(cutter, [&]<class Kind>(Kind& kind) {
     if constexpr (std::is_same_v<Kind, RectangularTubeCutter>) {
-      // Inside a corner rounder than that the smaller box has sharp ones.
+      // Inside a larger corner radius, the smaller box has sharp corners.
       const double corner = std::max(kLeastCorner, kind.corner + by);
       kind.grow(by);
       kind.corner = corner;
@@ -59,7 +59,7 @@ std::optional<double> top_of(const Cutter& cutter, const Generator& line) {
   return prepared ? upper_sheet(*prepared, line) : std::nullopt;
 }
 
-/// Any other kind: what is smaller by `off` lies within every one that is moved by no more.
+/// Any other kind: a solid smaller by `off` lies within every solid that is moved by at most `off`.
 template <class Kind>
 Leaves leaves(const Kind& /*prepared*/, const Cutter& cutter, const Generator& line,
               const Slack& slack) {

@@ -4,14 +4,14 @@
 
 namespace tubecut::joint {
 
-/// sin(inclination) below which a partner counts as parallel to the target: 5.73e-5 deg.
+/// If sin(inclination) is below it, a partner counts as parallel to the target: 5.73e-5 deg.
 inline constexpr double kParallel = 1e-6;
 
-/// How far beyond a silhouette a generator still touches, relative: a quarter of what the answer's
-/// own proof allows.
+/// The relative distance beyond a silhouette at which a generator still touches: a quarter of the
+/// limit of the answer's own verification.
 inline constexpr double kTouch = 2.5e-13;
 
-/// A straight line on the target, parallel to its axis, with the one sine and cosine all cutters
+/// A straight line on the target, parallel to its axis, with the sine and cosine that all cutters
 /// share.
 struct Generator {
   double radius = 0.0;  // rho > 0, of the target surface
@@ -20,9 +20,9 @@ struct Generator {
 };
 [[nodiscard]] Generator generator_at(double radius, double phi);
 
-/// Where a generator of the target leaves a cutter upwards. `normal` is the cutter's outward unit
-/// normal as (radial, tangential, axial) of the target. At a silhouette its axial part is 0 and
-/// `z_dphi` infinite.
+/// The point where a generator of the target leaves a cutter upwards. `normal` is the cutter's
+/// outward unit normal as (radial, tangential, axial) of the target. At a silhouette its axial part
+/// is 0 and `z_dphi` infinite.
 struct Hit {
   double z = 0.0;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
@@ -31,14 +31,14 @@ struct Hit {
 };
 
 /// A surface at the point of a hit, in the partner's own frame: its unit gradient, and the
-/// gradient's part along z as the caller knows it best.
+/// gradient's part along z, passed separately because the caller knows it more accurately.
 struct SurfaceAt {
   double z = 0.0;
   Eigen::Vector3d gradient;
   double steep = 0.0;
   double axial = 0.0;
 };
-/// `rows` is the partner's frame seen from the target's.
+/// `rows` is the partner's frame in the target's frame.
 [[nodiscard]] Hit hit_on(const SurfaceAt& surface, const Eigen::Matrix3d& rows,
                          const Generator& line);
 

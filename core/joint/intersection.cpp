@@ -27,18 +27,18 @@ Result<Profile> profile(const Contour& contour, const Sampling& sampling, bool o
   return out;
 }
 
-/// Distance on the circle.
+/// Returns the distance on the circle.
 double apart(double a, double b) {
   const double d = std::abs(a - b);
   return std::min(d, kTwoPi - d);
 }
 
-/// Worst of its kind, by the share of its own limit.
+/// The worst value of one check, relative to its own limit.
 class Worst {
  public:
   Worst(std::string name, std::string unit) : check_{std::move(name), 0.0, 0.0, std::move(unit)} {}
   void see(double value, double limit) {
-    const bool known = std::isnan(check_.value) ||  // which nothing is worse than
+    const bool known = std::isnan(check_.value) ||  // because NaN counts as the worst
                        (check_.limit > 0.0 && value / limit <= check_.value / check_.limit);
     if (known) return;
     check_.value = value;
@@ -53,11 +53,11 @@ class Worst {
 constexpr double kOnCutter = 1e-12;  // of the larger of radius + rho and |z|
 constexpr double kAbove = 1e-9;      // likewise
 constexpr double kTouch = 1e-12;     // likewise
-constexpr double kGraze = 4e-12;     // likewise: two proofs of one touch
+constexpr double kGraze = 4e-12;     // likewise: two verifications of one contact
 constexpr double kLabel = 1e-7;      // likewise: the curve is vertical at a silhouette
 
-/// A generator that only touches the partner, within rounding, from the one height to the other:
-/// neither is the surface's own.
+/// Returns true if a generator only touches the partner between the two heights, within rounding:
+/// then neither height is exact.
 bool grazes(const Solid& solid, const Eigen::Vector3d& at, double top, double scale) {
   const Eigen::Vector3d middle(at.x(), at.y(), 0.5 * (at.z() + top));
   return std::abs(solid.distance(middle)) <= kGraze * scale;
@@ -77,15 +77,15 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
   const double scale = std::max(own.scale() + p.radius, std::abs(p.z[i]));
   on_cutter.see(std::abs(own.distance(at)), kOnCutter * scale);
   const auto top = own.top(at.x(), at.y());
-  // A silhouette may be missed by rounding: there the generator touches instead.
+  // A silhouette may be missed by rounding; then the generator touches instead.
   const bool touches = !top && std::abs(own.clearance(at.x(), at.y())) <= kTouch * scale;
   double off = top ? std::abs(*top - p.z[i]) : scale;
   if (touches || (off > kLabel * scale && top && grazes(own, at, *top, scale)))
     off = std::abs(own.distance(at));
   labels.see(off, kLabel * scale);
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    if (k == p.cutter[i]) continue;  // `labels` holds its own height
-    // A partner lost or found here stands above on one side only.
+    if (k == p.cutter[i]) continue;  // `labels` checks its own height
+    // A partner lost or found here may be higher on one side only.
     const bool beside = std::any_of(p.events.begin(), p.events.end(), [&](const Event& e) {
       return e.kind == EventKind::jump && (e.from == k || e.to == k) &&
              apart(e.phi, p.phi[i]) < 1e-9;
@@ -94,7 +94,7 @@ void Proof::node(const std::vector<Solid>& solids, const Profile& p, std::size_t
     const auto height = solids[k].top(at.x(), at.y());
     if (!height) continue;
     double above = worst_of({0.0, *height - p.z[i]});
-    // What only touches the generator takes no metal off it.
+    // A partner that only touches the generator removes no metal.
     if (above > kAbove * scale &&
         solids[k].clearance(at.x(), at.y()) >= -kTouch * (solids[k].scale() + p.radius))
       above = 0.0;
@@ -113,7 +113,8 @@ void Proof::event(const std::vector<Solid>& solids, double rho, const Event& eve
     const auto b = to.top(x, y);
     event_gap.see(a && b ? std::abs(*a - *b) : scale, 1e-8 * scale);
   } else {
-    // Lost, or turning its corner, where the generator touches the partner from outside.
+    // The cutter that is lost, or has a corner, where the generator touches the partner from
+    // outside.
     const auto& lost = event.z_from > event.z_to ? from : to;
     event_gap.see(std::abs(lost.clearance(x, y)), 1e-8 * scale);
   }
@@ -170,7 +171,7 @@ Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_tok
     TRY(auto curve, profile(contour, spec.sampling, outer, stop));
     TRY(check_length(spec.target, curve.z));
     out.profiles.push_back(std::move(curve));
-    out.warnings = partner_warnings(contour);  // of the outer surface when both are asked for
+    out.warnings = partner_warnings(contour);  // of the outer surface if both are requested
   }
   return out;
 }

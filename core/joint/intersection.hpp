@@ -12,7 +12,7 @@
 
 namespace tubecut::joint {
 
-/// Every partner as a cutter.
+/// Converts every partner to a cutter.
 ///
 /// Errors  zero_length, parallel_axes (cutters/i/axis).
 [[nodiscard]] Result<std::vector<Cutter>> resolve(std::span<const Partner> partners);
@@ -26,7 +26,7 @@ struct IntersectionSpec {
   Sampling sampling;
 };
 
-/// The cut's curve on one surface of the target. Angles in rad, lengths in mm.
+/// The curve of the cut on one surface of the target. Angles in rad, lengths in mm.
 struct Profile {
   bool outer = false;
   double radius = 0.0;
@@ -42,22 +42,22 @@ struct Intersection {
   std::vector<Warning> warnings;
 };
 
-/// Where the target's surfaces leave their partners.
+/// Computes the curves where the target's surfaces leave their partners.
 ///
 /// Errors  those of `resolve`, `trace` and `sample`; member_consumed (target/length).
 /// Source  docs/theory/intersections-and-bevels.md, sections 1 and 3.
 [[nodiscard]] Result<Intersection> intersect(const IntersectionSpec& spec,
                                              const std::stop_token& stop = {});
 
-/// The answer proved in 3D: distances by cross product, heights by the quadratic of line and
+/// Verifies the answer in 3D: distances by cross product, heights by the quadratic of line and
 /// cylinder.
 [[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer,
                                         const std::stop_token& stop = {});
 
-/// Notes on partners that are never met or nearly parallel.
+/// Returns warnings for partners that no generator meets or that are nearly parallel.
 [[nodiscard]] std::vector<Warning> partner_warnings(const Contour& contour);
 
-/// The error member_consumed when the curve reaches beyond the target's far end.
+/// Returns the error member_consumed if the curve extends beyond the target's far end.
 [[nodiscard]] Result<void> check_length(const Target& target, std::span<const double> z);
 
 }  // namespace tubecut::joint

@@ -9,16 +9,17 @@
 namespace tubecut::joint {
 
 enum class JointKind {
-  set_on,   // the branch stands on the chord; the hole is its bore
+  set_on,   // the branch is set on the chord; the hole is its bore
   set_in,   // the branch enters the chord's wall; the hole clears its outer surface
   through,  // the branch passes through both walls: two such holes, and no cut end
   mitre     // both end at the plane between them: no chord, no branch and no hole
 };
 
-/// The plane that both tubes of a mitre end at.
+/// The plane at which both tubes of a mitre end.
 enum class MitrePlane {
-  bisecting,        // leans alike to both axes
-  corner_to_corner  // through the corners of the two outlines: unlike tubes meet edge to edge there
+  bisecting,        // at equal angles to both axes
+  corner_to_corner  // through the corners of the two outlines: unequal tubes meet edge to edge
+                    // there
 };
 
 enum class End { start, finish };  // of a member
@@ -41,7 +42,7 @@ inline constexpr auto kNames<joint::End> = std::to_array<Option<joint::End>>(
 
 namespace tubecut::joint {
 
-/// Of an end told by a flag.
+/// Returns the name of an end given by a flag.
 [[nodiscard]] constexpr std::string_view end_name(bool finish) {
   return name_of(finish ? End::finish : End::start);
 }
@@ -56,17 +57,17 @@ struct Joint {
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
-/// What one member says of how it and another are joined.
+/// A member's statement of its joint with another.
 struct StatedJoint {
   std::size_t member = 0, with = 0;
   Joint joint;
-  std::string at = {};  // what issues call it; empty: members/i/joints/j, of that member's own
+  std::string at = {};  // its path in issues; empty: members/i/joints/j, of that member's own
 };
 
-/// By how much a partner's surface is to be grown so that an end of this joint lies on it: the gap
-/// and what coats the partner; less the depth of a set-in branch; half of a mitre's gap, which its
-/// two faces share. A joint nobody has stated is set on with the gap `unstated`. A set-in joint has
-/// its depth.
+/// Returns the distance by which a partner's surface is grown so that an end of this joint lies on
+/// it: the gap and the partner's coating; less the depth of a set-in branch; half of a mitre's gap,
+/// because its two faces share it. If no joint is stated, it is set on with the gap `unstated`. A
+/// set-in joint must have its depth.
 [[nodiscard]] double seat(const std::optional<Joint>& stated, double coating, double unstated);
 
 }  // namespace tubecut::joint

@@ -23,9 +23,9 @@ constexpr std::array<GaussPoint, 5> kGauss5 = {{{0.0, 0.5688888888888889},
                                                 {0.5384693101056831, 0.47862867049936647},
                                                 {-0.906179845938664, 0.23692688505618908},
                                                 {0.906179845938664, 0.23692688505618908}}};
-constexpr double kAgreement = 1e-10;  // of two orders; the higher one is then good to far less
-// Of the radius. Finer would resolve the rounding of the silhouette's own phase, in which the
-// sheet is 1e-8 radius high instead of 0.
+constexpr double kAgreement = 1e-10;  // of two orders; the higher one is then much more accurate
+// Of the radius. A smaller value would resolve the rounding of the silhouette's own phase, at which
+// the sheet is 1e-8 radius high instead of 0.
 constexpr double kNegligible = 1e-10;
 constexpr int kHalvings = 14;
 
@@ -49,8 +49,8 @@ double integrate(const F& f, double a, double b, double negligible, int halvings
          integrate(f, mid, b, negligible, halvings - 1);
 }
 
-/// dz/dphi of the sheet. A tangent tube whose offset is rounding is missed by a hair beside its
-/// corner: there the silhouette's own slope counts, not an infinite one.
+/// Computes dz/dphi of the sheet. If the offset of a tangent tube is rounding, a generator next to
+/// its corner may just miss it: then the silhouette's own slope counts, not an infinite one.
 double slope_at(const PreparedCutter& cutter, const Generator& line) {
   const double slope = continued_hit(cutter, line).z_dphi;
   if (std::isfinite(slope)) return slope;
@@ -78,15 +78,15 @@ double arc_length(const Contour& contour, const Segment& segment, double from, d
 
 namespace {
 
-/// A part of a segment between two phases asked for, events, or borders of its cutter's surfaces.
+/// A part of a segment between requested phases, events, or borders of its cutter's surfaces.
 struct Piece {
   std::size_t segment;
-  double from, to;  // rad, as the segment counts them
+  double from, to;  // rad, in the segment's range
   double length = 0.0;
 };
 
-/// One walk round from phi = 0: its pieces, and how many of them lie before each phase. It starts
-/// in the last segment, whose phases are then phi + 2 pi.
+/// Walks once around from phi = 0 and collects the pieces and their number before each phase. It
+/// starts in the last segment, whose phases are then phi + 2 pi.
 class Walk {
  public:
   explicit Walk(const Contour& contour) : contour_(contour), borders_(contour.cutters.size()) {
@@ -98,7 +98,7 @@ class Walk {
     turn_ = kTwoPi;
   }
 
-  /// Asked twice at an event, the second answer is that behind the event.
+  /// If called twice at an event, the second result is that after the event.
   void advance(double phi) {
     const bool again = asked_ == phi;
     while (end() < phi || (again && end() == phi)) enter_next();
@@ -147,9 +147,9 @@ class Walk {
   std::optional<double> asked_;
 };
 
-/// A run of pieces of one segment by the fixed rule: five Gauss points, and three to hold them
-/// against; their places are the middle's turned by few offsets. Where the two do not agree, by a
-/// silhouette, piece by piece.
+/// Integrates a run of pieces of one segment by a fixed rule: five Gauss points, and three to
+/// compare with; the points are computed by rotation from the middle. If the two disagree, as at a
+/// silhouette, integrates piece by piece.
 class Rule {
  public:
   Rule(const Contour& contour, std::span<Piece> pieces)
@@ -212,7 +212,7 @@ class Rule {
 };
 
 void measure(const Contour& contour, std::span<Piece> pieces, const std::stop_token& stop) {
-  constexpr std::size_t kAtOnce = 1024;  // some 100 us, and in the nearest cache
+  constexpr std::size_t kAtOnce = 1024;  // some 100 us, and fits in the nearest cache
   while (!pieces.empty() && !stop.stop_requested()) {
     const auto segment = pieces.front().segment;
     const auto block = pieces.first(std::min(kAtOnce, pieces.size()));

@@ -20,7 +20,7 @@ constexpr double kCellsAlongAxis = 1 << 20;  // three of them fit one key of 64 
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// The ends of all stretches, sorted into cubes.
+/// The ends of all axis segments, sorted into cubes.
 class Grid {
  public:
   explicit Grid(std::span<const Stretch> stretches);
@@ -36,7 +36,7 @@ class Grid {
           visit(at->end);
       }
   }
-  /// Rows of cubes that a box meets: what `in_box` costs besides its visits.
+  /// Returns the number of rows of cubes that a box meets: the cost of `in_box` without its visits.
   [[nodiscard]] double rows(const Vector3d& low, const Vector3d& high) const {
     const Cell a = cell(low), b = cell(high);
     return static_cast<double>(b[0] - a[0] + 1) * static_cast<double>(b[1] - a[1] + 1);
@@ -87,8 +87,8 @@ Grid::Grid(std::span<const Stretch> stretches) {
   });
 }
 
-/// Calls `visit(end)` for every end near the stretch, each once: piece by piece along it, so that a
-/// long diagonal member does not search its whole box.
+/// Calls `visit(end)` once for every end near the segment. It searches piece by piece along it, so
+/// that a long diagonal member does not search its whole box.
 template <class F>
 void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
   const Vector3d along = s.finish - s.start;
@@ -115,7 +115,7 @@ void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
   };
   for (std::size_t k = 0; k < pieces && rows <= static_cast<double>(ends); ++k)
     box(k, [&](const Vector3d& low, const Vector3d& high) { rows += grid.rows(low, high); });
-  if (rows > static_cast<double>(ends)) {  // looking at every end is cheaper
+  if (rows > static_cast<double>(ends)) {  // a scan of all ends is cheaper
     for (std::size_t end = 0; end < ends; ++end) visit(end);
     return;
   }
@@ -123,7 +123,8 @@ void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
     box(k, [&](const Vector3d& low, const Vector3d& high) { grid.in_box(low, high, visit); });
 }
 
-/// Calls `see(touch)` for every end within the reach of another stretch, until it returns false.
+/// Calls `see(touch)` for every end within the reach of another axis segment, until it returns
+/// false.
 template <class F>
 Result<void> for_touches(std::span<const Stretch> stretches, const std::stop_token& stop, F see) {
   if (stretches.empty()) return {};
@@ -134,7 +135,8 @@ Result<void> for_touches(std::span<const Stretch> stretches, const std::stop_tok
   for (std::size_t i = 0; i < stretches.size() && more; ++i) {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     search(grid, stretches[i], ends, [&](std::size_t end) {
-      if (end / 2 == i || seen[end] == i) return;  // a cube on the border of two pieces comes twice
+      if (end / 2 == i || seen[end] == i)
+        return;  // a cube on the border of two pieces occurs twice
       seen[end] = i;
       const auto& own = stretches[end / 2];
       const auto near = nearness(end % 2 == 0 ? own.start : own.finish, stretches[i]);
@@ -155,7 +157,7 @@ Nearness nearness(const Vector3d& point, const Stretch& stretch) {
           .inside = std::min(at, length - at)};
 }
 
-// The least distance is between the lines' nearest points where both lie within, else at an end.
+// The minimum is between the lines' nearest points if both lie within, else at an end.
 double nearness(const Stretch& a, const Stretch& b) {
   const Vector3d u = a.finish - a.start, v = b.finish - b.start, w = b.start - a.start;
   const Vector3d n = u.cross(v);

@@ -20,7 +20,8 @@ struct MemberFrame {
   }
 };
 
-/// z from `cut` into the kept member (towards `far`), phi = 0 on the side of `reference`.
+/// Returns the frame with z from `cut` into the kept member (towards `far`) and phi = 0 on the side
+/// of `reference`.
 /// Errors    zero_length (cut = far, reference = 0), bad_reference_direction (parallel to z within
 ///           kParallel).
 /// Source    docs/theory/intersections-and-bevels.md, section 1.1.
@@ -28,7 +29,7 @@ struct MemberFrame {
                                                const Eigen::Vector3d& far,
                                                const Eigen::Vector3d& reference);
 
-/// The reference with which the chord gets clocking 0, source 000's phase zero.
+/// Returns the reference that gives the chord clocking 0, source 000's phase zero.
 [[nodiscard]] Eigen::Vector3d chord_reference(const Eigen::Vector3d& member_direction,
                                               const Eigen::Vector3d& chord_direction);
 

@@ -15,7 +15,7 @@ constexpr double kWidest = 10.0 * kRadPerDeg;  // before any deviation is measur
 constexpr int kProbes = 7;
 constexpr int kHalvings = 48;
 constexpr double kSameNode = 1e-6;  // mm, developed
-constexpr double kAtEvent = 1e-9;   // rad; a bare grid point so near an event lies on it
+constexpr double kAtEvent = 1e-9;   // rad; a bare grid point this near an event lies on it
 
 struct Point {
   double phi, z;
@@ -109,7 +109,7 @@ void append_event(std::vector<Node>& nodes, const Event& event) {
   nodes.push_back(node);
 }
 
-/// The phases within a segment that must be nodes, ascending, its two ends included.
+/// Returns the phases within a segment that must be nodes, ascending, including its two ends.
 std::vector<double> stations(const Segment& segment, std::span<const double> also, double apart) {
   std::vector<double> out;
   for (const double phi : also) {

@@ -11,7 +11,7 @@
 
 namespace tubecut::joint {
 
-/// Which straight line the deviation is measured from.
+/// The straight line from which the deviation is measured.
 enum class Metric {
   developed,  // straight in (rho phi, z): a machine that interpolates its rotary axis
   chord       // straight in space
@@ -31,8 +31,8 @@ struct Sampling {
 
 enum class NodeKind { smooth, junction, jump, kink };
 
-/// One point of the sampled contour. At a junction or kink the cutters just before and after phi
-/// hold; a jump is two nodes of the same phi, each with one cutter.
+/// One point of the sampled contour. At a junction or kink, the cutters just before and after phi
+/// apply; a jump is two nodes of the same phi, each with one cutter.
 struct Node {
   double phi = 0.0;  // rad, [0, 2 pi)
   double z = 0.0;
@@ -48,11 +48,11 @@ struct Samples {
   double developed_length = 0.0;  // 2 pi rho, mm
 };
 
-/// Samples a contour. With a tolerance every event is a node, and so is every phase of `also`
+/// Samples a contour. With a tolerance, every event is a node, and so is every phase of `also`
 /// (rad, [0, 2 pi); for example the other wall's events); between nodes no point of the curve is
 /// further than the tolerance from the straight line. Uniform points nearer than 1e-6 mm
-/// (developed) to such a node are dropped. Without a tolerance the nodes are the bare grid, and
-/// `also` is not looked at.
+/// (developed) to such a node are dropped. Without a tolerance, the nodes are the bare grid, and
+/// `also` is ignored.
 ///
 /// Errors    too_many_nodes (sampling; got = nodes so far), cancelled, out_of_range (neither given,
 ///           or tolerance not > 0).

@@ -8,7 +8,7 @@
 namespace tubecut::joint {
 namespace {
 
-/// A tube by its numbers, for loops.
+/// The numbers of a tube, for loops.
 struct Tube {
   double px, py, pz, dx, dy, dz, radius;
 
@@ -57,7 +57,7 @@ TUBECUT_WIDE void tube_distances(const Tube& tube, From at, double* out) {
   for (std::size_t i = 0; i < at.n; ++i) out[i] = t.distance(at.x[i], at.y[i], at.z[i]);
 }
 
-/// As TubeSolid::least_distance: the parabola through the squares of three distances.
+/// Same as TubeSolid::least_distance: the parabola through the squares of three distances.
 TUBECUT_WIDE void tube_least(const Tube& tube, From a, From b, double* out) {
   const auto t = tube;
   for (std::size_t i = 0; i < a.n; ++i) {

@@ -7,8 +7,8 @@
 
 #include "core/joint/solid.hpp"
 
-/// What a solid tells of one place or line, of many side by side: the same numbers, of a tube at a
-/// quarter of the price.
+/// Functions of a solid for many points or lines at once: the same numbers, for a tube at a quarter
+/// of the cost.
 namespace tubecut::joint {
 
 /// Points in space.
@@ -25,20 +25,20 @@ struct PointArrays {
   }
 };
 
-/// As Solid::distance and Solid::least_distance.
+/// Same as Solid::distance and Solid::least_distance.
 void distances(const Solid& solid, const PointArrays& places, std::span<double> out);
 void least_distances(const Solid& solid, const PointArrays& from, const PointArrays& to,
                      std::span<double> out);
 
-/// As Solid::normal, of the places from `from` to before `to`, to where they stand in `out`.
+/// Same as Solid::normal, for the points from `from` to before `to`, at the same indices of `out`.
 void normals(const Solid& solid, const PointArrays& places, std::size_t from, std::size_t to,
              PointArrays& out);
 
-/// Each of `least` becomes the lesser of itself and its neighbour in `other`; what is no number
-/// stays.
+/// Replaces each of `least` by the smaller of itself and its neighbour in `other`; NaN stays.
 void lower(std::span<double> least, std::span<const double> other);
 
-/// How near each way from `from` to `to` comes to a plain solid, and at which share of it.
+/// Computes the smallest distance of each path from `from` to `to` to a plain solid, and its
+/// fraction along the path.
 template <PlainSolid Kind>
 void nearest_on_ways(const Kind& solid, const PointArrays& from, const PointArrays& to,
                      std::span<double> share, std::span<double> distance) {

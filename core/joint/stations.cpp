@@ -15,7 +15,7 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kStationTie = 1e-12;  // of radius + |z|, rounding of one height
 constexpr double kOnSurface = 1e-14;   // relative, of lengths: the root is on the tube
 
-/// Stations side by side: cosines and sines of their phases.
+/// Stations in parallel: cosines and sines of their phases.
 struct Run {
   const double *cos_phi, *sin_phi;
   std::size_t n;
@@ -32,7 +32,7 @@ TUBECUT_WIDE void sheets_of(const PreparedTube& tube, double radius, Run on, dou
     z[i] = tube_sheet(t, tube_local(t, radius, on.cos_phi[i], on.sin_phi[i]));
 }
 
-/// Where the tube is higher than what is known: its height, and its number.
+/// Where the tube is higher than the current maximum, stores its height and its number.
 TUBECUT_WIDE void raise(const PreparedTube& tube, double radius, Run on, double number, double* z,
                         double* highest) {
   const auto t = tube;
@@ -66,7 +66,7 @@ TUBECUT_WIDE void normals_on(const PreparedTube& tube, double radius, Run on, No
   }
 }
 
-/// PreparedTube::steepest without branches, of many: the larger of `slope` and it.
+/// Computes PreparedTube::steepest without branches, for many: stores the larger of `slope` and it.
 TUBECUT_WIDE void steepen(const PreparedTube& tube, const Wall& wall, Run on, const double* root,
                           double* slope) {
   const auto t = tube;
@@ -86,9 +86,9 @@ TUBECUT_WIDE void steepen(const PreparedTube& tube, const Wall& wall, Run on, co
     const double y = (z - t.height) * t.sin_inclination + w.inner * sd * t.cos_inclination;
     const double noise = kOnSurface * (t.radius + std::abs(z) + std::abs(t.height));
     const double square = x * x + y * y, radius2 = t.radius * t.radius;
-    // Standing on it: its own slope.
+    // If the root is on it: its own slope.
     const double own = leaning(x, std::sqrt(std::max(0.0, (t.radius - x) * (t.radius + x))));
-    // Seen from outside: to both ends of what is met, and along the tangents.
+    // From outside: to both ends of the met part, and along the tangents.
     double best = -kUnbounded;
     const auto see = [&](bool seen, double value) {
       best = (seen & (value > best)) ? value : best;
@@ -156,7 +156,7 @@ void steepen(const Kind& cutter, const Wall& wall, Run on, const double* root, d
                         cutter.steepest(wall, {wall.inner, on.cos_phi[i], on.sin_phi[i]}, root[i]));
 }
 
-/// Calls `with` the runs of stations that one cutter holds.
+/// Calls `with` for the runs of stations that one cutter holds.
 template <class F>
 void by_runs(std::span<const std::size_t> cutter, const F& with) {
   for (std::size_t from = 0; from < cutter.size();) {

@@ -6,8 +6,8 @@
 
 #include "core/joint/contour.hpp"
 
-/// What `contact_at`, `continued_hit` and `steepest` tell of one generator, of many side by side:
-/// the same numbers, at a quarter of the price where the cutter is a tube or a plane.
+/// `contact_at`, `continued_hit` and `steepest` for many generators at once: the same numbers, at a
+/// quarter of the cost if the cutter is a tube or a plane.
 namespace tubecut::joint {
 
 /// Generators of one surface.
@@ -35,10 +35,10 @@ struct Normals {
 [[nodiscard]] Normals normals_at(std::span<const PreparedCutter> cutters, const Stations& stations,
                                  std::span<const std::size_t> cutter);
 
-/// dz/dphi of one cutter's sheet at each station, as `continued_hit`.
+/// Computes dz/dphi of one cutter's sheet at each station, as `continued_hit`.
 void slopes_of(const PreparedCutter& cutter, const Stations& stations, std::span<double> out);
 
-/// Of all cutters the largest `steepest` of each station on the inner wall.
+/// Returns the largest `steepest` of all cutters at each station on the inner wall.
 [[nodiscard]] std::vector<double> steepest_at(std::span<const PreparedCutter> cutters,
                                               const Wall& wall, const Stations& inner,
                                               std::span<const double> z_root);

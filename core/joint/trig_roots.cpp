@@ -11,18 +11,18 @@ namespace tubecut::joint {
 namespace {
 
 constexpr int kSweeps = 80;
-constexpr double kSettled = 1e-9;  // of a root's size: its next change is the cube of it
+constexpr double kSettled = 1e-9;  // relative to a root: its next change is the cube of it
 constexpr double kOnCircle = 3e-3;
 constexpr std::size_t kMost = 8;  // roots, all corrected at once
 
-/// Complex numbers side by side.
-// An aggregate, made by {}: clang 16 leaves out a constructor that functions for several lanes
-// call.
+/// Arrays of complex numbers.
+// An aggregate, initialised with {}, because clang 16 omits a constructor that functions for
+// several lanes call.
 struct Row {
   std::array<double, kMost> re, im;
 };
 
-/// Unequal angles and sizes, so that no symmetry of the roots stalls the iteration.
+/// Returns unequal angles and sizes, so that no symmetry of the roots stalls the iteration.
 Row starts(std::size_t degree) {
   Row w{};
   for (std::size_t k = 0; k < kMost; ++k) {
@@ -35,7 +35,7 @@ Row starts(std::size_t degree) {
   return w;
 }
 
-/// What pushes each root away from the others: the sum of 1 / (w - other).
+/// Computes the repulsion of each root by the others: the sum of 1 / (w - other).
 Row repulsion(const Row& w, std::size_t degree) {
   Row out{};
   for (std::size_t j = 0; j < degree; ++j) {
@@ -43,7 +43,8 @@ Row repulsion(const Row& w, std::size_t degree) {
     for (std::size_t k = 0; k < kMost; ++k) {
       const double dr = w.re[k] - re, di = w.im[k] - im;
       const double square = dr * dr + di * di;
-      const double inverse = square > 0.0 ? 1.0 / square : 0.0;  // itself, and what fell together
+      const double inverse =
+          square > 0.0 ? 1.0 / square : 0.0;  // zero for itself, and for coinciding roots
       out.re[k] += dr * inverse;
       out.im[k] -= di * inverse;
     }
@@ -51,10 +52,10 @@ Row repulsion(const Row& w, std::size_t degree) {
   return out;
 }
 
-/// One Aberth correction of all roots of sum c[k] w^k; the largest relative change. Outside the
-/// unit circle through the reversed polynomial, so that no power of w grows: its coefficients are
-/// the conjugates. Newton's step p/p' is top/below there with top = w q, below = n q - x q', x =
-/// 1/w.
+/// Applies one Aberth correction to all roots of sum c[k] w^k; returns the largest relative change.
+/// Outside the unit circle it uses the reversed polynomial, so that no power of w grows: its
+/// coefficients are the conjugates. Newton's step p/p' is top/below there with top = w q, below = n
+/// q - x q', x = 1/w.
 TUBECUT_WIDE double sweep(const Complex* c, std::size_t degree, Row& w) {
   const Row apart = repulsion(w, degree);
   Row x{}, value{}, slope{};
@@ -103,7 +104,8 @@ TUBECUT_WIDE double sweep(const Complex* c, std::size_t degree, Row& w) {
   return std::sqrt(*std::max_element(change.begin(), change.begin() + static_cast<long>(degree)));
 }
 
-/// All roots, by Aberth: for what is zero to rounding nearly everywhere.
+/// Finds all roots by Aberth's iteration: for polynomials that are zero to rounding nearly
+/// everywhere.
 RootPhases by_all_roots(const Complex* c, std::size_t degree) {
   Row w = starts(degree);
   for (int i = 0; i < kSweeps && sweep(c, degree, w) > kSettled; ++i) {
@@ -119,7 +121,7 @@ RootPhases by_all_roots(const Complex* c, std::size_t degree) {
 struct PhasePoint {
   double phi, cos, sin;
 
-  /// Turned by no more than the width of a first cell: the series leaves 1e-14.
+  /// Returns it rotated by at most the width of a first cell: the series has an error of 1e-14.
   [[nodiscard]] PhasePoint turned(double by) const {
     const double q = by * by;
     const double c = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0 - q / 40320.0)));
@@ -128,8 +130,8 @@ struct PhasePoint {
   }
 };
 
-/// The first cells round the circle: their middles, and there the cosines and sines of every
-/// multiple.
+/// The first cells around the circle: their middles, and the cosines and sines of every multiple
+/// there.
 struct Cells {
   static constexpr std::size_t kNumber = 32;
   static constexpr double kHalf = kPi / kNumber;
@@ -162,7 +164,7 @@ struct Harmonics {
   std::array<double, kMost / 2 + 1> cosine{}, sine{};
 };
 
-/// In each cell, how near to zero the wave may come: less than none where it may cross it.
+/// Computes for each cell a lower bound of the wave's magnitude: below zero if it may cross zero.
 TUBECUT_WIDE void nearest_to_zero(const Harmonics& wave, const Cells& cells, double bend,
                                   Cells::OfEach& out) {
   Cells::OfEach value, slope{};
@@ -180,9 +182,9 @@ TUBECUT_WIDE void nearest_to_zero(const Harmonics& wave, const Cells& cells, dou
     out[j] = std::abs(value[j]) - Cells::kHalf * (std::abs(slope[j]) + 0.5 * (bend * Cells::kHalf));
 }
 
-/// The polynomial as a real wave, and the search of its zeros round the circle: a cell in which
-/// its bounds leave none is passed by, one in which it only rises or falls has at most one, by
-/// Newton; the others are halved.
+/// The polynomial as a real wave, and the search of its zeros around the circle. If the bounds of a
+/// cell exclude zeros, it is skipped; if the wave only rises or falls in it, it has at most one, by
+/// Newton; otherwise it is halved.
 class Wave {
  public:
   Wave(const Complex* c, std::size_t degree) : is_{degree / 2, c[degree / 2].re} {
@@ -198,7 +200,7 @@ class Wave {
     noise_ = kNoise * largest_;
   }
 
-  /// False where there are too many cells that may hold one.
+  /// Returns false when too many cells may contain a zero.
   [[nodiscard]] bool search(RootPhases& found) {
     static const Cells kCells;
     Cells::OfEach nearest;
@@ -209,8 +211,9 @@ class Wave {
   }
 
  private:
-  static constexpr double kNarrow = 1e-6;  // rad, half a cell: a zero of even order, or all but one
-  static constexpr double kNoise = 1e-10;  // of the largest the wave can be: a zero to rounding
+  static constexpr double kNarrow = 1e-6;  // rad, half a cell: a zero of even order, or nearly one
+  static constexpr double kNoise =
+      1e-10;  // of the wave's largest possible value: a zero to rounding
   static constexpr int kLooks = 1000;
   static constexpr int kSteps = 60;
 
@@ -236,7 +239,7 @@ class Wave {
   [[nodiscard]] bool look(const PhasePoint& middle, double half, RootPhases& found) {
     if (++looks_ > kLooks) return false;
     const At here = at(middle);
-    const double turn = bend_ * half;  // of the slope, at most
+    const double turn = bend_ * half;  // maximum change of the slope
     if (std::abs(here.value) - half * (std::abs(here.slope) + 0.5 * turn) > noise_) return true;
     if (std::abs(here.slope) > turn) return close(middle, half, here, found);
     if (half > kNarrow)
@@ -248,7 +251,8 @@ class Wave {
     return found.add(phi, false);
   }
 
-  /// The one zero of a cell in which the wave only rises or falls, if its ends leave one.
+  /// Finds the zero of a cell in which the wave only rises or falls, if the values at its ends
+  /// permit one.
   [[nodiscard]] bool close(const PhasePoint& middle, double half, const At& here,
                            RootPhases& found) {
     const double rise = here.slope > 0.0 ? 1.0 : -1.0;
@@ -271,7 +275,7 @@ class Wave {
   }
 
   static constexpr double kStill = 1e-14;  // rad
-  static constexpr double kSharp = 1e-6;   // rad: what `noise_` moves the zero by
+  static constexpr double kSharp = 1e-6;   // rad: the shift of the zero by `noise_`
 
   Harmonics is_;
   double largest_ = 0.0, bend_ = 0.0, noise_ = 0.0;
@@ -285,7 +289,7 @@ double modulus(Complex z) { return elementary::hypot(z.re, z.im); }
 RootPhases root_phases(const Complex* coefficients, std::size_t terms) {
   double largest = 0.0;
   for (std::size_t k = 0; k < terms; ++k) largest = std::max(largest, modulus(coefficients[k]));
-  // c[-k] is the conjugate of c[k]: a vanishing end vanishes on both sides.
+  // c[-k] is the conjugate of c[k]: if one end vanishes, so does the other.
   while (terms > 1 && modulus(coefficients[0]) <= 1e-16 * largest) {
     ++coefficients;
     terms -= 2;

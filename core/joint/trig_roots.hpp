@@ -5,8 +5,8 @@
 
 namespace tubecut::joint {
 
-/// A complex number with plain arithmetic: std::complex calls a compiler's own run-time routines,
-/// whose last bits differ between compilers.
+/// A complex number with plain arithmetic, because std::complex calls a compiler's own run-time
+/// routines, whose last bits differ between compilers.
 struct Complex {
   double re = 0.0;
   double im = 0.0;
@@ -28,7 +28,7 @@ struct Trig {
   static constexpr std::size_t kTerms = 2 * Degree + 1;
   std::array<Complex, kTerms> c = {};
 
-  /// mean + cosine cos(k phi) + sine sin(k phi) with k = 1.
+  /// Returns mean + cosine cos(k phi) + sine sin(k phi) with k = 1.
   static Trig first_order(double mean, double cosine, double sine) {
     Trig t;
     t.c[Degree] = {mean, 0.0};
@@ -36,7 +36,7 @@ struct Trig {
     t.c[Degree - 1] = {0.5 * cosine, 0.5 * sine};
     return t;
   }
-  /// Bound of the value: sum of the terms' sizes.
+  /// Returns a bound of the value: the sum of the terms' magnitudes.
   [[nodiscard]] double bound() const;
 
   friend Trig operator+(Trig a, const Trig& b) {
@@ -61,16 +61,16 @@ template <std::size_t M, std::size_t N>
   return out;
 }
 
-/// Few phases, without a place in memory of their own.
+/// A few phases without heap memory.
 class RootPhases {
  public:
   struct Phase {
     double phi;
-    bool sharp;  // within 1e-6 rad of a zero, whatever the coefficients lost to rounding
+    bool sharp;  // within 1e-6 rad of a zero, despite the rounding of the coefficients
   };
   static constexpr std::size_t kMost = 24;
 
-  /// False when there is no room left.
+  /// Returns false when it is full.
   bool add(double phi, bool sharp) {
     if (count_ == kMost) return false;
     phases_[count_++] = {phi, sharp};
@@ -87,12 +87,12 @@ class RootPhases {
   std::size_t count_ = 0;
 };
 
-/// Phases (rad, in [-pi, pi]) near which the trigonometric polynomial may vanish. Round the circle
-/// in cells: its slope and the bound of its second derivative tell where no zero is; a simple one
-/// is found by Newton, one of even order, or what all but touches zero, by its own slope's zero.
-/// None is missed: what is zero to rounding over a stretch goes to Aberth's iteration for all
-/// roots, those within 3e-3 of the unit circle. Spurious phases occur. Coefficients are those of
-/// `Trig::c`; an all-zero polynomial has none.
+/// Finds phases (rad, in [-pi, pi]) near which the trigonometric polynomial may vanish. It divides
+/// the circle into cells: the slope and the bound of the second derivative show where no zero is. A
+/// simple zero is found by Newton; one of even order, or a near zero, by the slope's zero. None is
+/// missed: if the polynomial is zero to rounding over an interval, Aberth's iteration finds all
+/// roots, and those within 3e-3 of the unit circle count. Spurious phases occur. Coefficients are
+/// those of `Trig::c`; an all-zero polynomial returns none.
 /// Accuracy  a simple zero 1e-14 rad of the coefficients' own; one of order m eps^(1/m).
 /// Cost      order 4: about 0.5 us, 2 us with zeros of even order.
 [[nodiscard]] RootPhases root_phases(const Complex* coefficients, std::size_t terms);

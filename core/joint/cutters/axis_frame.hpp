@@ -6,25 +6,26 @@
 #include "core/joint/generator.hpp"
 #include "core/joint/node/sheets.hpp"
 
-/// For the kinds of this folder that stand on a straight axis of any direction.
+/// For the kinds in this folder with a straight axis of any direction.
 namespace tubecut::joint {
 
-/// A partner's own frame: rows across, across and along; and the target's z seen in it.
+/// A partner's own frame: rows across, across and along; and the target's z in it.
 struct AxisFrame {
   Eigen::Vector3d point;
   Eigen::Matrix3d rows;
   Eigen::Vector3d rise;
 
-  /// The generator at z = 0; the generator runs along `rise` from there.
+  /// Returns the point of the generator at z = 0; the generator runs along `rise` from there.
   [[nodiscard]] Eigen::Vector3d foot(const Generator& line) const {
     return rows *
            (Eigen::Vector3d(line.radius * line.cos_phi, line.radius * line.sin_phi, 0.0) - point);
   }
-  /// A component of the foot over phi.
+  /// Returns a component of the foot over phi.
   [[nodiscard]] Trig<1> component(const Eigen::Vector3d& along, double rho) const;
 };
 
-/// The frame with its origin where the axis is nearest to the target's: far points lose digits.
+/// The frame with its origin where the axis is nearest to the target's, because far points lose
+/// digits.
 struct NearestFrame {
   AxisFrame frame;
   double moved = 0.0;  // along the axis
@@ -34,7 +35,8 @@ struct NearestFrame {
                                                  const Eigen::Vector3d& direction,
                                                  const Eigen::Vector3d& up);
 
-/// The generator across the partner's axis, seen along and beside its own direction there.
+/// The generator in the plane across the partner's axis: components along and perpendicular to its
+/// own direction there.
 struct Crossing {
   double across;  // length of the rise across the axis
   Trig<1> along, beside, axial;

@@ -16,7 +16,7 @@ constexpr double kWidestCone = 80.0;  // deg
 /// A z^2 + 2 B z + C = 0 along the generator.
 struct Quadratic {
   double a, b;
-  double beside;  // of the axis, scaled so that the silhouettes are at +-rest
+  double beside;  // distance to the axis, scaled so that the silhouettes are at +-rest
   double rest;    // the radius where the generator passes the axis
   double s;       // sqrt(B^2 - A C), 0 beyond the silhouette
 
@@ -38,7 +38,7 @@ Quadratic quadratic(const PreparedCone& cone, const Vector3d& o) {
   q.b = along * wp - dr * r;
   q.rest = r - dr * along / wp;
   q.beside = (o.x() * w.y() - o.y() * w.x()) / wp * (std::sqrt(q.a) / wp);
-  // B^2 - A C = wp^2 (rest^2 - beside^2): no squares that cancel.
+  // B^2 - A C = wp^2 (rest^2 - beside^2), a form without squares that cancel.
   q.s = wp * std::sqrt(std::max(0.0, (q.rest - q.beside) * (q.rest + q.beside)));
   return q;
 }
@@ -106,8 +106,8 @@ double PreparedCone::silhouette_height(const Generator& line) const {
   return quadratic(*this, line).touch();
 }
 
-// The discriminant as a product of two factors linear in the generator's place; on the other nappe
-// both are negative.
+// The discriminant as a product of two factors linear in the generator's position; on the other
+// nappe both are negative.
 Sides PreparedCone::sides(const Generator& line) const {
   const auto q = quadratic(*this, line);
   return {-q.beside - q.rest, q.beside - q.rest};

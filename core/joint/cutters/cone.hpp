@@ -31,18 +31,19 @@ struct ConeSolid : ConvexSolid<ConeSolid> {
   [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
 };
 
-/// A cone as partner (a reducer): one nappe, without end. Lengths in mm.
+/// A cone as partner (a reducer): one infinite nappe. Lengths in mm.
 struct ConeCutter {
   static constexpr std::string_view kName = "cone";
   using Prepared = PreparedCone;
   using Solid = ConeSolid;
 
-  double radius = 0.0;    // > 0, at `point`
-  Angle half_angle = {};  // between axis and surface, growing along the direction; +-80 deg
+  double radius = 0.0;  // > 0, at `point`
+  Angle half_angle =
+      {};  // between axis and surface, > 0 if the cone widens along the direction; +-80 deg
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
 
-  /// Refused too when the target runs along its surface or inside its opening.
+  /// Errors  also if the target runs along its surface or inside its opening.
   [[nodiscard]] Result<Prepared> prepare() const;
   [[nodiscard]] Solid solid() const;
   void grow(double by);

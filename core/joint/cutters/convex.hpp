@@ -11,10 +11,11 @@
 #include "core/joint/cutters/wall_section.hpp"
 #include "core/math/search.hpp"
 
-/// What is true of every convex kind, and of every kind met between its silhouettes.
+/// Functions that are the same for every convex kind, or for every kind that a generator meets
+/// between its silhouettes.
 namespace tubecut::joint {
 
-/// Between two neighbouring silhouettes all generators hit or all miss.
+/// Between two neighbouring silhouettes, either all generators hit or all miss.
 template <class Kind>
 [[nodiscard]] Met met_between_silhouettes(const Kind& cutter, double rho) {
   const auto hits = [&](double phi) {
@@ -29,11 +30,12 @@ template <class Kind>
   return Met::never;
 }
 
-/// z where the line through (x, y) is deepest in a convex solid: distance is convex along it.
+/// Finds z where the line through (x, y) is deepest in a convex solid, because the distance is
+/// convex along it.
 template <class Solid>
 [[nodiscard]] double deepest(const Solid& solid, double x, double y) {
   const auto deep = [&](double z) { return -solid.distance({x, y, z}); };
-  // Near the axis, then out to both sides until it is shallower there.
+  // Start near the axis, then expand to both sides until the depth decreases.
   const Eigen::Vector3d from = Eigen::Vector3d(x, y, 0.0) - solid.point;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ() - solid.direction.z() * solid.direction;
   const double middle = -from.dot(up) / up.squaredNorm();
@@ -56,7 +58,7 @@ template <class Solid>
   return math::last_true(inside, low, high);
 }
 
-/// The distance has one least value along a straight line.
+/// Finds the minimum of the distance, which is unique along a straight line.
 template <class Solid>
 [[nodiscard]] double convex_least_distance(const Solid& solid, const Eigen::Vector3d& a,
                                            const Eigen::Vector3d& b) {
@@ -65,8 +67,8 @@ template <class Solid>
                    -math::golden_maximum(near, 0.0, 1.0).value});
 }
 
-/// What every prepared kind answers alike that is convex, smooth between its silhouettes and has no
-/// kinks, over what each knows of itself.
+/// Members that are the same for every prepared kind that is convex, smooth between its silhouettes
+/// and without kinks; each derives from it.
 template <class Kind>
 struct PreparedConvex {
   [[nodiscard]] double silhouette_slope(const Generator& /*line*/) const { return 0.0; }
@@ -90,7 +92,7 @@ struct PreparedConvex {
   [[nodiscard]] const Kind& kind() const { return static_cast<const Kind&>(*this); }
 };
 
-/// The same of its solid, over its distance and its scale.
+/// Members that are the same for its solid, from its distance and its scale.
 template <class Kind>
 struct ConvexSolid {
   [[nodiscard]] std::optional<double> top(double x, double y) const {

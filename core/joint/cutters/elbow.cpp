@@ -23,12 +23,12 @@ constexpr int kSteps = 400;
 constexpr double kOnSurface = 1e-14;  // relative
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kScan = 720;
-/// An elbow is not convex: its section is scanned across the wall and refined around the steepest
-/// place. What lies between is caught by the table's own proof, not by this.
+/// An elbow is not convex, so its section is scanned across the wall and refined around the
+/// steepest point. The table's own verification, not this scan, finds features between the samples.
 constexpr int kAcross = 33;
 
-/// One stretch of the centre line seen from a point: its nearest point and how the distance from
-/// it may bend along a line.
+/// One segment of the centre line near a point: its nearest point, and a bound of the curvature of
+/// the distance along a line.
 struct Near {
   Vector3d foot;
   double distance;
@@ -49,7 +49,7 @@ Legs legs(const PreparedElbow& e) {
   return {{e.bend_radius, 0.0, 0.0}, end, {-e.end.y(), e.end.x(), 0.0}};
 }
 
-/// A leg by itself: where it leaves the bend, and which way.
+/// A leg: the point where it leaves the bend, and its direction.
 struct Leg {
   Vector3d from, along;
 };
@@ -72,7 +72,7 @@ Near near_circle(const PreparedElbow& e, const Vector3d& p) {
   return {foot, elementary::hypot(r - e.bend_radius, p.z()), true};
 }
 
-/// The stretches of the centre line; the arc is there where the point faces it.
+/// The segments of the centre line; the arc is present if the point faces it.
 struct Stretches {
   std::array<Near, 3> all;
   std::size_t count;
@@ -91,9 +91,9 @@ Stretches stretches(const PreparedElbow& e, const Legs& l, const Vector3d& p) {
   return out;
 }
 
-/// How far the line may go down from p before this stretch's surface can be reached. Distance from
-/// a straight leg is convex along the line; from the arc it bends by at most 2 / (R - r) as long as
-/// the line stays halfway from the bend's axis.
+/// Returns a step down from p within which the line cannot reach this segment's surface. The
+/// distance to a straight leg is convex along the line; that to the arc has a second derivative of
+/// at most 2 / (R - r) while the line stays halfway from the bend's axis.
 double free_way(const PreparedElbow& e, const Vector3d& p, const Near& near) {
   const double gap = near.distance - e.radius;
   const double falling = near.distance > 0.0 ? (p - near.foot).dot(e.rise) / near.distance : 1.0;
@@ -119,8 +119,8 @@ Vector3d foot_of(const PreparedElbow& e, const Generator& g) {
   return e.rows * (Vector3d(g.radius * g.cos_phi, g.radius * g.sin_phi, 0.0) - e.center);
 }
 
-/// The line's two heights between which it can meet the elbow: in reach of the bend, or of a leg's
-/// whole cylinder; of one that runs along it, as far as that is looked at.
+/// Returns the two heights between which the line can meet the elbow: within reach of the bend, or
+/// of a leg's whole cylinder. For a leg along the line, the reach is `leg_reach`.
 std::array<double, 2> range(const PreparedElbow& e, const Vector3d& o) {
   const double reach = e.bend_radius + e.radius;
   const double middle = -o.dot(e.rise);
@@ -250,7 +250,7 @@ void ElbowCutter::turn(const TurnAboutAxis& turn) {
 
 // ---- on the target's generators
 
-// Of the legs; of those alone that do not run along the target.
+// Uses only the legs that do not run along the target.
 double PreparedElbow::sine() const {
   const double first = elementary::hypot(rise.x(), rise.z());
   const double last = rise.cross(legs(*this).end_along).norm();
@@ -260,7 +260,7 @@ double PreparedElbow::sine() const {
   return out;
 }
 
-// The surface is a circle about the target's axis; the leg is looked at where it is out of reach.
+// The surface is a circle about the target's axis; the leg is tested where it is out of reach.
 std::optional<double> endless_leg(const PreparedElbow& elbow, double rho) {
   const Vector3d o = -(elbow.rows * elbow.center);
   const double far = leg_reach(elbow.radius, elbow.bend_radius);
@@ -357,8 +357,8 @@ std::vector<double> PreparedElbow::silhouettes(double rho) const {
   return out;
 }
 
-// An elbow thicker by `off` bounds the heights of all generators no further than that from the
-// line, one thinner from below.
+// An elbow thicker by `off` bounds the heights of all generators within that distance from above,
+// one thinner from below.
 Heights PreparedElbow::heights_near(const Generator& line, double off) const {
   const auto height = [&](double thicker) {
     auto other = *this;
@@ -378,7 +378,7 @@ double PreparedElbow::steepest(const Wall& wall, const Generator& g, double z_ro
     const auto n = continued_hit(g).normal;
     best = n.z() > 0.0 ? -n.x() / n.z() : n.x() > 0.0 ? -kInfinity : kInfinity;
   }
-  // Nearer to the root than that the slope is lost in the rounding of z, and the root's own holds.
+  // Nearer to the root, the slope is lost in the rounding of z, and the root's own applies.
   const double from = wall.inner + 1e-4 * (wall.outer - wall.inner);
   return std::max(best, greatest_across(*this, wall, g, from, [&](double rho, double z) {
                     return (z - z_root) / (rho - wall.inner);

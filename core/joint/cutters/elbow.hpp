@@ -12,8 +12,8 @@ struct ElbowPass {
   double clearance = 0.0;  // mm; of a generator that misses, exact
 };
 
-/// In the frame of the bend: origin at its centre, x to where it begins, y along the direction
-/// there, z across. `end` is where it ends on the unit circle.
+/// In the frame of the bend: origin at its centre, x to its beginning, y along the direction there,
+/// z across. `end` is its end on the unit circle.
 struct PreparedElbow {
   Eigen::Vector3d center;
   Eigen::Matrix3d rows;
@@ -21,8 +21,8 @@ struct PreparedElbow {
   double radius, bend_radius;
   Eigen::Vector2d end;
 
-  /// The distance from the centre line is followed downwards by steps that cannot pass the surface:
-  /// by the distance itself, or by a bound of second order, which converges quadratically.
+  /// Follows the distance from the centre line downwards by steps that cannot pass the surface: by
+  /// the distance itself, or by a bound of second order, which converges quadratically.
   /// Accuracy  the point is within 1e-12 (radius + bend radius) of the surface.
   /// Cost      about ten distances; a grazing generator up to a hundred. One that misses: also the
   ///           zeros of a trigonometric polynomial of order 2.
@@ -43,7 +43,7 @@ struct PreparedElbow {
   }
   [[nodiscard]] Met met(double rho) const;
   [[nodiscard]] double size(double rho) const { return (radius + bend_radius + rho) / sine(); }
-  /// None: its surface is of the fourth degree, and its events are bracketed instead.
+  /// Returns empty, because its surface is of the fourth degree; its events are bracketed instead.
   [[nodiscard]] std::vector<Sheets> sheets(double rho) const;
   /// Finds the sign changes of the clearance, scanned at 720 phases, and those next to an extremum
   /// between them. If the clearance has several extrema within one degree, some may be missed.
@@ -57,29 +57,29 @@ struct PreparedElbow {
 struct ElbowSolid {
   Eigen::Vector3d point;  // the bend's centre
   Eigen::Vector3d direction,
-      across;  // unit: of the leg that comes in, and to where the bend begins
+      across;  // unit: of the incoming leg, and to the beginning of the bend
   double radius, bend_radius;
   double bend;  // rad
 
   [[nodiscard]] double scale() const { return radius; }
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
   [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
-  /// Down the line from above, no further than the surface is away.
+  /// Steps down the line from above by the distance to the surface.
   [[nodiscard]] std::optional<double> top(double x, double y) const;
   [[nodiscard]] double clearance(double x, double y) const;
   [[nodiscard]] double least_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
   [[nodiscard]] double most_hollow(double to) const;
 
  private:
-  /// The point of the centre line nearest to this one.
+  /// Returns the point of the centre line nearest to this one.
   [[nodiscard]] Eigen::Vector3d on_centre_line(const Eigen::Vector3d& p) const;
-  /// Heights between which a line can come near.
+  /// Returns the heights between which a line can come near.
   [[nodiscard]] Eigen::Vector2d range(double x, double y) const;
 };
 
-/// A bent tube as partner: an arc of a torus with its two straight legs, which have no end.
-/// Lengths in mm. The bend begins at `point` of the centre line, runs along `direction` there and
-/// turns towards `inwards`.
+/// A bent tube as partner: an arc of a torus with its two straight, infinite legs. Lengths in mm.
+/// The bend begins at `point` of the centre line, runs along `direction` there and turns towards
+/// `inwards`.
 struct ElbowCutter {
   static constexpr std::string_view kName = "elbow";
   using Prepared = PreparedElbow;
@@ -92,7 +92,7 @@ struct ElbowCutter {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   Eigen::Vector3d inwards = Eigen::Vector3d::UnitZ();  // made perpendicular to the direction
 
-  /// Refused too when the target runs along one of the legs.
+  /// Errors  also if the target runs along one of the legs.
   [[nodiscard]] Result<Prepared> prepare() const;
   [[nodiscard]] Solid solid() const;
   void grow(double by) { radius += by; }

@@ -24,7 +24,7 @@ ElbowSolid ElbowCutter::solid() const {
   return {point - bend_radius * across, along, across, radius, bend_radius, bend.rad()};
 }
 
-// By the angle around the bend's axis, clamped to the arc, and by the feet on the two legs.
+// Uses the angle around the bend's axis, clamped to the arc, and the feet on the two legs.
 Vector3d ElbowSolid::on_centre_line(const Vector3d& p) const {
   const Vector3d from = p - point;
   double turn = elementary::atan2(from.dot(direction), from.dot(across)) - 0.5 * bend;
@@ -114,7 +114,7 @@ double ElbowSolid::clearance(double x, double y) const {
   return -math::grid_maximum(depth, z, deep).value;
 }
 
-// The distance along a line may have several least values: they are looked for on a grid.
+// The distance along a line may have several minima, so they are searched on a grid.
 double ElbowSolid::least_distance(const Vector3d& a, const Vector3d& b) const {
   const auto near = [&](double share) { return -distance(a + share * (b - a)); };
   std::vector<double> grid, sampled;
@@ -126,8 +126,8 @@ double ElbowSolid::least_distance(const Vector3d& a, const Vector3d& b) const {
                    -math::grid_maximum(near, grid, sampled).value});
 }
 
-// The centre line, an arc of at most half a turn with its legs, is nowhere nearer to itself than
-// its bend radius R: within s < R of it the distance bends inwards by at most 1/(R - s).
+// The centre line, an arc of at most half a turn with its legs, keeps at least its bend radius R
+// from itself: within s < R of it the distance bends inwards by at most 1/(R - s).
 double ElbowSolid::most_hollow(double to) const {
   const double room = bend_radius - std::max(0.0, radius + to);
   return room > 0.0 ? 1.0 / room : kInfinity;

@@ -13,54 +13,54 @@
 #include "core/joint/generator.hpp"
 #include "core/joint/target.hpp"
 
-/// What every kind of cutter must offer. A kind that lacks a part of it does not compile: the
-/// concepts below are asserted for every alternative of `Cutter` in cutters/cutter.hpp.
+/// Requirements on every kind of cutter. If a kind lacks a member, it does not compile:
+/// cutters/cutter.hpp asserts the concepts below for every alternative of `Cutter`.
 namespace tubecut::joint {
 
 struct Sheets;
 
 enum class Side { before, after };
 
-/// How much of the target's surface a cutter is met on.
+/// The extent of the target's surface that meets a cutter.
 enum class Met { never, partly, always };
 
-/// A turn about the target's axis, from x towards y.
+/// A rotation about the target's axis, from x towards y.
 struct TurnAboutAxis {
   Eigen::Matrix3d by;
   Angle angle;
 };
 
-/// phi (rad, in the frame the partner is given in) of the common perpendicular of target and
-/// partner, and the side towards which the partner leans (its axis rises towards the member, or the
-/// plane does). `lean` is empty for a partner at right angles.
+/// phi (rad, in the partner's frame) of the common perpendicular of target and partner, and the
+/// side to which the partner leans (its axis rises towards the member, or the plane does). `lean`
+/// is empty for a partner at right angles.
 struct Bearing {
   double perpendicular = 0.0;
   std::optional<double> lean;
 };
-/// Of a partner by the direction of its axis.
+/// Computes the bearing of a partner from the direction of its axis.
 [[nodiscard]] Bearing bearing_of_axis(Eigen::Vector3d direction);
-/// Sine below which a partner stands at right angles.
+/// If the sine is below it, a partner is at right angles.
 inline constexpr double kSquare = 1e-9;
 
-inline constexpr double kSameHeight = 1e-12;  // relative, of two heights of one place
+inline constexpr double kSameHeight = 1e-12;  // relative, of two heights of one point
 
-/// Between these a cutter's heights lie near a generator.
+/// Bounds of a cutter's heights near a generator.
 struct Heights {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
 };
 
-/// A cutter, or a partner, as it is described.
+/// A cutter or a partner, as in the request.
 template <class K>
 concept DescribedKind = requires(const K& kind, K& changed, double by, const TurnAboutAxis& turn) {
-  changed.grow(by);  // its surface moved outwards, normal to it
+  changed.grow(by);  // moves its surface outwards, normal to it
   changed.turn(turn);
   { kind.bearing() } -> std::same_as<std::optional<Bearing>>;  // empty: it has no side
-  { K::kName } -> std::convertible_to<std::string_view>;       // what requests call it
+  { K::kName } -> std::convertible_to<std::string_view>;       // its name in requests
 };
 
-/// A cutter with the sines and cosines of its own angles taken once, in the target's frame. What
-/// the members promise stands with the functions of the same names in cutters/cutter.hpp.
+/// A cutter in the target's frame, with precomputed sines and cosines of its own angles. The
+/// functions of the same names in cutters/cutter.hpp document the contracts of the members.
 template <class P>
 concept PreparedKind = requires(const P& cutter, const Generator& line, Side side, double number,
                                 const Wall& wall) {
@@ -82,7 +82,7 @@ concept PreparedKind = requires(const P& cutter, const Generator& line, Side sid
   { cutter.support(wall, line, number) } -> std::same_as<double>;
 };
 
-/// A cutter as a solid, for proofs: see `Solid` in core/joint/solid.hpp.
+/// A cutter as a solid, for verification: see `Solid` in core/joint/solid.hpp.
 template <class S>
 concept SolidKind = requires(const S& solid, const Eigen::Vector3d& p, double number) {
   { solid.scale() } -> std::same_as<double>;
@@ -93,7 +93,7 @@ concept SolidKind = requires(const S& solid, const Eigen::Vector3d& p, double nu
   { solid.least_distance(p, p) } -> std::same_as<double>;
   { solid.most_hollow(number) } -> std::same_as<double>;
 };
-/// One whose distance along a straight line follows a formula.
+/// A solid whose distance along a straight line follows a formula.
 template <class S>
 concept PlainSolid = SolidKind<S> && requires(const S& solid, const Eigen::Vector3d& p, double n) {
   { solid.nearest_share(p, p) } -> std::same_as<double>;
@@ -107,7 +107,7 @@ concept CutterKind = DescribedKind<K> && PreparedKind<typename K::Prepared> &&
   { kind.solid() } -> std::same_as<typename K::Solid>;
 };
 
-/// What preparation refuses alike; paths are relative to the cutter.
+/// Errors that all preparations share; paths are relative to the cutter.
 [[nodiscard]] tl::unexpected<Error> beyond_limit(std::string_view field, double got, double limit,
                                                  std::string unit);
 [[nodiscard]] tl::unexpected<Error> zero_length(std::string_view field);

@@ -57,7 +57,7 @@ struct PlaneSolid {
   [[nodiscard]] double most_hollow(double /*to*/) const { return 0.0; }
 };
 
-/// A plane as partner: the target is cut along it, material on the side its normal points to is
+/// A plane as partner: the target is cut along it, and the material on the side of its normal is
 /// kept.
 struct PlaneCutter {
   static constexpr std::string_view kName = "plane";
@@ -65,7 +65,7 @@ struct PlaneCutter {
   using Solid = PlaneSolid;
 
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // any length > 0; turned so that its z is > 0
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // any length > 0; flipped if z < 0
 
   [[nodiscard]] Result<Prepared> prepare() const;
   [[nodiscard]] Solid solid() const;

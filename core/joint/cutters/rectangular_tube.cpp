@@ -11,8 +11,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSeam = 1e-12;    // relative; two pieces that meet tangentially both hold there
-constexpr double kUpright = 1e-9;  // a face as steep as that is met only at its corners
+constexpr double kSeam = 1e-12;    // relative; where two surfaces meet tangentially, both are valid
+constexpr double kUpright = 1e-9;  // a steeper face is met only at its corners
 
 /// The section of prism and generator in the plane across the axis.
 struct CrossSection {
@@ -41,7 +41,7 @@ struct Leaving {
   double steep;  // normal . w
 };
 
-/// The corner's circle, its upper point; S clamped.
+/// The corner's circle, its upper point; S is clamped.
 Leaving on_corner(const CrossSection& s, const Vector2d& center) {
   const double ww = s.w.squaredNorm();
   const Vector2d from = s.o - center;
@@ -56,7 +56,7 @@ Leaving on_corner(const CrossSection& s, const Vector2d& center) {
   return out;
 }
 
-/// The corner the line touches, or passes nearest to, from outside.
+/// Returns the corner that the line touches, or that it passes nearest from outside.
 Vector2d touched_corner(const CrossSection& s) {
   const double side = s.offset < 0.0 ? -1.0 : 1.0;
   const auto pick = [&](double n, double w, double half) {

@@ -16,7 +16,7 @@ struct PreparedRectangularTube : PreparedConvex<PreparedRectangularTube> {
   [[nodiscard]] Hit continued_hit(const Generator& line) const;
   [[nodiscard]] double silhouette_height(const Generator& line) const;
   [[nodiscard]] double size(double rho) const;
-  /// Its faces and the cylinders of its corners, each continued without end.
+  /// Returns its faces and the cylinders of its corners, each continued without end.
   [[nodiscard]] std::vector<Sheets> sheets(double rho) const;
   [[nodiscard]] std::vector<double> silhouettes(double rho) const;
   [[nodiscard]] Sides sides(const Generator& line) const;
@@ -32,7 +32,7 @@ struct RectangularTubeSolid : ConvexSolid<RectangularTubeSolid> {
   [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& p) const;
 };
 
-/// A rectangular hollow section as partner: an infinite prism by its axis. Lengths in mm.
+/// A rectangular hollow section as partner: an infinite prism along its axis. Lengths in mm.
 struct RectangularTubeCutter {
   static constexpr std::string_view kName = "rectangular_tube";
   using Prepared = PreparedRectangularTube;

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCorner = 1e-9;     // relative width within which a tangency counts as a corner
-constexpr double kHair = 1e-9;       // relative; an offset that is rounding
+constexpr double kHair = 1e-9;       // relative; a smaller offset is rounding
 constexpr double kOnCutter = 1e-14;  // relative, of lengths: the root is on the tube
 
 using Local = TubeLocal;
@@ -26,7 +26,7 @@ Local local(const PreparedTube& t, const Generator& g) {
   return tube_local(t, g.radius, g.cos_phi, g.sin_phi);
 }
 
-/// The normal for the direction (cos theta, sin theta) in the cutter's cross-section.
+/// Computes the normal for the direction (cos theta, sin theta) in the cutter's cross-section.
 Vector3d normal_at(const PreparedTube& t, const Local& p, double cos_theta, double sin_theta) {
   return {cos_theta * p.cos_delta + t.cos_inclination * sin_theta * p.sin_delta,
           -cos_theta * p.sin_delta + t.cos_inclination * sin_theta * p.cos_delta,
@@ -41,7 +41,7 @@ double clamped_cosine(const PreparedTube& t, const Local& p) {
 struct WallSection {
   const PreparedTube& tube;
   double cos_delta, sin_delta;
-  double from, to;  // R: the part of the wall where the tube is met; empty if from > to
+  double from, to;  // R: the part of the wall in which the tube is met; empty when from > to
 
   WallSection(const PreparedTube& t, const Wall& wall, const Generator& g)
       : tube(t),
@@ -55,7 +55,7 @@ double sheet_at(const PreparedTube& t, const Generator& g, double rho) {
   return t.continued_sheet({rho, g.cos_phi, g.sin_phi});
 }
 
-/// dz/drho = -n_r / n_z where the tube's cross-section has the point (x, y) of its circle.
+/// Computes dz/drho = -n_r / n_z where the tube's cross-section has the point (x, y) of its circle.
 double slope_at(const WallSection& s, double x, double y) {
   const auto& t = s.tube;
   const double radial = x * s.cos_delta + t.cos_inclination * y * s.sin_delta;
@@ -63,8 +63,9 @@ double slope_at(const WallSection& s, double x, double y) {
   return radial > 0.0 ? -kInfinity : kInfinity;
 }
 
-/// Largest slope from the root, seen in the tube's cross-section at (x, y) outside its circle, to
-/// the tube within the wall: to the ends of R, or along the tangent from the root.
+/// Computes the largest slope from the root, at (x, y) outside the circle of the tube's
+/// cross-section, to the tube within the wall: to the ends of R, or along the tangent from the
+/// root.
 double slope_from_outside(const WallSection& s, const Wall& wall, const Generator& g, double z_root,
                           double x, double y) {
   const auto& t = s.tube;
@@ -136,9 +137,9 @@ double PreparedTube::silhouette_slope(const Generator& line) const {
 }
 
 // With d the distance in phi from the corner, S = sqrt(r rho) |d| and X = +-(r - rho d^2 / 2); the
-// curve is mirrored at delta = 0 and pi, so u and the tangential part take the side's sign. Where
-// the tube is wider than the target by more than rounding, the corner is rounded over the least
-// stretch of phi: its sides keep their directions, and the normal has the dihedral angle of its
+// curve is mirrored at delta = 0 and pi, so u and the tangential part take the side's sign. If the
+// tube is wider than the target by more than rounding, the corner is rounded over a very short
+// interval of phi: its sides keep their directions, and the normal has the dihedral angle of its
 // tip.
 Hit PreparedTube::hit_at_corner(const Generator& line, Side side) const {
   constexpr double kBeside = 1e-12;
@@ -195,8 +196,8 @@ std::vector<double> PreparedTube::silhouettes(double rho) const {
   return out;
 }
 
-// Where the target's surface is tangent to the tube from inside; tubes of one radius are on both
-// sides.
+// Finds where the target's surface is tangent to the tube from inside; if the radii are equal, both
+// sides are.
 std::vector<double> PreparedTube::kinks(double rho) const {
   std::vector<double> out;
   if (!(std::abs(radius - rho - std::abs(offset)) <= kCorner * radius)) return out;
@@ -225,7 +226,7 @@ double PreparedTube::support(const Wall& wall, const Generator& g, double slope)
     return sheet_at(*this, g, rho) - (rho - wall.inner) * slope;
   };
   double best = std::max(foot(s.from), foot(s.to));
-  // Where the tube's own slope equals the cut's: its normal is (n, cos delta) turned into X.
+  // Where the tube's own slope equals the cut's, its normal is (n, cos delta) rotated into X.
   const double n = slope * sin_inclination + s.sin_delta * cos_inclination;
   const double x = -radius * n / elementary::hypot(n, s.cos_delta);
   const double rho = ((s.cos_delta < 0.0 ? -x : x) - offset) / s.cos_delta;
@@ -258,7 +259,8 @@ std::optional<double> TubeSolid::top(double x, double y) const {
   const double half_b = across.dot(up);
   const double gap = clearance(x, y);
   if (gap > 1e-12 * (radius + from.norm())) return std::nullopt;
-  // The discriminant is a (r - m)(r + m), m the least distance of line and axis: no cancellation.
+  // The discriminant is a (r - m)(r + m), with m the smallest distance of line and axis: no
+  // cancellation.
   const double inside = std::max(0.0, -gap * (gap + 2.0 * radius));
   return (-half_b + std::sqrt(a * inside)) / a;
 }
@@ -269,7 +271,7 @@ double TubeSolid::clearance(double x, double y) const {
   return std::abs(from.dot(common)) - radius;
 }
 
-// Along a line the squared distance to the axis is a parabola, given by three of its points.
+// Along a line the squared distance to the axis is a parabola, which three of its points determine.
 double TubeSolid::least_distance(const Vector3d& a, const Vector3d& b) const {
   const double ends[] = {distance(a), distance(0.5 * (a + b)), distance(b)};
   const double least = std::min({ends[0], ends[1], ends[2]});
@@ -293,7 +295,7 @@ double TubeSolid::most_bent(double from) const {
   return from_axis > 0.0 ? 1.0 / from_axis : kInfinity;
 }
 
-// ---- from its axis
+// ---- distances from its axis
 
 Result<Placement> place(const AxisLine& axis, double radius) {
   const double length = axis.direction.norm();

@@ -27,7 +27,7 @@ struct PreparedTube {
   [[nodiscard]] double support(const Wall& wall, const Generator& inner, double slope) const;
 };
 
-/// Distances by cross product, heights by the quadratic of line and cylinder.
+/// Computes distances by cross product, heights by the quadratic of line and cylinder.
 struct TubeSolid {
   Eigen::Vector3d point, direction;  // of the axis; unit
   double radius;
@@ -69,13 +69,14 @@ struct AxisLine {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
 };
 
-/// A tube by its axis line in the target's frame, and where the line's point lies on it.
+/// A tube by its axis line in the target's frame, and the position of the line's point on it.
 struct Placement {
   TubeCutter tube;
   double point_axial = 0.0;  // w of AxisLine::point, along the direction, from the perpendicular
 };
 
-/// The four numbers of a tube from its axis. Clocking in [0, 360) deg; inclination in (0, 180).
+/// Computes the four numbers of a tube from its axis. Clocking in [0, 360) deg; inclination in (0,
+/// 180).
 ///
 /// Errors    zero_length, parallel_axes (limit kParallel), both of `direction`.
 /// Accuracy  line -> numbers -> line passes the point within 1e-13 of |point| + |offset| +
@@ -83,7 +84,8 @@ struct Placement {
 /// Source    docs/theory/intersections-and-bevels.md, section 1.1.
 [[nodiscard]] Result<Placement> place(const AxisLine& axis, double radius);
 
-/// The axis in the target's frame: the foot of the common perpendicular and the unit direction.
+/// Returns the axis in the target's frame: the foot of the common perpendicular and the unit
+/// direction.
 [[nodiscard]] AxisLine axis_of(const TubeCutter& tube);
 
 /// A tube partner given by its axis line in the target's frame.

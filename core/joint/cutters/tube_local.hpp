@@ -5,8 +5,8 @@
 
 #include "core/joint/cutters/tube.hpp"
 
-/// A tube seen from one generator: the formulas of which its own functions and the loops over many
-/// stations are made.
+/// A tube relative to one generator: formulas shared by its own functions and the loops over many
+/// stations.
 namespace tubecut::joint {
 
 /// The generator in the cutter's frame: u, v of the spec and the cutter's cross-section (X, S).
@@ -16,8 +16,8 @@ struct TubeLocal {
   double s = 0.0;       // S, half the chord; 0 beyond the silhouette
 };
 
-// r -+ X, where the target's own side is nearest, by sin^2 instead of 1 - cos: next to a tangency
-// r - rho cos(delta) would keep no digit.
+// Computes r -+ X; on the side where the target's own side is nearest from sin^2 instead of 1 -
+// cos, because next to a tangency r - rho cos(delta) would keep no digit.
 [[nodiscard]] inline TubeLocal tube_local(const PreparedTube& t, double radius, double cos_phi,
                                           double sin_phi) {
   TubeLocal p{};
@@ -38,7 +38,7 @@ struct TubeLocal {
   return t.height + (p.s - p.v * t.cos_inclination) / t.sin_inclination;
 }
 
-/// Does the generator meet the tube, but for rounding?
+/// Returns true if the generator meets the tube, except for rounding.
 [[nodiscard]] inline bool tube_met(const PreparedTube& t, const TubeLocal& p, double radius) {
   return std::min(p.below, p.above) >= -kTouch * (t.radius + radius);
 }
@@ -47,7 +47,7 @@ struct TubeLocal {
   return (p.x * p.v / p.s - p.u * t.cos_inclination) / t.sin_inclination;
 }
 
-/// The part of the wall of one phi where the tube is met; empty if from > to.
+/// The part of the wall of one phi in which the tube is met; empty when from > to.
 struct TubeSection {
   double from, to;
 };

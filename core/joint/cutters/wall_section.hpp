@@ -9,8 +9,8 @@
 
 namespace tubecut::joint {
 
-/// By how much a generator passes outside a partner's left and right side, mm across; it is met
-/// where neither is > 0. Both are linear in the generator's radius at one phi.
+/// The distances by which a generator passes outside a partner's left and right side, mm across; it
+/// meets the partner if neither is > 0. Both are linear in the generator's radius at one phi.
 struct Sides {
   double left = 0.0, right = 0.0;
 };
@@ -26,8 +26,8 @@ class WallSection {
     for (const auto side : {&Sides::left, &Sides::right}) clip(in.*side, out.*side);
   }
 
-  /// Largest slope from the root to the partner: its own where the root stands on it, else seen
-  /// from above, unimodal.
+  /// Computes the largest slope from the root to the partner: if the root is on it, its own slope,
+  /// else from above, where the slope is unimodal.
   [[nodiscard]] double steepest(double z_root) const {
     if (!(from_ <= to_) || to_ <= wall_.inner * (1.0 + kSameHeight)) return -kInfinity;
     const double noise = kSameHeight * (wall_.outer + std::abs(z_root));
@@ -68,7 +68,7 @@ class WallSection {
   const Kind& cutter_;
   const Wall& wall_;
   const Generator& inner_;
-  double from_, to_;  // the part of the wall where the partner is met; empty if from > to
+  double from_, to_;  // the part of the wall in which the partner is met; empty when from > to
 };
 
 }  // namespace tubecut::joint

@@ -32,13 +32,13 @@ namespace detail {
 namespace {
 
 constexpr double kAsNear =
-    1.0 * kRadPerDeg;  // two ends that continue this one as well as each other
+    1.0 * kRadPerDeg;  // if two ends continue this one within this difference, they are equal
 
 bool alike(const Member& a, const Member& b) {
   return a.priority == b.priority && a.outer_radius == b.outer_radius;
 }
 
-/// May the two of a pair be in line by what is stated of them?
+/// Returns true if the stated joint permits that the pair is in line.
 class Stated {
  public:
   explicit Stated(const NodeSpec& spec) {
@@ -56,7 +56,7 @@ class Stated {
   std::map<Applied::Pair, JointKind> kinds_;
 };
 
-/// Of the ends that continue one, that which does so best; nothing where two do alike.
+/// The best continuation of an end; empty when two are equally good.
 class Best {
  public:
   void see(std::size_t end, double angle, bool unlike) {
@@ -86,15 +86,16 @@ class Best {
   std::optional<Seen> best_, second_;
 };
 
-/// How far apart two ends may be along their line: as far as members may be from each other; of
-/// those that are named, about as far as they are thick.
+/// Returns the maximum distance of two ends along their line: the joining distance of members; for
+/// linked ends, about their thickness.
 double most_apart(const NodeSpec& spec, std::size_t a, std::size_t b) {
   if (const auto* within = std::get_if<Within>(&spec.connect))
     return std::max(within->distance, kBesideMost);
   return kBesideMost + std::max(spec.members[a].outer_radius, spec.members[b].outer_radius);
 }
 
-/// Of each end those that continue it. What is named at one of two ends is named at both.
+/// Finds for each end the ends that continue it. If one of two ends is linked to the other, both
+/// are.
 std::vector<Best> candidates(const NodeSpec& spec, const Joined& joined) {
   const Stated stated(spec);
   const bool named = !std::holds_alternative<Within>(spec.connect);
@@ -125,7 +126,7 @@ std::vector<std::optional<Mate>> mates(const NodeSpec& spec, const Joined& joine
   return out;
 }
 
-/// Of each member the earliest that is joined to it by mates for which `same` holds.
+/// Returns for each member the earliest one that is joined to it by mates for which `same` holds.
 template <class F>
 std::vector<std::size_t> earliest(const std::vector<std::optional<Mate>>& mates, F same) {
   std::vector<std::size_t> out(mates.size() / 2);
@@ -143,7 +144,7 @@ std::vector<std::size_t> earliest(const std::vector<std::optional<Mate>>& mates,
   return out;
 }
 
-/// The end of the touched member that is nearer to where it is touched.
+/// Returns the end of the touched member that is nearer to the contact.
 std::size_t nearer_end(const NodeSpec& spec, const Touch& touch) {
   const auto& other = spec.members[touch.other];
   const Vector3d& at = spec.members[touch.end / 2].at(end_of(touch.end));
@@ -152,7 +153,7 @@ std::size_t nearer_end(const NodeSpec& spec, const Touch& touch) {
                                     : End::finish);
 }
 
-/// Pairs of alike members of which the first goes on where the second ends.
+/// Returns pairs of alike members of which the first continues where the second ends.
 std::set<Applied::Pair> going_on(const NodeSpec& spec, const Joined& joined, const Lines& lines,
                                  double within) {
   std::set<Applied::Pair> out;
@@ -206,7 +207,7 @@ Lines lines_of(const NodeSpec& spec, const Joined& joined) {
 
 namespace {
 
-/// Those that cut both ends, go on there, and cross them: what stands between the two.
+/// Finds the members between the two ends: they cut both, continue there, and cross them.
 std::vector<std::size_t> between(const NodeSpec& spec, const Joined& joined, const Lines& lines,
                                  std::size_t p, std::size_t q) {
   std::vector<std::size_t> out;
@@ -223,7 +224,7 @@ std::vector<std::size_t> between(const NodeSpec& spec, const Joined& joined, con
   return out;
 }
 
-/// Does every line of the end's bore meet one of these?
+/// Returns true if every line of the end's bore meets one of these.
 bool stops(const NodeSpec& spec, std::size_t end, const std::vector<std::size_t>& members) {
   const auto& m = spec.members[end / 2];
   const auto at = end_of(end);
@@ -249,7 +250,8 @@ bool separated(const NodeSpec& spec, const Joined& joined, const Lines& lines, s
 }
 
 Short short_of(const NodeSpec& spec, const Lines& lines, std::size_t end, const Vector3d& at) {
-  constexpr double kLower = 0.5;  // mm: a tube that goes on with so much of a bend is the same one
+  constexpr double kLower =
+      0.5;  // mm: a tube that continues with a smaller step counts as the same tube
   const auto beyond = [&](std::size_t e) {
     const auto& m = spec.members[e / 2];
     return -(at - m.at(end_of(e))).dot(m.into(end_of(e)).normalized());
@@ -257,7 +259,8 @@ Short short_of(const NodeSpec& spec, const Lines& lines, std::size_t end, const 
   Short out{.by = beyond(end), .instead = {}};
   const double radius = spec.members[end / 2].outer_radius;
   bool square = true;
-  for (std::size_t i = 0; i < lines.mates.size(); ++i) {  // along the line, at most all of it
+  for (std::size_t i = 0; i < lines.mates.size();
+       ++i) {  // along the line, at most its whole length
     const auto& mate = lines.mates[end];
     if (!mate) return out;
     square = square && mate->angle <= kButtMost;

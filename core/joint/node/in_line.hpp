@@ -9,27 +9,27 @@
 
 namespace tubecut::joint {
 
-/// Two ends that meet belong to one line if the members lie within this angle of in line: neither
-/// stands on the other, they end at the plane between them.
+/// Two ends that meet belong to one line if the members are in line within this angle: neither is
+/// set on the other, and they end at the plane between them.
 inline constexpr double kInLineMost = 15.0 * kRadPerDeg;
 /// Up to this angle both faces count as square: a butt joint.
 inline constexpr double kButtMost = 0.5 * kRadPerDeg;
-/// How far the two axes may pass beside each other where the ends meet, beyond the difference of
-/// the radii; mm.
+/// Maximum distance of the two axes where the ends meet, beyond the difference of the radii; mm.
 inline constexpr double kBesideMost = 2.0;
 
-/// How two ends lie to each other.
+/// The relative position of two ends.
 struct Facing {
   double angle = 0.0;   // out of line; rad, [0, pi]
   double beside = 0.0;  // from the one end to the other across their line, mm
-  double apart = 0.0;   // along it; < 0: they pass each other
+  double apart = 0.0;   // along it; < 0: they overlap
 };
 [[nodiscard]] Facing facing(const Member& a, End of_a, const Member& b, End of_b);
 
-/// May two ends that face each other so belong to one line? `apart`: the most they may be, mm.
+/// Returns true if two ends that face each other in this way may belong to one line. `apart`: their
+/// maximum distance, mm.
 [[nodiscard]] bool in_line(const Facing& facing, double radius_a, double radius_b, double apart);
 
-/// A member's end as one number: 2 i for the start of member i, 2 i + 1 for its finish.
+/// Returns a member's end as one number: 2 i for the start of member i, 2 i + 1 for its finish.
 [[nodiscard]] constexpr std::size_t end_index(std::size_t member, End end) {
   return 2 * member + (end == End::finish ? 1U : 0U);
 }
@@ -37,9 +37,10 @@ struct Facing {
   return index % 2 == 0 ? End::start : End::finish;
 }
 
-/// Of each end the one that continues it, with nothing between the two; each other's.
+/// Finds for each end the end that continues it with nothing between the two; the relation is
+/// symmetric.
 ///
-/// Errors  those of `solve`, of members, links and stated joints.
+/// Errors  those of `solve` for members, links and stated joints.
 [[nodiscard]] Result<std::vector<std::optional<std::size_t>>> continued(
     const NodeSpec& spec, const std::stop_token& stop = {});
 

@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 
 constexpr double kEquallyNear = 1e-6;                  // mm: two chords at the same distance
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
-constexpr double kStep = 0.01;      // mm between two mitred edges: as good as none
-constexpr double kFoundStep = 0.5;  // in line as found: coordinates are rounded
+constexpr double kStep = 0.01;                         // mm between two mitred edges: negligible
+constexpr double kFoundStep = 0.5;  // for found members in line, because coordinates are rounded
 
 using detail::Applied;
 using detail::called;
@@ -39,7 +39,8 @@ struct Cutting {
   const detail::Mitre* mitre = nullptr;
 };
 
-/// Two members that pass this end, alike in rank and equally near: which one is the chord?
+/// Returns the error if two members that pass this end are equal in rank and equally near, so that
+/// the chord is ambiguous.
 Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Cutting>& above,
                              double within) {
   const Touch* nearest = nullptr;
@@ -65,7 +66,7 @@ Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Cutting>& a
                        "one the smaller priority"});
 }
 
-/// Of the world's axes the one furthest from `z`, the first of equals.
+/// Returns the world axis furthest from `z`, the first of equals.
 Vector3d any_reference(const Vector3d& z) {
   int axis = 0;
   z.cwiseAbs().minCoeff(&axis);
@@ -88,7 +89,7 @@ Result<MemberFrame> frame_of(const NodeSpec& spec, std::size_t member, End end,
   return frame;
 }
 
-/// What stands around an end, and what is known of the joints.
+/// The surroundings of an end, and the known joints.
 struct Around {
   const Applied& applied;
   const Lines& lines;
@@ -96,7 +97,7 @@ struct Around {
   const std::optional<Touch>& missed;
 };
 
-/// "X is within 0.012 deg of parallel"
+/// Returns "X is within 0.012 deg of parallel".
 std::string parallel_to(const NodeSpec& spec, std::size_t member, std::size_t other) {
   const double off = elementary::asin(sine_between(spec.members[member], spec.members[other]));
   const auto name = called(spec, other);
@@ -104,8 +105,8 @@ std::string parallel_to(const NodeSpec& spec, std::size_t member, std::size_t ot
   return name + " is within " + brief(off * kDegPerRad) + " deg of parallel";
 }
 
-/// The cutters of one end, the chord first; parallel members are noted and do not cut, those of
-/// the end's own line cut it at a mitre's plane alone.
+/// Returns the cutters of one end, the chord first. Parallel members get a warning and do not cut;
+/// members of the end's own line cut it only at a mitre's plane.
 std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const Around& around,
                                 std::vector<Warning>& warnings) {
   const auto member = index / 2;
@@ -136,8 +137,8 @@ std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const A
   return out;
 }
 
-/// The first cutter that points somewhere: with it phase zero is found. A face as good as square
-/// points nowhere.
+/// Returns the first cutter that defines a direction, which determines phase zero. A face that is
+/// nearly square defines none.
 const Cutting* chord_of(const NodeSpec& spec, std::size_t member,
                         const std::vector<Cutting>& cutters) {
   for (const auto& one : cutters) {
@@ -175,7 +176,7 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
     } else {
       TRY(cut.placement,
           under(place_of(touch.other), place(frame.local(axis), other.outer_radius)));
-      // The frame was made so.
+      // The frame was defined in this way.
       if (!spec.members[member].up && &one == chord) cut.placement.tube.clocking = Angle{};
       cut.eccentricity = std::abs(cut.placement.tube.offset);
     }
@@ -184,8 +185,9 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
   return out;
 }
 
-/// How far the outer edges of two mitred ends stand apart at most: both are ellipses in one plane,
-/// their centres the axes' distance apart, half as wide as their tubes and longer as these lean.
+/// Returns the largest distance between the outer edges of two mitred ends. Both are ellipses in
+/// one plane, their centres the axes' distance from each other, half as wide as their tubes and
+/// longer as these lean.
 double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) {
   if (!cut.plane) return 0.0;
   const auto& other = spec.members[cut.member];
@@ -247,7 +249,7 @@ Result<MemberEnd> place_end(const NodeSpec& spec, std::size_t index, const Aroun
   return out;
 }
 
-/// Why one of the cutters of an end is none; empty where it is one.
+/// Returns the reason if one of the cutters of an end does not cut it; empty when it cuts.
 std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, const Around& around,
                                  std::size_t index, const Presence& seen) {
   const auto& cut = end.cut_by[index];
@@ -266,8 +268,7 @@ std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, con
                      " ends " + brief(seen.nearest) + " mm before it would cut it"};
 }
 
-/// Of cutters that are none the first is left out, and all is seen again without it: what stays is
-/// where it cuts.
+/// Drops the first cutter that does not cut, and repeats without it until all others cut.
 Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Around& around,
                             std::vector<Warning>& warnings) {
   auto cutters = cutters_of(spec, index, around, warnings);

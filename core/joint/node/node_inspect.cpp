@@ -9,9 +9,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kScan = 180;  // generators looked at for ghosts and the highest z
+constexpr std::size_t kScan = 180;  // generators in the scan for ghosts and the highest z
 
-/// Cheap bounds of a cutter's sheet on radius rho: the highest z, and the reach along its own axis.
+/// Cheap bounds of a cutter's sheet on radius rho: the highest z, and the extent along its own
+/// axis.
 struct Bounds {
   double z, axial;
 };
@@ -28,17 +29,18 @@ struct BoundsOn {
   }
 };
 
-/// Where along a member, from its start, w is: from the common perpendicular along its axis.
+/// Returns the position along a member, from its start, of w, which is measured from the common
+/// perpendicular along its axis.
 double along(const CutBy& cut, double w) { return w - cut.placement.point_axial; }
 
-/// Is that beyond the member's ends?
+/// Returns true if that is beyond the member's ends.
 bool beyond(const Member& m, const CutBy& cut, double w) {
   const double length = (m.finish - m.start).norm();
   const double slack = 1e-9 * (length + std::abs(cut.placement.point_axial));
   return along(cut, w) < -slack || along(cut, w) > length + slack;
 }
 
-/// How far a mitred end's long point reaches beyond its work point.
+/// Returns the distance of a mitred end's long point beyond its work point.
 double overhang(const NodeSpec& spec, const Applied& applied, std::size_t end) {
   const auto& m = spec.members[end / 2];
   const Vector3d axis = m.into(end_of(end)).normalized();
@@ -52,13 +54,13 @@ double overhang(const NodeSpec& spec, const Applied& applied, std::size_t end) {
   return out;
 }
 
-/// One end as it is looked at.
+/// The inspection of one end.
 class Look {
  public:
   Look(const NodeSpec& spec, const Lines& lines, const Applied& applied, MemberEnd& end)
       : spec_(spec), lines_(lines), applied_(applied), end_(end), seen_(end.cut_by.size()) {}
 
-  /// Ghosts and the highest z, read on the generators of one surface.
+  /// Finds ghosts and the highest z on the generators of one surface.
   void scan(std::span<const PreparedCutter> cutters, double rho, double length) {
     for (std::size_t k = 0; k < kScan; ++k) {
       const auto line =
@@ -107,7 +109,7 @@ class Look {
     return out;
   }
 
-  static constexpr double kStep = 0.01;  // mm: as good as none
+  static constexpr double kStep = 0.01;  // mm: negligible
 
   const NodeSpec& spec_;
   const Lines& lines_;
@@ -118,7 +120,7 @@ class Look {
 
 }  // namespace
 
-/// Every generator of radius rho meets some cutter.
+/// Returns true if every generator of radius rho meets some cutter.
 bool closed(std::span<const PreparedCutter> cutters, double rho) {
   for (const auto& cutter : cutters)
     if (met(cutter, rho) == Met::always) return true;

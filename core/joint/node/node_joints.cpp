@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 constexpr double kInLine = 0.00872653549837393;        // sin 0.5 deg: two ends face each other
 constexpr double kNearlyInLine = 0.08715574274765817;  // sin 5 deg
 
-/// Its own path, or "members/3/joints/0": the statement as its member makes it.
+/// Returns its own path, or "members/3/joints/0": the statement in its member.
 std::string place_of(const NodeSpec& spec, std::size_t index) {
   if (const auto& own = spec.joints[index].at; !own.empty()) return own;
   const auto member = spec.joints[index].member;
@@ -32,14 +32,14 @@ std::string place_of(const NodeSpec& spec, std::size_t index) {
   return "members/" + std::to_string(member) + "/joints/" + std::to_string(own);
 }
 
-/// "set_in, gap 1.5 mm, depth 8 mm"
+/// Returns for example "set_in, gap 1.5 mm, depth 8 mm".
 std::string told(const Joint& joint) {
   return std::string(name_of(joint.kind)) + ", gap " + shown(joint.gap) + " mm" +
          (joint.depth ? ", depth " + shown(*joint.depth) + " mm" : "") +
          (joint.plane == MitrePlane::corner_to_corner ? ", corner to corner" : "");
 }
 
-/// Both sides may say the same, and must not say different things.
+/// Checks that two statements of one joint do not differ.
 Result<void> check_sides(const NodeSpec& spec) {
   std::map<Applied::Pair, std::size_t> out;
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {
@@ -74,12 +74,12 @@ void part(Joined& joined, std::size_t member, std::size_t other) {
 const Vector3d& point_of(const NodeSpec& spec, std::size_t end) {
   return spec.members[end / 2].at(end % 2 == 0 ? End::start : End::finish);
 }
-/// From an end into its member, unit.
+/// Returns the unit direction from an end into its member.
 Vector3d into(const NodeSpec& spec, std::size_t end) {
   return (point_of(spec, end ^ 1U) - point_of(spec, end)).normalized();
 }
 
-/// The two ends, of one member each, that lie nearest to each other.
+/// Returns the two ends, one of each member, that are nearest to each other.
 std::pair<std::size_t, std::size_t> facing_ends(const NodeSpec& spec, std::size_t a,
                                                 std::size_t b) {
   std::pair out{2 * a, 2 * b};
@@ -93,16 +93,16 @@ std::pair<std::size_t, std::size_t> facing_ends(const NodeSpec& spec, std::size_
   return out;
 }
 
-/// Where two mitred axes meet: so far from either end along its own axis. The plane between them
-/// passes midway between the two places.
+/// The distances from either end along its own axis to where two mitred axes meet. The plane
+/// between them passes midway between the two points.
 struct Meeting {
   double s, t;
 };
 
-/// Where the axes are nearest to each other. In line that place is lost in the rounding of the
-/// coordinates (0.01 mm aside and 0.01 deg out of line it is 57 mm from the ends), so there, and
-/// nearly in line where it is further from the ends than they are apart and the tubes are thick, it
-/// is where the plane midway between the ends meets either axis.
+/// Computes where the axes are nearest to each other. If the members are in line, the rounding of
+/// the coordinates hides that point (0.01 mm of offset and 0.01 deg out of line move it 57 mm from
+/// the ends). In line, and nearly in line if that point is further from the ends than their
+/// distance and the tubes' thickness, the plane midway between the ends meets either axis there.
 Meeting meeting(const NodeSpec& spec, std::size_t p, std::size_t q) {
   const Vector3d w = point_of(spec, q) - point_of(spec, p);
   const Vector3d u = into(spec, p), v = into(spec, q);
@@ -127,16 +127,16 @@ void join(Joined& joined, const NodeSpec& spec, std::size_t end, std::size_t oth
   touches.insert(at, {end, other, nearness(point_of(spec, end), {m.start, m.finish, 0.0})});
 }
 
-/// Towards the first of two tubes that leave their corner along unit `u` and `v`. The outlines of
-/// radii r and s in the plane of both axes meet r / (n.u) and s / -(n.v) along the plane of normal
-/// n from its point: alike where n is normal to s u + r v.
+/// Returns the normal towards the first of two tubes that leave their corner along unit `u` and
+/// `v`. The outlines of radii r and s in the plane of both axes meet r / (n.u) and s / -(n.v) along
+/// the plane of normal n from its point: equal if n is normal to s u + r v.
 Vector3d mitre_normal(MitrePlane plane, const Vector3d& u, double r, const Vector3d& v, double s) {
   if (plane == MitrePlane::bisecting) return u - v;
   const double c = u.dot(v);
   return ((r + s * c) * u - (s + r * c) * v) / (r + s);
 }
 
-/// The two ends join each other, and nothing else of each other, at the plane of this normal.
+/// Joins the two ends at the plane of this normal; their members join at no other end.
 void face(const NodeSpec& spec, std::size_t p, std::size_t q, const Vector3d& normal,
           Joined& joined, Applied& out) {
   const auto a = p / 2, b = q / 2;
@@ -161,7 +161,7 @@ Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Appl
   const Vector3d normal =
       mitre_normal(spec.joints[index].joint.plane, u, spec.members[a].outer_radius, v,
                    spec.members[b].outer_radius);
-  if (!(normal.norm() >= 2.0 * kParallel))  // or it would lie along the members
+  if (!(normal.norm() >= 2.0 * kParallel))  // because the plane would lie along the members
     return fail(
         {.code = ErrorCode::parallel_axes,
          .member = place_of(spec, index),

@@ -16,13 +16,13 @@ using Eigen::Vector3d;
 constexpr double kRound = 1e-12;  // of the lengths involved
 constexpr double kAngle = 1e-9;   // deg
 
-/// Angle between two unit vectors by half tangents.
+/// Computes the angle between two unit vectors by half tangents.
 double between(const Vector3d& a, const Vector3d& b) {
   return 2.0 * elementary::atan2((a - b).norm(), (a + b).norm());
 }
 
-/// The cutter's axis along the world's axes, from the end's own origin (a node far out in the world
-/// loses no digits), from the four numbers alone: turned and tilted step by step.
+/// The cutter's axis along the world's axes, from the end's own origin (so a node far out in the
+/// world loses no digits), computed from only the four numbers: rotated and tilted step by step.
 struct Line {
   Vector3d point, direction;
 };
@@ -46,8 +46,8 @@ struct Worst {
   double axis = 0.0, angle = 0.0, eccentricity = 0.0, gap = 0.0, frame = 0.0;
 };
 
-/// Least distance of a point to a member's axis: to its ends, or to the line where the foot is
-/// between them (both angles at the ends are acute).
+/// Computes the smallest distance of a point to a member's axis: to its ends, or to the line if the
+/// foot is between them (both angles at the ends are acute).
 double to_axis(const Vector3d& p, const Member& m) {
   const Vector3d along = m.finish - m.start;
   const double ends = std::min((p - m.start).norm(), (p - m.finish).norm());
@@ -55,15 +55,17 @@ double to_axis(const Vector3d& p, const Member& m) {
   return between_ends ? (p - m.start).cross(along).norm() / along.norm() : ends;
 }
 
-/// Where two outlines cross, seen from where the axes do: tubes that leave along unit `u` and `v`.
+/// Returns the point where two outlines cross, from the point where the axes do: tubes that leave
+/// along unit `u` and `v`.
 Vector3d corner_of(const Vector3d& u, double r, const Vector3d& v, double s) {
   const Vector3d side = u.cross(v).normalized();
   const Vector3d from_u = u.cross(side), from_v = side.cross(v);
   return r * from_u + (s - r * from_u.dot(from_v)) / u.dot(from_v) * u;
 }
 
-/// A mitre's plane leans alike to both members, the end's own before it and the other behind it, or
-/// holds the corner of their outlines; midway between them, its point is as far from both axes.
+/// Checks that a mitre's plane is at equal angles to both members, the end's own before it and the
+/// other behind it, or holds the corner of their outlines; and that its point is midway between
+/// them, equally far from both axes.
 void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& worst) {
   const auto& member = spec.members[end.member];
   const auto& other = spec.members[cut.member];
@@ -79,7 +81,7 @@ void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Wor
                 between(corner_of(own, member.outer_radius, along, other.outer_radius), normal)
           : between(own, normal) + between(along, normal) - kPi;
   worsen(worst.angle, std::abs(off) * kDegPerRad);
-  // At least both lengths, wherever the ends lie: any of them may be the plane's own point.
+  // At least both lengths, because any of the ends may be the plane's own point.
   const auto ends = [&](const Member& m) {
     return (m.start - origin - point).norm() + (m.finish - origin - point).norm();
   };
@@ -129,7 +131,8 @@ double frame_error(const NodeSpec& spec, const MemberEnd& end) {
                    (end.frame.origin - m.at(end.end)).norm()});
 }
 
-/// Cuts against the rule of priority, diameter and order, or in both directions; mitres in one.
+/// Returns the number of cuts against the rule of priority, diameter and order, or in both
+/// directions; mitres in one.
 double wrong_cuts(const NodeSpec& spec, const Nodes& nodes) {
   std::set<std::pair<std::size_t, std::size_t>> cuts, mitres;
   double wrong = 0.0;

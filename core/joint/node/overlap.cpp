@@ -18,14 +18,14 @@ namespace {
 using detail::Finished;
 using Eigen::Vector3d;
 
-constexpr int kGenerators = 48;      // of a wall, looked at for how deep it lies
+constexpr int kGenerators = 48;      // of a wall, sampled for its depth
 constexpr int kAlong = 12;           // points of a generator inside the other member
 constexpr double kInfinite = 1e300;  // mm
-constexpr double kThin = 0.02;       // of both radii: what the points of `look` may pass by
+constexpr double kThin = 0.02;       // of both radii: features that the points of `look` may miss
 constexpr int kHalvings = 14;        // of the steps of the search for the deepest point
-constexpr int kMoves = 24;           // with one step
+constexpr int kMoves = 24;           // with one step size
 
-/// How deep a point lies inside the finished member, its bore filled.
+/// Returns the depth of a point inside the finished member, with its bore filled.
 double depth(const Finished& m, const Vector3d& p) {
   const Vector3d from = p - m.start;
   const double z = from.dot(m.axis);
@@ -36,8 +36,8 @@ double depth(const Finished& m, const Vector3d& p) {
   return std::min({m.outer - rho, z - span.from, span.to - z});
 }
 
-/// The stretch of a generator of `m` inside the other's outer cylinder, prolonged, and between its
-/// own cuts; and how far it passes from that cylinder at the nearest.
+/// The segment of a generator of `m` inside the other's extended outer cylinder and between its own
+/// cuts; and its smallest distance to that cylinder.
 struct Reach {
   double from, to, clearance;
 };
@@ -61,13 +61,13 @@ std::array<double, 3> walls(const Finished& m) {
   return {m.outer, 0.5 * (m.inner + m.outer), m.inner};
 }
 
-/// The deepest of one member's metal in the other.
+/// The deepest point of one member's metal in the other.
 struct Deepest {
   double depth = 0.0;
   Vector3d at = Vector3d::Zero();
 };
 
-/// A place in a member's wall: generator, and the share of its stretch inside the other.
+/// A point in a member's wall: generator, and the fraction of its segment inside the other.
 struct Place {
   double rho, phi, share;
 };
@@ -83,7 +83,7 @@ void see(const Finished& m, const Finished& other, const Place& place, Deepest& 
   out.at = p;
 }
 
-/// From a place on, by steps that halve.
+/// Climbs from a point by steps that halve.
 void climb(const Finished& m, const Finished& other, Place from, const std::stop_token& stop,
            Deepest& out) {
   double turn = kTwoPi / kGenerators, along = 1.0 / kAlong;
@@ -108,7 +108,7 @@ void keep_deeper(const Deepest& one, Deepest& out) {
   if (one.depth > out.depth) out = one;
 }
 
-/// The wall's generators, each at points that lie evenly inside the other.
+/// Samples the wall's generators at evenly spaced points inside the other.
 void look(const Finished& m, const Finished& other, const std::stop_token& stop, Deepest& out) {
   for (const double rho : walls(m)) {
     Deepest own;
@@ -125,8 +125,8 @@ void look(const Finished& m, const Finished& other, const std::stop_token& stop,
   }
 }
 
-/// From a point that both share, at its own radius and at those of the wall: what is thinner than
-/// the steps between generators is found from there.
+/// Searches from a point that both share, at its own radius and at those of the wall: finds
+/// features that are thinner than the steps between generators.
 void look_from(const Finished& m, const Finished& other, const Vector3d& shared,
                const std::stop_token& stop, Deepest& out) {
   const Vector3d from = shared - m.start;
@@ -146,7 +146,7 @@ void look_from(const Finished& m, const Finished& other, const Vector3d& shared,
 
 using Pair = std::pair<std::size_t, std::size_t>;  // of members, the earlier first
 
-/// Pairs that by what is stated are set in, pass through or are mitred; sorted.
+/// Returns the sorted pairs whose stated joint is set in, through or mitre.
 std::vector<Pair> stated_apart(const NodeSpec& spec) {
   std::vector<Pair> out;
   for (const auto& one : spec.joints)
@@ -155,8 +155,8 @@ std::vector<Pair> stated_apart(const NodeSpec& spec) {
   return out;
 }
 
-/// Pairs that cannot share metal, for the one is cut by the other wherever it meets that; or that
-/// share it by what is stated.
+/// Returns true for pairs that cannot overlap, because one cuts the other everywhere, or that
+/// overlap by their stated joint.
 bool settled(const Nodes& nodes, const std::vector<Pair>& stated, std::size_t a, std::size_t b) {
   for (const auto& [member, other] : {Pair{a, b}, Pair{b, a}})
     for (const auto end : {2 * member, 2 * member + 1})
@@ -182,7 +182,8 @@ Box box_of(const Member& m) {
 }
 
 /// Calls `visit(a, b)` for the pairs of members whose axes come nearer than their radii, until it
-/// says false: along x, those whose boxes have begun and not ended. False where it was stopped.
+/// returns false: along x, over the boxes that have begun and not ended. Returns false when
+/// cancelled.
 template <class F>
 bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std::stop_token& stop,
                 F visit) {
@@ -206,7 +207,7 @@ bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std
   return !stop.stop_requested();
 }
 
-/// Members as they are once cut, each made where it is first asked for.
+/// Members after their ends are cut, each computed on first use.
 class FinishedMembers {
  public:
   FinishedMembers(const NodeSpec& spec, const Nodes& nodes, const Beside& beside)
@@ -253,7 +254,8 @@ Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
                                       std::optional<std::size_t> only, const std::stop_token& stop,
                                       const Beside& beside) {
   const auto stated = stated_apart(spec);
-  // Counted first: too many are refused in a moment, not after all that may be looked at were.
+  // Count first, so that too many pairs are rejected at once and not after all permitted pairs were
+  // checked.
   std::size_t near = 0;
   if (!near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
         if (!settled(nodes, stated, a, b)) ++near;

@@ -14,30 +14,31 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kHalf = 0.5 * kLeastShared;  // of the ball that must fit into both
-constexpr double kSmall = 0.5 * kHalf;        // mm: a cell that is not divided
+constexpr double kSmall = 0.5 * kHalf;        // mm: smaller cells are not divided
 constexpr double kFar = 1e7;                  // mm: beyond every member
-constexpr double kAlong = 1e-9;               // sine: over 10 m the axes stay 1e-5 mm as far apart
-constexpr double kOpposite = 1e-12;           // of two unit normals, 1 + their product
-constexpr int kAround = 16;                   // cells to begin with
-constexpr std::size_t kBetweenLooks = 256;    // cells, about 50 us
+constexpr double kAlong =
+    1e-9;  // sine: over 10 m the distance of the axes changes by less than 1e-5 mm
+constexpr double kOpposite = 1e-12;         // of two unit normals, 1 + their product
+constexpr int kAround = 16;                 // initial cells
+constexpr std::size_t kBetweenLooks = 256;  // cells, about 50 us
 
 struct Interval {
   double from, to;
   [[nodiscard]] bool empty() const { return !(from <= to); }
 };
 
-/// A bundle of generators of the thinner member, and a stretch of them.
+/// A bundle of generators of the thinner member, and a segment of them.
 struct Cell {
   double phi, half_phi, rho, half_rho;
   Interval z;
 
-  /// How far a generator of it lies from the middle one.
+  /// Returns the largest distance of its generators from the middle one.
   [[nodiscard]] double off() const {
     return std::sqrt(half_rho * half_rho + rho * (rho + half_rho) * half_phi * half_phi);
   }
 };
 
-/// A straight line seen from an axis: the squared distance is least^2 + sine^2 (z - at)^2.
+/// A straight line relative to an axis: the squared distance is least^2 + sine^2 (z - at)^2.
 struct Line {
   Vector3d beside, across;  // across the axis: of z = 0, and growing with z
   double along, rise;       // on the axis: of z = 0, and growing with z
@@ -51,14 +52,14 @@ struct Line {
     at = sine > kAlong ? -beside.dot(across) / (sine * sine) : 0.0;
     least = (beside + at * across).norm();
   }
-  /// Where it is no further from the axis than this; empty: nowhere.
+  /// Returns the interval within this distance of the axis; may be empty.
   [[nodiscard]] Interval within(double radius) const {
     if (!(least <= radius)) return {1.0, 0.0};
     if (!(sine > kAlong)) return {-kFar, kFar};
     const double half = std::sqrt((radius - least) * (radius + least)) / sine;
     return {at - half, at + half};
   }
-  /// On both sides of the bore, or one stretch.
+  /// Returns the intervals in the wall: on both sides of the bore, or one.
   [[nodiscard]] std::array<Interval, 2> in_wall(double inner, double outer, Interval z) const {
     const auto near = within(outer);
     z = {std::max(z.from, near.from), std::min(z.to, near.to)};
@@ -68,7 +69,7 @@ struct Line {
   }
 };
 
-/// The stretch of the line whose place on the axis is at least `low` and at most `high`.
+/// Returns the part of the line whose position on the axis is between `low` and `high`.
 Interval clip(const Line& line, Interval z, double low, double high) {
   if (std::abs(line.rise) <= kAlong) {
     const double slack = kAlong * (std::abs(z.from) + std::abs(z.to));
@@ -79,7 +80,7 @@ Interval clip(const Line& line, Interval z, double low, double high) {
   return {std::max(z.from, std::min(one, two)), std::min(z.to, std::max(one, two))};
 }
 
-/// A place in the other member: its generator, and the way along that.
+/// A point in the other member: its generator, and the position along it.
 struct Seen {
   double rho;
   Vector3d q;
@@ -132,18 +133,18 @@ class Search {
     return std::nullopt;
   }
 
-  /// What no generator of the bundle leaves the other's ends on.
+  /// Returns an interval outside which every generator of the bundle is beyond the other's ends.
   [[nodiscard]] Interval between_ends(const Line& line, Interval z, double off) const {
     const double middle = 0.5 * (z.from + z.to), half = 0.5 * (z.to - z.from);
     const auto at = seen(other_, line, middle);
     const auto ends = other_.span(at.rho, at.q, {off + half * line.sine, kHalf});
-    // A step across the one is a step along the other by the sine of their angle.
+    // A step across the one is a step along the other times the sine of their angle.
     return clip(line, z, ends.from - off * line.sine, ends.to + off * line.sine);
   }
 
   struct Middle {
-    std::optional<double> found;  // z of a place in both
-    bool in_wall = false;         // but for the other's ends
+    std::optional<double> found;  // z of a point in both
+    bool in_wall = false;         // ignoring the other's ends
   };
   [[nodiscard]] Middle on_middle(const Line& line, double rho, const Vector3d& q,
                                  Interval z) const {
@@ -167,8 +168,8 @@ class Search {
     return out;
   }
 
-  /// Into two, across the longest side: along the generators only where the other's ends are to be
-  /// decided.
+  /// Divides the cell into two, across the longest side; along the generators only if the other's
+  /// ends must be decided.
   void divide(const Cell& cell, Interval z, double sine, bool in_wall) {
     const double round = cell.rho * cell.half_phi, across = cell.half_rho;
     const double along = curved_ ? 0.5 * (z.to - z.from) * sine : 0.0;
@@ -196,13 +197,14 @@ class Search {
   std::vector<Cell> cells_;
 };
 
-/// No metal of the member lies beyond these z.
+/// Returns z bounds of the member's metal.
 Interval extent(const Finished& m) {
   const auto all = m.span(0.0, m.side(0.0), {m.outer, 0.0});
   return {std::max(-kFar, all.from), std::min(kFar, all.to)};
 }
 
-/// Apart beside each other, one in the other's bore, or one beyond the other's end.
+/// Returns true if they are clear of each other: side by side, one in the other's bore, or one
+/// beyond the other's end.
 bool clear_of(const Finished& m, Interval z, const Finished& other, Interval ends) {
   const Line axis(m.start - other.start, m.axis, other.axis);
   const auto from_axis = [&](double at) { return (axis.beside + at * axis.across).norm(); };
@@ -216,7 +218,7 @@ bool clear_of(const Finished& m, Interval z, const Finished& other, Interval end
          std::min(one, two) - reach >= ends.to - kLeastShared;
 }
 
-/// A plane that cuts a member, seen in the world: its metal lies where normal . p >= from.
+/// A plane that cuts a member, in the world: its metal lies where normal . p >= from.
 struct Kept {
   Vector3d normal;
   double from;
@@ -232,7 +234,7 @@ std::vector<Kept> planes(const Finished& m) {
   return out;
 }
 
-/// One of the planes that cut `m` has all of the other on its other side.
+/// Returns true if one of the planes that cut `m` has all of the other on its other side.
 bool parted(const Finished& m, const Finished& other, Interval z) {
   const auto others = planes(other);
   for (const auto& plane : planes(m)) {

@@ -4,12 +4,12 @@
 
 namespace tubecut::joint {
 
-/// z = mid +- sqrt(square): both sheets of one piece of a cutter around the target. A flat piece
-/// has square 0.
+/// z = mid +- sqrt(square): both sheets of one part of a cutter around the target. A flat part has
+/// square 0.
 struct Sheets {
   Trig<1> mid;
   Trig<2> square;
-  double size;  // a length the rounding of z is proportional to
+  double size;  // a length to which the rounding of z is proportional
   bool curved;
 };
 
