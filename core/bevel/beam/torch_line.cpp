@@ -276,8 +276,7 @@ class LeastDrop {
     return std::move(axes.secant);
   }
 
-  /// Returns true if the drop deviates from the straight line by a relevant amount. If it is above
-  /// the line, the difference is a gouge; below it, metal that stays.
+  /// Returns true if the drop leaves the straight line: above it is a gouge, below it metal stays.
   [[nodiscard]] bool bends(double from, double middle, double to, double secant) const {
     const double bulge = middle - 0.5 * (from + to), flat = flat_ * secant;
     return bulge > flat || bulge < -kHollow * flat;
@@ -322,7 +321,7 @@ class LeastDrop {
   drop::Finished finished_;
 };
 
-/// Appends the phases between row i and the next at which the line of the smallest drop bends.
+/// Appends the phases between two rows at which the smallest drop bends.
 void append_bends(const LeastDrop& drop, double phi, double tolerance,
                   std::span<const Place> places, std::vector<double>& out) {
   constexpr double kNarrow = 2e-6;  // rad: minimum

@@ -104,19 +104,17 @@ struct Table {
 /// envelope at the outer wall.
 ///
 /// Between two rows both edges, and that of a land, are straight in (phi, z), with every sampling,
-/// because the machine interpolates its rows; every format and part uses the same surface. At each
-/// phi the wall is straight across. `penetration` is the deepest point of that whole surface,
-/// including the closing interval. With a tolerance and any contact but none, it is at most the
-/// tolerance (normal to the partner). Otherwise, a depth above the tolerance, or on a bare grid
-/// above that of joint::Tolerance, gives the warning `enters_partner`.
+/// because the machine interpolates its rows; at each phi the wall is straight across. Every format
+/// and part uses this surface. `penetration` is its deepest point. With a tolerance and any contact
+/// but none, it is at most the tolerance (normal to the partner). Otherwise, a depth above the
+/// tolerance, or on a bare grid above that of joint::Tolerance, gives the warning `enters_partner`.
 ///
 /// Partners count as grown by coating + root_gap, so the cut keeps that distance to their metal;
 /// `gap` is the opening beyond that. If a partner's joint is stated, the partner counts as that
-/// joint's seat: it has its own gap, and root_gap must be 0 or equal to it; if the target is set
-/// into it, the cut is flush at the depth, without groove. Root gaps of zones: zone_gaps.hpp. A
-/// root face of height f is a land from the inner edge to the radius r_in + f, square to the axis,
-/// or as steep as a partner requires; the bevel begins at its outer edge, and `torch_*` is the
-/// bevel's line.
+/// joint's seat: root_gap must be 0 or its gap; if the target is set into it, the cut is flush,
+/// without groove. Root gaps of zones: zone_gaps.hpp. A root face of height f is a land from the
+/// inner edge to the radius r_in + f, square to the axis, or as steep as a partner requires; the
+/// bevel begins at its outer edge, and `torch_*` is the bevel's line.
 ///
 /// An `untilted` cut has B = 0 on every row, also where an end is set in; it requires the square
 /// rule and any contact except inner. `gaps` contains the gaps that it leaves at both edges, and
@@ -142,16 +140,14 @@ struct Table {
 /// Returns the stated joint of partner i, if any.
 [[nodiscard]] const std::optional<joint::Joint>& stated_joint(const TableSpec& spec, std::size_t i);
 
-/// Returns the partners as cutters for the cut: grown by coating and (smallest) root gap, or to
-/// their seat.
+/// Returns the partners grown by coating and (smallest) root gap, or to their seat.
 [[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
 
 /// Returns the finished surface by its rows: inner edge, the land's, outer edge. Views of the
 /// table.
 [[nodiscard]] CutWall finished_wall(const TableSpec& spec, const Table& table);
 
-/// Returns true if the finished surface must not enter a partner by more than `penetration_limit`,
-/// including between rows.
+/// Returns true if `table` keeps `penetration` below `penetration_limit`.
 [[nodiscard]] bool promises_no_penetration(const TableSpec& spec);
 /// Returns the sampling's tolerance; for a bare grid its default. mm
 [[nodiscard]] double penetration_limit(const TableSpec& spec);

@@ -35,8 +35,7 @@ struct TableSetup {
 };
 [[nodiscard]] Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop);
 
-/// Returns the same end with a flush bevel, for comparison: root on the inner wall, lifted where
-/// the torch ends, no kerf.
+/// Returns the same end, flush, for comparison: root inside, lifted where the torch ends, no kerf.
 [[nodiscard]] TableSpec flush_of(const TableSpec& spec);
 /// Computes the distances of both edges to the partners, of this table and of the flush one.
 [[nodiscard]] GapMap gap_map(const TableSetup& g, const Table& cut, const Table& flush,
@@ -65,8 +64,7 @@ struct Rows {
   /// Returns true if node i is the first of a jump's two.
   [[nodiscard]] bool jump_pair(std::size_t i) const;
 };
-/// Computes rows at the phases `also` in addition to those of the sampling; reuses the points in
-/// `known`.
+/// Computes rows at the sampling's phases and those of `also`; reuses the points in `known`.
 ///
 /// Errors  too_many_nodes, cancelled.
 [[nodiscard]] Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
@@ -76,8 +74,7 @@ struct Rows {
 [[nodiscard]] const ZonedGroove* zones_with_gaps(const TableSpec& spec);
 /// Zones with root gaps require a single partner, the root inside, and no other gap.
 [[nodiscard]] Result<void> check_gaps(const TableSpec& spec);
-/// The root at which the gap is that of its zone at the dihedral there; `least`: with the smallest
-/// gap.
+/// The root at which the gap is that of its zone; `least`: with the smallest gap.
 struct Stood {
   double more = 0.0;  // mm, beyond the smallest gap
   joint::PreparedCutter partner;
@@ -90,12 +87,11 @@ void measure_root(const TableSetup& g, Rows& rows);
 /// Returns the partner grown for a root gap that exceeds the smallest by `more`.
 [[nodiscard]] joint::PreparedCutter grown_for(const TableSetup& g, double more);
 /// Returns the phases of rows that are needed where the root, straight between the rows, deviates
-/// from its zones' gaps by more than the tolerance. Empty if zones have no gaps of their own, or if
-/// there are only uniform rows.
+/// from its zones' gaps by more than the tolerance. Empty without such gaps or a tolerance.
 [[nodiscard]] std::vector<double> rows_where_gap_turns(const TableSetup& g, const Rows& rows);
 
-/// Returns the runs of nodes (cyclic) that satisfy `holds`, as phi intervals; if one crosses 0, it
-/// ends above 2 pi.
+/// Returns the cyclic runs of nodes that satisfy `holds`; if one crosses phi = 0, it ends above 2
+/// pi.
 template <class F>
 [[nodiscard]] std::vector<std::pair<double, double>> runs(const std::vector<joint::Node>& nodes,
                                                           F holds) {
@@ -127,8 +123,7 @@ template <class F>
 /// Errors  those of the chosen smoothing.
 [[nodiscard]] Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
                                          const std::stop_token& stop);
-/// If B is required beyond the torch, returns an error with the root gap that lifting the cut would
-/// open.
+/// If B is required beyond the torch, returns an error with the root gap that a lift would open.
 [[nodiscard]] Result<void> check_required_in_torch_range(const TableSetup& g, const Rows& rows);
 /// Returns the phases of rows that a table smoothed by the envelope still lacks. They are needed
 /// because a tolerance omits rows where the contour is straight, but B may bend there, and a bend
@@ -141,8 +136,7 @@ template <class F>
 
 /// Computes finished surface, root opening and metal in the beam.
 void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop);
-/// Computes the torch's own line, at these drops below the rows, and the metal that it removes and
-/// leaves.
+/// Computes the torch's own line, at these drops below the rows, and its gouges and rests.
 void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
                 const std::stop_token& stop);
 /// For contact outer, checks that the cut is clear of every partner across the wall.
@@ -152,8 +146,7 @@ void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& 
 /// partner by more than `tolerance`, because the contours of the walls do not show where it curves.
 [[nodiscard]] std::vector<double> entering_phases(const TableSetup& g, const Table& t,
                                                   double tolerance, const std::stop_token& stop);
-/// Computes how deep the finished wall enters a partner, and adds the warning if no mode guarantees
-/// that it does not.
+/// Computes the depth of the finished wall in partners; warns unless the mode limits it.
 void state_penetration(const TableSetup& g, Table& out, const std::stop_token& stop);
 
 /// Reports where the groove rule or the root yielded to the torch's range, and by how much.
@@ -161,8 +154,7 @@ void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out);
 /// Reports where the outer wall extends beyond all partners' sides while the inner one does not.
 void note_overhang(const TableSetup& g, Table& out);
 void note_root_opens(const TableSpec& spec, Table& out);
-/// On a bare grid events lie between nodes: reports how much the straight line between them falls
-/// short.
+/// Reports how much a bare grid, with events between its nodes, falls short of the curve.
 void note_events_between(const TableSetup& g, Table& out);
 
 }  // namespace tubecut::bevel::detail
