@@ -81,7 +81,7 @@ def junctions(service):
 
 def smoothing(service):
     rows = []
-    for title, name in (("(2) as printed, windows of (5) and (6)", "source-000-table-1-as-published"), ("as it is cut: contact, least envelope", "source-000-table-1")):
+    for title, name in (("(2) as printed, windows of (5) and (6)", "source-000-table-1-as-published"), ("as cut: contact, least envelope", "source-000-table-1")):
         answer = service.result("bevel-tables", example("bevel-tables/" + name))
         points = answer["points"]
         b = points["b_deg"]
@@ -191,7 +191,7 @@ def cut_off(service):
     cycle, tool = answer["cycle"], answer["tool"]
     return table(["Table 2, wall of 10 mm", "printed", "ours"], [
         ("pieces per hour", "120 on average", f"{number(cycle['pieces_per_hour'], 1)} at 1 mm/s; 120 need {number(cycle['feed_for_target_mm_s'], 3)} mm/s"),
-        ("greatest feed, mm", "39", f"{number(cycle['stop_feed_mm'])} reached"),
+        ("largest feed, mm", "39", f"{number(cycle['stop_feed_mm'])} reached"),
         ("blades, disc", "3; 150 to 450 rev/min",
          f"3; 300 rev/min: {number(tool['feed_per_blade_mm'], 4)} mm a blade, {number(tool['cutting_speed_outside_m_min'], 1)} m/min outside"),
     ])
@@ -199,26 +199,26 @@ def cut_off(service):
 
 def page(service):
     pair, held = offset_pair(service)
-    return f"""# Figures and tables of the sources, beside ours
+    return f"""# Figures and tables of the sources, compared with ours
 
-Made by `tools/make_figures.py` from the service's answers to `examples/`; `ctest -R docs.figures` fails when a number here is not the
-service's. What differs, and why it must, is in [intersections-and-bevels.md](intersections-and-bevels.md) (section 0),
+Made by `tools/make_figures.py` from the service's answers to `examples/`; `ctest -R docs.figures` fails if a number here is not the
+service's. The differences and their reasons are in [intersections-and-bevels.md](intersections-and-bevels.md) (section 0),
 [grooves-and-milling.md](grooves-and-milling.md) (section 0) and [feed-curves.md](feed-curves.md) (section 7). Sources as in the
 [glossary](../glossary.md).
 
 ## 000, Table 1 and Figure 3: where B jumps
 
-Five junctions on the outer wall, 360 rows. The source says of its Figure 3 that B jumps at junctions alone and not at every one by more than
-the torch can swing, "such as point 263". With (2) as printed that is the step behind row 260, the least of the five; on the weld's side it would be
-another: the authors took the dihedral inside the tube.
+Five junctions on the outer wall, 360 rows. The source says of its Figure 3 that B jumps only at junctions and not at every one by more than
+the torch can swing, "such as point 263". With (2) as printed that is the step after row 260, the smallest of the five; on the weld's side it would be
+another, because the authors took the dihedral inside the tube.
 
 {junctions(service)}
 
-Figure 3, before and after: as published, with a window of 15 points where B jumps by more than 10 deg, and as it is cut.
+Figure 3, before and after: as published, with a window of 15 points where B jumps by more than 10 deg, and as cut.
 
 {smoothing(service)}
 
-![B of Table 1 over phi: what the groove asks for, what clears the partners, what is cut](../b-curve-table-1.svg)
+![B of Table 1 over phi: by the groove rule, clear of the partners, as cut](../b-curve-table-1.svg)
 
 (`POST /v1/bevel-tables?format=svg&view=b_curve` of `examples/bevel-tables/source-000-table-1.json`. Figure 4, the end in space before and after, is
 the same request's `format=glb`: nodes `before` and `after`.)
@@ -244,7 +244,7 @@ console's groove page and `format=svg&view=section`.
 
 {grooves(service)}
 
-The cone mill at its first positions, each with the whole generatrix on its ruling, and after (16) is made least, by the source's annealing and by ours.
+The cone mill at its first positions, each with the whole generatrix on its ruling, and after (16) is minimised, by the source's annealing and by ours.
 The source calls a position qualified within 0.5 mm.
 
 {milling(service)}
