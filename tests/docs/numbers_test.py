@@ -194,7 +194,7 @@ class Joints(Service):
         answer = self.answer("bevel-tables/table-1-torch-45-deg")
         points = answer["result"]["points"]
         gap, phi = max(zip(points["gap_mm"], points["phi_deg"], strict=True))
-        self.says("What the joint can do wrong", f"the root opens by {gap:.3f} mm at phi {phi:.3f} deg")
+        self.says("Problems of a joint", f"the root opens by {gap:.3f} mm at phi {phi:.3f} deg")
         self.assertEqual(answer["verdict"]["status"], "review")
         stricter = self.answer("bevel-tables/table-1-torch-45-deg", accept={"max_root_gap_mm": 2})
         self.assertEqual(stricter["verdict"]["status"], "reject")
