@@ -1,3 +1,15 @@
+// Computes the cylinder motion that gives a rotary cut-off machine a constant tool feed.
+//
+// Idea: the linkage has a closed inverse, so strokes, speeds and accelerations are exact. A
+// polynomial of time approximates the cylinder speed for a controller, with its error.
+//
+// Example: a measured pair determines the linkage's arm angle per stroke.
+//     cutoff::FeedCurveSpec spec;
+//     spec.linkage = {323, 268, 56, Angle::rad(1.17), Angle::rad(1.82)};
+//     spec.linkage.calibrate = cutoff::MeasuredPair{.feed = 50, .stroke = 273.2};
+//     spec.cut = {cutoff::FeedWindow{16.588, 98.027}, 0.87};
+//     const auto curve = cutoff::feed_curve(spec).value();
+//     const double error = curve.fit.errors.max_relative_error;  // 0.0021
 #pragma once
 
 #include <optional>

@@ -1,3 +1,16 @@
+// Finds the joints of a structure once, and from each both sides of it as parts to cut.
+//
+// Idea: a joint determines the branch's end and the chord's hole, or both faces of a mitre. Because
+// both sides come from one joint, they always agree.
+//
+// Example: two chords and the strut between them, found by their distance.
+//     frame::FrameSpec spec;
+//     spec.members = {{{0, 0, 0}, {2000, 0, 0}, 57.15, 5},
+//                     {{0, 0, 800}, {2000, 0, 800}, 57.15, 5},
+//                     {{1000, 0, 0}, {1000, 0, 800}, 30.15, 4}};
+//     spec.within = 1;
+//     const auto frame = frame::solve(spec).value();
+//     const auto joints = frame.joints.size();  // 2
 #pragma once
 
 #include <optional>

@@ -1,3 +1,16 @@
+// Computes the curve along which a tube must be cut to fit its partners.
+//
+// Idea: on each line of the target parallel to its axis, the cut is at the highest contact of any
+// partner. Each contact has a closed form, and exact events (another partner takes over, one is
+// lost, one has a corner) divide the curve into smooth segments.
+//
+// Example: a tube of 60.3 x 4 on a chord of 114.3 at 60 deg.
+//     joint::IntersectionSpec spec;
+//     spec.target = {60.3 / 2, 4};
+//     spec.partners = {joint::TubeCutter{114.3 / 2, Angle::deg(60)}};
+//     spec.sampling.uniform_points = 360;
+//     const auto cut = joint::intersect(spec).value();
+//     const double length = cut.profiles[1].length;  // mm, on the outer surface: 208.4
 #pragma once
 
 #include <span>

@@ -1,3 +1,19 @@
+// Computes both ends and the holes of one member in one frame, with lengths, mass and marks.
+//
+// Idea: each end is a bevel table in its own frame. The partners are rotated first, so that both
+// tables have rows at the same phi, and the finish is then seen from the start.
+//
+// Example: a strut of 60.3 x 4, 800 mm between two parallel chords of 114.3.
+//     part::PartSpec spec;
+//     spec.target = {60.3 / 2, 4, 800};
+//     for (auto* end : {&spec.start, &spec.finish}) {
+//       end->cut.target = spec.target;
+//       end->cut.partners = {joint::TubeCutter{114.3 / 2}};
+//       end->cut.sampling.uniform_points = 360;
+//       end->cut.smoothing = bevel::NoSmoothing{};
+//     }
+//     const auto part = part::part(spec).value();
+//     const double longest = part.lengths.longest;  // mm, tip to tip: 698.4
 #pragma once
 
 #include <optional>

@@ -1,3 +1,19 @@
+// Lays out the motion around every cut of a part: start, lead, heights, tabs and pierce.
+//
+// Idea: pulses and G-code are two outputs of the same program, so both have the same start points,
+// leads and heights.
+//
+// Example: the end of a tube with a lead of 5 mm.
+//     bevel::TableSpec spec;
+//     spec.target = {60.3 / 2, 4};
+//     spec.partners = {joint::TubeCutter{114.3 / 2}};
+//     spec.sampling.uniform_points = 360;
+//     spec.smoothing = bevel::NoSmoothing{};
+//     const auto cut = torch::torch_cut(spec, bevel::table(spec).value());
+//     torch::Setup setup;
+//     setup.lead = motion::Lead{};
+//     const auto program = torch::program_cut(cut, setup, true).value();
+//     const auto points = program[0].way.points.points.size();  // 411
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,16 @@
+// Computes the hole in a chord for a branch, and the end of the branch that fits it.
+//
+// Idea: the hole is a curve over the branch's own phase, because it turns around the branch. Its
+// wall is cut along lines that keep the gap to the branch, within the torch's tilt and range.
+//
+// Example: a branch of 60.3 x 4, set on a chord of 114.3 x 6.
+//     bevel::HoleSpec spec;
+//     spec.chord = {114.3 / 2, 6};
+//     spec.branch = joint::TubeCutter{60.3 / 2};
+//     spec.branch_wall = 4;
+//     spec.sampling.uniform_points = 360;
+//     const auto cut = bevel::hole(spec).value();
+//     const double length = cut.holes[0].length_total;  // mm, of the root: 166.7
 #pragma once
 
 #include <optional>

@@ -1,3 +1,18 @@
+// Computes the bevel table of one cut end: heights of both edges and the torch's angle B by phi.
+//
+// Idea: the groove rule gives a B at each row, the partners give the smallest B that keeps them out
+// of the wall, and the smoothing gives a B that the swing axis can follow. The finished surface and
+// the torch line follow from the result, and `verify` checks both by other formulas.
+//
+// Example: a tube of 60.3 x 4 on a chord of 114.3 at 60 deg, with a kerf of 1.5 mm.
+//     bevel::TableSpec spec;
+//     spec.target = {60.3 / 2, 4};
+//     spec.partners = {joint::TubeCutter{114.3 / 2, Angle::deg(60)}};
+//     spec.sampling.uniform_points = 360;
+//     spec.kerf = 1.5;
+//     spec.smoothing = bevel::NoSmoothing{};
+//     const auto table = bevel::table(spec).value();
+//     const double b = table.b[90] * kDegPerRad;  // deg, at phi = 90 deg: 15.0
 #pragma once
 
 #include <optional>

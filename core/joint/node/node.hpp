@@ -1,3 +1,16 @@
+// Finds at every end of every member which members join it, which of them cut it, and where.
+//
+// Idea: a total order (priority, then diameter) determines who cuts whom, so two members never cut
+// each other. Each cut end gets its own frame, in which `intersect` and `bevel::table` work.
+//
+// Example: a brace from the middle of a chord; the chord cuts its start.
+//     joint::NodeSpec spec;
+//     spec.members = {{{0, 0, 0}, {2000, 0, 0}, 57.15, 5},
+//                     {{1000, 0, 0}, {1500, 0, 866}, 30.15, 4}};
+//     spec.connect = joint::Within{1};
+//     const auto nodes = joint::solve(spec).value();
+//     const auto& cut = nodes.ends[2].cut_by[0];  // the start of member 1, cut by member 0
+//     const double deg = cut.placement.tube.inclination.deg();  // between the axes: 60.0
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,18 @@
+// Rebuilds the torch from the pulses of a schedule and checks it against the contour.
+//
+// Idea: forward kinematics by formulas that the planner does not use. Every invariant (limits,
+// sums, tip and bevel on the path) has a worst value and a limit, so any schedule can be checked.
+//
+// Example: a square cut around a tube of 100 mm.
+//     motion::CutPath ring;
+//     ring.outer_radius = 50;
+//     ring.phi = {0, 2, 4};
+//     ring.z = ring.b = {0, 0, 0};
+//     motion::ScheduleSpec job;
+//     job.cut = ring;
+//     job.machine = motion::catalogue().front().machine;
+//     const auto checks = motion::verify(job, motion::schedule(job).value());
+//     const bool passed = std::ranges::all_of(checks, &Check::passed);
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,21 @@
+// Computes the pulses of every axis of a machine in every control period of a cut.
+//
+// Idea: the path has one parameter u, and the axes follow from it exactly. Limits and filters only
+// change u(t), so timing cannot bend the cut, and rest is always feasible.
+//
+// Example: a wave around a tube of 100 mm on the first machine of the catalogue.
+//     motion::CutPath wave;
+//     wave.outer_radius = 50;
+//     for (int i = 0; i < 360; ++i) {
+//       wave.phi.push_back(i * kRadPerDeg);
+//       wave.z.push_back(20 * elementary::sin(2 * i * kRadPerDeg));
+//       wave.b.push_back(0);
+//     }
+//     motion::ScheduleSpec job;
+//     job.cut = wave;
+//     job.machine = motion::catalogue().front().machine;
+//     const auto schedule = motion::schedule(job).value();
+//     const double seconds = schedule.period * double(schedule.periods);  // 36.0
 #pragma once
 
 #include <cstddef>
