@@ -5,9 +5,9 @@ file(GLOB_RECURSE HEADERS RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
 file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS
      ${PROJECT_SOURCE_DIR}/core/*.cpp ${PROJECT_SOURCE_DIR}/api/*.cpp ${PROJECT_SOURCE_DIR}/server/*.cpp)
 foreach(header IN LISTS HEADERS)
-  file(STRINGS ${PROJECT_SOURCE_DIR}/${header} line LIMIT_COUNT 1)
+  file(STRINGS ${PROJECT_SOURCE_DIR}/${header} line REGEX "^[^/]" LIMIT_COUNT 1)  # after a comment on the module
   if(NOT line STREQUAL "#pragma once")
-    message(FATAL_ERROR "${header}: its first line is #pragma once")
+    message(FATAL_ERROR "${header}: its first line of code is not #pragma once")
   endif()
 endforeach()
 foreach(source IN LISTS SOURCES)
@@ -26,3 +26,4 @@ message(STATUS "check-headers: ${count} that no source includes first")
 add_library(check-headers OBJECT EXCLUDE_FROM_ALL ${ALONE})
 target_compile_options(check-headers PRIVATE -O0 -g0)
 target_link_libraries(check-headers PRIVATE tubecut_api tubecut_core fmt::fmt tubecut_warnings)
+set_target_properties(check-headers PROPERTIES UNITY_BUILD OFF)  # because each header is compiled alone
